@@ -43,7 +43,7 @@ void add_options(tool::OptionList list, ViewerCommand& c) {
   list.add("--head", &c.head, "of a survey: the head to show; default: the first of its mission");
   list.add("--ping", &c.start.ping, "which ping to begin with, from 0");
   list.add("--beam", &c.beam, "beam to select at its loudest sample, from 0");
-  list.add("--colormap", &c.start.colour_map, joined(colour_map_names()));
+  list.add("--colormap", &c.start.colour_map, joined(colour_map_names()), {.words = colour_map_names()});
   list.add("--window", &c.start.window_db, "[dB] from darkest to brightest, 5 to 150");
   list.add("--scene", &c.scene.path, "scene of a run, if it is not where run.toml says");
   list.add("--no-scene", &c.no_scene, "a run without its scene: starts faster");

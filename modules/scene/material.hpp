@@ -29,15 +29,18 @@ struct MaterialNumber {
   bool required;         ///< material files must give it
   double most_in_files;  ///< [unit] largest that material files may give
   const char* note;      ///< why, for messages; "": none
+  const char* help;      ///< what it is, for the docs
 };
 
 /// All numbers of a Material. A new one goes last: files written before have its default.
 inline constexpr MaterialNumber material_numbers[] = {
     {&Material::lambert_mu, "lambert_mu", "1/sr", std::numeric_limits<double>::infinity(), "lambert_mu_db", true, true,
-     1 / pi, "1/pi: no surface sends back more than it receives"},
-    {&Material::coherent_fraction, "coherent_fraction", "", 1, "coherent_fraction", false, false, 1, ""},
+     1 / pi, "1/pi: no surface sends back more than it receives",
+     "10 log10(mu / (1/sr)): backscatter at normal incidence"},
+    {&Material::coherent_fraction, "coherent_fraction", "", 1, "coherent_fraction", false, false, 1, "",
+     "fraction of the mean intensity that does not fluctuate"},
     {&Material::relief_slope, "relief_slope", "", std::numeric_limits<double>::infinity(), "relief_slope", false, false,
-     1, "rise over run, rms: 45 degrees"},
+     1, "rise over run, rms: 45 degrees", "rms slope of relief finer than the cloud"},
 };
 
 /// Throws Error of `kind` unless every number is finite, >= 0 and at most its `most`.

@@ -13,7 +13,6 @@
 #include "core/text.hpp"
 #include "files/pending_file.hpp"
 #include "files/sha256.hpp"
-#include "store/sonar_keys_internal.hpp"
 #include "store/toml_tree_internal.hpp"
 
 namespace insonify {
@@ -67,7 +66,7 @@ std::string description_of(const SurveyRun& run) {
   std::string text = "# A survey: blocks of pings in NAME/blocks, joined by `insonify merge`.\nschema = " +
                      std::to_string(survey_schema) + "\nmission_sha256 = \"" + run.mission_sha256 + "\"\n";
   for (const SurveyRunHead& head : run.heads)
-    text += "\n[[head]]\nname = " + toml_text_of(head.name) + "\npings = " + std::to_string(head.pings) +
+    text += "\n[[head]]\nname = " + as_toml(head.name) + "\npings = " + std::to_string(head.pings) +
             "\npings_per_block = " + std::to_string(head.pings_per_block) + "\n";
   return text;
 }
@@ -136,7 +135,7 @@ void finish_block(const BlockFiles& files, const std::string& mission_sha256, co
     text += "coverage_sha256 = \"" + sha256_of_file(files.coverage) + "\"\n";
   }
   for (const FailedPing& ping : failed)
-    text += "\n[[failed]]\nping = " + std::to_string(ping.number) + "\nreason = " + toml_text_of(ping.reason) + "\n";
+    text += "\n[[failed]]\nping = " + std::to_string(ping.number) + "\nreason = " + as_toml(ping.reason) + "\n";
   sync_to_disk(files.folder);
   write_file(files.mark, text);
   sync_to_disk(files.mark);

@@ -1,9 +1,15 @@
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
+#include <boost/algorithm/string/replace.hpp>
+#include <nlohmann/json.hpp>
 #include <toml++/toml.h>
 
+#include "core/text.hpp"
 #include "store/nearest_word.hpp"
 #include "store/run_directory.hpp"
 #include "store/toml_tree_internal.hpp"
@@ -76,6 +82,47 @@ TomlValue load_toml(const std::string& path) {
   } catch (const toml::parse_error& error) {
     fail_in_file(path, static_cast<int>(error.source().begin.line), error.description());
   }
+}
+
+std::string as_toml(const std::string& text) {
+  // JSON's escapes are TOML's, but for DEL, which TOML does not take as it is.
+  const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return boost::replace_all_copy(quoted, "\x7f", "\\u007f");
+}
+
+std::string as_toml(double number) {
+  const double size = std::abs(number);
+  const bool everyday = number == 0 || (size >= 1e-5 && size < 1e15);
+  std::array<char, 40> text{};
+  const auto format = everyday ? std::chars_format::fixed : std::chars_format::scientific;
+  std::string digits(text.begin(), std::to_chars(text.begin(), text.end(), number, format).ptr);
+  if (digits.find_first_not_of("-0123456789") == std::string::npos) digits += ".0";
+  return digits;
+}
+
+std::string as_toml(const std::vector<double>& numbers) {
+  return "[" + joined(numbers, ", ", [](double x) { return as_toml(x); }) + "]";
+}
+
+std::string as_toml(const TomlValue& value) {
+  using Kind = TomlValue::Kind;
+  switch (value.kind) {
+    case Kind::boolean:
+      return value.number != 0 ? "true" : "false";
+    case Kind::integer:
+      return printed("%.0f", value.number);
+    case Kind::number:
+      return as_toml(value.number);
+    case Kind::text:
+      return as_toml(value.text);
+    case Kind::array:
+      return "[" + joined(value.items, ", ", [](const TomlValue& item) { return as_toml(item); }) + "]";
+    case Kind::table:
+      return "{" + joined(value.keys) + "}";
+    case Kind::date:
+      break;
+  }
+  return "a date";
 }
 
 void require_known_keys(const std::string& path, const TomlValue& table, const std::vector<std::string>& known) {

@@ -11,10 +11,10 @@ struct TomlValue {
   enum class Kind { boolean, integer, number, text, array, table, date };
   Kind kind = Kind::table;
   int line = 1;
-  double number = 0;              ///< of boolean (0, 1), integer, number
-  std::string text;               ///< of text
-  std::vector<TomlValue> items;   ///< of array and table
-  std::vector<std::string> keys;  ///< of table: keys[i] names items[i]
+  double number = 0;                ///< of boolean (0, 1), integer, number
+  std::string text{};               ///< of text
+  std::vector<TomlValue> items{};   ///< of array and table
+  std::vector<std::string> keys{};  ///< of table: keys[i] names items[i]
 
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
   /// The value of `key`, or nullptr.
@@ -29,6 +29,12 @@ template <typename... Parts>
 [[noreturn]] void fail_in_file(const std::string& path, int line, const Parts&... parts) {
   fail(ErrorKind::content, path, ":", line, ": ", parts...);
 }
+
+/// A value as TOML: text with quotes and escapes, numbers with the fewest digits that read back to the same bits.
+std::string as_toml(const std::string& text);
+std::string as_toml(double number);
+std::string as_toml(const std::vector<double>& numbers);
+std::string as_toml(const TomlValue& value);
 
 /// Throws Error(content) at the first key of `table` that is not in `known`, with the nearest known one.
 void require_known_keys(const std::string& path, const TomlValue& table, const std::vector<std::string>& known);

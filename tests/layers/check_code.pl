@@ -20,6 +20,7 @@ my %lent = (
   'view/colour_maps_internal.hpp' => 'apps',         # the tool lists the maps
   'store/cube_layout_internal.hpp' => 'apps',        # the tool reads single layers
   'store/toml_tree_internal.hpp' => 'apps',          # the tool reads run.toml
+  'store/key_table_internal.hpp' => 'apps',          # by the same rows as other files
   'sampling/gate_surfels_internal.hpp' => 'viewer',  # the viewer explains why a surfel is not seen
   'sampling/hit_rule_internal.hpp' => 'viewer',      #
   'sonar/element_kernels_internal.hpp' => 'beamforming',

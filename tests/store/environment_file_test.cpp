@@ -56,12 +56,11 @@ TEST(EnvironmentFile, everything_set_by_key_reads_back_from_its_toml) {
 
 TEST(EnvironmentFile, names_line_and_nearest_key_of_a_mistake) {
   EXPECT_TRUE(holds(error_of_environment("[water]\ntemprature_c = 4\n"),
-                    ":2: water.temprature_c is unknown; did you mean "
-                    "water.temperature_c?"));
-  EXPECT_TRUE(holds(error_of_environment("[water]\nph = \"acid\"\n"), ":2: water.ph must be a number"));
+                    ":2: unknown key 'water.temprature_c'; did you mean 'water.temperature_c'?"));
+  EXPECT_TRUE(holds(error_of_environment("[water]\nph = \"acid\"\n"), ":2: water.ph = \"acid\", must be a number"));
   EXPECT_TRUE(holds(error_of_environment("[water]\nabsorption_formula = \"thorp\"\n"),
                     ":2: water.absorption_formula = \"thorp\", must be one of francois-garrison"));
-  EXPECT_TRUE(holds(error_of_environment("depth_m = 3\n"), ":1: depth_m must be a table"));
+  EXPECT_TRUE(holds(error_of_environment("depth_m = 3\n"), ":1: unknown key 'depth_m'; did you mean 'water.depth_m'?"));
 }
 
 TEST(EnvironmentFile, refuses_values_that_make_no_environment_with_value_unit_and_rule) {
@@ -80,9 +79,9 @@ TEST(EnvironmentFile, a_profile_reads_back_from_its_toml) {
   ASSERT_TRUE(back.profile);
   EXPECT_EQ(back.profile->depth, e.profile->depth);
   EXPECT_EQ(back.profile->sound_speed, e.profile->sound_speed);
-  EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = [0, 5]\n"), ":1: profile: missing key 'sound_speed'"));
+  EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = [0, 5]\n"), ":1: missing key 'profile.sound_speed'"));
   EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = 0\nsound_speed = [1500]\n"),
-                    ":2: profile.depth_m must be a list of numbers"));
+                    ":2: profile.depth_m = 0 m, must be a list of numbers"));
   EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = [3, 1]\nsound_speed = [1500, 1500]\n"),
                     "must be deeper than the entry before it"));
 }
@@ -104,9 +103,9 @@ TEST(EnvironmentFile, refuses_unknown_tables_even_if_empty) {
 TEST(EnvironmentFile, refuses_text_that_is_no_number) {
   Environment e;
   EXPECT_EQ(error_with_kind([&] { set_environment_value(e, "wind", "speed_m_s", "strong"); }),
-            "argument: wind.speed_m_s = 'strong', must be a number");
+            "argument: wind.speed_m_s = \"strong\", must be a number");
   EXPECT_EQ(error_with_kind([&] { set_environment_value(e, "wind", "sped_m_s", "1"); }),
-            "argument: wind.sped_m_s is unknown; did you mean wind.speed_m_s?");
+            "argument: unknown key 'wind.sped_m_s'; did you mean 'wind.speed_m_s'?");
   EXPECT_EQ(
       error_with_kind([&] { set_environment_value(e, "profile", "depth_m", "[0, 1]"); }),
       "argument: profile.depth_m: a profile is set as a whole: by [profile] of an environment file, or by a CSV file "

@@ -78,17 +78,20 @@ TEST(Materials, refuse_intervals_that_overlap_or_hold_nothing) {
       "9: interval 9.5 .. inf of 'y' overlaps -inf .. 10, listed before; each value must belong to one material");
   refuses_materials(two("from = 4", "from = 3\nto = 3"), "9: from = 3 of 'y', must be below to = 3");
   refuses_materials(two("from = nan", ""), "5: from = nan of 'x', must be below to = inf");
-  refuses_materials(two("from = \"a\"", ""), "5: from must be a number");
+  refuses_materials(two("from = \"a\"", ""), "5: material.from = \"a\", must be a number");
   EXPECT_EQ(load_materials(own_file("touching.toml", two("to = 10", "from = 10"))).field.intervals.size(), 2u);
 }
 
 TEST(Materials, refuse_fractions_and_slopes_that_no_surface_has) {
   const std::string start = "schema = 1\n[[material]]\nname = \"x\"\nlambert_mu_db = -20\n";
-  refuses_materials(start + "coherent_fraction = 1.5\n", "5: coherent_fraction = 1.5, must be within 0 and 1");
-  refuses_materials(start + "coherent_fraction = -0.1\n", "5: coherent_fraction = -0.1, must be within 0 and 1");
+  refuses_materials(start + "coherent_fraction = 1.5\n",
+                    "5: material.coherent_fraction = 1.5, must be a number within 0 and 1");
+  refuses_materials(start + "coherent_fraction = -0.1\n",
+                    "5: material.coherent_fraction = -0.1, must be a number within 0 and 1");
   refuses_materials(start + "relief_slope = 20\n",
-                    "5: relief_slope = 20, must be within 0 and 1 (rise over run, rms: 45 degrees)");
-  refuses_materials(start + "relief_slop = 0.1\n", "5: unknown key 'relief_slop'; did you mean 'relief_slope'?");
+                    "5: material.relief_slope = 20, must be a number within 0 and 1 (rise over run, rms: 45 degrees)");
+  refuses_materials(start + "relief_slop = 0.1\n",
+                    "5: unknown key 'material.relief_slop'; did you mean 'material.relief_slope'?");
 }
 
 TEST(Materials, may_be_silent_but_not_louder_than_what_arrives) {
@@ -97,10 +100,10 @@ TEST(Materials, may_be_silent_but_not_louder_than_what_arrives) {
   };
   EXPECT_EQ(load_materials(own_file("m.toml", with("-inf"))).materials[0].material.lambert_mu, 0);
   EXPECT_EQ(load_materials(own_file("m.toml", with("-4.97"))).materials[0].material.lambert_mu, 1 / pi);
-  refuses_materials(
-      with("-4.9"),
-      "4: lambert_mu_db = -4.9 dB, must be at most -4.97 dB (1/pi: no surface sends back more than it receives)");
-  EXPECT_THAT(error_of_materials(with("nan")), HasSubstr("m.toml:4: lambert_mu_db = nan dB, must be"));
+  refuses_materials(with("-4.9"),
+                    "4: material.lambert_mu_db = -4.9 dB, must be a number at most -4.97 (1/pi: no surface sends back "
+                    "more than it receives)");
+  EXPECT_THAT(error_of_materials(with("nan")), HasSubstr("m.toml:4: material.lambert_mu_db = nan dB, must be"));
 }
 
 TEST(Materials, by_label_have_their_label_as_index_and_gaps_are_filled) {
@@ -119,18 +122,22 @@ TEST(Materials, by_label_have_their_label_as_index_and_gaps_are_filled) {
 
 TEST(Materials, errors_name_line_key_and_remedy) {
   const std::string start = "schema = 1\n[[material]]\nname = \"x\"\n";
-  refuses_materials(start + "lambert_mu = -20\n", "4: unknown key 'lambert_mu'; did you mean 'lambert_mu_db'?");
-  refuses_materials(start, "2: missing key 'lambert_mu_db'");
-  refuses_materials(start + "lambert_mu_db = \"loud\"\n", "4: lambert_mu_db must be a number");
-  refuses_materials("schema = 1\n[[material]]\nname = 7\nlambert_mu_db = -20\n", "3: name must be text in quotes");
+  refuses_materials(start + "lambert_mu = -20\n",
+                    "4: unknown key 'material.lambert_mu'; did you mean 'material.lambert_mu_db'?");
+  refuses_materials(start, "2: missing key 'material.lambert_mu_db'");
+  refuses_materials(start + "lambert_mu_db = \"loud\"\n",
+                    "4: material.lambert_mu_db = \"loud\", must be a number at most -4.97 (1/pi: no surface sends back "
+                    "more than it receives)");
+  refuses_materials("schema = 1\n[[material]]\nname = 7\nlambert_mu_db = -20\n",
+                    "3: material.name = 7, must be text in quotes");
   refuses_materials(start + "lambert_mu_db = -20\nlabel = 1.5\n",
-                    "5: label = 1.5, must be a whole number within 0 and 65535");
+                    "5: material.label = 1.5, must be a whole number within 0 and 65535");
   refuses_materials(start + "lambert_mu_db = -20\nlabel = 65536\n",
-                    "5: label = 65536, must be a whole number within 0 and 65535");
+                    "5: material.label = 65536, must be a whole number within 0 and 65535");
   refuses_materials("schema = 1\nmaterials = []\n", "2: unknown key 'materials'; did you mean 'material'?");
-  refuses_materials("schema = 1\n", "1: no [[material]] in the file");
-  refuses_materials("schema = 1\nmaterial = [1]\n", "2: material must be a table: [[material]]");
-  refuses_materials("schema = 2\n", "1: schema = 2, this version reads schema 1");
+  refuses_materials("schema = 1\n", "1: missing key 'material'");
+  refuses_materials("schema = 1\nmaterial = [1]\n", "2: material = [1], must be a list of tables [[...]]");
+  refuses_materials("schema = 2\n", "1: schema = 2, this version reads schema 1; the file is of a newer insonify");
   refuses_materials("[[material]]\n", "1: missing key 'schema'");
 }
 

@@ -27,7 +27,7 @@ class BadEnvironment : public ToolTest {
 }  // namespace
 
 TEST_F(BadEnvironment, set_out_of_range) {
-  refuse("--set surface.height_m=high", {"surface.height_m = 'high'", "must be a number"});
+  refuse("--set surface.height_m=high", {"surface.height_m = \"high\"", "must be a number"});
   refuse("--set surface.rms_height_m=-1", {"surface.rms_height = -1 m", "must be finite and >= 0"});
   refuse("--set surface.scattering_db=30", {"scattering_strength_db = 30 dB", "at most 10"});
   refuse("--set bottom.density_ratio=0", {"density_ratio = 0", "must be > 0"});
@@ -40,8 +40,8 @@ TEST_F(BadEnvironment, set_out_of_range) {
   refuse("--set surface.height_m=-5 --set bottom.height_m=0", {"bottom.height = 0 m", "must be below surface.height"});
   refuse("--set water.sound_speed_formula=medwin", {"medwin", "unesco, mackenzie, leroy"});
   refuse("--set water.absorption_formula=thorp", {"thorp", "francois-garrison, fisher-simmons, ainslie-mccolm"});
-  refuse("--set wind.sped_m_s=3", {"wind.sped_m_s", "did you mean wind.speed_m_s"});
-  refuse("--set weather.rain=1", {"weather.rain is unknown"});
+  refuse("--set wind.sped_m_s=3", {"wind.sped_m_s", "did you mean 'wind.speed_m_s'?"});
+  refuse("--set weather.rain=1", {"unknown key 'weather.rain'"});
   refuse("--set profile.sound_speed=1500", {"profile.sound_speed", "set as a whole", "--profile"});
   refuse("--set sonar.source_level_db=261", {"source_level_db = 261 dB", "within -400 and 260"});
   refuse("--scan-noise -0.1", {"scan_noise = -0.1 m", "must be finite and >= 0"});
@@ -100,18 +100,18 @@ TEST_F(BadEnvironment, way_of_the_head) {
 }
 
 TEST_F(BadEnvironment, pulse_and_array) {
-  refuse("--set sonar.pulse=chirp", {"pulse = \"chirp\"", "gaussian or linear_fm"});
+  refuse("--set sonar.pulse=chirp", {"pulse = \"chirp\"", "must be one of gaussian, linear_fm"});
   refuse("--set sonar.pulse=linear_fm", {"pulse = linear_fm", "must come with pulse_length_s"});
   refuse("--set sonar.pulse_length_s=0.001", {"pulse_length_s = 0.001 s", "must be left out for pulse gaussian"});
   refuse("--set sonar.replica_window=hann", {"replica_window = hann", "must be left out for pulse gaussian"});
   refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=1e-9", {"pulse_length_s", "within 1 and 1e6"});
   refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=0", {"pulse_length_s = 0 s", "must be > 0"});
   refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.001 --set sonar.replica_window=boxcar",
-         {"boxcar", "uniform, hann or hamming"});
+         {"boxcar", "must be one of uniform, hann, hamming"});
   refuse("--set sonar.elevations_deg=0,95", {"elevations_deg", "within -90 and 90"});
   refuse("--set sonar.column_beam_width_deg=0", {"column_beam_width_deg = 0", "omit the key"});
   refuse("--set sonar.transmit_width_deg=-1", {"transmit_width_deg = -1", "omit the key"});
-  refuse("--set sonar.shading=hann", {"shading = \"hann\"", "taylor, uniform, hamming or chebyshev"});
+  refuse("--set sonar.shading=hann", {"shading = \"hann\"", "must be one of taylor, uniform, hamming, chebyshev"});
 }
 
 TEST_F(BadEnvironment, numbers_and_words_of_options) {

@@ -105,7 +105,7 @@ TEST_F(BadInput, wrong_words) {
   expect_refused("pong plane.ply", 2, {"--help"});
   expect_refused("ping plane.ply" + bad_head + " --colour red", 2, {"--colour"});
   expect_refused("ping", 2, {"--help"});
-  expect_refused("ping plane.ply" + bad_head + " -j 100000", 2, {"100000", "within 0 and 1024"});
+  expect_refused("ping plane.ply" + bad_head + " -j 100000", 2, {"--threads", "100000", "not in range 0 to 1024"});
 }
 
 TEST_F(BadInput, csv_with_a_bad_number_names_its_line) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "tool/command/command_text.hpp"
 #include "tool/tool_runner.hpp"
 
 using namespace insonify;
@@ -100,6 +101,19 @@ TEST_F(Help, bash_completes_verbs_options_and_words) {
   EXPECT_EQ(proposed("insonify ping --accuracy", 2), "--accuracy-db\n");
   EXPECT_EQ(proposed("insonify ping --world n", 3), "ned\n");
   EXPECT_EQ(proposed("insonify completion z", 2), "zsh\n");
+}
+
+TEST_F(Help, exit_codes_are_those_of_the_docs) {
+  std::stringstream page;
+  page << std::ifstream(INSONIFY_TROUBLES_PAGE).rdbuf();
+  EXPECT_THAT(std::regex_replace(page.str(), std::regex("\n"), " "),
+              HasSubstr("Exit codes: " + tool::exit_codes_text() + "."));
+  EXPECT_THAT(succeed("man ping"), HasSubstr(".SH EXIT STATUS\n" + tool::exit_codes_text()));
+}
+
+TEST_F(Help, colour_maps_are_words) {
+  expect_refused("image run --colormap rainbow -o x.png", 2, {"--colormap", "rainbow", "viridis", "grey"});
+  EXPECT_EQ(proposed("insonify image --colormap vir", 3), "viridis\n");
 }
 
 TEST_F(Help, seeds_have_no_sign_and_pictures_are_png) {

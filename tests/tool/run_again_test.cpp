@@ -134,14 +134,16 @@ TEST_F(RunAgain, refuses_what_is_no_setting) {
     write("run.toml", version + text);
     expect_refused("ping --run run.toml -o again", 3, parts);
   };
-  refused("[ping]\nnoize = true\n", {"run.toml:3: unknown key 'noize'; did you mean 'noise'?"});
+  refused("[ping]\nnoize = true\n", {"run.toml:3: unknown key 'ping.noize'; did you mean 'ping.noise'?"});
   refused("tolerence = 1\n[ping]\n", {"run.toml:2: unknown key 'tolerence'; did you mean 'tolerance'?"});
   refused("[ping]\nlevel_error_db = 0.5\n", {"run.toml:3: level_error_db is no setting any more; set scatterers_per"});
-  refused("[ping]\nsampling = \"ray\"\n", {"run.toml:3: sampling = 'ray', must be one of surfels, rays"});
-  refused("[ping]\ncontributors = 300\n", {"run.toml:3: contributors = 300, must be within 1 and 255"});
-  refused("[ping]\nkeep = [\"mask\", 1]\n", {"run.toml:3: keep must be text in quotes"});
-  refused("[ping]\nnoise = 1\n", {"run.toml:3: noise must be true or false"});
-  refused("seed = -1\n[ping]\n", {"run.toml:2: seed must be an integer from 0"});
+  refused("[ping]\nsampling = \"ray\"\n", {"run.toml:3: ping.sampling = \"ray\", must be one of surfels, rays"});
+  refused("[ping]\ncontributors = 300\n",
+          {"run.toml:3: ping.contributors = 300, must be a whole number within 1 and 255"});
+  refused("[ping]\nkeep = [\"mask\", 1]\n",
+          {"run.toml:3: ping.keep = [\"mask\", 1], must be a list, each one of elements"});
+  refused("[ping]\nnoise = 1\n", {"run.toml:3: ping.noise = 1, must be true or false"});
+  refused("seed = -1\n[ping]\n", {"run.toml:2: seed = -1, must be an integer from 0"});
   refused("scatterers = \"rays.csv\"\n", {"run.toml: is not the run.toml of a ping"});
   expect_refused("ping --run absent.toml -o again", 4, {"absent.toml"});
   expect_refused("ping -o again", 2, {"SCENE is required"});

@@ -261,8 +261,8 @@ TEST_F(Survey, refuses_what_cannot_be) {
   refuses("seed = 7", "environment = \"sea.toml\"",
           {"bad.toml: head 'fls', ping 0 at 0 s: is at z = -3 m, above the sea surface at -3.5 m"});
   refuses("[4, 3, -3]]", "[400, 3, -3]]", {"head 'fls', ping", "m from the scene, beyond its max range of 6 m"});
-  refuses("noise = true", "nois = true", {"bad.toml:", "unknown key 'nois'; did you mean 'noise'?"});
-  refuses("noise = true", "pose = \"0,0,0,0,0,0\"", {"unknown key 'pose'"});
+  refuses("noise = true", "nois = true", {"bad.toml:", "unknown key 'ping.nois'; did you mean 'ping.noise'?"});
+  refuses("noise = true", "pose = \"0,0,0,0,0,0\"", {"unknown key 'ping.pose'"});
   refuses("schema = 1", "schema = 2", {"bad.toml:1: schema = 2", "newer insonify"});
   refuses("name = \"turning\"", "name = \"fls\"",
           {"bad.toml:15: ", "two heads are called 'fls', must have names of their own"});

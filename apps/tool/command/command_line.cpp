@@ -124,7 +124,7 @@ int run_command_line(int argc, char** argv) {
 /// Exit code where stdout cannot be written: that of SIGPIPE if its reader has gone, as that of `insonify info x | head -1`.
 /// Throws Error(file) for any other reason.
 int failed_output(int reason) {
-  if (reason == EPIPE) return 128 + SIGPIPE;
+  if (reason == EPIPE) return exit_no_reader;
   fail(ErrorKind::file, "the output cannot be written: ", std::generic_category().message(reason ? reason : EIO),
        "; the results are kept in the files that were named, but not what was to be printed");
 }

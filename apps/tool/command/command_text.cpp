@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/text.hpp"
+#include "tool/command/exit_code.hpp"
+
 namespace insonify::tool {
 namespace {
 
@@ -194,6 +197,11 @@ std::string wrapped(const std::string& text, std::size_t width, std::size_t inde
   return out;
 }
 
+std::string exit_codes_text() {
+  return joined(exit_code_texts, ", ",
+                [](const ExitCodeText& row) { return fmt::format("{} {}", int{row.code}, row.meaning); });
+}
+
 std::string man_page(const CommandText& program, const std::deque<CommandText>& verbs, const CommandText& verb) {
   const bool whole = &verb == &program;
   const std::string name = whole ? program.name : program.name + "-" + verb.name;
@@ -210,10 +218,7 @@ std::string man_page(const CommandText& program, const std::deque<CommandText>& 
     if (examples.starts_with("Examples:\n")) examples.erase(0, examples.find('\n') + 1);
     page += fmt::format(".SH EXAMPLES\n.nf\n{}\n.fi\n", groff(examples));
   }
-  page +=
-      ".SH EXIT STATUS\n0 success, 1 failure, 2 wrong usage, 3 wrong content of a file, 4 a file that cannot be read "
-      "or "
-      "written, 5 some pings of a survey failed, 130 interrupted.\n.SH SEE ALSO\n";
+  page += fmt::format(".SH EXIT STATUS\n{}.\n.SH SEE ALSO\n", exit_codes_text());
   if (!whole) return page + fmt::format(".BR {} (1)\n", program.name);
   for (const CommandText& v : verbs)
     page += fmt::format(".BR {}\\-{} (1){}\n", program.name, groff(v.name), &v == &verbs.back() ? "" : ",");

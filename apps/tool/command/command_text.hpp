@@ -27,6 +27,9 @@ struct CommandText {
 /// Line breaks of the text are kept.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent, std::size_t used);
 
+/// All exit codes with their meanings, "0 ok, 1 ...".
+std::string exit_codes_text();
+
 /// Page of section 1 of a verb, insonify-ping(1), or of the program itself if `verb` is the program's text, in groff's man
 /// macros.
 std::string man_page(const CommandText& program, const std::deque<CommandText>& verbs, const CommandText& verb);

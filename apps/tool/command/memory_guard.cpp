@@ -11,17 +11,16 @@
 #include <unistd.h>
 
 #include "files/memory_limit.hpp"
+#include "tool/command/exit_code.hpp"
 
 namespace insonify::tool {
 namespace {
-
-constexpr int no_memory = 4;  // exit code
 
 int say_out_of_memory(const char* how, int number, std::size_t left, const char* less) {
   std::fprintf(stderr,
                "insonify: out of memory (%s %d), of which the limit (ulimit -v) left %zu MiB; raise it, or %s\n", how,
                number, left >> 20, less);
-  return no_memory;
+  return exit_code_of(ErrorKind::memory);
 }
 
 /// Waits for the child, and passes on what only this process was sent. Ctrl-C reaches both from the terminal.
@@ -77,8 +76,8 @@ int under_memory_guard(const std::function<int()>& run, const char* less) {
     return exit_code;
   }
   const int status = wait_for(child, signals);
-  constexpr int interrupted = 130;  // ends without returning
-  if (WIFEXITED(status) && (*returned || WEXITSTATUS(status) == interrupted)) return WEXITSTATUS(status);
+  const bool ended = *returned || WEXITSTATUS(status) == exit_interrupted;  // which ends without returning
+  if (WIFEXITED(status) && ended) return WEXITSTATUS(status);
   if (WIFEXITED(status)) return say_out_of_memory("a library ended with code", WEXITSTATUS(status), *left, less);
   if (is_of_memory(WTERMSIG(status))) return say_out_of_memory("signal", WTERMSIG(status), *left, less);
   end_by(WTERMSIG(status));

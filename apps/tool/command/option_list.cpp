@@ -1,7 +1,6 @@
 #include "tool/command/option_list.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -10,6 +9,8 @@
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "tool/command/exit_code.hpp"
 
 namespace insonify::tool {
 
@@ -31,37 +32,20 @@ CLI::Option* add_value(CLI::App& app, const std::string& name, const OptionValue
       value);
 }
 
-/// Checks that the text is an integer within limits.
-std::function<std::string(const std::string&)> range_check(std::pair<int, int> limits) {
-  return [limits](const std::string& text) {
-    const int value = std::atoi(text.c_str());
-    if (value >= limits.first && value <= limits.second) return std::string();
-    return text + " must be within " + std::to_string(limits.first) + " and " + std::to_string(limits.second);
-  };
-}
-
 /// CLI11 takes -1 for the largest number without a sign.
 std::string sign_check(const std::string& text) {
   return text.starts_with("-") ? text + " must be 0 or more" : std::string();
 }
 
-/// The value that an option has if it is not given; empty if there is none, or an infinite one, which is no limit.
-std::string default_of(const OptionValue& value) {
-  if (const auto* text = std::get_if<std::string*>(&value)) return **text;
-  if (const auto* number = std::get_if<double*>(&value))
-    return std::isfinite(**number) ? fmt::format("{}", **number) : "";
-  if (const auto* number = std::get_if<int*>(&value)) return fmt::format("{}", **number);
-  if (const auto* number = std::get_if<std::uint64_t*>(&value)) return fmt::format("{}", **number);
-  return "";
-}
-
-/// The help of an option with its range and default, unless the help itself says what holds by default.
-std::string full_help(const std::string& help, const OptionValue& value, const OptionRules& rules) {
+/// The help of an option with its range and default, unless the help itself says what holds by default. An infinite
+/// default is no limit.
+std::string full_help(CLI::Option& option, const std::string& help, const OptionRules& rules) {
   std::string text = help;
   if (rules.within) text += fmt::format(" ({} to {})", rules.within->first, rules.within->second);
   if (rules.positive) text += " (above 0)";
-  const std::string preset = default_of(value);
-  if (!preset.empty() && help.find("default") == std::string::npos) text += fmt::format("; default {}", preset);
+  const std::string preset = option.capture_default_str()->get_default_str();
+  const bool is_none = preset.empty() || preset == "inf" || preset == "[]";
+  if (!is_none && help.find("default") == std::string::npos) text += fmt::format("; default {}", preset);
   return text;
 }
 
@@ -113,10 +97,10 @@ class WrappedHelp : public CLI::Formatter {
 
 void OptionList::add(const std::string& name, const OptionValue& value, const std::string& help,
                      const OptionRules& rules) {
-  CLI::Option* option = add_value(*app_, name, value, full_help(help, value, rules));
-  option->required(rules.required);
+  CLI::Option* option = add_value(*app_, name, value, help);
+  option->description(full_help(*option, help, rules))->required(rules.required);
   if (!rules.words.empty()) option->check(CLI::IsMember(rules.words))->option_text("WORD");
-  if (rules.within) option->check(range_check(*rules.within))->option_text("INT");
+  if (rules.within) option->check(CLI::Range(rules.within->first, rules.within->second))->option_text("INT");
   if (rules.positive) option->check(CLI::PositiveNumber)->option_text("FLOAT");
   if (std::holds_alternative<std::uint64_t*>(value)) option->check(sign_check)->option_text("UINT");
   if (rules.one_each) option->allow_extra_args(false);
@@ -155,7 +139,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     return app_->exit(success);
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "insonify: %s; see %s --help\n", error.what(), program.c_str());
-    return 2;
+    return exit_usage;
   }
   return std::nullopt;
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "tool/command/exit_code.hpp"
 
 namespace insonify::tool {
 
@@ -16,7 +17,7 @@ struct Interrupted {
   std::string kept;
 };
 
-/// Thrown when some pings of a survey failed and all others are kept: exit code 5.
+/// Thrown when some pings of a survey failed and all others are kept.
 struct SomeFailed {
   std::string which;
 };
@@ -28,21 +29,21 @@ inline std::string one_line(std::string text) {
   return text;
 }
 
-/// Runs a program, reports on stderr what it throws, and returns the exit code (docs/troubleshooting.md). `less` says what
+/// Runs a program, reports on stderr what it throws, and returns the exit code. `less` says what
 /// takes less memory.
 inline int run_program(const std::function<int()>& run, const char* less) {
-  constexpr int no_memory = 4, exit_codes[] = {1, 2, 3, 4, no_memory};  // of runtime, argument, content, file
+  constexpr ExitCode no_memory = exit_code_of(ErrorKind::memory);
   try {
     return run();
   } catch (const Interrupted& interrupted) {
     std::fprintf(stderr, "insonify: interrupted; %s\n", interrupted.kept.c_str());
-    return 130;
+    return exit_interrupted;
   } catch (const SomeFailed& failed) {
     std::fprintf(stderr, "insonify: %s\n", failed.which.c_str());
-    return 5;
+    return exit_some_failed;
   } catch (const Error& error) {
     std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
-    return exit_codes[static_cast<int>(error.kind())];
+    return exit_code_of(error.kind());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "insonify: out of memory; %s\n", less);
     return no_memory;
@@ -56,7 +57,7 @@ inline int run_program(const std::function<int()>& run, const char* less) {
   } catch (const std::exception& error) {
     std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
   }
-  return 1;
+  return exit_failure;
 }
 
 }  // namespace insonify::tool

@@ -61,7 +61,4 @@ PingOptions load_mission_settings(const std::string& path);
 /// Reads [scene] alone, in the same way.
 SceneOptions load_scene_settings(const std::string& path);
 
-/// A string as a TOML literal with quotes and escapes.
-std::string toml_text(const std::string& text);
-
 }  // namespace insonify::tool

@@ -72,7 +72,7 @@ void add_options(OptionList list, ImageOptions& o) {
   };
   list.add("--window", &picture.window_db, "[dB] from darkest to brightest");
   list.add("--max", take_max, "[dB] brightest level; default: automatic");
-  list.add("--colormap", &picture.colour_map, joined(colour_map_names()));
+  list.add("--colormap", &picture.colour_map, joined(colour_map_names()), {.words = colour_map_names()});
   list.add("--size", take_size, "WIDTHxHEIGHT [pixels]; default: 1400x1050, of fans as much of it as they fill");
   list.add("--title", &picture.title, "default: sonar and ping");
   list.add("--dark", &picture.dark, "dark background");

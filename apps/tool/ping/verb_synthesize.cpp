@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "simulate/plan_ping.hpp"
 #include "store/csv_tables.hpp"
+#include "store/toml_tree_internal.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/run_settings.hpp"
@@ -47,7 +48,7 @@ void add_options(OptionList list, SynthesizeOptions& o) {
 /// What run.toml records beside sonar and environment.
 std::string settings_of(SynthesizeOptions o) {
   return settings_as_toml({seed_setting(o.common)}) + settings_as_toml(synthesis_settings(o.run)) +
-         settings_as_toml(settings(o)) + fmt::format("scatterers = {}\n", toml_text(o.scatterers));
+         settings_as_toml(settings(o)) + fmt::format("scatterers = {}\n", as_toml(o.scatterers));
 }
 
 /// What is asked for; the plan decides the rest.

@@ -17,6 +17,7 @@
 #include "store/cube_layout_internal.hpp"
 #include "store/environment_file.hpp"
 #include "store/run_manifest.hpp"
+#include "store/toml_tree_internal.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/run/run_checks.hpp"
 #include "tool/run/scene_files.hpp"
@@ -55,7 +56,7 @@ std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::s
   return fmt::format(
       "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\n"
       "environment_file = {}\nprofile_file = {}\n{}\n{}\n[sonar]\n{}",
-      INSONIFY_VERSION, toml_text(run.environment), toml_text(run.profile), settings,
+      INSONIFY_VERSION, as_toml(run.environment), as_toml(run.profile), settings,
       environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
 }
 

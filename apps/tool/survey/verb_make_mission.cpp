@@ -11,6 +11,7 @@
 #include "scene_io/describe_file.hpp"
 #include "store/output_rules.hpp"
 #include "store/sonar_file.hpp"
+#include "store/toml_tree_internal.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/run_settings.hpp"
@@ -141,8 +142,8 @@ std::string ping_as_toml(const MakeMissionOptions& o, const SonarFile& sonar) {
 std::string heads_as_toml(const std::string& sonar, const std::string& range, const Eigen::Vector3d& mounting,
                           const MissionShape& shape) {
   const auto head = [&](const char* name, const std::string& angles) {
-    return fmt::format("\n[[head]]\nname = \"{}\"\nsonar = {}\n{}{}{}", name, toml_text(sonar),
-                       range.empty() ? "" : "range = " + toml_text(range) + "\n", angles, shape.head);
+    return fmt::format("\n[[head]]\nname = \"{}\"\nsonar = {}\n{}{}{}", name, as_toml(sonar),
+                       range.empty() ? "" : "range = " + as_toml(range) + "\n", angles, shape.head);
   };
   if (mounting.x() != 0) return head("port", "") + head("starboard", "side = \"starboard\"\n");
   return head("sonar", mounting.isZero() ? shape.angles : "");
@@ -163,7 +164,7 @@ void make_mission(const MakeMissionOptions& o) {
   write_file(o.output,
              fmt::format("# {}; docs/survey.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = 1\n\n"
                          "[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}{}",
-                         o.name, toml_text(o.scene), points_as_toml(shape.points), o.speed, shape.turn_radius,
+                         o.name, as_toml(o.scene), points_as_toml(shape.points), o.speed, shape.turn_radius,
                          heads_as_toml(sonar, range, file.mounting, shape), ping_as_toml(o, file), shape.legs));
   if (range.empty())
     Progress(o.common, 1).note(o.scene + " is not there yet, so the range is the sonar's own: give --range");

@@ -1,0 +1,30 @@
+#pragma once
+#include <vector>
+
+#include "store/key_table_internal.hpp"
+#include "store/mission_file.hpp"
+#include "survey/navigation_errors.hpp"
+#include "survey/waypoint_trajectory.hpp"
+
+namespace insonify {
+
+/// Values of a mission file that a Mission holds in another form, with those of one head and of one leg.
+struct MissionTables {
+  Anchor anchor{};
+  bool ned = false;  ///< frame of the trajectory's file
+  double time_offset = 0;
+  Waypoints way{};
+  NavigationNoise noise{};
+  MissionHead head{};
+  MissionSonar sonar{};
+  HeadScan scan{0, 2 * pi, radians(1)};
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero(), angles = Eigen::Vector3d::Zero();
+  bool starboard = false;
+  double rate = 0, dwell = 0;  ///< 0: not given
+  MissionLeg leg{};
+};
+
+/// The keys of a mission but for [scene] and [ping], bound to both.
+std::vector<Key> mission_keys(MissionTables& tables, MissionFile& mission);
+
+}  // namespace insonify

@@ -1,0 +1,66 @@
+// The tables of keys of files are those of the docs.
+#include <fstream>
+#include <sstream>
+
+#include "store/environment_keys_internal.hpp"
+#include "store/material_keys_internal.hpp"
+#include "store/mission_keys_internal.hpp"
+#include "store/sonar_keys_internal.hpp"
+#include "support/test.hpp"
+
+namespace key_tables {
+
+std::string page(const std::string& name) {
+  std::stringstream text;
+  text << std::ifstream(std::string(INSONIFY_DOCS) + "/" + name).rdbuf();
+  return text.str();
+}
+
+void expect_on(const std::string& name, const std::vector<Key>& keys) {
+  EXPECT_THAT(page(name), HasSubstr(keys_as_markdown(keys))) << "docs/" << name << " must hold this table";
+}
+
+}  // namespace key_tables
+
+TEST(KeyTables, of_the_docs_are_those_of_the_code) {
+  SonarSpec sonar;
+  key_tables::expect_on("formats.md", sonar_keys(sonar));
+  Environment environment;
+  environment.surface.emplace(), environment.bottom.emplace();
+  key_tables::expect_on("formats.md", environment_keys(environment));
+  MaterialEntry material;
+  key_tables::expect_on("formats.md", material_keys(material));
+  MissionTables tables;
+  MissionFile mission;
+  key_tables::expect_on("survey.md", mission_keys(tables, mission));
+}
+
+TEST(KeyTables, read_what_they_write_and_name_what_breaks_a_rule) {
+  double width = radians(12.5);
+  std::uint64_t many = ~std::uint64_t{0};
+  std::string word_value = "b";
+  const std::vector<Key> keys = {
+      {"", "seed", "", seed(many), ""},
+      {"fan", "width_deg", "deg", number(at(width), {.least = 0, .most = 90, .above = true}, in_degrees), ""},
+      {"fan", "word", "", word(word_value, {"a", "b"}), ""}};
+  const std::string text = keys_as_toml(keys);
+  EXPECT_EQ(text, "seed = \"18446744073709551615\"\n\n[fan]\nwidth_deg = 12.5\nword = \"b\"\n");
+  many = 0, width = 0, word_value = "a";
+  read_keys("f.toml", load_toml(own_file("f.toml", text)), keys);
+  EXPECT_EQ(many, ~std::uint64_t{0});
+  EXPECT_EQ(width, radians(12.5));
+  EXPECT_EQ(word_value, "b");
+  const auto refusal = [&](const std::string& file) {
+    return error_with_kind([&] { read_keys("f.toml", load_toml(own_file("f.toml", file)), keys); });
+  };
+  EXPECT_EQ(refusal("[fan]\nwidth_deg = 91\n"),
+            "content: f.toml:2: fan.width_deg = 91 deg, must be a number > 0 and at most 90");
+  EXPECT_EQ(refusal("[fan]\nword = \"c\"\n"), "content: f.toml:2: fan.word = \"c\", must be one of a, b");
+  EXPECT_EQ(refusal("width_deg = 3\n"), "content: f.toml:1: unknown key 'width_deg'; did you mean 'fan.width_deg'?");
+  EXPECT_EQ(refusal("[fun]\n"), "content: f.toml:1: unknown table [fun]; did you mean [fan]?");
+  EXPECT_EQ(refusal("fan = 3\n"), "content: f.toml:1: fan = 3, must be a table with keys of its own");
+  EXPECT_EQ(error_with_kind([&] { set_key(keys, "fan.width_deg", "wide", "x: "); }),
+            "argument: x: fan.width_deg = \"wide\", must be a number > 0 and at most 90");
+  set_key(keys, "fan.width_deg", "30", "");
+  EXPECT_EQ(width, radians(30));
+}
