@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include <insonify/core/units.hpp>
-#include <insonify/returns/insonification.hpp>
+#include <insonify/returns/coverage.hpp>
 #include <insonify/scene/built_in_scenes.hpp>
 #include <insonify/simulate/ping_simulator.hpp>
 #include <insonify/store/cube.hpp>
@@ -24,19 +24,17 @@ int main(int argc, char** argv) {
   // A simulator is one head in one environment: what forms its beams is made in the first ping and used by all.
   const PingSimulator simulator(head, environment, {.outputs = {.scatterers = true}});
 
-  // Eight pings along the quay, half a second apart; a map accumulates the insonification of each surfel.
+  // Eight pings along the quay, half a second apart; what they did to each surfel adds up.
   Cube cube = make_cube(head, medium_of(environment, head.pulse.centre_frequency));
-  Insonification insonified;
+  std::vector<CoveredSurfel> covered;
   for (int k = 0; k < 8; ++k) {
     const Pose pose = pose_from_yaw_pitch_roll({1.5 * k, 2, -3}, radians(20), radians(15), 0);
     const SimulatedPing result = simulator.ping(prepared, {.world_from_head = pose, .time = 0.5 * k, .number = k});
-    add_ping(insonified, scene, result.outputs.scatterers, head, result.report.medium);
+    add(covered, coverage_of(scene, result.outputs.scatterers, head, result.report.medium));
     std::cout << "ping " << k << ": " << result.soundings.size() << " soundings\n";
     cube.pings.push_back(result.ping);
   }
-  std::size_t surfels = 0;
-  for (const auto hits : insonified.hits) surfels += hits > 0;
-  std::cout << surfels << " of " << scene.size() << " surfels were insonified\n";
+  std::cout << covered.size() << " of " << scene.size() << " surfels were insonified\n";
 
   // With a file name, write the cube; to draw it: insonify image CUBE --view waterfall -o waterfall.png
   if (argc > 1) write_cube(argv[1], cube);

@@ -17,8 +17,7 @@ namespace {
 /// The columns after the coordinates, which are float or double.
 const std::vector<PackedRows::Column>& map_columns() {
   static const std::vector<PackedRows::Column> columns = [] {
-    SceneCloud scene;
-    std::vector<PackedRows::Column> all = rows_of(scene, Insonification{}, CloudFormat::ply).columns;
+    std::vector<PackedRows::Column> all = rows_of(SceneCloud{}, std::vector<CoveredSurfel>{}, CloudFormat::ply).columns;
     return std::vector(all.begin() + 3, all.end());
   }();
   return columns;
@@ -92,7 +91,7 @@ class MapRows {
 
 /// The rows of a map as one of the two formats.
 PackedRows rows_of(const MapRows& map, CloudFormat format) {
-  PackedRows rows = rows_of(SceneCloud{}, Insonification{}, format);
+  PackedRows rows = rows_of(SceneCloud{}, std::vector<CoveredSurfel>{}, format);
   const bool wide = map.wide() && format == CloudFormat::ply;
   for (std::size_t k = 0; k < 3; ++k) rows.columns[k].type = wide ? NumberType::float64 : NumberType::float32;
   rows.rows = map.rows();

@@ -159,7 +159,7 @@ PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns) {
   return rows;
 }
 
-PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format) {
+PackedRows rows_of(const SceneCloud& scene, const std::vector<CoveredSurfel>& covered, CloudFormat format) {
   const bool ply = format == CloudFormat::ply;
   const bool wide = ply && !scene.origin.isZero(0);
   const std::string prefix = ply ? "scalar_" : "";
@@ -170,16 +170,19 @@ PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudForm
   add_columns(rows, prefix, {"level_db", "scattering_db", "cell_level_db", "grazing_deg", "range"},
               NumberType::float32);
   add_columns(rows, prefix, {"hits", "material", "id"}, NumberType::uint32);
-  rows.write_row = [&scene, &map, wide](std::size_t i, char* out) {
-    constexpr float never_insonified = std::numeric_limits<float>::quiet_NaN();
-    const bool insonified = map.hits[i] > 0;
+  rows.write_row = [&scene, &covered, wide](std::size_t i, char* out) {
+    constexpr float never = std::numeric_limits<float>::quiet_NaN();
+    const auto at = std::lower_bound(covered.begin(), covered.end(), scene.id[i],
+                                     [](const CoveredSurfel& s, std::uint32_t id) { return s.id < id; });
+    const bool there = at != covered.end() && at->id == scene.id[i];
     put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
     for (const float n : scene.normal[i]) put(out, n);
-    for (const auto* levels : {&map.level_db, &map.scattering_db, &map.cell_level_db})
-      put(out, insonified ? (*levels)[i] : never_insonified);
-    put(out, insonified ? static_cast<float>(degrees(map.grazing_angle[i])) : never_insonified);
-    put(out, insonified ? map.range[i] : never_insonified);
-    put(out, map.hits[i]);
+    for (const float CoveredSurfel::*level :
+         {&CoveredSurfel::level_db, &CoveredSurfel::scattering_db, &CoveredSurfel::cell_level_db})
+      put(out, there ? *at.*level : never);
+    put(out, there ? static_cast<float>(degrees(at->grazing_angle)) : never);
+    put(out, there ? at->range : never);
+    put(out, there ? at->pings : 0);
     put(out, std::uint32_t{scene.material[i]});
     put(out, scene.id[i]);
   };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "returns/insonification.hpp"
+#include "returns/coverage.hpp"
 #include "returns/soundings.hpp"
 #include "scene/scene_mesh.hpp"
 #include "scene_io/number_type_internal.hpp"
@@ -68,8 +68,9 @@ PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns);
 PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);
 
 /// x y z (double in PLY unless the origin is zero), normal, level_db, grazing_deg, range (float32, NaN where never
-/// insonified), hits, material, id (uint32); from level_db on named scalar_ + name in PLY.
-PackedRows rows_of(const SceneCloud& scene, const Insonification& map, CloudFormat format);
+/// insonified), hits, material, id (uint32); from level_db on named scalar_ + name in PLY. `covered`: by
+/// ascending id.
+PackedRows rows_of(const SceneCloud& scene, const std::vector<CoveredSurfel>& covered, CloudFormat format);
 
 /// Header of a binary little-endian PLY of points or triangles: columns of uint32 are "int", which every reader takes.
 std::string ply_header(const PackedRows& rows);

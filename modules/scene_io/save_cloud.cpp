@@ -140,15 +140,15 @@ void join_clouds(const std::string& path, const std::vector<std::string>& parts)
   pending.commit(out);
 }
 
-void save_insonification(const std::string& path, const SceneCloud& scene, const Insonification& map) {
+void save_insonification(const std::string& path, const SceneCloud& scene, const std::vector<CoveredSurfel>& covered) {
   const CloudFormat format = format_of(path, "save_insonification");
-  for (const std::size_t size : {map.hits.size(), map.level_db.size(), map.scattering_db.size(),
-                                 map.cell_level_db.size(), map.grazing_angle.size(), map.range.size()})
-    if (size != scene.size())
-      fail(ErrorKind::argument, "save_insonification: ", path, ": the map has ", size, " surfels, but the scene has ",
-           scene.size(), "; give the map of this scene");
-  const PackedRows rows = rows_of(scene, map, format);
-  write_rows(path, format == CloudFormat::ply ? ply_header(rows) : pcd_header(rows), rows);
+  std::vector<std::uint32_t> ids = scene.id;
+  std::sort(ids.begin(), ids.end());
+  for (const CoveredSurfel& s : covered)
+    if (!std::binary_search(ids.begin(), ids.end(), s.id))
+      fail(ErrorKind::argument, "save_insonification: ", path, ": surfel ", s.id,
+           " is not in the scene; give the coverage of this scene");
+  write_cloud(path, format, rows_of(scene, covered, format));
 }
 
 }  // namespace insonify

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "returns/insonification.hpp"
+#include "returns/coverage.hpp"
 #include "returns/soundings.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/load_scene.hpp"
@@ -46,11 +46,11 @@ void save_survey_returns(const std::string& path, const Soundings& soundings, co
 /// that is damaged or has other columns than the first.
 void join_clouds(const std::string& path, const std::vector<std::string>& parts);
 
-/// Writes the scene with its insonification as .pcd (fields x y z normal_x normal_y normal_z level_db grazing_deg range
+/// Writes the scene with what pings did to its surfels, by ascending id, as .pcd (fields x y z normal_x normal_y normal_z level_db grazing_deg range
 /// hits material id) or .ply (normals nx ny nz, from level_db on named scalar_level_db ..., for CloudCompare). Levels
 /// are dB re 1 uPa, ranges metres; level_db, grazing_deg and range are NaN for surfels never insonified. x y z are
 /// world coordinates: float in PCD, double in PLY unless the scene's origin is zero. Written to a temporary name, then
-/// renamed. Throws Error(argument) for another extension or a map of another scene, Error(file) if it cannot write.
-void save_insonification(const std::string& path, const SceneCloud& scene, const Insonification& map);
+/// renamed. Throws Error(argument) for another extension or a surfel of another scene, Error(file) if it cannot write.
+void save_insonification(const std::string& path, const SceneCloud& scene, const std::vector<CoveredSurfel>& covered);
 
 }  // namespace insonify

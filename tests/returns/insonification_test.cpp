@@ -1,5 +1,3 @@
-#include "returns/insonification.hpp"
-
 #include "core/units.hpp"
 #include "returns/coverage.hpp"
 #include "sampling/find_scatterers.hpp"
@@ -45,11 +43,9 @@ Scatterers seen(const SceneCloud& scene, const SonarHead& head, const Pose& pose
   return find_scatterers(scene, pose, head.fan, head.gate, options).scatterers;
 }
 
-Insonification map_of(const SceneCloud& scene, const SonarHead& head = insonifying_head(),
-                      const Pose& pose = Pose::Identity(), double per_cell = 0) {
-  Insonification map;
-  add_ping(map, scene, seen(scene, head, pose, per_cell), head, decibel_medium);
-  return map;
+std::vector<CoveredSurfel> map_of(const SceneCloud& scene, const SonarHead& head = insonifying_head(),
+                                  const Pose& pose = Pose::Identity(), double per_cell = 0) {
+  return coverage_of(scene, seen(scene, head, pose, per_cell), head, decibel_medium);
 }
 
 /// SL - 2 TL + TS of `target_at`.
@@ -60,16 +56,16 @@ double sonar_equation(double range) {
 }  // namespace
 
 TEST(Insonification, level_of_one_surfel_on_axis_is_the_sonar_equation) {
-  const Insonification map = map_of(target_at(7));
-  EXPECT_EQ(map.pings, 1U);
-  EXPECT_EQ(map.hits[0], 1U);
-  EXPECT_NEAR(map.level_db[0], sonar_equation(7), 1e-4);
-  EXPECT_NEAR(map.grazing_angle[0], pi / 2, 1e-3);
-  EXPECT_FLOAT_EQ(map.range[0], 7);
+  const std::vector<CoveredSurfel> map = map_of(target_at(7));
+  ASSERT_EQ(map.size(), 1U);
+  EXPECT_EQ(map[0].pings, 1U);
+  EXPECT_NEAR(map[0].level_db, sonar_equation(7), 1e-4);
+  EXPECT_NEAR(map[0].grazing_angle, pi / 2, 1e-3);
+  EXPECT_FLOAT_EQ(map[0].range, 7);
 }
 
 TEST(Insonification, twice_the_range_costs_12_db_and_absorption) {
-  const double near = map_of(target_at(6)).level_db[0], far = map_of(target_at(12)).level_db[0];
+  const double near = map_of(target_at(6))[0].level_db, far = map_of(target_at(12))[0].level_db;
   EXPECT_NEAR(near - far, 40 * std::log10(2) + 2 * alpha_db * 6, 1e-4);
 }
 
@@ -79,7 +75,7 @@ TEST(Insonification, level_does_not_depend_on_the_splitting) {
   scene.area[0] = 0.0025F;
   const Scatterers parts = seen(scene, insonifying_head(), Pose::Identity(), 5000);
   ASSERT_GT(parts.size(), 10U);
-  EXPECT_NEAR(map_of(scene, insonifying_head(), Pose::Identity(), 5000).level_db[0], map_of(scene).level_db[0], 0.02);
+  EXPECT_NEAR(map_of(scene, insonifying_head(), Pose::Identity(), 5000)[0].level_db, map_of(scene)[0].level_db, 0.02);
 }
 
 // Half a beam spacing and 15 degrees of elevation off: the fan's pattern, the cone's, and -3 dB of the elevation
@@ -90,7 +86,7 @@ TEST(Insonification, level_off_the_axes_includes_the_patterns) {
   const double u = std::cos(elevation) * std::sin(azimuth), u_beam = std::sin(radians(40.0 / 21));
   const double nearest = std::min(std::abs(u), std::abs(u - u_beam));
   const double beam_db = db_from_amplitude(array_response(head.array, 1500 / 600e3, nearest, 0).real());
-  const double level = map_of(target_at(7, azimuth, elevation)).level_db[0];
+  const double level = map_of(target_at(7, azimuth, elevation))[0].level_db;
   EXPECT_NEAR(level, sonar_equation(7) + beam_db + 10 * std::log10(0.5), 1e-3);
   EXPECT_LT(beam_db, -0.2);
 }
@@ -102,16 +98,16 @@ TEST(Insonification, of_a_planar_array_includes_the_response_of_the_best_row) {
   const double v = std::sin(radians(4));
   const double row_db = db_from_amplitude(array_response(*head.column, 1500 / 600e3, v, std::sin(radians(5))).real());
   const double sent_db = db_from_amplitude(elevation_response(head.elevation_shape, radians(30), radians(4)));
-  EXPECT_NEAR(map_of(target_at(7, 0, radians(4)), head).level_db[0], sonar_equation(7) + row_db + sent_db, 1e-3);
+  EXPECT_NEAR(map_of(target_at(7, 0, radians(4)), head)[0].level_db, sonar_equation(7) + row_db + sent_db, 1e-3);
 }
 
 // Inclined by 60 degrees, cos^2 of incidence is -6.02 dB.
 TEST(Insonification, reports_the_grazing_angle) {
   SceneCloud scene = target_at(7);
   scene.normal[0] = Eigen::Vector3f(-0.5F, 0, std::sqrt(0.75F));
-  const Insonification map = map_of(scene);
-  EXPECT_NEAR(map.grazing_angle[0], radians(30), 1e-6);
-  EXPECT_NEAR(map.level_db[0], sonar_equation(7) + 20 * std::log10(0.5), 1e-4);
+  const std::vector<CoveredSurfel> map = map_of(scene);
+  EXPECT_NEAR(map[0].grazing_angle, radians(30), 1e-6);
+  EXPECT_NEAR(map[0].level_db, sonar_equation(7) + 20 * std::log10(0.5), 1e-4);
 }
 
 // A flat bottom of Lambert's law: mu sin^2 of the grazing angle per square metre, and per cell the sonar equation with
@@ -127,15 +123,16 @@ TEST(Insonification, scattering_and_cell_level_of_a_flat_bottom_are_closed_forms
     SceneCloud scene = empty_scene();
     for (const double x : {5.0, 8.0})
       for (const double y : {0.0, 1.5}) add_surfel(scene, {x, y, -depth}, {0, 0, 1}, side * side);
-    const Insonification map = map_of(scene, head);
+    const std::vector<CoveredSurfel> map = map_of(scene, head);
+    ASSERT_EQ(map.size(), scene.size());
     for (std::size_t i = 0; i < scene.size(); ++i) {
       const Eigen::Vector3d p = scene.point[i].cast<double>();
       const double range = p.norm(), sine = depth / range, elevation = std::asin(sine);
       const double cell = length / std::cos(elevation) * range * width * p.head<2>().norm() / p.x();
       const double pattern = db_from_power(elevation_response(head.elevation_shape, radians(30), elevation) *
                                            elevation_response(head.elevation_shape, radians(30), elevation));
-      EXPECT_NEAR(map.scattering_db[i], 10 * std::log10(mu * sine * sine), 1e-3);
-      EXPECT_NEAR(map.cell_level_db[i], sonar_equation(range) + 10 * std::log10(sine * sine * cell / area) + pattern,
+      EXPECT_NEAR(map[i].scattering_db, 10 * std::log10(mu * sine * sine), 1e-3);
+      EXPECT_NEAR(map[i].cell_level_db, sonar_equation(range) + 10 * std::log10(sine * sine * cell / area) + pattern,
                   0.02)
           << p.transpose();
     }
@@ -152,8 +149,10 @@ TEST(Insonification, hidden_or_outside_surfels_have_no_hits) {
   };
   const std::size_t front = add_plate(5, 0, 0.6), behind = add_plate(6, 0, 0.3), beside = add_plate(5, 4, 0.3);
   const std::size_t beyond = add_plate(40, 10, 0.3);
-  const Insonification map = map_of(scene);
-  for (std::size_t i = 0; i < beyond; ++i) ASSERT_EQ(map.hits[i], i < front ? 1U : 0U) << i;
+  const std::vector<CoveredSurfel> map = map_of(scene);
+  ASSERT_EQ(map.size(), front);
+  for (std::size_t i = 0; i < front; ++i) ASSERT_EQ(map[i].id, i);
+  EXPECT_GT(beyond, beside);
   EXPECT_GT(behind, front);
   EXPECT_GT(beside, behind);
 }
@@ -161,8 +160,8 @@ TEST(Insonification, hidden_or_outside_surfels_have_no_hits) {
 TEST(Insonification, surfels_just_beside_the_fan_are_no_hits) {
   const SonarHead head = insonifying_head();
   const double edge = head.fan.azimuth.back() > 0 ? head.fan.azimuth.back() : head.fan.azimuth.front();
-  EXPECT_EQ(map_of(target_at(7, edge + radians(0.5))).hits[0], 1U);
-  EXPECT_EQ(map_of(target_at(7, edge + radians(3.9))).hits[0], 0U);  // between main and side lobe
+  EXPECT_EQ(map_of(target_at(7, edge + radians(0.5))).size(), 1U);
+  EXPECT_EQ(map_of(target_at(7, edge + radians(3.9))).size(), 0U);  // between main and side lobe
 }
 
 TEST(Insonification, pings_accumulate_hits_and_the_best) {
@@ -171,28 +170,23 @@ TEST(Insonification, pings_accumulate_hits_and_the_best) {
   Pose near = Pose::Identity(), away = Pose::Identity();
   near.translation() = Eigen::Vector3d(6, 0, 0);
   away.translation() = Eigen::Vector3d(20, 0, 0);  // looks the other way
-  Insonification map;
-  for (const Pose& pose : {Pose::Identity(), near, away})
-    add_ping(map, scene, seen(scene, head, pose), head, decibel_medium);
-  EXPECT_EQ(map.pings, 3U);
-  EXPECT_EQ(map.hits[0], 2U);
-  EXPECT_NEAR(map.level_db[0], sonar_equation(6), 1e-4);
-  EXPECT_FLOAT_EQ(map.range[0], 6);
+  std::vector<CoveredSurfel> map;
+  for (const Pose& pose : {Pose::Identity(), near, away}) add(map, map_of(scene, head, pose));
+  ASSERT_EQ(map.size(), 1U);
+  EXPECT_EQ(map[0].pings, 2U);
+  EXPECT_NEAR(map[0].level_db, sonar_equation(6), 1e-4);
+  EXPECT_FLOAT_EQ(map[0].range, 6);
 }
 
-TEST(Insonification, of_another_scene_is_refused_and_unchanged) {
-  Insonification map = map_of(target_at(7));
+TEST(Insonification, of_another_scene_is_refused) {
   SceneCloud other = target_at(7);
   add_surfel(other, {5, 0, 0}, {-1, 0, 0}, area);
   const SonarHead head = insonifying_head();
-  EXPECT_EQ(error_of([&] { add_ping(map, other, {}, head, decibel_medium); }),
-            "add_ping: the map has 1 surfels, but the scene has 2; give an empty map, or one of this scene");
-  EXPECT_EQ(map.pings, 1U);
   const Scatterers two = seen(other, head, Pose::Identity());
-  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), two, head, decibel_medium); }),
-            "add_ping: a scatterer is of surfel 1, but the scene has 1");
-  EXPECT_EQ(error_of([&] { add_ping(map, target_at(7), {}, head, decibel_medium, {.min_response_db = 3}); }),
-            "add_ping: min_response_db = 3 dB, must be <= 0");
+  EXPECT_EQ(error_of([&] { coverage_of(target_at(7), two, head, decibel_medium); }),
+            "coverage_of: a scatterer is of surfel 1, but the scene has 1");
+  EXPECT_EQ(error_of([&] { coverage_of(target_at(7), {}, head, decibel_medium, {.min_response_db = 3}); }),
+            "coverage_of: min_response_db = 3 dB, must be <= 0");
 }
 
 namespace {

@@ -18,15 +18,8 @@ SceneCloud three_surfels(const Eigen::Vector3d& origin) {
   return scene;
 }
 
-Insonification three_entries() {
-  constexpr float inf = std::numeric_limits<float>::infinity();
-  return {4,
-          {3, 0, 1},
-          {120.5F, -inf, 99},
-          {-27, -inf, -30},
-          {140, -inf, 120},
-          {static_cast<float>(radians(30)), 0, 1},
-          {7.25F, inf, 9}};
+std::vector<CoveredSurfel> two_entries() {
+  return {{0, 3, {}, static_cast<float>(radians(30)), 7.25F, 1, 120.5F, -27, 140}, {2, 1, {}, 1, 9, 1, 99, -30, 120}};
 }
 
 template <typename T>
@@ -45,7 +38,7 @@ T field(const pcl::PCLPointCloud2& cloud, std::size_t point, const std::string& 
 
 TEST(SaveInsonification, a_pcd_opens_in_pcl_with_normals_and_fields) {
   const std::string path = own_path("map.pcd");
-  save_insonification(path, three_surfels({10, 0, 0}), three_entries());
+  save_insonification(path, three_surfels({10, 0, 0}), two_entries());
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
   ASSERT_EQ(cloud.width * cloud.height, 3U);
@@ -63,7 +56,7 @@ TEST(SaveInsonification, a_pcd_opens_in_pcl_with_normals_and_fields) {
 
 TEST(SaveInsonification, surfels_never_insonified_have_no_level) {
   const std::string path = own_path("map.pcd");
-  save_insonification(path, three_surfels({0, 0, 0}), three_entries());
+  save_insonification(path, three_surfels({0, 0, 0}), two_entries());
   pcl::PCLPointCloud2 cloud;
   ASSERT_EQ(pcl::PCDReader().read(path, cloud), 0);
   EXPECT_EQ(field<std::uint32_t>(cloud, 1, "hits"), 0U);
@@ -73,7 +66,7 @@ TEST(SaveInsonification, surfels_never_insonified_have_no_level) {
 
 TEST(SaveInsonification, a_ply_names_scalar_fields_and_keeps_far_coordinates) {
   const std::string path = own_path("map.ply");
-  save_insonification(path, three_surfels({500000, 4600000, -20}), three_entries());
+  save_insonification(path, three_surfels({500000, 4600000, -20}), two_entries());
   const std::string bytes = file_bytes(path);
   EXPECT_THAT(bytes, HasSubstr("element vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
                                "property float nx\nproperty float ny\nproperty float nz\n"
@@ -92,12 +85,12 @@ TEST(SaveInsonification, a_ply_names_scalar_fields_and_keeps_far_coordinates) {
 }
 
 TEST(SaveInsonification, of_another_scene_is_refused) {
-  Insonification map = three_entries();
-  map.range.pop_back();
-  expect_error(ErrorKind::argument, {"save_insonification: ", "the map has 2 surfels, but the scene has 3"}, [&] {
+  std::vector<CoveredSurfel> map = two_entries();
+  map.back().id = 3;
+  expect_error(ErrorKind::argument, {"save_insonification: ", "surfel 3 is not in the scene"}, [&] {
     save_insonification(own_path("map.ply"), three_surfels({0, 0, 0}), map);
   });
   expect_error(ErrorKind::argument, {"extension '.xyz'"}, [&] {
-    save_insonification(own_path("map.xyz"), three_surfels({0, 0, 0}), three_entries());
+    save_insonification(own_path("map.xyz"), three_surfels({0, 0, 0}), two_entries());
   });
 }

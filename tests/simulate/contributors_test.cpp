@@ -1,5 +1,7 @@
 // Which surfels made a pixel, through the whole signal path.
-#include "returns/insonification.hpp"
+#include <set>
+
+#include "returns/coverage.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
@@ -164,19 +166,19 @@ TEST(SimulatedContributors, are_insonified) {
   const SceneCloud scene = two_materials();
   const SimulatedPing p =
       simulate_ping(scene, contributing_head, over_plane, {}, {.outputs = {.scatterers = true, .contributors = 1}});
-  Insonification map;
-  add_ping(map, scene, p.outputs.scatterers, contributing_head, p.report.medium, {.min_response_db = -300});
-  std::size_t hits = 0;
-  for (const std::uint32_t h : map.hits) hits += h;
-  EXPECT_LE(hits, p.report.sampling.visible);
-  EXPECT_GT(hits, p.report.sampling.visible / 2);
+  std::set<std::uint32_t> hit;
+  for (const CoveredSurfel& s :
+       coverage_of(scene, p.outputs.scatterers, contributing_head, p.report.medium, {.min_response_db = -300}))
+    hit.insert(s.id);
+  EXPECT_LE(hit.size(), p.report.sampling.visible);
+  EXPECT_GT(hit.size(), p.report.sampling.visible / 2);
   std::size_t named = 0, covered = 0;
   for (std::size_t b = 4; b < 28; ++b)
     for (std::size_t n = 100; n < contributing_head.gate.bins() - 100; ++n) {
       const std::uint32_t s = p.outputs.contributors.surfel[p.outputs.contributors.at(b, n)];
       if (s == Contributors::none) continue;
       ++named;
-      covered += map.hits[s] > 0;
+      covered += hit.contains(scene.id[s]);
     }
   EXPECT_GT(named, 1000U);
   EXPECT_EQ(covered, named);

@@ -10,7 +10,7 @@
 #include "core/units.hpp"
 #include "files/peak_memory.hpp"
 #include "files/sha256.hpp"
-#include "returns/insonification.hpp"
+#include "returns/coverage.hpp"
 #include "returns/label_objects.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/contributor_file.hpp"
@@ -127,14 +127,11 @@ namespace {
 
 ordered_json write_insonification(const RunDirectory& directory, const SceneCloud& scene, const PingSetup& setup,
                                   const SimulatedPing& ping) {
-  Insonification map;
-  InsonificationOptions options;
-  options.threads = setup.simulation.threads;
-  add_ping(map, scene, ping.outputs.scatterers, setup.head.head, ping.report.medium, options);
-  save_insonification(directory.file("insonification.ply"), scene, map);
-  save_insonification(directory.file("insonification.pcd"), scene, map);
-  const auto insonified = map.size() - static_cast<std::size_t>(std::count(map.hits.begin(), map.hits.end(), 0U));
-  return {{"surfels", map.size()}, {"insonified", insonified}};
+  const std::vector<CoveredSurfel> covered = coverage_of(scene, ping.outputs.scatterers, setup.head.head,
+                                                         ping.report.medium, {.threads = setup.simulation.threads});
+  for (const char* file : {"insonification.ply", "insonification.pcd"})
+    save_insonification(directory.file(file), scene, covered);
+  return {{"surfels", scene.size()}, {"insonified", covered.size()}};
 }
 
 ordered_json write_paths(const RunDirectory& directory, const SoundPaths& paths) {
