@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "returns/ping.hpp"
 #include "returns/quantise.hpp"
 #include "returns/soundings.hpp"
-#include "returns/ping.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "returns/soundings.hpp"
 #include "returns/ping.hpp"
+#include "returns/soundings.hpp"
 
 namespace insonify {
 

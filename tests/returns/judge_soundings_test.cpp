@@ -80,6 +80,20 @@ TEST(JudgeSoundings, rejects_what_a_grating_lobe_brings_in) {
   }
 }
 
+// In one beam nothing is heard of the bottom, but an echo behind it, 22 dB below.
+TEST(JudgeSoundings, rejects_what_is_far_below_the_bottom_about_it) {
+  Ping ping = quiet_ping(101, 90, 1, 24);
+  add_level_bottom(ping, 1);
+  ping.pressure.row(50) *= 1e-3F;
+  Ping behind = quiet_ping(101, 90, 1, 24);
+  add_speckle(behind, 50, 5, [](double x) { return 9 + 0.01 * x; });
+  ping.pressure.row(50) += 0.08F * behind.pressure.row(50);
+  const BottomSoundings found = detect_bottom(ping, {.range_resolution = echo_width});
+  ASSERT_EQ(found.size(), 101U);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_EQ((found.reject[i] & reject_faint) != 0, found.beam[i] == 50) << "beam " << found.beam[i];
+}
+
 // Louder than the bottom, which is in the same beams: the bottom is found.
 TEST(JudgeSoundings, finds_the_bottom_beside_a_grating_lobe) {
   Ping ping = quiet_ping(101, 140, 1, 24);

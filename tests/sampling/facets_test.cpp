@@ -63,6 +63,26 @@ SceneMesh plates() {
 
 }  // namespace
 
+// The back of a plate returns no echo, and rays do not reach the wall behind it.
+TEST(Facets, that_turn_their_backs_block_rays) {
+  SceneMesh mesh;
+  add_plate(mesh, 4, 1, -1, -1, 1);
+  add_plate(mesh, 6, -4, 4, -3, 3);
+  mesh.normals_oriented = true;
+  const SceneCloud scene = even_surfels(mesh, 0.1).scene;
+  ASSERT_TRUE(scene.normals_oriented);
+  const BeamFan fan = make_fan(32, radians(50), radians(2), radians(40));
+  SamplingOptions options;
+  options.kind = SamplingKind::rays;
+  const Scatterers met = find_scatterers(scene, Pose::Identity(), fan, {0.5, 12, 0.05}, options).scatterers;
+  EXPECT_GT(met.size(), 300U);
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    const Eigen::Vector3d p = met.range[i] * unit_vector({met.azimuth[i], met.elevation[i]});
+    EXPECT_NEAR(p.x(), 6, 1e-3);
+    EXPECT_GT(std::max(std::abs(p.y()), std::abs(p.z())), 1.5 - 1e-3) << p.transpose();
+  }
+}
+
 TEST(Facets, hide_exactly_what_is_behind_them) {
   const SceneMesh mesh = plates();
   const SceneCloud scene = even_surfels(mesh, 0.03).scene;

@@ -15,7 +15,7 @@ enum ExitCode : int {
   exit_no_reader = 141  ///< as a shell says of SIGPIPE
 };
 
-/// What man pages and docs/troubles.md say of each.
+/// What man pages and docs/troubleshooting.md say of each.
 struct ExitCodeText {
   ExitCode code;
   const char* meaning;
