@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 

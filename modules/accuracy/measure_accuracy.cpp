@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
 #include "core/stop_watch.hpp"

@@ -1,7 +1,7 @@
 #include "beamforming/synthesize.hpp"
 
 #include "acoustics/echo_stream.hpp"
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/synthesizer.hpp"
 
 namespace insonify {

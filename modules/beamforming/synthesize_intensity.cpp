@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
-#include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/pulses/time_axis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "core/parallel.hpp"

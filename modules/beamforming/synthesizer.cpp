@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "acoustics/echo_stream.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
-#include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "beamforming/synthesize_intensity.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "acoustics/echo_stream.hpp"
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/split_aperture.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/units.hpp"

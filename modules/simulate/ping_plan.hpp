@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "beamforming/synthesis_choice.hpp"
+#include "beamforming/narrow_band/synthesis_choice.hpp"
 #include "simulate/simulation_options.hpp"
 
 namespace insonify {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "simulate/plan_stages_internal.hpp"

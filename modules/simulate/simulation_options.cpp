@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "core/error.hpp"
 #include "core/require.hpp"

@@ -1,5 +1,5 @@
 // Gridding for every kind of pulse and absorption, of few echoes and of many.
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/random.hpp"
 #include "sonar/shading.hpp"
 #include "support/heads.hpp"

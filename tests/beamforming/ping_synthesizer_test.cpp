@@ -1,4 +1,4 @@
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 
 #include "core/random.hpp"
 #include "sonar/sonar_spec.hpp"

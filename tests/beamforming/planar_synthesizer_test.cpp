@@ -1,5 +1,5 @@
 // A planar array gridded in time, u and v at once, against the sum over echoes.
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/random.hpp"
 #include "sonar/shading.hpp"
 #include "support/echo_chunks.hpp"

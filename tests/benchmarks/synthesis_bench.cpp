@@ -5,7 +5,7 @@
 
 #include "accuracy/accuracy_task.hpp"
 #include "accuracy/reference_sums.hpp"
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/true_delays/wideband_synthesizer.hpp"
 
 using namespace insonify;

@@ -1,5 +1,5 @@
 // Ten million echoes, and a million in one bin: bounded memory, sums that add up.
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/parallel.hpp"
 #include "extreme_cases.hpp"
 #include "files/peak_memory.hpp"

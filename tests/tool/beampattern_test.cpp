@@ -87,7 +87,7 @@ TEST_F(BeamPatternVerb, bad_input_gets_one_line) {
   expect_refused("beampattern p900-45 --steer abeam", 2, {"--steer = 'abeam' is not a number"});
   expect_refused("beampattern p900-45 --steer nan", 2, {"--steer"});
   expect_refused("beampattern p900-45 --set sonar.shading=hann", 2,
-                 {"shading = \"hann\"", "taylor, uniform, hamming or chebyshev"});
+                 {"shading = \"hann\"", "must be one of taylor, uniform, hamming, chebyshev"});
   expect_refused("beampattern p900-45 --set sonar.shadng=taylor", 2, {"shadng", "did you mean 'shading'"});
   expect_refused("beampattern p900-45 --set sonar.shading=chebyshev --set sonar.side_lobe_db=0", 2,
                  {"side_lobe_db = 0 dB", "within -80 and -13.3"});

@@ -7,8 +7,8 @@
 
 #include "beamforming/narrow_band/column_plan_internal.hpp"
 #include "beamforming/narrow_band/gridding_loops_internal.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
-#include "beamforming/ping_synthesizer.hpp"
 #include "beamforming/pulses/time_axis_internal.hpp"
 
 namespace insonify {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "accuracy/accuracy_task.hpp"
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "beamforming/true_delays/wideband_synthesizer.hpp"
 #include "core/random.hpp"

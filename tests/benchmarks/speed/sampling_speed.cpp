@@ -14,7 +14,7 @@
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/head_patterns.hpp"
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"

@@ -1,4 +1,4 @@
-#include "beamforming/ping_synthesizer.hpp"
+#include "beamforming/narrow_band/ping_synthesizer.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "acoustics/echo_stream.hpp"
-#include "beamforming/synthesis_choice.hpp"
+#include "beamforming/narrow_band/synthesis_choice.hpp"
 #include "beamforming/synthesize.hpp"
 #include "sonar/sonar_head.hpp"
 
