@@ -17,9 +17,9 @@ constexpr double min_gridding_tolerance = 1e-13;
 /// transforms the grid into element series, which are deconvolved and shaded, and transformed and interpolated back to
 /// beams with the same kernel. There is no transform along range, hence no wrap-around, and the error is local:
 /// relative to the level at each range. Cost: echoes x pulse samples x kernel width + bins x (grid log grid + beams x
-/// kernel width). The grid of a planar array (E56) has lines over v too, of which each row of beams is a weighted sum: echoes
-/// x pulse samples x both kernels' widths, and the transforms for each row. Kernel errors are distributed evenly over all beams: for the same tolerance, a fan of many narrow
-/// beams needs a wider kernel.
+/// kernel width). The grid of a planar array (E56) has lines over v too, and each row of beams is a weighted sum of them:
+/// echoes x pulse samples x widths of both kernels, and the transforms for each row. Kernel errors are distributed evenly
+/// over all beams: for the same tolerance, a fan of many narrow beams needs a wider kernel.
 ///
 /// Constructed once per head, medium and tolerance; `pressure` is const and may be called concurrently.
 class PingSynthesizer {
