@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "beamforming/narrow_band/gridding_plan_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "core/units.hpp"
 
