@@ -14,6 +14,7 @@
 #include "tool/image/image.hpp"
 #include "tool/run/ping_setup.hpp"
 #include "tool/run/run_files.hpp"
+#include "tool/run/run_pings.hpp"
 #include "tool/run/scene_reach.hpp"
 #include "view/show_scene.hpp"
 
