@@ -83,6 +83,70 @@ INSTANTIATE_TEST_SUITE_P(heads, WidebandPromise,
                                          WidebandCase{"hardly_a_band", 600e3, 1.5e3, 64, 90, 0.5, 5}),
                          [](const auto& one) { return std::string(one.param.name); });
 
+struct OneBeamCase {
+  const char* name;
+  double frequency, bandwidth;
+  std::size_t elements;
+  double azimuth, widest, min_range, max_range;  // degrees, |u| of echoes from the beam, metres
+};
+
+class OneBeamPromise : public testing::TestWithParam<OneBeamCase> {
+ protected:
+  OneBeamPromise()
+      : head(wideband_head({"", GetParam().frequency, GetParam().bandwidth, GetParam().elements, 1,
+                            GetParam().min_range, GetParam().max_range})) {
+    const OneBeamCase& of = GetParam();
+    head.fan.azimuth = {radians(of.azimuth)};
+    head.fan.elevation = {0};
+    echoes = near_echoes(head, 60);
+    for (std::size_t i = 0; i < echoes.size(); ++i) {
+      const auto at = random_uniform(6, RandomStage::scene_points, {i, 0, 0});
+      echoes.u[i] = std::sin(radians(of.azimuth)) + of.widest * (2 * at[0] - 1);
+    }
+  }
+  SonarHead head;
+  Echoes echoes;
+  Medium water{c0, {0.02, 1e-8, 3e-15}};  // losses that tilt and widen pulses
+};
+
+// Responses between the entries of tables: near and far, within the main lobe and far beyond it.
+TEST_P(OneBeamPromise, true_delays_of_every_element_to_the_tolerance) {
+  const ComplexGrid referee = exact(echoes, head, water);
+  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5})
+    EXPECT_LE(relative_l2(synthesize_true_delays(echoes, head, water, {tolerance}), referee), tolerance) << tolerance;
+}
+
+TEST_P(OneBeamPromise, the_same_of_moving_echoes) {
+  for (std::size_t i = 0; i < echoes.size(); ++i)
+    echoes.doppler.push_back(4e-3 * head.pulse.centre_frequency * std::sin(static_cast<double>(i)));
+  const ComplexGrid referee = exact(echoes, head, water);
+  for (const double tolerance : {1e-2, 1e-3, 1e-4})
+    EXPECT_LE(relative_l2(synthesize_true_delays(echoes, head, water, {tolerance}), referee), tolerance) << tolerance;
+}
+
+using FastOneBeam = OneBeamPromise;
+
+// Shifts that tables do not hold. Wavefronts that bend over a long array come to its ends from beyond the fan.
+TEST_P(FastOneBeam, fast_echoes_keep_a_hundredth) {
+  for (std::size_t i = 0; i < echoes.size(); ++i)
+    echoes.doppler.push_back(i % 10 == 0 ? 0.03 * head.pulse.centre_frequency : 0);
+  EXPECT_LE(relative_l2(synthesize_true_delays(echoes, head, water, {1e-2}), exact(echoes, head, water)), 1e-2);
+}
+
+constexpr OneBeamCase in_their_lobes[] = {{"side_scan", 500e3, 40e3, 610, 0, 0.008, 3, 6},
+                                          {"its_side_lobes", 500e3, 40e3, 610, 0, 0.05, 4, 6},
+                                          {"nearer_than_tables", 500e3, 40e3, 128, 0, 0.05, 0.1, 1},
+                                          {"scanning", 700e3, 60e3, 48, 0, 0.9, 0.3, 2},
+                                          {"aside", 700e3, 60e3, 48, 20, 0.2, 0.3, 2}};
+constexpr OneBeamCase beyond_them[] = {{"side_scan_far", 500e3, 40e3, 610, 0, 0.008, 100, 104},
+                                       {"far_beyond_its_lobe", 500e3, 40e3, 400, 0, 0.97, 2, 4},
+                                       {"all_around_and_far", 1000e3, 60e3, 400, 0, 0.97, 20, 21},
+                                       {"one_element", 700e3, 60e3, 1, 0, 0.9, 0.3, 1}};
+const auto case_name = [](const auto& one) { return std::string(one.param.name); };
+INSTANTIATE_TEST_SUITE_P(in_lobes, OneBeamPromise, testing::ValuesIn(in_their_lobes), case_name);
+INSTANTIATE_TEST_SUITE_P(beyond, OneBeamPromise, testing::ValuesIn(beyond_them), case_name);
+INSTANTIATE_TEST_SUITE_P(in_lobes, FastOneBeam, testing::ValuesIn(in_their_lobes), case_name);
+
 // Pulses of moving echoes, and of losses that tilt and widen them, are each gridded as they are.
 TEST(WidebandSynthesizer, moving_echoes_and_absorption_by_frequency_keep_the_tolerance) {
   const SonarHead head = wideband_head({"", 400e3, 100e3, 40, 120, 3, 3.6});

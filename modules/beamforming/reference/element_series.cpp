@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
+#include "beamforming/numerics/path_difference_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/pulses/time_axis_internal.hpp"
 #include "core/error.hpp"
@@ -28,8 +29,7 @@ double element_y(const LineArray& array, std::size_t m) { return array.spacing *
 /// Path difference [m] between the element at `y` and the centre of the array.
 double path_difference(Wavefront wavefront, double range, double u, double y) {
   if (wavefront == Wavefront::plane) return -y * u;
-  const double squared = y * y - 2 * range * y * u;                              // (E61)
-  return squared / (std::sqrt(std::max(0.0, range * range + squared)) + range);  // sqrt difference without cancellation
+  return insonify::path_difference(range, u, y);
 }
 
 /// Highest baseband frequency [Hz] that matters: there the spectrum has fallen to the tolerance. That of a sweep decays

@@ -11,7 +11,9 @@
 
 #include "acoustics/echo_stream.hpp"
 #include "beamforming/numerics/flush_denormals_internal.hpp"
+#include "beamforming/numerics/lazy_internal.hpp"
 #include "beamforming/reference/element_series.hpp"
+#include "beamforming/true_delays/one_beam_internal.hpp"
 #include "beamforming/true_delays/wideband_block_internal.hpp"
 #include "beamforming/true_delays/wideband_feed_internal.hpp"
 #include "core/error.hpp"
@@ -56,21 +58,6 @@ struct LevelTables {
       : plan(head, medium, sizes.tolerance, sizes.widest, sizes.block), fits(plan), transforms(plan) {}
 };
 
-/// Made when it is first used.
-template <typename Thing>
-class Lazy {
- public:
-  template <typename Make>
-  const Thing& get(const Make& make) const {
-    std::call_once(made_, [&] { thing_ = make(); });
-    return *thing_;
-  }
-
- private:
-  mutable std::once_flag made_;
-  mutable std::unique_ptr<Thing> thing_;
-};
-
 /// Opens a latch when it is left, by an exception too.
 struct CountDown {
   std::latch& latch;
@@ -92,7 +79,8 @@ struct WidebandSynthesizer::Plan {
   SynthesisOptions options;
   double widest;  ///< |u| of echoes
   WidebandLayout layout;
-  WidebandStretches stretches;  ///< what is nearer than blocks reach, then the blocks
+  WidebandStretches stretches;              ///< what is nearer than blocks reach, then the blocks
+  std::unique_ptr<const OneBeam> one_beam;  ///< instead of blocks; nullptr: does not pay
   std::deque<Lazy<LevelTables>> levels;
   std::deque<Lazy<WidebandBlock>> blocks;
   Lazy<Plan> all_around;  ///< for echoes farther out: of all directions
@@ -100,11 +88,18 @@ struct WidebandSynthesizer::Plan {
   Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest);
   const LevelTables& tables_of(std::size_t level) const;
   const WidebandBlock& block(std::size_t number) const;
-  ComplexGrid pressure(const WidebandFeed& feed) const;
+  /// The stretches by which echoes are fed to `pressure`.
+  const WidebandStretches& stretches_for(bool fast) const {
+    return one_beam && !fast ? one_beam->stretches() : stretches;
+  }
+  /// `fast`: echoes have larger Doppler shifts than OneBeam takes.
+  ComplexGrid pressure(const WidebandFeed& feed, bool fast = false) const;
+  /// Adds the images of all blocks.
+  void add_blocks(const WidebandFeed& feed, ComplexGrid& pressure) const;
   /// Adds the image of a block once wait() returns.
   void add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure,
                  const std::function<void()>& wait) const;
-  /// Adds echoes nearer than blocks reach, element by element.
+  /// Adds the echoes of the first stretch, element by element.
   void add_nearest(const WidebandFeed& feed, ComplexGrid& pressure) const;
   /// Calls use(plan) with this plan, or with one for all directions if `far_out` is beyond it. Throws Error beyond 1.
   template <typename Use>
@@ -133,13 +128,17 @@ ComplexGrid WidebandSynthesizer::pressure(const Echoes& echoes) const {
   require_synthesis(echoes, plan_->head, plan_->medium, plan_->options, "WidebandSynthesizer");
   double widest = 0;
   for (const double u : echoes.u) widest = std::max(widest, std::abs(u));
-  return plan_->with(widest, [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches)); });
+  const double most = BeamTableSizes::most_shifted * plan_->head.pulse.centre_frequency;
+  const bool fast =
+      std::any_of(echoes.doppler.begin(), echoes.doppler.end(), [&](double d) { return std::abs(d) > most; });
+  return plan_->with(widest,
+                     [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches_for(fast)), fast); });
 }
 
 ComplexGrid WidebandSynthesizer::pressure(const EchoStream& stream) const {
   if (stream.stored()) return pressure(*stream.stored());
   return plan_->with(widest_of(stream, plan_->widest), [&](const Plan& plan) {
-    return plan.pressure(feed_of(stream, plan.stretches, plan.medium.sound_speed));
+    return plan.pressure(feed_of(stream, plan.stretches_for(false), plan.medium.sound_speed));
   });
 }
 
@@ -151,6 +150,7 @@ WidebandSynthesizer::Plan::Plan(const SonarHead& head_in, const Medium& medium_i
       widest(widest_in),
       layout(head, medium, options.tolerance, widest),
       stretches(stretches_of(layout, head, medium)),
+      one_beam(OneBeam::make(head, medium, options.tolerance, widest)),
       levels(layout.levels.size()),
       blocks(layout.blocks.size()) {}
 
@@ -166,12 +166,21 @@ const WidebandBlock& WidebandSynthesizer::Plan::block(std::size_t number) const 
   });
 }
 
-ComplexGrid WidebandSynthesizer::Plan::pressure(const WidebandFeed& feed) const {
+ComplexGrid WidebandSynthesizer::Plan::pressure(const WidebandFeed& feed, bool fast) const {
   ComplexGrid pressure(head.fan.beams(), stretches.axis.bins);
   // By all threads: memory that the system clears only when it is added to costs each page two faults.
   parallel_blocks(head.fan.beams(), beams_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     pressure.middleRows(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin)).setZero();
   });
+  if (one_beam && !fast)
+    one_beam->add_image(feed, options.threads, pressure);
+  else
+    add_blocks(feed, pressure);
+  add_nearest(feed, pressure);
+  return pressure;
+}
+
+void WidebandSynthesizer::Plan::add_blocks(const WidebandFeed& feed, ComplexGrid& pressure) const {
   // Neighbouring blocks share bins: those of even numbers add to them first. Far blocks, which have most echoes, begin.
   const std::size_t odd = blocks.size() / 2, even = blocks.size() - odd;
   std::deque<std::latch> added;
@@ -185,8 +194,6 @@ ComplexGrid WidebandSynthesizer::Plan::pressure(const WidebandFeed& feed) const 
       if (number + 1 < added.size()) added[number + 1].wait();
     });
   });
-  add_nearest(feed, pressure);
-  return pressure;
 }
 
 void WidebandSynthesizer::Plan::add_block(std::size_t number, const WidebandFeed& feed, ComplexGrid& pressure,

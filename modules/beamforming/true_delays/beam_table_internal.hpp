@@ -1,0 +1,100 @@
+#pragma once
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include "beamforming/numerics/fft_internal.hpp"
+#include "beamforming/pulses/time_axis_internal.hpp"
+#include "core/units.hpp"
+#include "sonar/pulse.hpp"
+#include "sonar/sonar_head.hpp"
+
+namespace insonify {
+
+/// Elements of an array with the weights that a beam gives them. Responses are counted from an echo's arrival at `centre`.
+struct ArrayPart {
+  std::vector<double> y;       ///< places [m], positive to port
+  std::vector<double> weight;  ///< shading over the number of elements of the whole array
+  double centre = 0;           ///< [m]
+  double fade =
+      0;  ///< weights fade out over this length from `centre`, which is the end of the array [m]; 0: they do not
+
+  /// The whole array, about its middle.
+  static ArrayPart whole(const LineArray& array);
+  /// The port end of an array, whose weights fade out over `fade` [m].
+  static ArrayPart end(const LineArray& array, double fade);
+};
+
+/// What all tables of a part of the array share: steps of direction and time, and which ranges one table may span (E134).
+struct BeamTableSizes {
+  SonarHead head;
+  Medium medium;
+  double tolerance;
+  double widest;  ///< |u| of echoes
+  ArrayPart part;
+  TimeAxis axis;
+  PulseReach reach;  ///< half length of an echo's pulse
+  EchoShapes shapes;
+  double u_beam;
+  bool mirrored;               ///< the part receives alike from u and -u: tables hold one side
+  double highest;              ///< frequency that counts [Hz]
+  double first_u, u_step;      ///< directions of a table
+  std::size_t directions = 0;  ///< so many
+  std::size_t per_bin = 0;     ///< samples of a table per bin of the gate
+
+  /// Doppler shifts over the carrier: of the tables of moving echoes, and the largest that they are good for. Between, and as
+  /// far beyond, responses change linearly with the shift.
+  static constexpr double shifted = 5e-3, most_shifted = 0.025;
+
+  /// For a head with one beam and a Gaussian pulse, and echoes within `widest` of u = 0.
+  BeamTableSizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, ArrayPart part);
+
+  /// Range of a bin of the gate [m].
+  double range_of(double bin) const { return 0.5 * medium.sound_speed * (axis.start + bin * axis.step); }
+  /// By how much later than at the middle of the array an echo counts at the part [s]: its way to the centre of the part,
+  /// less that of a wave from the beam's focus.
+  double lateness(double range, double u) const;
+  /// Half length of a response to an echo from `near` to `far` [s]: the pulse, and what the part's delays add.
+  double half_length(double near, double far) const;
+  /// The last bin of a table that begins at bin `first`: between its ranges phases turn by as much as four of them allow.
+  double last_bin(double first) const;
+
+ private:
+  double path(double range, double u, double time, double y) const;
+  double phase_between(double near, double far) const;
+};
+
+/// The responses of one focused beam, or of a part of its array, to echoes of unit amplitude from some bins of the gate:
+/// smooth in 1 / range and direction, and of limited band, so polynomials between the entries of a table give them (E134). Refers to its sizes.
+class BeamTable {
+ public:
+  /// Sums over all elements for every entry. `doppler`: shift over the carrier. Directions count from the beam, times
+  /// (1 + doppler), so that responses hardly depend on it.
+  BeamTable(const BeamTableSizes& sizes, double first_bin, double last_bin, double doppler);
+
+  /// Adds an echo to an image of `bins` bins, the first of which is bin `first` of the gate. `shifted`: the same table for
+  /// BeamTableSizes::shifted, or nullptr for an echo at rest; doppler [Hz].
+  void add(double delay, double u, std::complex<double> amplitude, double doppler, const BeamTable* shifted,
+           std::ptrdiff_t first, std::ptrdiff_t bins, std::complex<double>* image) const;
+
+  /// Bins that a response reaches beyond its echo, to either side.
+  static double guard(const BeamTableSizes& sizes, double first_bin, double last_bin);
+  /// Samples of pulses that a table sums that ends at this bin.
+  static double work(const BeamTableSizes& sizes, double last_bin);
+  /// Size of a table [bytes].
+  static double bytes(const BeamTableSizes& sizes, double first_bin, double last_bin);
+
+ private:
+  void fill(std::size_t node);
+  void write(std::size_t node, std::size_t direction, const double* re, const double* im);
+
+  const BeamTableSizes& sizes_;
+  double stretch_;            ///< 1 + doppler
+  double half_;               ///< length of a response [s]
+  std::size_t width_;         ///< bins of a response, filled up
+  std::size_t times_;         ///< rows of one direction: time within a bin, and taps
+  std::vector<double> node_;  ///< of 1 / range [1/m]
+  AlignedFloats values_;      ///< by range, direction, time within a bin, part and bin
+};
+
+}  // namespace insonify

@@ -1,0 +1,62 @@
+#include <cmath>
+
+#include "beamforming/true_delays/beam_table_loops_internal.hpp"
+#include "core/target_clones.hpp"
+#include "core/vector_functions.hpp"
+
+namespace insonify::kernels {
+namespace {
+
+using Eight = float __attribute__((vector_size(32)));
+constexpr std::size_t eights = samples_at_once / 8;
+
+}  // namespace
+
+INSONIFY_CLONES
+void focus_at(const ElementFocus& focus, std::size_t count, double* path) {
+  const double range = focus.range, step = focus.step, y = focus.y, twice = 2 * focus.u * focus.y;
+#pragma GCC ivdep
+  for (std::size_t j = 0; j < count; ++j) {
+    const double asked = range + static_cast<double>(j) * step, r = asked < 1e-3 ? 1e-3 : asked;
+    const double squared = y * y - twice * r, sum = r * r + squared;
+    path[j] = squared / (std::sqrt(sum < 0 ? 0 : sum) + r);
+  }
+}
+
+INSONIFY_CLONES
+void add_element(const ElementPulse& pulse, const double* focus, double path, double weight, std::size_t begin,
+                 std::size_t end, double* re, double* im) {
+  constexpr double pi = 3.14159265358979323846;
+  const double per_speed = 1 / pulse.speed, decay = -pi * pi / pulse.a, turn = 0.5 * pulse.b / pulse.a;
+  const double start = pulse.start + pulse.late, step = pulse.step, carrier = pulse.carrier,
+               after = carrier * pulse.late;
+#pragma GCC ivdep
+  for (std::size_t j = begin; j < end; ++j) {
+    const double early = (focus[j] - path) * per_speed, t = start + static_cast<double>(j) * step + early;
+    double sine, cosine;
+    vec::sine_cosine(turn * t - carrier * early - after, sine, cosine);
+    const double magnitude = weight * vec::exp(decay * t * t);
+    re[j] += magnitude * cosine;
+    im[j] += magnitude * sine;
+  }
+}
+
+INSONIFY_CLONES
+void sum_response(const float* first, const ResponseTaps& taps, float* response) {
+  for (std::size_t n = 0; n < taps.row; n += samples_at_once) {
+    Eight sum[eights] = {}, row;
+    for (std::size_t c = 0; c < range_taps; ++c)
+      for (std::size_t g = 0; g < direction_taps; ++g) {
+        const float* at = first + c * taps.plane + g * taps.line + n;
+        const float here = taps.range[c] * taps.direction[g];
+        for (std::size_t q = 0; q < time_taps; ++q, at += taps.row)
+          for (std::size_t k = 0; k < eights; ++k) {
+            __builtin_memcpy(&row, at + 8 * k, sizeof row);
+            sum[k] += here * taps.time[q] * row;
+          }
+      }
+    __builtin_memcpy(response + n, sum, sizeof sum);
+  }
+}
+
+}  // namespace insonify::kernels

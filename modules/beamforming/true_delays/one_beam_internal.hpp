@@ -1,0 +1,62 @@
+#pragma once
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "beamforming/numerics/lazy_internal.hpp"
+#include "beamforming/true_delays/beam_table_internal.hpp"
+#include "beamforming/true_delays/wideband_feed_internal.hpp"
+#include "core/grid.hpp"
+
+namespace insonify {
+
+/// The tables of one part of the array for all ranges from `nearest` on. Each is made when it is first used.
+class BeamTables {
+ public:
+  /// `nearest` [bins of the gate].
+  BeamTables(BeamTableSizes sizes, double nearest);
+
+  /// First bins of the tables, and the end of the last.
+  const std::vector<double>& edges() const { return edge_; }
+  /// The table that begins at or before a bin; `shifted`: that for BeamTableSizes::shifted.
+  const BeamTable& at(double bin, bool shifted) const;
+  /// Bins that responses reach beyond their echoes, to either side.
+  double guard() const { return guard_; }
+  /// Samples of pulses that all tables sum, and their size [bytes].
+  double work() const;
+  double bytes() const;
+
+ private:
+  BeamTableSizes sizes_;
+  std::vector<double> edge_;
+  std::deque<Lazy<BeamTable>> table_, shifted_;
+  double guard_ = 0;
+};
+
+/// The image of one beam with true delays, focused at every range (E61, E62), as a sum of responses read from tables (E134).
+/// Of an echo far beyond the main lobe, all that lies between the ends of the array cancels: two tables of the ends give its
+/// response. The cost of an echo depends on neither elements nor directions.
+class OneBeam {
+ public:
+  /// Returns nullptr if the head has several beams or a sweep, or if its tables cost more than they are worth. `widest`: |u|
+  /// of echoes.
+  static std::unique_ptr<const OneBeam> make(const SonarHead& head, const Medium& medium, double tolerance,
+                                             double widest);
+
+  /// What is nearer than tables reach, then stretches of at most 256 bins.
+  const WidebandStretches& stretches() const { return stretches_; }
+  /// Adds the echoes of all stretches but the first to the image of 1 x bins [Pa]. The bits do not depend on `threads`.
+  /// Doppler shifts must be within most_shifted of the carrier.
+  void add_image(const WidebandFeed& feed, int threads, ComplexGrid& pressure) const;
+
+ private:
+  OneBeam(const SonarHead& head, const Medium& medium, double tolerance, double widest, double split);
+
+  double split_;                     ///< |u| from which on the ends count alone
+  BeamTables whole_;                 ///< up to there
+  std::unique_ptr<BeamTables> end_;  ///< from there on; nullptr: there is nothing
+  double guard_;                     ///< bins that responses reach
+  WidebandStretches stretches_;
+};
+
+}  // namespace insonify
