@@ -101,6 +101,17 @@ TEST_F(MergedRuns, keep_returns_contributors_and_insonification) {
   EXPECT_EQ(load_scene(path("both/insonification.pcd")).scene.size(), sum.size());
 }
 
+// Pings of one number are numbered anew, in their order in time, and so are their returns.
+TEST_F(MergedRuns, of_one_number_are_numbered_anew) {
+  ping("late", "--pose=0,0,-3,0,10,0 --time 2 --ping 7");
+  ping("early", "--pose=0,1,-3,10,10,0 --time 1 --ping 7");
+  succeed("merge late early -o both");
+  EXPECT_EQ(read_cube(path("both/cube.h5")).pings[1].number, 1);
+  const Soundings both = load_soundings(path("both/returns.ply"));
+  EXPECT_EQ(both.ping.front(), 0u);
+  EXPECT_EQ(both.ping.back(), 1u);
+}
+
 TEST_F(MergedRuns, leave_out_what_not_all_have_and_say_so) {
   ping("with", "--pose=0,0,-3,0,10,0 --time 1 --keep contributors,insonification");
   ping("without", "--pose=0,0,-3,0,10,0 --time 2");

@@ -58,6 +58,19 @@ TEST_F(SurveyStops, interrupted_it_keeps_every_finished_ping) {
   EXPECT_EQ(nlohmann::json::parse(read("run/status.json"))["state"], "done");
 }
 
+// What a block that was interrupted after all of its pings leaves.
+TEST_F(SurveyStops, interrupted_blocks_are_read_and_not_pinged_again) {
+  const auto whole = expected();
+  survey("run");
+  const std::string block = path("run/fls/blocks/000001");
+  fs::remove(block + ".done");
+  fs::rename(block + ".h5", block + ".partial.h5");
+  fs::rename(block + ".ply", block + ".partial.ply");
+  EXPECT_EQ(nlohmann::json::parse(succeed("survey m.toml -o run --json -q"))["made"], 0);
+  EXPECT_EQ(merged("run"), whole);
+  EXPECT_EQ(names_in("run/fls/blocks"), names_in("whole/fls/blocks"));
+}
+
 // A limit of the size of files refuses to write as a full disk does.
 TEST_F(SurveyStops, on_a_full_disk_it_ends_and_goes_on_when_there_is_space) {
   const auto whole = expected();
