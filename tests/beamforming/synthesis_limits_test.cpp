@@ -157,17 +157,6 @@ TEST(SynthesisLimits, weak_echo_keeps_its_accuracy_beside_one_300_db_louder) {
   EXPECT_GT(slow.leftCols(far).abs().maxCoeff() / slow.rightCols(far).abs().maxCoeff(), 0.9e15);
 }
 
-// 4096 scatterers in one bin and one direction: the sum keeps its tolerance, for any number of threads.
-TEST(SynthesisLimits, echoes_of_one_place_add_up_with_any_number_of_threads) {
-  const SonarHead head = single_beam({900e3, 29.5e3, 220}, 4, 6);
-  const Scatterers targets = targets_at(std::vector<double>(4096, 5.0));
-  const Echoes echoes = echoes_of(targets, head.pulse, clear_water());
-  const ComplexGrid one = synthesize_gridded(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = 1});
-  EXPECT_NEAR(one.abs().maxCoeff(), 4096 * std::abs(echoes.amplitude[0]), 1e-11 * one.abs().maxCoeff());
-  for (const int threads : {2, 5})
-    EXPECT_TRUE(same(synthesize_gridded(echoes, head, clear_water(), {.tolerance = 1e-11, .threads = threads}), one));
-}
-
 TEST(SynthesisLimits, thousands_of_beams_are_what_each_is_alone) {
   SonarHead head = nine_beam_head();
   head.array = {head.array.spacing, uniform_shading(256)};

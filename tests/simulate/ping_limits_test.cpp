@@ -40,17 +40,6 @@ TEST(PingLimits, back_of_an_oriented_patch_is_silent_and_of_an_unoriented_one_is
   EXPECT_EQ(peak(ping_of(scene, coherent)), peak(ping_of(one_surfel({5, 0, 0}, {-1, 0, 0}), coherent)));
 }
 
-TEST(PingLimits, flipped_normals_without_sides_give_the_image_of_oriented_ones) {
-  const ComplexGrid oriented = image(ping_of(plate(5, 2, 20)));
-  SceneCloud mixed = plate(5, 2, 20);
-  mixed.normals_oriented = false;
-  for (std::size_t i = 0; i < mixed.size(); i += 3) mixed.normal[i] = -mixed.normal[i];
-  EXPECT_LT(relative_l2(image(ping_of(mixed, {.sampling = {.scatterers_per_cell = 0}})),
-                        image(ping_of(plate(5, 2, 20), {.sampling = {.scatterers_per_cell = 0}}))),
-            1e-12);
-  EXPECT_GT(oriented.abs().maxCoeff(), 0);
-}
-
 TEST(PingLimits, point_at_the_head_itself_gives_no_echo_and_hides_nothing) {
   SceneCloud scene = plate(5, 2, 20);
   const ComplexGrid alone = image(ping_of(scene));

@@ -151,15 +151,6 @@ TEST(MakeHead, takes_one_omnidirectional_element_for_a_beam_of_180_degrees) {
   expect_error(ErrorKind::argument, {"beam_width_deg = 181 deg", "at most 180"}, [&] { make_head(s, 1500); });
 }
 
-TEST(MakeHead, refuses_beams_beyond_the_circle) {
-  SonarSpec s = nine_beams();
-  s.beams = 3;
-  for (const double azimuth : {3.15, -4.0, HUGE_VAL, std::nan("")}) {
-    s.azimuths = {-0.1, azimuth, 0.1};
-    expect_error(ErrorKind::argument, {"azimuth[1]", "rad", "within +-pi"}, [&] { make_head(s, 1500); });
-  }
-}
-
 TEST(MakeHead, refuses_a_pulse_longer_than_the_gate) {
   SonarSpec s = nine_beams();
   s.bandwidth = 50;  // c / 2B = 15 m in a gate of 11 m
