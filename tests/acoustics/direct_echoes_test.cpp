@@ -4,9 +4,9 @@
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace insonify::direct_echoes_tests {
 
-const Medium absorbing_medium{1500, {0.0345, 0, 0}};
+const Medium medium{1500, {0.0345, 0, 0}};
 
 Scatterers one_scatterer(double range, double azimuth = 0, double elevation = 0, std::uint64_t id = 1) {
   Scatterers s;
@@ -23,12 +23,10 @@ Scatterers one_scatterer(double range, double azimuth = 0, double elevation = 0,
 
 std::complex<double> echo_of(const Scatterers& s, const EchoOptions& options) {
   const std::vector<Material> materials{{"m", 0.1}};
-  return direct_echoes(s, materials, pulse_900k, absorbing_medium, options).amplitude[0];
+  return direct_echoes(s, materials, pulse_900k, medium, options).amplitude[0];
 }
 
 const EchoOptions coherent{.amplitude = SurfaceAmplitude::coherent};
-
-}  // namespace
 
 TEST(LambertCrossSection, has_one_cosine_per_projected_area) {
   // A surfel of 1 m^2 at 60 degrees: mu cos^2 dS = 0.1 * 0.25 * 1.
@@ -51,7 +49,7 @@ TEST(DirectEchoes, loses_40_log_of_the_range_ratio) {
 
 // A quarter wavelength of range is half a cycle of two-way phase: the sign changes.
 TEST(DirectEchoes, keeps_the_two_way_phase) {
-  const double wavelength = absorbing_medium.sound_speed / pulse_900k.centre_frequency;
+  const double wavelength = medium.sound_speed / pulse_900k.centre_frequency;
   const auto a = echo_of(one_scatterer(600 * wavelength), coherent);
   const auto b = echo_of(one_scatterer(600.25 * wavelength), coherent);
   EXPECT_NEAR(std::arg(a), 0, 1e-9);
@@ -62,11 +60,12 @@ TEST(DirectEchoes, keeps_the_two_way_phase) {
   EXPECT_NEAR(std::arg(echo_of(one_scatterer(60.0001), coherent)), 2 * pi * 0.12, 1e-9);
 }
 
-TEST(DirectEchoes, gives_delay_and_direction_cosine) {
+TEST(DirectEchoes, gives_delay_and_direction_cosines) {
   const std::vector<Material> materials{{"m", 0.1}};
-  const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse_900k, absorbing_medium, coherent);
+  const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse_900k, medium, coherent);
   EXPECT_DOUBLE_EQ(e.delay[0], 0.01);
   EXPECT_DOUBLE_EQ(e.u[0], std::cos(-0.2) * std::sin(0.3));
+  EXPECT_DOUBLE_EQ(e.v[0], std::sin(-0.2));
 }
 
 TEST(DirectEchoes, applies_the_elevation_pattern) {
@@ -89,12 +88,6 @@ TEST(DirectEchoes, applies_the_transmit_pattern_in_azimuth) {
   }
 }
 
-TEST(DirectEchoes, gives_the_direction_cosine_upwards) {
-  const std::vector<Material> materials{{"m", 0.1}};
-  const Echoes e = direct_echoes(one_scatterer(7.5, 0.3, -0.2), materials, pulse_900k, absorbing_medium, coherent);
-  EXPECT_DOUBLE_EQ(e.v[0], std::sin(-0.2));
-}
-
 TEST(DirectEchoes, binds_speckle_to_the_scatterer_id_and_seed) {
   const EchoOptions speckle;
   const auto a = echo_of(one_scatterer(7, 0, 0, 5), speckle);
@@ -112,8 +105,7 @@ TEST(DirectEchoes, coherent_fraction_mixes_1_and_the_random_amplitude_at_mean_po
   const auto xi = [](double fraction, SurfaceAmplitude law) {
     const std::vector<Material> materials{{"m", 0.1, fraction, 0}};
     EchoOptions options{.amplitude = law};
-    const auto echo =
-        direct_echoes(one_scatterer(7, 0, 0, 5), materials, pulse_900k, absorbing_medium, options).amplitude[0];
+    const auto echo = direct_echoes(one_scatterer(7, 0, 0, 5), materials, pulse_900k, medium, options).amplitude[0];
     return echo / echo_of(one_scatterer(7), coherent);
   };
   for (const SurfaceAmplitude law : {SurfaceAmplitude::complex_normal, SurfaceAmplitude::random_phase}) {
@@ -130,16 +122,16 @@ TEST(DirectEchoes, coherent_fraction_must_be_a_fraction) {
     const std::vector<Material> materials{{"mud", 0.1, fraction, 0}};
     expect_error(ErrorKind::argument,
                  {"direct_echoes: coherent_fraction of material 'mud' = ", ", must be within 0 and 1"},
-                 [&] { direct_echoes(one_scatterer(7), materials, pulse_900k, absorbing_medium, coherent); });
+                 [&] { direct_echoes(one_scatterer(7), materials, pulse_900k, medium, coherent); });
   }
 }
 
 TEST(DirectEchoes, gives_each_scatterer_the_mu_of_its_own_material) {
   const std::vector<Material> materials{{"loud", 0.1}, {"soft", 0.025}};
   Scatterers s = one_scatterer(7);
-  const auto loud = direct_echoes(s, materials, pulse_900k, absorbing_medium, coherent).amplitude[0];
+  const auto loud = direct_echoes(s, materials, pulse_900k, medium, coherent).amplitude[0];
   s.material = {1};
-  const auto soft = direct_echoes(s, materials, pulse_900k, absorbing_medium, coherent).amplitude[0];
+  const auto soft = direct_echoes(s, materials, pulse_900k, medium, coherent).amplitude[0];
   EXPECT_NEAR(std::abs(loud) / std::abs(soft), 2, 1e-12);
 }
 
@@ -155,13 +147,23 @@ TEST(DirectEchoes, names_the_scatterer_it_refuses) {
   Scatterers s = one_scatterer(7);
   s.material = {3};
   EXPECT_THROW(echo_of(s, coherent), Error);
+  for (const double mu : {-0.1, std::nan(""), HUGE_VAL}) {
+    const std::vector<Material> odd{{"odd", mu}};
+    expect_error(ErrorKind::argument, {"lambert_mu", "'odd'", ">= 0"},
+                 [&] { direct_echoes(one_scatterer(7), odd, pulse_900k, medium); });
+  }
 }
 
 TEST(TargetEchoes, uses_the_given_cross_section_and_amplitude) {
   const std::vector<double> sigma{0.01};
   const std::vector<std::complex<double>> xi{{0, 2}};
-  const auto a = target_echoes(one_scatterer(7), sigma, xi, pulse_900k, absorbing_medium).amplitude[0];
+  const auto a = target_echoes(one_scatterer(7), sigma, xi, pulse_900k, medium).amplitude[0];
   const double expected = pulse_900k.source_level_db - 40 * std::log10(7.0) - 20 + 20 * std::log10(2.0);
   EXPECT_NEAR(pressure_level_db(std::abs(a)), expected, 1e-9);
-  EXPECT_THROW(target_echoes(one_scatterer(7), {}, xi, pulse_900k, absorbing_medium), Error);
+  EXPECT_THROW(target_echoes(one_scatterer(7), {}, xi, pulse_900k, medium), Error);
+  for (const double wrong : {-1.0, std::nan(""), HUGE_VAL})
+    expect_error(ErrorKind::argument, {"sigma[0]", "m^2", ">= 0"},
+                 [&] { target_echoes(one_scatterer(7), std::vector<double>{wrong}, xi, pulse_900k, medium); });
 }
+
+}  // namespace insonify::direct_echoes_tests

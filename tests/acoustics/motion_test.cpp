@@ -4,10 +4,10 @@
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace insonify::motion_tests {
 
 constexpr double frequency = 900e3;
-const Medium lossless_medium{c0, {0, 0, 0}};
+const Medium medium{c0, {0, 0, 0}};
 
 Scatterers points(const std::vector<Eigen::Vector3d>& head_points) {
   Scatterers s;
@@ -28,7 +28,7 @@ Scatterers points(const std::vector<Eigen::Vector3d>& head_points) {
 Echoes echoes_of(const Scatterers& s) {
   const std::vector<double> sigma(s.size(), 1);
   const std::vector<std::complex<double>> xi(s.size(), 1);
-  Echoes echoes = target_echoes(s, sigma, xi, pulse_900k, lossless_medium);
+  Echoes echoes = target_echoes(s, sigma, xi, pulse_900k, medium);
   echoes.v.assign(s.size(), 0);
   return echoes;
 }
@@ -47,8 +47,6 @@ Trajectory bent_track() {
           {pose_from_yaw_pitch_roll({0, 0, 0}, 0, 0, 0), pose_from_yaw_pitch_roll({4, 0, -1}, 0.5, 0, 0),
            pose_from_yaw_pitch_roll({4, 3, -1}, 0.5, 0.2, 0)}};
 }
-
-}  // namespace
 
 TEST(MoveEchoes, leaves_echoes_of_a_head_at_rest_as_they_are) {
   const Echoes before = echoes_of(spread), after = moved({}, spread);
@@ -204,3 +202,5 @@ TEST(Trajectory, is_refused_with_entry_value_and_rule) {
   EXPECT_EQ(text(t), "test: trajectory has 3 times, but 2 poses");
   EXPECT_EQ(text({{0}, {Pose::Identity()}}), "test: trajectory has 1 entries, must have two at least");
 }
+
+}  // namespace insonify::motion_tests

@@ -6,9 +6,9 @@
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace insonify::reverberation_echoes_tests {
 
-const Medium water_medium{1500, {0.2994626 * nepers_per_db, 0, 0}};
+const Medium medium{1500, {0.2994626 * nepers_per_db, 0, 0}};
 const double beam_width = radians(1);
 const double array_length = 0.885893 * wavelength_900k / beam_width;  // of a uniform line with that -3 dB width
 const double pulse_energy = 0.469719 / 29.5e3;                        // integral of the squared envelope [s]
@@ -19,7 +19,7 @@ BeamFan fan_of(double field_deg) {
 }
 
 Transmission transmission(std::uint64_t seed = 1, double elevation_width = 0) {
-  return {pulse_900k, water_medium, {.elevation_width = elevation_width, .seed = seed}};
+  return {pulse_900k, medium, {.elevation_width = elevation_width, .seed = seed}};
 }
 
 Environment environment() {
@@ -42,7 +42,7 @@ std::complex<double> beam_ahead(const Echoes& e, double range) {
     if (std::abs(t) > 1.5 / pulse_900k.bandwidth) continue;
     const double x = pi * array_length / wavelength_900k * e.u[i];
     const double pattern = std::abs(x) < 1e-9 ? 1 : std::sin(x) / x;
-    sum += e.amplitude[i] * pattern * echo_envelope(pulse_900k, water_medium.absorption, 750 * e.delay[i]).at(t);
+    sum += e.amplitude[i] * pattern * echo_envelope(pulse_900k, medium.absorption, 750 * e.delay[i]).at(t);
   }
   return sum;
 }
@@ -73,8 +73,6 @@ Looks listen(Hear&& receive, double range, int pings) {
 bool equal(const Echoes& a, const Echoes& b) {
   return a.delay == b.delay && a.u == b.u && a.v == b.v && a.amplitude == b.amplitude;
 }
-
-}  // namespace
 
 // RL = SL - 40 log r - 2 a r + Sv + 10 log V, V = (lambda / L) integral b_E^2 de  r^2 c tau_e / 2: over a line beam
 // ahead, cos(e) dtheta de = du de, so that the cosine cancels.
@@ -227,7 +225,7 @@ TEST(BottomEchoes, is_what_a_plane_of_surfels_gives) {
   sent.echo_options.amplitude = SurfaceAmplitude::coherent;
   const SamplingOptions sampling{.scatterers_per_cell = 0, .elevation_half_extent = pi / 2, .occlusion = false};
   const Scatterers s = find_scatterers(plane, pose, fan_of(60), gate, sampling).scatterers;
-  const Echoes surfels = direct_echoes(s, plane.materials, pulse_900k, water_medium, sent.echo_options);
+  const Echoes surfels = direct_echoes(s, plane.materials, pulse_900k, medium, sent.echo_options);
   const auto moments = [](const Echoes& x, double from, double to) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -404,3 +402,5 @@ TEST(ChapmanHarris, refuses_values_without_a_meaning) {
   EXPECT_EQ(error_of([] { chapman_harris_strength_db(1000, 5, 0); }),
             "chapman_harris_strength_db: grazing = 0 rad, must be > 0 and at most pi/2");
 }
+
+}  // namespace insonify::reverberation_echoes_tests

@@ -215,16 +215,6 @@ TEST(Synthesize, of_rows_keeps_its_tolerance_against_the_referee) {
     }
 }
 
-TEST(Synthesize, of_rows_does_not_depend_on_threads) {
-  const SonarHead head = planar_head(5, 6);
-  const Echoes echoes = planar_echoes(6000);
-  for (const SynthesisMethod method : {SynthesisMethod::gridded, SynthesisMethod::direct}) {
-    const ComplexGrid p = synthesize(echoes, head, planar_medium, method, {.threads = 1});
-    for (const int threads : {2, 7})
-      EXPECT_TRUE((synthesize(echoes, head, planar_medium, method, {.threads = threads}) == p).all());
-  }
-}
-
 TEST(WithPatterns, gives_direct_echoes_its_part_and_no_more) {
   SonarHead line = stacked_head(4, 1);
   line.fan.elevation.assign(4, -0.2);

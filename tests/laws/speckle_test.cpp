@@ -173,18 +173,3 @@ TEST(SpeckleLaws, rician_fraction_sets_mean_field_and_square_at_constant_power) 
     EXPECT_NEAR(m.square_ratio(), 1 + (1 + 2 * k) / std::pow(1 + k, 2), 3 * std::sqrt(20 / m.n)) << g;
   }
 }
-
-TEST(SpeckleLaws, a_static_scene_has_the_same_speckle_in_every_ping) {
-  const SceneCloud scene = flat_bottom();
-  const SonarHead head = bottom_head();
-  const auto ping = [&](std::int64_t number, std::uint64_t seed) {
-    SimulationOptions options;
-    options.seed = seed;
-    const PingEvent event{.time = 0.1 * static_cast<double>(number), .number = number};
-    return simulate_event(scene, head, event, {Water{}}, options).ping.pressure;
-  };
-  const ComplexGridF first = ping(0, 1);
-  EXPECT_TRUE((first == ping(1, 1)).all());
-  EXPECT_TRUE((first == ping(1000, 1)).all());
-  EXPECT_FALSE((first == ping(0, 2)).any());
-}

@@ -25,30 +25,27 @@ while (($#)); do
   esac
 done
 
-# One line per mutation, its six fields apart by the character 31.
+# One line per mutation: term, id ("-" if none), file, old text, new text and test, separated by the character 31.
 mutations() {
   perl -e '
     use strict;
     my ($table, $only) = @ARGV;
     open(my $in, "<", $table) or die "$table: $!\n";
-    my (%m, $failed);
-    my $flush = sub {
-      return unless %m;
-      for (qw(term id file old new test)) { next if defined $m{$_}; warn "$table:$.: $_ is missing before here\n"; $failed = 1 }
-      print join("\x1f", map { $m{$_} // "" } qw(term id file old new test)), "\n"
-        if $only eq "" || index(lc $m{term}, lc $only) >= 0 || $m{id} eq $only;
-      %m = ();
-    };
+    my ($file, @m);
     while (<$in>) {
       s/\s+$//;
-      if ($_ eq "") { $flush->(); next }
-      next if /^#/;
-      /^(term|id|file|old|new|test)\b ?\s*(.*)$/ or die "$table:$.: not a field: $_\n";
-      die "$table:$.: $1 comes twice\n" if exists $m{$1};
-      $m{$1} = $2;
+      next if /^#/ || $_ eq "";
+      if (!@m && /^@ (\S+)$/) { $file = $1 }
+      elsif (!@m && defined $file && /^(?:(E\d+) )?(.+): (\w+ \S+)$/) { @m = ($2, $1 // "-", $file, $3) }
+      elsif (@m == 4 && /^- (.+)/) { splice @m, 3, 0, $1 }
+      elsif (@m == 5 && /^\+(?: (.*))?$/) {
+        splice @m, 4, 0, $1 // "";
+        print join("\x1f", @m), "\n" if $only eq "" || index(lc $m[0], lc $only) >= 0 || $m[1] eq $only;
+        @m = ();
+      }
+      else { die "$table:$.: not the next line of a mutation (@ file; term: test; - old; + new): $_\n" }
     }
-    $flush->();
-    exit($failed ? 2 : 0);' "$table" "$only"
+    die "$table: ends within a mutation\n" if @m;' "$table" "$only"
 }
 
 # Complains of every mutation on stdin that does not fit the code.
@@ -70,8 +67,7 @@ check() {
     exit($stale ? 2 : 0);' "$root"
 }
 
-# Headers last: each of them builds nearly everything again.
-list=$(mutations | awk -F '\x1f' '$3 ~ /\.hpp$/ { headers = headers $0 "\n"; next } { print } END { printf "%s", headers }')
+list=$(mutations)
 [[ -n $list ]] || { echo "no mutation holds '$only'" >&2; exit 2; }
 
 if [[ $mode == list ]]; then

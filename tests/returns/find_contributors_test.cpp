@@ -5,9 +5,9 @@
 #include "beamforming/head_patterns.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace insonify::find_contributors_tests {
 
-const Medium contributor_medium{1500, {0.02, 0, 0}};
+const Medium medium{1500, {0.02, 0, 0}};
 
 /// 600 kHz, 11 beams over 40 degrees, bins of 1 cm from 2 m to 4 m.
 SonarHead contributor_head() {
@@ -35,14 +35,14 @@ struct SurfelSet {
   }
   void add(std::uint32_t of, double range, double azimuth, double elevation, std::complex<double> amplitude,
            LegPair by = {}) {
-    echoes.delay.push_back(2 * range / contributor_medium.sound_speed);
+    echoes.delay.push_back(2 * range / medium.sound_speed);
     echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)), echoes.v.push_back(std::sin(elevation));
     echoes.amplitude.push_back(amplitude);
     surfel.push_back(of), legs.push_back(by);
   }
   std::vector<SurfelEchoes> parts() const { return {{echoes, surfel, legs}}; }
   Contributors find(const SonarHead& head, const ContributorOptions& options = {}) const {
-    return find_contributors(scene, parts(), head, contributor_medium, options);
+    return find_contributors(scene, parts(), head, medium, options);
   }
 };
 
@@ -71,16 +71,16 @@ using Key = std::tuple<std::uint32_t, std::uint8_t, std::uint8_t>;
 
 /// Reference: every echo in every pixel, with the whole pulse and the array summed element by element (E63).
 std::map<Key, double> energies_at(const SurfelSet& h, const SonarHead& head, std::size_t beam, std::size_t bin) {
-  const double wavelength = contributor_medium.sound_speed / head.pulse.centre_frequency;
+  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
   const double u_beam = std::cos(head.fan.elevation[beam]) * std::sin(head.fan.azimuth[beam]);
   const bool rows = head.column || fan_rows(head.fan).size() > 1;
-  const EchoShapes shapes(head.pulse, contributor_medium);
+  const EchoShapes shapes(head.pulse, medium);
   RowResponse row(head, wavelength, head.fan.elevation[beam]);
   std::map<Key, double> energies;
   for (std::size_t i = 0; i < h.echoes.size(); ++i) {
     const double response =
         array_response(head.array, wavelength, h.echoes.u[i], u_beam).real() * (rows ? row.at(h.echoes.v[i]) : 1);
-    const double t = 2 * head.gate.centre(bin) / contributor_medium.sound_speed - h.echoes.delay[i];
+    const double t = 2 * head.gate.centre(bin) / medium.sound_speed - h.echoes.delay[i];
     const double energy =
         std::norm(h.echoes.amplitude[i] * response * shapes.of(h.echoes.delay[i], h.echoes.doppler_of(i)).at(t));
     energies[{h.surfel[i], h.legs[i].out, h.legs[i].back}] += energy;
@@ -119,8 +119,6 @@ void expect_as_referee(const SurfelSet& set, const SonarHead& head) {
     }
   EXPECT_GT(checked, 200U);
 }
-
-}  // namespace
 
 TEST(FindContributors, agrees_with_every_echo_against_every_pixel) {
   for (const unsigned seed : {1U, 2U, 3U}) expect_as_referee(random_echoes(seed), contributor_head());
@@ -307,3 +305,5 @@ TEST(FindContributors, refuses_invalid_arguments) {
   set.surfel.pop_back();
   EXPECT_THAT(error_of([&] { set.find(head); }), HasSubstr("give one of each"));
 }
+
+}  // namespace insonify::find_contributors_tests

@@ -5,10 +5,10 @@
 #include "support/scenes.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace insonify::insonification_tests {
 
 constexpr double alpha_db = 0.3;  ///< [dB/m]
-const Medium decibel_medium{1500, {alpha_db * nepers_per_db, 0, 0}};
+const Medium medium{1500, {alpha_db * nepers_per_db, 0, 0}};
 constexpr double mu = 0.05, area = 1e-4;
 
 /// 600 kHz, 21 beams over 40 degrees, 1 m to 30 m.
@@ -45,15 +45,13 @@ Scatterers seen(const SceneCloud& scene, const SonarHead& head, const Pose& pose
 
 std::vector<CoveredSurfel> map_of(const SceneCloud& scene, const SonarHead& head = insonifying_head(),
                                   const Pose& pose = Pose::Identity(), double per_cell = 0) {
-  return coverage_of(scene, seen(scene, head, pose, per_cell), head, decibel_medium);
+  return coverage_of(scene, seen(scene, head, pose, per_cell), head, medium);
 }
 
 /// SL - 2 TL + TS of `target_at`.
 double sonar_equation(double range) {
   return 210 - 2 * (20 * std::log10(range) + alpha_db * range) + 10 * std::log10(mu * area);
 }
-
-}  // namespace
 
 TEST(Insonification, level_of_one_surfel_on_axis_is_the_sonar_equation) {
   const std::vector<CoveredSurfel> map = map_of(target_at(7));
@@ -183,9 +181,9 @@ TEST(Insonification, of_another_scene_is_refused) {
   add_surfel(other, {5, 0, 0}, {-1, 0, 0}, area);
   const SonarHead head = insonifying_head();
   const Scatterers two = seen(other, head, Pose::Identity());
-  EXPECT_EQ(error_of([&] { coverage_of(target_at(7), two, head, decibel_medium); }),
+  EXPECT_EQ(error_of([&] { coverage_of(target_at(7), two, head, medium); }),
             "coverage_of: a scatterer is of surfel 1, but the scene has 1");
-  EXPECT_EQ(error_of([&] { coverage_of(target_at(7), {}, head, decibel_medium, {.min_response_db = 3}); }),
+  EXPECT_EQ(error_of([&] { coverage_of(target_at(7), {}, head, medium, {.min_response_db = 3}); }),
             "coverage_of: min_response_db = 3 dB, must be <= 0");
 }
 
@@ -201,7 +199,7 @@ std::vector<CoveredSurfel> line_over_bed(int pings, double spacing, SceneCloud& 
   std::vector<CoveredSurfel> covered;
   for (int k = -pings / 2; k <= pings / 2; ++k) {
     const Pose pose = pose_from_yaw_pitch_roll({k * spacing, 0, 0}, pi / 2, radians(30), 0);
-    add(covered, coverage_of(bed, seen(bed, head, pose), head, decibel_medium));
+    add(covered, coverage_of(bed, seen(bed, head, pose), head, medium));
   }
   return covered;
 }
@@ -245,7 +243,7 @@ TEST(Coverage, of_twice_as_many_pings_is_3_db_more_insonification) {
 TEST(Coverage, of_one_ping_is_its_insonification) {
   const SceneCloud scene = target_at(7);
   const auto covered =
-      coverage_of(scene, seen(scene, insonifying_head(), Pose::Identity()), insonifying_head(), decibel_medium);
+      coverage_of(scene, seen(scene, insonifying_head(), Pose::Identity()), insonifying_head(), medium);
   ASSERT_EQ(covered.size(), 1U);
   EXPECT_EQ(covered[0].pings, 1U);
   EXPECT_NEAR(10 * std::log10(covered[0].intensity / (micropascal * micropascal)), sonar_equation(7), 1e-4);
@@ -264,3 +262,5 @@ TEST(Coverage, adds_up_by_id_in_any_grouping) {
   EXPECT_EQ(sum[2].range, 9.7F);
   EXPECT_EQ(sum[2].intensity, 10);
 }
+
+}  // namespace insonify::insonification_tests

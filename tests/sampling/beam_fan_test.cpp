@@ -21,8 +21,8 @@ TEST(BeamFan, says_what_is_wrong_with_it) {
   EXPECT_THAT(message([](BeamFan& f) { f.azimuth.clear(); }), HasSubstr("someone: fan has no beams"));
   EXPECT_THAT(message([](BeamFan& f) { f.elevation.pop_back(); }), HasSubstr("fan.elevation has 2 entries"));
   EXPECT_THAT(message([](BeamFan& f) { f.azimuth[1] = 3.2; }), HasSubstr("fan.azimuth[1] = 3.2 rad"));
-  EXPECT_THAT(message([](BeamFan& f) { f.azimuth[1] = std::numeric_limits<double>::quiet_NaN(); }),
-              HasSubstr("fan.azimuth[1]"));
+  for (const double wrong : {3.15, -4.0, HUGE_VAL, std::nan("")})
+    EXPECT_THAT(message([&](BeamFan& f) { f.azimuth[1] = wrong; }), HasSubstr("fan.azimuth[1] = "));
   EXPECT_THAT(message([](BeamFan& f) { f.elevation[2] = -1.6; }), HasSubstr("fan.elevation[2] = -1.6 rad"));
   EXPECT_THAT(message([](BeamFan& f) { f.beam_width = 0; }), HasSubstr("fan.beam_width = 0 rad, must be > 0"));
   EXPECT_THAT(message([](BeamFan& f) { f.elevation_width = -1; }), HasSubstr("fan.elevation_width = -1 rad"));

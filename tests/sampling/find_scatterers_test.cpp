@@ -24,18 +24,6 @@ SamplingOptions with_threads(SamplingKind kind, int threads) {
 
 }  // namespace
 
-TEST(FindScatterers, gives_the_same_bytes_for_any_number_of_threads) {
-  const SceneCloud scene = mixed_scene();
-  for (const SamplingKind kind : {SamplingKind::surfels, SamplingKind::rays}) {
-    const Sampling one = find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(), with_threads(kind, 1));
-    EXPECT_GT(one.scatterers.size(), 2000u);
-    for (const int threads : {2, 7})
-      EXPECT_TRUE(
-          equal(one.scatterers,
-                find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(), with_threads(kind, threads)).scatterers));
-  }
-}
-
 TEST(FindScatterers, does_not_change_when_world_and_head_move_together) {
   SceneCloud scene = mixed_scene();
   const Vector3d far(1e6, -2e6, 500);

@@ -152,21 +152,6 @@ TEST(Rays, have_ids_that_are_unique_in_a_ping_and_bound_to_their_surfel) {
   for (std::size_t i = 0; i < s.size(); ++i) ASSERT_EQ(s.id[i] >> 32, scene.id[s.surfel[i]]);
 }
 
-TEST(Rays, by_kdtree_are_those_by_brute_force) {
-  SceneCloud scene;
-  add_rectangle(scene, {1, -5, -1}, {12, 0, 0}, {0, 10, 0}, {0, 0, 1}, 0.2, 0.5);
-  add_sphere(scene, {5, 0.5, -0.5}, 0.6, 700);
-  add_wall(scene, 12, 4, 2, 0.4, 0.5);
-  SamplingOptions options = rays(24);
-  const Sampling fast = find_scatterers(scene, at(0, 0, 0, 0, 8), wide_fan(), long_gate(), options);
-  options.projection = Projection::brute_force;
-  const Sampling plain = find_scatterers(scene, at(0, 0, 0, 0, 8), wide_fan(), long_gate(), options);
-  EXPECT_GT(plain.scatterers.size(), 500u);
-  EXPECT_GT(plain.report.rays_missed, 100u);
-  EXPECT_EQ(fast.report.rays_missed, plain.report.rays_missed);
-  EXPECT_TRUE(equal(fast.scatterers, plain.scatterers));
-}
-
 TEST(Rays, give_the_mean_cross_section_that_surfels_give) {
   // Sum of projected area times cosine: the Lambert cross-section of the visible surface, without mu.
   SceneCloud scene;

@@ -210,28 +210,6 @@ TEST(Visibility, surfels_nearer_than_the_gate_cast_shadows) {
   EXPECT_EQ(find_scatterers(scene, at(0, 0, 0), wide_fan(), gate, unsplit()).report.visible, 0u);
 }
 
-TEST(Visibility, by_kdtree_is_that_by_brute_force) {
-  std::mt19937 random(99);
-  std::uniform_real_distribution<double> anywhere(-1, 1), size(-3, -1);
-  for (int round = 0; round < 6; ++round) {
-    SceneCloud scene;
-    for (int i = 0; i < 3000; ++i) {
-      const Vector3d p(5 + 5 * anywhere(random), 5 * anywhere(random), 3 * anywhere(random));
-      const Vector3d n(anywhere(random), anywhere(random), anywhere(random));
-      add_surfel(scene, p, n.normalized(), std::pow(10, size(random) - 0.6 * (round % 3)));
-    }
-    scene.normals_oriented = round % 2 == 0;
-    SamplingOptions options = unsplit();
-    const Sampling fast = find_scatterers(scene, at(0, 0, 0, 10, 5), wide_fan(), long_gate(), options);
-    options.projection = Projection::brute_force;
-    const Sampling plain = find_scatterers(scene, at(0, 0, 0, 10, 5), wide_fan(), long_gate(), options);
-    EXPECT_GT(plain.report.hidden, 10u);
-    EXPECT_GT(plain.report.visible, 10u);
-    EXPECT_EQ(fast.report.hidden, plain.report.hidden) << "round " << round;
-    EXPECT_TRUE(equal(fast.scatterers, plain.scatterers)) << "round " << round;
-  }
-}
-
 TEST(Visibility, without_occlusion_shows_everything_that_faces_the_head) {
   SceneCloud scene;
   add_wall(scene, 4, 1, 1, 0.1);

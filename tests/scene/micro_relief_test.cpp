@@ -158,7 +158,9 @@ TEST(Materials, with_impossible_values_are_refused_with_their_number_and_rule) {
     return error_of([&] { require_valid(scene, "f"); }, ErrorKind::content);
   };
   EXPECT_EQ(message({"mud", 0.1, 1, 2}), "no error");
-  EXPECT_EQ(message({"mud", -1}), "f: lambert_mu of material 'mud' = -1 1/sr, must be finite and >= 0");
+  for (const auto& [mu, text] : {std::pair{-1.0, "-1"}, {std::nan(""), "nan"}, {HUGE_VAL, "inf"}})
+    EXPECT_EQ(message({"mud", mu}),
+              "f: lambert_mu of material 'mud' = " + std::string(text) + " 1/sr, must be finite and >= 0");
   EXPECT_EQ(message({"mud", 0.1, 1.5}), "f: coherent_fraction of material 'mud' = 1.5, must be within 0 and 1");
   EXPECT_EQ(message({"mud", 0.1, std::nan("")}),
             "f: coherent_fraction of material 'mud' = nan, must be within 0 and 1");

@@ -59,10 +59,13 @@ TEST(RequireValid, names_what_is_wrong) {
               HasSubstr("argument: someone: scene.area has 1 entries"));
   EXPECT_THAT(message([](SceneCloud& s) { s.id.push_back(9); }), HasSubstr("scene.id has 3 entries"));
   EXPECT_THAT(message([&](SceneCloud& s) { s.point[1].y() = nan; }), HasSubstr("content: someone: scene.point[1]"));
+  EXPECT_THAT(message([](SceneCloud& s) { s.point[0].y() = -std::numeric_limits<float>::infinity(); }),
+              HasSubstr("scene.point[0]"));
   EXPECT_THAT(message([](SceneCloud& s) { s.normal[0].setZero(); }), HasSubstr("scene.normal[0] = (0, 0, 0)"));
   EXPECT_THAT(message([](SceneCloud& s) { s.normal[0] *= 1.01f; }), HasSubstr("unit vector"));
   EXPECT_THAT(message([&](SceneCloud& s) { s.normal[1].x() = nan; }), HasSubstr("scene.normal[1]"));
   EXPECT_THAT(message([](SceneCloud& s) { s.area[1] = -1; }), HasSubstr("scene.area[1] = -1 m^2"));
+  EXPECT_THAT(message([&](SceneCloud& s) { s.area[0] = nan; }), HasSubstr("scene.area[0] = nan m^2"));
   EXPECT_THAT(message([](SceneCloud& s) { s.material[1] = 1; }), HasSubstr("scene.material[1] = 1"));
   EXPECT_THAT(message([](SceneCloud& s) { s.materials[0].lambert_mu = -0.1; }), HasSubstr("lambert_mu"));
 }

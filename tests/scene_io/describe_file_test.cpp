@@ -99,10 +99,16 @@ TEST(DescribeFile, labels_that_are_no_materials_are_a_problem) {
   EXPECT_TRUE(has_problem(file, "a label is negative"));
 }
 
-TEST(DescribeFile, millimetres_are_suspected) {
-  std::string text = plate_text(50, 20);
-  for (int i = 1; i < 50; ++i) text += "0 " + std::to_string(20 * i) + " " + std::to_string(15 * i) + "\n";
-  EXPECT_TRUE(has_problem(describe_file(own_file("a.xyz", text)), "looks like millimetres"));
+TEST(DescribeFile, millimetres_and_kilometres_are_suspected_with_the_unit_to_give) {
+  const auto room = [](double unit) {
+    std::string text = plate_text(50, 0.02 / unit);
+    for (int i = 1; i < 50; ++i)
+      text += "0 " + std::to_string(0.02 * i / unit) + " " + std::to_string(0.015 * i / unit) + "\n";
+    return describe_file(own_file("a.xyz", text));
+  };
+  EXPECT_TRUE(has_problem(room(0.001), "this looks like millimetres. If so, give the unit (0.001"));
+  EXPECT_TRUE(has_problem(room(1000), "for kilometres"));
+  EXPECT_FALSE(has_problem(room(1), "unit"));
 }
 
 TEST(DescribeFile, a_coarse_survey_on_a_map_grid_is_in_metres) {

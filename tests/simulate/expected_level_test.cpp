@@ -5,14 +5,14 @@
 #include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace insonify::expected_level_tests {
 
-const SonarHead level_head = small_head({.beams = 12,
-                                         .field_of_view_deg = 24,
-                                         .elevation_width_deg = 30,
-                                         .min_range = 3,
-                                         .max_range = 8,
-                                         .source_level_db = 200});
+const SonarHead head = small_head({.beams = 12,
+                                   .field_of_view_deg = 24,
+                                   .elevation_width_deg = 30,
+                                   .min_range = 3,
+                                   .max_range = 8,
+                                   .source_level_db = 200});
 
 /// Between surface and bottom, in water that scatters.
 Environment loud_sea() {
@@ -34,12 +34,10 @@ const Pose above = pose_from_yaw_pitch_roll({-4, 0, 2.5}, 0, radians(25), 0);
 
 SimulatedPing ping_levels(const SimulationOptions& options, const Environment& environment = {},
                           std::int64_t number = 0) {
-  return simulate_event(plane(), level_head, {.world_from_head = above, .number = number}, environment, options);
+  return simulate_event(plane(), head, {.world_from_head = above, .number = number}, environment, options);
 }
 
 Grid<double> power(const ComplexGridF& pressure) { return pressure.cast<std::complex<double>>().abs2(); }
-
-}  // namespace
 
 TEST(ExpectedLevel, is_the_mean_power_of_many_pings_with_speckle) {
   SimulationOptions options{.sampling = {.scatterers_per_cell = 4},
@@ -96,7 +94,7 @@ TEST(HoleMask, of_a_ping_marks_what_the_scan_left_out) {
     if (std::hypot(whole.point[i].x() - middle, whole.point[i].y()) > gap)
       add_surfel(scene, whole.point[i].cast<double>(), whole.normal[i].cast<double>(), whole.area[i]);
   SimulationOptions options{.sampling = {.scatterers_per_cell = 0, .rays_per_beam = 512}, .outputs = {.mask = true}};
-  const auto ping_of = [&](const SceneCloud& s) { return simulate_ping(s, level_head, above, {}, options); };
+  const auto ping_of = [&](const SceneCloud& s) { return simulate_ping(s, head, above, {}, options); };
   const SimulatedPing clean = ping_of(whole), pierced = ping_of(scene);
   ASSERT_EQ(pierced.ping.unknown.size(), pierced.ping.pressure.size());
   EXPECT_EQ(clean.report.holes.directions, 12u * 512u);
@@ -113,3 +111,5 @@ TEST(HoleMask, of_a_ping_marks_what_the_scan_left_out) {
   options.outputs.mask = false;
   EXPECT_EQ(ping_of(scene).ping.unknown.size(), 0);
 }
+
+}  // namespace insonify::expected_level_tests

@@ -87,22 +87,6 @@ TEST(LevelLaws, level_does_not_depend_on_the_number_of_rays) {
   }
 }
 
-// A convex Lambert sphere: sigma = 2 pi mu a^2 / 3 (-21.76 dB for mu = 1 / pi, a = 0.1 m), not the rigid a^2 / 4.
-TEST(LevelLaws, sphere_of_lambert_facets_converges_to_two_thirds_pi_mu_a_squared) {
-  const double a = 0.1, mu = 1 / pi;  // seen from 55 m: from 5 m perspective would hide 3 % of the projected area
-  const SceneCloud sphere = make_built_in_scene("sphere", {.points = 20000, .radius = a, .lambert_mu = mu});
-  const SonarHead head = bottom_sonar(50, 60);
-  SamplingOptions options;
-  options.scatterers_per_cell = 0;
-  options.elevation_half_extent = 1;
-  const Scatterers s =
-      find_scatterers(sphere, pose_from_yaw_pitch_roll({-50, 0, 0}, 0, 0, 0), head.fan, head.gate, options).scatterers;
-  double sigma = 0;
-  for (std::size_t i = 0; i < s.size(); ++i)
-    sigma += lambert_cross_section(mu, s.cos_incidence[i], s.projected_area[i]);
-  EXPECT_NEAR(db_from_power(sigma), -21.76, 0.03);
-}
-
 // Spreading, absorption and Lambert's law stand in the closed form above; what it cannot tell apart is changed here. The
 // elevation pattern falls steeply over the strip of ranges: 1 dB.
 TEST(LevelLaws, source_level_and_elevation_pattern_move_the_level) {

@@ -10,20 +10,18 @@
 #include "support/errors.hpp"
 #include "support/heads.hpp"
 
-using namespace insonify;
+namespace insonify::looks_tests {
 
-namespace {
+const SonarHead head = small_head({.beams = 24,
+                                   .field_of_view_deg = 96,
+                                   .beam_width_deg = 2,
+                                   .elevation_width_deg = 40,
+                                   .min_range = 8,
+                                   .max_range = 14});
 
-const SonarHead looks_head = small_head({.beams = 24,
-                                         .field_of_view_deg = 96,
-                                         .beam_width_deg = 2,
-                                         .elevation_width_deg = 40,
-                                         .min_range = 8,
-                                         .max_range = 14});
-
-SimulatedPing ping_of_looks(const SimulationOptions& options) {
+SimulatedPing ping_of(const SimulationOptions& options) {
   static const SceneCloud bottom = make_built_in_scene("plane", {.points = 60000, .size = {20, 40}});
-  return simulate_ping(bottom, looks_head, pose_from_yaw_pitch_roll({-2, 0, 3}, 0, radians(15), 0), {}, options);
+  return simulate_ping(bottom, head, pose_from_yaw_pitch_roll({-2, 0, 3}, 0, radians(15), 0), {}, options);
 }
 
 SimulationOptions looks(int range, int pings, std::uint64_t seed = 1) {
@@ -41,13 +39,13 @@ Speckle speckle_of(int range, int pings) {
     return p.pressure.cast<std::complex<double>>().abs2();
   };
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Grid<double> image = intensity_of(ping_of_looks(looks(range, pings, seed)).ping);
+    const Grid<double> image = intensity_of(ping_of(looks(range, pings, seed)).ping);
     // Every pulse has a seed of its own, by which its scatterers are placed.
     Grid<double> usual = Grid<double>::Zero(image.rows(), image.cols());
     for (int k = 0; k < pings; ++k) {
       SimulationOptions expected = looks(range, 1, seed + static_cast<std::uint64_t>(k) * 0x9e3779b97f4a7c15);
       expected.synthesis.method = SynthesisMethod::incoherent;
-      usual += intensity_of(ping_of_looks(expected).ping) / pings;
+      usual += intensity_of(ping_of(expected).ping) / pings;
     }
     for (Eigen::Index b = 0; b < image.rows(); ++b)
       for (Eigen::Index bin = 20; bin + 20 < image.cols(); bin += 3) {
@@ -72,11 +70,9 @@ double gamma_contrast(double looks) {
   return std::sqrt(1 - mean * mean) / mean;
 }
 
-}  // namespace
-
 TEST(Looks, of_one_pulse_and_bin_are_speckle) {
-  EXPECT_EQ(ping_of_looks({}).ping.intensity.size(), 0);
-  EXPECT_TRUE((ping_of_looks(looks(2, 1)).ping.pressure == ping_of_looks({}).ping.pressure).all());
+  EXPECT_EQ(ping_of({}).ping.intensity.size(), 0);
+  EXPECT_TRUE((ping_of(looks(2, 1)).ping.pressure == ping_of({}).ping.pressure).all());
   const Speckle one = speckle_of(1, 1);
   EXPECT_NEAR(gamma_deviation_db(1), 5.57, 0.005);
   EXPECT_NEAR(gamma_contrast(1), 0.5227, 0.0005);
@@ -95,7 +91,7 @@ TEST(Looks, of_four_pulses_halve_the_contrast_of_intensity) {
 // Amplitudes in bins as long as the pulse are correlated by 1/2: the intensity of two is 3/4 E1 + 1/4 E2, exponential and
 // independent. A recorded frame of an ARIS, 4.0 dB and 0.45, is between one look and these.
 TEST(Looks, of_two_bins_are_fewer_than_two) {
-  ASSERT_NEAR(looks_head.gate.bin_size, 0.44 * sound_speed(Water{}) / (2 * looks_head.pulse.bandwidth), 1e-3);
+  ASSERT_NEAR(head.gate.bin_size, 0.44 * sound_speed(Water{}) / (2 * head.pulse.bandwidth), 1e-3);
   const Speckle two = speckle_of(2, 1);
   const double mean_log = 1.5 * std::log(1.5) - 0.5 * std::log(0.5);
   const double square_log = 1.5 * std::pow(std::log(1.5), 2) - 0.5 * std::pow(std::log(0.5), 2);
@@ -112,20 +108,22 @@ TEST(Looks, do_not_depend_on_threads) {
   SimulationOptions options = looks(3, 2);
   options.effects.noise = true;
   options.threads = 1;
-  const SimulatedPing one = ping_of_looks(options);
+  const SimulatedPing one = ping_of(options);
   options.threads = 3;
-  EXPECT_TRUE((ping_of_looks(options).ping.intensity == one.ping.intensity).all());
+  EXPECT_TRUE((ping_of(options).ping.intensity == one.ping.intensity).all());
 }
 
 TEST(Looks, are_refused_where_there_are_none) {
-  EXPECT_EQ(error_of([] { ping_of_looks(looks(0, 1)); }),
+  EXPECT_EQ(error_of([] { ping_of(looks(0, 1)); }),
             "PingSimulator: options.outputs.looks_range = 0, must be within 1 and 1024");
-  EXPECT_EQ(error_of([] { ping_of_looks(looks(1, 2000)); }),
+  EXPECT_EQ(error_of([] { ping_of(looks(1, 2000)); }),
             "PingSimulator: options.outputs.looks_pings = 2000, must be within 1 and 1024");
   SimulationOptions expected = looks(2, 2);
   expected.synthesis.method = SynthesisMethod::incoherent;
   EXPECT_EQ(
-      error_of([&] { ping_of_looks(expected); }),
+      error_of([&] { ping_of(expected); }),
       "PingSimulator: options.outputs.looks_pings = 2, must be 1 with method incoherent: an expected intensity has "
       "no looks to average");
 }
+
+}  // namespace insonify::looks_tests

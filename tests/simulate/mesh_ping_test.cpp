@@ -1,4 +1,4 @@
-// Levels of a big mesh under a narrow swath, sampled for the ping_mesh, against a fine cloud and a closed form.
+// Levels of a big mesh under a narrow swath, sampled for the ping_of, against a fine cloud and a closed form.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -12,22 +12,20 @@
 #include "support/heads.hpp"
 #include "support/scenes.hpp"
 
-using namespace insonify;
-
-namespace {
+namespace insonify::mesh_ping_tests {
 
 constexpr double height = 20;
 
 /// 512 beams over 110 degrees, 1 degree x 1 degree, looking straight down from 20 m.
-const SonarHead swath_head = small_head({.beams = 512,
-                                         .field_of_view_deg = 110,
-                                         .beam_width_deg = 1,
-                                         .elevation_width_deg = 1,
-                                         .min_range = 18,
-                                         .max_range = 42});
-const Pose above_bed = pose_from_yaw_pitch_roll({0, 0, height}, 0, radians(90), 0);
+const SonarHead head = small_head({.beams = 512,
+                                   .field_of_view_deg = 110,
+                                   .beam_width_deg = 1,
+                                   .elevation_width_deg = 1,
+                                   .min_range = 18,
+                                   .max_range = 42});
+const Pose pose = pose_from_yaw_pitch_roll({0, 0, height}, 0, radians(90), 0);
 
-const SceneMesh& sea_bed() {
+const SceneMesh& bed() {
   static const SceneMesh mesh = [] {
     SceneMesh m;
     m.point = {{-200, -200, 0}, {200, -200, 0}, {200, 200, 0}, {-200, 200, 0}};
@@ -42,13 +40,13 @@ const SceneMesh& sea_bed() {
 /// In the sector alone: what is open would be sampled, too.
 MeshSurfels surfels_for(SimulationOptions options = {}) {
   options.sampling.outer_elevations = options.sampling.outer_azimuths = Choice::never;
-  const ResolvedPing ping_mesh = resolve_ping(sea_bed().whole, swath_head, {above_bed}, {}, options);
-  return mesh_surfels(sea_bed(), ping_mesh.region, ping_mesh.head.fan, ping_mesh.view.sampling);
+  const ResolvedPing ping_of = resolve_ping(bed().whole, head, {pose}, {}, options);
+  return mesh_surfels(bed(), ping_of.region, ping_of.head.fan, ping_of.view.sampling);
 }
 
-SimulatedPing ping_mesh(const SceneCloud& scene, SimulationOptions options = {}) {
+SimulatedPing ping_of(const SceneCloud& scene, SimulationOptions options = {}) {
   options.synthesis.method = SynthesisMethod::incoherent;
-  return simulate_ping(scene, swath_head, above_bed, {}, options);
+  return simulate_ping(scene, head, pose, {}, options);
 }
 
 /// Energy of each beam over all bins [dB].
@@ -56,19 +54,17 @@ Eigen::ArrayXd beam_levels_db(const Ping& p) {
   return 10 * p.pressure.cast<std::complex<double>>().abs2().rowwise().sum().log10();
 }
 
-}  // namespace
-
 // Over three samplings; of one, the worst of 512 beams is 0.3 dB off.
 TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
   SceneCloud strip;
   add_rectangle(strip, {-1.2, -38, 0}, {2.4, 0, 0}, {0, 76, 0}, {0, 0, 1}, 0.02, 0.5);
-  const Eigen::ArrayXd fine = beam_levels_db(ping_mesh(strip, {.sampling = {.scatterers_per_cell = 0}}).ping);
+  const Eigen::ArrayXd fine = beam_levels_db(ping_of(strip, {.sampling = {.scatterers_per_cell = 0}}).ping);
   Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(512);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const MeshSurfels mesh = surfels_for({.seed = seed});
     EXPECT_EQ(mesh.coarsening, 1);
     EXPECT_LT(mesh.scene.size(), 30000U);
-    const SimulatedPing sampled = ping_mesh(mesh.scene, {.seed = seed});
+    const SimulatedPing sampled = ping_of(mesh.scene, {.seed = seed});
     EXPECT_EQ(sampled.report.sampling.sparse_beams, 0U);
     EXPECT_TRUE(sampled.report.notes.empty());
     const Eigen::ArrayXd error = beam_levels_db(sampled.ping) - fine;
@@ -83,22 +79,23 @@ TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
 TEST(MeshPing, of_an_even_sampling_is_noted) {
   SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {400, 400}});
   scene.origin.x() -= 200;
-  const SimulatedPing coarse = ping_mesh(scene);
+  const SimulatedPing coarse = ping_of(scene);
   EXPECT_GT(coarse.report.sampling.sparse_beams, 500U);
   EXPECT_THAT(coarse.report.notes, testing::ElementsAre(testing::HasSubstr("of 512 beams see mainly surfels")));
 }
 
 TEST(MeshPing, does_not_depend_on_threads) {
   const SceneCloud scene = surfels_for().scene;
-  const SimulatedPing one = ping_mesh(scene, {.threads = 1}),
-                      three = ping_mesh(surfels_for({.threads = 3}).scene, {.threads = 3});
+  const SimulatedPing one = ping_of(scene, {.threads = 1}),
+                      three = ping_of(surfels_for({.threads = 3}).scene, {.threads = 3});
   EXPECT_TRUE((one.ping.pressure == three.ping.pressure).all());
 }
 
 // With speckle, over seeds: amplitudes are bound to ids.
 TEST(MeshPing, keeps_its_speckle_when_the_head_does_not_move) {
   const SceneCloud scene = surfels_for().scene;
-  const SimulatedPing a = simulate_ping(scene, swath_head, above_bed, {}),
-                      b = simulate_ping(surfels_for().scene, swath_head, above_bed, {});
+  const SimulatedPing a = simulate_ping(scene, head, pose, {}), b = simulate_ping(surfels_for().scene, head, pose, {});
   EXPECT_TRUE((a.ping.pressure == b.ping.pressure).all());
 }
+
+}  // namespace insonify::mesh_ping_tests

@@ -5,16 +5,16 @@
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace insonify::side_lobe_cells_tests {
 
 const SonarHead one_beam = small_head({.beams = 1, .field_of_view_deg = 2, .elevation_width_deg = 40, .max_range = 12});
-const Pose looking_down = pose_from_yaw_pitch_roll({-6, 0, 3}, 0, radians(15), 0);
-constexpr int speckle_seeds = 40;
+const Pose pose = pose_from_yaw_pitch_roll({-6, 0, 3}, 0, radians(15), 0);
+constexpr int seeds = 40;
 
 /// A plane without what the main lobe would hear of it: nothing within `off` of u = 0.
 SceneCloud shadowed_plane(double off) {
   const SceneCloud whole = make_built_in_scene("plane", {.points = 5000, .size = {24, 24}});
-  const Pose to_head = looking_down.inverse();
+  const Pose to_head = pose.inverse();
   std::vector<std::uint32_t> beside;
   for (std::uint32_t i = 0; i < whole.size(); ++i) {
     const Eigen::Vector3d p = to_head * (whole.origin + whole.point[i].cast<double>());
@@ -30,14 +30,12 @@ Eigen::ArrayXd intensities(const SceneCloud& scene, std::uint64_t seed, double p
       .seed = seed, .sampling = {.scatterers_per_cell = per_cell}, .synthesis = {.method = method}};
   options.sampling.outer_azimuths = Choice::always;
   options.synthesis.true_delays = Choice::never;
-  const SimulatedPing p = simulate_ping(scene, one_beam, looking_down, {}, options);
+  const SimulatedPing p = simulate_ping(scene, one_beam, pose, {}, options);
   if (scatterers) *scatterers = p.report.sampling.scatterers;
   const auto begin = static_cast<Eigen::Index>((7 - one_beam.gate.min_range) / one_beam.gate.bin_size);
   const Eigen::ArrayXd all = p.ping.pressure.row(0).cast<std::complex<double>>().abs2();
   return all.segment(begin, all.size() - begin);
 }
-
-}  // namespace
 
 TEST(SideLobeCells, hold_enough_scatterers_for_the_expected_level) {
   for (const double off : {0.06, 0.2, 0.3}) {
@@ -62,10 +60,10 @@ TEST(SideLobeCells, have_the_speckle_of_many_scatterers) {
   const SceneCloud plane = shadowed_plane(0.3);
   const Eigen::ArrayXd expected = intensities(plane, 100, 300, SynthesisMethod::incoherent);
   double mean = 0, squares = 0;
-  for (int seed = 1; seed <= speckle_seeds; ++seed) {
+  for (int seed = 1; seed <= seeds; ++seed) {
     const Eigen::ArrayXd looks =
         intensities(plane, static_cast<std::uint64_t>(seed), 10, SynthesisMethod::gridded) / expected;
-    mean += looks.mean() / speckle_seeds, squares += looks.square().mean() / speckle_seeds;
+    mean += looks.mean() / seeds, squares += looks.square().mean() / seeds;
   }
   EXPECT_NEAR(mean, 1, 0.06);
   EXPECT_NEAR(squares / (mean * mean), 2, 0.2);  // <I^2> of an exponential distribution
@@ -97,3 +95,5 @@ TEST(SideLobeCells, are_those_of_main_lobes_where_echoes_may_be_as_loud) {
   EXPECT_GE(turned, 0.5 * 2 * one_beam.gate.max_range / 1500);
   EXPECT_LT(turned, 0.02);
 }
+
+}  // namespace insonify::side_lobe_cells_tests

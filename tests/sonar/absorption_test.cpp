@@ -88,19 +88,16 @@ TEST(Absorption, formulas_differ_by_8_percent_at_900_khz) {
 // 273 + T, used here, gives 13.94619.
 TEST(Absorption, uses_theta_of_the_paper) { EXPECT_NEAR(db_per_km({0, 35, 0, 6}, 50), 13.94619, 1e-4); }
 
-TEST(Absorption, jumps_by_less_than_a_thousandth_where_the_branches_meet) {
-  EXPECT_NEAR(db_per_km({20, 35, 0, 8}, 900) / db_per_km({20.0001, 35, 0, 8}, 900), 1, 1e-3);
-}
-
 // No salt, no relaxation: what is left is pure water, which grows with the square of frequency.
 TEST(Absorption, of_fresh_water_is_finite_and_quadratic_in_frequency) {
-  for (const auto formula : {AbsorptionFormula::francois_garrison, AbsorptionFormula::ainslie_mccolm}) {
-    const Water fresh{10, 0, 0, 7};
-    EXPECT_NEAR(db_per_km(fresh, 200, formula) / db_per_km(fresh, 100, formula), 4, 1e-12);
-    const Absorption a = absorption_about(fresh, 900e3, 2, formula);
-    EXPECT_NEAR(a.a1, 2 * a.a0 / 900e3, 1e-12 * a.a1);
-    EXPECT_NEAR(a.a2, a.a0 / (900e3 * 900e3), 1e-12 * a.a2);
-  }
+  for (const auto formula : {AbsorptionFormula::francois_garrison, AbsorptionFormula::ainslie_mccolm})
+    for (const double ph : {0.0, 7.0, 14.0}) {
+      const Water fresh{10, 0, 0, ph};
+      EXPECT_NEAR(db_per_km(fresh, 200, formula) / db_per_km(fresh, 100, formula), 4, 1e-12);
+      const Absorption a = absorption_about(fresh, 900e3, 2, formula);
+      EXPECT_NEAR(a.a1, 2 * a.a0 / 900e3, 1e-12 * a.a1);
+      EXPECT_NEAR(a.a2, a.a0 / (900e3 * 900e3), 1e-12 * a.a2);
+    }
 }
 
 // Boric acid alone depends on pH, as 10^(0.78 pH) and exp(pH / 0.56); it counts below 10 kHz only.
@@ -158,4 +155,32 @@ TEST(Absorption, that_would_make_sound_grow_is_refused) {
   expect_error(ErrorKind::argument, {"the formula gives -", "temperature_c = 90 deg C"}, [] {
     absorption_db_per_m({90, 35, 0, 8}, 3e6, AbsorptionFormula::fisher_simmons);
   });
+}
+
+TEST(Absorption, steps_by_less_than_a_thousandth_where_the_branches_meet_at_20_degrees) {
+  for (const double frequency : {50e3, 900e3, 3e6}) {
+    const double below = absorption_db_per_m({20, 35, 0, 8}, frequency),
+                 above = absorption_db_per_m({std::nextafter(20, 21), 35, 0, 8}, frequency);
+    EXPECT_NEAR(above / below, 1, 1e-3) << frequency;
+  }
+}
+
+// Boric acid's relaxation frequency is 0 in fresh water: 0 x 0 must not become 0 / 0.
+TEST(Absorption, of_fresh_water_has_no_0_over_0) {
+  for (const double ph : {0.0, 8.0, 14.0}) {
+    const Water fresh{10, 0, 0, ph};
+    EXPECT_NEAR(absorption_db_per_m(fresh, 900e3), 0.251748, 1e-6);
+    EXPECT_NEAR(absorption_db_per_m({10, 1e-20, 0, ph}, 900e3), 0.251748, 1e-6);
+  }
+}
+
+TEST(Absorption, outside_the_validity_of_the_formulas_is_computed) {
+  for (const Water& water : {Water{-2, 35, 0, 8}, Water{45, 45, 0, 8}, Water{4, 35, 11000, 8}, Water{30, 0, 9000, 7}}) {
+    const double c = sound_speed(water);
+    EXPECT_GT(c, 1350) << water.temperature_c;
+    EXPECT_LT(c, 1900) << water.temperature_c;
+    const double alpha = absorption_db_per_m(water, 900e3);
+    EXPECT_GT(alpha, 0.05) << water.temperature_c;
+    EXPECT_LT(alpha, 1) << water.temperature_c;
+  }
 }

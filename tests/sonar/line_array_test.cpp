@@ -38,13 +38,6 @@ TEST(ArrayResponse, has_the_side_lobes_of_a_uniform_array) {
   EXPECT_NEAR(highest_db(uniform_line(256, 0.5), 1.0 / 128, 0.1), -13.261, 0.002);
 }
 
-// A pitch of 1.5 wavelengths repeats the main lobe at asin(1 / 1.5) = 41.81 degrees, on both sides.
-TEST(ArrayResponse, has_grating_lobes_beyond_half_wavelength_pitch) {
-  const LineArray array = uniform_line(20, 1.5);
-  EXPECT_NEAR(std::abs(array_response(array, wavelength_900k, std::sin(radians(41.8103)), 0)), 1, 1e-6);
-  EXPECT_NEAR(std::abs(array_response(array, wavelength_900k, -std::sin(radians(41.8103)), 0)), 1, 1e-6);
-}
-
 // Half-power width times N d / wavelength_900k of uniform_line arrays: 0.91078 (4), 0.88739 (16), 0.88590 (256).
 TEST(ArrayBeamWidth, of_uniform_arrays) {
   const auto in_u = [](std::size_t n) {
@@ -53,10 +46,6 @@ TEST(ArrayBeamWidth, of_uniform_arrays) {
   EXPECT_NEAR(in_u(4), 0.91078, 2e-5);
   EXPECT_NEAR(in_u(16), 0.88739, 2e-5);
   EXPECT_NEAR(in_u(256), 0.88590, 2e-5);
-}
-
-TEST(ArrayBeamWidth, of_one_element_is_half_a_turn) {
-  EXPECT_DOUBLE_EQ(array_beam_width(uniform_line(1, 0.5), wavelength_900k), pi);
 }
 
 // Isotropic noise on half-wavelength elements is uncorrelated: the index is 10 log N.
@@ -83,4 +72,53 @@ TEST(LineArray, refuses_weights_that_do_not_add_up) {
   EXPECT_THROW(require_valid(LineArray{0.001, {1, 1, 0.5}}, "test"), Error);
   EXPECT_THROW(require_valid(LineArray{0.001, {}}, "test"), Error);
   EXPECT_THROW(require_valid(LineArray{0, {1}}, "test"), Error);
+}
+
+// Lobes of full height at sin g = sin s + n lambda / d.
+TEST(ArrayResponse, has_grating_lobes_where_they_must_stand_and_symmetric) {
+  const struct { double spacing, lobe_deg; } cases[] = {{1, 90}, {1.5, 41.81031}, {2, 30}, {2, 90}};
+  for (const auto& c : cases) {
+    const LineArray array = uniform_line(16, c.spacing);
+    const double u = std::sin(radians(c.lobe_deg));
+    EXPECT_NEAR(std::abs(array_response(array, wavelength_900k, u, 0)), 1, 1e-9) << c.spacing;
+    EXPECT_NEAR(array_response(array, wavelength_900k, u, 0).real(),
+                array_response(array, wavelength_900k, -u, 0).real(), 1e-9)
+        << c.spacing;
+  }
+  // d = 0.75 lambda: free of lobes when steered up to 19.47 degrees; beyond, one enters from the other side.
+  const LineArray array = uniform_line(16, 0.75);
+  EXPECT_LT(std::abs(array_response(array, wavelength_900k, -1, std::sin(radians(10)))), 0.3);
+  EXPECT_NEAR(std::abs(array_response(array, wavelength_900k, -1, 1 / 0.75 - 1)), 1, 1e-9);
+}
+
+TEST(ArrayResponse, of_an_array_shorter_than_a_wavelength_has_no_null) {
+  const LineArray array = uniform_line(4, 0.2);  // 0.8 wavelengths
+  for (int i = -100; i <= 100; ++i) EXPECT_GT(std::abs(array_response(array, wavelength_900k, 0.01 * i, 0)), 0.1);
+  // The closed form of a uniform row: sin(N x / 2) / (N sin(x / 2)), x = 2 pi d u / lambda.
+  const double x = 2 * pi * 0.2 * 0.8;
+  EXPECT_NEAR(array_response(array, wavelength_900k, 0.8, 0).real(), std::sin(2 * x) / (4 * std::sin(x / 2)), 1e-14);
+}
+
+// Mean power over echoes from all directions of u is the width of the beam: it falls as 1 / elements.
+TEST(ArrayResponse, has_an_energy_that_falls_as_the_width_of_the_beam) {
+  const auto energy = [](std::size_t elements) {
+    const LineArray array = uniform_line(elements, 0.5);
+    double sum = 0;
+    for (int i = 0; i < 20000; ++i)
+      sum += std::pow(array_response(array, wavelength_900k, (i + 0.5) / 10000 - 1, 0).real(), 2);
+    return sum / 20000;
+  };
+  for (const std::size_t n : {8UL, 64UL, 512UL, 2048UL}) EXPECT_NEAR(energy(n) * static_cast<double>(n), 1, 1e-3) << n;
+}
+
+TEST(ArrayBeamWidth, of_one_element_is_half_a_turn_whatever_its_spacing) {
+  for (const double spacing : {1e-300, 1e-3, 1.0, 1e6, 1e300})
+    EXPECT_EQ(array_beam_width(uniform_line(1, spacing), wavelength_900k), pi) << spacing;
+}
+
+TEST(ArrayResponse, has_its_limit_where_sine_over_sine_is_0_over_0) {
+  for (const std::size_t n : {1UL, 2UL, 3UL, 8UL, 101UL})  // x = 2 pi k: the limit is (-1)^(k (N-1))
+    for (const int k : {-2, -1, 0, 1, 2})
+      EXPECT_NEAR(array_response(uniform_line(n, 2), wavelength_900k, 0.5 * k, 0).real(),
+                  k % 2 == 0 || n % 2 == 1 ? 1 : -1, 1e-12);
 }

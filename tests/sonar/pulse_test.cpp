@@ -48,3 +48,17 @@ TEST(Pulse, refuses_a_bandwidth_that_reaches_negative_frequencies) {
   EXPECT_THROW(require_valid(Pulse{900e3, 0, 220}, "test"), Error);
   EXPECT_THROW(pulse_half_length(p900, 0), Error);
 }
+
+// Slope and curvature make exp(b^2 / 4a) overflow where exp(-2 a0 r) underflows: together they are a number.
+TEST(Pulse, envelope_under_absorption_that_varies_over_the_band_is_finite) {
+  const Pulse wide{1e6, 0.9e6, 220};
+  for (const double a0 : {0.03, 1.0, 10.0, 100.0}) {
+    const Absorption square_law{a0, 2 * a0 / 1e6, a0 / 1e12};  // alpha proportional to f^2
+    const EchoEnvelope e = echo_envelope(wide, square_law, 100);
+    for (const double t : {-1e-6, 0.0, 1e-7})
+      EXPECT_TRUE(std::isfinite(std::abs(e.at(t)))) << a0 << " Np/m, " << t << " s";
+    // Least attenuated is the lowest frequency: the level falls far less than at the centre frequency.
+    EXPECT_LT(std::abs(e.at(0)), 1) << a0;
+    EXPECT_GT(std::abs(e.at(0)), std::exp(-2 * a0 * 100)) << a0;
+  }
+}

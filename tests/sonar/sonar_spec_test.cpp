@@ -1,5 +1,6 @@
 #include "sonar/sonar_spec.hpp"
 
+#include "support/heads.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -119,4 +120,55 @@ TEST(MakeHead, names_key_value_unit_and_rule) {
   s = spec();
   s.side_lobe_db = -5;
   expect_refused(s, "side_lobe_db = -5 dB");
+}
+
+TEST(MakeHead, refuses_a_beam_too_narrow_for_any_array) {
+  SonarSpec s = nine_beams();
+  for (const double width_deg : {1e-3, 1e-6, 1e-300}) {
+    s.beam_width = radians(width_deg);
+    expect_error(ErrorKind::argument, {"beam_width = ", "deg needs more than 16384 elements"},
+                 [&] { make_head(s, 1500); });
+  }
+  for (const double width : {0.0, -0.1, std::nan("")}) {
+    s.beam_width = width;
+    expect_error(ErrorKind::argument, {"beam_width_deg", "> 0"}, [&] { make_head(s, 1500); });
+  }
+}
+
+TEST(MakeHead, takes_one_omnidirectional_element_for_a_beam_of_180_degrees) {
+  SonarSpec s = nine_beams();
+  s.beam_width = pi;
+  for (const double side_lobes : {0.0, -30.0}) {
+    s.side_lobe_db = side_lobes;
+    const SonarHead head = make_head(s, 1500);
+    ASSERT_EQ(head.array.elements(), 1U);
+    EXPECT_EQ(array_beam_width(head.array, 1500 / s.centre_frequency), pi);
+    for (const double u : {-1.0, -0.3, 0.0, 0.7, 1.0})
+      EXPECT_EQ(array_response(head.array, 0.1, u, 0.2).real(), 1) << u;
+  }
+  EXPECT_NEAR(directivity_index_db(uniform_line(1, 0.5), wavelength_900k), 0, 1e-12);
+  s.beam_width = radians(181);
+  expect_error(ErrorKind::argument, {"beam_width_deg = 181 deg", "at most 180"}, [&] { make_head(s, 1500); });
+}
+
+TEST(MakeHead, refuses_a_pulse_longer_than_the_gate) {
+  SonarSpec s = nine_beams();
+  s.bandwidth = 50;  // c / 2B = 15 m in a gate of 11 m
+  expect_error(ErrorKind::argument, {"make_head", "bandwidth_hz = 50 Hz", "15 m", "11 m"}, [&] { make_head(s, 1500); });
+  s.bandwidth = 100;  // 7.5 m fits
+  EXPECT_EQ(make_head(s, 1500).gate.bins(), 4U);
+  for (const double b : {0.0, -1.0, std::nan("")}) {
+    s.bandwidth = b;
+    expect_error(ErrorKind::argument, {"bandwidth_hz", "Hz, must be > 0"}, [&] { make_head(s, 1500); });
+  }
+}
+
+TEST(MakeHead, refuses_a_bin_that_would_under_sample_the_pulse) {
+  SonarSpec s = nine_beams();
+  const double coarsest = 0.44 * 1500 / (2 * s.bandwidth);
+  s.bin_size = 1.01 * coarsest;
+  expect_error(ErrorKind::argument, {"bin_size_m", "under-sample", "0.44 c / 2B = 0.0165 m"},
+               [&] { make_head(s, 1500); });
+  s.bin_size = coarsest;
+  EXPECT_EQ(make_head(s, 1500).gate.bin_size, coarsest);
 }

@@ -69,12 +69,15 @@ TEST(SoundSpeed, latitude_counts_at_depth_alike_in_unesco_and_leroy) {
   }
 }
 
-TEST(SoundSpeed, refuses_impossible_water) {
-  expect_error(ErrorKind::argument, {"sound_speed: salinity_psu = -1 psu, must be >= 0"}, [] {
-    sound_speed({10, -1, 0, 8});
-  });
-  EXPECT_THROW(sound_speed({10, 35, -3, 8}), Error);
-  EXPECT_THROW(sound_speed({std::nan(""), 35, 0, 8}), Error);
+TEST(SoundSpeed, and_absorption_refuse_impossible_water) {
+  for (const auto& [water, part] : {std::pair{Water{std::nan(""), 35, 0, 8}, "temperature_c = nan"},
+                                    {Water{300, 35, 0, 8}, "temperature_c = 300"},
+                                    {Water{10, -1, 0, 8}, "salinity_psu = -1 psu, must be >= 0"},
+                                    {Water{10, 35, -5, 8}, "depth = -5 m"},
+                                    {Water{10, 35, 0, 15}, "ph = 15"}}) {
+    expect_error(ErrorKind::argument, {"sound_speed: ", part}, [&, w = water] { sound_speed(w); });
+    expect_error(ErrorKind::argument, {part}, [&, w = water] { absorption_db_per_m(w, 900e3); });
+  }
 }
 
 TEST(SoundSpeed, refuses_water_where_the_formula_is_absurd) {

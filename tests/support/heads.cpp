@@ -20,6 +20,17 @@ SonarHead small_head(const SmallSonar& sonar, double speed) {
   return make_head(small_sonar(sonar), speed > 0 ? speed : sound_speed(Water{}));
 }
 
+SonarSpec nine_beams() {
+  return small_sonar({.beams = 9,
+                      .field_of_view_deg = 40,
+                      .beam_width_deg = 4,
+                      .elevation_width_deg = 40,
+                      .min_range = 1,
+                      .max_range = 12});
+}
+
+SonarHead nine_beam_head() { return make_head(nine_beams(), c0); }
+
 SonarHead line_head(const LineHead& line) {
   SonarHead head;
   head.name = "test";

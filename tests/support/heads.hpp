@@ -27,6 +27,10 @@ SonarSpec small_sonar(const SmallSonar& sonar);
 /// Its head, for water of `sound_speed` or, with 0, for Water{}.
 SonarHead small_head(const SmallSonar& sonar, double sound_speed = 0);
 
+/// Nine beams over 40 degrees, ranges 1 to 12 m, some 700 bins; its head is for water of 1500 m/s.
+SonarSpec nine_beams();
+SonarHead nine_beam_head();
+
 /// A head put together by hand: a half-wavelength line array under a Taylor window of -30 dB, uniform if it has at most
 /// four elements, and bins as coarse as the pulse allows.
 struct LineHead {
@@ -42,6 +46,12 @@ SonarHead line_head(const LineHead& line);
 template <typename A, typename B>
 double relative_l2(const A& a, const B& b) {
   return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
+}
+
+/// The same numbers in grids of one shape.
+template <typename A, typename B>
+bool same(const A& a, const B& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && (a == b).all();
 }
 
 }  // namespace insonify

@@ -13,29 +13,8 @@ constexpr const char* columns =
     "method,precision,scatterers,beams,elements,bins,tolerance,kernel_width,error,local_error,seconds,seconds_min,"
     "seconds_max,peak_mib";
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, at);) parts.push_back(part);
-  return parts;
-}
-
 class AccuracyVerb : public ToolTest {
  protected:
-  /// Rows of a CSV by the names of its columns.
-  std::vector<std::map<std::string, std::string>> rows_of(const std::string& name) const {
-    const std::vector<std::string> lines = split(read(name), '\n'), names = split(lines.at(0), ',');
-    std::vector<std::map<std::string, std::string>> rows;
-    for (std::size_t i = 1; i < lines.size(); ++i) {
-      const std::vector<std::string> values = split(lines[i], ',');
-      EXPECT_EQ(values.size(), names.size()) << lines[i];
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        if (k == 0) rows.emplace_back();
-        rows.back()[names.at(k)] = values[k];
-      }
-    }
-    return rows;
-  }
   bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
 };
 
@@ -46,7 +25,7 @@ double number(const std::string& text) { return std::stod(text); }
 TEST_F(AccuracyVerb, writes_sweep_with_the_agreed_columns_pictures_and_manifest) {
   have("run", "accuracy --quick");
   EXPECT_THAT(read("run/sweep.csv"), StartsWith(std::string(columns) + ","));
-  const json manifest = json::parse(read("run/manifest.json"));
+  const json manifest = manifest_of("run");
   for (const char* key : {"cpu", "cores", "compiler", "flags", "commit", "load_average"})
     EXPECT_TRUE(manifest["machine"].contains(key)) << key;
   EXPECT_GE(manifest["threads"], 1);
@@ -60,7 +39,7 @@ TEST_F(AccuracyVerb, writes_sweep_with_the_agreed_columns_pictures_and_manifest)
 TEST_F(AccuracyVerb, every_row_is_complete_and_every_promise_kept) {
   have("run", "accuracy --quick");
   std::map<std::string, int> methods;
-  for (auto& row : rows_of("run/sweep.csv")) {
+  for (auto& row : rows_of(read("run/sweep.csv"))) {
     ++methods[row["method"]];
     EXPECT_GT(number(row["seconds"]), 0);
     EXPECT_LE(number(row["seconds_min"]), number(row["seconds"]));
@@ -90,7 +69,7 @@ TEST_F(AccuracyVerb, errors_do_not_depend_on_threads) {
             threads);
   std::vector<std::string> errors[2];
   for (int i = 0; i < 2; ++i)
-    for (auto& row : rows_of(i == 0 ? "j1/sweep.csv" : "j2/sweep.csv"))
+    for (auto& row : rows_of(read(i == 0 ? "j1/sweep.csv" : "j2/sweep.csv")))
       if (row["sweep"] != "threads") errors[i].push_back(row["error"]);
   EXPECT_EQ(errors[0], errors[1]);
 }
@@ -98,7 +77,7 @@ TEST_F(AccuracyVerb, errors_do_not_depend_on_threads) {
 TEST_F(AccuracyVerb, methods_and_tolerances_can_be_chosen) {
   const std::string out = succeed("accuracy --quick --no-picture --methods gridded,direct --tolerances 1e-3 -o run");
   EXPECT_THAT(out, HasSubstr("tolerance 1e-03"));
-  for (auto& row : rows_of("run/sweep.csv")) {
+  for (auto& row : rows_of(read("run/sweep.csv"))) {
     EXPECT_TRUE(row["method"] == "gridded" || row["method"] == "direct") << row["method"];
     if (row["method"] == "gridded") {
       EXPECT_EQ(row["tolerance"], "0.001");
@@ -112,9 +91,9 @@ TEST_F(AccuracyVerb, measures_on_the_users_own_ping) {
       "accuracy --quick -q --no-picture --json --scene sphere.ply --sonar p900-45 --pose=0,0,0,0,0,0 --range 2:8 "
       "--set sonar.beams=24 --methods gridded --tolerances 1e-4 --repeats 1 -o run"));
   EXPECT_EQ(manifest["scene"], "sphere.ply");
-  for (auto& row : rows_of("run/sweep.csv")) {
+  for (auto& row : rows_of(read("run/sweep.csv"))) {
     EXPECT_LE(number(row["error"]), number(row["tolerance"]));
-    EXPECT_EQ(row["beams"], rows_of("run/sweep.csv")[0]["beams"]);
+    EXPECT_EQ(row["beams"], rows_of(read("run/sweep.csv"))[0]["beams"]);
   }
 }
 
@@ -124,7 +103,7 @@ TEST_F(AccuracyVerb, samples_a_mesh_as_a_ping_does) {
   succeed(
       "accuracy --quick -q --no-picture --scene bed.obj --sonar em2040 --set sonar.beams=16 --pose=0,0,20,0,0,0 "
       "--range 19:21 --methods gridded --tolerances 1e-3 --repeats 1 -o run");
-  EXPECT_GT(number(rows_of("run/sweep.csv").at(0)["scatterers"]), 1000);
+  EXPECT_GT(number(rows_of(read("run/sweep.csv")).at(0)["scatterers"]), 1000);
 }
 
 TEST_F(AccuracyVerb, refuses_what_it_cannot_do_before_it_works) {

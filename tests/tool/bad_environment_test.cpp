@@ -28,22 +28,13 @@ class BadEnvironment : public ToolTest {
 
 TEST_F(BadEnvironment, set_out_of_range) {
   refuse("--set surface.height_m=high", {"surface.height_m = \"high\"", "must be a number"});
-  refuse("--set surface.rms_height_m=-1", {"surface.rms_height = -1 m", "must be finite and >= 0"});
-  refuse("--set surface.scattering_db=30", {"scattering_strength_db = 30 dB", "at most 10"});
-  refuse("--set bottom.density_ratio=0", {"density_ratio = 0", "must be > 0"});
-  refuse("--set bottom.sound_speed_ratio=-1", {"sound_speed_ratio = -1", "must be > 0"});
-  refuse("--set bottom.loss=1.5", {"bottom.loss = 1.5", "below 1"});
   refuse("--set bottom.lambert_mu_db=3", {"bottom.lambert_mu", "1/sr", "within 0 and 1/pi"});
-  refuse("--set volume.scattering_db=10", {"volume.scattering_db = 10 dB", "at most 0"});
   refuse("--set wind.speed_m_s=-3", {"wind_speed = -3 m/s", "within 0 and 100"});
-  refuse("--set noise.self_db=1000", {"self_noise_db = 1000 dB", "within -400 and 400"});
   refuse("--set surface.height_m=-5 --set bottom.height_m=0", {"bottom.height = 0 m", "must be below surface.height"});
   refuse("--set water.sound_speed_formula=medwin", {"medwin", "unesco, mackenzie, leroy"});
-  refuse("--set water.absorption_formula=thorp", {"thorp", "francois-garrison, fisher-simmons, ainslie-mccolm"});
   refuse("--set wind.sped_m_s=3", {"wind.sped_m_s", "did you mean 'wind.speed_m_s'?"});
   refuse("--set weather.rain=1", {"unknown key 'weather.rain'"});
   refuse("--set profile.sound_speed=1500", {"profile.sound_speed", "set as a whole", "--profile"});
-  refuse("--set sonar.source_level_db=261", {"source_level_db = 261 dB", "within -400 and 260"});
   refuse("--scan-noise -0.1", {"scan_noise = -0.1 m", "must be finite and >= 0"});
   refuse("--scan-noise rough", {"--scan-noise", "rough", "metres"});
 }
@@ -51,8 +42,6 @@ TEST_F(BadEnvironment, set_out_of_range) {
 TEST_F(BadEnvironment, file_of_the_environment) {
   expect_refused("ping plane.ply" + here + " --environment nowhere.toml", 4, {"nowhere.toml"});
   refuse_file("[wind]\nspeed_m_s = 200\n", {"sea.toml", "wind_speed = 200 m/s", "within 0 and 100"});
-  refuse_file("[wnd]\n", {"sea.toml:1", "unknown table [wnd]", "did you mean [wind]"});
-  refuse_file("[wind]\nspeed_m_s = \"strong\"\n", {"sea.toml:2", "must be a number"});
   refuse_file("[wind\n", {"sea.toml:1"});
   refuse_file("[profile]\ndepth_m = [0, 1]\nsound_speed = [1500]\n", {"sea.toml", "profile"});
 }
@@ -60,9 +49,6 @@ TEST_F(BadEnvironment, file_of_the_environment) {
 TEST_F(BadEnvironment, profile) {
   expect_refused("ping plane.ply" + here + " --profile nowhere.csv", 4, {"nowhere.csv"});
   refuse_profile("depth_m,sound_speed\n0,1500\n0,1490\n", {"ctd.csv:3", "depth_m = 0 m", "must be deeper"});
-  refuse_profile("depth_m,sound_speed\n0,340\n", {"ctd.csv:2", "sound_speed = 340 m/s", "within 1300 and 1700"});
-  refuse_profile("depth_m,temperature_c,salinity_psu\n-1,10,35\n", {"ctd.csv:2", "depth_m = -1 m", "positive down"});
-  refuse_profile("depth_m,sound_speed\n", {"ctd.csv", "at least one entry"});
   refuse_profile("depth,speed\n0,1500\n", {"ctd.csv:1"});
 }
 
@@ -100,17 +86,8 @@ TEST_F(BadEnvironment, way_of_the_head) {
 }
 
 TEST_F(BadEnvironment, pulse_and_array) {
-  refuse("--set sonar.pulse=chirp", {"pulse = \"chirp\"", "must be one of gaussian, linear_fm"});
   refuse("--set sonar.pulse=linear_fm", {"pulse = linear_fm", "must come with pulse_length_s"});
-  refuse("--set sonar.pulse_length_s=0.001", {"pulse_length_s = 0.001 s", "must be left out for pulse gaussian"});
-  refuse("--set sonar.replica_window=hann", {"replica_window = hann", "must be left out for pulse gaussian"});
-  refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=1e-9", {"pulse_length_s", "within 1 and 1e6"});
-  refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=0", {"pulse_length_s = 0 s", "must be > 0"});
-  refuse("--set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.001 --set sonar.replica_window=boxcar",
-         {"boxcar", "must be one of uniform, hann, hamming"});
   refuse("--set sonar.elevations_deg=0,95", {"elevations_deg", "within -90 and 90"});
-  refuse("--set sonar.column_beam_width_deg=0", {"column_beam_width_deg = 0", "omit the key"});
-  refuse("--set sonar.transmit_width_deg=-1", {"transmit_width_deg = -1", "omit the key"});
   refuse("--set sonar.shading=hann", {"shading = \"hann\"", "must be one of taylor, uniform, hamming, chebyshev"});
 }
 

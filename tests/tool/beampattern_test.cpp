@@ -12,9 +12,7 @@ namespace {
 
 class BeamPatternVerb : public ToolTest {
  protected:
-  json measure(const std::string& arguments) const {
-    return json::parse(succeed("beampattern " + arguments + " --json"));
-  }
+  json measure(const std::string& arguments) const { return json_of("beampattern " + arguments); }
 };
 
 }  // namespace
@@ -100,12 +98,4 @@ TEST_F(BeamPatternVerb, help_has_two_examples) {
   const auto first = help.find("\n  insonify beampattern ");
   ASSERT_NE(first, std::string::npos);
   EXPECT_NE(help.find("\n  insonify beampattern ", first + 1), std::string::npos);
-}
-
-// The chosen shading goes into run.toml and from there into the next run.
-TEST_F(BeamPatternVerb, run_toml_keeps_the_shading) {
-  write("one.csv", "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n5,0,0,1,1,0\n");
-  succeed("synthesize one.csv --sonar p900-45 --range 4:6 --set sonar.shading=chebyshev --no-picture -q -o out");
-  EXPECT_THAT(read("out/run.toml"), HasSubstr("shading = \"chebyshev\""));
-  EXPECT_EQ(measure("out/run.toml"), measure("p900-45 --set sonar.shading=chebyshev"));
 }

@@ -36,7 +36,7 @@ std::vector<std::uint32_t> raw_labels(const std::string& path, const char* name)
 
 TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
   succeed("dataset survey -o set --stuff sand");
-  const nlohmann::json manifest = nlohmann::json::parse(read("set/manifest.json"));
+  const nlohmann::json manifest = manifest_of("set");
   const auto classes = manifest["classes"].get<std::vector<std::string>>();
   EXPECT_EQ(classes[0], "nothing");
   EXPECT_EQ(classes[1], "shadow");
@@ -137,8 +137,8 @@ TEST_F(DatasetRun, of_a_head_with_several_rows_of_beams_is_of_its_rows) {
 
 TEST_F(DatasetRun, colours_of_masks_are_those_of_the_palette_and_of_view_labels) {
   succeed("dataset survey -o set --columns 400");
-  const nlohmann::json palette = nlohmann::json::parse(read("set/palette.json"));
-  const auto classes = nlohmann::json::parse(read("set/manifest.json"))["classes"].get<std::vector<std::string>>();
+  const nlohmann::json palette = read_json("set/palette.json");
+  const auto classes = manifest_of("set")["classes"].get<std::vector<std::string>>();
   ASSERT_EQ(palette.size(), classes.size());
   for (std::size_t k = 0; k < classes.size(); ++k) EXPECT_EQ(palette[k]["name"], classes[k]);
   EXPECT_EQ(palette[0]["rgb"], nlohmann::json::parse("[0, 0, 0]"));
@@ -147,7 +147,7 @@ TEST_F(DatasetRun, colours_of_masks_are_those_of_the_palette_and_of_view_labels)
   succeed("merge survey");
   succeed("image survey/fls/cube.h5 --ping 3 --view labels --size 400x400 -o labels.png");
   EXPECT_EQ(read("labels.png"), read("set/fan/colours/000_000003.png"));
-  const nlohmann::json key = nlohmann::json::parse(read("labels.json"));
+  const nlohmann::json key = read_json("labels.json");
   EXPECT_EQ(key["least_share"], 0.5);
   EXPECT_EQ(key["classes"][1]["rgb"], palette[1]["rgb"]);
   EXPECT_GT(key["classes"][2]["samples"], 1000);
@@ -190,7 +190,7 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
 // Only classes that have boxes are named; shadow can be left to the masks, and outlines stand beside run lengths.
 TEST_F(DatasetRun, names_classes_with_boxes_and_draws_their_outlines) {
   succeed("dataset survey -o set --stuff sand,shadow --polygons");
-  const auto manifest = nlohmann::json::parse(read("set/manifest.json"));
+  const auto manifest = manifest_of("set");
   const auto names = manifest["boxed_classes"].get<std::vector<std::string>>();
   EXPECT_EQ(std::count(names.begin(), names.end(), "shadow") + std::count(names.begin(), names.end(), "sand"), 0);
   std::string yaml = "names:\n";
@@ -290,7 +290,7 @@ TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
   std::map<int, std::set<int>> of_category;
   const nlohmann::json all = coco("polar");
   for (const auto& a : all["annotations"]) of_category[a["category_id"]].insert(a["instance"].get<int>());
-  const nlohmann::json classes = nlohmann::json::parse(read("set/manifest.json"))["classes"];
+  const nlohmann::json classes = manifest_of("set")["classes"];
   ASSERT_EQ(classes.size(), 4U);
   EXPECT_EQ(of_category[3].size(), 2U);  // the balls touch in the image, and are two nevertheless
   // Prepared, the scene has the same objects.
@@ -299,7 +299,7 @@ TEST_F(DatasetRun, objects_are_the_instances_of_the_scene) {
       "ping balls.ply --sonar p900-45 --set sonar.beams=64 --pose=0,0,0,0,8,0 --range 3:9 --no-picture -q --keep "
       "contributors -o prepared");
   succeed("dataset prepared -o prepared_set --least-pixels 30");
-  const nlohmann::json again = nlohmann::json::parse(read("prepared_set/polar/annotations/instances_train.json"));
+  const nlohmann::json again = read_json("prepared_set/polar/annotations/instances_train.json");
   EXPECT_EQ(again["annotations"], all["annotations"]);
   // So they are in the images of the run itself, where surfels of a ball are of its instance.
   const std::vector<std::uint32_t> material = raw_labels(path("balls/contributors.h5"), "/material_image"),

@@ -45,7 +45,7 @@ class Dive : public ToolTest {
            "set = [\"sonar.field_of_view_deg=90\", \"sonar.beams=32\"]\nevery_m = 4.8\n[ping]\nsplit = true\n"
            "without = [\"multipath\"]\n";
   }
-  json info(const std::string& run) const { return json::parse(succeed("info " + run + " --json")); }
+  json info(const std::string& run) const { return json_of("info " + run); }
   static double depth_of(const Ping& ping) { return -ping.world_from_head.translation().z(); }
 };
 
@@ -54,7 +54,7 @@ class Dive : public ToolTest {
 TEST_F(Dive, pings_keep_the_water_of_their_own_depth_in_blocks_and_in_the_merged_cube) {
   succeed("survey dive.toml -q -o run --pings-per-block 2");
   succeed("merge -q run");
-  const Cube cube = read_cube(path("run/em2040/cube.h5"));
+  const Cube cube = cube_of("run/em2040");
   ASSERT_EQ(cube.pings.size(), 5U);
   for (const Ping& ping : cube.pings) {
     EXPECT_NEAR(ping.sound_speed, sound_speed_at(thermocline, depth_of(ping)), 1e-4);
@@ -120,7 +120,7 @@ TEST_F(Dive, a_water_level_of_the_mission_is_the_surface_that_depth_counts_from)
     succeed(std::string("survey ") + name + ".toml -q -o run-" + name);
     succeed(std::string("merge -q run-") + name);
   }
-  const Cube a = read_cube(path("run-a/em2040/cube.h5")), b = read_cube(path("run-b/em2040/cube.h5"));
+  const Cube a = cube_of("run-a/em2040"), b = cube_of("run-b/em2040");
   ASSERT_EQ(a.pings.size(), b.pings.size());
   for (std::size_t p = 0; p < a.pings.size(); ++p) {
     EXPECT_EQ(a.pings[p].sound_speed, b.pings[p].sound_speed);
@@ -132,7 +132,7 @@ TEST_F(Dive, files_of_other_programs_have_the_water_of_each_ping) {
   write("short.toml", replaced(read("dive.toml"), "every_m = 4.8", "every_m = 15"));
   succeed("survey short.toml -q -o run");
   succeed("merge -q run");
-  const Cube cube = read_cube(path("run/em2040/cube.h5"));
+  const Cube cube = cube_of("run/em2040");
   ASSERT_EQ(cube.pings.size(), 2U);
   succeed("export run --to gsf --anchor -33.5,-71.6,0 -q -o dive.gsf");
   const decode::GsfContent gsf = decode::read_gsf(read("dive.gsf"));
@@ -157,7 +157,7 @@ TEST_F(Dive, gsf_has_the_sound_speed_of_each_ping_where_there_is_no_profile) {
   write("sea.toml", "[surface]\nheight_m = 0\n");
   succeed("survey dive.toml -q -o run");
   succeed("merge -q run");
-  const Cube cube = read_cube(path("run/em2040/cube.h5"));
+  const Cube cube = cube_of("run/em2040");
   succeed("export run --to gsf --anchor -33.5,-71.6,0 -q -o dive.gsf");
   const decode::GsfContent gsf = decode::read_gsf(read("dive.gsf"));
   ASSERT_EQ(gsf.swaths.size(), 5U);
@@ -190,7 +190,7 @@ TEST_F(Dive, level_ways_have_one_water_and_no_numbers_of_their_own) {
 TEST_F(Dive, a_ping_says_which_water_it_was_in_and_can_be_made_again) {
   const std::string ping = "ping bed.obj --sonar em2040 --environment sea.toml --range 3:25 --set sonar.beams=16 ";
   succeed(ping + "--pose=0,0,-8,0,90,0 -q -o out");
-  const json manifest = json::parse(read("out/manifest.json"));
+  const json manifest = manifest_of("out");
   EXPECT_EQ(manifest["water"]["depth_m"], 8.0);
   EXPECT_NEAR(manifest["water"]["sound_speed"].get<double>(), sound_speed_at(thermocline, 8), 1e-4);
   EXPECT_EQ(info("out")["sound_speed"], manifest["water"]["sound_speed"]);
@@ -199,7 +199,7 @@ TEST_F(Dive, a_ping_says_which_water_it_was_in_and_can_be_made_again) {
   // Of two depths one cube is made: the head is the same.
   succeed(ping + "--pose=0,0,-2,0,90,0 --time 1 -q -o high");
   succeed("merge -q out high -o both");
-  const Cube both = read_cube(path("both/cube.h5"));
+  const Cube both = cube_of("both");
   ASSERT_EQ(both.pings.size(), 2U);
   EXPECT_NEAR(both.pings[0].sound_speed, sound_speed_at(thermocline, 8), 1e-4);
   EXPECT_NEAR(both.pings[1].sound_speed, sound_speed_at(thermocline, 2), 1e-4);

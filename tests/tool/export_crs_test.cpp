@@ -5,6 +5,7 @@
 #include "core/geodesy.hpp"
 #include "formats/tiff_decoder.hpp"
 #include "support/test.hpp"
+#include "tool/mission_text.hpp"
 #include "tool/tool_runner.hpp"
 #include "view/save_vtk.hpp"
 
@@ -49,21 +50,13 @@ class ExportCrs : public ToolTest {
          "ping bed.obj --sonar em2040 --pose=0,0,0,0,0,0 --range 2:8 --set sonar.beams=48 "
          "--set sonar.field_of_view_deg=90");
   }
-  /// Columns of the soundings as CSV has them.
-  std::map<std::string, std::vector<double>> soundings(const std::string& anchor) {
+  /// Two columns of the soundings as CSV has them.
+  std::vector<Eigen::Vector2d> soundings(const std::string& anchor, const char* first, const char* second) const {
     succeed("export out --to csv -q --force -o s.csv --anchor " + anchor);
-    std::istringstream lines(read("s.csv"));
-    std::string line, cell;
-    std::vector<std::string> names;
-    std::map<std::string, std::vector<double>> columns;
-    std::getline(lines, line);
-    for (std::istringstream head(line); std::getline(head, cell, ',');) names.push_back(cell);
-    while (std::getline(lines, line)) {
-      std::istringstream row(line);
-      for (const std::string& name : names)
-        std::getline(row, cell, ','), columns[name].push_back(std::strtod(cell.c_str(), nullptr));
-    }
-    return columns;
+    std::vector<Eigen::Vector2d> found;
+    for (const auto& row : rows_of(read("s.csv")))
+      found.emplace_back(std::stod(row.at(first)), std::stod(row.at(second)));
+    return found;
   }
   /// Every sounding is counted in the cell that holds its place [m], and no other is.
   static void expect_counted(const decode::GeotiffContent& map, const std::vector<Eigen::Vector2d>& places,
@@ -84,11 +77,9 @@ class ExportCrs : public ToolTest {
     const decode::GeotiffContent map = decode::read_geotiff(read("m.tif"));
     EXPECT_EQ(map.epsg, epsg);
     EXPECT_NEAR(map.cell, 0.7 / unit, 1e-12);
-    auto s = soundings(anchor);
-    ASSERT_GT(s["ping"].size(), 40U);
-    std::vector<Eigen::Vector2d> places;
-    for (std::size_t i = 0; i < s["ping"].size(); ++i)
-      places.push_back(system(s["latitude_deg"][i], s["longitude_deg"][i]));
+    std::vector<Eigen::Vector2d> places = soundings(anchor, "latitude_deg", "longitude_deg");
+    ASSERT_GT(places.size(), 40U);
+    for (Eigen::Vector2d& place : places) place = system(place.x(), place.y());
     expect_counted(map, places, unit);
   }
 };
@@ -120,10 +111,7 @@ TEST_F(ExportCrs, the_plane_of_the_world_needs_no_place_on_the_globe) {
   for (const double c : tags.at(34737)) name.push_back(static_cast<char>(c));
   EXPECT_EQ(name, std::string("local grid of metres|\0", 22));
   decode::GeotiffContent map = decode::read_geotiff(read("local.tif"));
-  auto s = soundings("54,8");
-  std::vector<Eigen::Vector2d> places;
-  for (std::size_t i = 0; i < s["ping"].size(); ++i) places.emplace_back(s["x_m"][i], s["y_m"][i]);
-  expect_counted(map, places, 1);
+  expect_counted(map, soundings("54,8", "x_m", "y_m"), 1);
   succeed("export out --to geotiff --cell 0.5 --crs local --anchor 54,8,123 -q -o anchored.tif");
   EXPECT_EQ(read("anchored.tif"), read("local.tif"));
 }
@@ -153,20 +141,11 @@ TEST_F(ExportCrs, refuses_systems_that_cannot_work_with_a_remedy) {
 // Each cell of the GeoTIFF is the cell of the mosaic at the place of its middle in the world, whose x axis points to the
 // north-west here.
 TEST_F(ExportCrs, mosaics_are_north_up_where_the_mission_has_an_anchor) {
-  write("line.toml", R"(schema = 1
-[survey]
-scene = "bed.obj"
-anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = -50 }
-[trajectory]
-waypoints_m = [[-1, 0, 0], [1, 0, 0]]
-speed_m_s = 1
-[[head]]
-sonar = "em2040"
-set = ["sonar.beams=64", "sonar.field_of_view_deg=90"]
-range = "2:8"
-every_m = 0.5
-[ping]
-)");
+  write("line.toml", text_of({.survey = "anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = -50 }",
+                              .way = "[-1, 0, 0], [1, 0, 0]",
+                              .sonar = "em2040",
+                              .range = "2:8",
+                              .head = "set = [\"sonar.beams=64\", \"sonar.field_of_view_deg=90\"]\nevery_m = 0.5"}));
   succeed("survey line.toml -q -o run");
   succeed("merge -q run --mosaic 0.2");
   const decode::GeotiffContent map = decode::read_geotiff(read("run/mosaic.tif"));

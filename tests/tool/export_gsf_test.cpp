@@ -6,6 +6,7 @@
 #include "formats/gsf_decoder.hpp"
 #include "store/cube.hpp"
 #include "tool/gsf_rays.hpp"
+#include "tool/mission_text.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -101,21 +102,17 @@ TEST_F(ExportGsf, soundings_follow_from_times_angles_and_profile) {
 // The same soundings as a table in the world: across and along are level, as the ship heads, from the head.
 TEST_F(ExportGsf, soundings_lie_where_the_table_has_them) {
   succeed("export run --to csv -q -o ship.csv");
-  std::istringstream table(read("ship.csv"));
-  std::string line;
-  std::getline(table, line);
   std::vector<std::vector<std::array<double, 3>>> expected(5);  // across, along, depth of each ping
   const Pose ship_from_head = pose_from_yaw_pitch_roll({0, 0, -0.2}, 0, radians(89), radians(4));
-  while (std::getline(table, line)) {
-    std::vector<double> v;
-    std::istringstream cells(line);
-    for (std::string cell; v.size() < 6 && std::getline(cells, cell, ',');) v.push_back(std::stod(cell));
-    const auto p = static_cast<std::size_t>(v[0]);
+  for (const auto& row : rows_of(read("ship.csv"))) {
+    const auto number = [&](const char* column) { return std::stod(row.at(column)); };
+    const auto p = static_cast<std::size_t>(number("ping"));
+    const Eigen::Vector3d sounding(number("x_m"), number("y_m"), number("z_m"));
     const Ship ship{ping_step * static_cast<double>(p)};
-    const Eigen::Vector3d away = Eigen::Vector3d(v[3], v[4], v[5]) - (ship.pose() * ship_from_head).translation();
+    const Eigen::Vector3d away = sounding - (ship.pose() * ship_from_head).translation();
     const double yaw = radians(ship.yaw_deg());
     expected.at(p).push_back({away.x() * std::sin(yaw) - away.y() * std::cos(yaw),
-                              away.x() * std::cos(yaw) + away.y() * std::sin(yaw), -v[5]});
+                              away.x() * std::cos(yaw) + away.y() * std::sin(yaw), -sounding.z()});
   }
   const decode::GsfContent gsf = content();
   for (std::size_t p = 0; p < 5; ++p) {
@@ -179,7 +176,7 @@ TEST_F(ExportGsf, single_pings_have_the_course_and_speed_of_their_trajectory) {
 
 TEST_F(ExportGsf, depth_of_the_head_height_and_place_are_those_of_the_track) {
   succeed("merge -q run");
-  const auto track = nlohmann::json::parse(read("run/track.geojson"))["features"][0]["geometry"]["coordinates"];
+  const auto track = read_json("run/track.geojson")["features"][0]["geometry"]["coordinates"];
   const decode::GsfContent gsf = content();
   const Pose ship_from_head = pose_from_yaw_pitch_roll({0, 0, -0.2}, 0, radians(89), radians(4));
   for (std::size_t p = 0; p < 5; ++p) {
@@ -230,23 +227,15 @@ TEST_F(ExportGsf, names_sonar_versions_and_how_the_head_is_mounted) {
 
 // A ship that dives below a water level of z = 0.75, with its head ahead of the origin, to port and below.
 TEST_F(ExportGsf, of_a_ship_that_dives_follows_its_depth) {
-  write("dive.toml", R"(schema = 1
-[survey]
-scene = "bed.obj"
-anchor = { latitude_deg = 54.1, longitude_deg = -7.9, heading_deg = 200 }
-[trajectory]
-waypoints_m = [[-4, 0, -1], [4, 0, -3]]
-speed_m_s = 2
-[[head]]
-sonar = "r2sonic-2024"
-set = ["sonar.beams=32", "sonar.field_of_view_deg=90"]
-range = "6:20"
-times_s = [0, 1, 2]
-offset_m = [0.5, 0.3, -0.2]
-[water]
-level_m = 0.75
-datum = "LAT"
-)");
+  write("dive.toml",
+        text_of({.survey = "anchor = { latitude_deg = 54.1, longitude_deg = -7.9, heading_deg = 200 }",
+                 .way = "[-4, 0, -1], [4, 0, -3]",
+                 .speed = "2",
+                 .sonar = "r2sonic-2024",
+                 .range = "6:20",
+                 .head = "set = [\"sonar.beams=32\", \"sonar.field_of_view_deg=90\"]\ntimes_s = [0, 1, 2]\n"
+                         "offset_m = [0.5, 0.3, -0.2]",
+                 .more = "[water]\nlevel_m = 0.75\ndatum = \"LAT\""}));
   succeed("survey dive.toml -q -o dive");
   succeed("export dive --to gsf -q -o dive.gsf");
   const decode::GsfContent gsf = content("dive.gsf");
@@ -273,23 +262,13 @@ datum = "LAT"
 
 // A head that scans turns, and its ship does not.
 TEST_F(ExportGsf, of_a_scanning_head_has_the_attitude_of_its_ship) {
-  write("scan.toml", R"(schema = 1
-[survey]
-scene = "bed.obj"
-anchor = { latitude_deg = -10, longitude_deg = 179.9, heading_deg = 90 }
-[trajectory]
-waypoints_m = [[0, 0, -1], [1, 0, -1]]
-speed_m_s = 1
-[[head]]
-sonar = "seaking-profiler"
-range = "6:20"
-[head.scan]
-start_deg = -40
-stop_deg = 40
-step_deg = 20
-mode = "sector"
-dwell_s = 0.2
-)");
+  write("scan.toml",
+        text_of(
+            {.survey = "anchor = { latitude_deg = -10, longitude_deg = 179.9, heading_deg = 90 }",
+             .way = "[0, 0, -1], [1, 0, -1]",
+             .sonar = "seaking-profiler",
+             .range = "6:20",
+             .more = "[head.scan]\nstart_deg = -40\nstop_deg = 40\nstep_deg = 20\nmode = \"sector\"\ndwell_s = 0.2"}));
   succeed("survey scan.toml -q -o scan");
   succeed("export scan --to gsf -q -o scan.gsf");
   const decode::GsfContent gsf = content("scan.gsf");

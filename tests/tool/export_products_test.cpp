@@ -168,27 +168,25 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
     expect_in_table("| column of `las`", column);
     EXPECT_THAT(las_file, HasSubstr(std::string(column) + std::string(1, '\0')));
   }
-  std::size_t i = 0;
-  for (; std::getline(lines, line); ++i) {
-    std::vector<std::string> words;
-    std::istringstream row(line);
-    for (std::string word; std::getline(row, word, ',');) words.push_back(word);
-    ASSERT_EQ(words.size(), 14U);
-    const Eigen::Vector3d at(std::stod(words[3]), std::stod(words[4]), std::stod(words[5]));
-    const decode::LasRow& las = rows.at(i);
+  const auto table = rows_of(read("ball.csv"));
+  ASSERT_EQ(table.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto number = [&](const char* name) { return std::stod(table[i].at(name)); };
+    ASSERT_EQ(table[i].size(), 14U);
+    const Eigen::Vector3d at(number("x_m"), number("y_m"), number("z_m"));
+    const decode::LasRow& las = rows[i];
     EXPECT_LT((at - in_world({las.place[0], las.place[1], las.place[2]})).norm(), 1e-3);
-    EXPECT_EQ(words[1], "1777624200.000000");
-    EXPECT_EQ(std::stoul(words[2]), las.beam);
-    EXPECT_NEAR(std::stod(words[6]), (at - pose.translation()).norm(), 2e-4);
-    EXPECT_NEAR(std::stod(words[7]), static_cast<double>(las.deviation), 1e-5);
-    EXPECT_NEAR(std::stod(words[8]), static_cast<double>(las.level_db), 0.006);
-    EXPECT_NEAR(std::stod(words[9]), std::log10(std::stod(words[6]) / std::stod(words[7])), 0.01);
+    EXPECT_EQ(table[i].at("time_s"), "1777624200.000000");
+    EXPECT_EQ(number("beam"), las.beam);
+    EXPECT_NEAR(number("range_m"), (at - pose.translation()).norm(), 2e-4);
+    EXPECT_NEAR(number("deviation_m"), static_cast<double>(las.deviation), 1e-5);
+    EXPECT_NEAR(number("level_db"), static_cast<double>(las.level_db), 0.006);
+    EXPECT_NEAR(number("quality"), std::log10(number("range_m") / number("deviation_m")), 0.01);
     const GeoPlace place = geo_from_world(ball_anchor, at);
-    EXPECT_EQ(words[11], "0");
-    EXPECT_NEAR(std::stod(words[12]), degrees(place.latitude), 2e-9);
-    EXPECT_NEAR(std::stod(words[13]), degrees(place.longitude), 2e-9);
+    EXPECT_EQ(table[i].at("reject"), "0");
+    EXPECT_NEAR(number("latitude_deg"), degrees(place.latitude), 2e-9);
+    EXPECT_NEAR(number("longitude_deg"), degrees(place.longitude), 2e-9);
   }
-  EXPECT_EQ(i, rows.size());
   // Without a place on the globe the columns of the world remain.
   succeed("export out --to csv -o world.csv -q");
   EXPECT_THAT(read("world.csv"),
@@ -199,7 +197,7 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
 // The head stands below the middle of the last row, port on the left.
 TEST_F(ExportProducts, png_shows_it_to_port_at_its_range) {
   succeed("export out --to png -o pictures -q");
-  const auto manifest = nlohmann::json::parse(read("pictures/manifest.json"));
+  const auto manifest = manifest_of("pictures");
   ASSERT_EQ(manifest["pings"].size(), 1U);
   vtkNew<vtkPNGReader> reader;
   reader->SetFileName(path("pictures/" + manifest["pings"][0]["fan"].get<std::string>()).c_str());
@@ -248,7 +246,7 @@ TEST_F(ExportProducts, mcap_has_it_in_image_points_and_transforms) {
   EXPECT_EQ(read.metadata.at("/sonar/image").at("law"), "level = black_db + value / 255 (white_db - black_db)");
   EXPECT_THAT(read.metadata.at("/tf_static").at("offered_qos_profiles"), HasSubstr("durability: 1"));
   // Levels by that law are within half a step of those of the cube.
-  const Cube cube = read_cube(path("out/cube.h5"));
+  const Cube cube = cube_of("out");
   const Grid<float> level = range_compensated_level_db(cube.pings[0], cube.absorption_db_per_m);
   const double black = std::stod(read.metadata.at("/sonar/image").at("black_db")),
                white = std::stod(read.metadata.at("/sonar/image").at("white_db")), half = (white - black) / 255 / 2;
@@ -279,7 +277,7 @@ TEST_F(ExportProducts, mcap_has_metadata_and_compressed_chunks) {
   std::map<std::string, std::string> about = content.records.at("insonify");
   EXPECT_EQ(about["name"], "insonify");
   EXPECT_THAT(about["version"], testing::MatchesRegex("[0-9]+[.][0-9]+[.][0-9]+"));
-  EXPECT_EQ(about["sonar"], read_cube(path("out/cube.h5")).sonar);
+  EXPECT_EQ(about["sonar"], cube_of("out").sonar);
   EXPECT_EQ(about["start_utc"], "2026-05-01T08:30:00Z");
   for (const auto& [key, value] : content.metadata.at("/sonar/image")) EXPECT_EQ(about[key], value) << key;
   EXPECT_NEAR(std::stod(about["white_db"]) - std::stod(about["black_db"]), 80, 1e-9);

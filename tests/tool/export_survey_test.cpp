@@ -7,6 +7,7 @@
 #include "formats/ros_decoder.hpp"
 #include "formats/tiff_decoder.hpp"
 #include "store/cube.hpp"
+#include "tool/mission_text.hpp"
 #include "tool/tool_runner.hpp"
 
 // A survey of two blocks over a level bed: each product has all its pings, at the place and time that the mission gives.
@@ -15,28 +16,14 @@ class ExportSurvey : public ToolTest {
   static constexpr double bed_depth = 4;
   void SetUp() override {
     write("bed.obj", "v -3 -14 -4\nv 3 -14 -4\nv 3 14 -4\nv -3 14 -4\nf 1 2 3\nf 1 3 4\n");
-    write("line.toml", R"(schema = 1
-[survey]
-scene = "bed.obj"
-anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 30 }
-start_utc = "2026-05-01T08:30:00Z"
-[trajectory]
-waypoints_m = [[-1, 0, 0], [1, 0, 0]]
-speed_m_s = 1
-[[head]]
-sonar = "r2sonic-2024"
-set = ["sonar.beams=33", "sonar.field_of_view_deg=90"]
-range = "2:8"
-every_m = 0.5
-[[leg]]
-name = "first"
-to_s = 1
-[[leg]]
-name = "second"
-[ping]
-noise = true
-split = true
-)");
+    write("line.toml", text_of({.survey = "anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 30 }\n"
+                                          "start_utc = \"2026-05-01T08:30:00Z\"",
+                                .way = "[-1, 0, 0], [1, 0, 0]",
+                                .sonar = "r2sonic-2024",
+                                .range = "2:8",
+                                .head = "set = [\"sonar.beams=33\", \"sonar.field_of_view_deg=90\"]\nevery_m = 0.5",
+                                .more = "[[leg]]\nname = \"first\"\nto_s = 1\n[[leg]]\nname = \"second\"\n"
+                                        "[ping]\nnoise = true\nsplit = true"}));
     succeed("survey line.toml -q --pings-per-block 3 -o run");
   }
 };
@@ -100,7 +87,7 @@ TEST_F(ExportSurvey, has_all_pings_in_every_product) {
   }
   EXPECT_EQ(counted, static_cast<double>(soundings));
   EXPECT_EQ(decode::read_mcap(read("product.mcap")).messages.size(), 4 * 5U + 1);  // with a fix of each ping
-  EXPECT_EQ(nlohmann::json::parse(read("product.png/manifest.json"))["pings"].size(), 4U);
+  EXPECT_EQ(manifest_of("product.png")["pings"].size(), 4U);
   EXPECT_TRUE(std::filesystem::exists(path("product.png/fan_000003.png")));
   EXPECT_TRUE(std::filesystem::exists(path("vtk/fan_000003.vts")));
   EXPECT_TRUE(std::filesystem::exists(path("vtk/returns.vtp")));

@@ -33,7 +33,7 @@ class Export : public ToolTest {
 TEST_F(Export, gives_grids_and_images_that_hold_the_levels_of_the_cube) {
   succeed(ping + "-o out");
   succeed("export out -o vtk -q");
-  const Ping p = read_cube(path("out/cube.h5")).pings[0];
+  const Ping p = ping_of("out");
   const Grid<float> level = level_db(p);
 
   vtkNew<vtkXMLImageDataReader> image;
@@ -204,10 +204,10 @@ TEST_F(Export, gains_are_of_the_absorption_of_each_ping) {
   succeed("merge -q cold warm -o both");
   succeed("export both -o vtk -q");
   succeed("export both --to png -o grey -q");
-  const Cube cube = read_cube(path("both/cube.h5"));
+  const Cube cube = cube_of("both");
   ASSERT_EQ(cube.pings.size(), 2U);
   EXPECT_GT(std::abs(cube.pings[0].absorption_db_per_m - cube.pings[1].absorption_db_per_m), 0.05);
-  const auto manifest = nlohmann::json::parse(read("grey/manifest.json"));
+  const auto manifest = manifest_of("grey");
   const double black = manifest["black_db"], white = manifest["white_db"];
   for (std::size_t p = 0; p < 2; ++p) {
     const Ping& from = cube.pings[p];

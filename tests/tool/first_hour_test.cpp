@@ -25,8 +25,7 @@ std::string next_of(const json& info) {
 class FirstHour : public ToolTest {
  protected:
   void have_plane() const { have("plane.ply", "make-scene plane --size 8,8 --points 6000"); }
-  json info(const std::string& file) const { return json::parse(succeed("info " + file + " --json")); }
-  json manifest(const std::string& folder) const { return json::parse(read(folder + "/manifest.json")); }
+  json info(const std::string& file) const { return json_of("info " + file); }
   // Notes of a ping with a small head over the plane.
   std::string notes(const std::string& options) const {
     std::filesystem::remove_all(path("noted"));
@@ -78,7 +77,7 @@ TEST_F(FirstHour, notes_say_what_is_wrong_with_range_and_pose_and_what_to_do) {
   EXPECT_THAT(notes("--pose=4,0,0.001,0,20,0 --range 2:9"), HasSubstr("the head stands within the surface"));
   // Beside the edge of the scan, and lower than it, the head is behind nothing.
   EXPECT_THAT(notes("--pose=-4,0,-0.5,0,0,0 --range 2:13"), Not(HasSubstr("behind")));
-  EXPECT_EQ(manifest("noted")["notes"].size(), 1U);  // of the silent ping: the plane has its back to the head
+  EXPECT_EQ(manifest_of("noted")["notes"].size(), 1U);  // of the silent ping: the plane has its back to the head
 }
 
 TEST_F(FirstHour, a_silent_ping_says_which_pose_is_not) {
@@ -90,7 +89,7 @@ TEST_F(FirstHour, a_silent_ping_says_which_pose_is_not) {
   const std::string remedy = note.substr(begin, note.find(' ', begin) - begin);
   EXPECT_THAT(remedy, testing::StartsWith("--pose=0,0,2,"));
   EXPECT_THAT(notes(remedy + " --range 2:9"), Not(HasSubstr("silent")));
-  EXPECT_GT(manifest("noted")["sampling"]["scatterers"].get<int>(), 0);
+  EXPECT_GT(manifest_of("noted")["sampling"]["scatterers"].get<int>(), 0);
   // Out of range it takes another range too, and what has its back to the head is no matter of the pose's angles.
   EXPECT_THAT(notes("--pose=-16,0,2,0,0,0 --range 2:9"),
               testing::AllOf(testing::ContainsRegex("--pose=-16,0,2,-?0[.0-9]*,5.7[0-9]*,0 looks at it"),
@@ -142,14 +141,14 @@ TEST_F(FirstHour, info_proposes_commands_that_run_as_they_stand) {
     const std::string command = all.substr(at + 9, all.find('\n', at) - at - 9);
     succeed(command + " -q" + (command.starts_with("ping") ? " --no-picture" : ""));
   }
-  EXPECT_GT(manifest("first")["sampling"]["scatterers"].get<int>(), 1000);
+  EXPECT_GT(manifest_of("first")["sampling"]["scatterers"].get<int>(), 1000);
   const json mission = info("mission.toml");
   EXPECT_EQ(mission["format"], "insonify mission");
   EXPECT_GE(mission["legs"].size(), 2U);
 }
 
 TEST_F(SurveyTest, info_says_how_far_a_survey_and_a_head_are_and_what_comes_next) {
-  const auto info = [&](const std::string& file) { return json::parse(succeed("info " + file + " --json")); };
+  const auto info = [&](const std::string& file) { return json_of("info " + file); };
   const json mission = info("m.toml");
   EXPECT_EQ(mission["format"], "insonify mission");
   EXPECT_EQ(mission["scene"], "harbour.ply");
@@ -198,14 +197,14 @@ TEST_F(FirstHour, materials_lists_names_numbers_and_the_law) {
   const std::string all = succeed("materials");
   for (const char* text : {"sand ", "lambert_mu_db", "coherent_fraction", "relief_slope", "-16.6", "law: Lambert"})
     EXPECT_THAT(all, HasSubstr(text));
-  const json sand = json::parse(succeed("materials sand --json"));
+  const json sand = json_of("materials sand");
   ASSERT_EQ(sand.size(), 1U);
   EXPECT_EQ(sand[0]["label"], 6);
   EXPECT_NEAR(sand[0]["lambert_mu_db"].get<double>(), -16.6, 1e-9);
   write("own.toml", "schema = 1\n[[material]]\nname = \"kelp\"\nlambert_mu_db = -21\n");
   EXPECT_THAT(succeed("materials own.toml"), HasSubstr("kelp"));
   expect_refused("materials sandd", 2, {"'sandd' is unknown; did you mean 'sand'?"});
-  EXPECT_EQ(json::parse(succeed("materials --json")).size(), 23U);
+  EXPECT_EQ(json_of("materials").size(), 23U);
 }
 
 TEST_F(FirstHour, a_mission_to_begin_with_reaches_to_the_end_of_the_scene_and_has_soundings) {
@@ -255,7 +254,7 @@ TEST_F(FirstHour, a_plan_takes_a_twentieth_of_its_survey) {
   const auto plan = [&](double every) {
     const std::string head = fmt::format("set = [\"sonar.beams=32\"]\nrange = \"2:9\"\nevery_m = {}", every);
     write("m.toml", line_over_plane(0, 8, 0.05, head));
-    return json::parse(succeed("survey m.toml --plan -j1 --json"));
+    return json_of("survey m.toml --plan -j1");
   };
   const json few = plan(2);
   EXPECT_EQ(few["heads"][0]["pings"], 4);
@@ -318,7 +317,7 @@ TEST_F(FirstHour, min_level_leaves_out_the_labels_of_black_pixels_alone) {
   const auto samples = [&](const std::string& options) {
     succeed("image labelled --view labels -q --force -o labels.png " + options);
     std::size_t nothing = 0;
-    const json palette = json::parse(read("labels.json"));
+    const json palette = read_json("labels.json");
     for (const json& c : palette["classes"])
       if (c["value"] == 0) nothing = c["samples"].get<std::size_t>();
     return nothing;
@@ -336,14 +335,14 @@ TEST_F(FirstHour, soundings_are_compared_with_their_scene) {
       rows += "1," + std::to_string((row + column) % 2 == 0 ? 0.03 : 0.07) + "," + std::to_string(0.5 * column + 4.25) +
               ",phase," + std::to_string(0.5 * row + 0.25) + "\n";
   write("soundings.csv", rows);
-  const json r = json::parse(succeed("compare soundings.csv grid.ply --cell 0.5 --json"));
+  const json r = json_of("compare soundings.csv grid.ply --cell 0.5");
   EXPECT_EQ(r["soundings"], 144);
   EXPECT_EQ(r["cells_compared"], 144);
   EXPECT_NEAR(r["bias_m"].get<double>(), 0.05, 1e-4);
   EXPECT_NEAR(r["deviation_m"].get<double>(), 0.02, 2e-4);
   EXPECT_EQ(r["beyond_half_metre"], 0);
   write("soundings.csv", rows + "1,2,4.25,phase,0.25\n");
-  const json off = json::parse(succeed("compare soundings.csv grid.ply --cell 0.5 --json"));
+  const json off = json_of("compare soundings.csv grid.ply --cell 0.5");
   EXPECT_EQ(off["beyond_half_metre"], 1);
   EXPECT_NEAR(off["largest_m"].get<double>(), (2 + 0.03) / 2, 1e-3);
   EXPECT_THAT(succeed("compare soundings.csv grid.ply --cell 0.5"), HasSubstr("bias"));

@@ -31,12 +31,27 @@ for head, beams in (("fls", 16), ("turning", 1)):
             assert [d.label for d in p.dims] == ["ping", "beam", "bin"]
             assert numpy.array_equal(p.dims[2][0][:], f["range"][:]) and f["range"].attrs["CLASS"] == b"DIMENSION_SCALE"
             assert "sqrt(2)" in p.attrs["convention"] and p.attrs["units"] == "Pa"
+            assert p.dtype == "complex64" and p.is_virtual == name.endswith("cube.h5")
+            assert p.dims[1][0] == f["azimuth"] and p.dims[0][0] == f["ping"]
+            assert "port" in f["azimuth"].attrs["long_name"] and f["pose"].attrs["units"] == "1, 1, 1, m"
             for d in f.values():
                 if isinstance(d, h5py.Dataset):
                     assert d.attrs["long_name"], d.name
-print("read")
+with h5py.File("run/fls/cube.h5") as f:
+    p = f["pressure"]
+    print(*p.shape, f["time"][5], repr(float(abs(p[5, 3, 4].real))))
 )x");
-  EXPECT_EQ(output_of("/usr/bin/python3 read.py"), "read\n") << read("said.txt");
+  std::istringstream words(output_of("/usr/bin/python3 read.py"));
+  const Cube cube = cube_of("run/fls");
+  std::size_t pings = 0, beams = 0;
+  Eigen::Index bins = 0;
+  double time = 0, real = 0;
+  ASSERT_TRUE(words >> pings >> beams >> bins >> time >> real) << read("said.txt");
+  EXPECT_EQ(pings, cube.pings.size());
+  EXPECT_EQ(beams, cube.pings[0].fan.beams());
+  EXPECT_EQ(bins, cube.pings[0].pressure.cols());
+  EXPECT_EQ(time, 2.5);
+  EXPECT_EQ(static_cast<float>(real), std::abs(cube.pings[5].pressure(3, 4).real()));
 }
 
 TEST_F(ForeignReaders, gdal_opens_the_grids_of_both_heads) {

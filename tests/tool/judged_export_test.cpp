@@ -10,6 +10,7 @@
 #include "formats/ros_decoder.hpp"
 #include "formats/tiff_decoder.hpp"
 #include "store/cube.hpp"
+#include "tool/mission_text.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -23,21 +24,13 @@ class JudgedExport : public ToolTest {
  protected:
   void SetUp() override {
     have("river.ply", "make-scene river --points 60000");
-    write("line.toml", R"(schema = 1
-[survey]
-scene = "river.ply"
-anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 30 }
-[trajectory]
-waypoints_m = [[12, 0, -0.5], [15, 0, -0.5]]
-speed_m_s = 1
-[[head]]
-sonar = "em2040"
-set = ["sonar.beams=200"]
-range = "1:14"
-every_m = 1.5
-[ping]
-noise = true
-)");
+    write("line.toml", text_of({.scene = "river.ply",
+                                .survey = "anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 30 }",
+                                .way = "[12, 0, -0.5], [15, 0, -0.5]",
+                                .sonar = "em2040",
+                                .range = "1:14",
+                                .head = "set = [\"sonar.beams=200\"]\nevery_m = 1.5",
+                                .more = "[ping]\nnoise = true"}));
     succeed("survey line.toml -q -o run");
   }
   nlohmann::json exported(const std::string& to, const std::string& more, const std::string& file) const {
@@ -128,22 +121,13 @@ TEST_F(JudgedExport, by_a_wrong_profile_smile_as_rays_say) {
   write("sea.toml", "[surface]\nheight_m = 0\n[profile]\ndepth_m = [0, 60]\nsound_speed = [1500, 1440]\n");
   write("true.csv", "depth_m,sound_speed\n0,1500\n60,1440\n");
   write("wrong.csv", "depth_m,sound_speed\n0,1499\n60,1499\n");
-  write("line.toml", R"(schema = 1
-[survey]
-scene = "bed.obj"
-environment = "sea.toml"
-anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 0 }
-[trajectory]
-waypoints_m = [[-0.5, 0, -1], [0.5, 0, -1]]
-speed_m_s = 1
-[[head]]
-sonar = "r2sonic-2024"
-set = ["sonar.beams=61", "sonar.field_of_view_deg=110"]
-range = "15:40"
-every_m = 2
-[ping]
-noise = true
-)");
+  write("line.toml", text_of({.survey = "environment = \"sea.toml\"\n"
+                                        "anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = 0 }",
+                              .way = "[-0.5, 0, -1], [0.5, 0, -1]",
+                              .sonar = "r2sonic-2024",
+                              .range = "15:40",
+                              .head = "set = [\"sonar.beams=61\", \"sonar.field_of_view_deg=110\"]\nevery_m = 2",
+                              .more = "[ping]\nnoise = true"}));
   succeed("survey line.toml -q -o run2");
   const auto products = [&](const std::string& to, const std::string& name, const std::string& more) {
     succeed("export run2 -q --to " + to + " " + more + " -o " + name);
@@ -161,7 +145,7 @@ noise = true
             "wrong.csv");
 
   succeed("merge -q run2");
-  const Cube cube = read_cube(path("run2/r2sonic-2024/cube.h5"));
+  const Cube cube = cube_of("run2/r2sonic-2024");
   const auto in_truth = rows_of(straight), placed = rows_of(wrong);
   ASSERT_EQ(in_truth.size(), placed.size());
   ASSERT_GT(placed.size(), 50U);

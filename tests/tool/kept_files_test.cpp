@@ -18,7 +18,7 @@ class KeptFiles : public ToolTest {
 
 TEST_F(KeptFiles, contributors_fit_the_cube_and_name_the_materials_of_the_scene) {
   succeed(ping + "-o out --keep contributors --contributors 2");
-  const Ping p = read_cube(path("out/cube.h5")).pings[0];
+  const Ping p = ping_of("out");
   const NamedContributors named = read_contributor_file(path("out/contributors.h5"));
   EXPECT_EQ(named.contributors.beams, p.fan.beams());
   EXPECT_EQ(named.contributors.bins, p.gate.bins());
@@ -33,7 +33,7 @@ TEST_F(KeptFiles, contributors_fit_the_cube_and_name_the_materials_of_the_scene)
   ASSERT_LT(surfel, scene.size());
   EXPECT_EQ(named.contributors.id[loudest], scene.id[surfel]);
   EXPECT_EQ(named.contributors.material[loudest], scene.material[surfel]);
-  const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
+  const auto manifest = manifest_of("out");
   EXPECT_EQ(manifest["contributors"]["per_pixel"], 2);
   EXPECT_GT(manifest["contributors"]["mean_share_listed"], 0.1);
   EXPECT_GT(manifest["seconds"]["contributors"], 0);
@@ -49,7 +49,7 @@ TEST_F(KeptFiles, are_the_same_bytes_for_one_and_two_threads) {
 
 TEST_F(KeptFiles, insonification_opens_as_a_cloud_of_the_whole_scene) {
   succeed(ping + "-o out --keep insonification");
-  const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
+  const auto manifest = manifest_of("out");
   const std::size_t surfels = load_scene(path("harbour.ply")).scene.size();
   EXPECT_EQ(manifest["insonification"]["surfels"], surfels);
   EXPECT_GT(manifest["insonification"]["insonified"], surfels / 100);
@@ -66,7 +66,7 @@ TEST_F(KeptFiles, are_not_there_unless_asked_for) {
   succeed(ping + "-o out");
   for (const std::string file : {"contributors.h5", "insonification.ply", "insonification.pcd"})
     EXPECT_FALSE(std::filesystem::exists(path("out/" + file))) << file;
-  EXPECT_FALSE(nlohmann::json::parse(read("out/manifest.json")).contains("contributors"));
+  EXPECT_FALSE(manifest_of("out").contains("contributors"));
 }
 
 TEST_F(KeptFiles, of_unknown_kind_or_number_are_refused) {

@@ -10,7 +10,6 @@
 
 class Levels : public ToolTest {
  protected:
-  Cube cube(const std::string& run) const { return read_cube(path(run + "/cube.h5")); }
   void write_scatterer(const std::string& name, double range, double azimuth) const {
     char line[200];
     std::snprintf(line, sizeof line, "%.17g,%.17g,0,0.01,1,0\n", range, azimuth);
@@ -24,13 +23,13 @@ TEST_F(Levels, one_scatterer_through_synthesize_is_the_sonar_equation) {
   write_scatterer("first.csv", 10, 0);
   const std::string sonar = " --sonar p900-45 --range 5:15 --no-picture -q";
   succeed("synthesize first.csv -o first" + sonar);
-  const Ping axes = cube("first").pings[0];
+  const Ping axes = cube_of("first").pings[0];
   for (const std::size_t beam : {0, 100, 255})
     for (const std::string method : {"gridded", "gridded --tolerance 1e-8", "direct"}) {
       const double r = axes.gate.centre(400);
       write_scatterer("one.csv", r, axes.fan.azimuth[beam]);
       succeed("synthesize one.csv --force -o one --absorption-order 0 --method " + method + sonar);
-      const Cube c = cube("one");
+      const Cube c = cube_of("one");
       const double expected = c.source_level_db - 2 * (20 * std::log10(r) + c.absorption_db_per_m * r) - 20;
       const auto& p = c.pings[0].pressure;
       EXPECT_NEAR(pressure_level_db(std::abs(std::complex<double>(p(static_cast<int>(beam), 400)))), expected,
@@ -53,16 +52,14 @@ TEST_F(Levels, synthesize_computes_what_the_plan_of_a_ping_finds_needed) {
   write("some.csv", rows);
   const auto pressure = [&](const std::string& run, const std::string& more) {
     succeed("synthesize some.csv -o " + run + " --sonar oculus-m750d --set sonar.beams=40 --no-picture -q " + more);
-    return ComplexGrid(cube(run).pings[0].pressure.cast<std::complex<double>>());
+    return ComplexGrid(cube_of(run).pings[0].pressure.cast<std::complex<double>>());
   };
   const std::string near = "--range 4.5:5.6 ";
   const ComplexGrid planned = pressure("planned", near);
   const ComplexGrid elements = pressure("elements", near + "--method element-exact --absorption-order 2");
   EXPECT_LT(relative_l2(planned, elements), 2e-4);
   EXPECT_GT(relative_l2(pressure("narrow", near + "--method gridded"), elements), 0.1);
-  const auto synthesis = [&](const std::string& run) {
-    return nlohmann::json::parse(read(run + "/manifest.json"))["synthesis"];
-  };
+  const auto synthesis = [&](const std::string& run) { return manifest_of(run)["synthesis"]; };
   EXPECT_EQ(synthesis("planned")["method"], "true-delays");
   EXPECT_EQ(synthesis("planned")["absorption_order"], 2);
   EXPECT_EQ(synthesis("narrow")["method"], "gridded");
@@ -71,26 +68,6 @@ TEST_F(Levels, synthesize_computes_what_the_plan_of_a_ping_finds_needed) {
   EXPECT_EQ(synthesis("rough")["method"], "gridded");
   EXPECT_EQ(synthesis("rough")["absorption_order"], 0);
   EXPECT_NE(read("rough/run.toml").find("accuracy_db = 20"), std::string::npos);
-}
-
-// Twice the points, the same level: 40 beams x 16 m of independent cells, 0.05 dB of speckle.
-TEST_F(Levels, mean_level_does_not_depend_on_density_or_rays) {
-  const std::string over = " --sonar p900-45 --pose=0,0,3,0,15,0 --range 4:16 --no-picture -q";
-  const auto mean = [&](const std::string& points, const std::string& more) {
-    succeed("make-scene plane --force -o plane.ply --size 20,20 --points " + points + " -q");
-    succeed("ping plane.ply --force -o out" + over + more);
-    const Cube c = cube("out");
-    double sum = 0;
-    int strips = 0;
-    for (double r = 6; r < 14; r += 0.5, ++strips) sum += mean_level_db(c.pings[0], r, r + 0.5);
-    return sum / strips;
-  };
-  const double level = mean("40000", "");
-  EXPECT_NEAR(mean("80000", ""), level, 0.25);
-  EXPECT_NEAR(mean("160000", ""), level, 0.25);
-  const double rays = mean("80000", " --sampling rays --rays-per-beam 1000");
-  EXPECT_NEAR(rays, level, 0.35);
-  EXPECT_NEAR(mean("80000", " --sampling rays --rays-per-beam 2000"), rays, 0.35);
 }
 
 // Flat Lambert bottom 3 m below the head (SL 220 dB, 10 log mu = -27 dB, 1 degree, 29.5 kHz, 900 kHz):
@@ -104,7 +81,7 @@ TEST_F(Levels, flat_bottom_has_the_closed_form_level_from_5_to_40_m) {
       "--set sonar.field_of_view_deg=40 --set sonar.beam_width_deg=1 --set sonar.bandwidth_hz=29500 "
       "--set sonar.source_level_db=220 --set sonar.elevation_shape=sector --set sonar.elevation_width_deg=170 "
       "--set sonar.side_lobe_db=0");
-  const Cube c = cube("out");
+  const Cube c = cube_of("out");
   const Ping& ping = c.pings[0];
   const double wavelength = c.sound_speed / c.centre_frequency;
   // The uniform array of the preset: half a wavelength apart at 1500 m/s, 0.886 wavelengths / width long.

@@ -54,8 +54,8 @@ TEST_F(MergedRuns, keep_returns_contributors_and_insonification) {
   const std::string keep = " --keep contributors,insonification";
   ping("late", "--pose=0,0,-3,0,10,0 --time 2" + keep);
   ping("early", "--pose=0,1,-3,10,10,0 --time 1" + keep);
-  const auto manifest = nlohmann::json::parse(succeed("merge late early -o both --json"));
-  const Cube cube = read_cube(path("both/cube.h5"));
+  const auto manifest = json_of("merge late early -o both");
+  const Cube cube = cube_of("both");
   ASSERT_EQ(cube.pings.size(), 2u);
 
   // Returns: all of both, under the numbers of the merged pings, in their order.

@@ -66,7 +66,7 @@ TEST_F(Pictures, of_a_fan_show_the_cubes_own_levels_at_the_echoes_places) {
   synthesize("out", {port_near, ahead, starboard_far});
   succeed("image out -o fan.png --size 800x600 --title T" + scale());
   const ReadPicture png = read_png(path("fan.png"));
-  const Cube cube = read_cube(path("out/cube.h5"));
+  const Cube cube = cube_of("out");
   const BeamFan& fan = cube.pings[0].fan;
   const RangeGate& gate = cube.pings[0].gate;
   const Grid<float> level = levels("out");
@@ -96,26 +96,6 @@ TEST_F(Pictures, of_a_fan_show_the_cubes_own_levels_at_the_echoes_places) {
     }
 }
 
-// Port is left, starboard right, far is up; of a waterfall far is right and new is up.
-TEST_F(Pictures, have_port_on_the_left_and_far_up) {
-  for (const std::string view : {"fan", "rect"})
-    for (const Target& target : {port_near, ahead, starboard_far}) {
-      const std::string run = view + std::to_string(static_cast<int>(target.range));
-      synthesize(run, {target});
-      succeed("image " + run + " --view " + view + " -o " + run + ".png --size 500x400" + scale());
-    }
-  for (const std::string view : {"fan", "rect"}) {
-    const Box data{0.12, 0.78, 0.12, 0.93};
-    const Point2 port = brightest(read_png(path(view + "4.png")), data),
-                 middle = brightest(read_png(path(view + "7.png")), data),
-                 starboard = brightest(read_png(path(view + "10.png")), data);
-    EXPECT_LT(port.x, middle.x - 20) << view;
-    EXPECT_LT(middle.x, starboard.x - 20) << view;
-    EXPECT_LT(port.y, middle.y - 20) << view;
-    EXPECT_LT(middle.y, starboard.y - 20) << view;
-  }
-}
-
 TEST_F(Pictures, of_many_pings_come_from_merged_runs) {
   synthesize("a", {{0, 9.5}});
   synthesize("b", {{0, 6.5}});
@@ -123,10 +103,10 @@ TEST_F(Pictures, of_many_pings_come_from_merged_runs) {
   EXPECT_THAT(succeed("merge a b c -o all"), HasSubstr("all: 3 pings of 3 runs"));
   EXPECT_EQ(read("all/run.toml"), read("a/run.toml"));
   EXPECT_THAT(read("all/manifest.json"), HasSubstr("follow in the order given"));
-  const Cube all = read_cube(path("all/cube.h5"));
+  const Cube all = cube_of("all");
   ASSERT_EQ(all.pings.size(), 3U);
   EXPECT_EQ(all.pings[2].number, 2);
-  EXPECT_TRUE((all.pings[1].pressure == read_cube(path("b/cube.h5")).pings[0].pressure).all());
+  EXPECT_TRUE((all.pings[1].pressure == ping_of("b").pressure).all());
 
   // Newest on top: c, near; oldest below: a, far.
   succeed("image all --view waterfall -o w.png --size 500x400" + scale());

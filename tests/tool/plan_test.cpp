@@ -17,7 +17,7 @@ class Plan : public ToolTest {
 };
 
 TEST_F(Plan, lists_stages_with_reason_and_bound_and_writes_nothing) {
-  const auto plan = nlohmann::json::parse(succeed("plan " + ping + " --json"));
+  const auto plan = json_of("plan " + ping);
   int left_out = 0;
   for (const auto& stage : plan["stages"]) {
     EXPECT_FALSE(stage["why"].get<std::string>().empty()) << stage["name"];
@@ -42,7 +42,7 @@ TEST_F(Plan, stands_in_the_manifest_of_the_ping_that_follows_it) {
       "ping plane.ply --sonar p900-45 --set sonar.beams=8 --pose=0,0,3,0,15,0 --range 4:4.5 -q -o out --no-picture "
       "--with noise "
       "--with absorption-slope --keep elements");
-  const auto manifest = nlohmann::json::parse(read("out/manifest.json"));
+  const auto manifest = manifest_of("out");
   EXPECT_TRUE(included(manifest["plan"], "noise"));
   EXPECT_TRUE(included(manifest["plan"], "absorption-slope"));
   EXPECT_FALSE(included(manifest["plan"], "multipath"));
@@ -63,7 +63,7 @@ TEST_F(Plan, refuses_stages_that_are_unknown_or_have_no_cause) {
 // Left out is what is in: an expected level stays one, and the direct sum takes a tolerance that gridding refuses.
 TEST_F(Plan, forces_and_checks_only_the_method_in_force) {
   succeed("ping " + ping + " -q -o level --no-picture --method incoherent --without true-delays --without direct-sum");
-  EXPECT_TRUE(insonify::read_cube(path("level/cube.h5")).pings[0].expected_level);
+  EXPECT_TRUE(ping_of("level").expected_level);
   EXPECT_THAT(succeed("plan " + ping + " --method direct --tolerance 1e-14"), HasSubstr("direct-sum         in"));
   expect_refused("plan " + ping + " --tolerance 1e-14", 2, {"tolerance = 1e-14", "at least 1e-13", "use direct"});
 }

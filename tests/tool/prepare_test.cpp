@@ -32,7 +32,7 @@ TEST_F(Prepare, thins_to_the_spacing_asked_for_and_keeps_the_area) {
 TEST_F(Prepare, finds_normals_and_areas_of_bare_points) {
   succeed("make-scene reef --points 20000 -o reef.ply -q");
   succeed("make-scene reef --points 20000 --bare -o bare.pcd -q");
-  const auto described = nlohmann::json::parse(succeed("info bare.pcd --json"));
+  const auto described = json_of("info bare.pcd");
   EXPECT_FALSE(described["normals"].get<bool>());
   EXPECT_EQ(described["fields"].size(), 3u);
   const nlohmann::json from_points = prepared("bare.pcd -o completed.ply --viewpoint 6,0,5");
@@ -80,7 +80,7 @@ TEST_F(Prepare, keeps_every_column_by_its_name_and_fits_its_table_again) {
   write("intervals.toml", "schema = 1\nfield = \"reflectance\"\n" + mud + "to = 100\n" + rock + "from = 100\n");
   const auto names_in = [&](const std::string& file) {
     std::set<std::string> names;
-    const auto info = nlohmann::json::parse(succeed("info " + file + " --json"));
+    const auto info = json_of("info " + file);
     for (const auto& field : info["fields"]) names.insert(field["name"].get<std::string>());
     return names;
   };

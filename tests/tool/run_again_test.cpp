@@ -158,7 +158,7 @@ TEST_F(RunAgain, head_stands_on_the_vehicle_as_its_file_or_the_option_says) {
   expect_same("down", "again");
 
   succeed(again_head + gate + " --pose=1,2,-3,90,0,0 --mount=1,0,0.5,0,10,0 --turn-rate=0,0,90 -o offset");
-  const insonify::Ping ping = insonify::read_cube(path("offset/cube.h5")).pings.front();
+  const insonify::Ping ping = ping_of("offset");
   EXPECT_TRUE(ping.world_from_head.isApprox(
       insonify::pose_from_yaw_pitch_roll({1, 3, -2.5}, insonify::radians(90), insonify::radians(10), 0), 1e-12));
   expect_refused(again_head + gate + " --pose=0,0,-3,0,10,0 --mount=1,0 -o bad", 2,

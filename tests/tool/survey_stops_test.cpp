@@ -49,13 +49,13 @@ TEST_F(SurveyStops, interrupted_it_keeps_every_finished_ping) {
   const auto whole = expected();
   const int code =
       started_and_ended(folder_.string(), SIGINT, [&] { return fs::exists(path("run/fls/blocks/000000.done")); });
-  const auto status = nlohmann::json::parse(read("run/status.json"));
+  const auto status = read_json("run/status.json");
   EXPECT_EQ(code, status["state"] == "done" ? 0 : 130);
   const auto result = nlohmann::json::parse(succeed("survey m.toml --pings-per-block 3 -o run --json -q"));
   EXPECT_EQ(result["made"].get<int>(), 26 - status["done"].get<int>()) << "no finished ping is made twice";
   EXPECT_EQ(merged("run"), whole);
   EXPECT_EQ(names_in("run/turning/blocks"), names_in("whole/turning/blocks"));
-  EXPECT_EQ(nlohmann::json::parse(read("run/status.json"))["state"], "done");
+  EXPECT_EQ(read_json("run/status.json")["state"], "done");
 }
 
 // What a block that was interrupted after all of its pings leaves.

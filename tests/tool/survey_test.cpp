@@ -26,7 +26,7 @@ TEST_F(Survey, gives_the_same_bytes_for_any_shards_threads_and_order) {
 TEST_F(Survey, cubes_hold_time_pose_and_scan_of_every_ping) {
   survey("run");
   merged("run");
-  const Cube fls = read_cube(path("run/fls/cube.h5")), turning = read_cube(path("run/turning/cube.h5"));
+  const Cube fls = cube_of("run/fls"), turning = cube_of("run/turning");
   ASSERT_EQ(fls.pings.size(), 13U);
   EXPECT_EQ(fls.pings[5].time, 2.5);
   EXPECT_EQ(fls.pings[5].number, 5);
@@ -61,11 +61,11 @@ accuracy_db = 0.01
 )");
   survey("run");
   merged_cubes("run", {"p900-45"});
-  const Ping of_survey = read_cube(path("run/p900-45/cube.h5")).pings.at(1);
+  const Ping of_survey = cube_of("run/p900-45").pings.at(1);
   succeed(
       "ping harbour.ply -q --no-picture --sonar p900-45 --range 1:6 --set sonar.beams=16 --accuracy-db 0.01 --seed 3"
       " --trajectory way.csv --time 2.5 -o one");
-  const Ping alone = read_cube(path("one/cube.h5")).pings.at(0);
+  const Ping alone = ping_of("one");
   EXPECT_GT(alone.pressure.abs().maxCoeff(), 0);
   EXPECT_TRUE((of_survey.pressure == alone.pressure).all());
   EXPECT_TRUE(of_survey.world_from_head.isApprox(alone.world_from_head, 1e-15));
@@ -92,39 +92,6 @@ TEST_F(Survey, returns_know_time_head_ping_and_beam) {
   EXPECT_EQ(ply.size(), header.size() + 11 + rows * (3 * 8 + 10 * 4 + 8 + 4));
 }
 
-// Another reader than our own.
-TEST_F(Survey, a_merged_cube_is_read_by_h5py) {
-  const std::string python = "/usr/bin/python3 -c \"import h5py\" 2>/dev/null";
-  if (std::system(python.c_str()) != 0) GTEST_SKIP() << "h5py is not installed";
-  survey("run");
-  merged("run");
-  write("read.py", R"(import h5py
-with h5py.File("run/fls/cube.h5") as f:
-    p = f["pressure"]
-    print(p.dtype, *p.shape, p.is_virtual, f["time"][5], repr(float(abs(p[5, 3, 4].real))))
-    assert [d.label for d in p.dims] == ["ping", "beam", "bin"]
-    assert p.dims[2][0] == f["range"] and p.dims[1][0] == f["azimuth"] and p.dims[0][0] == f["ping"]
-    assert f.attrs["head"] == "fls" and "sqrt" in p.attrs["convention"]
-    assert "port" in f["azimuth"].attrs["long_name"] and f["pose"].attrs["units"] == "1, 1, 1, m"
-)");
-  const std::string line = "cd " + folder_.string() + " && /usr/bin/python3 read.py >read.txt 2>&1";
-  EXPECT_EQ(std::system(line.c_str()), 0) << read("read.txt");
-  const Cube cube = read_cube(path("run/fls/cube.h5"));
-  std::istringstream words(read("read.txt"));
-  std::string type, is_virtual;
-  std::size_t pings = 0, beams = 0;
-  Eigen::Index bins = 0;
-  double time = 0, real = 0;
-  words >> type >> pings >> beams >> bins >> is_virtual >> time >> real;
-  EXPECT_EQ(type, "complex64");
-  EXPECT_EQ(pings, cube.pings.size());
-  EXPECT_EQ(beams, cube.pings[0].fan.beams());
-  EXPECT_EQ(bins, cube.pings[0].pressure.cols());
-  EXPECT_EQ(is_virtual, "True");
-  EXPECT_EQ(time, 2.5);
-  EXPECT_EQ(static_cast<float>(real), std::abs(cube.pings[5].pressure(3, 4).real()));
-}
-
 TEST_F(Survey, failed_pings_are_listed_and_the_others_kept) {
   // Between the second and third entry the vehicle is faster than a hundredth of the sound speed.
   write("way.csv",
@@ -138,8 +105,8 @@ TEST_F(Survey, failed_pings_are_listed_and_the_others_kept) {
   EXPECT_THAT(made.err, HasSubstr("motion.velocity = 20 m/s, must be below"));
   const ToolResult joined = run("merge run -q");
   EXPECT_EQ(joined.exit_code, 5);
-  EXPECT_EQ(read_cube(path("run/fls/cube.h5")).pings.size(), 2U);
-  EXPECT_EQ(nlohmann::json::parse(read("run/manifest.json"))["failed"][0]["ping"], 1);
+  EXPECT_EQ(cube_of("run/fls").pings.size(), 2U);
+  EXPECT_EQ(manifest_of("run")["failed"][0]["ping"], 1);
 }
 
 TEST_F(Survey, coverage_is_the_same_for_any_shards_and_sums_the_pings) {
@@ -152,7 +119,7 @@ TEST_F(Survey, coverage_is_the_same_for_any_shards_and_sums_the_pings) {
   const std::string whole = covered("whole");
   for (const char* shard : {"2/3", "0/3", "1/3"}) survey("three", std::string("-j2 --shard ") + shard);
   EXPECT_EQ(covered("three"), whole);
-  const auto manifest = nlohmann::json::parse(read("whole/manifest.json"));
+  const auto manifest = manifest_of("whole");
   EXPECT_EQ(manifest["coverage_sha256"], whole);
   // A surfel that both heads see is seen by more pings than one of them has.
   const std::string ply = read("whole/coverage.ply");
@@ -186,7 +153,7 @@ TEST_F(Survey, navigation_noise_moves_what_is_stored_and_not_what_is_heard) {
         replaced(survey_mission, "speed_m_s = 1", "speed_m_s = 1\nnav_noise = { position_m = 0.3, heading_deg = 5 }"));
   survey("noisy");
   merged("noisy");
-  const Cube truth = read_cube(path("run/fls/cube.h5")), believed = read_cube(path("noisy/fls/cube.h5"));
+  const Cube truth = cube_of("run/fls"), believed = cube_of("noisy/fls");
   for (std::size_t p = 0; p < truth.pings.size(); ++p) {
     EXPECT_TRUE((truth.pings[p].pressure == believed.pings[p].pressure).all());
     EXPECT_GT((truth.pings[p].world_from_head.translation() - believed.pings[p].world_from_head.translation()).norm(),
@@ -211,10 +178,10 @@ TEST_F(Survey, knows_where_on_the_globe_and_when_it_was) {
   survey("run");
   expect_refused("image run --view track -o track.png", 3, {"run: holds no fls/cube.h5; run insonify merge run"});
   merged("run");
-  const auto manifest = nlohmann::json::parse(read("run/manifest.json"));
+  const auto manifest = manifest_of("run");
   EXPECT_EQ(manifest["start_utc"], "2026-05-01T08:30:00Z");
   EXPECT_EQ(manifest["anchor"]["heading_deg"], 90);
-  const auto track = nlohmann::json::parse(read("run/track.geojson"));
+  const auto track = read_json("run/track.geojson");
   const auto& fls = track["features"][0];
   EXPECT_EQ(fls["properties"]["head"], "fls");
   EXPECT_EQ(fls["properties"]["time"][5], "2026-05-01T08:30:02.500Z");
@@ -228,7 +195,7 @@ TEST_F(Survey, knows_where_on_the_globe_and_when_it_was) {
   survey("plain");
   merged("plain");
   EXPECT_FALSE(file_exists(path("plain/track.geojson")));
-  EXPECT_TRUE(nlohmann::json::parse(read("plain/manifest.json"))["anchor"].is_null());
+  EXPECT_TRUE(manifest_of("plain")["anchor"].is_null());
   succeed("image plain --view track -o track.png --size 500x400");
   EXPECT_TRUE(file_exists(path("track.png")));
   expect_refused("image harbour.ply --view track -o x.png", 4, {"harbour.ply: is not the folder of a survey"});

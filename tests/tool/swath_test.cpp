@@ -4,6 +4,7 @@
 #include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"
+#include "tool/mission_text.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -14,18 +15,11 @@ class Swath : public ToolTest {
  protected:
   void SetUp() override {
     write("bed.obj", "v -3 -14 -4\nv 3 -14 -4\nv 3 14 -4\nv -3 14 -4\nf 1 2 3\nf 1 3 4\n");
-    write("line.toml", R"(schema = 1
-[survey]
-scene = "bed.obj"
-[trajectory]
-waypoints_m = [[-1, 0, 0], [1, 0, 0]]
-speed_m_s = 1
-[[head]]
-sonar = "em2040"
-range = "2:13"
-every_m = 0.9
-[ping]
-)");
+    write("line.toml", text_of({.way = "[-1, 0, 0], [1, 0, 0]",
+                                .sonar = "em2040",
+                                .range = "2:13",
+                                .head = "every_m = 0.9",
+                                .more = "[ping]"}));
   }
 };
 
@@ -48,7 +42,7 @@ TEST_F(Swath, of_an_em2040_over_a_level_bed_has_the_ranges_levels_and_edges_of_i
   write("expected.toml", read("line.toml") + "method = \"incoherent\"\n");
   succeed("survey expected.toml -q -o expected");
   succeed("merge -q expected");
-  const Cube cube = read_cube(path("expected/em2040/cube.h5"));
+  const Cube cube = cube_of("expected/em2040");
   ASSERT_EQ(cube.pings.size(), 3U);
   const Ping& ping = cube.pings[1];
   ASSERT_EQ(ping.fan.beams(), 400U);

@@ -3,6 +3,9 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "store/cube.hpp"
 #include "support/test.hpp"
 
 /// What a run of the tool left behind.
@@ -26,6 +29,15 @@ class ToolTest : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   void write(const std::string& name, const std::string& content) const { insonify::own_file(name, content); }
   std::string read(const std::string& name) const;
+  nlohmann::json read_json(const std::string& name) const { return nlohmann::json::parse(read(name)); }
+  /// What a verb prints with --json.
+  nlohmann::json json_of(const std::string& arguments) const {
+    return nlohmann::json::parse(succeed(arguments + " --json"));
+  }
+  /// Of a run: its manifest, its cube, and its first ping.
+  nlohmann::json manifest_of(const std::string& run) const { return read_json(run + "/manifest.json"); }
+  insonify::Cube cube_of(const std::string& run) const { return insonify::read_cube(path(run + "/cube.h5")); }
+  insonify::Ping ping_of(const std::string& run) const { return cube_of(run).pings.at(0); }
 
   const std::filesystem::path folder_ = insonify::own_folder();
 };

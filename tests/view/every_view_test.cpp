@@ -121,19 +121,23 @@ TEST_F(EveryView, has_no_text_outside_the_picture_or_on_another_at_any_size) {
     }
 }
 
-TEST_F(EveryView, has_a_light_and_a_dark_theme) {
+TEST_F(EveryView, has_a_light_and_a_dark_theme_and_the_same_bytes_every_time) {
   for (const auto& [name, draw] : views())
     for (const bool dark : {false, true}) {
       SCOPED_TRACE(name);
       PictureOptions options;
       options.width = 640, options.height = 480;
       options.dark = dark;
-      {
+      const auto bytes = [&, draw = draw] {
         const VtkMessages messages;
         Canvas canvas(options, "test");
         draw(canvas, options);
         write_png(path, canvas.png(messages));
-      }
+        return file_bytes(path);
+      };
+      const std::string first = bytes();
+      EXPECT_GT(first.size(), 10000U);
+      EXPECT_TRUE(bytes() == first);
       const ReadPicture picture = read_png(path);
       double ground = 0;
       for (const auto& [x, y] : {std::pair{1, 1}, {638, 1}, {1, 478}, {638, 478}}) ground += picture.at(x, y)[1] / 4.0;

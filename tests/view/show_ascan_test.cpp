@@ -9,22 +9,6 @@ class ShowAscan : public PictureTest {
   LevelImage image = flat_image(3, 60, 300, -200);
 };
 
-// Only the line is blue, on white.
-bool is_curve(const Rgb& colour) { return colour[2] > colour[0] + 60; }
-
-// Mean height of the line between two fractions of the picture's width; -1 if there is none.
-double line_height(const ReadPicture& picture, double from, double to) {
-  double sum = 0;
-  int count = 0;
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = static_cast<int>(from * picture.width); x < to * picture.width; ++x)
-      if (is_curve(picture.at(x, y))) {
-        sum += y;
-        ++count;
-      }
-  return count > 0 ? sum / count : -1;
-}
-
 }  // namespace
 
 // Thirds at 90, 100 and 120 dB: the steps between them are 10 and 20 dB high.
@@ -51,14 +35,6 @@ TEST_F(ShowAscan, shows_the_beam_asked_for) {
   options.min_db = 50, options.max_db = 120;
   show_ascan(image, 0, options, path);
   EXPECT_EQ(line_height(read_png(path), 0.2, 0.9), -1) << "a beam of floor has no line inside the chart";
-}
-
-TEST_F(ShowAscan, is_the_same_bytes_every_time) {
-  image.level_db.row(1).setLinSpaced(60, 110);
-  show_ascan(image, 1, options, path);
-  const std::string first = file_bytes(path);
-  show_ascan(image, 1, options, path);
-  EXPECT_TRUE(first == file_bytes(path));
 }
 
 TEST_F(ShowAscan, refuses_a_beam_that_is_not_there) {

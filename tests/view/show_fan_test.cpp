@@ -160,17 +160,6 @@ TEST_F(ShowFan, has_a_colour_bar_that_runs_through_the_colour_map) {
   }
 }
 
-TEST_F(ShowFan, is_the_same_bytes_every_time) {
-  LevelImage image = flat_image(256, 130, 900, 0);
-  for (Eigen::Index i = 0; i < image.level_db.size(); ++i)
-    image.level_db.data()[i] = static_cast<float>(80 + 20 * std::sin(0.37 * static_cast<double>(i)));
-  show_fan(image, options, path);
-  const std::string first = file_bytes(path);
-  show_fan(image, options, path);
-  EXPECT_GT(first.size(), 10000u);
-  EXPECT_TRUE(first == file_bytes(path));
-}
-
 TEST_F(ShowFan, of_one_beam_shows_that_beam) {
   options.colour_map = "grey";
   options.min_db = 0, options.max_db = 100;
@@ -225,13 +214,6 @@ TEST_F(ShowFan, of_nothing_but_floor_is_drawn_in_the_lowest_colour) {
   const ReadPicture picture = show(image);
   const Point2 p = layout_of(image).at(radians(7), 11.3);
   EXPECT_LE(colour_difference(picture.at(p.x, p.y), {0x44, 0x01, 0x54}), 2);
-}
-
-TEST_F(ShowFan, has_a_dark_theme) {
-  options.dark = true;
-  EXPECT_LT(show(flat_image(32, 90, 40, 0)).at(1, 1)[0], 40);
-  options.dark = false;
-  EXPECT_EQ(show(flat_image(32, 90, 40, 0)).at(1, 1)[0], 255);
 }
 
 TEST_F(ShowFan, prints_nothing) {

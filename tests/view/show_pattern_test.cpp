@@ -18,18 +18,6 @@ class ShowPattern : public PictureTest {
   std::vector<double> azimuth, level_db;
 };
 
-bool is_line(const Rgb& colour) { return colour[2] > colour[0] + 60; }
-
-// Mean height of the line in the column at a fraction of the picture's width; -1 if there is none.
-double line_height(const ReadPicture& picture, double share) {
-  const int x = static_cast<int>(share * picture.width);
-  double sum = 0;
-  int count = 0;
-  for (int y = 0; y < picture.height; ++y)
-    if (is_line(picture.at(x, y))) sum += y, ++count;
-  return count > 0 ? sum / count : -1;
-}
-
 }  // namespace
 
 // Azimuth is positive to port, bearing to starboard: port is on the left.
@@ -40,7 +28,7 @@ TEST_F(ShowPattern, draws_port_on_the_left_and_level_upwards) {
   const ReadPicture picture = read_png(path);
   EXPECT_EQ(picture.width, 800);
   EXPECT_EQ(picture.height, 600);
-  const double port = line_height(picture, 0.2), starboard = line_height(picture, 0.8);
+  const double port = line_height(picture, 0.195, 0.2), starboard = line_height(picture, 0.795, 0.8);
   ASSERT_GT(starboard, 0);
   // 40 of 60 dB, of a frame that takes most of the picture.
   EXPECT_GT(port - starboard, 0.5 * picture.height);
@@ -49,15 +37,7 @@ TEST_F(ShowPattern, draws_port_on_the_left_and_level_upwards) {
 TEST_F(ShowPattern, nulls_of_minus_infinity_fall_out_of_the_chart) {
   level_db.assign(azimuth.size(), -std::numeric_limits<double>::infinity());
   show_pattern(azimuth, level_db, options, path);
-  EXPECT_EQ(line_height(read_png(path), 0.5), -1);
-}
-
-TEST_F(ShowPattern, is_the_same_bytes_every_time) {
-  options.title = "a sonar";
-  show_pattern(azimuth, level_db, options, path);
-  const std::string first = file_bytes(path);
-  show_pattern(azimuth, level_db, options, path);
-  EXPECT_TRUE(first == file_bytes(path));
+  EXPECT_EQ(line_height(read_png(path), 0.2, 0.9), -1);
 }
 
 TEST_F(ShowPattern, refuses_what_is_no_pattern) {

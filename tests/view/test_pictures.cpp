@@ -59,4 +59,13 @@ Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, dou
   return blob;
 }
 
+double line_height(const ReadPicture& picture, double from, double to) {
+  double sum = 0;
+  int count = 0;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = static_cast<int>(from * picture.width); x < to * picture.width; ++x)
+      if (const Rgb colour = picture.at(x, y); colour[2] > colour[0] + 60) sum += y, ++count;
+  return count > 0 ? sum / count : -1;
+}
+
 }  // namespace insonify

@@ -47,4 +47,7 @@ struct Blob {
 };
 Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom, double top);
 
+/// Mean height of the blue line between two fractions of the width of a chart, in pixels; -1 if there is none.
+double line_height(const ReadPicture& picture, double from, double to);
+
 }  // namespace insonify

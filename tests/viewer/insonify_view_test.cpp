@@ -156,17 +156,6 @@ TEST_F(InsonifyView, refuses_runs_that_are_not_whole) {
   refused("out/cube.h5", 3, {"cube.h5"});
 }
 
-TEST_F(InsonifyView, refuses_a_cube_of_another_version) {
-  const hid_t file = H5Fopen(path("out/cube.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  ASSERT_GE(file, 0);
-  const hid_t schema = H5Aopen(file, "schema", H5P_DEFAULT);
-  const long long other = 99;
-  ASSERT_GE(H5Awrite(schema, H5T_NATIVE_LLONG, &other), 0);
-  H5Aclose(schema);
-  H5Fclose(file);
-  expect_refused("view out --size 800x600 --screenshot a.png", 3, {"cube.h5", "schema", "99"});
-}
-
 TEST_F(InsonifyView, refuses_options_that_make_no_sense) {
   const auto refused = [&](const std::string& arguments, int code, const std::vector<std::string>& parts) {
     expect_refused("view " + arguments + " --screenshot a.png", code, parts);

@@ -1,7 +1,7 @@
 // A survey in the viewer: pings read one at a time, sweeps, waterfalls, seeking; and the program on a survey's folder.
 #include "core/units.hpp"
 #include "support/test.hpp"
-#include "tool/tool_runner.hpp"
+#include "tool/survey_fixture.hpp"
 #include "view/test_pictures.hpp"
 #include "viewer/three_targets.hpp"
 #include "viewer/viewer_records_internal.hpp"
@@ -203,35 +203,8 @@ TEST_F(SurveyWindow, buttons_press_their_keys) {
 
 namespace {
 
-class ViewSurvey : public ToolTest {
+class ViewSurvey : public SurveyTest {
  protected:
-  void SetUp() override {
-    have("harbour.ply", "make-scene harbour --points 6000");
-    write("m.toml", R"(schema = 1
-[survey]
-scene = "harbour.ply"
-[trajectory]
-waypoints_m = [[0, 0, -3], [4, 0, -3]]
-speed_m_s = 1
-[[head]]
-name = "fls"
-sonar = "p900-45"
-range = "1:9"
-set = ["sonar.beams=16"]
-angles_deg = [0, 20, 0]
-rate_hz = 2
-[[head]]
-name = "turning"
-sonar = "ping360"
-range = "1:6"
-[head.scan]
-step_deg = 45
-dwell_s = 0.5
-[ping]
-scatterers_per_cell = 0
-)");
-  }
-  void survey(const std::string& more = "") const { succeed("survey m.toml -q --pings-per-block 3 -o run " + more); }
   std::string shown(const std::string& arguments) const {
     return succeed("view " + arguments + " --size 800x600 --force --screenshot a.png -q");
   }
@@ -241,14 +214,14 @@ scatterers_per_cell = 0
 
 // From its shards and merged, as a whole and by the folder of a head, a survey looks the same.
 TEST_F(ViewSurvey, is_played_from_shards_and_merged) {
-  survey();
+  survey("run");
   EXPECT_THAT(shown("run --ping 5 --events 'select 3 200'"), HasSubstr("Ping 5, beam 3, bin 200"));
   const std::string from_shards = read("a.png");
   succeed("merge run -q");
   shown("run/fls --ping 5 --events 'select 3 200'");
   EXPECT_EQ(read("a.png"), from_shards);
   EXPECT_THAT(shown("run --head turning --ping 3 --no-scene --events 'select 0 9; key End; select 0 9'"),
-              AllOf(HasSubstr("the head turned -135.00°"), HasSubstr("Ping 7, ")));
+              AllOf(HasSubstr("the head turned -135.00°"), HasSubstr("Ping 12, ")));
   // The blocks are not needed once they are copied.
   succeed("merge run --copy -q");
   for (const char* head : {"fls", "turning"}) std::filesystem::remove_all(path("run/" + std::string(head) + "/blocks"));
@@ -256,10 +229,10 @@ TEST_F(ViewSurvey, is_played_from_shards_and_merged) {
 }
 
 TEST_F(ViewSurvey, says_what_is_missing) {
-  survey("--shard 1/2");
+  survey("run", "--shard 1/2");
   const ToolResult result = run("view run --size 800x600 --no-scene --screenshot a.png --events 'select 0 3'");
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("2 of 3 blocks of fls are not done yet"));
+  EXPECT_THAT(result.err, HasSubstr("3 of 5 blocks of fls are not done yet"));
   EXPECT_THAT(result.err, HasSubstr("other heads too: --head turning"));
   EXPECT_THAT(result.out, HasSubstr("Ping 3, "));  // the first of block 1
   expect_refused("view run --head sonar --screenshot b.png", 2,

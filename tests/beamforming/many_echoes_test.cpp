@@ -1,19 +1,19 @@
 // Ten million echoes, and a million in one bin: bounded memory, sums that add up.
 #include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
-#include "extreme_cases.hpp"
+#include "core/random.hpp"
 #include "files/peak_memory.hpp"
+#include "support/point_targets.hpp"
 #include "support/sanitizers.hpp"
 
-using namespace insonify::extreme;
-
-namespace {
+namespace insonify::many_echoes {
 
 constexpr std::size_t many = sanitized ? 300000 : 10000000;
-constexpr double sound = 1500;
+constexpr double sound = c0;
 
 SonarHead modest_head() {
-  SonarSpec s = small_sonar();
+  SonarSpec s = nine_beams();
   s.beams = 64;
   s.bandwidth = 30e3;
   s.min_range = 1;
@@ -36,8 +36,6 @@ Echoes crowd(const SonarHead& head, std::size_t first, std::size_t last) {
   });
   return e;
 }
-
-}  // namespace
 
 // Beside the echoes: 4 bytes for every tile that an echo touches (one or two of 64 bins, on average 1.25), the image, a
 // tile per thread, the counters of TileLists, and 8 MiB for whatever else the process does.
@@ -96,3 +94,5 @@ TEST(ManyEchoes, a_million_echoes_in_one_bin_keep_the_tolerance_in_single_precis
     EXPECT_LE(relative_l2(plan.pressure(e), synthesize_direct(sums, head, medium)), 1e-4) << alike;
   }
 }
+
+}  // namespace insonify::many_echoes

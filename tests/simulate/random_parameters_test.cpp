@@ -1,10 +1,10 @@
 // Parameters drawn at random from far wider ranges than any sonar has: whatever comes out is a number, or an Error
 // that says what is wrong. A failure prints the case's number, which draws it again.
-#include "extreme_cases.hpp"
+#include "beamforming/synthesize.hpp"
+#include "core/random.hpp"
+#include "support/checked_ping.hpp"
 
-using namespace insonify::extreme;
-
-namespace {
+namespace insonify::random_parameters {
 
 /// Numbers of one case: the same for the same case, on any machine.
 class Draw {
@@ -112,8 +112,6 @@ struct Tally {
   }
 };
 
-}  // namespace
-
 TEST(RandomParameters, every_ping_is_finite_or_refused) {
   Tally tally;
   int received = 0;
@@ -185,7 +183,7 @@ TEST(RandomParameters, every_envelope_is_finite_and_no_louder_than_it_was_sent_o
           absorption_about(any_water(draw), pulse.centre_frequency, static_cast<int>(draw.count(1, 3.999)) - 1);
       const EchoEnvelope e = echo_envelope(pulse, a, draw.log_uniform(1e-6, 1e6));
       const double t = draw.log_uniform(1e-9, 10) / pulse.bandwidth;
-      for (const Complex g : {e.at(0), e.at(t), e.at(-t)})
+      for (const std::complex<double> g : {e.at(0), e.at(t), e.at(-t)})
         if (!(std::abs(g) <= 1 + 1e-9)) return false;
       return true;
     }));
@@ -204,3 +202,5 @@ TEST(RandomParameters, every_water_has_a_sound_speed_and_an_absorption_or_is_ref
   EXPECT_GT(tally.finite, 15000);
   EXPECT_GT(tally.refused, 10);
 }
+
+}  // namespace insonify::random_parameters
