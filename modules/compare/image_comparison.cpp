@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -71,6 +72,9 @@ FittedLine compare_pairs(const LevelPairs& pairs, ImageComparison& c) {
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = pairs.a[i] - pairs.b[i];
   c.pixels = difference.size();
   c.bias_db = mean_and_deviation(difference).mean;
+  const auto power = [](double sum, double level) { return sum + power_from_db(level); };
+  c.power_bias_db = db_from_power(std::accumulate(pairs.a.begin(), pairs.a.end(), 0.0, power)) -
+                    db_from_power(std::accumulate(pairs.b.begin(), pairs.b.end(), 0.0, power));
   c.deviation_db = mean_and_deviation(difference).deviation;
   c.wasserstein_db = wasserstein_1(pairs.a, pairs.b);
   std::vector<double> level = pairs.a;
@@ -138,7 +142,6 @@ ImageComparison compare_level_images(const ComparedImage& a, const ComparedImage
   ImageComparison c;
   c.window = options.window ? *options.window : window_of(lb);
   c.a = character_of(la, a), c.b = character_of(lb, b);
-  c.power_bias_db = c.a.mean_level_db - c.b.mean_level_db;
   compare_fitted(a, b, compare_pairs(pairs, c), c);
 
   // One sample for each resolution cell of the coarser image.

@@ -41,7 +41,7 @@ struct ImageComparison {
   GreyWindow window;
   std::size_t pixels = 0;
   double bias_db = 0, deviation_db = 0;  ///< of A - B, pixel by pixel
-  double power_bias_db = 0;              ///< of the mean intensities
+  double power_bias_db = 0;              ///< of the mean intensities of these pixels
   double wasserstein_db = 0;             ///< of the levels
   double wasserstein_after_gain_db = 0;  ///< after their means are made equal
   double tvg_slope_db = 0;               ///< of A - B per decade of range; NaN without ranges

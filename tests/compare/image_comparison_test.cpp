@@ -90,6 +90,17 @@ TEST(ImageComparison, of_a_gain_is_the_gain_and_nothing_after_it) {
   EXPECT_NEAR(c.similarity[1].similarity.mse, 0, 1e-9);
 }
 
+// Pixels that are silent in one image say nothing of the gain between both.
+TEST(ImageComparison, of_an_image_with_silence_is_the_gain_where_both_have_levels) {
+  ComparedImage louder = speckled(1), quiet = speckled(1);
+  louder.level_db += 4.5F;
+  louder.level_db.leftCols(100).setConstant(std::numeric_limits<float>::quiet_NaN());
+  quiet.level_db.leftCols(100) -= 200;
+  const ImageComparison c = compare_level_images(louder, quiet, {GreyWindow{-20, 80}});
+  EXPECT_NEAR(c.power_bias_db, 4.5, 1e-5);
+  EXPECT_NEAR(c.bias_db, 4.5, 1e-5);
+}
+
 TEST(ImageComparison, fits_a_time_varied_gain_and_a_map_of_grey) {
   ComparedImage a = speckled(1), b = speckled(2);
   for (Eigen::Index n = 0; n < 400; ++n)
