@@ -74,7 +74,7 @@ double faded(double x) {
 }
 
 std::size_t filled_up(std::size_t bins) {
-  constexpr std::size_t at_once = kernels::samples_at_once / 2;
+  constexpr std::size_t at_once = kernels::numbers_at_once / 2;
   return (bins + at_once - 1) / at_once * at_once;
 }
 
@@ -237,8 +237,8 @@ void BeamTable::write(std::size_t node, std::size_t direction, const double* re,
   float* row = values_.data() + (node * sizes_.directions + direction) * times_ * 2 * width_;
   for (std::size_t q = 0; q < times_; ++q, row += 2 * width_)
     for (std::size_t n = 0; n < width_; ++n) {
-      row[n] = static_cast<float>(re[q + n * sizes_.per_bin]);
-      row[width_ + n] = static_cast<float>(im[q + n * sizes_.per_bin]);
+      row[2 * n] = static_cast<float>(re[q + n * sizes_.per_bin]);
+      row[2 * n + 1] = static_cast<float>(im[q + n * sizes_.per_bin]);
     }
 }
 
@@ -281,7 +281,8 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   kernels::sum_response(values_.data() + origin, taps, response.data());
   if (!shifted) {
     for (std::size_t n = begin; n < end; ++n)
-      image[at + static_cast<std::ptrdiff_t>(n)] += amplitude * std::complex<double>(response[n], response[width_ + n]);
+      image[at + static_cast<std::ptrdiff_t>(n)] +=
+          amplitude * std::complex<double>(response[2 * n], response[2 * n + 1]);
     return;
   }
   // A line through both tables, and the shift itself since the echo's delay.
@@ -293,7 +294,7 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   std::complex<double> turn = amplitude * std::polar(1.0, -2 * pi * reduced_cycles(doppler * since));
   const std::complex<double> turns = std::polar(1.0, -2 * pi * reduced_cycles(doppler * of.axis.step));
   for (std::size_t n = begin; n < end; ++n, turn *= turns)
-    image[at + static_cast<std::ptrdiff_t>(n)] += turn * std::complex<double>(between(n), between(width_ + n));
+    image[at + static_cast<std::ptrdiff_t>(n)] += turn * std::complex<double>(between(2 * n), between(2 * n + 1));
 }
 
 }  // namespace insonify

@@ -94,7 +94,7 @@ class BeamTable {
   std::size_t width_;         ///< bins of a response, filled up
   std::size_t times_;         ///< rows of one direction: time within a bin, and taps
   std::vector<double> node_;  ///< of 1 / range [1/m]
-  AlignedFloats values_;      ///< by range, direction, time within a bin, part and bin
+  AlignedFloats values_;      ///< by range, direction, time within a bin, bin, and real or imaginary part
 };
 
 }  // namespace insonify

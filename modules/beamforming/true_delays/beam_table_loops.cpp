@@ -8,7 +8,23 @@ namespace insonify::kernels {
 namespace {
 
 using Eight = float __attribute__((vector_size(32)));
-constexpr std::size_t eights = samples_at_once / 8;
+
+/// Sums `eights` times eight numbers of all rows, which stay in registers.
+template <std::size_t eights>
+[[gnu::always_inline]] inline void sum_eights(const float* first, const ResponseTaps& taps, float* response) {
+  Eight sum[eights] = {}, row;
+  for (std::size_t c = 0; c < range_taps; ++c)
+    for (std::size_t g = 0; g < direction_taps; ++g) {
+      const float* at = first + c * taps.plane + g * taps.line;
+      const float here = taps.range[c] * taps.direction[g];
+      for (std::size_t q = 0; q < time_taps; ++q, at += taps.row)
+        for (std::size_t k = 0; k < eights; ++k) {
+          __builtin_memcpy(&row, at + 8 * k, sizeof row);
+          sum[k] += here * taps.time[q] * row;
+        }
+    }
+  __builtin_memcpy(response, sum, sizeof sum);
+}
 
 }  // namespace
 
@@ -43,19 +59,17 @@ void add_element(const ElementPulse& pulse, const double* focus, double path, do
 
 INSONIFY_CLONES
 void sum_response(const float* first, const ResponseTaps& taps, float* response) {
-  for (std::size_t n = 0; n < taps.row; n += samples_at_once) {
-    Eight sum[eights] = {}, row;
-    for (std::size_t c = 0; c < range_taps; ++c)
-      for (std::size_t g = 0; g < direction_taps; ++g) {
-        const float* at = first + c * taps.plane + g * taps.line + n;
-        const float here = taps.range[c] * taps.direction[g];
-        for (std::size_t q = 0; q < time_taps; ++q, at += taps.row)
-          for (std::size_t k = 0; k < eights; ++k) {
-            __builtin_memcpy(&row, at + 8 * k, sizeof row);
-            sum[k] += here * taps.time[q] * row;
-          }
-      }
-    __builtin_memcpy(response + n, sum, sizeof sum);
+  std::size_t left = taps.row / numbers_at_once;
+  for (; left > 4; left -= 4, first += 32, response += 32) sum_eights<4>(first, taps, response);
+  switch (left) {
+    case 1:
+      return sum_eights<1>(first, taps, response);
+    case 2:
+      return sum_eights<2>(first, taps, response);
+    case 3:
+      return sum_eights<3>(first, taps, response);
+    default:
+      return sum_eights<4>(first, taps, response);
   }
 }
 

@@ -28,7 +28,7 @@ void add_element(const ElementPulse& pulse, const double* focus, double path, do
                  std::size_t end, double* re, double* im);
 
 constexpr std::size_t range_taps = 4, direction_taps = 8, time_taps = 8;  ///< of an interpolation in a BeamTable
-constexpr std::size_t samples_at_once = 32;  ///< a row of the table holds a multiple of so many numbers
+constexpr std::size_t numbers_at_once = 8;  ///< a row of the table holds a multiple of so many numbers
 
 /// The rows of a table that give one response, and their weights: row (c, g, q) begins at c plane + g line + q row.
 struct ResponseTaps {
