@@ -128,7 +128,7 @@ class GsfFile {
   std::vector<GsfAttitude> attitudes_;  ///< that no record has yet
 };
 
-/// A field that GsfFile writes, as docs/formats.md lists it.
+/// A field that GsfFile writes, as docs/gsf.md lists it.
 struct GsfFieldRow {
   std::string record;  ///< of which record or subrecord
   std::string name;    ///< as the specification has it

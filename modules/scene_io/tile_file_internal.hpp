@@ -7,7 +7,7 @@
 
 #include "scene/material.hpp"
 
-// Private to scene_io: a .tiles file as it lies on the disk (docs/formats.md).
+// Private to scene_io: a .tiles file as it lies on the disk (docs/scene-files.md).
 namespace insonify {
 
 static_assert(std::endian::native == std::endian::little, "a .tiles file holds numbers as they lie in memory");

@@ -153,7 +153,7 @@ std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
       {"randomise", "heading_deg", "deg", number(at(r.heading), not_negative, in_degrees), "of its yaw"},
       {"randomise", "attitude_deg", "deg", number(at(r.attitude), not_negative, in_degrees), "of its pitch and roll"},
       {"water", "level_m", "m", number(at(water.level)),
-       "height of the water level in the world, for [GSF](formats.md#gsf-gsf); default: `surface.height_m` of the "
+       "height of the water level in the world, for [GSF](gsf.md); default: `surface.height_m` of the "
        "environment, from which it must not differ, else 0"},
       {"water", "datum", "",
        text(water.datum, "1 to 32 printable characters without blanks, such as MSL or LAT", is_datum),

@@ -126,7 +126,7 @@ TEST(RosMessages, fan_shows_port_on_the_left_and_points_stand_in_the_world) {
     EXPECT_EQ(points.unsigned_little(4), 2U);  // by phase
     EXPECT_EQ(points.unsigned_little(4), 2 * i);
   }
-  const std::string page = file_bytes(INSONIFY_FORMATS_PAGE);
+  const std::string page = file_bytes(INSONIFY_EXPORTS_PAGE);
   for (std::size_t k = 0; k < std::size(ros_point_fields); ++k) {
     const std::string name = "fields[" + std::to_string(k) + "].";
     EXPECT_EQ(cloud.texts.at(name + "name"), ros_point_fields[k].name);

@@ -24,12 +24,12 @@ void expect_on(const std::string& name, const std::vector<Key>& keys) {
 
 TEST(KeyTables, of_the_docs_are_those_of_the_code) {
   SonarSpec sonar;
-  key_tables::expect_on("formats.md", sonar_keys(sonar));
+  key_tables::expect_on("keys.md", sonar_keys(sonar));
   Environment environment;
   environment.surface.emplace(), environment.bottom.emplace();
-  key_tables::expect_on("formats.md", environment_keys(environment));
+  key_tables::expect_on("keys.md", environment_keys(environment));
   MaterialEntry material;
-  key_tables::expect_on("formats.md", material_keys(material));
+  key_tables::expect_on("keys.md", material_keys(material));
   MissionTables tables;
   MissionFile mission;
   key_tables::expect_on("survey.md", mission_keys(tables, mission));

@@ -155,7 +155,7 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
             "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,reject,latitude_deg,"
             "longitude_deg");
   // The page has a row for each column, and for each extra one of LAS.
-  const std::string page = file_bytes(INSONIFY_FORMATS_PAGE);
+  const std::string page = file_bytes(INSONIFY_EXPORTS_PAGE);
   const auto expect_in_table = [&](const char* table, const std::string& column) {
     const std::size_t begin = page.find(table);
     ASSERT_NE(begin, page.npos) << table;

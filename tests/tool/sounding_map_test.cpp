@@ -37,7 +37,7 @@ TEST(SoundingMap, has_bands_of_height_level_number_deviation_and_extremes) {
   for (std::size_t k = 0; k < 6; ++k)
     EXPECT_NEAR(static_cast<double>(bands[k].values(0, 0)), expected[k], 1e-4) << bands[k].name;
   // The page has a row for each, with its unit.
-  const std::string page = file_bytes(INSONIFY_FORMATS_PAGE);
+  const std::string page = file_bytes(INSONIFY_EXPORTS_PAGE);
   for (const tool::BandMeaning& band : tool::sounding_bands)
     EXPECT_THAT(page, HasSubstr(std::string("| `") + band.name + "` | " + band.unit + (*band.unit ? " |" : "|")));
 }
