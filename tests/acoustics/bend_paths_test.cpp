@@ -1,5 +1,6 @@
 #include "acoustics/bend_paths.hpp"
 
+#include "support/point_targets.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -62,28 +63,12 @@ SoundSpeedProfile random_profile(std::mt19937_64& random, int entries, double la
   return p;
 }
 
-Scatterers scatterers_at(const std::vector<Eigen::Vector3d>& head_points) {
-  Scatterers s;
-  for (const auto& point : head_points) {
-    const Direction d = direction_of(point);
-    s.range.push_back(point.norm());
-    s.azimuth.push_back(d.azimuth);
-    s.elevation.push_back(d.elevation);
-    s.cos_incidence.push_back(1);
-    s.projected_area.push_back(0.01F);
-    s.material.push_back(0);
-    s.id.push_back(s.id.size());
-    s.surfel.push_back(0);
-  }
-  return s;
-}
-
 Scatterers random_scatterers(std::mt19937_64& random, std::size_t n, double range) {
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < n; ++i)
     points.push_back((0.02 + 0.98 * unit(random)) * range * unit_vector({2 * unit(random) - 1, unit(random) - 0.7}));
-  return scatterers_at(points);
+  return scatterers_at(points, 0.01F);
 }
 
 Eigen::Vector3d point_of(const Scatterers& s, std::size_t i) {
@@ -293,7 +278,7 @@ TEST(BendPaths, keeps_a_scatterer_right_above_on_its_vertical) {
 
 TEST(BendPaths, silences_and_counts_the_shadow) {
   const SoundSpeedProfile split{{0, 20, 40}, {1480, 1520, 1480}};
-  Scatterers s = scatterers_at({{180, 0, -10}, {20, 0, -10}, {179, 20, -10}});
+  Scatterers s = scatterers_at({{180, 0, -10}, {20, 0, -10}, {179, 20, -10}}, 0.01F);
   EXPECT_EQ(bend_paths(split, 15, Pose::Identity(), s, 1), 2u);
   EXPECT_EQ(s.projected_area[0], 0);
   EXPECT_EQ(s.projected_area[1], 0.01F);

@@ -1,7 +1,7 @@
 #include "acoustics/motion.hpp"
 
 #include "acoustics/direct_echoes.hpp"
-#include "support/heads.hpp"
+#include "support/point_targets.hpp"
 #include "support/test.hpp"
 
 namespace insonify::motion_tests {
@@ -9,26 +9,8 @@ namespace insonify::motion_tests {
 constexpr double frequency = 900e3;
 const Medium medium{c0, {0, 0, 0}};
 
-Scatterers points(const std::vector<Eigen::Vector3d>& head_points) {
-  Scatterers s;
-  for (const auto& p : head_points) {
-    const Direction d = direction_of(p);
-    s.range.push_back(p.norm());
-    s.azimuth.push_back(d.azimuth);
-    s.elevation.push_back(d.elevation);
-    s.cos_incidence.push_back(1);
-    s.projected_area.push_back(1);
-    s.material.push_back(0);
-    s.id.push_back(s.id.size());
-    s.surfel.push_back(0);
-  }
-  return s;
-}
-
 Echoes echoes_of(const Scatterers& s) {
-  const std::vector<double> sigma(s.size(), 1);
-  const std::vector<std::complex<double>> xi(s.size(), 1);
-  Echoes echoes = target_echoes(s, sigma, xi, pulse_900k, medium);
+  Echoes echoes = insonify::echoes_of(s, pulse_900k, clear_water());
   echoes.v.assign(s.size(), 0);
   return echoes;
 }
@@ -39,8 +21,8 @@ Echoes moved(const Motion& motion, const Scatterers& s, const Pose& pose = Pose:
   return echoes;
 }
 
-const Scatterers ahead = points({{30, 0, 0}});
-const Scatterers spread = points({{30, 5, -4}, {7, -6, 2}, {80, 1, 10}});
+const Scatterers ahead = scatterers_at({{30, 0, 0}});
+const Scatterers spread = scatterers_at({{30, 5, -4}, {7, -6, 2}, {80, 1, 10}});
 
 Trajectory bent_track() {
   return {{0, 2, 3},
@@ -102,11 +84,11 @@ TEST(MoveEchoes, solves_the_two_way_equation_wherever_the_head_goes) {
 TEST(MoveEchoes, shifts_the_carrier_by_the_rate_of_the_delay) {
   const Eigen::Vector3d velocity(6, -9, 3), target(20, 12, -5);
   const auto arrival = [&](double leaves) {
-    const Scatterers s = points({target - velocity * leaves});
+    const Scatterers s = scatterers_at({target - velocity * leaves});
     return leaves + moved({velocity, {0, 0, 0}}, s).delay[0];
   };
   const double h = 1e-3, rate = (arrival(h) - arrival(-h)) / (2 * h);
-  const double doppler = moved({velocity, {0, 0, 0}}, points({target})).doppler[0];
+  const double doppler = moved({velocity, {0, 0, 0}}, scatterers_at({target})).doppler[0];
   EXPECT_NEAR(frequency * (1 / rate - 1), doppler, 1e-4 * std::abs(doppler));
 }
 

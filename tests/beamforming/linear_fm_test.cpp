@@ -4,7 +4,7 @@
 #include "core/random.hpp"
 #include "sonar/shading.hpp"
 #include "sonar/sonar_spec.hpp"
-#include "support/heads.hpp"
+#include "support/point_targets.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -45,11 +45,7 @@ TEST(LinearFmSynthesis, peak_of_one_scatterer_is_the_sonar_equation) {
   for (const ReplicaWindow window : windows) {
     const SonarHead head = head_of(window, 1);
     const double r = head.gate.centre(200), ts = -20;
-    Scatterers s;
-    s.range = {r}, s.azimuth = {0}, s.elevation = {0};
-    const std::vector<double> sigma{power_from_db(ts)};
-    const std::vector<std::complex<double>> xi{1};
-    const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, sweep_medium());
+    const Echoes echoes = echoes_of(targets_at({r}), head.pulse, sweep_medium(), power_from_db(ts));
     const double loss = 20 * std::log10(r) + sweep_medium().absorption.a0 / nepers_per_db * r;
     for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum}) {
       Eigen::Index beam, bin;

@@ -3,7 +3,7 @@
 #include "acoustics/direct_echoes.hpp"
 #include "core/random.hpp"
 #include "sonar/shading.hpp"
-#include "support/heads.hpp"
+#include "support/point_targets.hpp"
 #include "support/test.hpp"
 
 namespace insonify::synthesize_tests {
@@ -32,11 +32,7 @@ using Synthesis = ComplexGrid (*)(const Echoes&, const SonarHead&, const Medium&
 TEST(Synthesize, peak_of_one_scatterer_is_the_sonar_equation) {
   const SonarHead head = head_of(1, 32);
   const double r = head.gate.centre(200), ts = -20;
-  Scatterers s;
-  s.range = {r}, s.azimuth = {0}, s.elevation = {0};
-  const std::vector<double> sigma{power_from_db(ts)};
-  const std::vector<std::complex<double>> xi{1};
-  const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, medium());
+  const Echoes echoes = echoes_of(targets_at({r}), head.pulse, medium(), power_from_db(ts));
   const double loss = 20 * std::log10(r) + medium().absorption.a0 / nepers_per_db * r;
   for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded, synthesize_spectrum}) {
     const ComplexGrid p = synthesize(echoes, head, medium(), {1e-12, 0});
@@ -52,13 +48,10 @@ TEST(Synthesize, worked_example_of_the_sonar_equation) {
   SonarHead head = head_of(1, 1, 12);
   head.pulse.centre_frequency = 900e3;
   head.gate.min_range = 10 - 100.5 * head.gate.bin_size;
-  Scatterers s;
-  s.range = {head.gate.centre(100)}, s.azimuth = {0}, s.elevation = {0};
-  ASSERT_NEAR(s.range[0], 10, 1e-12);
-  const std::vector<double> sigma{0.01};
-  const std::vector<std::complex<double>> xi{1};
+  const double r = head.gate.centre(100);
+  ASSERT_NEAR(r, 10, 1e-12);
   const Medium m{c0_cold, {0.2994626 * nepers_per_db, 0, 0}};
-  const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, m);
+  const Echoes echoes = echoes_of(targets_at({r}), head.pulse, m, 0.01);
   for (const Synthesis synthesize : {synthesize_direct, synthesize_gridded}) {
     const double peak = synthesize(echoes, head, m, {1e-12, 0}).abs().maxCoeff();
     EXPECT_NEAR(pressure_level_db(peak), 154.010748, 1e-10);

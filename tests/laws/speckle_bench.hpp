@@ -3,6 +3,7 @@
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
 #include "sampling/find_scatterers.hpp"
+#include "support/point_targets.hpp"
 #include "support/test.hpp"
 
 namespace insonify::laws {
@@ -10,9 +11,6 @@ namespace insonify::laws {
 using Complex = std::complex<double>;
 
 constexpr double frequency = 900e3, speed = 1500, wavelength = speed / frequency;
-
-/// Water without absorption: the laws here are about sums of echoes.
-inline Medium clear_water() { return {speed, {}}; }
 
 /// A uniform half-wavelength array of 101 elements, 50.5 wavelengths long: 1 degree wide at broadside.
 inline LineArray one_degree_array() { return {wavelength / 2, std::vector<double>(101, 1.0)}; }

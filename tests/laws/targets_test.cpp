@@ -165,18 +165,15 @@ TEST(TargetLaws, parabola_through_levels_finds_a_target_between_bins_to_a_millim
   SonarHead head = head_with({wavelength / 2, {1.0}}, {0}, 29.5e3, {9, 11, 0.0127});
   double worst_direct = 0, worst_gridded = 0;
   for (int i = 0; i < 50; ++i) {
-    Scatterers s;
-    s.range = {10 + 0.0127 * i / 50}, s.azimuth = {0}, s.elevation = {0};
-    const std::vector<double> sigma{0.01};
-    const std::vector<Complex> xi{1};
-    const Echoes echoes = target_echoes(s, sigma, xi, head.pulse, clear_water());
+    const double range = 10 + 0.0127 * i / 50;
+    const Echoes echoes = echoes_of(targets_at({range}), head.pulse, clear_water(), 0.01);
     const auto error = [&](const ComplexGrid& p) {
       Eigen::Index beam, n;
       p.abs().maxCoeff(&beam, &n);
       const double l = std::log(std::abs(p(0, n - 1))), m = std::log(std::abs(p(0, n))),
                    h = std::log(std::abs(p(0, n + 1)));
       const double peak = head.gate.centre(static_cast<std::size_t>(n)) + 0.0127 * 0.5 * (l - h) / (l - 2 * m + h);
-      return std::abs(peak - s.range[0]);
+      return std::abs(peak - range);
     };
     worst_direct = std::max(worst_direct, error(synthesize_direct(echoes, head, clear_water())));
     worst_gridded = std::max(worst_gridded, error(synthesize_gridded(echoes, head, clear_water())));

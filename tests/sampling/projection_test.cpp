@@ -92,6 +92,22 @@ SamplingOptions options_for(SamplingKind kind, Projection projection) {
   return options;
 }
 
+/// Lambert cross-section without mu of a bed with a sphere and a wall [dB].
+double cross_section_db(const SceneCloud& scene, const SamplingOptions& options) {
+  const BeamFan fan = make_fan(64, radians(50), radians(1), radians(15));
+  const Scatterers s = find_scatterers(scene, at(0, 0, 0, 0, 10), fan, {0.1, 13, 0.05}, options).scatterers;
+  double sum = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) sum += s.projected_area[i] * s.cos_incidence[i];
+  return 10 * std::log10(sum);
+}
+SceneCloud bed_with_sphere_and_wall(double spacing) {
+  SceneCloud scene;
+  add_rectangle(scene, {2, -6, -2}, {12, 0, 0}, {0, 12, 0}, {0, 0, 1}, spacing, 0.5);
+  add_sphere(scene, {6, 0.5, -1}, 0.8, static_cast<int>(4 * pi * 0.64 / (spacing * spacing)));
+  add_wall(scene, 11, 4, 2, spacing, 0.5);
+  return scene;
+}
+
 constexpr SamplingKind kinds[] = {SamplingKind::surfels, SamplingKind::rays};
 
 }  // namespace
@@ -196,15 +212,7 @@ TEST(PreparedScene, refuses_invalid_pings) {
 // Lambert cross-section without mu: four and sixteen times as many surfels or rays change it by less than 0.1 dB.
 TEST(Level, does_not_depend_on_density_of_points_or_rays) {
   const auto level_db = [](double spacing, const SamplingOptions& options) {
-    SceneCloud scene;
-    add_rectangle(scene, {2, -6, -2}, {12, 0, 0}, {0, 12, 0}, {0, 0, 1}, spacing, 0.5);
-    add_sphere(scene, {6, 0.5, -1}, 0.8, static_cast<int>(4 * pi * 0.64 / (spacing * spacing)));
-    add_wall(scene, 11, 4, 2, spacing, 0.5);
-    const BeamFan fan = make_fan(64, radians(50), radians(1), radians(15));
-    const Scatterers s = find_scatterers(scene, at(0, 0, 0, 0, 10), fan, {0.1, 13, 0.05}, options).scatterers;
-    double sum = 0;
-    for (std::size_t i = 0; i < s.size(); ++i) sum += s.projected_area[i] * s.cos_incidence[i];
-    return 10 * std::log10(sum);
+    return cross_section_db(bed_with_sphere_and_wall(spacing), options);
   };
   const auto options_of = [](SamplingKind kind, Projection projection, int rays) {
     SamplingOptions options = options_for(kind, projection);
@@ -226,23 +234,13 @@ TEST(Level, does_not_depend_on_density_of_points_or_rays) {
 
 // The same for a cloud thinned to a quarter and a sixteenth of its surfels.
 TEST(Level, is_kept_by_thinning) {
-  SceneCloud scene;
-  add_rectangle(scene, {2, -6, -2}, {12, 0, 0}, {0, 12, 0}, {0, 0, 1}, 0.03, 0.5);
-  add_sphere(scene, {6, 0.5, -1}, 0.8, static_cast<int>(4 * pi * 0.64 / (0.03 * 0.03)));
-  add_wall(scene, 11, 4, 2, 0.03, 0.5);
-  const BeamFan fan = make_fan(64, radians(50), radians(1), radians(15));
-  const auto level_db = [&](const SceneCloud& cloud) {
-    const Scatterers s = find_scatterers(cloud, at(0, 0, 0, 0, 10), fan, {0.1, 13, 0.05}, unsplit()).scatterers;
-    double sum = 0;
-    for (std::size_t i = 0; i < s.size(); ++i) sum += s.projected_area[i] * s.cos_incidence[i];
-    return 10 * std::log10(sum);
-  };
-  const double dense = level_db(scene);
+  const SceneCloud scene = bed_with_sphere_and_wall(0.03);
+  const double dense = cross_section_db(scene, unsplit());
   for (const double spacing : {0.06, 0.12}) {
     const SceneCloud thinned = thin_scene(scene, spacing);
     EXPECT_NEAR(static_cast<double>(scene.size()) / static_cast<double>(thinned.size()), std::pow(spacing / 0.03, 2),
                 0.25 * std::pow(spacing / 0.03, 2));
-    EXPECT_NEAR(level_db(thinned), dense, 0.1) << spacing << " m";
+    EXPECT_NEAR(cross_section_db(thinned, unsplit()), dense, 0.1) << spacing << " m";
   }
 }
 

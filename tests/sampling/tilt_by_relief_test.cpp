@@ -7,7 +7,6 @@ using Eigen::Vector3d;
 namespace {
 
 const BeamFan tilt_fan = make_fan(64, radians(60), radians(1), radians(40));
-const RangeGate tilt_gate{0.1, 50, 0.01};
 
 /// A plate with micro-relief whose normal is `incidence` [rad] off the direction to a distant head.
 SceneCloud rough_plate(double incidence, double relief_slope, bool oriented = true) {

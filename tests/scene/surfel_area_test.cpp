@@ -77,18 +77,14 @@ TEST(SurfelArea, is_shared_by_coincident_points) {
   EXPECT_NEAR(sum_of(many), sum_of(once), 1e-4 * sum_of(once));
 }
 
-TEST(SurfelArea, of_two_plates_apart_is_that_of_each) {
-  std::vector<Vector3f> points = plate(0.05f, 0);
-  const std::size_t n = points.size();
-  for (std::size_t i = 0; i < n; ++i) points.emplace_back(points[i] + Vector3f(0.3f, 0.2f, 0.4f));
-  EXPECT_NEAR(sum_of(areas_of_flat(points)), 12.0, 12.0 * 0.02);
-}
-
-TEST(SurfelArea, of_two_sheets_one_above_the_other_is_that_of_each) {
-  std::vector<Vector3f> points = plate(0.05f, 0);
-  const std::size_t n = points.size();
-  for (std::size_t i = 0; i < n; ++i) points.emplace_back(points[i] + Vector3f(0.025f, 0.025f, 0.06f));
-  EXPECT_NEAR(sum_of(areas_of_flat(points)), 12.0, 12.0 * 0.02);
+// Apart, and one above the other.
+TEST(SurfelArea, of_two_plates_is_that_of_each) {
+  for (const Vector3f& by : {Vector3f(0.3f, 0.2f, 0.4f), Vector3f(0.025f, 0.025f, 0.06f)}) {
+    std::vector<Vector3f> points = plate(0.05f, 0);
+    const std::size_t n = points.size();
+    for (std::size_t i = 0; i < n; ++i) points.emplace_back(points[i] + by);
+    EXPECT_NEAR(sum_of(areas_of_flat(points)), 12.0, 12.0 * 0.02) << by.transpose();
+  }
 }
 
 TEST(SurfelArea, follows_the_density_of_scan_lines) {

@@ -43,12 +43,6 @@ std::string error_of_contributors(const std::string& path) {
   return replaced(error_with_kind([&] { read_contributor_file(path); }), path, "c.h5");
 }
 
-/// Changes a file as another program would.
-template <typename Change>
-void change(const std::string& path, Change&& how) {
-  how(RawFile(path));
-}
-
 }  // namespace
 
 TEST(ContributorFile, comes_back_bit_for_bit) {
@@ -88,24 +82,19 @@ TEST(ContributorFile, in_bands_is_the_same_file) {
 
 TEST(ContributorFile, has_the_documented_layout) {
   const NamedContributors named = make_contributors();
-  change(write(named), [&](hid_t file) {
-    for (const char* name : {"/surfel", "/id", "/share", "/elevation", "/material", "/path"})
-      EXPECT_EQ(raw_extent(file, name), (std::vector<hsize_t>{5, 7, 3})) << name;
-    const hid_t materials = H5Dopen2(file, "/material_image", H5P_DEFAULT), material_type = H5Dget_type(materials);
-    EXPECT_GT(H5Tequal(material_type, H5T_STD_U16LE), 0);
-    std::vector<std::uint16_t> image(35);
-    H5Dread(materials, H5T_NATIVE_UINT16, H5S_ALL, H5S_ALL, H5P_DEFAULT, image.data());
-    EXPECT_EQ(raw_extent(file, "/material_image"), (std::vector<hsize_t>{5, 7}));
-    EXPECT_EQ(image[12], named.contributors.material[36]);
-    EXPECT_EQ(image[34], 65535);
-    const hid_t instances = H5Dopen2(file, "/instance_image", H5P_DEFAULT);
-    std::vector<std::uint32_t> objects(35);
-    H5Dread(instances, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, objects.data());
-    EXPECT_GT(objects[12], 0U);
-    EXPECT_EQ(objects[34], 0U);
-    EXPECT_EQ(raw_extent(file, "/material_names"), (std::vector<hsize_t>{3}));
-    H5Dclose(instances), H5Tclose(material_type), H5Dclose(materials);
-  });
+  const RawFile file(write(named));
+  for (const char* name : {"/surfel", "/id", "/share", "/elevation", "/material", "/path"})
+    EXPECT_EQ(raw_extent(file, name), (std::vector<hsize_t>{5, 7, 3})) << name;
+  const hid_t materials = H5Dopen2(file, "/material_image", H5P_DEFAULT), material_type = H5Dget_type(materials);
+  EXPECT_GT(H5Tequal(material_type, H5T_STD_U16LE), 0);
+  H5Tclose(material_type), H5Dclose(materials);
+  EXPECT_EQ(raw_extent(file, "/material_image"), (std::vector<hsize_t>{5, 7}));
+  const std::vector<double> image = raw_values(file, "/material_image"), objects = raw_values(file, "/instance_image");
+  EXPECT_EQ(image[12], named.contributors.material[36]);
+  EXPECT_EQ(image[34], 65535);
+  EXPECT_GT(objects[12], 0);
+  EXPECT_EQ(objects[34], 0);
+  EXPECT_EQ(raw_extent(file, "/material_names"), (std::vector<hsize_t>{3}));
 }
 
 TEST(ContributorFile, has_the_same_bytes_a_day_later_and_whatever_memory_held_before) {
@@ -115,36 +104,27 @@ TEST(ContributorFile, has_the_same_bytes_a_day_later_and_whatever_memory_held_be
 TEST(ContributorFile, names_the_dataset_that_is_missing) {
   for (const char* name : {"/surfel", "/id", "/share", "/elevation", "/material", "/path", "/material_names"}) {
     const std::string path = write(make_contributors());
-    change(path, [&](hid_t file) { EXPECT_GE(H5Ldelete(file, name, H5P_DEFAULT), 0); });
+    { EXPECT_GE(H5Ldelete(RawFile(path), name, H5P_DEFAULT), 0); }
     EXPECT_EQ(error_of_contributors(path), "content: c.h5: dataset " + std::string(name) + " is missing");
   }
 }
 
 TEST(ContributorFile, of_another_schema_names_both_versions) {
   const std::string path = write(make_contributors());
-  change(path, [](hid_t file) {
-    const hid_t attribute = H5Aopen(file, "schema", H5P_DEFAULT);
-    const std::int64_t schema = 7;
-    H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
-    H5Aclose(attribute);
-  });
+  raw_set(RawFile(path), "schema", 7);
   EXPECT_EQ(error_of_contributors(path), "content: c.h5: has contributor schema 7, this version reads schema 1");
 }
 
 TEST(ContributorFile, that_contradicts_itself_is_refused) {
   const std::string path = write(make_contributors());
-  change(path, [](hid_t file) {
+  {
+    const RawFile file(path);
     H5Ldelete(file, "/share", H5P_DEFAULT);
     H5Lcreate_hard(file, "/material_image", file, "/share", H5P_DEFAULT, H5P_DEFAULT);
-  });
+  }
   EXPECT_EQ(error_of_contributors(path), "content: c.h5: /share has 2 dimensions, must have 3");
   const std::string other = write(make_contributors());
-  change(other, [](hid_t file) {
-    const hid_t dataset = H5Dopen2(file, "/path", H5P_DEFAULT);
-    std::vector<std::uint8_t> kinds(105, 9);
-    H5Dwrite(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, kinds.data());
-    H5Dclose(dataset);
-  });
+  raw_overwrite(RawFile(other), "/path", std::vector<double>(105, 9));
   EXPECT_EQ(error_of_contributors(other), "content: c.h5: /path holds 9, must be 0, 1 or 2");
 }
 

@@ -1,53 +1,14 @@
 #include "store/cube.hpp"
 
-#include "store/element_file.hpp"
 #include "store/random_cube.hpp"
 #include "store/raw_file.hpp"
 #include "store/run_directory.hpp"
-
-namespace {
-
-double raw_number(hid_t file, const char* name) {
-  const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
-  double value = 0;
-  H5Aread(attribute, H5T_NATIVE_DOUBLE, &value);
-  H5Aclose(attribute);
-  return value;
-}
-
-}  // namespace
 
 TEST(Cube, keeps_the_row_width_of_a_planar_array) {
   Cube cube = random_cube(1);
   EXPECT_EQ(read_cube(write(cube, "line.h5")).pings[0].fan.row_width, 0);
   cube.pings[0].fan.row_width = radians(2);
   EXPECT_EQ(read_cube(write(cube)).pings[0].fan.row_width, radians(2));
-}
-
-TEST(ElementFile, holds_series_axis_and_steering) {
-  SonarHead head;
-  head.array = {0.001, {1, 1, 1}};
-  head.pulse = {750e3, 50e3, 200};
-  ElementSeries series{0.002, 1e-6, ComplexGrid::Random(3, 50)};
-  const std::string path = own_path("elements.h5");
-  write_element_file(path, series, head, 1490);
-  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  ASSERT_GE(file, 0);
-  const hid_t dataset = H5Dopen2(file, "/pressure", H5P_DEFAULT);
-  std::vector<std::complex<float>> samples(150);
-  const hid_t type = H5Tcreate(H5T_COMPOUND, 8);
-  H5Tinsert(type, "r", 0, H5T_NATIVE_FLOAT);
-  H5Tinsert(type, "i", 4, H5T_NATIVE_FLOAT);
-  EXPECT_GE(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, samples.data()), 0);
-  EXPECT_EQ(samples[57], std::complex<float>(series.pressure(1, 7)));
-  const hid_t step = H5Aopen(file, "step", H5P_DEFAULT);
-  double value = 0;
-  EXPECT_GE(H5Aread(step, H5T_NATIVE_DOUBLE, &value), 0);
-  EXPECT_EQ(value, 1e-6);
-  H5Aclose(step), H5Tclose(type), H5Dclose(dataset), H5Fclose(file);
-  series.pressure.conservativeResize(2, 50);
-  EXPECT_THAT(error_with_kind([&] { write_element_file(path, series, head, 1490); }),
-              HasSubstr("2 elements and 50 samples"));
 }
 
 TEST(Cube, comes_back_bit_for_bit) {
@@ -173,12 +134,7 @@ TEST(Cube, keeps_pressure_as_compound_r_i_of_float32_in_chunks_of_one_ping) {
 TEST(Cube, has_bin_centres_as_range_and_poses_row_by_row) {
   const Cube cube = random_cube();
   const RawFile file(write(cube));
-  std::vector<double> range(cube.pings[0].gate.bins()), pose(3 * 16);
-  for (const auto& [name, values] : {std::pair{"/range", &range}, std::pair{"/pose", &pose}}) {
-    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-    H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values->data());
-    H5Dclose(dataset);
-  }
+  const std::vector<double> range = raw_values(file, "/range"), pose = raw_values(file, "/pose");
   EXPECT_DOUBLE_EQ(range[0], 2.0055);
   EXPECT_DOUBLE_EQ(range[10], 2.1155);
   EXPECT_EQ(pose[16 + 3], 2);  // x of ping 1
@@ -212,10 +168,7 @@ TEST(Cube, keeps_the_water_of_pings_that_differ_from_it) {
     EXPECT_EQ(raw_extent(file, "/sound_speed"), (std::vector<hsize_t>{3}));
     EXPECT_EQ(raw_text(file, "/sound_speed", "units"), "m/s");
     EXPECT_EQ(raw_text(file, "/absorption_db_per_m", "units"), "dB/m");
-    const hid_t dataset = H5Dopen2(file, "/sound_speed", H5P_DEFAULT);
-    const double damaged[] = {1500, -1, 1500};
-    EXPECT_GE(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, damaged), 0);
-    H5Dclose(dataset);
+    raw_overwrite(file, "/sound_speed", {1500, -1, 1500});
   }
   EXPECT_EQ(error_of_cube(path), "content: cube.h5: /sound_speed = -1 m/s, must be finite and >= 0");
 }
@@ -236,10 +189,7 @@ TEST(Cube, keeps_the_motion_of_pings) {
     EXPECT_EQ(raw_extent(file, "/turn_rate"), (std::vector<hsize_t>{3, 3}));
     EXPECT_EQ(raw_text(file, "/velocity", "units"), "m/s");
     EXPECT_EQ(raw_text(file, "/turn_rate", "units"), "rad/s");
-    const hid_t dataset = H5Dopen2(file, "/velocity", H5P_DEFAULT);
-    const double damaged[9] = {0, 0, 0, 1, HUGE_VAL, 0};
-    EXPECT_GE(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, damaged), 0);
-    H5Dclose(dataset);
+    raw_overwrite(file, "/velocity", {0, 0, 0, 1, HUGE_VAL, 0, 0, 0, 0});
   }
   EXPECT_EQ(error_of_cube(path), "content: cube.h5: /velocity of ping 1 =   1 inf   0 m/s, must be finite");
 }
@@ -264,28 +214,16 @@ TEST(Cube, names_the_attribute_that_is_missing) {
 
 TEST(Cube, of_another_schema_names_both_versions) {
   const std::string path = write(random_cube());
-  {
-    const RawFile file(path);
-    const hid_t attribute = H5Aopen(file, "schema", H5P_DEFAULT);
-    const std::int64_t schema = 7;
-    H5Awrite(attribute, H5T_NATIVE_INT64, &schema);
-    H5Aclose(attribute);
-  }
+  raw_set(RawFile(path), "schema", 7);
   EXPECT_EQ(error_of_cube(path), "content: cube.h5: has cube schema 7, this version reads schema 1");
 }
 
 TEST(Cube, that_contradicts_itself_is_refused) {
   const std::string path = write(random_cube());
-  const auto set = [&](const char* name, double value) {
-    const RawFile file(path);
-    const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
-    H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value);
-    H5Aclose(attribute);
-  };
-  set("bin_size", 0.022);
+  raw_set(RawFile(path), "bin_size", 0.022);
   EXPECT_EQ(error_of_cube(path),
             "content: cube.h5: /pressure has 46 bins, but min_range, max_range and bin_size give 23");
-  set("bin_size", -1);
+  raw_set(RawFile(path), "bin_size", -1);
   EXPECT_EQ(error_of_cube(path).substr(0, 17), "content: cube.h5:");
   {
     const RawFile file(path);

@@ -37,6 +37,35 @@ std::vector<hsize_t> raw_extent(hid_t file, const char* name) {
   return extent;
 }
 
+std::vector<double> raw_values(hid_t file, const char* name) {
+  const std::vector<hsize_t> extent = raw_extent(file, name);
+  std::vector<double> values(std::accumulate(extent.begin(), extent.end(), hsize_t{1}, std::multiplies<>()));
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+  EXPECT_GE(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << name;
+  H5Dclose(dataset);
+  return values;
+}
+
+void raw_overwrite(hid_t file, const char* name, const std::vector<double>& values) {
+  const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+  EXPECT_GE(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << name;
+  H5Dclose(dataset);
+}
+
+double raw_number(hid_t file, const char* name) {
+  const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
+  double value = 0;
+  EXPECT_GE(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), 0) << name;
+  H5Aclose(attribute);
+  return value;
+}
+
+void raw_set(hid_t file, const char* name, double value) {
+  const hid_t attribute = H5Aopen(file, name, H5P_DEFAULT);
+  EXPECT_GE(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), 0) << name;
+  H5Aclose(attribute);
+}
+
 std::string raw_text(hid_t file, const char* object, const char* name) {
   const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(attribute);
   char* text = nullptr;

@@ -22,8 +22,16 @@ class RawFile {
 
 std::vector<hsize_t> raw_extent(hid_t file, const char* dataset);
 
+/// The numbers of a dataset, of whatever type; and others in their places.
+std::vector<double> raw_values(hid_t file, const char* dataset);
+void raw_overwrite(hid_t file, const char* dataset, const std::vector<double>& values);
+
 /// The text of an attribute of variable length.
 std::string raw_text(hid_t file, const char* object, const char* name);
+
+/// The number of an attribute of the file; and another in its place.
+double raw_number(hid_t file, const char* name);
+void raw_set(hid_t file, const char* name, double value);
 
 /// write("first.h5") and write("second.h5"), which return the path of what they wrote, must give the same bytes, though
 /// the second is written a day later by the clock of this program, into memory that malloc filled with another byte.

@@ -31,6 +31,19 @@ inline Scatterers targets_at(const std::vector<double>& range, double azimuth = 
   return s;
 }
 
+/// The same at places in the axes of the head, each seen head on with this area [m^2].
+inline Scatterers scatterers_at(const std::vector<Eigen::Vector3d>& places, float area = 1) {
+  Scatterers s;
+  for (const Eigen::Vector3d& place : places) {
+    const Direction d = direction_of(place);
+    s.range.push_back(place.norm()), s.azimuth.push_back(d.azimuth), s.elevation.push_back(d.elevation);
+    s.id.push_back(s.id.size());
+  }
+  s.cos_incidence.assign(places.size(), 1), s.projected_area.assign(places.size(), area);
+  s.material.assign(places.size(), 0), s.surfel.assign(places.size(), 0);
+  return s;
+}
+
 /// Echoes of targets of cross-section sigma [m^2] and amplitude 1.
 inline Echoes echoes_of(const Scatterers& targets, const Pulse& pulse, const Medium& medium, double sigma = 1) {
   const std::vector<double> sigmas(targets.size(), sigma);

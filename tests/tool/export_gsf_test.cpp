@@ -325,13 +325,3 @@ TEST_F(ExportGsf, of_pings_without_a_mission_has_the_motion_between_them) {
     EXPECT_NEAR(s.speed_knots, 1 / 0.514444, 0.006);
   }
 }
-
-TEST_F(ExportGsf, of_another_sonar_has_the_generic_subrecord_and_its_name) {
-  succeed(
-      "ping bed.obj --sonar seabat-t50 --set sonar.beams=32 --set sonar.field_of_view_deg=90 --pose=0,0,-1,0,0,0 "
-      "--range 6:20 --no-picture -q -o one");
-  succeed("export one --to gsf --utm 19S -q -o one.gsf");
-  const decode::GsfContent gsf = content("one.gsf");
-  EXPECT_EQ(gsf.swaths.at(0).sensor, 114);
-  EXPECT_THAT(gsf.comments.at(0), HasSubstr("sonar seabat-t50, simulated by insonify "));
-}

@@ -2,7 +2,6 @@
 // the decoders of tests/formats: every field's unit and sign.
 #include <nlohmann/json.hpp>
 #include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPNGReader.h>
 
 #include "core/geodesy.hpp"
@@ -15,6 +14,7 @@
 #include "scene_io/save_cloud.hpp"
 #include "store/cube.hpp"
 #include "support/scenes.hpp"
+#include "support/vtk_file.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -199,10 +199,7 @@ TEST_F(ExportProducts, png_shows_it_to_port_at_its_range) {
   succeed("export out --to png -o pictures -q");
   const auto manifest = manifest_of("pictures");
   ASSERT_EQ(manifest["pings"].size(), 1U);
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(path("pictures/" + manifest["pings"][0]["fan"].get<std::string>()).c_str());
-  reader->Update();
-  vtkImageData* image = reader->GetOutput();
+  const auto image = read_vtk<vtkPNGReader>(path("pictures/" + manifest["pings"][0]["fan"].get<std::string>()));
   const int* size = image->GetDimensions();
   const auto* pixel = static_cast<const unsigned char*>(image->GetScalarPointer());
   double x = 0, y = 0, sum = 0;

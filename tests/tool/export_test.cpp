@@ -5,7 +5,6 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
@@ -17,6 +16,7 @@
 #include "returns/sounding_columns.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
+#include "support/vtk_file.hpp"
 #include "tool/tool_runner.hpp"
 #include "view/grey_file.hpp"
 
@@ -36,25 +36,21 @@ TEST_F(Export, gives_grids_and_images_that_hold_the_levels_of_the_cube) {
   const Ping p = ping_of("out");
   const Grid<float> level = level_db(p);
 
-  vtkNew<vtkXMLImageDataReader> image;
-  image->SetFileName(path("vtk/image_000000.vti").c_str());
-  image->Update();
-  vtkDataArray* values = image->GetOutput()->GetCellData()->GetArray("level_db");
+  const auto image = read_vtk<vtkXMLImageDataReader>(path("vtk/image_000000.vti"));
+  vtkDataArray* values = image->GetCellData()->GetArray("level_db");
   ASSERT_NE(values, nullptr);
   ASSERT_EQ(values->GetNumberOfTuples(), level.size());
   for (Eigen::Index n = 0; n < level.cols(); n += 7)
     for (Eigen::Index b = 0; b < level.rows(); ++b)
       ASSERT_EQ(static_cast<float>(values->GetTuple1(n * level.rows() + b)), level(b, n));
 
-  vtkNew<vtkXMLStructuredGridReader> grid;
-  grid->SetFileName(path("vtk/fan_000000.vts").c_str());
-  grid->Update();
-  ASSERT_EQ(grid->GetOutput()->GetNumberOfCells(), level.size());
+  const auto grid = read_vtk<vtkXMLStructuredGridReader>(path("vtk/fan_000000.vts"));
+  ASSERT_EQ(grid->GetNumberOfCells(), level.size());
   double range[2];
-  grid->GetOutput()->GetCellData()->GetArray("level_db")->GetRange(range);
+  grid->GetCellData()->GetArray("level_db")->GetRange(range);
   EXPECT_EQ(static_cast<float>(range[1]), level.maxCoeff());
   EXPECT_THAT(read("vtk/fan.pvd"), HasSubstr("file=\"fan_000000.vts\""));
-  for (vtkDataSet* data : {static_cast<vtkDataSet*>(image->GetOutput()), static_cast<vtkDataSet*>(grid->GetOutput())}) {
+  for (vtkDataSet* data : {static_cast<vtkDataSet*>(image), static_cast<vtkDataSet*>(grid)}) {
     auto* units = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("units"));
     ASSERT_NE(units, nullptr);
     std::string all;
@@ -74,10 +70,7 @@ TEST_F(Export, gives_returns_with_names_and_units) {
   succeed("export out -o vtk -q");
   const Soundings returns = load_soundings(path("out/returns.ply"));
   ASSERT_GT(returns.size(), 20U);
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(path("vtk/returns.vtp").c_str());
-  reader->Update();
-  vtkPolyData* data = reader->GetOutput();
+  const auto data = read_vtk<vtkXMLPolyDataReader>(path("vtk/returns.vtp"));
   ASSERT_EQ(data->GetNumberOfPoints(), static_cast<vtkIdType>(returns.size()));
   EXPECT_EQ(data->GetNumberOfVerts(), data->GetNumberOfPoints());
   EXPECT_EQ(data->GetPoints()->GetDataType(), VTK_DOUBLE);
@@ -141,10 +134,7 @@ noise = true
   for (const unsigned head : {0U, 1U}) {
     const std::string name = head == 0 ? "left" : "right";
     succeed("export run --head " + name + " -q -o " + name);
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->SetFileName(path(name + "/returns.vtp").c_str());
-    reader->Update();
-    vtkPolyData* data = reader->GetOutput();
+    const auto data = read_vtk<vtkXMLPolyDataReader>(path(name + "/returns.vtp"));
     std::vector<std::size_t> due;
     for (std::size_t i = 0; i < all.head.size(); ++i)
       if (all.head[i] == head) due.push_back(i);
@@ -167,10 +157,7 @@ noise = true
 
 TEST_F(Export, paths_start_and_end_at_the_head_and_bounce_where_asked) {
   succeed(ping + "-o out --keep paths --multipath --set surface.height_m=0");
-  vtkNew<vtkXMLPolyDataReader> lines;
-  lines->SetFileName(path("out/paths.vtp").c_str());
-  lines->Update();
-  vtkPolyData* data = lines->GetOutput();
+  const auto data = read_vtk<vtkXMLPolyDataReader>(path("out/paths.vtp"));
   ASSERT_GT(data->GetNumberOfLines(), 10);
   double bounces[2];
   data->GetCellData()->GetArray("bounces")->GetRange(bounces);
@@ -212,10 +199,8 @@ TEST_F(Export, gains_are_of_the_absorption_of_each_ping) {
   for (std::size_t p = 0; p < 2; ++p) {
     const Ping& from = cube.pings[p];
     const std::string number = "00000" + std::to_string(p);
-    vtkNew<vtkXMLImageDataReader> image;
-    image->SetFileName(path("vtk/image_" + number + ".vti").c_str());
-    image->Update();
-    vtkDataArray* levels = image->GetOutput()->GetCellData()->GetArray("range_compensated_level_db");
+    const auto image = read_vtk<vtkXMLImageDataReader>(path("vtk/image_" + number + ".vti"));
+    vtkDataArray* levels = image->GetCellData()->GetArray("range_compensated_level_db");
     ASSERT_NE(levels, nullptr);
     const GreyPicture grey = load_grey_png(path("grey/samples_" + number + ".png"));
     ASSERT_EQ(grey.value.rows(), from.pressure.cols());

@@ -2,7 +2,6 @@
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkStructuredGrid.h>
 #include <vtkXMLImageDataReader.h>
@@ -10,6 +9,7 @@
 #include <vtkXMLStructuredGridReader.h>
 
 #include "support/test.hpp"
+#include "support/vtk_file.hpp"
 #include "view/save_vtk.hpp"
 
 namespace insonify {
@@ -35,22 +35,13 @@ Eigen::Vector3d middle_of(vtkDataSet* data, vtkIdType cell) {
   return sum / static_cast<double>(points->GetNumberOfPoints());
 }
 
-template <typename Reader>
-void read(Reader& reader, const std::string& path) {
-  ASSERT_TRUE(reader.CanReadFile(path.c_str())) << path;
-  reader.SetFileName(path.c_str());
-  reader.Update();
-}
-
 TEST(SavedForVtk, every_cell_of_a_fan_stands_where_its_sample_does_in_the_world_and_holds_its_value) {
   const BeamFan fan = make_fan(9, radians(90), radians(10), radians(20), radians(-15));
   const Pose pose = pose_from_yaw_pitch_roll({500000.25, 4500000.5, -12}, radians(30), radians(20), radians(5));
   const SampleField field = counted(fan);
   save_fan_grid(own_path("fan.vts"), fan, gate, {field}, pose);
 
-  vtkNew<vtkXMLStructuredGridReader> reader;
-  read(*reader, own_path("fan.vts"));
-  vtkStructuredGrid* grid = reader->GetOutput();
+  const auto grid = read_vtk<vtkXMLStructuredGridReader>(own_path("fan.vts"));
   auto* values = vtkFloatArray::SafeDownCast(grid->GetCellData()->GetArray("level_db"));
   ASSERT_NE(values, nullptr);
   ASSERT_EQ(grid->GetNumberOfCells(), field.values.size());
@@ -78,9 +69,7 @@ TEST(SavedForVtk, rows_of_the_same_bearings_are_the_layers_of_a_volume) {
   const Pose pose = pose_from_yaw_pitch_roll({1, 2, 3}, radians(30), radians(10), radians(5));
   const auto files = save_fan_grid(own_path("fan.vts"), fan, gate, {counted(fan)}, pose);
   ASSERT_EQ(files, std::vector<std::string>{own_path("fan.vts")});
-  vtkNew<vtkXMLStructuredGridReader> reader;
-  read(*reader, files.front());
-  vtkStructuredGrid* grid = reader->GetOutput();
+  const auto grid = read_vtk<vtkXMLStructuredGridReader>(files.front());
   auto* values = vtkFloatArray::SafeDownCast(grid->GetCellData()->GetArray("level_db"));
   ASSERT_NE(values, nullptr);
   ASSERT_EQ(grid->GetNumberOfCells(), static_cast<vtkIdType>(fan.beams() * gate.bins()));
@@ -99,11 +88,10 @@ TEST(SavedForVtk, rows_of_other_bearings_become_files_by_ascending_elevation) {
   ASSERT_EQ(files.size(), 2u);
   for (int row = 0; row < 2; ++row) {
     EXPECT_EQ(files[static_cast<std::size_t>(row)], own_path("fan_row_00" + std::to_string(row) + ".vts"));
-    vtkNew<vtkXMLStructuredGridReader> reader;
-    read(*reader, files[static_cast<std::size_t>(row)]);
-    EXPECT_NEAR(direction_of(middle_of(reader->GetOutput(), 0)).elevation, radians(row == 0 ? -10 : 10), 0.002);
+    const auto data = read_vtk<vtkXMLStructuredGridReader>(files[static_cast<std::size_t>(row)]);
+    EXPECT_NEAR(direction_of(middle_of(data, 0)).elevation, radians(row == 0 ? -10 : 10), 0.002);
     double range[2];
-    reader->GetOutput()->GetCellData()->GetArray("level_db")->GetRange(range);
+    data->GetCellData()->GetArray("level_db")->GetRange(range);
     EXPECT_EQ(range[0], row == 0 ? 300 : 0);
   }
 }
@@ -114,15 +102,14 @@ TEST(SavedForVtk, image_holds_the_samples_bit_for_bit_beam_across_and_range_upwa
   field.values(2, 3) = 0.1f;
   save_sample_image(own_path("image.vti"), fan, gate, {field});
 
-  vtkNew<vtkXMLImageDataReader> reader;
-  read(*reader, own_path("image.vti"));
-  auto* values = vtkFloatArray::SafeDownCast(reader->GetOutput()->GetCellData()->GetArray("level_db"));
+  const auto data = read_vtk<vtkXMLImageDataReader>(own_path("image.vti"));
+  auto* values = vtkFloatArray::SafeDownCast(data->GetCellData()->GetArray("level_db"));
   ASSERT_NE(values, nullptr);
   for (Eigen::Index b = 0; b < field.values.rows(); ++b)
     for (Eigen::Index n = 0; n < field.values.cols(); ++n) {
       const vtkIdType cell = n * field.values.rows() + b;
       EXPECT_EQ(values->GetValue(cell), field.values(b, n));
-      const Eigen::Vector3d middle = middle_of(reader->GetOutput(), cell);
+      const Eigen::Vector3d middle = middle_of(data, cell);
       EXPECT_NEAR(middle.x(), static_cast<double>(b) + 0.5, 1e-9);
       EXPECT_NEAR(middle.y(), gate.centre(static_cast<std::size_t>(n)), 1e-9);
     }
@@ -139,9 +126,7 @@ TEST(SavedForVtk, series_names_its_files_beside_it_with_their_times) {
 TEST(SavedForVtk, lines_come_back_with_their_points_and_numbers) {
   const LineSet lines{{{{1e6, 2, 3}, {4, 5, 6}}, {{0, 0, 0}, {1, 1, 1}, {2, 0, 0.1}}}, {{"level_db", {80, 90}}}};
   save_lines(own_path("paths.vtp"), lines);
-  vtkNew<vtkXMLPolyDataReader> reader;
-  read(*reader, own_path("paths.vtp"));
-  vtkPolyData* data = reader->GetOutput();
+  const auto data = read_vtk<vtkXMLPolyDataReader>(own_path("paths.vtp"));
   ASSERT_EQ(data->GetNumberOfLines(), 2);
   EXPECT_EQ(data->GetCell(1)->GetNumberOfPoints(), 3);
   EXPECT_EQ(Eigen::Vector3d(data->GetPoint(0)), Eigen::Vector3d(1e6, 2, 3));

@@ -1,9 +1,9 @@
 #include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPNGReader.h>
 #include <vtkPNMReader.h>
 
 #include "support/test.hpp"
+#include "support/vtk_file.hpp"
 #include "view/show_image.hpp"
 #include "view/test_pictures.hpp"
 
@@ -27,10 +27,7 @@ BeamFan fan_of(std::size_t beams, bool port_first) {
 // Reads a picture back; calls check(column, row from below, value) for every pixel.
 template <typename Reader, typename Check>
 void read_back(const std::string& path, int width, int height, int scalar_type, const Check& check) {
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkImageData* image = reader->GetOutput();
+  const auto image = read_vtk<Reader>(path);
   ASSERT_EQ(image->GetDimensions()[0], width);
   ASSERT_EQ(image->GetDimensions()[1], height);
   ASSERT_EQ(image->GetNumberOfScalarComponents(), 1);

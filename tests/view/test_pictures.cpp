@@ -1,10 +1,10 @@
 #include "view/test_pictures.hpp"
 
 #include <vtkImageData.h>
-#include <vtkNew.h>
 #include <vtkPNGReader.h>
 
 #include "support/test.hpp"
+#include "support/vtk_file.hpp"
 
 namespace insonify {
 
@@ -27,10 +27,7 @@ Rgb ReadPicture::at(double x, double y) const {
 }
 
 ReadPicture read_png(const std::string& path) {
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkImageData* image = reader->GetOutput();
+  const auto image = read_vtk<vtkPNGReader>(path);
   ReadPicture picture;
   picture.width = image->GetDimensions()[0], picture.height = image->GetDimensions()[1];
   EXPECT_EQ(image->GetNumberOfScalarComponents(), 3);

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <type_traits>
+
+#include <vtkSmartPointer.h>
+
+namespace insonify {
+
+/// What a reader of VTK makes of a file.
+template <typename Reader>
+auto read_vtk(const std::string& path) {
+  const auto reader = vtkSmartPointer<Reader>::New();
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  return vtkSmartPointer<std::remove_pointer_t<decltype(reader->GetOutput())>>(reader->GetOutput());
+}
+
+}  // namespace insonify
