@@ -51,7 +51,7 @@ struct CubeList {
 
 }  // namespace
 
-PingReel reel_of(const std::vector<CubeOfPings>& cubes) {
+LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes) {
   const auto list = std::make_shared<CubeList>();
   list->cubes = cubes;
   std::vector<TrackPoint> places;

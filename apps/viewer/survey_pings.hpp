@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/ping_reel.hpp"
+#include "viewer/lazy_pings.hpp"
 
 namespace insonify::viewer {
 
@@ -13,7 +13,7 @@ struct CubeOfPings {
 };
 
 /// The pings of cubes in turn, read one at a time; of the returns those of one cube are kept. Errors as read_cube.
-PingReel reel_of(const std::vector<CubeOfPings>& cubes);
+LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes);
 
 /// One head of a survey.
 struct SurveyHeadRun {

@@ -79,7 +79,7 @@ std::string finished_cube(const std::string& target) {
 void open_cubes(const std::vector<CubeOfPings>& cubes, LoadedView& view) {
   const Cube first = read_cube(cubes.front().cube, 0, 1);
   view.data.title = first.sonar;
-  view.data.pings = reel_of(cubes);
+  view.data.pings = lazy_pings_of(cubes);
 }
 
 // True if the ids of the contributors match the scene.
@@ -204,7 +204,8 @@ LoadedView load_run(const ViewerCommand& command) {
     fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no survey; leave --head out");
   open_cubes({{finished_cube(command.target), ""}}, view);
   for (const char* file : {"cube.h5", "returns.ply", "contributors.h5"})
-    if (const std::string doubt = tool::doubt_of(command.target, file); !doubt.empty()) view.notes.push_back(doubt);
+    if (const std::string doubt = tool::integrity_problem(command.target, file); !doubt.empty())
+      view.notes.push_back(doubt);
   const fs::path run(command.target), returns = run / "returns.ply";
   load_contributors(run, view);
   if (fs::is_directory(run) && fs::exists(returns)) view.data.returns = load_soundings(returns.string());

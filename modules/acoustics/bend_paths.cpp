@@ -1,12 +1,12 @@
-// Refraction: scatterers are moved to their apparent places, where a straight ray at the head's sound speed would put them
-// (rays in layers of constant gradient, Jensen et al., Computational Ocean Acoustics, ch. 3; E43). Steps:
+// Refraction: scatterers are moved to their apparent places, where a straight ray at the head's sound speed would put
+// them (rays in layers of constant gradient, Jensen et al., Computational Ocean Acoustics, ch. 3; E43). Steps:
 //   1. refraction_bound   an upper bound of the change, from the box of ranges and directions and Snell's law alone;
 //                         where it is 0 nothing else is done
 //   2. place_of           depth and horizontal distance of every scatterer: the problem has two dimensions
 //   3. RefractionTable    eigenrays on a grid of patches over these two, stored less their first order
 //   4. table.apparent          range and elevation of every scatterer, interpolated, or solved where a patch is not smooth
-// Cost: some thousand eigenrays for the table, whatever the number of scatterers, and an interpolation for each; for few
-// scatterers one eigenray each. Blocks of scatterers run in parallel and are independent.
+// Cost: some thousand eigenrays for the table, whatever the number of scatterers, and an interpolation for each; for
+// few scatterers one eigenray each. Blocks of scatterers run in parallel and are independent.
 #include "acoustics/bend_paths.hpp"
 
 #include <algorithm>

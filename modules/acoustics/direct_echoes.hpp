@@ -27,8 +27,8 @@ struct EchoOptions {
 /// a pattern.
 double elevation_pattern(const EchoOptions& options, double elevation);
 
-/// One-way pressure response of the transmitter at any `azimuth` [rad], a Gaussian lobe about azimuth 0 (E57); 1 without
-/// a pattern.
+/// One-way pressure response of the transmitter at any `azimuth` [rad], a Gaussian lobe about azimuth 0 (E57); 1
+/// without a pattern.
 double transmit_pattern(const EchoOptions& options, double azimuth);
 
 /// The direct echo of every scatterer (E7): amplitude = sqrt2 p0 xi sqrt(sigma) b_E b_T exp(2 i k_c r) / r^2 [Pa], with

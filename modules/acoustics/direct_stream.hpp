@@ -19,8 +19,8 @@ Echoes echoes_in_motion(const SceneCloud& scene, const Scatterers& patches, cons
 /// Widens the bounds of visible surfels so that they hold where their echoes appear to a moving head (E44).
 void widen_bounds(const Motion& motion, double sound_speed, VisibleSurfels& visible);
 
-/// The direct echoes of visible surfels: chunks of neighbouring surfels, whose patches and echoes are made when they are
-/// visited.
+/// The direct echoes of visible surfels: chunks of neighbouring surfels, whose patches and echoes are made when they
+/// are visited.
 class DirectStream final : public EchoStream {
  public:
   /// Refers to scene and surfels, whose bounds must hold the motion (widen_bounds).

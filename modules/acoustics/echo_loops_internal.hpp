@@ -1,12 +1,12 @@
 #pragma once
 #include <cstddef>
 
-// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits on
-// each. They do not include Eigen, so wide registers are safe.
+// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
+// on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
-/// Complex normal numbers of mean power 1 (E9; Box-Muller) from numbers uniform in (0, 1): what polar(sqrt(-log(u)), 2 pi
-/// turn) gives to 1e-15.
+/// Complex normal numbers of mean power 1 (E9; Box-Muller) from numbers uniform in (0, 1): what polar(sqrt(-log(u)), 2
+/// pi turn) gives to 1e-15.
 void complex_normal(const double* u, const double* turn, std::size_t count, double* re, double* im);
 
 /// Multiplies gains by Gaussian lobes 2^(-2 (off / width)^2) of angles off an axis, whole turns apart alike (E14, E57).
@@ -30,7 +30,8 @@ struct MovingHead {
   double velocity[3], axis[3];  ///< [m/s]; unit vector of its turn, or 0
   double turns_per_s, sound_speed, centre_frequency;
 };
-/// Turns echoes of patches at range, azimuth and elevation into those of a moving head (E44); sets their Doppler shifts.
+/// Turns echoes of patches at range, azimuth and elevation into those of a moving head (E44); sets their Doppler
+/// shifts.
 void move_echoes(const double* range, const double* azimuth, const double* elevation, std::size_t count,
                  const MovingHead& head, EchoPlaces echoes, double* doppler);
 

@@ -1,8 +1,10 @@
-// The fastest ray between two depths at a horizontal distance, in layers of constant gradient of sound speed, where rays are
-// arcs of circles (Jensen et al., Computational Ocean Acoustics, ch. 3; E43). Steps, from the upper to the lower end:
+// The fastest ray between two depths at a horizontal distance, in layers of constant gradient of sound speed, where
+// rays are arcs of circles (Jensen et al., Computational Ocean Acoustics, ch. 3; E43). Steps, from the upper to the
+// lower end:
 //   1. a vertical ray, or ends within one layer: closed forms (vertical_time, offer_arc)
 //   2. rays that turn at most once: the direct one, and for every layer that can turn a ray above or below the ends a family
-//      of rays; in each family the steepness that reaches the distance is found by sampling, bisection, and golden section
+//      of rays; in each family the steepness that reaches the distance is found by sampling, bisection, and golden
+//      section
 //      about an extremum of the reach (a caustic)
 //   3. only where there is none: rays in a duct, that turn up to eight times above and below
 // Of all candidates the fastest is kept; travel time is stationary in steepness (Fermat), so that it is good to 1e-12.

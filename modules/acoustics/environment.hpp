@@ -45,29 +45,29 @@ struct Environment {
 /// Throws Error naming the value, its unit and its rule.
 void require_valid(const Environment& environment, const char* who);
 
-/// Returns the world z of the surface [m], from which depth counts: that of `surface`, else water_level; empty if both are
-/// absent.
+/// Returns the world z of the surface [m], from which depth counts: that of `surface`, else water_level; empty if both
+/// are absent.
 std::optional<double> surface_height(const Environment& environment);
 
-/// Returns the depth [m] of a head at world z `head_height` [m]: below the surface if that is known, else water.depth. It is
-/// rounded to a micrometre, so that rounding errors on a level track do not change the water from ping to ping.
+/// Returns the depth [m] of a head at world z `head_height` [m]: below the surface if that is known, else water.depth.
+/// It is rounded to a micrometre, so that rounding errors on a level track do not change the water from ping to ping.
 double head_depth(const Environment& environment, double head_height);
 
 /// Throws Error(argument), naming `who`, for a profile whose sound speed changes with depth if the surface is unknown.
 void require_depths_known(const Environment& environment, const char* who);
 
-/// The environment with water.depth at a head of world height `head_height` [m] (head_depth). Throws Error(argument) with
-/// the remedy, naming `who`: for a head at or above the surface; for a water.depth other than 0 that is more than 1 cm off
-/// that depth; and as require_depths_known.
+/// The environment with water.depth at a head of world height `head_height` [m] (head_depth). Throws Error(argument)
+/// with the remedy, naming `who`: for a head at or above the surface; for a water.depth other than 0 that is more than
+/// 1 cm off that depth; and as require_depths_known.
 Environment environment_at(const Environment& environment, double head_height, const char* who);
 
-/// Returns the lowest sound speed [m/s] at any depth: of the profile; without a profile, of the water at the surface, where
-/// pressure is lowest; without a surface, of medium_of. Range bins that are fine enough for it are fine enough at every
-/// depth.
+/// Returns the lowest sound speed [m/s] at any depth: of the profile; without a profile, of the water at the surface,
+/// where pressure is lowest; without a surface, of medium_of. Range bins that are fine enough for it are fine enough at
+/// every depth.
 double slowest_sound(const Environment& environment);
 
-/// Returns the medium at the head for a pulse about `centre_frequency` [Hz]. If there is a profile, the sound speed is the
-/// profile's at water.depth.
+/// Returns the medium at the head for a pulse about `centre_frequency` [Hz]. If there is a profile, the sound speed is
+/// the profile's at water.depth.
 Medium medium_of(const Environment& environment, double centre_frequency, int absorption_order = 0);
 
 /// Level of all noise at one element in the pulse's band [dB re 1 uPa]: thermal (E18), with the wind's (E25) and the

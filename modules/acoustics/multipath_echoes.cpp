@@ -1,5 +1,5 @@
-// Echoes that touch the sea surface or the bottom, by the method of images (Jensen et al., Computational Ocean Acoustics,
-// section 1.4; E48), one bounce per leg at most. Steps:
+// Echoes that touch the sea surface or the bottom, by the method of images (Jensen et al., Computational Ocean
+// Acoustics, section 1.4; E48), one bounce per leg at most. Steps:
 //   1. boundaries_of     surface and bottom as planes in head axes, with their reflection
 //   2. find_legs         for each surfel the legs, direct and by a boundary, that the scene leaves open: the head sees the
 //                        scene mirrored in each boundary with the same visibility test as the scene itself

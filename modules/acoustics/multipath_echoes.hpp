@@ -10,7 +10,8 @@
 
 namespace insonify {
 
-/// By which legs sound went out to a patch and came back: 0 direct, k by the k-th boundary (the surface before the bottom).
+/// By which legs sound went out to a patch and came back: 0 direct, k by the k-th boundary (the surface before the
+/// bottom).
 struct LegPair {
   std::uint8_t out = 0, back = 0;
 

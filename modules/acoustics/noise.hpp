@@ -22,7 +22,8 @@ double ambient_noise_spectrum_level_db(double frequency, double wind_speed);
 
 /// Level of the ambient noise in the pulse's band [dB re 1 uPa] (E26): the spectrum level at the centre frequency
 /// + 10 log10(B / Hz), B = noise_bandwidth(pulse). Low by at most 0.7 dB (wind) or 0.2 dB (thermal) for bands up to
-/// half the centre frequency wide. Subtract the directivity index of a beam. Throws Error for an invalid pulse or wind speed.
+/// half the centre frequency wide. Subtract the directivity index of a beam. Throws Error for an invalid pulse or wind
+/// speed.
 double ambient_noise_level_db(const Pulse& pulse, double wind_speed);
 
 /// Level of thermal noise alone in the pulse's band [dB re 1 uPa] for an omnidirectional receiver (E18): -15 +

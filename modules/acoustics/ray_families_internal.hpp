@@ -53,8 +53,8 @@ class RayWater {
   double horizontal(const RayFamily& family, double steepness) const {
     return horizontal(family, steepness, steepness);
   }
-  /// The same with crossings, that shrink with steepness, and turns, that grow with it, at a steepness of their own: with
-  /// the ends of an interval a bound over it.
+  /// The same with crossings, that shrink with steepness, and turns, that grow with it, at a steepness of their own:
+  /// with the ends of an interval a bound over it.
   double horizontal(const RayFamily& family, double crossing_steepness, double turning_steepness) const;
   /// Steepness of the ray that runs straight from end to end and gets `horizontal` far; none if none gets so far.
   std::optional<double> direct_steepness(double horizontal) const;

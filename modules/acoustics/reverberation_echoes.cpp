@@ -1,5 +1,5 @@
-// Echoes of the water and of plane boundaries, as sums over cells of complex-normal amplitude (the sonar equation's volume
-// and boundary reverberation, Urick, Principles of Underwater Sound, ch. 8; E49 to E51). Steps:
+// Echoes of the water and of plane boundaries, as sums over cells of complex-normal amplitude (the sonar equation's
+// volume and boundary reverberation, Urick, Principles of Underwater Sound, ch. 8; E49 to E51). Steps:
 //   1. reverberation_cells   slices of range, a fraction of a pulse long, across gate and sector
 //   2. the number of cells is checked before any work
 //   3. each cell             one echo at a random place in it, its power that of the whole cell; places and amplitudes

@@ -9,8 +9,8 @@ namespace insonify {
 /// included, from a table over u (within 1 % where a main lobe is, 5 % where side lobes alone are).
 class ReceivedEnergy {
  public:
-  /// With `half_width` > 0, means over u +- half_width instead; `over_band`: beams formed by true delays, whose response is
-  /// that of each frequency of the pulse.
+  /// With `half_width` > 0, means over u +- half_width instead; `over_band`: beams formed by true delays, whose
+  /// response is that of each frequency of the pulse.
   ReceivedEnergy(const SonarHead& head, double wavelength, double half_width = 0, bool over_band = false);
   /// Returns the sum at direction cosines u along the array and v upwards.
   double at(double u, double v);

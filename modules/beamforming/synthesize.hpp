@@ -33,19 +33,20 @@ struct SynthesisOptions {
 /// over all rows costs at most a tenth of the tolerance (relative L2 norm); `direct` omits none. `element_exact` makes
 /// no narrow-band far-field assumption: true delays per element, focused beams (element_series, beam_from_elements,
 /// E61, E62); its tolerance is within [1e-12, 0.1]. `true_delays` gives the same
-/// image at about the cost of gridding (WidebandSynthesizer, E68); its tolerance is within [1e-5, 0.1]. `incoherent` gives the root of the expected intensity (E65) as a
-/// real pressure: levels and detections apply to it, but such images add up by their squares, and phases have no
-/// meaning. Cost: that of the method for each row. The result does not depend on options.threads. Throws Error as the
-/// methods do, and if there are several rows or a column, but not one echoes.v per echo.
-/// For many images of one head use a Synthesizer.
+/// image at about the cost of gridding (WidebandSynthesizer, E68); its tolerance is within [1e-5, 0.1]. `incoherent`
+/// gives the root of the expected intensity (E65) as a real pressure: levels and detections apply to it, but such
+/// images add up by their squares, and phases have no meaning. Cost: that of the method for each row. The result does
+/// not depend on options.threads. Throws Error as the methods do, and if there are several rows or a column, but not
+/// one echoes.v per echo. For many images of one head use a Synthesizer.
 ComplexGrid synthesize(const Echoes& echoes, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options = {});
 
-/// Returns the same of echoes that are made chunk by chunk; of a head and method that are not `streamed`, all are made first.
+/// Returns the same of echoes that are made chunk by chunk; of a head and method that are not `streamed`, all are made
+/// first.
 ComplexGrid synthesize(const EchoStream& stream, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                        const SynthesisOptions& options = {});
-/// Whether the pressure of `head` is formed without all echoes at once: methods `gridded` and `true_delays` of one row of
-/// beams, and `gridded` of a planar array with Gaussian pulses.
+/// Whether the pressure of `head` is formed without all echoes at once: methods `gridded` and `true_delays` of one row
+/// of beams, and `gridded` of a planar array with Gaussian pulses.
 bool streamed(const SonarHead& head, SynthesisMethod method);
 
 // Synthesizers for heads with one row of beams and no column; they throw Error for others.

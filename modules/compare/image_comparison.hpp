@@ -54,8 +54,8 @@ struct ImageComparison {
   ImageCharacter a, b;
 };
 
-/// Compares images of the same size, pixel by pixel (E120 to E124). Throws Error(argument) if sizes differ, or if no pixel
-/// has a level in both.
+/// Compares images of the same size, pixel by pixel (E120 to E124). Throws Error(argument) if sizes differ, or if no
+/// pixel has a level in both.
 ImageComparison compare_level_images(const ComparedImage& a, const ComparedImage& b,
                                      const ComparisonOptions& options = {});
 

@@ -11,8 +11,8 @@ struct MeanAndDeviation {
 /// Mean and standard deviation of a sample; both 0 if it is empty.
 MeanAndDeviation mean_and_deviation(const std::vector<double>& values);
 
-/// Returns the Wasserstein-1 distance of two samples: the mean distance of their quantiles, in their unit (E121). Throws
-/// Error(argument) if one is empty.
+/// Returns the Wasserstein-1 distance of two samples: the mean distance of their quantiles, in their unit (E121).
+/// Throws Error(argument) if one is empty.
 double wasserstein_1(std::vector<double> a, std::vector<double> b);
 
 /// A Kolmogorov-Smirnov test.

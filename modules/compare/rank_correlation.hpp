@@ -5,8 +5,8 @@
 
 namespace insonify {
 
-/// Returns Spearman's rank correlation: that of the ranks, equal numbers sharing their mean rank (E122). NaN if one list is
-/// constant. Throws Error(argument) unless both have the same length of two at least.
+/// Returns Spearman's rank correlation: that of the ranks, equal numbers sharing their mean rank (E122). NaN if one
+/// list is constant. Throws Error(argument) unless both have the same length of two at least.
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
 
 /// Levels predicted at points against levels measured there.
@@ -21,8 +21,8 @@ struct PointComparison {
   double ceiling = 0, ceiling_without_trend = 0;  ///< of one-look speckle about the prediction itself (E122)
 };
 
-/// Compares levels point by point; `seed` draws the ceiling. Throws Error(argument) unless all lists have the same length
-/// of three at least, all numbers are finite and ranges > 0.
+/// Compares levels point by point; `seed` draws the ceiling. Throws Error(argument) unless all lists have the same
+/// length of three at least, all numbers are finite and ranges > 0.
 PointComparison compare_points(const std::vector<double>& predicted_db, const std::vector<double>& measured_db,
                                const std::vector<double>& range, std::uint64_t seed);
 

@@ -20,10 +20,10 @@ struct ComparedImage {
   bool expected_level = false;        ///< without speckle
 };
 
-/// The level of `image` at every pixel of another fan and gate: the mean intensity of its samples whose centre lies in the
-/// bin, or the nearest sample if there is none, of the nearest beam; NaN where the pixel is beyond its outermost beam or
-/// bin by more than half a step. Beams are matched by azimuth, of planar arrays by elevation too. Throws Error(argument)
-/// if `image` has no geometry, or if nothing overlaps.
+/// The level of `image` at every pixel of another fan and gate: the mean intensity of its samples whose centre lies in
+/// the bin, or the nearest sample if there is none, of the nearest beam; NaN where the pixel is beyond its outermost
+/// beam or bin by more than half a step. Beams are matched by azimuth, of planar arrays by elevation too. Throws
+/// Error(argument) if `image` has no geometry, or if nothing overlaps.
 Grid<float> resampled(const ComparedImage& image, const BeamFan& fan, const RangeGate& gate);
 
 /// The beam whose direction is nearest to that of `p` (head axes): of a line array by the azimuth of its cone, of a fan

@@ -6,8 +6,8 @@
 
 namespace insonify {
 
-/// Full widths at half maximum of the autocovariance of intensity, in pixels. For speckle it is the square of the modulus
-/// of the complex autocorrelation (Siegert).
+/// Full widths at half maximum of the autocovariance of intensity, in pixels. For speckle it is the square of the
+/// modulus of the complex autocorrelation (Siegert).
 struct CorrelationWidths {
   double beams = 0, bins = 0;
 };
@@ -24,9 +24,9 @@ struct SpeckleStatistics {
   std::vector<double> covariance_beams, covariance_bins;  ///< at lags of 0, 1, ... pixels, 1 at 0
 };
 
-/// Statistics of an image of levels [dB]; NaN pixels are left out. The local mean is that of `half_beams` and `half_bins`
-/// to either side, which removes slopes but also texture that is longer. Throws Error(argument) if no pixel has a level,
-/// or none but silence.
+/// Statistics of an image of levels [dB]; NaN pixels are left out. The local mean is that of `half_beams` and
+/// `half_bins` to either side, which removes slopes but also texture that is longer. Throws Error(argument) if no pixel
+/// has a level, or none but silence.
 SpeckleStatistics speckle_statistics(const Grid<float>& level_db, int half_beams = 8, int half_bins = 16);
 
 /// Intensities over their local mean, one for each resolution cell: every ceil(width)th beam and bin, so that they are
@@ -40,7 +40,8 @@ double shadow_contrast_db(const Grid<float>& level_db);
 
 /// Deviation [dB] of the level of so many independent looks: 10 / ln 10 sqrt(trigamma(looks)); 5.57 dB for one.
 double looks_deviation_db(double looks);
-/// Mean level less the level of the mean [dB] of so many looks: 10 / ln 10 (digamma(looks) - ln looks); -2.51 dB for one.
+/// Mean level less the level of the mean [dB] of so many looks: 10 / ln 10 (digamma(looks) - ln looks); -2.51 dB for
+/// one.
 double looks_bias_db(double looks);
 
 }  // namespace insonify

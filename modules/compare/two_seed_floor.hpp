@@ -20,12 +20,12 @@ struct FloorOptions {
   std::uint64_t seed = 1;
 };
 
-/// Draws the floor about an image. Expected level: the image itself if it is one; else the mean of its levels [dB] along
-/// range, over 9 bins or four correlation widths, less the bias of its looks, which keeps edges across the beams and slopes
-/// along range. What the mean leaves of the speckle and takes from the scene is measured and removed: the same is done to a
-/// draw, whose expected level is known, and floor = 2 x floor of the image - floor of its draw (E124). It is within 0.5 dB
-/// and 0.05 of what two seeds reach. Each draw is the expected level times the intensity of complex Gaussian noise of the
-/// given widths, averaged over looks. Throws as image_similarity.
+/// Draws the floor about an image. Expected level: the image itself if it is one; else the mean of its levels [dB]
+/// along range, over 9 bins or four correlation widths, less the bias of its looks, which keeps edges across the beams
+/// and slopes along range. What the mean leaves of the speckle and takes from the scene is measured and removed: the
+/// same is done to a draw, whose expected level is known, and floor = 2 x floor of the image - floor of its draw
+/// (E124). It is within 0.5 dB and 0.05 of what two seeds reach. Each draw is the expected level times the intensity of
+/// complex Gaussian noise of the given widths, averaged over looks. Throws as image_similarity.
 ///
 /// level_db   NaN: not measured
 /// clipped    true where a level is at an end of its scale or silent: it is the same in both draws; or empty

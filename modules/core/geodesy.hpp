@@ -51,8 +51,8 @@ Eigen::Vector3d world_from_geo(const Anchor& anchor, const GeoPlace& place);
 
 /// Returns the zone of a place, by longitude alone: the exceptions of Norway and Svalbard are not made.
 UtmZone utm_zone_of(const GeoPlace& place);
-/// Returns the transverse Mercator projection of a place (E91), within a micrometre to 30 degrees from the zone's middle.
-/// Throws Error(argument) for a zone that does not exist, or a place further than 60 degrees from its middle.
+/// Returns the transverse Mercator projection of a place (E91), within a micrometre to 30 degrees from the zone's
+/// middle. Throws Error(argument) for a zone that does not exist, or a place further than 60 degrees from its middle.
 UtmPlace utm_place_of(const GeoPlace& place, const UtmZone& zone);
 /// The inverse of utm_place_of, at height 0.
 GeoPlace geo_place_of(const UtmPlace& place, const UtmZone& zone);
@@ -66,8 +66,8 @@ struct Georeference {
 };
 /// The place of a point of the world [m]; in a zone its height is z.
 GeoPlace geo_from_world(const Georeference& reference, const Eigen::Vector3d& world);
-/// Angle of a horizontal direction of the world clockwise from north [rad, 0 to 2 pi) at a point of the world, of a zone
-/// with the convergence of its meridians: from the places of two points 1 m apart.
+/// Angle of a horizontal direction of the world clockwise from north [rad, 0 to 2 pi) at a point of the world, of a
+/// zone with the convergence of its meridians: from the places of two points 1 m apart.
 double heading_of(const Georeference& reference, const Eigen::Vector3d& world, const Eigen::Vector3d& direction);
 
 /// Reads LAT,LON[,HEADING] in degrees, and a zone as 32N or 19S. Throw Error(argument) naming `option`, with the rule.

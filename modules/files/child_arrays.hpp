@@ -18,7 +18,8 @@ template <typename Value>
 constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>;
 }  // namespace detail
 
-/// Memory of this process and of the children that it starts meanwhile. It is reserved alone: what is not written takes none.
+/// Memory of this process and of the children that it starts meanwhile. It is reserved alone: what is not written takes
+/// none.
 class SharedMemory {
  public:
   /// Its first bytes, which no array takes: one number of the sender's, the others of who starts the child.
@@ -130,8 +131,8 @@ class ArraySender {
   std::size_t used_ = 0;  // bytes
 };
 
-/// Takes the values out again, in the same order. Large arrays are given back to the system as they are copied, or can be
-/// used where they are.
+/// Takes the values out again, in the same order. Large arrays are given back to the system as they are copied, or can
+/// be used where they are.
 class ArrayReceiver {
  public:
   /// Of what a sender left; `path` begins the text of errors.

@@ -27,11 +27,11 @@ struct ArisFrame {
   std::string model;  ///< ARIS 1200, 1800 or 3000
 };
 
-/// Reads frame `number` of a recording (.aris, version DDF_05): a header of 1024 bytes, then frames, each a header of 1024
-/// bytes and beams x samples of 8 bits, sample by sample, the starboard beam first. Layout after the public headers of
-/// SoundMetrics/aris-file-sdk. Throws Error(file) if the file cannot be read; Error(content) if it is no such recording,
-/// is of the other byte order, is truncated, lacks the geometry (sound speed, sample period), or has samples that are not in
-/// order; Error(argument) unless number < frames.
+/// Reads frame `number` of a recording (.aris, version DDF_05): a header of 1024 bytes, then frames, each a header of
+/// 1024 bytes and beams x samples of 8 bits, sample by sample, the starboard beam first. Layout after the public
+/// headers of SoundMetrics/aris-file-sdk. Throws Error(file) if the file cannot be read; Error(content) if it is no
+/// such recording, is of the other byte order, is truncated, lacks the geometry (sound speed, sample period), or has
+/// samples that are not in order; Error(argument) unless number < frames.
 ArisFrame read_aris_frame(const std::string& path, std::size_t number);
 
 /// Levels of a frame [dB re unknown], beams x samples.

@@ -21,9 +21,9 @@ struct GeoGrid {
   std::string remark{};        ///< of the whole file (ImageDescription); empty: none
 };
 
-/// Writes bands as a GeoTIFF 1.1 of 32-bit floats, north up, cells as areas, not compressed, no value NaN. The same bands
-/// give the same bytes. Throws Error(argument) without bands, for bands of different or no extent, for a cell or unit that is not
-/// > 0 and finite, for another code, or for more than 4 GiB; Error(file) if it cannot write.
+/// Writes bands as a GeoTIFF 1.1 of 32-bit floats, north up, cells as areas, not compressed, no value NaN. The same
+/// bands give the same bytes. Throws Error(argument) without bands, for bands of different or no extent, for a cell or
+/// unit that is not > 0 and finite, for another code, or for more than 4 GiB; Error(file) if it cannot write.
 void write_geotiff(const std::string& path, const std::vector<GeoBand>& bands, const GeoGrid& grid);
 
 }  // namespace insonify

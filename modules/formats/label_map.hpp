@@ -23,13 +23,13 @@ struct Annotation {
       counts;  ///< run lengths of the mask, column by column, beginning with pixels that are not of it
 };
 
-/// The objects of a picture by ascending instance: those that have a pixel in it. Throws Error(argument) if the maps differ in
-/// size, or if an instance has pixels of two categories.
+/// The objects of a picture by ascending instance: those that have a pixel in it. Throws Error(argument) if the maps
+/// differ in size, or if an instance has pixels of two categories.
 std::vector<Annotation> annotations_of(const LabelMap& map);
 
-/// The outlines of an object in a picture, one for each of its parts that touch along sides of pixels: corners x, y, x, y, ...
-/// [pixels from the upper left corner of the picture], clockwise as it is seen, along the sides of pixels. Holes are left
-/// out: a polygon of COCO has none.
+/// The outlines of an object in a picture, one for each of its parts that touch along sides of pixels: corners x, y, x,
+/// y, ... [pixels from the upper left corner of the picture], clockwise as it is seen, along the sides of pixels. Holes
+/// are left out: a polygon of COCO has none.
 std::vector<std::vector<int>> outlines_of(const Grid<std::uint16_t>& instance, std::uint16_t number);
 
 }  // namespace insonify

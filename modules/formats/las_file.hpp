@@ -39,14 +39,14 @@ struct LasOptions {
 };
 
 /// Writes points as LAS 1.4 (ASPRS 2019), point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB
-/// from 0, class 40 (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation, ping and beam
-/// as extra bytes; the zone as well-known text. LAS 1.2, for readers that know no other: point format 1, class 2 (ground,
-/// as there is no 40), at most five returns, scan angles in whole degrees, the zone as GeoTIFF keys. Points stream: only the
-/// header is written twice.
+/// from 0, class 40 (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation, ping
+/// and beam as extra bytes; the zone as well-known text. LAS 1.2, for readers that know no other: point format 1, class
+/// 2 (ground, as there is no 40), at most five returns, scan angles in whole degrees, the zone as GeoTIFF keys. Points
+/// stream: only the header is written twice.
 class LasFile {
  public:
-  /// Throws Error(file) if the file cannot be made, Error(argument) for another version. `offset` [m] is subtracted from
-  /// coordinates, which may be up to 214 km from it.
+  /// Throws Error(file) if the file cannot be made, Error(argument) for another version. `offset` [m] is subtracted
+  /// from coordinates, which may be up to 214 km from it.
   LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset, const LasOptions& options = {});
   /// Throws Error(content) for a point that is not finite or too far from the offset.
   void add(const LasPoint& point);

@@ -18,8 +18,8 @@ enum class McapCompression : std::uint8_t { none, lz4, zstd };
 bool has_compression(McapCompression compression);
 
 /// Writes messages of ROS 2 as an MCAP file (mcap.dev, profile ros2): chunks of about 1 MiB, each with its
-/// CRC and an index of its messages; a summary with schemas, channels, chunk indexes and statistics, and CRCs of data and
-/// summary. Messages stream. The same messages give the same bytes.
+/// CRC and an index of its messages; a summary with schemas, channels, chunk indexes and statistics, and CRCs of data
+/// and summary. Messages stream. The same messages give the same bytes.
 class McapFile {
  public:
   /// Throws Error(file) if the file cannot be made, Error(argument) for a compression that this build lacks.

@@ -12,9 +12,9 @@ struct NpyArray {
   int unsigned_bits = 0;     ///< 8 or 16 of grey values; 0 of other numbers
 };
 
-/// Reads a .npy file of numpy (format 1 to 3): little-endian float32 or float64, complex64 or complex128, uint8 or uint16,
-/// in the order of C or Fortran. Throws Error(file) if it cannot be read; Error(content) if it is no such file, is
-/// truncated, big-endian, of another type, or has not two dimensions of 1 at least: what to do is in the text.
+/// Reads a .npy file of numpy (format 1 to 3): little-endian float32 or float64, complex64 or complex128, uint8 or
+/// uint16, in the order of C or Fortran. Throws Error(file) if it cannot be read; Error(content) if it is no such file,
+/// is truncated, big-endian, of another type, or has not two dimensions of 1 at least: what to do is in the text.
 NpyArray read_npy(const std::string& path);
 
 /// Writes float32 in the order of C. Throws Error(file).

@@ -31,8 +31,8 @@ struct SonarImageScale {
 
 /// Returns a ProjectedSonarImage of a ping with one row of beams in the frame "head_sonar" (Z forward, X up, Y to
 /// starboard): ranges of the bins [m], directions of the beams, then range after range the samples of all beams. UINT8:
-/// levels with the TVG; UINT32: magnitudes of pressure, without. tx_beamwidths is the elevation width, rx_beamwidths the
-/// width at broadside [rad].
+/// levels with the TVG; UINT32: magnitudes of pressure, without. tx_beamwidths is the elevation width, rx_beamwidths
+/// the width at broadside [rad].
 std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double frequency, double sound_speed,
                                   const Tvg& tvg, const SonarImageScale& scale);
 

@@ -61,20 +61,22 @@ struct BottomOptions {
 /// echoes are known to it.
 ///
 ///   1. noise of each beam from the smallest quarter of its intensities; the echo is where range-compensated energy within
-///      the length of a beam's footprint is greatest, and holds a sample that noise exceeds in one of 1 / rate beams (E78);
-///      samples that side lobes of an echo up to half an array's length nearer or farther may explain are left out (E19),
+///      the length of a beam's footprint is greatest, and holds a sample that noise exceeds in one of 1 / rate beams
+///      (E78);
+///      samples that side lobes of an echo up to half an array's length nearer or farther may explain are left out
+///      (E19),
 ///      and what a grating lobe brings in gives way to the next echo (E133)
 ///   2. dr/du of the bottom: median of the slopes between the ranges of seven neighbouring beams
 ///   3. amplitude: centre of gravity of the intensity above noise within three standard deviations, with the error (E94)
 ///   4. phase: line fitted to the phase between the halves of the array within the main lobe, which crosses zero at the
-///      beam's axis, with the error of the fit's own residuals; of an echo of few samples with the slope that dr/du and the
+///      beam's axis, with the error of the fit's own residuals; of an echo of few samples with the slope that dr/du and
+///      the
 ///      other beams give it (E95)
 ///   5. the method with the smaller predicted error
 ///
-/// Beams without a sample above noise have none; an echo that fills more than three quarters of the gate counts as noise.
-/// Cost: some reads of
-/// the ping. Throws Error for a rate outside (0, 1), per_beam < 1, an invalid profile, a phase without centre frequency or
-/// of another extent, or an expected level.
+/// Beams without a sample above noise have none; an echo that fills more than three quarters of the gate counts as
+/// noise. Cost: some reads of the ping. Throws Error for a rate outside (0, 1), per_beam < 1, an invalid profile, a
+/// phase without centre frequency or of another extent, or an expected level.
 BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options);
 
 }  // namespace insonify

@@ -102,8 +102,8 @@ std::pair<double, double> variances_of(const BottomBeam& beam, std::size_t begin
   return {sum_of(offset) / (weight * weight), sum_of(slope) / (spread * spread)};
 }
 
-/// Variance of the phase of one look [rad^2]: (1 - g^2) / 2 g^2, g the coherence of the halves, which see the angles of a
-/// pulse's length at once, with a deviation of their phases of `turn`, and have noise of their own. (E95)
+/// Variance of the phase of one look [rad^2]: (1 - g^2) / 2 g^2, g the coherence of the halves, which see the angles of
+/// a pulse's length at once, with a deviation of their phases of `turn`, and have noise of their own. (E95)
 double variance_of_looks(const BottomBeam& beam, double turn, double mean_intensity) {
   const double noise = 2 * beam.noise / std::max(mean_intensity - beam.noise, 0.01 * mean_intensity);
   const double coherence = std::exp(-0.5 * turn * turn) / (1 + noise);
@@ -253,8 +253,8 @@ BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, dou
   const auto [of_offset, of_slope] = variances_of(beam, begin, end, line, cells);
   const double away = centre - line.centre;
   const double residual = of_offset + away * away * of_slope;
-  // What theory expects of so many looks, as far as the fit has too few to judge itself; speckle halves `independent`, but
-  // not the precision, since phases are the better known the stronger they are.
+  // What theory expects of so many looks, as far as the fit has too few to judge itself; speckle halves `independent`,
+  // but not the precision, since phases are the better known the stronger they are.
   const double expected =
       variance_of_looks(beam, line.slope * echo.pulse_deviation, s.weight / static_cast<double>(end - begin));
   const double spread = 1 + away * away * s.weight / std::max(s.xx, 1e-30);

@@ -35,8 +35,8 @@ struct BottomEcho {
   double bend = 0;                 ///< r'' / (2 r'^2) of a plane's range over the direction cosine of the fan [1/m]
 };
 
-/// Returns the echo of a plane that crosses the axis of a beam of direction cosine `sine` at `range` [m]; `slope` is dr/du
-/// there [m], the pulse's deviation in range [m]. (E94, E132)
+/// Returns the echo of a plane that crosses the axis of a beam of direction cosine `sine` at `range` [m]; `slope` is
+/// dr/du there [m], the pulse's deviation in range [m]. (E94, E132)
 BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double slope, double pulse_deviation);
 
 /// An estimate of a range with its standard deviation [m]; infinite if there is none.
@@ -51,18 +51,19 @@ double median_of(std::vector<double>& values);
 /// greatest likelihood from censored samples, chi-square of twice as many degrees of freedom as there are samples used.
 double noise_of(std::vector<double> values);
 
-/// The centre of gravity near `start` and its predicted deviation (E94). With speckle of a pulse of standard deviation s_p
-/// (in intensity) from a footprint of standard deviation s_f its variance is (s_f^2 / 2) / sqrt(1 + s_f^2 / s_p^2), to
-/// which noise adds.
+/// The centre of gravity near `start` and its predicted deviation (E94). With speckle of a pulse of standard deviation
+/// s_p (in intensity) from a footprint of standard deviation s_f its variance is (s_f^2 / 2) / sqrt(1 + s_f^2 / s_p^2),
+/// to which noise adds.
 BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo, double start);
 
-/// Slope of the phase over range near `start`, as of a short pulse [rad/m]; absent with fewer than two independent samples.
+/// Slope of the phase over range near `start`, as of a short pulse [rad/m]; absent with fewer than two independent
+/// samples.
 std::optional<double> phase_slope(const BottomBeam& beam, const BottomEcho& echo, double start);
 
 /// Where the line through the phases near `start`, weighted by intensity, crosses zero, and its deviation from the
-/// residuals of the fit and the coherence of so many looks (E95): infinite of a crossing outside of the beam. With fewer
-/// than eight independent samples the line has the slope of the echo. Of many samples the last fit takes the 64 nearest,
-/// over which a bottom is straight enough.
+/// residuals of the fit and the coherence of so many looks (E95): infinite of a crossing outside of the beam. With
+/// fewer than eight independent samples the line has the slope of the echo. Of many samples the last fit takes the 64
+/// nearest, over which a bottom is straight enough.
 BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, double start);
 
 }  // namespace insonify

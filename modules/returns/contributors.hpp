@@ -33,8 +33,8 @@ struct Contributors {
   }
 };
 
-/// Throws Error(argument) naming `who` unless every array has beams x bins x per_pixel entries and per_pixel is within 1
-/// and 255.
+/// Throws Error(argument) naming `who` unless every array has beams x bins x per_pixel entries and per_pixel is within
+/// 1 and 255.
 void require_valid(const Contributors& contributors, const char* who);
 
 /// Returns the material of the strongest contributor of every pixel, beams x bins; no_material where there is none.

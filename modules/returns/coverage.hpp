@@ -38,9 +38,9 @@ struct CoverageOptions {
   int threads = 0;  ///< 0: all cores
 };
 
-/// The surfels that a ping insonified, by ascending id. A surfel is insonified if a part of it is among `scatterers` (i.e.
-/// visible), inside the range gate and within a beam. Its level is that of all its parts together, without speckle, in the
-/// beam with the largest response to its first part (E64):
+/// The surfels that a ping insonified, by ascending id. A surfel is insonified if a part of it is among `scatterers`
+/// (i.e. visible), inside the range gate and within a beam. Its level is that of all its parts together, without
+/// speckle, in the beam with the largest response to its first part (E64):
 ///
 ///   10 log10( sum_p 1/2 <|A_p|^2> |B_b(u_p, v_p)|^2 exp(-4 a0 r_p) / (1 uPa)^2 )
 ///
@@ -58,8 +58,8 @@ struct CoverageOptions {
 ///
 /// scatterers  visible patches of `scene`, as returned by find_scatterers
 ///
-/// Throws Error(argument) for a surfel or material that the scene does not have, a min_response_db that is not <= 0, and an
-/// invalid head or medium.
+/// Throws Error(argument) for a surfel or material that the scene does not have, a min_response_db that is not <= 0,
+/// and an invalid head or medium.
 std::vector<CoveredSurfel> coverage_of(const SceneCloud& scene, const Scatterers& scatterers, const SonarHead& head,
                                        const Medium& medium, const CoverageOptions& options = {});
 

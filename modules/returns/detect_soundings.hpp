@@ -32,15 +32,15 @@ struct DetectionOptions {
 double background_factor(double false_alarm_rate, int cells);
 
 /// Returns the detections of a ping as points. In each beam every local maximum along range that exceeds the
-/// noise floor by the threshold and is not a side lobe (E19), and exceeds the mean of up to 16 resolution cells on either
-/// side, two cells off, by background_factor (E78), gives one sounding; with all_bins, every bin above a level does.
-/// Maxima are a resolution cell apart at least, rounded up to bins.
-/// Range and level of a maximum are those of the parabola through its level and those beside it (E72): exact for a
-/// Gaussian pulse alone, whose peak bins as long as the pulse sample up to 3 dB low. With all_bins they are those of the
-/// bin. The ping alone decides: noise, reverberation and side lobes are detected as any echo. `stream` gives only the
-/// columns true_..., and the direction in which the cloud shows a sounding: those of the strongest contributing scatterer
-/// within one bin length, searched in the beam's own share of the fan and then in its -3 dB width (in azimuth, and in
-/// elevation for a fan of several rows or a planar array).
+/// noise floor by the threshold and is not a side lobe (E19), and exceeds the mean of up to 16 resolution cells on
+/// either side, two cells off, by background_factor (E78), gives one sounding; with all_bins, every bin above a level
+/// does. Maxima are a resolution cell apart at least, rounded up to bins. Range and level of a maximum are those of the
+/// parabola through its level and those beside it (E72): exact for a Gaussian pulse alone, whose peak bins as long as
+/// the pulse sample up to 3 dB low. With all_bins they are those of the bin. The ping alone decides: noise,
+/// reverberation and side lobes are detected as any echo. `stream` gives only the columns true_..., and the direction
+/// in which the cloud shows a sounding: those of the strongest contributing scatterer within one bin length, searched
+/// in the beam's own share of the fan and then in its -3 dB width (in azimuth, and in elevation for a fan of several
+/// rows or a planar array).
 ///
 /// stream   patches and echoes the ping was synthesized from; may be empty
 ///

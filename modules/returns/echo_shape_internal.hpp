@@ -11,8 +11,8 @@ struct Bins {
 /// The bins of a ping within `reach` of a range [m], at least one.
 Bins bins_about(const Ping& ping, double range, double reach);
 
-/// Whether an echo within `reach` of a range is turned against its pulse and coherent for longer than that: as sound from beyond the
-/// fan is, of which a beam hears in a grating lobe only the frequencies whose lobe lies there. (E133)
+/// Whether an echo within `reach` of a range is turned against its pulse and coherent for longer than that: as sound
+/// from beyond the fan is, of which a beam hears in a grating lobe only the frequencies whose lobe lies there. (E133)
 bool is_of_grating_lobe(const Ping& ping, std::size_t beam, double range, double reach, double pulse_deviation);
 
 /// How far the relief along the way may move the mean range of an echo of a beam that is wide along it, as a standard

@@ -27,9 +27,9 @@
 namespace insonify {
 namespace {
 
-/// Returns the number of Chebyshev nodes over [-half, half] that interpolate a sum of cosines of period >= `period` with
-/// relative error `error`; 0 if more than `most` are needed. The error of n nodes is x^n / (2^(n-1) n!), x = 2 pi half /
-/// period.
+/// Returns the number of Chebyshev nodes over [-half, half] that interpolate a sum of cosines of period >= `period`
+/// with relative error `error`; 0 if more than `most` are needed. The error of n nodes is x^n / (2^(n-1) n!), x = 2 pi
+/// half / period.
 std::size_t chebyshev_nodes(double half, double period, double error, std::size_t most) {
   const double x = 2 * pi * half / period;
   double left = x;

@@ -58,7 +58,8 @@ class PingEar {
     }
   }
 
-  /// What came from a place, as if the head were up to `strip` further along its way if it hears nothing from where it is.
+  /// What came from a place, as if the head were up to `strip` further along its way if it hears nothing from where it
+  /// is.
   Heard hear(const Vector3d& place, const Vector3d& strip) const {
     const Vector3d p = head_from_world_ * place;
     Heard heard = hear(p);

@@ -45,17 +45,18 @@ struct MosaicMap {
 ///   level - source level + 40 log10 r + 2 a r - 10 log10(min(dr / sin(incidence), 2 sqrt(2 r dr)) r w)
 ///
 /// less 20 log10 of the elevation pattern at the elevation of the cell (E14), if ranges tell elevations apart; samples
-/// where it is below -20 dB do not count. Of a level bed, with the equivalent widths dr and w of pulse and beam, 1.064 times those at -3 dB, the latter
-/// over the cosine of the cone. What rises above the bed is drawn where the bed has the same range.
+/// where it is below -20 dB do not count. Of a level bed, with the equivalent widths dr and w of pulse and beam, 1.064
+/// times those at -3 dB, the latter over the cosine of the cone. What rises above the bed is drawn where the bed has
+/// the same range.
 class ImageMosaic {
  public:
   /// Throws Error(argument) unless cell > 0.
   ImageMosaic(double cell, MosaicRule rule);
 
-  /// Adds a ping. `strip` is half the way to the neighbouring pings [m, world]: a place beside the way that the beams miss
-  /// by no more than that counts as if the head were abeam of it. The result does not depend on `threads`, but in its
-  /// last bits on the order of pings. Throws Error(argument) for an invalid fan or gate, or a resolution that is not > 0,
-  /// Error(content) if the pings extend over more than 2^26 cells.
+  /// Adds a ping. `strip` is half the way to the neighbouring pings [m, world]: a place beside the way that the beams
+  /// miss by no more than that counts as if the head were abeam of it. The result does not depend on `threads`, but in
+  /// its last bits on the order of pings. Throws Error(argument) for an invalid fan or gate, or a resolution that is
+  /// not > 0, Error(content) if the pings extend over more than 2^26 cells.
   void add(const Ping& ping, const MosaicSource& source, const Eigen::Vector3d& strip, const BedSurface& bed,
            int threads = 0);
 

@@ -171,8 +171,8 @@ std::uint8_t Judge::reject(std::size_t i, const Skirt& skirt) const {
   return reasons;
 }
 
-/// Of a sounding against the plane through those a beam's width to either side, whose 1 / r is linear in the cosine and sine
-/// of the angle.
+/// Of a sounding against the plane through those a beam's width to either side, whose 1 / r is linear in the cosine and
+/// sine of the angle.
 std::optional<Bend> Judge::bend_at(std::ptrdiff_t beam) const {
   const auto before = sounding_of(beam - relief_lag_), here = sounding_of(beam),
              after = sounding_of(beam + relief_lag_);

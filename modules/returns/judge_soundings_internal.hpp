@@ -20,8 +20,8 @@ struct JudgedPing {
   int threads = 0;
 };
 
-/// Sets `reject`, and adds to `deviation` and `quality` what the neighbours and the echo say of the bottom's relief within
-/// the footprint.
+/// Sets `reject`, and adds to `deviation` and `quality` what the neighbours and the echo say of the bottom's relief
+/// within the footprint.
 void judge_soundings(const JudgedPing& judged, BottomSoundings& soundings);
 
 }  // namespace insonify

@@ -18,9 +18,9 @@ Grid<std::uint32_t> connected_parts(const Grid<std::uint32_t>& key, std::size_t 
 /// Numbers the keys of a picture from 1 in their order; keys of less than `least_pixels` get 0, as does key 0.
 Grid<std::uint32_t> numbered_keys(const Grid<std::uint32_t>& key, std::size_t least_pixels);
 
-/// Numbers the objects of a picture from 1: first pixels of one kind whose surfel `id` is of one instance, then connected
-/// parts of one kind without instances. Pixels of kind 0 and objects of less than `least_pixels` get 0. Throws
-/// Error(argument) if the pictures differ in size.
+/// Numbers the objects of a picture from 1: first pixels of one kind whose surfel `id` is of one instance, then
+/// connected parts of one kind without instances. Pixels of kind 0 and objects of less than `least_pixels` get 0.
+/// Throws Error(argument) if the pictures differ in size.
 Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<std::uint32_t>& id,
                                    const SceneInstances& instances, std::size_t least_pixels = 1);
 

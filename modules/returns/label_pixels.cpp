@@ -121,8 +121,8 @@ VisibleParts visible_parts(const SceneCloud& scene, const SurfelEchoes& direct, 
   return parts;
 }
 
-// Energies of one material: in the cell of a pixel; there or nearer to it than the radius of a surfel, which closes gaps
-// between surfels; and in the main lobe. And the surfel of the strongest part of the first two.
+// Energies of one material: in the cell of a pixel; there or nearer to it than the radius of a surfel, which closes
+// gaps between surfels; and in the main lobe. And the surfel of the strongest part of the first two.
 struct MaterialHere {
   double cell = 0, near = 0, lobe = 0;
   double in_cell = 0, in_near = 0;

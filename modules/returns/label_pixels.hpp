@@ -25,11 +25,11 @@ struct SeenSurface {
 /// direction cosine; of planar arrays that of a row, too), and at least as a bin and the way to the next beams. Of the
 /// materials with visible surface in the cell a pixel has the one with most energy there. Share: the energy of that
 /// material within a whole width to either side, the main lobe, over the energy of all contributors. A cell without
-/// visible surface is shadow if hidden surface or such that faces away lies in it. One with neither has the material of the visible surfels within
-/// whose radius and main lobe it is, so that gaps between surfels have no label of their own; else nothing. A part or an
-/// surfel without parts reaches by the radius of its area beyond its centre. Energies are those of E63, without phases. Throws
-/// Error(argument) for contributors of another extent or without total, for entries of another number than the scene's
-/// surfels, and as find_contributors.
+/// visible surface is shadow if hidden surface or such that faces away lies in it. One with neither has the material of
+/// the visible surfels within whose radius and main lobe it is, so that gaps between surfels have no label of their
+/// own; else nothing. A part or an surfel without parts reaches by the radius of its area beyond its centre. Energies
+/// are those of E63, without phases. Throws Error(argument) for contributors of another extent or without total, for
+/// entries of another number than the scene's surfels, and as find_contributors.
 PixelLabels label_pixels(const SceneCloud& scene, const SeenSurface& seen, const SonarHead& head,
                          const Pose& world_from_head, const Medium& medium, int threads = 0);
 

@@ -3,8 +3,8 @@
 
 namespace insonify {
 
-/// Returns the running mean of an intensity over `bins` bins, centred (with an even number half a bin farther), fewer at the
-/// ends of the gate (E71). Throws Error(argument) unless bins >= 1.
+/// Returns the running mean of an intensity over `bins` bins, centred (with an even number half a bin farther), fewer
+/// at the ends of the gate (E71). Throws Error(argument) unless bins >= 1.
 Grid<float> mean_over_bins(const Grid<double>& intensity, int bins);
 
 /// Returns the level that a display shows of every sample, beams x bins [dB re 1 uPa rms]: that of Ping::intensity, or

@@ -12,8 +12,8 @@ namespace insonify {
 /// The beams from port to starboard: the columns of a picture of beams x range. Beams of equal azimuth stay in order.
 std::vector<Eigen::Index> columns_from_port(const BeamFan& fan);
 
-/// Values of samples (beams x bins) as rows and columns of a picture: a column per beam from port to starboard, the first
-/// row is the farthest bin, as show_grey draws them.
+/// Values of samples (beams x bins) as rows and columns of a picture: a column per beam from port to starboard, the
+/// first row is the farthest bin, as show_grey draws them.
 template <typename Value>
 Grid<Value> polar_picture(const Grid<Value>& samples, const BeamFan& fan) {
   const std::vector<Eigen::Index> columns = columns_from_port(fan);
@@ -35,9 +35,9 @@ struct FanRaster {
 /// Error(argument) for a fan of several elevations, one that looks astern, or columns not within 16 and 8192.
 FanRaster fan_raster(const BeamFan& fan, const RangeGate& gate, int columns);
 
-/// The same in a picture of so many rows that reaches from the head to the far end of the gate, with the head below the middle
-/// of the last row; outermost beams show half a beam width beyond their axes. Throws Error(argument) for a fan of several
-/// elevations, or without rows.
+/// The same in a picture of so many rows that reaches from the head to the far end of the gate, with the head below the
+/// middle of the last row; outermost beams show half a beam width beyond their axes. Throws Error(argument) for a fan
+/// of several elevations, or without rows.
 FanRaster fan_raster_from_head(const BeamFan& fan, const RangeGate& gate, int rows);
 
 /// Values of samples at the pixels of a raster, `outside` beside the fan.

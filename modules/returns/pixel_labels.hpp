@@ -22,8 +22,8 @@ struct PixelLabels {
   bool empty() const { return material.size() == 0; }
 };
 
-/// The material of every pixel; nothing where less than `least_share` of the energy is of one material in the pixel's own
-/// cell, i.e. where side lobes or multipath are stronger.
+/// The material of every pixel; nothing where less than `least_share` of the energy is of one material in the pixel's
+/// own cell, i.e. where side lobes or multipath are stronger.
 Grid<std::uint16_t> material_image(const PixelLabels& labels, double least_share = 0.5);
 
 /// The id of the strongest surfel of every pixel, by the same rule; no_id elsewhere.

@@ -28,14 +28,15 @@ struct GreyWindow {
   double max_db = 0;  ///< level of the largest value, 255 or 65535, to which higher ones map too
 };
 
-/// Returns the grey values that are nearest to levels (E58), linear in dB by steps of (max_db - min_db)/255 or /65535, 0
-/// and the largest value beyond the window. Throws Error(argument) unless the window is finite with min_db < max_db,
+/// Returns the grey values that are nearest to levels (E58), linear in dB by steps of (max_db - min_db)/255 or /65535,
+/// 0 and the largest value beyond the window. Throws Error(argument) unless the window is finite with min_db < max_db,
 /// Error(content) for a level that is not a number.
 Grid<std::uint8_t> quantise_8(const Grid<float>& level_db, const GreyWindow& window);
 /// The same in 65535 steps.
 Grid<std::uint16_t> quantise_16(const Grid<float>& level_db, const GreyWindow& window);
 
-/// Returns the level of a grey value [dB], within half a step of the original for levels in the window. Throws Error(argument) unless `bits` is 8 or 16 and `value` is within its range.
+/// Returns the level of a grey value [dB], within half a step of the original for levels in the window. Throws
+/// Error(argument) unless `bits` is 8 or 16 and `value` is within its range.
 double level_of_grey(std::uint16_t value, int bits, const GreyWindow& window);
 
 }  // namespace insonify

@@ -17,8 +17,8 @@ inline std::string signed_unit(const SoundingColumn& column) {
   return at == unit.npos ? unit : std::string(unit).replace(at, none.size(), "-1");
 }
 
-/// Calls use(SoundingColumn, column ...) for every column beside position, in the order of files, with the columns of one
-/// or more soundings.
+/// Calls use(SoundingColumn, column ...) for every column beside position, in the order of files, with the columns of
+/// one or more soundings.
 template <typename Use, typename... Some>
 void each_column(const Use& use, Some&... soundings) {
   use(SoundingColumn{"level_db", "dB re 1 uPa"}, soundings.level_db...);

@@ -6,8 +6,8 @@
 
 namespace insonify {
 
-/// Detected points as a structure of arrays: the returns as a 3-D point cloud. What a sonar measures is level, range and
-/// the direction of the beam; the columns true_... hold what only the simulator knows, and decide nothing.
+/// Detected points as a structure of arrays: the returns as a 3-D point cloud. What a sonar measures is level, range
+/// and the direction of the beam; the columns true_... hold what only the simulator knows, and decide nothing.
 struct Soundings {
   static constexpr std::uint32_t none = 0xffffffff;  ///< of true_surfel and true_material: no surfel contributes
 

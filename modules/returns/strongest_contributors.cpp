@@ -58,8 +58,8 @@ std::vector<BeamRegion> beam_regions(const BeamFan& fan) {
   return regions;
 }
 
-/// Bins of pixels that one thread searches: not so many that threads have to wait, nor so few that most surfels stand in
-/// several slabs.
+/// Bins of pixels that one thread searches: not so many that threads have to wait, nor so few that most surfels stand
+/// in several slabs.
 std::size_t slab_bins(const RangeGate& gate) { return std::clamp<std::size_t>(gate.bins() / 16, 64, 512); }
 
 /// Tells whether a rectangle of bins and direction cosines may hold a pixel: a table of the sums over all cells below

@@ -22,9 +22,9 @@ struct StrongestContributor {
   std::uint16_t material = 0;
 };
 
-/// Returns the strongest contributor of each pixel within one bin length: searched in the beam's own share of the fan, so
-/// that neighbouring beams do not report the same scatterer, else in its -3 dB width (in azimuth, and in elevation for a
-/// fan of several rows or a planar array). Only parts near the pixels are visited. The result does not depend on
+/// Returns the strongest contributor of each pixel within one bin length: searched in the beam's own share of the fan,
+/// so that neighbouring beams do not report the same scatterer, else in its -3 dB width (in azimuth, and in elevation
+/// for a fan of several rows or a planar array). Only parts near the pixels are visited. The result does not depend on
 /// `threads`.
 ///
 /// pixels   ordered by beam, and within a beam by bin

@@ -23,8 +23,9 @@ std::vector<double> midpoints(const std::vector<double>& values, double low, dou
 
 }  // namespace
 
-std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector) {
-  // Columns of beams of one azimuth. Azimuths are unwrapped about the middle of the sector, so there is no jump at +-pi.
+std::vector<BeamCell> beam_cells(const BeamFan& fan, const Sector& sector) {
+  // Columns of beams of one azimuth. Azimuths are unwrapped about the middle of the sector, so there is no jump at
+  // +-pi.
   const double middle = (sector.min_azimuth + sector.max_azimuth) / 2;
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t b = 0; b < fan.beams(); ++b) {
@@ -54,7 +55,7 @@ std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector) {
     const double a = (azimuth[c - 1] + azimuth[c]) / 2;
     return a + std::remainder(cone_azimuth(unit_vector({a, grid ? elevation : level})) - a, 2 * pi);
   };
-  std::vector<BeamShare> shares(fan.beams());
+  std::vector<BeamCell> shares(fan.beams());
   for (std::size_t c = 0; c < columns.size(); ++c) {
     std::vector<double> elevation;
     for (const auto& [e, b] : columns[c]) elevation.push_back(e);
@@ -65,11 +66,11 @@ std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector) {
   return shares;
 }
 
-std::vector<Ray> beam_rays(const std::vector<BeamShare>& shares, const SamplingOptions& options) {
+std::vector<Ray> beam_rays(const std::vector<BeamCell>& shares, const SamplingOptions& options) {
   const auto n = static_cast<std::size_t>(options.rays_per_beam);
   std::vector<Ray> rays(shares.size() * n);
   parallel_for(shares.size(), options.threads, [&](std::size_t beam) {
-    const BeamShare& share = shares[beam];
+    const BeamCell& share = shares[beam];
     const double shift = random_uniform(options.seed, RandomStage::ray_jitter, {beam, ~0ull, 0})[0];
     const double width = share.max_azimuth - share.min_azimuth;
     for (std::size_t k = 0; k < n; ++k) {

@@ -9,7 +9,7 @@
 namespace insonify {
 
 /// The part of the insonified sector covered by the rays of one beam.
-struct BeamShare {
+struct BeamCell {
   double min_azimuth = 0, max_azimuth = 0;      ///< of cones [rad]
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
@@ -17,7 +17,7 @@ struct BeamShare {
 /// Returns the shares of all beams. They tile `sector`: in cones cut at the midpoints between neighbouring columns of
 /// beams, in elevation at the midpoints between the beams of a column. Every direction thus belongs to exactly one
 /// beam, also for staggered rows or beams that all differ in azimuth; each ray contributes to all beams.
-std::vector<BeamShare> beam_shares(const BeamFan& fan, const Sector& sector);
+std::vector<BeamCell> beam_cells(const BeamFan& fan, const Sector& sector);
 
 /// A ray from the head.
 struct Ray {
@@ -28,6 +28,6 @@ struct Ray {
 
 /// Returns options.rays_per_beam rays per beam, beam by beam and upwards: one per equal interval of turn in its cone,
 /// jittered within it by options.seed, with cones from the golden-ratio sequence; solid angle |cos(cone)| dcone dturn.
-std::vector<Ray> beam_rays(const std::vector<BeamShare>& shares, const SamplingOptions& options);
+std::vector<Ray> beam_rays(const std::vector<BeamCell>& shares, const SamplingOptions& options);
 
 }  // namespace insonify

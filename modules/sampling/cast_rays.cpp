@@ -76,7 +76,7 @@ std::size_t count_different(std::vector<std::uint32_t> values) {
 }  // namespace
 
 CastResult cast_rays(const SceneCloud& scene, const GatedSurfels& surfels, Projection projection,
-                     const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options) {
+                     const std::vector<BeamCell>& shares, const RangeGate& gate, const SamplingOptions& options) {
   const std::vector<Ray> rays = beam_rays(shares, options);
   const std::vector<CastRay> cast =
       projection == Projection::raster

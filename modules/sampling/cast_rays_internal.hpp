@@ -19,6 +19,6 @@ struct CastResult {
 /// Casts the rays of all beams (beam_rays) and returns a scatterer for each hit inside the gate, with a projected area
 /// of r^2 times the solid angle of the ray. `projection` (not automatic) affects the cost only.
 CastResult cast_rays(const SceneCloud& scene, const GatedSurfels& surfels, Projection projection,
-                     const std::vector<BeamShare>& shares, const RangeGate& gate, const SamplingOptions& options);
+                     const std::vector<BeamCell>& shares, const RangeGate& gate, const SamplingOptions& options);
 
 }  // namespace insonify

@@ -18,9 +18,9 @@ struct PartCounts {
   std::size_t capped = 0;  ///< surfels that would need more than most_parts
 };
 
-/// Counts the parts of the given surfels (indices in the scene): as many as `cells` ask for (E17), or, if options.energy
-/// says what a beam receives of each, as their share of it asks for (E127) where that is less; rounded up, at least 1
-/// and at most most_parts. For shares the surfels must be all that are visible, ascending.
+/// Counts the parts of the given surfels (indices in the scene): as many as `cells` ask for (E17), or, if
+/// options.energy says what a beam receives of each, as their share of it asks for (E127) where that is less; rounded
+/// up, at least 1 and at most most_parts. For shares the surfels must be all that are visible, ascending.
 PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
                        const SampledCells& cells, const RangeGate& gate, const SamplingOptions& options);
 

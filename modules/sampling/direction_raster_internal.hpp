@@ -78,8 +78,8 @@ class CellLists {
   std::vector<Link> links_;
 };
 
-/// Rasterises the footprints of surfels over the queried directions: cells on a cube around the head, on each face as wide
-/// and as high as suits its typical footprint, in tiles of 64 x 64 cells that are processed independently. In the
+/// Rasterises the footprints of surfels over the queried directions: cells on a cube around the head, on each face as
+/// wide and as high as suits its typical footprint, in tiles of 64 x 64 cells that are processed independently. In the
 /// coordinates of a face the inverse depth of a surfel's plane is linear and its footprint has a bounding box in closed
 /// form, so no angle is computed. Building costs O(surfels + queries) by counting sort.
 class DirectionRaster {

@@ -11,23 +11,24 @@
 
 namespace insonify {
 
-/// The energy received from a surfel; its range [m] and u = cos(elevation) sin(azimuth), and how far it extends in both.
+/// The energy received from a surfel; its range [m] and u = cos(elevation) sin(azimuth), and how far it extends in
+/// both.
 struct ReceivedSurfel {
   double energy, range, half_depth, u, half_u;
   std::uint8_t beyond;  ///< bits of SamplingOptions::inner_sector: 1 beyond its cones, 2 beyond its elevations
 };
 
-/// The energy received from each cell of range and u (E127). A cell is a main lobe wide in u; for one beam, which adds up
-/// all directions, it holds all of u.
+/// The energy received from each cell of range and u (E127). A cell is a main lobe wide in u; for one beam, which adds
+/// up all directions, it holds all of u.
 class EnergyShares {
  public:
-  /// Adds the energy of each surfel in equal parts to the cells that it spans; a surfel smaller than a cell counts in the
-  /// cell of its middle. Sums are made in the order of the surfels, a fixed number of them, so that the result depends
-  /// neither on threads nor on sorting.
+  /// Adds the energy of each surfel in equal parts to the cells that it spans; a surfel smaller than a cell counts in
+  /// the cell of its middle. Sums are made in the order of the surfels, a fixed number of them, so that the result
+  /// depends neither on threads nor on sorting.
   EnergyShares(std::span<const ReceivedSurfel> surfels, const RangeGate& gate, const SampledCells& cells, int threads);
 
-  /// Returns the sum of the surfel's shares of the energy of the cells that it spans. A cell is one range resolution long
-  /// and cells.width_of_shares() wide, and counts surfels that are beyond the inner sector only where this one is.
+  /// Returns the sum of the surfel's shares of the energy of the cells that it spans. A cell is one range resolution
+  /// long and cells.width_of_shares() wide, and counts surfels that are beyond the inner sector only where this one is.
   /// Infinite if it spans more than 256 cells.
   double share(const ReceivedSurfel& surfel) const;
 

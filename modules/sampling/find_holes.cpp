@@ -81,7 +81,7 @@ Holes find_holes(const PreparedScene& prepared, const Pose& world_from_head, con
   const Sector sector = insonified_sector(fan, options);
   const HeadFrame head(prepared.scene(), world_from_head);
   const FootprintSets surfels(gate_surfels(prepared, head, sector, gate, options.footprint, options.threads));
-  const std::vector<Ray> rays = beam_rays(beam_shares(fan, sector), options);
+  const std::vector<Ray> rays = beam_rays(beam_cells(fan, sector), options);
   Holes result;
   result.directions = rays.size();
   if (surfels.own.empty()) return result;

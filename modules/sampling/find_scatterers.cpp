@@ -127,7 +127,7 @@ Sampling sample(const SceneCloud& scene, const GatedSurfels& surfels, const View
   Sampling result{{}, report_of(scene, surfels, view)};
   SamplingReport& report = result.report;
   if (options.kind == SamplingKind::rays) {
-    const auto shares = beam_shares(view.fan, view.sector);
+    const auto shares = beam_cells(view.fan, view.sector);
     report.projection =
         choose_projection(surfels, options.projection, shares.size() * options.rays_per_beam, options.threads);
     CastResult cast = cast_rays(scene, surfels, report.projection, shares, view.gate, options);

@@ -33,8 +33,8 @@ enum class Projection {
 class SurfelEnergy {
  public:
   virtual ~SurfelEnergy() = default;
-  /// Returns the energy of a surfel, in any unit: `position` in head axes [m], cosine of its angle of incidence, area [m^2],
-  /// index of its material. Several threads call it at once.
+  /// Returns the energy of a surfel, in any unit: `position` in head axes [m], cosine of its angle of incidence, area
+  /// [m^2], index of its material. Several threads call it at once.
   virtual double of(const Eigen::Vector3d& position, double cosine, double area, std::size_t material) const = 0;
 };
 
@@ -54,16 +54,17 @@ struct SamplingOptions {
   double azimuth_margin = 0;         ///< margin beyond the outermost beams, in u; 0: 1.5 beam widths
   /// Surfels up to this distance from the main lobes, in u and v, are split as finely as inside them (E17); 2: all.
   double lobe_margin = 0;
-  /// Shares of energy (E127) are those within this sector, so that they do not depend on how far beyond it is sampled. Surfels
-  /// beyond its cones, or its elevations, share the energy from inside and from there. Empty: shares of all energy.
+  /// Shares of energy (E127) are those within this sector, so that they do not depend on how far beyond it is sampled.
+  /// Surfels beyond its cones, or its elevations, share the energy from inside and from there. Empty: shares of all
+  /// energy.
   std::optional<Sector> inner_sector{};
-  /// Surfels that return little of the energy from their range (for a fan, from their range and u) are split less (E127).
-  /// Empty: energy does not count.
+  /// Surfels that return little of the energy from their range (for a fan, from their range and u) are split less
+  /// (E127). Empty: energy does not count.
   std::shared_ptr<const SurfelEnergy> energy{};
 };
 
-/// Returns the sector that these options sample: the fan's, extended beyond its outermost beams by the azimuth margin and
-/// the elevation half extent, or by one beam width and the elevation width where those are 0.
+/// Returns the sector that these options sample: the fan's, extended beyond its outermost beams by the azimuth margin
+/// and the elevation half extent, or by one beam width and the elevation width where those are 0.
 Sector insonified_sector(const BeamFan& fan, const SamplingOptions& options);
 
 /// Counts of the sampling, for log and manifest.
@@ -93,8 +94,8 @@ struct Sampling {
 /// head axes, with a report of the counts.
 ///
 /// A surfel hides what its footprint covers. A ray hits the front cluster of the surfels whose footprints contain its
-/// direction; its range is that of the tangent plane of the member nearest in angle. A surfel is visible unless the disc of
-/// another surfel covers it and lies in front of it by more than the roughness of a surface.
+/// direction; its range is that of the tangent plane of the member nearest in angle. A surfel is visible unless the
+/// disc of another surfel covers it and lies in front of it by more than the roughness of a surface.
 ///
 /// Rays tile the insonified sector: the share of a beam ends at the midpoints to its neighbours or at the edge of the
 /// sector. The projected area of a ray is r^2 times its solid angle.

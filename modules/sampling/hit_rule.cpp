@@ -70,8 +70,8 @@ bool passes_beside(const GatedSurfels& surfels, std::span<const std::uint32_t> c
   return true;
 }
 
-// True if the direction passes through the triangle; depth: its component along the normal, above 0. The corners are taken
-// from where it crosses the plane, so that nothing is the difference of large numbers.
+// True if the direction passes through the triangle; depth: its component along the normal, above 0. The corners are
+// taken from where it crosses the plane, so that nothing is the difference of large numbers.
 bool passes(const GatedFacet& f, const Eigen::Vector3f& direction, float depth) {
   const Eigen::Vector3f crossing = direction * (f.plane_distance / depth);
   const Eigen::Vector3f a = f.corner[0] - crossing, b = f.corner[1] - crossing, c = f.corner[2] - crossing;

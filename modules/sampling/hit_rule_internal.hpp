@@ -25,19 +25,19 @@ struct LineOfSight {
 using Cover = std::uint32_t;
 inline constexpr Cover whole_cover = ~Cover{0};
 
-/// How deep below the tangent plane of one surfel another must lie to be behind it [m]: the larger spacing, which allows for
-/// roughness, and three standard deviations of noise (E16).
+/// How deep below the tangent plane of one surfel another must lie to be behind it [m]: the larger spacing, which
+/// allows for roughness, and three standard deviations of noise (E16).
 inline float hiding_depth(const GatedSurfel& a, const GatedSurfel& b) {
   return std::max(a.spacing, b.spacing) + 3 * std::sqrt(a.noise * a.noise + b.noise * b.noise);
 }
 
 /// What `front` covers of the line of sight to a surfel that lies deeper below its tangent plane than the hiding depth
-/// (E16): all of it, if the line crosses the plane within 0.65 spacings of the centre; the sector in which the centre lies,
-/// seen in the tangent plane, if within hiding_reach radii; else nothing.
+/// (E16): all of it, if the line crosses the plane within 0.65 spacings of the centre; the sector in which the centre
+/// lies, seen in the tangent plane, if within hiding_reach radii; else nothing.
 Cover cover(const GatedSurfel& front, const LineOfSight& line);
 
-/// What a facet covers of the line of sight to a surfel behind its plane: all of it, if the line passes through the triangle,
-/// else nothing.
+/// What a facet covers of the line of sight to a surfel behind its plane: all of it, if the line passes through the
+/// triangle, else nothing.
 Cover cover(const GatedFacet& front, const LineOfSight& line);
 
 /// What a surfel covers, by its facet if it has one.
@@ -45,8 +45,8 @@ inline Cover cover(const GatedSurfels& surfels, std::size_t front, const LineOfS
   return surfels.facet.empty() ? cover(surfels[front], line) : cover(surfels.facet[front], line);
 }
 
-/// True if covers stand on more than one side: spread over 120 degrees, as round the cell of a surface's last surfel. So
-/// surfaces have no gaps between surfels, and do not grow at their edges.
+/// True if covers stand on more than one side: spread over 120 degrees, as round the cell of a surface's last surfel.
+/// So surfaces have no gaps between surfels, and do not grow at their edges.
 inline bool hides(Cover c) {
   const auto shorter = [](Cover gaps, int by) { return gaps & std::rotr(gaps, by); };
   // What is left of the gaps that are 21 sectors wide: 21 = 1 + 1 + 2 + 4 + 8 + 5.
@@ -82,8 +82,8 @@ bool is_surrounded(const Eigen::Vector3f& direction, const GatedSurfels& surfels
 /// beside it: the ray crosses no member's tangent plane within 0.71 spacing of the centre, and all centres lie within
 /// 90 degrees on one side. Cones thus close the gaps inside a surface without extending it at its edges. `candidates`
 /// must contain all these surfels and may contain more; it is used as scratch. front_only = false makes all surfels one
-/// cluster. Where surfels have facets, the ray hits the first one that it passes through, in its plane; with front_only =
-/// false, the first that faces the head.
+/// cluster. Where surfels have facets, the ray hits the first one that it passes through, in its plane; with front_only
+/// = false, the first that faces the head.
 RayOutcome hit_surface(const GatedSurfels& surfels, const Eigen::Vector3f& direction, bool front_only,
                        std::vector<std::uint32_t>& candidates, RayHit& hit);
 

@@ -7,8 +7,8 @@
 
 #include "scene/scene_mesh.hpp"
 
-// Private to sampling: triangles of a mesh as binary trees of parts, halved across their longest edges, each with a surfel
-// (E70). The trees are fixed to the mesh.
+// Private to sampling: triangles of a mesh as binary trees of parts, halved across their longest edges, each with a
+// surfel (E70). The trees are fixed to the mesh.
 namespace insonify {
 
 /// A node of the tree, with the place of its surfel.

@@ -12,8 +12,9 @@
 #include "sampling/mesh_parts_internal.hpp"
 #include "sampling/sampled_cells.hpp"
 
-// Surfels of a mesh for one ping (E70): each triangle is a binary tree of parts, halved across the longest edge. The tree
-// is fixed to the mesh; the ping visits the nodes that reach into its region and stops where they are small enough.
+// Surfels of a mesh for one ping (E70): each triangle is a binary tree of parts, halved across the longest edge. The
+// tree is fixed to the mesh; the ping visits the nodes that reach into its region and stops where they are small
+// enough.
 namespace insonify {
 namespace {
 

@@ -20,14 +20,14 @@ struct MeshSurfels {
           ///< there are more triangles than most_surfels, and then no surfels
 };
 
-/// Samples the triangles within `region` as finely as the head resolves them (E70): parts of a triangle, made by bisecting
-/// longest edges, have one surfel each, with the part's area, at random within it. A part is small enough if its area
-/// is at most that of a resolution cell (E17), of a square half as wide as a main lobe, and a sixteenth of a main lobe,
-/// all at its range; and the square of its longest edge at most eight times that.
+/// Samples the triangles within `region` as finely as the head resolves them (E70): parts of a triangle, made by
+/// bisecting longest edges, have one surfel each, with the part's area, at random within it. A part is small enough if
+/// its area is at most that of a resolution cell (E17), of a square half as wide as a main lobe, and a sixteenth of a
+/// main lobe, all at its range; and the square of its longest edge at most eight times that.
 ///
-/// The areas of a triangle's parts add up to its area. A part has the same place and id in every ping, so speckle is bound
-/// to the mesh; of a part that is bisected, one half keeps place and id. Region and threads do not change that. The 2^32 ids
-/// are distributed by area, which limits parts to 1.2 cm on 400 m x 400 m; find_scatterers splits further.
+/// The areas of a triangle's parts add up to its area. A part has the same place and id in every ping, so speckle is
+/// bound to the mesh; of a part that is bisected, one half keeps place and id. Region and threads do not change that.
+/// The 2^32 ids are distributed by area, which limits parts to 1.2 cm on 400 m x 400 m; find_scatterers splits further.
 ///
 /// region        ResolvedPing::region
 /// options       range_resolution, seed and threads; range_resolution 0: two bins of the region's gate

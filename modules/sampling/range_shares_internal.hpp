@@ -8,12 +8,12 @@ namespace insonify {
 /// Divides a disc's surface among points on it, so that each range gets the surface that lies there (E128).
 ///
 /// Points of a sequence over a disc are too dense and too sparse by turns along the line of sight. Each point therefore
-/// stands for the strip of the disc that is nearest to it along that line, up to the middles between it and its neighbours.
-/// Keeps its buffers from disc to disc; not for several threads.
+/// stands for the strip of the disc that is nearest to it along that line, up to the middles between it and its
+/// neighbours. Keeps its buffers from disc to disc; not for several threads.
 class RangeShares {
  public:
-  /// Returns the fraction of the surface of each point, in their order; the sum is 1 but for rounding. Accuracy 2e-5, O(points).
-  /// Valid until the next call.
+  /// Returns the fraction of the surface of each point, in their order; the sum is 1 but for rounding. Accuracy 2e-5,
+  /// O(points). Valid until the next call.
   ///
   /// along    distance of each point from the middle along the line of sight, from -1 to 1 at the ends of the disc
   /// strips   1: strips; 0: equal fractions; between them, a mean of both

@@ -8,8 +8,8 @@
 
 namespace insonify {
 
-/// The cells on a surface that a sampling resolves (E17). Between the ends of the main lobes, 1.5 widths and the options'
-/// lobe_margin from the axis of a beam, they are resolution cells:
+/// The cells on a surface that a sampling resolves (E17). Between the ends of the main lobes, 1.5 widths and the
+/// options' lobe_margin from the axis of a beam, they are resolution cells:
 ///
 ///   area = length width, width = range beam_width, length = min(dr / sin(incidence), 2 sqrt(2 range dr))
 ///
@@ -17,9 +17,9 @@ namespace insonify {
 /// the cross-section of the beam: it is the smaller of range^2 beam_width row_width / cos_incidence and of length x
 /// range x the narrower of both widths.
 ///
-/// Beside the main lobes cells are wider, since a bin adds up the side-lobe echoes of all directions: at a distance d from
-/// the end of the nearest main lobe, in u (for rows of a planar array in v), the width is range d / 2 if that is more. Each
-/// doubling of d then holds equally many scatterers.
+/// Beside the main lobes cells are wider, since a bin adds up the side-lobe echoes of all directions: at a distance d
+/// from the end of the nearest main lobe, in u (for rows of a planar array in v), the width is range d / 2 if that is
+/// more. Each doubling of d then holds equally many scatterers.
 class SampledCells {
  public:
   /// Cells of a fan, as long as options.range_resolution [m], or two bins of the gate if that is 0.
@@ -41,9 +41,9 @@ class SampledCells {
   /// The same for cells of these widths, as widths() returns them.
   double parts(double range, double surface, double cos_incidence, const Widths& widths) const;
 
-  /// Returns how many parts a surface needs that returns `share` of the energy of a cell of shares (E127), not rounded. It
-  /// needs all parts of its cells if the share is three tenths (fan) or an eighth (one beam). Infinite for cells of side
-  /// lobes of a fan, since a bin adds up several of them.
+  /// Returns how many parts a surface needs that returns `share` of the energy of a cell of shares (E127), not rounded.
+  /// It needs all parts of its cells if the share is three tenths (fan) or an eighth (one beam). Infinite for cells of
+  /// side lobes of a fan, since a bin adds up several of them.
   double parts_of_share(double share, const Widths& widths) const;
   /// Width of a cell of shares, in u: a main lobe's; 2, which is all of u, for one beam.
   double width_of_shares() const { return one_beam_ ? 2 : main_lobe_.beam; }

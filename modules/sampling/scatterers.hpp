@@ -21,8 +21,8 @@ struct Scatterers {
   std::size_t size() const { return range.size(); }
 };
 
-/// Bounds of the parts of a surfel: all stand within `reach` of `range` [m], and within `reach_u` of the direction cosine `u`
-/// along the array.
+/// Bounds of the parts of a surfel: all stand within `reach` of `range` [m], and within `reach_u` of the direction
+/// cosine `u` along the array.
 struct SurfelBounds {
   double range, reach, u, reach_u;
 };

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstddef>
 
-// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits on
-// each. They do not include Eigen, so wide registers are safe.
+// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
+// on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
 /// A surfel whose parts are placed, in head axes.
@@ -23,8 +23,9 @@ struct PartPlaces {
   float* along;  ///< offset in the direction `away`, in radii
 };
 
-/// Places parts 1 .. count of a surfel (E17). turn_re, turn_im: the turn of part k at k, for any surfel. Directions come from tangents of small angles about the centre, accurate to 1e-15 rad; returns
-/// false if some part stands too far off for that, and its direction is not valid.
+/// Places parts 1 .. count of a surfel (E17). turn_re, turn_im: the turn of part k at k, for any surfel. Directions
+/// come from tangents of small angles about the centre, accurate to 1e-15 rad; returns false if some part stands too
+/// far off for that, and its direction is not valid.
 bool place_parts(const PartFrame& surfel, const double* turn_re, const double* turn_im, std::size_t count,
                  PartPlaces parts);
 

@@ -19,13 +19,13 @@ struct VisibleSurfels {
   std::optional<ReliefField> relief;
 };
 
-/// Returns the visible surfels of a view. make_parts makes the scatterers of find_scatterers from them, in another order.
-/// options.kind is ignored. Errors as find_scatterers.
+/// Returns the visible surfels of a view. make_parts makes the scatterers of find_scatterers from them, in another
+/// order. options.kind is ignored. Errors as find_scatterers.
 VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
                             const RangeGate& gate, const SamplingOptions& options = {});
 
-/// Returns the scatterers of visible surfels (indices in the scene, ascending), split and tilted as by find_scatterers with
-/// these options.
+/// Returns the scatterers of visible surfels (indices in the scene, ascending), split and tilted as by find_scatterers
+/// with these options.
 Scatterers split_seen(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
                       const RangeGate& gate, std::span<const std::uint32_t> surfels, const SamplingOptions& options);
 

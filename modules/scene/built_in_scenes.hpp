@@ -29,7 +29,7 @@ std::vector<std::string> built_in_scene_names();
 ///            surface z = 0, sea bed near z = -8; a good pose is 0,0,-3, pitch 10 deg
 ///   reef     spurs of rough rock over sand, with massive, branching and table corals; x 0..12, y -6..6, z -5..-3; a
 ///            good pose is 0,0,-3, pitch 15 deg
-///   river    dunes with ripples, pits and boulders between banks, with gaps as a scan has them behind boulders; x 0..40,
+///   river dunes with ripples, pits and boulders between banks, with gaps as a scan has them behind boulders; x 0..40,
 ///            y -8..8, z -7..-4.2, water surface z = 0; a good way of a swath is along y = 0 at z = -0.5
 ///   plane    z = 0, x 0..size.x, y -size.y/2..size.y/2, normal up
 ///   sphere   centred at (5, 0, 0)

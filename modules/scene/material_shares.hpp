@@ -18,8 +18,8 @@ struct MaterialShare {
   double share = 0;            ///< of the whole area; of all points where areas are not known
 };
 
-/// The shares of the materials that occur, in the order of the table. `material` holds an index for each point; an index
-/// k beyond the table has the name "label k". `area` [m^2] has the size of `material`, or is empty.
+/// The shares of the materials that occur, in the order of the table. `material` holds an index for each point; an
+/// index k beyond the table has the name "label k". `area` [m^2] has the size of `material`, or is empty.
 std::vector<MaterialShare> material_shares(std::span<const Material> table, std::span<const std::uint16_t> material,
                                            std::span<const float> area);
 

@@ -22,8 +22,8 @@ struct SurfelBlock {
   std::uint32_t begin = 0, end = 0;  ///< range of indices into PreparedScene::order()
 };
 
-/// A set of surfels of a scene: surfel i is bit i % 64 of word i / 64. Surfels are visited in the order of the scene, not of
-/// the blocks.
+/// A set of surfels of a scene: surfel i is bit i % 64 of word i / 64. Surfels are visited in the order of the scene,
+/// not of the blocks.
 struct SurfelMarks {
   std::vector<std::uint64_t> words;
 
@@ -61,7 +61,8 @@ class PreparedScene {
   std::span<const SurfelBlock> blocks() const { return blocks_; }
   /// Returns the indices of all surfels, block by block along a Morton curve, ascending inside each block.
   std::span<const std::uint32_t> order() const { return order_; }
-  /// Marks the surfels of those blocks for which `wanted` is true; it is called from up to `threads` threads (0: all cores).
+  /// Marks the surfels of those blocks for which `wanted` is true; it is called from up to `threads` threads (0: all
+  /// cores).
   SurfelMarks marks_of(const std::function<bool(const SurfelBlock&)>& wanted, int threads = 0) const;
   /// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.
   const WholeScene& whole() const { return whole_; }

@@ -118,7 +118,8 @@ std::vector<Patch> reef_patches(std::uint64_t seed) {
 }
 
 std::vector<Material> reef_materials() {
-  // Orders of magnitude at imaging frequencies, as those of the harbour: sand and rock of APL-UW TR 9407; not calibrated.
+  // Orders of magnitude at imaging frequencies, as those of the harbour: sand and rock of APL-UW TR 9407; not
+  // calibrated.
   return {{"coral_sand", power_from_db(-21)}, {"reef_rock", power_from_db(-12)}, {"coral", power_from_db(-10)}};
 }
 

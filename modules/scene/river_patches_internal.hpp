@@ -6,8 +6,8 @@
 
 namespace insonify {
 
-/// The surfaces of the built-in river bed: dunes with ripples, pits and boulders between two banks, and gaps where a scan
-/// of it saw nothing. `seed` determines phases and places.
+/// The surfaces of the built-in river bed: dunes with ripples, pits and boulders between two banks, and gaps where a
+/// scan of it saw nothing. `seed` determines phases and places.
 std::vector<Patch> river_patches(std::uint64_t seed);
 
 /// Its materials, in the order of the numbers that the patches hold.

@@ -22,7 +22,8 @@ struct WholeScene {
 /// Corners of a triangle [m], relative to the origin of its scene.
 using Facet = std::array<Eigen::Vector3f, 3>;
 
-/// The captured scene: surfels (small oriented patches) as a structure of arrays, one entry per surfel in each array but
+/// The captured scene: surfels (small oriented patches) as a structure of arrays, one entry per surfel in each array
+/// but
 /// `noise` and `facet`, which may be empty. World frame; coordinates are stored in single precision relative to `origin`, which is
 /// subtracted in double.
 struct SceneCloud {
@@ -33,8 +34,8 @@ struct SceneCloud {
   std::vector<std::uint16_t> material;               ///< index into `materials`
   std::vector<std::uint32_t> id;                     ///< unique; speckle is bound to it
   std::vector<float> noise;                          ///< standard deviation across the surface [m]; empty: 0 everywhere
-  /// The triangle of a surface that each surfel stands for, anywhere in it: what it hides is hidden by the triangle. Empty:
-  /// surfels hide as discs.
+  /// The triangle of a surface that each surfel stands for, anywhere in it: what it hides is hidden by the triangle.
+  /// Empty: surfels hide as discs.
   std::vector<Facet> facet{};
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;         ///< false: the sign of a normal has no meaning and both sides reflect
@@ -44,8 +45,8 @@ struct SceneCloud {
   std::size_t size() const { return point.size(); }
 };
 
-/// Appends one surfel with the id of the last one plus 1, which is unique as long as ids ascend; beside facets it gets one
-/// without area, which hides nothing. Throws Error if `material` is not an index into scene.materials.
+/// Appends one surfel with the id of the last one plus 1, which is unique as long as ids ascend; beside facets it gets
+/// one without area, which hides nothing. Throws Error if `material` is not an index into scene.materials.
 void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const Eigen::Vector3d& normal, double area,
                 std::uint16_t material = 0);
 

@@ -43,8 +43,8 @@ struct MeshPlace {
   std::uint32_t corner;      ///< the nearest one
 };
 
-/// Returns the place with these barycentric weights in a triangle. Its normal interpolates the corners' normals if all three
-/// are on one side of the face; otherwise it is the normal of the face, on the side of their sum.
+/// Returns the place with these barycentric weights in a triangle. Its normal interpolates the corners' normals if all
+/// three are on one side of the face; otherwise it is the normal of the face, on the side of their sum.
 MeshPlace place_on(const SceneMesh& mesh, std::size_t triangle, const Eigen::Vector3d& weights);
 
 /// Returns barycentric weights that are uniform over the triangle if `along` and `across` are uniform in [0, 1).

@@ -14,8 +14,8 @@ struct CloudField {
   std::vector<std::uint32_t> id;          ///< of the points in the scene that load_scene makes of the file
 };
 
-/// Reads the points of a cloud whose coordinates and whose number `field` are finite. Throws as load_scene; Error(content)
-/// with the names of the file's fields if it has none of that name, or if no point has a number.
+/// Reads the points of a cloud whose coordinates and whose number `field` are finite. Throws as load_scene;
+/// Error(content) with the names of the file's fields if it has none of that name, or if no point has a number.
 CloudField load_cloud_field(const std::string& path, const std::string& field);
 
 /// Whether the cloud has a field of this name.

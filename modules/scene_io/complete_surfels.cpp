@@ -26,8 +26,8 @@ bool seen_from_above(const RawCloud& raw) {
          });
 }
 
-/// The surface between the points of a height field: of a raster the triangles of its cells, where most points show their
-/// relief or all are noisy; else those of the plan, if nearly all are of one height field.
+/// The surface between the points of a height field: of a raster the triangles of its cells, where most points show
+/// their relief or all are noisy; else those of the plan, if nearly all are of one height field.
 void join_heights(const SurfelShapes& shapes, std::vector<std::array<std::uint32_t, 3>> raster, int threads,
                   RawCloud& raw) {
   const bool one_sheet = static_cast<double>(shapes.heights) >= nearly_all * static_cast<double>(raw.point.size());
@@ -79,7 +79,8 @@ bool look_one_way(const std::vector<Eigen::Vector3f>& normals) {
   return static_cast<double>(std::max(up, down)) >= nearly_all * static_cast<double>(normals.size());
 }
 
-/// The surface of a height field with normals of its own, which are those of the surface, and areas; false for other clouds.
+/// The surface of a height field with normals of its own, which are those of the surface, and areas; false for other
+/// clouds.
 bool complete_heights(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   if (!raw.area.empty() || raw.tags.prepared || !look_one_way(raw.normal)) return false;
   raw.raster = raster_triangles(raw.point);

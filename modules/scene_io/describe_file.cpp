@@ -45,8 +45,8 @@ double median_spacing(std::span<const Eigen::Vector3f> points) {
   return distance[queries / 2];
 }
 
-/// The areas by which materials are weighed [m^2]: those of the file if all are usable, of a mesh a third of each corner's
-/// triangles; empty if there are none.
+/// The areas by which materials are weighed [m^2]: those of the file if all are usable, of a mesh a third of each
+/// corner's triangles; empty if there are none.
 std::vector<float> areas_of_points(RawCloud& raw) {
   if (raw.triangle.empty()) {
     const bool usable =

@@ -3,8 +3,8 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
-// Private to scene_io: GDAL by its own names, from a library that is loaded when the first of its functions is called. It
-// brings some seventy others with it; linked, they would take 0.1 s of every start of a program.
+// Private to scene_io: GDAL by its own names, from a library that is loaded when the first of its functions is called.
+// It brings some seventy others with it; linked, they would take 0.1 s of every start of a program.
 namespace insonify {
 
 /// Returns the address of a function of GDAL. Throws Error(runtime) if the library is not there or lacks it.

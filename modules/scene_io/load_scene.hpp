@@ -60,11 +60,11 @@ struct LoadReport {
 struct LoadedScene {
   SceneCloud scene;
   LoadReport report;
-  /// Without mesh_spacing: of a mesh, of which `scene` is a sample of about 200 000 surfels for an overview, or the surface
-  /// of a height field, of which `scene` has the points. A ping samples it by what its head resolves (mesh_surfels). A height
-  /// field is a cloud without areas of which 98 % of the points have one height each, or whose points stand on a grid along x
-  /// and y and most show no noise (raster_triangles, height_triangles), and whose normals look up, or down, if it has any:
-  /// they are those of the mesh. Noisy points are joined at smoothed_heights.
+  /// Without mesh_spacing: of a mesh, of which `scene` is a sample of about 200 000 surfels for an overview, or the
+  /// surface of a height field, of which `scene` has the points. A ping samples it by what its head resolves
+  /// (mesh_surfels). A height field is a cloud without areas of which 98 % of the points have one height each, or whose
+  /// points stand on a grid along x and y and most show no noise (raster_triangles, height_triangles), and whose
+  /// normals look up, or down, if it has any: they are those of the mesh. Noisy points are joined at smoothed_heights.
   std::optional<SceneMesh> mesh{};
   SceneColumns
       columns{};  ///< of the surfels, with options.keep_columns; of a sampled mesh those of the nearest corners
@@ -75,19 +75,19 @@ struct LoadedScene {
 std::string scene_extensions();
 
 /// Reads a cloud or mesh by its extension, one of scene_extensions(), fields by name and type. Clouds without normals
-/// get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else to the origin if rows and columns
-/// of an organised cloud fan out from there, else up if they are a raster of heights, else two-sided; without areas,
-/// estimated ones (E15, E69; E73 for an organised cloud with a viewpoint); without noise, estimated noise (E67), raised
-/// where a line of sight of an organised cloud with a viewpoint proves that a surfel hides nothing. Meshes are sampled,
-/// area-preserving and stratified; their normals are the file's, else follow the winding, two-sided if more than 1 % of
-/// the shared edges contradict it. Ids are the file's if unique, else row numbers (meshes: sample numbers). Materials
-/// are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field; numbers in
-/// no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and are counted.
-/// A surfel of a mesh takes the material of its nearest corner. Error(content) lists the file's fields if it has none of
-/// the name asked for. A .tiles file is loaded whole and as it is: options do not change it. Coordinates may be float
-/// or double; the centre of the bounding box, in whole metres, becomes the origin. Throws Error(file) if missing or
-/// unreadable; Error(content) if it is not what its name says, is cut off, or holds no usable point: always naming the
-/// file and what to do.
+/// get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else to the origin if rows and
+/// columns of an organised cloud fan out from there, else up if they are a raster of heights, else two-sided; without
+/// areas, estimated ones (E15, E69; E73 for an organised cloud with a viewpoint); without noise, estimated noise (E67),
+/// raised where a line of sight of an organised cloud with a viewpoint proves that a surfel hides nothing. Meshes are
+/// sampled, area-preserving and stratified; their normals are the file's, else follow the winding, two-sided if more
+/// than 1 % of the shared edges contradict it. Ids are the file's if unique, else row numbers (meshes: sample numbers).
+/// Materials are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field;
+/// numbers in no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and
+/// are counted. A surfel of a mesh takes the material of its nearest corner. Error(content) lists the file's fields if
+/// it has none of the name asked for. A .tiles file is loaded whole and as it is: options do not change it. Coordinates
+/// may be float or double; the centre of the bounding box, in whole metres, becomes the origin. Throws Error(file) if
+/// missing or unreadable; Error(content) if it is not what its name says, is cut off, or holds no usable point: always
+/// naming the file and what to do.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
 
 /// Reads soundings from a .ply that save_soundings wrote: positions in double, everything else bit for bit. Throws

@@ -50,19 +50,20 @@ void put(char*& out, T value) {
 }
 
 /// x y z (double if `wide`) level_db range azimuth elevation (float32) ping beam bin (uint32) true_elevation (float32)
-/// true_surfel true_material (uint32, -1 in a PLY for none); all but the coordinates named `prefix` + name, which a PLY has. Throws Error(argument) unless all columns have one length.
+/// true_surfel true_material (uint32, -1 in a PLY for none); all but the coordinates named `prefix` + name, which a PLY
+/// has. Throws Error(argument) unless all columns have one length.
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who);
 
 /// The same for a PCD, of float32 less an origin, with intensity (level_db, float32) and label (true_material, uint32),
 /// the names by which PCL's own point types know them.
 PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin, const char* who);
 
-/// x y z (double if `wide`), normal, area (float32), material, id (uint32; in PLY float64 if one is above 2147483647), noise
-/// (float32) if the scene has it, then the other columns.
+/// x y z (double if `wide`), normal, area (float32), material, id (uint32; in PLY float64 if one is above 2147483647),
+/// noise (float32) if the scene has it, then the other columns.
 enum class CloudFormat { ply, pcd };
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns = {});
-/// The corners of a mesh for a PLY: x y z (double if its origin is not zero), normal (float32) if it has normals, material,
-/// then the other columns, one number a corner; and its triangles. Keeps references to both arguments.
+/// The corners of a mesh for a PLY: x y z (double if its origin is not zero), normal (float32) if it has normals,
+/// material, then the other columns, one number a corner; and its triangles. Keeps references to both arguments.
 PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns);
 /// Its x y z alone.
 PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);

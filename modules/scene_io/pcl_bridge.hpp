@@ -19,7 +19,8 @@ LoadedScene from_pcl(const pcl::PCLPointCloud2& cloud, const LoadOptions& option
 LoadedScene from_pcl(const pcl::PolygonMesh& mesh, const LoadOptions& options = {});
 
 /// Soundings as a PCL cloud with fields x y z level_db range azimuth elevation (float32), ping beam bin (uint32),
-/// true_elevation (float32), true_surfel true_material (uint32). Coordinates are float in PCL: those far from zero lose precision.
+/// true_elevation (float32), true_surfel true_material (uint32). Coordinates are float in PCL: those far from zero lose
+/// precision.
 pcl::PCLPointCloud2 to_pcl(const Soundings& soundings);
 
 /// Scene points and normals, world coordinates in float.

@@ -42,8 +42,8 @@ double gap_between(const std::vector<float>& values, double quantile) {
   return *at;
 }
 
-/// False if a few of the points already lie so close along x and y that a grid through them has more than twenty nodes a
-/// point, which no raster has.
+/// False if a few of the points already lie so close along x and y that a grid through them has more than twenty nodes
+/// a point, which no raster has.
 bool may_be_grid(std::span<const Vector3f> points) {
   const auto few = static_cast<std::size_t>(8 * std::sqrt(static_cast<double>(points.size())));
   const std::size_t step = std::max<std::size_t>(1, points.size() / few);

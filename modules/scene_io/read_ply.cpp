@@ -10,9 +10,9 @@
 #include "scene_io/ply_header_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 
-// PCL's parser, and not pcl::PLYReader on top of it, since PLYReader 1.13 does these things without a message: it shifts
-// coordinates that stand between or behind colours other than a run of red green blue, gives faces with 8 or 16-bit
-// indices no corners, and ends the program if 'obj_info num_cols' contradicts the number of vertices.
+// PCL's parser, and not pcl::PLYReader on top of it, since PLYReader 1.13 does these things without a message: it
+// shifts coordinates that stand between or behind colours other than a run of red green blue, gives faces with 8 or
+// 16-bit indices no corners, and ends the program if 'obj_info num_cols' contradicts the number of vertices.
 namespace insonify {
 namespace {
 

@@ -155,8 +155,8 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options) {
 
 namespace {
 
-/// Refuses an ESRI ASCII grid with fewer numbers than its head announces, where GDAL would see zeros, or that ends within
-/// a line.
+/// Refuses an ESRI ASCII grid with fewer numbers than its head announces, where GDAL would see zeros, or that ends
+/// within a line.
 void check_ascii_grid(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::uint64_t columns = 0, rows = 0, numbers = 0;

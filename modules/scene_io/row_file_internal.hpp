@@ -24,8 +24,8 @@ struct RowFile {
   WithheldBit withheld{};
 };
 
-/// The layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a whole. Throws as
-/// load_scene for files that are missing, truncated or of another format than their extension.
+/// The layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a whole.
+/// Throws as load_scene for files that are missing, truncated or of another format than their extension.
 std::optional<RowFile> find_ply_rows(const std::string& path);
 std::optional<RowFile> find_pcd_rows(const std::string& path);
 std::optional<RowFile> find_las_rows(const std::string& path);

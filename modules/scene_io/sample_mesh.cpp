@@ -111,7 +111,8 @@ Surface measure(const SceneMesh& mesh) {
   return surface;
 }
 
-/// Places surfel i at random in the i-th of scene.size() equal intervals of the cumulative area; returns its nearest corner.
+/// Places surfel i at random in the i-th of scene.size() equal intervals of the cumulative area; returns its nearest
+/// corner.
 std::uint32_t place_surfel(const SceneMesh& mesh, const Surface& surface, std::uint64_t seed, std::size_t i,
                            SceneCloud& scene) {
   const double part = surface.total() / static_cast<double>(scene.size());

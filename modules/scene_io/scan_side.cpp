@@ -1,6 +1,6 @@
-// From which side a cloud was seen, if neither its file nor the options say so. Neighbours of an organised scan stand at even
-// steps of direction from where the scanner stood, however far each of them is; from any other place relief and noise make
-// those steps uneven, as they make the points uneven themselves.
+// From which side a cloud was seen, if neither its file nor the options say so. Neighbours of an organised scan stand
+// at even steps of direction from where the scanner stood, however far each of them is; from any other place relief and
+// noise make those steps uneven, as they make the points uneven themselves.
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -15,11 +15,12 @@ SceneColumn copy_of(const RowTable& table, const RowTable::Column& column);
 /// Makes a column of the rows listed, in that order.
 void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows);
 
-/// Takes the columns that go with the surfels. That of the labels goes on as the column of materials if its numbers are theirs.
+/// Takes the columns that go with the surfels. That of the labels goes on as the column of materials if its numbers are
+/// theirs.
 void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& columns);
 
-/// Adds further columns to the rows of a scene: by their names, "_in_file" behind those that the scene's own columns have,
-/// in PLY as int, uchar, float or double. Throws Error(argument) for a column of another length.
+/// Adds further columns to the rows of a scene: by their names, "_in_file" behind those that the scene's own columns
+/// have, in PLY as int, uchar, float or double. Throws Error(argument) for a column of another length.
 void add_columns(PackedRows& rows, const SceneColumns& columns, CloudFormat format);
 
 }  // namespace insonify

@@ -23,8 +23,8 @@ struct SceneReader {
 
 const std::vector<SceneReader>& scene_readers();
 
-/// The reader of `path`, by its extension. Throws Error(file) if the file cannot be opened, Error(content) if it is empty
-/// or its extension is none of scene_extensions().
+/// The reader of `path`, by its extension. Throws Error(file) if the file cannot be opened, Error(content) if it is
+/// empty or its extension is none of scene_extensions().
 const SceneReader& reader_of(const std::string& path);
 
 /// Reads by the reader of `path`. Throws Error(content) for a complete scene too, which has no raw columns.

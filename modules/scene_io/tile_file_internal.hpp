@@ -43,8 +43,8 @@ struct TileEntry {
 };
 static_assert(sizeof(TileEntry) == 80);
 
-/// Bytes of one surfel; a tile holds its arrays one after another: point (3 float32), normal (3 float32), area (float32), id
-/// (uint32), material (uint16).
+/// Bytes of one surfel; a tile holds its arrays one after another: point (3 float32), normal (3 float32), area
+/// (float32), id (uint32), material (uint16).
 constexpr std::size_t surfel_bytes = 34;
 constexpr std::size_t normals_at = 12, areas_at = 24, ids_at = 28, materials_at = 32;  ///< times the tile's count
 
@@ -56,8 +56,8 @@ std::uint64_t checksum(std::span<const char> bytes);
 constexpr std::size_t first_material_numbers = 3;
 
 std::string pack_materials(const std::vector<Material>& materials);
-/// The materials of a file; numbers that it does not hold keep their defaults. Throws Error(content) if the bytes are not
-/// exactly those that the header announces, or hold numbers that are not known.
+/// The materials of a file; numbers that it does not hold keep their defaults. Throws Error(content) if the bytes are
+/// not exactly those that the header announces, or hold numbers that are not known.
 std::vector<Material> unpack_materials(std::span<const char> bytes, const TileHeader& header, const std::string& path);
 
 /// A file read and written at given places, whole or not at all. Errors name the path.

@@ -6,8 +6,8 @@
 //                      tile_surfels are in each piece; each is packed by ascending id, with its enclosing ball
 //   4. fill_areas      only where areas are estimated: Voronoi areas (E15) with the neighbours in the tiles around
 //   5. write_tail      directory, materials and header, with checksums; then the file gets its name
-// Cost: about five passes over the records on the disk and O(n log n) comparisons; tiles are packed in parallel. The bytes
-// do not depend on threads; the memory allowed changes the division into tiles, not the surfels.
+// Cost: about five passes over the records on the disk and O(n log n) comparisons; tiles are packed in parallel. The
+// bytes do not depend on threads; the memory allowed changes the division into tiles, not the surfels.
 #include "scene_io/tile_writer.hpp"
 
 #include <algorithm>

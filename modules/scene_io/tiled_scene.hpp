@@ -38,7 +38,7 @@ struct TileSelection {
 /// TileWriter makes one. Steps and cost:
 ///   opening   reads the directory, 80 bytes per tile of at most 4096 surfels
 ///   select    tests the enclosing ball of every tile against the insonified region: constant cost per tile
-///   load      reads the selected tiles in parallel, checks them, and sorts their surfels by id, so that the cloud is the
+///   load reads the selected tiles in parallel, checks them, and sorts their surfels by id, so that the cloud is the
 ///             whole scene with the others left out; tiles may be kept in memory for the next load
 ///
 ///   const TiledScene tiled("bay.tiles");

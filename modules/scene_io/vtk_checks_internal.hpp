@@ -13,8 +13,8 @@ namespace insonify {
 /// every cell the corners, that it announces.
 void check_legacy_vtk(const std::string& path);
 
-/// A reader of .vtp that refuses what a file of this size cannot hold, before memory is taken for it, and arrays that end
-/// before their announced number, which VTK leaves as the memory was.
+/// A reader of .vtp that refuses what a file of this size cannot hold, before memory is taken for it, and arrays that
+/// end before their announced number, which VTK leaves as the memory was.
 class CheckedXmlReader : public vtkXMLPolyDataReader {
  public:
   static CheckedXmlReader* New();

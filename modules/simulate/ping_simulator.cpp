@@ -29,8 +29,8 @@ constexpr const char* me = "PingSimulator";
 
 Grid<double> intensity_of(const Ping& ping) { return ping.pressure.cast<std::complex<double>>().abs2(); }
 
-/// Gives a ping the intensity of its looks (E71), if its options ask for more than one: its own and that of further pulses
-/// with seeds of their own, each made by simulate(ResolvedPing), averaged over pulses and bins.
+/// Gives a ping the intensity of its looks (E71), if its options ask for more than one: its own and that of further
+/// pulses with seeds of their own, each made by simulate(ResolvedPing), averaged over pulses and bins.
 template <typename Simulate>
 void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& simulate) {
   const OutputSettings& wanted = resolved.options.outputs;
@@ -98,7 +98,8 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
   PingParts parts = sample_parts(scene, ping, result.report);
   seconds.sampling = watch.lap();
 
-  // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when used.
+  // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when
+  // used.
   begin_stage("echoes");
   const auto direct = direct_stream(scene.scene(), ping, parts);
   seconds.acoustics = watch.lap();

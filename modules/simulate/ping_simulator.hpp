@@ -14,9 +14,9 @@ namespace insonify {
 
 struct ResolvedPing;
 
-/// One head in one environment, ready to ping any scene from any pose. Head and options are checked once. The first ping makes
-/// the tables, transforms and buffers that form the beams; later pings use them again and have the same bytes as without
-/// them. Several threads may call all functions at once. Copies share tables and buffers.
+/// One head in one environment, ready to ping any scene from any pose. Head and options are checked once. The first
+/// ping makes the tables, transforms and buffers that form the beams; later pings use them again and have the same
+/// bytes as without them. Several threads may call all functions at once. Copies share tables and buffers.
 class PingSimulator {
  public:
   /// Throws Error(argument) for an invalid head or option, and for multipath without surface or bottom.
@@ -35,14 +35,14 @@ class PingSimulator {
   /// Counts the surfels and scatterers that a ping will sample; of rays, those that are cast. Nothing is simulated.
   SamplingReport count(const PreparedScene& scene, const PingEvent& event) const;
 
-  /// Simulates a ping: the whole signal path, written out in ping_simulator.cpp. Effects set to as_needed are computed if
-  /// omitting them would exceed their share of options().accuracy_db. Effects without a cause in the environment are skipped.
-  /// The result does not depend on the number of threads. Throws Error for an invalid event, a head at or above the surface,
-  /// and a profile without a surface.
+  /// Simulates a ping: the whole signal path, written out in ping_simulator.cpp. Effects set to as_needed are computed
+  /// if omitting them would exceed their share of options().accuracy_db. Effects without a cause in the environment are
+  /// skipped. The result does not depend on the number of threads. Throws Error for an invalid event, a head at or
+  /// above the surface, and a profile without a surface.
   SimulatedPing ping(const PreparedScene& scene, const PingEvent& event) const;
 
-  /// Returns the part of a scene that a ping needs: surfels that can return an echo or hide others. They alone give the same
-  /// ping.
+  /// Returns the part of a scene that a ping needs: surfels that can return an echo or hide others. They alone give the
+  /// same ping.
   InsonifiedRegion reach(const WholeScene& scene, const PingEvent& event) const;
 
  private:

@@ -13,8 +13,8 @@ namespace insonify {
 
 class LayerSum;
 
-/// Patches of surface and their direct echoes. They are stored if a later stage asks for all of them. Otherwise they are
-/// counted, and made where they are used.
+/// Patches of surface and their direct echoes. They are stored if a later stage asks for all of them. Otherwise they
+/// are counted, and made where they are used.
 struct PingParts {
   bool stored = false;
   VisibleSurfels visible{};  ///< if sampled by surfels
@@ -33,9 +33,9 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
 /// parts.direct.
 std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
-/// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.multipath. An echo by a
-/// boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible surfels are therefore split
-/// as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
+/// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.multipath. An
+/// echo by a boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible surfels are
+/// therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
 void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.

@@ -18,8 +18,8 @@ namespace {
 using E = Environment;
 using O = SimulationOptions;
 
-/// Overlap of two echoes of one scatterer that differ in delay [s], Doppler shift [Hz] and direction cosine: 1 for none,
-/// that of Gaussian pulses of the bandwidth, times that of the array's patterns.
+/// Overlap of two echoes of one scatterer that differ in delay [s], Doppler shift [Hz] and direction cosine: 1 for
+/// none, that of Gaussian pulses of the bandwidth, times that of the array's patterns.
 class EchoOverlap {
  public:
   explicit EchoOverlap(const ResolvedPing& ping) : array_(ping.head.array), bandwidth_(ping.head.pulse.bandwidth) {

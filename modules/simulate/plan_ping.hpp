@@ -16,27 +16,27 @@ namespace insonify {
 /// most), head, environment and options; the ping itself is not simulated.
 ///
 /// Errors are relative L2 norms e of the complex image, given as levels 20 log10(1 + e): the level of the whole image
-/// cannot change by more. The budget is options.accuracy_db. Effects are independent, so their errors add as energies, and
-/// each of the n effects that the budget decides may cost e / sqrt(n). An effect is included if its bound is larger than that,
-/// unless the options say always or never.
+/// cannot change by more. The budget is options.accuracy_db. Effects are independent, so their errors add as energies,
+/// and each of the n effects that the budget decides may cost e / sqrt(n). An effect is included if its bound is larger
+/// than that, unless the options say always or never.
 ///
-/// A bound is twice the amplitude of the effect expected for the sample, over all speckle; the factor covers what the sample
-/// does not show. It is 0 where an effect has no cause (no boundary, no motion, no profile). It may exceed 1: then the
-/// effect changes the image altogether. docs/results/plan.md compares bounds with effects.
+/// A bound is twice the amplitude of the effect expected for the sample, over all speckle; the factor covers what the
+/// sample does not show. It is 0 where an effect has no cause (no boundary, no motion, no profile). It may exceed 1:
+/// then the effect changes the image altogether. docs/results/plan.md compares bounds with effects.
 ///
 /// Throws Error as simulate_ping does.
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options = {});
 
-/// Returns options for synthesizing given echoes, of patches or targets at `places`: true delays and absorption over the band
-/// are decided as plan_ping decides them. Other effects are not considered. The environment's water is taken as it is,
-/// without regard to depth. Throws Error as simulate_ping does.
+/// Returns options for synthesizing given echoes, of patches or targets at `places`: true delays and absorption over
+/// the band are decided as plan_ping decides them. Other effects are not considered. The environment's water is taken
+/// as it is, without regard to depth. Throws Error as simulate_ping does.
 SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
                                     const Environment& environment, const SimulationOptions& options = {});
 
-/// Forces an effect in or out, by its name in the plan. Forcing direct-sum or true-delays out of a ping of another method
-/// changes nothing. Throws Error(argument) for an effect that is unknown or cannot be forced, naming those that can, and
-/// for one that has no cause in this event and environment, naming what is missing.
+/// Forces an effect in or out, by its name in the plan. Forcing direct-sum or true-delays out of a ping of another
+/// method changes nothing. Throws Error(argument) for an effect that is unknown or cannot be forced, naming those that
+/// can, and for one that has no cause in this event and environment, naming what is missing.
 void force_stage(const std::string& name, bool included, const PingEvent& event, Environment& environment,
                  SimulationOptions& options);
 

@@ -53,7 +53,8 @@ double bound_of_changed_echoes(const PlanFacts& facts, const Change& change) {
 struct PlanStage {
   const char* name;
   DecidedBy by;
-  /// Whether there is something to compute, or it is asked for. If not, the stage has no bound, and cannot be forced in.
+  /// Whether there is something to compute, or it is asked for. If not, the stage has no bound, and cannot be forced
+  /// in.
   bool (*cause)(const PlanCause&);
   /// Why it is in or may be, and why not.
   const char *with, *without;
@@ -77,8 +78,8 @@ constexpr bool never(const PlanCause&) { return false; }
 
 constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
 
-/// Decides all that the options of a ping leave as needed, as plan_ping does, and derives again what follows from them. Only
-/// what is open is judged, at a cost that grows with what the head may reach.
+/// Decides all that the options of a ping leave as needed, as plan_ping does, and derives again what follows from them.
+/// Only what is open is judged, at a cost that grows with what the head may reach.
 void decide_effects(const PreparedScene& prepared, ResolvedPing& ping);
 
 /// The plan of a ping.

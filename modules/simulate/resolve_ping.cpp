@@ -23,7 +23,8 @@ EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
   return with_patterns(echoes, head);
 }
 
-/// The most by which a path through the profile turns on its way out to `range`: it bends by the gradient of sound speed.
+/// The most by which a path through the profile turns on its way out to `range`: it bends by the gradient of sound
+/// speed.
 double most_turned(const SoundSpeedProfile& profile, double range) {
   const auto [slowest, fastest] = std::minmax_element(profile.sound_speed.begin(), profile.sound_speed.end());
   double steepest = 0;
@@ -33,8 +34,8 @@ double most_turned(const SoundSpeedProfile& profile, double range) {
   return steepest / *slowest * range * *fastest / *slowest;
 }
 
-/// How far beside their main lobes beams may receive echoes as loud as inside, in u and v: by what profile and motion do,
-/// whether their stages are in or out, so that the scatterers are the same.
+/// How far beside their main lobes beams may receive echoes as loud as inside, in u and v: by what profile and motion
+/// do, whether their stages are in or out, so that the scatterers are the same.
 double lobe_margin(const SonarHead& head, const Medium& medium, const Environment& environment, const Motion& motion) {
   if (has_further_lobes(head, medium.sound_speed / head.pulse.centre_frequency)) return lobes_everywhere;
   double margin = environment.profile ? most_turned(*environment.profile, head.gate.max_range) : 0;

@@ -23,7 +23,8 @@ struct ResolvedPing {
   DetectionOptions detection{};  ///< with that noise floor and the pulse's resolution, if the options leave them open
 };
 
-/// Whether a beam has another main lobe in a direction that there is: elements are too far apart for this wavelength [m].
+/// Whether a beam has another main lobe in a direction that there is: elements are too far apart for this wavelength
+/// [m].
 bool has_further_lobes(const SonarHead& head, double wavelength);
 
 /// SamplingOptions::lobe_margin that holds all directions.

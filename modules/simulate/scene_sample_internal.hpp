@@ -21,8 +21,8 @@ struct SceneSample {
   std::vector<double> power_off_azimuth;  ///< of those off_azimuth; empty if these are out by the options
 };
 
-/// Given echoes of patches or targets at `places` as such a sample, of the head's gate alone: only places, energy, power
-/// and in_view are set.
+/// Given echoes of patches or targets at `places` as such a sample, of the head's gate alone: only places, energy,
+/// power and in_view are set.
 SceneSample sample_of(const Scatterers& places, const Echoes& echoes, const ResolvedPing& ping);
 
 /// Samples at most 4096 surfels of each kind of place, evenly strided. Kinds are sampled one by one: what a part of the

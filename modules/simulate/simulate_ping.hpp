@@ -3,8 +3,8 @@
 
 namespace insonify {
 
-/// One ping of one head: PingSimulator in a line, with the same bytes. For many pings of a head make a PingSimulator; for
-/// many pings of a scene prepare it once. Throws Error as PingSimulator.
+/// One ping of one head: PingSimulator in a line, with the same bytes. For many pings of a head make a PingSimulator;
+/// for many pings of a scene prepare it once. Throws Error as PingSimulator.
 SimulatedPing simulate_ping(const PreparedScene& scene, const SonarHead& head, const Pose& world_from_head,
                             const Environment& environment, const SimulationOptions& options = {});
 

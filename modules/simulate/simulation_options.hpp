@@ -38,9 +38,9 @@ struct SynthesisSettings {
   /// Relative L2 error of the image, within 0 and 1; gridded: from 1e-13; element_exact and element outputs: 1e-12 to
   /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
-  /// Whether method true_delays replaces gridded. as_needed: where the error of the narrow-band image exceeds its share of the
-  /// budget, but never for a planar array, whose rows would be summed one by one. If the tolerance is finer than that of
-  /// true_delays, element_exact replaces gridded, which is slow.
+  /// Whether method true_delays replaces gridded. as_needed: where the error of the narrow-band image exceeds its share
+  /// of the budget, but never for a planar array, whose rows would be summed one by one. If the tolerance is finer than
+  /// that of true_delays, element_exact replaces gridded, which is slow.
   Choice true_delays = Choice::as_needed;
 };
 
@@ -70,10 +70,10 @@ struct OutputSettings {
   bool scatterers = false;  ///< all patches of surface
   bool mask = false;        ///< cells where the scan has holes
   int paths = 0;            ///< so many paths of sound of each kind
-  /// Numbers of range bins and of pulses over which the intensity for a display is averaged (E71), beside the single-look
-  /// pressure. Bins are independent looks only if they are longer than the pulse. Speckle, noise and relief of the pulses are
-  /// independent, as for a head that moves by half its aperture from pulse to pulse. (A head at rest before a rigid
-  /// scene has one look, however many pulses it sends.)
+  /// Numbers of range bins and of pulses over which the intensity for a display is averaged (E71), beside the
+  /// single-look pressure. Bins are independent looks only if they are longer than the pulse. Speckle, noise and relief
+  /// of the pulses are independent, as for a head that moves by half its aperture from pulse to pulse. (A head at rest
+  /// before a rigid scene has one look, however many pulses it sends.)
   int looks_range = 1, looks_pings = 1;
   bool split_phase = false;  ///< Ping::split_phase, for bottom detection: two more images, of a line array's halves
   int contributors = 0;      ///< so many of the strongest surfels of every pixel (E63), at most 255

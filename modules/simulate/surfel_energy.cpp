@@ -11,7 +11,8 @@
 namespace insonify {
 namespace {
 
-/// Squared gain over v = sin(elevation), between entries of a table: the sines of a pattern would cost more than the echo.
+/// Squared gain over v = sin(elevation), between entries of a table: the sines of a pattern would cost more than the
+/// echo.
 class ElevationGains {
  public:
   explicit ElevationGains(const EchoOptions& sent) {

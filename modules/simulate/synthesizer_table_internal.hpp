@@ -8,8 +8,9 @@
 
 namespace insonify {
 
-/// The synthesizers of the pings of one head: one for each part of its array, medium, method and tolerance. Those of the
-/// last two media stay, since a head that dives does not come back to earlier ones. May be used by several threads at once.
+/// The synthesizers of the pings of one head: one for each part of its array, medium, method and tolerance. Those of
+/// the last two media stay, since a head that dives does not come back to earlier ones. May be used by several threads
+/// at once.
 class SynthesizerTable {
  public:
   enum class Part { whole, port_half, starboard_half };

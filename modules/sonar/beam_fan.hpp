@@ -49,15 +49,16 @@ std::vector<FanRow> fan_rows(const BeamFan& fan);
 std::size_t middle_beam(const BeamFan& fan);
 
 /// Returns the azimuth at which the cone through `p` (head axes) meets the plane z = 0: asin(u) ahead of the array,
-/// pi - asin(u) astern (x < 0) [rad]. A line array resolves u = cos(elevation) sin(azimuth) alone, so a beam is a cone about
-/// the array's axis.
+/// pi - asin(u) astern (x < 0) [rad]. A line array resolves u = cos(elevation) sin(azimuth) alone, so a beam is a cone
+/// about the array's axis.
 double cone_azimuth(const Eigen::Vector3d& p);
 
-/// Returns a direction on a cone, turned by `turn` [rad] about the array's axis, positive upwards; the whole cone lies within
-/// +-pi/2. Solid angle: |cos(cone)| dcone dturn.
+/// Returns a direction on a cone, turned by `turn` [rad] about the array's axis, positive upwards; the whole cone lies
+/// within +-pi/2. Solid angle: |cos(cone)| dcone dturn.
 Direction direction_in_cone(double cone, double turn);
 
-/// Returns the turns between which a cone lies within these elevations [rad], ascending; equal if it does not reach them.
+/// Returns the turns between which a cone lies within these elevations [rad], ascending; equal if it does not reach
+/// them.
 std::pair<double, double> turns_between(double cone, double min_elevation, double max_elevation);
 
 /// The insonified sector: directions in which beams have their main lobes.
@@ -65,18 +66,18 @@ struct Sector {
   double min_azimuth = 0, max_azimuth = 0;      ///< of cones [rad], see cone_azimuth
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
-/// Returns the cones of all beams, extended by the margin on either side, and the elevations of all beams, extended by the
-/// half extent. Only directions ahead (x > 0), unless a beam looks astern.
+/// Returns the cones of all beams, extended by the margin on either side, and the elevations of all beams, extended by
+/// the half extent. Only directions ahead (x > 0), unless a beam looks astern.
 ///
 /// margin   beyond the outermost beams, in u; 0: 1.5 beam widths, which hold the main lobe of a shaded array
 Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double margin = 0);
 
-/// Returns the interval of azimuth of all directions of a sector [rad]. It exceeds that of its cones if the sector reaches far
-/// up or down.
+/// Returns the interval of azimuth of all directions of a sector [rad]. It exceeds that of its cones if the sector
+/// reaches far up or down.
 std::pair<double, double> azimuths_of(const Sector& sector);
 
-/// Says which places a sector holds, by signed distances: no trigonometry per place. Everything that looks into a sector
-/// asks here.
+/// Says which places a sector holds, by signed distances: no trigonometry per place. Everything that looks into a
+/// sector asks here.
 class SectorBounds {
  public:
   /// Computes the edges of `sector` once.

@@ -14,8 +14,8 @@ enum class ElevationShape {
 /// its intensity is -3 dB at width / 2 and -12 dB at width [rad].
 double gaussian_lobe(double width, double off_axis);
 
-/// Two-way pressure response in elevation (transmit times receive), 1 on the axis (E14); `width` is the full -3 dB width
-/// of the two-way intensity [rad], `elevation_off_centre` the angle from the axis [rad].
+/// Two-way pressure response in elevation (transmit times receive), 1 on the axis (E14); `width` is the full -3 dB
+/// width of the two-way intensity [rad], `elevation_off_centre` the angle from the axis [rad].
 double elevation_response(ElevationShape shape, double width, double elevation_off_centre);
 
 /// Half-angle [rad] beyond which the pattern stays below `floor_db` (gaussian), or the whole half space (line);

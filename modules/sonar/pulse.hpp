@@ -87,10 +87,9 @@ class LinearFmEcho;
 ///   s_r(t) = sqrt(k'/k) exp(-2 a0 r + i k' b^2 / 4 pi - k' b t - i pi k' t^2),  k' = k / (1 + 2 i a2 r k / pi)
 ///
 /// It differs from the sweep so filtered only at its ends. That raises or lowers far side lobes by at most 0.06 / (B T)
-/// of the peak per dB by which the loss differs over the band (held by a test up to 11 dB). Zero for |t| >= T. The peak of a shifted echo stands at t = -f_d / k
-/// (range-Doppler coupling). That the sweep itself is stretched by motion is left out: an error of about B T f_d / f_c
-/// cycles at its ends.
-/// Accurate to 1e-12 of the peak.
+/// of the peak per dB by which the loss differs over the band (held by a test up to 11 dB). Zero for |t| >= T. The peak
+/// of a shifted echo stands at t = -f_d / k (range-Doppler coupling). That the sweep itself is stretched by motion is
+/// left out: an error of about B T f_d / f_c cycles at its ends. Accurate to 1e-12 of the peak.
 struct EchoEnvelope {
   double gain = 0;                              ///< at the peak of a Gaussian, at most 1
   double a = 0;                                 ///< [s^2]

@@ -22,7 +22,8 @@ constexpr DatasetName surfel_name{"/surfel", ""}, id_name{"/id", ""}, share_name
     names_name{"/material_names", ""};
 
 template <typename Number>
-void send_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent, ArraySender& to) {
+void send_numbers(const FileContext& place, hid_t file, const DatasetName& name, const Extent& extent,
+                  ArraySender& to) {
   const Handle dataset = open_dataset(place, file, name);
   if (extent_of(place, dataset, name.path, 3) != extent)
     fail(place.kind, place.path, ": ", name.path, " differs in extent from ", surfel_name.path);
@@ -30,7 +31,7 @@ void send_numbers(const Place& place, hid_t file, const DatasetName& name, const
   read_values(place, dataset, {type_of<Number>(false)}, numbers, name.path);
 }
 
-void write_names(const Place& place, hid_t file, const std::vector<std::string>& names) {
+void write_names(const FileContext& place, hid_t file, const std::vector<std::string>& names) {
   std::size_t length = 1;
   for (const std::string& name : names) length = std::max(length, name.size() + 1);
   std::string text(names.size() * length, '\0');
@@ -40,7 +41,7 @@ void write_names(const Place& place, hid_t file, const std::vector<std::string>&
   place.checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), names_name.path);
 }
 
-std::vector<std::string> read_names(const Place& place, hid_t file) {
+std::vector<std::string> read_names(const FileContext& place, hid_t file) {
   const Handle dataset = open_dataset(place, file, names_name);
   const Extent extent = extent_of(place, dataset, names_name.path, 1);
   const Handle stored(place.checked(H5Dget_type(dataset), names_name.path), H5Tclose);
@@ -54,7 +55,7 @@ std::vector<std::string> read_names(const Place& place, hid_t file) {
   return names;
 }
 
-void require_ours(const Place& place, hid_t file) {
+void require_ours(const FileContext& place, hid_t file) {
   if (H5Aexists(file, "content") <= 0 || read_text(place, file, "content") != content)
     fail(place.kind, place.path, ": is not a contributor file of insonify: attribute 'content' is not \"", content,
          "\"");
@@ -78,7 +79,7 @@ void require_named_materials(const Contributors& c, std::size_t names, const std
 }  // namespace
 
 struct ContributorFile::Open {
-  Place place;
+  FileContext place;
   Extent lists;
   std::size_t materials;
   PendingFile pending;
@@ -183,7 +184,7 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
 std::uintmax_t contributor_bytes(const std::string& path) {
   constexpr std::uintmax_t bytes_of_entry = 19;
   Extent extent;
-  read_apart(path, [](const Place& place, hid_t file, ArraySender& to) {
+  read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     require_ours(place, file);
     to(extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3));
   })(extent);
@@ -191,7 +192,7 @@ std::uintmax_t contributor_bytes(const std::string& path) {
 }
 
 NamedContributors read_contributor_file(const std::string& path) {
-  ArrayReceiver sent = read_apart(path, [](const Place& place, hid_t file, ArraySender& to) {
+  ArrayReceiver sent = read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     require_ours(place, file);
     const Extent extent = extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3);
     to(extent);

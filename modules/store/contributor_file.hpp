@@ -23,7 +23,8 @@ struct NamedContributors {
 /// name, Error(file) if it cannot write.
 void write_contributor_file(const std::string& path, const NamedContributors& named);
 
-/// The same file, written in bands of beams, so that memory need not hold all of them. Throws as write_contributor_file.
+/// The same file, written in bands of beams, so that memory need not hold all of them. Throws as
+/// write_contributor_file.
 class ContributorFile {
  public:
   /// Begins a file for beams x bins x per_pixel entries, and the names of the materials.
@@ -35,8 +36,8 @@ class ContributorFile {
 
   /// Writes the contributors of beams from `first_beam` on.
   void write(const Contributors& band, std::size_t first_beam);
-  /// Writes the label images of all beams, material_image and instance_image of the ping's labels, say, and gives the file
-  /// its name; without this call nothing is left.
+  /// Writes the label images of all beams, material_image and instance_image of the ping's labels, say, and gives the
+  /// file its name; without this call nothing is left.
   void finish(const Grid<std::uint16_t>& material_image, const Grid<std::uint32_t>& instance_image);
 
  private:

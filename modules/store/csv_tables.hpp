@@ -7,14 +7,15 @@
 #include "acoustics/sound_speed_profile.hpp"
 #include "sampling/scatterers.hpp"
 
-// Tables of other programs as CSV: a header, its columns in any order, then rows. '#' starts a comment line; blank lines,
-// a byte-order mark and Windows line ends are accepted. All throw Error(file), or Error(content) with path, line, column,
-// value and rule.
+// Tables of other programs as CSV: a header, its columns in any order, then rows. '#' starts a comment line; blank
+// lines, a byte-order mark and Windows line ends are accepted. All throw Error(file), or Error(content) with path,
+// line, column, value and rule.
 namespace insonify {
 
 /// Reads a sound speed profile with the header depth_m,sound_speed [m, m/s] or depth_m,temperature_c,salinity_psu.
-/// Depths ascend strictly and are positive down. Temperature and salinity are converted to sound speed by UNESCO (E1) at
-/// latitude 45 degrees. Rules: those of require_valid(profile) and, for temperature and salinity, require_valid(water).
+/// Depths ascend strictly and are positive down. Temperature and salinity are converted to sound speed by UNESCO (E1)
+/// at latitude 45 degrees. Rules: those of require_valid(profile) and, for temperature and salinity,
+/// require_valid(water).
 SoundSpeedProfile load_sound_speed_profile(const std::string& path);
 
 /// Reads a trajectory of the head with the header time_s,x_m,y_m,z_m,qx,qy,qz,qw (the unit quaternion of
@@ -23,8 +24,8 @@ SoundSpeedProfile load_sound_speed_profile(const std::string& path);
 /// ascend strictly, angles are within -360 and 360 degrees, there are at least two entries.
 Trajectory load_trajectory(const std::string& path);
 
-/// What is doubtful in such a file: an angle that changes by half a turn or more between two entries. Attitudes take the
-/// shortest turn between them; a longer one would need entries in between. None for quaternions. Errors as
+/// What is doubtful in such a file: an angle that changes by half a turn or more between two entries. Attitudes take
+/// the shortest turn between them; a longer one would need entries in between. None for quaternions. Errors as
 /// load_trajectory.
 std::vector<std::string> trajectory_notes(const std::string& path);
 
@@ -42,8 +43,8 @@ struct ScattererTable {
 /// Reads scatterers with the header range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im.
 ScattererTable load_scatterer_table(const std::string& path);
 
-/// Reads positions [m] from the columns x_m, y_m and z_m of a table such as `insonify export --to csv` writes; what other
-/// columns hold does not matter, but fields have no quotes. Rules: at least one row.
+/// Reads positions [m] from the columns x_m, y_m and z_m of a table such as `insonify export --to csv` writes; what
+/// other columns hold does not matter, but fields have no quotes. Rules: at least one row.
 std::vector<Eigen::Vector3d> load_positions(const std::string& path);
 
 /// A user-defined label of a place in a picture.

@@ -45,10 +45,10 @@ struct PingRange {
 };
 
 /// Throws Error(content) unless a dataset holds complex numbers.
-void require_complex(const hdf5::Place& place, hid_t dataset, const std::string& name);
+void require_complex(const hdf5::FileContext& place, hid_t dataset, const std::string& name);
 
 /// Sends the images of pings of a cube of `extent`: pressure, layers, maps and labels.
-void send_all_images(const hdf5::Place& place, hid_t file, const hdf5::Extent& extent, PingRange pings,
+void send_all_images(const hdf5::FileContext& place, hid_t file, const hdf5::Extent& extent, PingRange pings,
                      ArraySender& to);
 
 /// Fills the images of pings with what send_all_images sent of the file at `path`.

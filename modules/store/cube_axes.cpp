@@ -13,7 +13,7 @@ namespace {
 bool is_there(hid_t file, const std::string& name) { return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0; }
 
 /// Names the dimensions of one dataset, and attaches the scales of those that are not the scale itself.
-void name_dimensions_of(const Place& place, hid_t file, const std::string& path, const char* const* dimensions) {
+void name_dimensions_of(const FileContext& place, hid_t file, const std::string& path, const char* const* dimensions) {
   const Handle dataset = open_dataset(place, file, {path.c_str(), ""});
   for (unsigned d = 0; d < 4 && dimensions[d]; ++d) {
     place.checked(H5DSset_label(dataset, d, dimensions[d]), path);
@@ -27,7 +27,7 @@ void name_dimensions_of(const Place& place, hid_t file, const std::string& path,
 
 }  // namespace
 
-void name_dimensions(const Place& place, hid_t file) {
+void name_dimensions(const FileContext& place, hid_t file) {
   for (const CubeScale& scale : cube_scales) {
     const Handle axis = open_dataset(place, file, scale.name);
     place.checked(H5DSset_scale(axis, scale.name.path + 1), scale.name.path);

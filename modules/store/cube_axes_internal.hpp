@@ -4,9 +4,9 @@
 // Private to store.
 namespace insonify::hdf5 {
 
-/// Names the dimensions of all datasets of a cube and makes ping, azimuth and range their scales (HDF5 dimension scales,
-/// as h5py, netCDF and xarray know them).
-void name_dimensions(const Place& place, hid_t file);
+/// Names the dimensions of all datasets of a cube and makes ping, azimuth and range their scales (HDF5 dimension
+/// scales, as h5py, netCDF and xarray know them).
+void name_dimensions(const FileContext& place, hid_t file);
 
 /// True for an attribute that name_dimensions makes: it refers to other datasets of its file.
 bool names_dimensions(const std::string& attribute);

@@ -13,7 +13,7 @@ namespace insonify {
 
 using namespace hdf5;
 
-void require_complex(const Place& place, hid_t dataset, const std::string& name) {
+void require_complex(const FileContext& place, hid_t dataset, const std::string& name) {
   const Handle type(place.checked(H5Dget_type(dataset), name), H5Tclose);
   for (const char* member : {"r", "i"}) {
     const int at = H5Tget_class(type) == H5T_COMPOUND ? H5Tget_member_index(type, member) : -1;
@@ -34,8 +34,8 @@ struct Piece {
   std::uint64_t begin, bytes;
 };
 
-/// Where the parts of a large image are in the file as they are in memory, one after the other; empty if it is small, packed,
-/// of another type, or not in this file.
+/// Where the parts of a large image are in the file as they are in memory, one after the other; empty if it is small,
+/// packed, of another type, or not in this file.
 std::vector<Piece> pieces_of(hid_t dataset, hid_t type, const Extent& extent, hsize_t ping) {
   constexpr hsize_t large = 1 << 20;
   const hsize_t row = extent[2] * H5Tget_size(type);
@@ -66,8 +66,9 @@ std::vector<Piece> pieces_of(hid_t dataset, hid_t type, const Extent& extent, hs
   return pieces;
 }
 
-// Sends one image of `type` per ping: where a large one is in the file, which the parent copies from there, else its numbers.
-void send_images(const Place& place, hid_t dataset, const std::string& name, hid_t type, PingRange pings,
+// Sends one image of `type` per ping: where a large one is in the file, which the parent copies from there, else its
+// numbers.
+void send_images(const FileContext& place, hid_t dataset, const std::string& name, hid_t type, PingRange pings,
                  ArraySender& to) {
   const Extent extent = extent_of(place, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
@@ -106,12 +107,12 @@ void receive_image(ArrayReceiver& sent, const std::string& path, Grid<Number>& i
   if (!file) fail(ErrorKind::content, path, ": an image ends beyond the file; it is cut off: copy or export it again");
 }
 
-void require_extent(const Place& place, hid_t dataset, const std::string& name, const Extent& extent) {
+void require_extent(const FileContext& place, hid_t dataset, const std::string& name, const Extent& extent) {
   if (extent_of(place, dataset, name, 3) != extent)
     fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
 }
 
-void send_layers(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+void send_layers(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
   const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
   const std::vector<std::string> layers = names_in(place, file, layers_group);
   to(layers);
@@ -125,7 +126,7 @@ void send_layers(const Place& place, hid_t file, const Extent& extent, PingRange
 }
 
 // Sends whether there is an optional map, and then that of each ping.
-void send_map(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+void send_map(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
               PingRange pings, ArraySender& to) {
   const bool there = H5Lexists(file, name.path, H5P_DEFAULT) > 0;
   to(there);
@@ -147,7 +148,7 @@ void receive_map(ArrayReceiver& sent, const std::string& path, std::vector<Ping>
   for (Ping& ping : pings) receive_image(sent, path, std::invoke(map, ping));
 }
 
-void send_labels(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+void send_labels(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
   const bool there = H5Lexists(file, label_material_name.path, H5P_DEFAULT) > 0;
   to(there);
   if (!there) return;
@@ -180,7 +181,7 @@ void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Pi
 
 }  // namespace
 
-void send_all_images(const Place& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+void send_all_images(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
   const Handle dataset = open_dataset(place, file, pressure_name);
   send_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings, to);
   send_layers(place, file, extent, pings, to);

@@ -6,8 +6,8 @@ namespace insonify {
 /// Version of the layout of cube.h5, raised when readers of the previous one would fail.
 constexpr std::int64_t cube_schema = 1;
 
-/// Path of a dataset in the file, its unit for the attribute "units" and what it is, signs included, for "long_name" ("":
-/// none).
+/// Path of a dataset in the file, its unit for the attribute "units" and what it is, signs included, for "long_name"
+/// ("": none).
 struct DatasetName {
   const char* path;
   const char* unit;
@@ -62,7 +62,8 @@ constexpr DatasetName scan_angle_name{"/scan_angle", "rad",
                                       "turn of the head about its z axis, positive to port; part of the pose"};
 constexpr DatasetName sweep_name{"/sweep", "", "number of the sweep"};
 
-/// Root attributes of cubes of a survey: name of the head, time 0, place of the world's origin and heading of its x axis.
+/// Root attributes of cubes of a survey: name of the head, time 0, place of the world's origin and heading of its x
+/// axis.
 constexpr const char* head_attribute = "head";
 constexpr const char* start_utc_attribute = "start_utc";
 constexpr const char* anchor_latitude_attribute = "anchor_latitude_deg";

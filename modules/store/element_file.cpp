@@ -19,7 +19,7 @@ void write_element_file(const std::string& path, const ElementSeries& series, co
     fail(ErrorKind::argument, "write_element_file: ", path, ": the series has ", series.pressure.rows(),
          " elements and ", series.pressure.cols(), " samples, must have ", head.array.elements(), " elements");
   const ComplexGridF pressure = stored_pressure(series.pressure, "write_element_file");
-  write_hdf5(path, [&](const Place& place, hid_t file) {
+  write_hdf5(path, [&](const FileContext& place, hid_t file) {
     write_attribute(place, file, "schema", element_schema);
     write_attribute(place, file, "start", series.start);
     write_attribute(place, file, "step", series.step);

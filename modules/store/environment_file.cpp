@@ -24,7 +24,8 @@ KeyValue profile_list(Environment& e, std::vector<double> SoundSpeedProfile::*me
   return {"a list of numbers", set, text};
 }
 
-/// Tables of a run.toml, which is recognised by its version, that are none of the environment; all keys outside of tables.
+/// Tables of a run.toml, which is recognised by its version, that are none of the environment; all keys outside of
+/// tables.
 std::vector<std::string> others_of_run(const TomlValue& document) {
   std::vector<std::string> others;
   if (!document.find("insonify_version")) return others;

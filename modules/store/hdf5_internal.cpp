@@ -20,7 +20,7 @@ std::string plain_reason(const std::string& reason) {
   return reason.substr(text, reason.find('\'', text) - text);
 }
 
-void write_scalar(const Place& place, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
+void write_scalar(const FileContext& place, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
                   const void* value) {
   const std::string what = std::string("attribute '") + name + "' cannot be written";
   const Handle space(place.checked(H5Screate(H5S_SCALAR), what), H5Sclose);
@@ -29,7 +29,7 @@ void write_scalar(const Place& place, hid_t where, const char* name, hid_t file_
   place.checked(H5Awrite(attribute, memory_type, value), what);
 }
 
-Handle open_attribute(const Place& place, hid_t where, const char* name) {
+Handle open_attribute(const FileContext& place, hid_t where, const char* name) {
   if (H5Aexists(where, name) <= 0) fail(place.kind, place.path, ": attribute '", name, "' is missing");
   Handle attribute(place.checked(H5Aopen(where, name, H5P_DEFAULT), std::string("attribute '") + name + "'"), H5Aclose);
   const Handle space(place.checked(H5Aget_space(attribute), name), H5Sclose);
@@ -39,7 +39,7 @@ Handle open_attribute(const Place& place, hid_t where, const char* name) {
 }
 
 template <typename T>
-T read_scalar(const Place& place, hid_t where, const char* name, hid_t memory_type) {
+T read_scalar(const FileContext& place, hid_t where, const char* name, hid_t memory_type) {
   const Handle attribute = open_attribute(place, where, name);
   T value{};
   place.checked(H5Aread(attribute, memory_type, &value), std::string("attribute '") + name + "' is not a number");
@@ -58,20 +58,20 @@ QuietErrors::QuietErrors() {
 
 QuietErrors::~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 
-void Place::fail_here(const std::string& what) const {
+void FileContext::fail_here(const std::string& what) const {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first_reason, &reason);
   fail(kind, path, ": ", what, reason.empty() ? "" : ": ", plain_reason(reason));
 }
 
-Handle text_type(const Place& place, std::size_t length) {
+Handle text_type(const FileContext& place, std::size_t length) {
   Handle type(place.checked(H5Tcopy(H5T_C_S1), "text type"), H5Tclose);
   place.checked(H5Tset_size(type, length), "text type");
   place.checked(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
   return type;
 }
 
-Handle complex_type(const Place& place, hid_t real_type) {
+Handle complex_type(const FileContext& place, hid_t real_type) {
   const std::size_t size = H5Tget_size(real_type);
   Handle type(place.checked(H5Tcreate(H5T_COMPOUND, 2 * size), "complex type"), H5Tclose);
   place.checked(H5Tinsert(type, "r", 0, real_type), "complex type");
@@ -79,7 +79,7 @@ Handle complex_type(const Place& place, hid_t real_type) {
   return type;
 }
 
-Extent extent_of(const Place& place, hid_t dataset, const std::string& name, std::size_t rank) {
+Extent extent_of(const FileContext& place, hid_t dataset, const std::string& name, std::size_t rank) {
   const Handle space(place.checked(H5Dget_space(dataset), name), H5Sclose);
   const int dimensions = place.checked(H5Sget_simple_extent_ndims(space), name);
   if (static_cast<std::size_t>(dimensions) != rank)
@@ -89,7 +89,7 @@ Extent extent_of(const Place& place, hid_t dataset, const std::string& name, std
   return extent;
 }
 
-Handle select_row(const Place& place, hid_t dataset, const Extent& extent, hsize_t first) {
+Handle select_row(const FileContext& place, hid_t dataset, const Extent& extent, hsize_t first) {
   Handle space(place.checked(H5Dget_space(dataset), "selection"), H5Sclose);
   Extent start(extent.size(), 0), count = extent;
   start[0] = first, count[0] = 1;
@@ -97,38 +97,38 @@ Handle select_row(const Place& place, hid_t dataset, const Extent& extent, hsize
   return space;
 }
 
-void write_attribute(const Place& place, hid_t where, const char* name, double value) {
+void write_attribute(const FileContext& place, hid_t where, const char* name, double value) {
   write_scalar(place, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
 }
 
-void write_attribute(const Place& place, hid_t where, const char* name, std::int64_t value) {
+void write_attribute(const FileContext& place, hid_t where, const char* name, std::int64_t value) {
   write_scalar(place, where, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
 }
 
-void write_attribute(const Place& place, hid_t where, const char* name, std::uint64_t value) {
+void write_attribute(const FileContext& place, hid_t where, const char* name, std::uint64_t value) {
   write_scalar(place, where, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
 }
 
-void write_attribute(const Place& place, hid_t where, const char* name, const std::string& value) {
+void write_attribute(const FileContext& place, hid_t where, const char* name, const std::string& value) {
   const Handle type = text_type(place);
   const char* text = value.c_str();
   write_scalar(place, where, name, type, type, &text);
 }
 
-double read_number(const Place& place, hid_t where, const char* name) {
+double read_number(const FileContext& place, hid_t where, const char* name) {
   return read_scalar<double>(place, where, name, H5T_NATIVE_DOUBLE);
 }
 
-std::int64_t read_integer(const Place& place, hid_t where, const char* name) {
+std::int64_t read_integer(const FileContext& place, hid_t where, const char* name) {
   return read_scalar<std::int64_t>(place, where, name, H5T_NATIVE_INT64);
 }
 
-std::uint64_t read_unsigned(const Place& place, hid_t where, const char* name) {
+std::uint64_t read_unsigned(const FileContext& place, hid_t where, const char* name) {
   return read_scalar<std::uint64_t>(place, where, name, H5T_NATIVE_UINT64);
 }
 
 // Reads text of fixed length (as other programs write it) or of variable length.
-std::string read_text(const Place& place, hid_t where, const char* name) {
+std::string read_text(const FileContext& place, hid_t where, const char* name) {
   const Handle attribute = open_attribute(place, where, name);
   const Handle stored(place.checked(H5Aget_type(attribute), name), H5Tclose);
   if (H5Tget_class(stored) != H5T_STRING) fail(place.kind, place.path, ": attribute '", name, "' must be text");
@@ -144,14 +144,14 @@ std::string read_text(const Place& place, hid_t where, const char* name) {
   return text;
 }
 
-Handle create_file(const Place& place, const std::string& name) {
+Handle create_file(const FileContext& place, const std::string& name) {
   const Handle properties(place.checked(H5Pcreate(H5P_FILE_CREATE), "file"), H5Pclose);
   place.checked(H5Pset_obj_track_times(properties, false), "file");  // same input, same bytes
   return {place.checked(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), "cannot be written"),
           H5Fclose};
 }
 
-Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+Handle create_dataset(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk, Packing packing) {
   const Handle space(
       place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
@@ -174,7 +174,7 @@ Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, h
   return dataset;
 }
 
-Handle create_ordered_group(const Place& place, hid_t file, const char* name) {
+Handle create_ordered_group(const FileContext& place, hid_t file, const char* name) {
   const Handle properties(place.checked(H5Pcreate(H5P_GROUP_CREATE), name), H5Pclose);
   place.checked(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), name);
   place.checked(H5Pset_obj_track_times(properties, false), name);

@@ -29,7 +29,7 @@ class QuietErrors {
 };
 
 /// The file of an operation, and the kind of its errors: file when writing, content when reading.
-struct Place {
+struct FileContext {
   std::string path;
   ErrorKind kind;
 
@@ -43,8 +43,8 @@ struct Place {
   }
 };
 
-/// Whether a Handle of this thread could not be closed. HDF5 writes what it has kept of a dataset when that is closed, and
-/// forgets the failure.
+/// Whether a Handle of this thread could not be closed. HDF5 writes what it has kept of a dataset when that is closed,
+/// and forgets the failure.
 inline thread_local bool failed_to_close = false;
 
 /// Owns an HDF5 identifier and closes it.
@@ -69,13 +69,13 @@ class Handle {
 using Extent = std::vector<hsize_t>;
 
 /// Creates a file without timestamps: same input, same bytes.
-Handle create_file(const Place& place, const std::string& name);
+Handle create_file(const FileContext& place, const std::string& name);
 
 /// Writes a file by body(place, file), to a temporary name that is then renamed.
 template <typename Body>
 void write_hdf5(const std::string& path, Body&& body) {
   const QuietErrors quiet;
-  const Place place{path, ErrorKind::file};
+  const FileContext place{path, ErrorKind::file};
   PendingFile pending(path);
   failed_to_close = false;
   Handle file = create_file(place, pending.temporary());
@@ -85,25 +85,27 @@ void write_hdf5(const std::string& path, Body&& body) {
   pending.commit();
 }
 
-/// Opens an existing file for reading, where a crash within HDF5 ends a child alone. Throws Error(file) if it is missing or a
-/// folder, Error(content) if it is not HDF5.
-Handle open_file(const Place& place);
+/// Opens an existing file for reading, where a crash within HDF5 ends a child alone. Throws Error(file) if it is
+/// missing or a folder, Error(content) if it is not HDF5.
+Handle open_file(const FileContext& place);
 
 /// Returns what read(place, file, to) sent from a child process. Throws as open_file and read do, and as read_in_child.
-ArrayReceiver read_apart(const std::string& path, const std::function<void(const Place&, hid_t, ArraySender&)>& read);
+ArrayReceiver read_apart(const std::string& path,
+                         const std::function<void(const FileContext&, hid_t, ArraySender&)>& read);
 
 /// How the chunks of a dataset are stored: as they are, or shuffled and deflated at level 1, without loss.
 enum class Packing { none, deflate };
 
-/// Creates a dataset without timestamps, with its unit and name as attributes "units" and "long_name"; chunked if `chunk` is not empty.
-Handle create_dataset(const Place& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+/// Creates a dataset without timestamps, with its unit and name as attributes "units" and "long_name"; chunked if
+/// `chunk` is not empty.
+Handle create_dataset(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {}, Packing packing = Packing::none);
 
 /// Creates a group that keeps the order in which its members are written.
-Handle create_ordered_group(const Place& place, hid_t file, const char* name);
+Handle create_ordered_group(const FileContext& place, hid_t file, const char* name);
 
 /// Names in such a group in the order of writing; none if it is absent.
-std::vector<std::string> names_in(const Place& place, hid_t file, const char* group);
+std::vector<std::string> names_in(const FileContext& place, hid_t file, const char* group);
 
 /// HDF5 type of a number in the file (little-endian) or in memory.
 template <typename Number>
@@ -118,14 +120,14 @@ hid_t type_of(bool in_file) {
 
 /// Writes a dataset of numbers.
 template <typename Number>
-void write_numbers(const Place& place, hid_t file, const DatasetName& name, const Extent& extent,
+void write_numbers(const FileContext& place, hid_t file, const DatasetName& name, const Extent& extent,
                    const Number* numbers) {
   const Handle dataset = create_dataset(place, file, name, type_of<Number>(true), extent);
   place.checked(H5Dwrite(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), name.path);
 }
 
 /// Opens a dataset; throws Error(content) if it is missing.
-Handle open_dataset(const Place& place, hid_t file, const DatasetName& name);
+Handle open_dataset(const FileContext& place, hid_t file, const DatasetName& name);
 
 /// Values of a dataset that are read: their type in memory, where they are put there, and which they are.
 struct Values {
@@ -133,29 +135,29 @@ struct Values {
 };
 
 /// Reads values of a dataset. Throws Error(content) that names `what`.
-void read_values(const Place& place, hid_t dataset, const Values& values, void* to, const std::string& what);
+void read_values(const FileContext& place, hid_t dataset, const Values& values, void* to, const std::string& what);
 
 /// UTF-8 text padded with zeros to `length` bytes, or of any length.
-Handle text_type(const Place& place, std::size_t length = H5T_VARIABLE);
+Handle text_type(const FileContext& place, std::size_t length = H5T_VARIABLE);
 /// The type of complex<float> as in h5py: compound {r, i} of `real_type`.
-Handle complex_type(const Place& place, hid_t real_type);
+Handle complex_type(const FileContext& place, hid_t real_type);
 
 /// The extent of a dataset; throws Error(content) unless it has `rank` dimensions.
-Extent extent_of(const Place& place, hid_t dataset, const std::string& name, std::size_t rank);
+Extent extent_of(const FileContext& place, hid_t dataset, const std::string& name, std::size_t rank);
 
 /// Selects index `first` of the first dimension and everything of the others.
-Handle select_row(const Place& place, hid_t dataset, const Extent& extent, hsize_t first);
+Handle select_row(const FileContext& place, hid_t dataset, const Extent& extent, hsize_t first);
 
 /// Write an attribute with a single value.
-void write_attribute(const Place& place, hid_t where, const char* name, double value);
-void write_attribute(const Place& place, hid_t where, const char* name, std::int64_t value);
-void write_attribute(const Place& place, hid_t where, const char* name, std::uint64_t value);
-void write_attribute(const Place& place, hid_t where, const char* name, const std::string& value);
+void write_attribute(const FileContext& place, hid_t where, const char* name, double value);
+void write_attribute(const FileContext& place, hid_t where, const char* name, std::int64_t value);
+void write_attribute(const FileContext& place, hid_t where, const char* name, std::uint64_t value);
+void write_attribute(const FileContext& place, hid_t where, const char* name, const std::string& value);
 
 /// Read an attribute; throw Error(content) naming it if it is missing or of another type.
-double read_number(const Place& place, hid_t where, const char* name);
-std::int64_t read_integer(const Place& place, hid_t where, const char* name);
-std::uint64_t read_unsigned(const Place& place, hid_t where, const char* name);
-std::string read_text(const Place& place, hid_t where, const char* name);
+double read_number(const FileContext& place, hid_t where, const char* name);
+std::int64_t read_integer(const FileContext& place, hid_t where, const char* name);
+std::uint64_t read_unsigned(const FileContext& place, hid_t where, const char* name);
+std::string read_text(const FileContext& place, hid_t where, const char* name);
 
 }  // namespace insonify::hdf5

@@ -36,8 +36,9 @@ struct Key {
   const char* unless = "";  ///< name of a key of the same section that takes its place; a file must not hold both
 };
 
-/// Reads a table of a file, its own tables included. Keys and tables called `others` are passed over. Throws Error(content)
-/// "path:line: ..." for an unknown key, with the nearest known one, a missing one, or a value that breaks its rule.
+/// Reads a table of a file, its own tables included. Keys and tables called `others` are passed over. Throws
+/// Error(content) "path:line: ..." for an unknown key, with the nearest known one, a missing one, or a value that
+/// breaks its rule.
 void read_keys(const std::string& path, const TomlValue& table, const std::vector<Key>& keys,
                const std::string& section = "", const std::vector<std::string>& others = {});
 

@@ -8,7 +8,7 @@
 // What is read of files that others may have made: checked before HDF5 trusts it.
 namespace insonify::hdf5 {
 
-std::vector<std::string> names_in(const Place& place, hid_t file, const char* group) {
+std::vector<std::string> names_in(const FileContext& place, hid_t file, const char* group) {
   constexpr hsize_t most = 64;
   std::vector<std::string> names;
   if (H5Lexists(file, group, H5P_DEFAULT) <= 0) return names;
@@ -25,7 +25,7 @@ std::vector<std::string> names_in(const Place& place, hid_t file, const char* gr
   return names;
 }
 
-Handle open_file(const Place& place) {
+Handle open_file(const FileContext& place) {
   require_regular_file(place.path);
   const htri_t is_hdf5 = H5Fis_hdf5(place.path.c_str());
   if (is_hdf5 < 0) fail(ErrorKind::file, place.path, ": cannot be read");
@@ -33,11 +33,12 @@ Handle open_file(const Place& place) {
   return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"), H5Fclose};
 }
 
-ArrayReceiver read_apart(const std::string& path, const std::function<void(const Place&, hid_t, ArraySender&)>& read) {
+ArrayReceiver read_apart(const std::string& path,
+                         const std::function<void(const FileContext&, hid_t, ArraySender&)>& read) {
   require_regular_file(path);
   return read_in_child(path, limits_of_file(std::filesystem::file_size(path)), [&](ArraySender& to) {
     const QuietErrors quiet;
-    const Place place{path, ErrorKind::content};
+    const FileContext place{path, ErrorKind::content};
     const Handle file = open_file(place);
     read(place, file, to);
   });
@@ -54,9 +55,9 @@ std::string virtual_source(hid_t properties, std::size_t part) {
   return source;
 }
 
-/// Refuses a dataset whose numbers lie in files that the user did not name: a cube from a stranger must not show others of
-/// the user's files. Blocks of a survey beside the cube are its own.
-void require_own_data(const Place& place, hid_t file, const DatasetName& name, hid_t dataset) {
+/// Refuses a dataset whose numbers lie in files that the user did not name: a cube from a stranger must not show others
+/// of the user's files. Blocks of a survey beside the cube are its own.
+void require_own_data(const FileContext& place, hid_t file, const DatasetName& name, hid_t dataset) {
   const auto refuse = [&](const char* what) {
     fail(place.kind, place.path, ": dataset ", name.path, " ", what,
          ", which is not read; get the file that holds the data itself");
@@ -77,9 +78,9 @@ void require_own_data(const Place& place, hid_t file, const DatasetName& name, h
   }
 }
 
-/// Bytes of the files of which a virtual dataset is put together. Refuses one of which a part is missing: HDF5 would give
-/// fill values in its place.
-hsize_t bytes_of_sources(const Place& place, const DatasetName& name, hid_t properties) {
+/// Bytes of the files of which a virtual dataset is put together. Refuses one of which a part is missing: HDF5 would
+/// give fill values in its place.
+hsize_t bytes_of_sources(const FileContext& place, const DatasetName& name, hid_t properties) {
   std::size_t sources = 0;
   place.checked(H5Pget_virtual_count(properties, &sources), name.path);
   hsize_t bytes = 0;
@@ -94,7 +95,7 @@ hsize_t bytes_of_sources(const Place& place, const DatasetName& name, hid_t prop
 }
 
 /// Refuses a dataset that announces more values than are stored: HDF5 would make up the rest.
-void require_stored(const Place& place, const DatasetName& name, hid_t dataset) {
+void require_stored(const FileContext& place, const DatasetName& name, hid_t dataset) {
   constexpr double unpacked_per_byte = 1032;  // by zlib, at most
   const Handle properties(place.checked(H5Dget_create_plist(dataset), name.path), H5Pclose);
   const Handle type(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
@@ -112,12 +113,12 @@ void require_stored(const Place& place, const DatasetName& name, hid_t dataset) 
 
 }  // namespace
 
-void read_values(const Place& place, hid_t dataset, const Values& values, void* to, const std::string& what) {
+void read_values(const FileContext& place, hid_t dataset, const Values& values, void* to, const std::string& what) {
   if (H5Dread(dataset, values.type, values.memory, values.selected, H5P_DEFAULT, to) < 0)
     fail(place.kind, place.path, ": ", what, ": a chunk of it is damaged; copy or export the file again");
 }
 
-Handle open_dataset(const Place& place, hid_t file, const DatasetName& name) {
+Handle open_dataset(const FileContext& place, hid_t file, const DatasetName& name) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
     fail(place.kind, place.path, ": dataset ", name.path, " is missing");
   Handle dataset{place.checked(H5Dopen2(file, name.path, H5P_DEFAULT), name.path), H5Dclose};

@@ -14,7 +14,7 @@ using namespace hdf5;
 
 namespace {
 
-void require_schema(const Place& place, hid_t file) {
+void require_schema(const FileContext& place, hid_t file) {
   if (H5Aexists(file, "schema") <= 0)
     fail(place.kind, place.path, ": is not a cube of insonify: attribute 'schema' is missing");
   const std::int64_t schema = read_integer(place, file, "schema");
@@ -24,7 +24,8 @@ void require_schema(const Place& place, hid_t file) {
 
 // Reads a whole dataset, which must have the expected extent.
 template <typename T>
-std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name, const Extent& expected, hid_t type) {
+std::vector<T> read_all(const FileContext& place, hid_t file, const DatasetName& name, const Extent& expected,
+                        hid_t type) {
   const Handle dataset = open_dataset(place, file, name);
   const Extent extent = extent_of(place, dataset, name.path, expected.size());
   std::size_t values = 1;
@@ -40,7 +41,7 @@ std::vector<T> read_all(const Place& place, hid_t file, const DatasetName& name,
 }
 
 // Reads fan and gate, common to all pings; invalid values are errors of the file.
-void read_axes(const Place& place, hid_t file, CubeTable& table) {
+void read_axes(const FileContext& place, hid_t file, CubeTable& table) {
   const Extent& extent = table.extent;
   table.fan.azimuth = read_all<double>(place, file, azimuth_name, {extent[1]}, H5T_NATIVE_DOUBLE);
   table.fan.elevation = read_all<double>(place, file, elevation_name, {extent[1]}, H5T_NATIVE_DOUBLE);
@@ -62,7 +63,7 @@ void read_axes(const Place& place, hid_t file, CubeTable& table) {
 }
 
 // A number of the water at every ping: the pings' own, or that of all.
-std::vector<double> water_of(const Place& place, hid_t file, const DatasetName& name, hsize_t pings) {
+std::vector<double> water_of(const FileContext& place, hid_t file, const DatasetName& name, hsize_t pings) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
     return std::vector<double>(pings, read_number(place, file, name.path + 1));
   const auto values = read_all<double>(place, file, name, {pings}, H5T_NATIVE_DOUBLE);
@@ -73,7 +74,7 @@ std::vector<double> water_of(const Place& place, hid_t file, const DatasetName& 
 }
 
 // World vectors of every ping, zero in a cube without them.
-std::vector<Eigen::Vector3d> vectors_of(const Place& place, hid_t file, const DatasetName& name, hsize_t pings) {
+std::vector<Eigen::Vector3d> vectors_of(const FileContext& place, hid_t file, const DatasetName& name, hsize_t pings) {
   std::vector<Eigen::Vector3d> vectors(pings, Eigen::Vector3d::Zero());
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return vectors;
   const auto values = read_all<double>(place, file, name, {pings, 3}, H5T_NATIVE_DOUBLE);
@@ -86,7 +87,7 @@ std::vector<Eigen::Vector3d> vectors_of(const Place& place, hid_t file, const Da
   return vectors;
 }
 
-std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) {
+std::vector<TrackPoint> track_of(const FileContext& place, hid_t file, hsize_t pings) {
   const auto pose = read_all<double>(place, file, pose_name, {pings, 4, 4}, H5T_NATIVE_DOUBLE);
   const auto time = read_all<double>(place, file, time_name, {pings}, H5T_NATIVE_DOUBLE);
   const auto number = read_all<std::int64_t>(place, file, ping_name, {pings}, H5T_NATIVE_INT64);
@@ -116,7 +117,7 @@ std::vector<TrackPoint> track_of(const Place& place, hid_t file, hsize_t pings) 
   return track;
 }
 
-CubeTable read_table(const Place& place, hid_t file) {
+CubeTable read_table(const FileContext& place, hid_t file) {
   const Handle dataset = open_dataset(place, file, pressure_name);
   CubeTable table;
   table.extent = extent_of(place, dataset, pressure_name.path, 3);
@@ -142,7 +143,7 @@ std::vector<Ping> pings_of(const CubeTable& table, PingRange range) {
   return pings;
 }
 
-Cube read_attributes(const Place& place, hid_t file) {
+Cube read_attributes(const FileContext& place, hid_t file) {
   require_schema(place, file);
   Cube cube;
   cube.insonify_version = read_text(place, file, "insonify_version");
@@ -172,7 +173,7 @@ Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
     const std::size_t begin = std::min(first, table.track.size());
     return PingRange{begin, begin + std::min(count, table.track.size() - begin)};
   };
-  ArrayReceiver sent = read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
+  ArrayReceiver sent = read_apart(path, [&](const FileContext& place, hid_t file, ArraySender& to) {
     const Cube cube = read_attributes(place, file);
     const CubeTable table = read_table(place, file);
     to(cube, table);
@@ -187,7 +188,7 @@ Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
 }
 
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam) {
-  ArrayReceiver sent = read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
+  ArrayReceiver sent = read_apart(path, [&](const FileContext& place, hid_t file, ArraySender& to) {
     require_schema(place, file);
     const Handle dataset = open_dataset(place, file, pressure_name);
     const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
@@ -213,7 +214,7 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
 void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use) {
   Cube cube;
   CubeTable table;
-  read_apart(path, [](const Place& place, hid_t file, ArraySender& to) {
+  read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     to(read_attributes(place, file));
     to(read_table(place, file));
   })(cube, table);
@@ -222,7 +223,7 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
   const std::size_t pings = table.track.size();
   bool one_by_one = false;
   const auto read_some = [&](std::size_t first) {
-    return read_apart(path, [&](const Place& place, hid_t file, ArraySender& to) {
+    return read_apart(path, [&](const FileContext& place, hid_t file, ArraySender& to) {
       std::size_t p = first;
       do {
         to(true);
@@ -252,7 +253,7 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
 
 std::vector<TrackPoint> read_track(const std::string& path) {
   std::vector<TrackPoint> track;
-  read_apart(path, [](const Place& place, hid_t file, ArraySender& to) {
+  read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     require_schema(place, file);
     const Handle dataset = open_dataset(place, file, pressure_name);
     to(track_of(place, file, extent_of(place, dataset, pressure_name.path, 3)[0]));

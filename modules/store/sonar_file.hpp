@@ -30,8 +30,9 @@ struct SonarFile {
 /// status, source}; plain values have status "user". Exactly one of bandwidth_hz and range_resolution_m (B = 1500 m/s /
 /// 2 dr) is given; azimuths_deg replaces beams and field_of_view_deg, elevations_deg replaces elevation_deg: with
 /// azimuths_deg one elevation per beam, without it a row of beams at each elevation. mounting_deg is the attitude that
-/// a mission gives the head. `numbers` also lists a derived bandwidth and the defaults of omitted keys. Unknown or missing keys, wrong types and invalid values are errors with
-/// file, line and remedy. Throws Error(file) or Error(content).
+/// a mission gives the head. `numbers` also lists a derived bandwidth and the defaults of omitted keys. Unknown or
+/// missing keys, wrong types and invalid values are errors with file, line and remedy. Throws Error(file) or
+/// Error(content).
 SonarFile load_sonar_file(const std::string& path);
 
 /// A preset by name ("oculus-m750d") from the sonar folder, or a file by path (ending in .toml). Throws Error(argument)

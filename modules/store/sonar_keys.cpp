@@ -33,8 +33,8 @@ void drop_table(SonarSpec& spec) {
   spec.elevations.clear();
 }
 
-/// Number and field of view of beams at given azimuths: it extends half a mean spacing beyond the outermost beams, as in
-/// an evenly spaced fan, and is at least one beam width.
+/// Number and field of view of beams at given azimuths: it extends half a mean spacing beyond the outermost beams, as
+/// in an evenly spaced fan, and is at least one beam width.
 void fit_fan(SonarSpec& spec) {
   if (spec.azimuths.empty()) return;
   spec.beams = spec.azimuths.size();

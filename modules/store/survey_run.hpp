@@ -35,7 +35,8 @@ void open_survey_run(const std::string& folder, const SurveyRun& run);
 /// Throws Error(file) if `folder` is not of a survey, Error(content) if its survey.toml is damaged.
 SurveyRun load_survey_run(const std::string& folder);
 
-/// Files of a block; `coverage` only of surveys that ask for it. `partial_...` hold the pings of one that was interrupted.
+/// Files of a block; `coverage` only of surveys that ask for it. `partial_...` hold the pings of one that was
+/// interrupted.
 struct BlockFiles {
   std::string folder, cube, returns, coverage, mark, partial_cube, partial_returns;
 };

@@ -87,7 +87,7 @@ hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
 
 // HDF5 type of an image's values in the file or in memory.
 template <typename Number>
-Handle image_type(const Place& place, bool in_file) {
+Handle image_type(const FileContext& place, bool in_file) {
   if constexpr (std::is_same_v<Number, std::complex<float>>)
     return complex_type(place, in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT);
   return {place.checked(H5Tcopy(type_of<Number>(in_file)), "type"), H5Tclose};
@@ -95,8 +95,8 @@ Handle image_type(const Place& place, bool in_file) {
 
 // Writes one image per ping: the pressure, layer or map selected by `part`.
 template <typename Part>
-void write_images(const Place& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings, Part part,
-                  Packing packing) {
+void write_images(const FileContext& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings,
+                  Part part, Packing packing) {
   const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();
   const Extent extent = {pings.size(), beams, bins};
   using Number = typename std::decay_t<decltype(part(pings[0]))>::Scalar;
@@ -125,7 +125,7 @@ float rounded(float value, int bits) {
 
 // Writes pressures with as many significant bits as the cube keeps.
 template <typename Part>
-void write_pressures(const Place& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
+void write_pressures(const FileContext& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
   const int bits = cube.keep_bits;
   if (bits == Cube::all_bits) return write_images(place, file, name, cube.pings, part, Packing::none);
   const auto round = [bits](const std::complex<float>& p) {
@@ -136,7 +136,7 @@ void write_pressures(const Place& place, hid_t file, const DatasetName& name, co
       Packing::deflate);
 }
 
-void write_layers(const Place& place, hid_t file, const Cube& cube) {
+void write_layers(const FileContext& place, hid_t file, const Cube& cube) {
   const std::vector<Layer>& layers = cube.pings.front().layers;
   if (layers.empty()) return;
   const Handle group = create_ordered_group(place, file, layers_group);
@@ -147,7 +147,7 @@ void write_layers(const Place& place, hid_t file, const Cube& cube) {
   }
 }
 
-void write_maps(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
   // Noise-like numbers do not become smaller; masks and labels do.
   const auto write = [&](const DatasetName& name, auto map, Packing packing) {
     if ((pings.front().*map).size() > 0)
@@ -170,7 +170,7 @@ void write_maps(const Place& place, hid_t file, const std::vector<Ping>& pings) 
   write_attribute(place, file, label_names_attribute, joined(first.names, "\n"));
 }
 
-void write_axes(const Place& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {
+void write_axes(const FileContext& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {
   std::vector<double> range(gate.bins());
   for (std::size_t n = 0; n < range.size(); ++n) range[n] = gate.centre(n);
   write_numbers(place, file, range_name, {range.size()}, range.data());
@@ -183,7 +183,7 @@ void append_pose(std::vector<double>& numbers, const Pose& pose) {
     for (int column = 0; column < 4; ++column) numbers.push_back(pose.matrix()(row, column));
 }
 
-void write_track(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+void write_track(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
   std::vector<double> pose, time;
   std::vector<std::int64_t> number;
   for (const Ping& ping : pings) {
@@ -197,7 +197,7 @@ void write_track(const Place& place, hid_t file, const std::vector<Ping>& pings)
 }
 
 // The water at the head of every ping, if any has another than the cube says.
-void write_water(const Place& place, hid_t file, const Cube& cube) {
+void write_water(const FileContext& place, hid_t file, const Cube& cube) {
   std::vector<double> speed, absorption;
   bool differ = false;
   for (const Ping& ping : cube.pings) {
@@ -212,7 +212,7 @@ void write_water(const Place& place, hid_t file, const Cube& cube) {
 }
 
 // How the head moves in every ping, if it does in any.
-void write_motion(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+void write_motion(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
   if (std::all_of(pings.begin(), pings.end(), [](const Ping& ping) { return ping.motion.none(); })) return;
   std::vector<Eigen::Vector3d> velocity, turn_rate;
   for (const Ping& ping : pings) {
@@ -224,7 +224,7 @@ void write_motion(const Place& place, hid_t file, const std::vector<Ping>& pings
 }
 
 // Of a scanning head: its own turn, and time and pose of every beam.
-void write_scan(const Place& place, hid_t file, const std::vector<Ping>& pings) {
+void write_scan(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
   if (!pings.front().scan) return;
   const std::size_t beams = pings.front().fan.beams();
   std::vector<double> time, pose, angle;
@@ -243,7 +243,7 @@ void write_scan(const Place& place, hid_t file, const std::vector<Ping>& pings) 
   write_numbers(place, file, beam_pose_name, {pings.size(), beams, 4, 4}, pose.data());
 }
 
-void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
+void write_root_attributes(const FileContext& place, hid_t file, const Cube& cube) {
   write_attribute(place, file, "schema", cube_schema);
   write_attribute(place, file, "insonify_version", cube.insonify_version);
   write_attribute(place, file, "sonar", cube.sonar);
@@ -275,7 +275,7 @@ void write_root_attributes(const Place& place, hid_t file, const Cube& cube) {
 
 void write_cube(const std::string& path, const Cube& cube) {
   require_writable(cube, path);
-  write_hdf5(path, [&](const Place& place, hid_t file) {
+  write_hdf5(path, [&](const FileContext& place, hid_t file) {
     write_root_attributes(place, file, cube);
     write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
     write_track(place, file, cube.pings);

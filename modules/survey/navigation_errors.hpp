@@ -24,14 +24,14 @@ struct NavigationErrors {
 
 /// First-order Gauss-Markov processes along the trajectory, one for each component (E98): from node to node
 ///
-///   e' = e exp(-dt / T) + sigma sqrt(1 - exp(-2 dt / T)) n,  dt = T / 10,  n standard normal by seed, node and component
+///   e' = e exp(-dt / T) + sigma sqrt(1 - exp(-2 dt / T)) n, dt = T / 10, n standard normal by seed, node and component
 ///
-/// and e = sigma n at the first. A function of trajectory, noise and seed alone. Throws Error(argument) for a deviation that
-/// is not finite and >= 0, a correlation time that is not > 0, or more than 10^7 nodes.
+/// and e = sigma n at the first. A function of trajectory, noise and seed alone. Throws Error(argument) for a deviation
+/// that is not finite and >= 0, a correlation time that is not > 0, or more than 10^7 nodes.
 NavigationErrors navigation_errors(const Trajectory& trajectory, const NavigationNoise& noise, std::uint64_t seed);
 
-/// The pose that a vehicle believes to have at `time`: moved by the error of position, turned by that of heading about the
-/// vertical, and by those of pitch and roll about its own y and x axes.
+/// The pose that a vehicle believes to have at `time`: moved by the error of position, turned by that of heading about
+/// the vertical, and by those of pitch and roll about its own y and x axes.
 Pose believed_pose(const NavigationErrors& errors, double time, const Pose& true_pose);
 
 }  // namespace insonify

@@ -10,8 +10,8 @@
 
 namespace insonify {
 
-/// By how much the pings of a survey may differ from what the mission says: half widths of uniform distributions, 0: not
-/// at all.
+/// By how much the pings of a survey may differ from what the mission says: half widths of uniform distributions, 0:
+/// not at all.
 struct Randomisation {
   double source_level_db = 0;                      ///< of the sonar
   double noise_db = 0;                             ///< of the sonar's own noise and of the ambient level

@@ -19,8 +19,8 @@ struct SurveySettings {
 class Survey {
  public:
   /// `heads` are those of the mission, in its order; every ping runs on one thread. A head of the mission without a
-  /// listening time gets that of its range gate in its slowest water. Throws Error(argument) for an invalid mission, pings
-  /// closer than the listening time, and another number of simulators than heads.
+  /// listening time gets that of its range gate in its slowest water. Throws Error(argument) for an invalid mission,
+  /// pings closer than the listening time, and another number of simulators than heads.
   Survey(Mission mission, const std::vector<PingSimulator>& heads, SurveySettings settings = {});
 
   /// The mission, with the listening times that were left out.
@@ -34,8 +34,8 @@ class Survey {
   /// Returns time, pose and motion of a ping, with what the mission randomises.
   PingEvent event_of(const SurveyPing& ping) const;
 
-  /// Simulates a ping. With navigation errors, pose and soundings are where the vehicle believes them to be. Several threads
-  /// may call it at once. Throws Error as PingSimulator::ping.
+  /// Simulates a ping. With navigation errors, pose and soundings are where the vehicle believes them to be. Several
+  /// threads may call it at once. Throws Error as PingSimulator::ping.
   PingOutcome simulate(const SurveyPing& ping, const SceneSource& scene) const;
 
  private:
@@ -48,9 +48,9 @@ class Survey {
 /// Returns what a survey stores of a simulated ping, as Survey::simulate does.
 PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping);
 
-/// Simulates the pings of some blocks, `threads` (0: all cores) at once, in the order of the blocks. Memory holds the outcomes
-/// of unfinished blocks only. The outcome of a ping that throws Error or runs out of memory is a failure. Returns true
-/// if no ping is left. The outcomes do not depend on `threads`.
+/// Simulates the pings of some blocks, `threads` (0: all cores) at once, in the order of the blocks. Memory holds the
+/// outcomes of unfinished blocks only. The outcome of a ping that throws Error or runs out of memory is a failure.
+/// Returns true if no ping is left. The outcomes do not depend on `threads`.
 bool simulate_survey(const Survey& survey, const std::vector<SurveyBlock>& blocks, const SceneSource& scene,
                      SurveyStore& store, int threads = 0);
 

@@ -21,15 +21,16 @@ struct SurveyPing {
 /// pings of a head closer than its listening time (naming both and the figure), or if there is no ping at all.
 std::vector<SurveyPing> survey_pings(const Mission& mission);
 
-/// Returns time, pose and motion of a ping: those of the vehicle (pose_at, motion_at), with mounting and scan angle of the
-/// head, whose lever arm moves as the vehicle turns. Its number is random_stream_of(ping). O(log n) for a trajectory of n
-/// entries. Throws as pose_at.
+/// Returns time, pose and motion of a ping: those of the vehicle (pose_at, motion_at), with mounting and scan angle of
+/// the head, whose lever arm moves as the vehicle turns. Its number is random_stream_of(ping). O(log n) for a
+/// trajectory of n entries. Throws as pose_at.
 PingEvent event_of(const Mission& mission, const SurveyPing& ping);
 
 /// Returns the pose of event_of with the mission's navigation errors: where the vehicle believes the head to be.
 Pose believed_pose_of(const Mission& mission, const SurveyPing& ping);
 
-/// Returns PingEvent::number of a ping: different for all pings of all heads, and equal to `number` in its lower 40 bits.
+/// Returns PingEvent::number of a ping: different for all pings of all heads, and equal to `number` in its lower 40
+/// bits.
 std::int64_t random_stream_of(const SurveyPing& ping);
 
 /// Consecutive pings of one head that are stored together: the unit of work.

@@ -33,7 +33,8 @@ std::vector<ColourStop> viridis_stops() {
   return stops;
 }
 
-// Copper and jet as MATLAB defines them. Bronze in CIELAB: lightness 0, 20, 84, 98 and hue -10, 15, 95, 102 degrees at 0,
+// Copper and jet as MATLAB defines them. Bronze in CIELAB: lightness 0, 20, 84, 98 and hue -10, 15, 95, 102 degrees at
+// 0,
 // 0.3, 0.8 and 1, linear in between, so that most of its contrast lies where seabeds and their speckle are; amber is the screen of an analogue sonar: black, brown, orange, pale
 // yellow.
 std::vector<NamedMap> colour_maps() {

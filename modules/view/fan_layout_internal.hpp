@@ -15,7 +15,8 @@ struct FanOutline {
   bool downwards = false;  ///< drawn with the apex at the top
 };
 
-/// Layout of a fan picture. Forward is up, or down if the head looks down, and starboard right: the flip of the head axes (y to port) is made only here.
+/// Layout of a fan picture. Forward is up, or down if the head looks down, and starboard right: the flip of the head
+/// axes (y to port) is made only here.
 struct FanLayout {
   Point2 apex;  ///< the head
   double pixels_per_metre = 1;
@@ -50,8 +51,8 @@ std::optional<PlacedText> place_title(const PictureOptions& options);
 FanLayout lay_out_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
                       const std::string& unit);
 
-/// The options with the even width and height that the fan, as large as it is in the whole picture, needs with its labels,
-/// colour bar and title, and with the text size of the whole picture.
+/// The options with the even width and height that the fan, as large as it is in the whole picture, needs with its
+/// labels, colour bar and title, and with the text size of the whole picture.
 PictureOptions trimmed_to_fan(const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
                               const std::string& unit);
 

@@ -54,8 +54,8 @@ Grid<std::uint16_t> values_of(vtkImageData* image) {
       .template cast<std::uint16_t>();
 }
 
-/// The head of a PNG (Portable Network Graphics 1.2, 11.2.2), of a file that ends as one does: VTK's reader draws the rest
-/// of a truncated file as black.
+/// The head of a PNG (Portable Network Graphics 1.2, 11.2.2), of a file that ends as one does: VTK's reader draws the
+/// rest of a truncated file as black.
 struct PngHead {
   std::size_t bytes = 0;  ///< of the file
   double width = 0, height = 0;

@@ -12,12 +12,12 @@ struct GreyPicture {
   Grid<std::uint16_t> value;  ///< rows x columns
 };
 
-/// Reads a PNG of one channel of 8 or 16 bits. Throws Error(file) if it cannot be read, Error(content) if it is no PNG, is
-/// truncated or damaged, or is in colours.
+/// Reads a PNG of one channel of 8 or 16 bits. Throws Error(file) if it cannot be read, Error(content) if it is no PNG,
+/// is truncated or damaged, or is in colours.
 GreyPicture load_grey_png(const std::string& path);
 
-/// Writes grey values as a PNG, rows from the top; 8 or 16 bits by their type. Written to a temporary name, then renamed.
-/// Throws Error(argument) for an empty picture, Error(file) if it cannot write.
+/// Writes grey values as a PNG, rows from the top; 8 or 16 bits by their type. Written to a temporary name, then
+/// renamed. Throws Error(argument) for an empty picture, Error(file) if it cannot write.
 void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey);
 /// The same with 16 bits.
 void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey);

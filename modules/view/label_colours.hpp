@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// Red, green and blue of a class in label pictures: 0 (nothing) black, 1 (shadow) dark blue, then materials in the colours
-/// of pictures of scenes, which repeat after ten.
+/// Red, green and blue of a class in label pictures: 0 (nothing) black, 1 (shadow) dark blue, then materials in the
+/// colours of pictures of scenes, which repeat after ten.
 std::array<std::uint8_t, 3> label_colour(std::uint8_t category);
 
 /// Writes classes, rows from the top, as a PNG in their colours. Errors as save_grey_png.

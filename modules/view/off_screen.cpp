@@ -69,8 +69,8 @@ std::string drawn_in_child(const char* who, std::size_t left, const std::functio
   constexpr std::size_t most_bytes = std::size_t{32} << 20;
   ErrorKind refused = ErrorKind::runtime;
   std::string refusal, png;
-  // What the drawing itself refuses is sent as a result: every other end of the child is a lack of memory, since the child
-  // may have more than is left.
+  // What the drawing itself refuses is sent as a result: every other end of the child is a lack of memory, since the
+  // child may have more than is left.
   const auto draw_or_refuse = [&](ArraySender& send) {
     try {
       const std::string drawn = draw();

@@ -60,15 +60,16 @@ class VtkMessages {
 /// Returns the window's back buffer as the bytes of a PNG. Throws Error(runtime) if VTK reported an error.
 std::string png_of_window(vtkRenderWindow* window, const VtkMessages& messages, const char* who);
 
-/// Writes the bytes of a PNG. Throws Error(file) if the file cannot be written, Error(argument) unless `path` ends with .png.
+/// Writes the bytes of a PNG. Throws Error(file) if the file cannot be written, Error(argument) unless `path` ends with
+/// .png.
 void write_png(const std::string& path, std::string_view png);
 
-/// Writes the input of `writer` as PNG, to a temporary name that is then renamed. Throws Error(runtime) if VTK reported an
-/// error, Error(file) if the file cannot be written, Error(argument) unless `path` ends with .png.
+/// Writes the input of `writer` as PNG, to a temporary name that is then renamed. Throws Error(runtime) if VTK reported
+/// an error, Error(file) if the file cannot be written, Error(argument) unless `path` ends with .png.
 void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who);
 
-/// Writes the PNG that `draw` returns, as write_png. Under a limit of address space a child process draws, since Mesa ends
-/// its process where it gets no memory: Error(memory) then.
+/// Writes the PNG that `draw` returns, as write_png. Under a limit of address space a child process draws, since Mesa
+/// ends its process where it gets no memory: Error(memory) then.
 void save_drawing(const std::string& path, const char* who, const std::function<std::string(const VtkMessages&)>& draw);
 
 }  // namespace insonify

@@ -37,8 +37,8 @@ struct SweepImage {
   LevelImage image;
   std::vector<std::size_t> ping;  ///< by beam of the image: place in the record of the ping that heard it, or will
 };
-/// Draws the sweep that begins at place `first` of a record and ends with it, up to place `shown`; what this sweep has not
-/// heard yet is that of the pings before. `fan` is that of the head.
+/// Draws the sweep that begins at place `first` of a record and ends with it, up to place `shown`; what this sweep has
+/// not heard yet is that of the pings before. `fan` is that of the head.
 SweepImage sweep_image(const BeamRecord& record, const BeamFan& fan, std::size_t first, std::size_t shown);
 
 }  // namespace insonify

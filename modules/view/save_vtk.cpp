@@ -98,8 +98,8 @@ vtkSmartPointer<vtkPoints> corners(const std::vector<double>& bearing_edges, con
   return points;
 }
 
-/// Elevations between the cells of rows, halfway from row to row, and beyond the outermost by half a step; of one row, its
-/// own.
+/// Elevations between the cells of rows, halfway from row to row, and beyond the outermost by half a step; of one row,
+/// its own.
 std::vector<double> elevation_edges(const std::vector<FanRow>& rows) {
   if (rows.size() == 1) return {rows.front().elevation};
   std::vector<double> edges{1.5 * rows[0].elevation - 0.5 * rows[1].elevation};

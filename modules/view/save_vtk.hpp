@@ -19,12 +19,12 @@ struct SampleField {
 
 /// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling. Each sample is a cell between the edges
 /// of its beam (halfway to its neighbours, as in show_fan) and of its bin, at the elevation of its row, with corners in
-/// the world [m, double]. Rows of beams of the same bearings are the layers of one volume, between elevations halfway from
-/// row to row; rows that differ give one file each, by ascending elevation: path.vts becomes path_row_000.vts,
-/// path_row_001.vts ... Beams of one bearing within a row share a cell, which holds the largest value
-/// of each field. Returns the names of the files, which are written under temporary names and renamed. Throws
-/// Error(argument) for an invalid fan or gate, no fields, a field that is not beams x bins, or two fields of one name;
-/// Error(file) if it cannot write.
+/// the world [m, double]. Rows of beams of the same bearings are the layers of one volume, between elevations halfway
+/// from row to row; rows that differ give one file each, by ascending elevation: path.vts becomes path_row_000.vts,
+/// path_row_001.vts ... Beams of one bearing within a row share a cell, which holds the largest value of each field.
+/// Returns the names of the files, which are written under temporary names and renamed. Throws Error(argument) for an
+/// invalid fan or gate, no fields, a field that is not beams x bins, or two fields of one name; Error(file) if it
+/// cannot write.
 std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& fan, const RangeGate& gate,
                                        const std::vector<SampleField>& fields, const Pose& world_from_head);
 
@@ -40,7 +40,8 @@ struct HorizontalMap {
 };
 
 /// Writes all fields as cells of a VTK image (.vti) at their place in the world, z = 0. Written to a temporary name,
-/// then renamed. Throws Error(argument) unless there is a field and all are of one size, Error(file) if it cannot write.
+/// then renamed. Throws Error(argument) unless there is a field and all are of one size, Error(file) if it cannot
+/// write.
 void save_map_image(const std::string& path, const HorizontalMap& map);
 
 /// Reads what save_map_image wrote. Throws Error(file) if it is missing, Error(content) if it is not such a map.
@@ -58,10 +59,11 @@ struct PointColumn {
   bool whole = false;  ///< whole numbers from 0
 };
 
-/// Writes soundings as VTK polydata (.vtp): a vertex each in the world [m, double], the columns as point data under their
-/// names, level_db first, then those of `more`, and their units as the text array `units` of the field data, "name: unit" each, and as
-/// UNITS_LABEL of the arrays. Written to a temporary name, then renamed. Throws Error(argument) for columns of different
-/// lengths, Error(file) if it cannot write.
+/// Writes soundings as VTK polydata (.vtp): a vertex each in the world [m, double], the columns as point data under
+/// their
+/// names, level_db first, then those of `more`, and their units as the text array `units` of the field data, "name:
+/// unit" each, and as UNITS_LABEL of the arrays. Written to a temporary name, then renamed. Throws Error(argument) for
+/// columns of different lengths, Error(file) if it cannot write.
 void save_points(const std::string& path, const Soundings& soundings, const std::vector<PointColumn>& more = {});
 
 /// A file of a time series.

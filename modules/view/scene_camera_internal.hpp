@@ -21,8 +21,8 @@ struct CameraView {
 /// head, those within its range gate, or all if there are none.
 std::vector<Eigen::Vector3d> points_of_interest(const SceneCloud& scene, const SceneLook& look);
 
-/// The camera of a preset, as near as possible with all `points` (not empty) inside the window of width x height pixels,
-/// leaving `margin` pixels on every side.
+/// The camera of a preset, as near as possible with all `points` (not empty) inside the window of width x height
+/// pixels, leaving `margin` pixels on every side.
 CameraView place_view(const SceneCloud& scene, const SceneLook& look, ScenePreset preset,
                       const std::vector<Eigen::Vector3d>& points, double width, double height, double margin);
 

@@ -93,9 +93,9 @@ struct PingHistory {
 };
 
 /// Draws pings x range as a waterfall: one row per ping, the newest on top; range to the right, of two sides away from
-/// the middle; colour bar, title. Rows have equal height whatever the time between pings and are labelled by ping number. Rows and bins smaller than half a
-/// pixel are averaged in power, as in show_fan. Files and errors as show_fan; also Error(argument) for fewer than two
-/// pings, or if numbers, times and rows are not equally many.
+/// the middle; colour bar, title. Rows have equal height whatever the time between pings and are labelled by ping
+/// number. Rows and bins smaller than half a pixel are averaged in power, as in show_fan. Files and errors as show_fan;
+/// also Error(argument) for fewer than two pings, or if numbers, times and rows are not equally many.
 void show_waterfall(const PingHistory& history, const PictureOptions& options, const std::string& png_path);
 
 /// The `count` strongest local maxima of an image, strongest first: cells no weaker than their neighbours in bearing
@@ -105,8 +105,8 @@ void show_waterfall(const PingHistory& history, const PictureOptions& options, c
 /// an invalid image or unless within_db > 0.
 std::vector<Mark> strongest_maxima(const LevelImage& image, std::size_t count, double within_db);
 
-/// Draws soundings of the bottom as points: across to starboard from the head, and height in the world [m], those found by
-/// amplitude, those by phase, and rejected ones apart. Files as show_fan; Error(content) without soundings.
+/// Draws soundings of the bottom as points: across to starboard from the head, and height in the world [m], those found
+/// by amplitude, those by phase, and rejected ones apart. Files as show_fan; Error(content) without soundings.
 void show_soundings(const Ping& ping, const BottomSoundings& found, const PictureOptions& options,
                     const std::string& png_path);
 

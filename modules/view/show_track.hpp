@@ -23,9 +23,9 @@ struct TrackMap {
   std::string unit;               ///< of the colour bar
 };
 
-/// Draws levels and ways to one scale, x to the right and y up, into a PNG without an X server: each way as a line with its
-/// name where it begins, a ring where it ends, and some 20 short strokes in the direction of the head. Files and errors as
-/// show_fan; also Error(argument) if there is no place at all, or a cell that is not > 0.
+/// Draws levels and ways to one scale, x to the right and y up, into a PNG without an X server: each way as a line with
+/// its name where it begins, a ring where it ends, and some 20 short strokes in the direction of the head. Files and
+/// errors as show_fan; also Error(argument) if there is no place at all, or a cell that is not > 0.
 void show_track(const TrackMap& map, const PictureOptions& options, const std::string& png_path);
 
 }  // namespace insonify

@@ -9,7 +9,7 @@
 #include "scene/scene_cloud.hpp"
 #include "sonar/beam_fan.hpp"
 #include "sonar/range_gate.hpp"
-#include "viewer/ping_reel.hpp"
+#include "viewer/lazy_pings.hpp"
 #include "viewer/viewer_state.hpp"
 
 namespace insonify {
@@ -20,7 +20,7 @@ inline constexpr const char* viewer_caller = "show_viewer";
 /// Data of the viewer. Of a run: pings, and the other members as far as available. To inspect: scene, fan and gate.
 struct ViewerData {
   std::string title;
-  PingReel pings;                           ///< all with the same fan and gate
+  LazyPings pings;                          ///< all with the same fan and gate
   std::vector<Contributors> contributors;   ///< one per ping, empty if unknown; or no elements
   std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
   Soundings returns;                        ///< of all pings; unused if `pings` has returns of its own

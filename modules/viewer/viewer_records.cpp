@@ -12,7 +12,7 @@ constexpr std::size_t pings_of_a_page = 600;
 constexpr std::size_t longest_sweep = 4000;
 
 // The pings of the sweep that `ping` is of.
-PageOfPings sweep_of(const PingReel& pings, std::size_t ping) {
+PageOfPings sweep_of(const LazyPings& pings, std::size_t ping) {
   const auto in_sweep = [&](std::size_t i) {
     return pings.place(i).scan && pings.place(i).scan->sweep == pings.place(ping).scan->sweep;
   };
@@ -24,12 +24,12 @@ PageOfPings sweep_of(const PingReel& pings, std::size_t ping) {
 
 }  // namespace
 
-void turn_page(BeamPage& page, const PingReel& pings, std::size_t first, std::size_t count, std::size_t beam) {
+void turn_page(BeamPage& page, const LazyPings& pings, std::size_t first, std::size_t count, std::size_t beam) {
   if (page.first == first && page.count == count && page.beam == beam) return;
   page = {first, count, beam, pings.beam(first, count, beam)};
 }
 
-PageOfPings page_of(const PingReel& pings, std::size_t ping) {
+PageOfPings page_of(const LazyPings& pings, std::size_t ping) {
   std::size_t first = ping - ping % pings_of_a_page;
   const std::size_t count = std::min(pings_of_a_page, pings.size() - first);
   if (count < 2 && first > 0) --first;  // one row is no waterfall
@@ -50,7 +50,7 @@ BeamRecord record_of(const ViewerData& data, const BeamPage& page, bool tvg) {
 }
 
 SweepImage sweep_at(const ViewerData& data, std::size_t ping, bool tvg, BeamPage& page) {
-  const PingReel& pings = data.pings;
+  const LazyPings& pings = data.pings;
   const PageOfPings own = sweep_of(pings, ping);
   const PageOfPings before = own.first > 0 ? sweep_of(pings, own.first - 1) : PageOfPings{own.first, 0};
   turn_page(page, pings, before.first, before.count + own.count, 0);

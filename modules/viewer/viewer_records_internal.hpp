@@ -16,13 +16,13 @@ struct BeamPage {
 };
 
 /// Makes `page` that of these pings, reading them if they are others than those it holds.
-void turn_page(BeamPage& page, const PingReel& pings, std::size_t first, std::size_t count, std::size_t beam);
+void turn_page(BeamPage& page, const LazyPings& pings, std::size_t first, std::size_t count, std::size_t beam);
 
 /// The first and number of the pings of the waterfall in which a ping is shown: at most 600 of them.
 struct PageOfPings {
   std::size_t first = 0, count = 0;
 };
-PageOfPings page_of(const PingReel& pings, std::size_t ping);
+PageOfPings page_of(const LazyPings& pings, std::size_t ping);
 
 /// The levels of a page, range compensated if `tvg`.
 BeamRecord record_of(const ViewerData& data, const BeamPage& page, bool tvg);

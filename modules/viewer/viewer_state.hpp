@@ -79,7 +79,8 @@ struct ViewerButton {
   std::vector<std::string> also{};                                ///< other keys that do the same
   ViewerRequest request = ViewerRequest::none;
 };
-/// A row of the table of keys, from which help, buttons and apply_key are made. A row without buttons is about the mouse.
+/// A row of the table of keys, from which help, buttons and apply_key are made. A row without buttons is about the
+/// mouse.
 struct ViewerKey {
   std::string action;
   std::vector<ViewerButton> buttons;
@@ -97,7 +98,8 @@ std::string viewer_help(ViewerMode mode);
 KeyAnswer apply_key(ViewerState state, const std::string& key, const ViewerExtent& extent);
 
 /// Selects a sample, or adds a point to an active measurement, which ends with the second one: its length stays until
-/// the next measurement or Escape. Places outside `extent` change nothing. `at` is the same place on the fan [m], starboard and forward.
+/// the next measurement or Escape. Places outside `extent` change nothing. `at` is the same place on the fan [m],
+/// starboard and forward.
 ViewerState select_pixel(ViewerState state, PixelPlace place, const Eigen::Vector2d& at, const ViewerExtent& extent);
 
 /// Goes to a ping and selects its sample, as a click on a waterfall or a sweep does; playing stops. Places outside

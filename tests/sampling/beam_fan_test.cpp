@@ -92,13 +92,13 @@ TEST(Sector, of_a_full_circle_is_the_circle) {
   EXPECT_NEAR(s.max_elevation, pi / 2, 1e-12);
 }
 
-TEST(BeamShares, tile_the_sector) {
+TEST(BeamCells, tile_the_sector) {
   const BeamFan irregular{{0.3, -0.2, 0.25, 0.0}, {0, 0, 0, 0}, 0.1, 0.3};
   for (const BeamFan& fan :
        {make_fan(5, 1, 0.1, 0.3), irregular, make_fan(1, 1, 0.1, 0.3), make_fan(36, 2 * pi, 0.2, 0.3)}) {
     const Sector sector = insonified_sector(fan, 0.3);
     double sum = 0;
-    const auto shares = beam_shares(fan, sector);
+    const auto shares = beam_cells(fan, sector);
     for (std::size_t b = 0; b < fan.beams(); ++b) {
       sum += shares[b].max_azimuth - shares[b].min_azimuth;
       const double off = std::remainder(fan.azimuth[b] - (shares[b].min_azimuth + shares[b].max_azimuth) / 2, 2 * pi);
@@ -108,9 +108,9 @@ TEST(BeamShares, tile_the_sector) {
   }
 }
 
-TEST(BeamShares, of_beams_in_a_column_share_its_elevations) {
+TEST(BeamCells, of_beams_in_a_column_share_its_elevations) {
   const BeamFan grid{{0, 0, 0.1, 0.1}, {-0.1, 0.1, -0.1, 0.1}, 0.1, 0.2};
-  const auto shares = beam_shares(grid, insonified_sector(grid, 0.2));
+  const auto shares = beam_cells(grid, insonified_sector(grid, 0.2));
   EXPECT_NEAR(shares[0].min_elevation, -0.3, 1e-12);
   EXPECT_NEAR(shares[0].max_elevation, 0.0, 1e-12);
   EXPECT_NEAR(shares[1].max_elevation, 0.3, 1e-12);
@@ -118,7 +118,7 @@ TEST(BeamShares, of_beams_in_a_column_share_its_elevations) {
 }
 
 // Staggered rows: every direction of the sector still belongs to exactly one beam.
-TEST(BeamShares, of_staggered_rows_and_of_tables_tile_the_whole_sector) {
+TEST(BeamCells, of_staggered_rows_and_of_tables_tile_the_whole_sector) {
   BeamFan staggered{{}, {}, 0.02, 0.02}, table = staggered;
   for (int b = 0; b < 40; ++b) {
     staggered.azimuth.push_back(0.01 * b), staggered.elevation.push_back(b % 2 ? 0.1 : -0.1);
@@ -127,7 +127,7 @@ TEST(BeamShares, of_staggered_rows_and_of_tables_tile_the_whole_sector) {
   for (const BeamFan& fan : {staggered, table}) {
     const Sector sector = insonified_sector(fan, 0.05);
     double area = 0;
-    for (const BeamShare& share : beam_shares(fan, sector))
+    for (const BeamCell& share : beam_cells(fan, sector))
       area += (share.max_azimuth - share.min_azimuth) * (share.max_elevation - share.min_elevation);
     EXPECT_NEAR(area, (sector.max_azimuth - sector.min_azimuth) * (sector.max_elevation - sector.min_elevation), 1e-12);
   }

@@ -1,5 +1,5 @@
 // Cubes of which one byte is wrong, where HDF5 trusts it.
-#include "store/join_cubes.hpp"
+#include "store/concatenate_cube_files.hpp"
 #include "store/random_cube.hpp"
 
 namespace {
@@ -44,6 +44,6 @@ TEST(DamagedCube, is_not_joined) {
     bytes[tree] = 't';
   const std::string part = own_file("part.h5", bytes), whole = own_path("whole.h5");
   for (const bool copy : {false, true})
-    expect_error(ErrorKind::content, {"part.h5: "}, [&] { join_cubes(whole, {part}, copy); });
+    expect_error(ErrorKind::content, {"part.h5: "}, [&] { concatenate_cube_files(whole, {part}, copy); });
   EXPECT_FALSE(std::filesystem::exists(whole));
 }

@@ -1,5 +1,4 @@
-#include "store/merge_cubes.hpp"
-
+#include "store/merge_cubes_by_time.hpp"
 #include "support/test.hpp"
 
 using testing::ElementsAre;
@@ -40,13 +39,13 @@ template <typename Change>
 std::string refusal_of_merging(Change&& change) {
   NamedCube second = run_of("out-1", 1, 2);
   change(second.cube);
-  return error_with_kind([&] { merge_cubes({run_of("out-0", 0, 1), second}); });
+  return error_with_kind([&] { merge_cubes_by_time({run_of("out-0", 0, 1), second}); });
 }
 
 }  // namespace
 
 TEST(MergeCubes, puts_pings_in_order_of_time_and_says_of_the_rest_what_the_first_cube_does) {
-  const MergedCube traced = merge_cubes({run_of("b", 2, 20, 7), run_of("a", 1, 10, 9), run_of("c", 3, 30, 8)});
+  const MergedCube traced = merge_cubes_by_time({run_of("b", 2, 20, 7), run_of("a", 1, 10, 9), run_of("c", 3, 30, 8)});
   const Cube& merged = traced.cube;
   ASSERT_EQ(traced.origins.size(), 3u);
   EXPECT_EQ(traced.origins[0].cube, 1u);
@@ -59,7 +58,7 @@ TEST(MergeCubes, puts_pings_in_order_of_time_and_says_of_the_rest_what_the_first
 }
 
 TEST(MergeCubes, keeps_the_order_given_for_pings_of_one_time_and_counts_numbers_that_are_alike) {
-  const Cube merged = merge_cubes({run_of("b", 5, 20, 3), run_of("a", 5, 10, 3), run_of("c", 0, 30, 3)}).cube;
+  const Cube merged = merge_cubes_by_time({run_of("b", 5, 20, 3), run_of("a", 5, 10, 3), run_of("c", 0, 30, 3)}).cube;
   EXPECT_THAT(values(merged), ElementsAre(30, 20, 10));
   EXPECT_THAT(numbers(merged), ElementsAre(0, 1, 2));
 }
@@ -67,11 +66,11 @@ TEST(MergeCubes, keeps_the_order_given_for_pings_of_one_time_and_counts_numbers_
 TEST(MergeCubes, keeps_layers_only_if_all_pings_have_the_same) {
   NamedCube second = run_of("b", 1, 2);
   second.cube.pings[0].layers.pop_back();
-  for (const Ping& ping : merge_cubes({run_of("a", 0, 1), second}).cube.pings) EXPECT_TRUE(ping.layers.empty());
+  for (const Ping& ping : merge_cubes_by_time({run_of("a", 0, 1), second}).cube.pings) EXPECT_TRUE(ping.layers.empty());
 }
 
 TEST(MergeCubes, makes_a_cube_that_can_be_written_and_read) {
-  const Cube merged = merge_cubes({run_of("a", 0, 1), run_of("b", 1, 2)}).cube;
+  const Cube merged = merge_cubes_by_time({run_of("a", 0, 1), run_of("b", 1, 2)}).cube;
   write_cube(own_path("all.h5"), merged);
   EXPECT_THAT(values(read_cube(own_path("all.h5"))), ElementsAre(1, 2));
 }
@@ -80,7 +79,7 @@ TEST(MergeCubes, leaves_each_ping_in_its_own_water) {
   NamedCube cold = run_of("cold", 1, 2), other = run_of("other", 0, 1);
   cold.cube.sound_speed = 1480, cold.cube.absorption_db_per_m = 0.1;
   other.cube.pings[0].sound_speed = 1510, other.cube.pings[0].absorption_db_per_m = 0.2;
-  const Cube merged = merge_cubes({cold, other}).cube;
+  const Cube merged = merge_cubes_by_time({cold, other}).cube;
   EXPECT_EQ(merged.pings[0].sound_speed, 1510);
   EXPECT_EQ(merged.pings[1].sound_speed, 1480);
   write_cube(own_path("all.h5"), merged);
@@ -104,5 +103,5 @@ TEST(MergeCubes, refuses_another_sonar_fan_gate_or_pulse) {
   EXPECT_THAT(refusal_of_merging([](Cube& c) { c.bandwidth = 20e3; }),
               HasSubstr("has a pulse of 900000 Hz and 20000 Hz wide"));
   EXPECT_THAT(refusal_of_merging([](Cube& c) { c.pings.clear(); }), HasSubstr("content: out-1: holds no pings"));
-  EXPECT_THAT(error_with_kind([] { merge_cubes({}); }), HasSubstr("argument: merge_cubes: no cubes"));
+  EXPECT_THAT(error_with_kind([] { merge_cubes_by_time({}); }), HasSubstr("argument: merge_cubes_by_time: no cubes"));
 }

@@ -1,8 +1,8 @@
 // Blocks of a survey on disk, and cubes made of them.
 #include "store/survey_run.hpp"
 
+#include "store/concatenate_cube_files.hpp"
 #include "store/cube.hpp"
-#include "store/join_cubes.hpp"
 #include "support/test.hpp"
 
 namespace fs = std::filesystem;
@@ -98,7 +98,7 @@ TEST(JoinCubes, refers_to_the_parts_or_copies_them) {
     write_cube(own_path("parts/1.h5"), cube_of(2, 3, {"direct", "noise"}, scan));
     write_cube(own_path("once.h5"), cube_of(0, 5, {"direct", "noise"}, scan));
     for (const bool copy : {false, true}) {
-      join_cubes(own_path("all.h5"), {own_path("parts/0.h5"), own_path("parts/1.h5")}, copy);
+      concatenate_cube_files(own_path("all.h5"), {own_path("parts/0.h5"), own_path("parts/1.h5")}, copy);
       const Cube all = read_cube(own_path("all.h5"));
       write_cube(own_path("again.h5"), all);
       EXPECT_EQ(file_bytes(own_path("again.h5")), file_bytes(own_path("once.h5"))) << "all that a cube holds";
@@ -122,7 +122,7 @@ TEST(JoinCubes, keeps_the_water_of_each_ping) {
   write_cube(own_path("1.h5"), in_water(cube_of(2, 3, {}, false), 2));
   write_cube(own_path("once.h5"), in_water(cube_of(0, 5, {}, false), 0));
   for (const bool copy : {false, true}) {
-    join_cubes(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")}, copy);
+    concatenate_cube_files(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")}, copy);
     const Cube all = read_cube(own_path("all.h5"));
     EXPECT_EQ(all.pings[1].sound_speed, 1500);
     EXPECT_EQ(all.pings[4].sound_speed, 1497);
@@ -143,7 +143,7 @@ TEST(JoinCubes, keeps_the_motion_of_each_ping) {
   write_cube(own_path("1.h5"), going(cube_of(2, 3, {}, false), 2));
   write_cube(own_path("once.h5"), going(cube_of(0, 5, {}, false), 0));
   for (const bool copy : {false, true}) {
-    join_cubes(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")}, copy);
+    concatenate_cube_files(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")}, copy);
     const Cube all = read_cube(own_path("all.h5"));
     EXPECT_TRUE(all.pings[1].motion.none());
     EXPECT_EQ(all.pings[4].motion.velocity, Eigen::Vector3d(1, -2, 1));
@@ -156,7 +156,7 @@ TEST(JoinCubes, keeps_the_motion_of_each_ping) {
 TEST(JoinCubes, may_be_moved_with_its_parts_but_not_without) {
   fs::create_directories(own_path("run/parts"));
   write_cube(own_path("run/parts/0.h5"), cube_of(0, 2, {}, false));
-  join_cubes(own_path("run/all.h5"), {own_path("run/parts/0.h5")});
+  concatenate_cube_files(own_path("run/all.h5"), {own_path("run/parts/0.h5")});
   fs::rename(own_path("run"), own_path("moved"));
   EXPECT_EQ(read_cube(own_path("moved/all.h5")).pings[1].pressure(0, 0), 1.0F);
   fs::remove(own_path("moved/parts/0.h5"));
@@ -170,14 +170,15 @@ TEST(JoinCubes, keeps_layers_that_all_have_and_refuses_other_sonars) {
   Cube other = cube_of(1, 1, {}, false);
   other.sonar = "other";
   write_cube(own_path("2.h5"), other);
-  join_cubes(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")});
+  concatenate_cube_files(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5")});
   for (const Ping& ping : read_cube(own_path("all.h5")).pings) EXPECT_EQ(ping.layers.size(), 1U);
   EXPECT_THAT(error_of(
                   [] {
-                    join_cubes(own_path("x.h5"), {own_path("0.h5"), own_path("2.h5")});
+                    concatenate_cube_files(own_path("x.h5"), {own_path("0.h5"), own_path("2.h5")});
                   },
                   ErrorKind::content),
               HasSubstr("2.h5: is of sonar other with 3 beams and 10 bins, not test with 3 and 10 as in"));
-  EXPECT_THAT(error_of([] { join_cubes(own_path("x.h5"), {}); }), HasSubstr("no parts, must be at least one"));
+  EXPECT_THAT(error_of([] { concatenate_cube_files(own_path("x.h5"), {}); }),
+              HasSubstr("no parts, must be at least one"));
   EXPECT_FALSE(file_exists(own_path("x.h5")));
 }

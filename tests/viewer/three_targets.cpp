@@ -23,7 +23,7 @@ void add_echo(std::vector<Ping>& pings, const Target& target) {
 
 }  // namespace
 
-PingReel reel_in_memory(std::vector<Ping> pings) {
+LazyPings reel_in_memory(std::vector<Ping> pings) {
   std::vector<TrackPoint> places;
   for (const Ping& ping : pings) places.push_back(track_point_of(ping));
   const auto held = std::make_shared<const std::vector<Ping>>(std::move(pings));

@@ -17,7 +17,7 @@ struct TargetData {
   Target port, starboard, far;
 };
 /// A reel of pings that are in memory.
-PingReel reel_in_memory(std::vector<Ping> pings);
+LazyPings reel_in_memory(std::vector<Ping> pings);
 
 /// `pings` identical pings with numbers 7, 8, ...
 TargetData three_targets(std::size_t pings = 1, bool with_contributors = false);

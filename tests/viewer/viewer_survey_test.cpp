@@ -31,7 +31,7 @@ Ping one_beam_ping(std::size_t i, bool scans) {
 struct CountedReel {
   std::shared_ptr<int> read = std::make_shared<int>(0), beams_read = std::make_shared<int>(0);
 
-  PingReel reel(std::size_t count, bool scans) const {
+  LazyPings reel(std::size_t count, bool scans) const {
     std::vector<TrackPoint> places;
     for (std::size_t i = 0; i < count; ++i) {
       const Ping ping = one_beam_ping(i, scans);
@@ -72,9 +72,9 @@ class SurveyWindow : public testing::Test {
 
 }  // namespace
 
-TEST(PingReel, reads_what_is_asked_for_and_keeps_the_last) {
+TEST(LazyPings, reads_what_is_asked_for_and_keeps_the_last) {
   const CountedReel counted;
-  const PingReel reel = counted.reel(1000, false);
+  const LazyPings reel = counted.reel(1000, false);
   EXPECT_EQ(*counted.read, 0);
   EXPECT_EQ(reel.gate().bins(), 80U);
   EXPECT_EQ(*counted.read, 1);
@@ -86,17 +86,17 @@ TEST(PingReel, reads_what_is_asked_for_and_keeps_the_last) {
   EXPECT_THAT(error_of([&] { reel.ping(1000); }, ErrorKind::argument), HasSubstr("must be below 1000"));
 }
 
-TEST(PingReel, refuses_a_ping_of_another_extent) {
+TEST(LazyPings, refuses_a_ping_of_another_extent) {
   std::vector<Ping> pings{one_beam_ping(0, false), one_beam_ping(1, false)};
   pings[1].gate.max_range = 8;
   pings[1].pressure.conservativeResize(1, 70);
-  const PingReel reel = reel_in_memory(pings);
+  const LazyPings reel = reel_in_memory(pings);
   EXPECT_EQ(reel.fan().beams(), 1U);
   EXPECT_THAT(error_of([&] { reel.ping(1); }, ErrorKind::content), HasSubstr("ping 1 has 1 x 70 samples"));
 }
 
 TEST(ViewerRecords, a_page_holds_the_ping_and_at_most_600) {
-  const PingReel reel = CountedReel().reel(1301, false);
+  const LazyPings reel = CountedReel().reel(1301, false);
   for (const std::size_t ping : {0, 599, 600, 1199, 1200, 1300}) {
     const PageOfPings page = page_of(reel, ping);
     EXPECT_TRUE(page.first <= ping && ping < page.first + page.count) << ping;

@@ -70,7 +70,8 @@ std::string footer_of(const Verb& verb) {
 
 using VerbRuns = std::map<std::string, std::function<void()>>;
 
-/// Adds the verbs that print what other programs say of insonify: completions and man pages, made of the same texts as --help.
+/// Adds the verbs that print what other programs say of insonify: completions and man pages, made of the same texts as
+/// --help.
 void add_text_verbs(CommandLine& line, VerbRuns& run) {
   const auto shell = std::make_shared<std::string>(), page = std::make_shared<std::string>();
   line.add_verb("completion", "the script that completes command lines in a shell",
@@ -121,8 +122,8 @@ int run_command_line(int argc, char** argv) {
   return 0;
 }
 
-/// Exit code where stdout cannot be written: that of SIGPIPE if its reader has gone, as that of `insonify info x | head -1`.
-/// Throws Error(file) for any other reason.
+/// Exit code where stdout cannot be written: that of SIGPIPE if its reader has gone, as that of `insonify info x | head
+/// -1`. Throws Error(file) for any other reason.
 int failed_output(int reason) {
   if (reason == EPIPE) return exit_no_reader;
   fail(ErrorKind::file, "the output cannot be written: ", std::generic_category().message(reason ? reason : EIO),

@@ -23,19 +23,19 @@ struct CommandText {
   std::vector<OptionText> options;
 };
 
-/// Breaks text into lines of at most `width` characters, the first after `used` characters, all others after `indent` blanks.
-/// Line breaks of the text are kept.
+/// Breaks text into lines of at most `width` characters, the first after `used` characters, all others after `indent`
+/// blanks. Line breaks of the text are kept.
 std::string wrapped(const std::string& text, std::size_t width, std::size_t indent, std::size_t used);
 
 /// All exit codes with their meanings, "0 ok, 1 ...".
 std::string exit_codes_text();
 
-/// Page of section 1 of a verb, insonify-ping(1), or of the program itself if `verb` is the program's text, in groff's man
-/// macros.
+/// Page of section 1 of a verb, insonify-ping(1), or of the program itself if `verb` is the program's text, in groff's
+/// man macros.
 std::string man_page(const CommandText& program, const std::deque<CommandText>& verbs, const CommandText& verb);
 
-/// Script that completes verbs, options and their words in a shell: "bash", "zsh" or "fish". Anything else in a command line
-/// is completed as a file.
+/// Script that completes verbs, options and their words in a shell: "bash", "zsh" or "fish". Anything else in a command
+/// line is completed as a file.
 std::string completion_script(const std::string& shell, const CommandText& program,
                               const std::deque<CommandText>& verbs);
 

@@ -22,7 +22,8 @@ struct SomeFailed {
   std::string which;
 };
 
-/// The text with a blank for every control character: what a file holds cannot make two lines of a message, nor colour it.
+/// The text with a blank for every control character: what a file holds cannot make two lines of a message, nor colour
+/// it.
 inline std::string one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';

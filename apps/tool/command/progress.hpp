@@ -15,8 +15,8 @@ namespace insonify::tool {
 /// what was not complete. To be called before the first thread is started.
 void end_on_interrupt();
 
-/// From here on the first interrupt is only noted: for a verb that looks at is_interrupted() and ends by itself, keeping
-/// what is done. The second one ends the program at once; `kept` says what is left then.
+/// From here on the first interrupt is only noted: for a verb that looks at is_interrupted() and ends by itself,
+/// keeping what is done. The second one ends the program at once; `kept` says what is left then.
 void finish_on_interrupt(const char* kept);
 
 /// Never returns if an interrupt is ending the program: for errors that only follow from that.
@@ -44,8 +44,8 @@ void print_summary(const CommonOptions& common, const nlohmann::ordered_json& re
 /// A time for people: "12 s", "3:05 min", "1:20 h".
 std::string time_text(double seconds);
 
-/// Reports progress on stderr: a bar on a terminal, plain lines with -v, nothing with -q. On a terminal it also says how
-/// far the longest loop of the present step is, and how long it will take, four times a second.
+/// Reports progress on stderr: a bar on a terminal, plain lines with -v, nothing with -q. On a terminal it also says
+/// how far the longest loop of the present step is, and how long it will take, four times a second.
 class Progress {
  public:
   Progress(const CommonOptions& common, int steps);

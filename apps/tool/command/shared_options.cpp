@@ -86,7 +86,7 @@ std::string mounting_text(const SonarFile& sonar) {
 
 }  // namespace
 
-PingOptions settled_options(const PingCommand& command) {
+PingOptions complete_options(const PingCommand& command) {
   PingOptions o = command.options;
   // A run records its mounting, since its own file of the sonar does not hold it.
   const bool other_sonar = !command.of_run || o.run.sonar != command.of_run->run.sonar;

@@ -32,6 +32,6 @@ struct PingCommand {
 void add_ping_options(OptionList list, PingCommand& command, bool with_output);
 
 /// The options to use: a pose of the command line replaces a trajectory of --run, and a trajectory the pose.
-PingOptions settled_options(const PingCommand& command);
+PingOptions complete_options(const PingCommand& command);
 
 }  // namespace insonify::tool

@@ -40,8 +40,8 @@ struct ComparedFile {
 /// "MIN:MAX" in dB. Throws Error(argument) naming the option.
 GreyWindow parse_window(const std::string& option, const std::string& text);
 
-/// Reads a run (directory or cube), .aris, .npy or .png. Throws Error(argument) for another file, a ping or frame that is
-/// not there, or grey values without --scale; and as the readers.
+/// Reads a run (directory or cube), .aris, .npy or .png. Throws Error(argument) for another file, a ping or frame that
+/// is not there, or grey values without --scale; and as the readers.
 ComparedFile load_compared(const std::string& path, int ping, const CompareOptions& options);
 
 /// Brings two images to one grid: of one size as they are, beams of pictures in the order of the other's fan; of two

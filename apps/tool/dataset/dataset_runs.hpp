@@ -27,8 +27,8 @@ struct DatasetSource {
   SceneInstances instances{};                          ///< if the scene's cloud has a field `instance`
 };
 
-/// The heads of runs, surveys and cubes. Throws Error(file) for one that is not there, Error(content) for a survey that is
-/// not whole.
+/// The heads of runs, surveys and cubes. Throws Error(file) for one that is not there, Error(content) for a survey that
+/// is not whole.
 std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs);
 
 /// Calls `body` with every ping of a source and its place in the track, one in memory at a time. Throws Error(content)

@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Numbers of units in train, val and test: nearest to the shares, but for shares above 0 at least one each, train first.
+/// Numbers of units in train, val and test: nearest to the shares, but for shares above 0 at least one each, train
+/// first.
 std::array<std::size_t, 3> counts_of(std::size_t units, const std::vector<double>& shares) {
   const double sum = shares[0] + shares[1] + shares[2];
   std::array<std::size_t, 3> counts{};

@@ -23,8 +23,8 @@ const std::vector<SplitUnit>& split_units();
 
 /// Gives every ping of the sources to train, val or test: `unit` names what stays together, `shares` are those of units
 /// (of regions: of the pings of each run). Each share above 0 gets a unit as long as there are units: train first, then
-/// val. Scenes go by their digests, legs in the order of runs and missions, a region is one stretch of a run's track for
-/// each part, the same for all its heads, and pings are drawn, the same ones each time. Throws as load_mission.
+/// val. Scenes go by their digests, legs in the order of runs and missions, a region is one stretch of a run's track
+/// for each part, the same for all its heads, and pings are drawn, the same ones each time. Throws as load_mission.
 void split_pings(std::vector<DatasetSource>& sources, const std::string& unit, const std::vector<double>& shares);
 
 /// Counts images by part, and those that may show what training shows.

@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The objects of a picture of samples: by the scene's own instances, else connected parts of a class. `stuff` has none.
+/// The objects of a picture of samples: by the scene's own instances, else connected parts of a class. `stuff` has
+/// none.
 Grid<std::uint16_t> objects_of(const DatasetSource& source, const PixelLabels& labels, double share,
                                const Grid<std::uint8_t>& category, const std::set<std::uint8_t>& stuff,
                                std::size_t least_pixels) {

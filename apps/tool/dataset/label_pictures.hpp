@@ -32,8 +32,8 @@ inline constexpr const char* min_level_help =
 Grid<std::uint8_t> classes_above(const Grid<std::uint8_t>& classes, const Grid<float>& level_db,
                                  std::optional<double> min_level);
 
-/// One row of beams of a ping, from the lowest; all of it if it has one. Layers and other maps than levels and labels are
-/// left out.
+/// One row of beams of a ping, from the lowest; all of it if it has one. Layers and other maps than levels and labels
+/// are left out.
 Ping row_of(const Ping& ping, std::size_t row);
 /// How many rows of beams it has.
 std::size_t rows_of(const Ping& ping);

@@ -24,9 +24,10 @@ struct ProductOptions {
   bool force = false;                ///< replace a file or directory
 };
 
-/// Writes the pings of a run, one after the other, as a file (png: a directory of them) of another program. Throws Error(argument) for a product with
-/// coordinates of the globe if neither options nor mission say where the world is, Error(content) for a survey that is
-/// not complete or has several heads, as read_cube for damaged cubes, and Error(file) if it cannot write.
+/// Writes the pings of a run, one after the other, as a file (png: a directory of them) of another program. Throws
+/// Error(argument) for a product with coordinates of the globe if neither options nor mission say where the world is,
+/// Error(content) for a survey that is not complete or has several heads, as read_cube for damaged cubes, and
+/// Error(file) if it cannot write.
 void export_product(const ProductOptions& options, const CommonOptions& common);
 
 }  // namespace insonify::tool

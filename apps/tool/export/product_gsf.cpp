@@ -64,8 +64,8 @@ GsfBeam pointing_beam(const ShipAxes& ship, const Eigen::Vector3d& way) {
   return beam;
 }
 
-/// A sounding where it lies on the globe, in level axes of the ship below its head. Angles and travel time are those of a
-/// head that stays where it transmitted.
+/// A sounding where it lies on the globe, in level axes of the ship below its head. Angles and travel time are those of
+/// a head that stays where it transmitted.
 GsfBeam placed_beam(const PlacedRun& run, const Ping& ping, const ShipAxes& ship, const Anchor& here,
                     const BottomSoundings& found, std::size_t i) {
   const std::size_t b = found.beam[i];

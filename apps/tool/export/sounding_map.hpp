@@ -10,9 +10,9 @@
 
 namespace insonify::tool {
 
-/// Number of the cell that holds a coordinate [m]: cell k reaches from k cell, which belongs to it, to (k + 1) cell, which
-/// does not, as the cells of ImageMosaic. A coordinate up to a micrometre below an edge, the error of a projection and of
-/// the division, stands on it.
+/// Number of the cell that holds a coordinate [m]: cell k reaches from k cell, which belongs to it, to (k + 1) cell,
+/// which does not, as the cells of ImageMosaic. A coordinate up to a micrometre below an edge, the error of a
+/// projection and of the division, stands on it.
 std::int64_t cell_of(double coordinate, double cell);
 
 /// A band of such a map.
@@ -34,7 +34,8 @@ class SoundingMap {
   void add(const Eigen::Vector3d& place, double intensity);
   bool empty() const { return cells_.empty(); }
 
-  /// The bands of a raster: mean height, level, number of soundings, standard deviation, least and largest height, and where it lies, without its zone. Throws Error(argument) for more than 2^26 cells.
+  /// The bands of a raster: mean height, level, number of soundings, standard deviation, least and largest height, and
+  /// where it lies, without its zone. Throws Error(argument) for more than 2^26 cells.
   std::vector<GeoBand> bands() const;
   GeoGrid grid() const;
 

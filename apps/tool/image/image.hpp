@@ -62,7 +62,7 @@ ImageRun read_image_run(const std::string& path, const std::string& layer);
 LevelImage levels_of(const ImageRun& run, const ImageOptions& options, std::size_t ping);
 
 /// One picture to draw: a ping of a run (a waterfall shows all pings), with title and marks in `picture`.
-struct ViewJob {
+struct PictureRequest {
   const ImageRun& run;
   const ImageOptions& options;
   const PictureOptions& picture;
@@ -92,16 +92,16 @@ inline const ViewOption annotate_option{
 inline const ViewOption animate_option{"--animate", &ImageOptions::animate,
                                        "one picture per ping in the folder -o, all with the same levels"};
 
-/// A view, from which --view, its options, their help and checks are made. A new view is one file, view_<name>.cpp, that
-/// defines `ViewSpec <name>_view()`, and its name in the list of apps/CMakeLists.txt.
+/// A view, from which --view, its options, their help and checks are made. A new view is one file, view_<name>.cpp,
+/// that defines `ViewSpec <name>_view()`, and its name in the list of apps/CMakeLists.txt.
 struct ViewSpec {
   const char* name;
-  const char* shows;                           ///< what --help says
-  std::vector<ViewOption> options = {};        ///< that this view takes and not all views do
-  void (*draw)(const ViewJob& job) = nullptr;  ///< of a run that has been read
+  const char* shows;                                  ///< what --help says
+  std::vector<ViewOption> options = {};               ///< that this view takes and not all views do
+  void (*draw)(const PictureRequest& job) = nullptr;  ///< of a run that has been read
   /// The highest level that the view chooses for a ping if --max is not given; a series of pictures takes the highest
   /// of all pings, so that it does not flicker. Null for a view that makes no series (--animate).
-  double (*max_db)(const ViewJob& job) = nullptr;
+  double (*max_db)(const PictureRequest& job) = nullptr;
   const char* beam_word = "";                   ///< that --beam takes beside a number
   BeamChoice beam_choice = BeamChoice::one;     ///< that the word means
   BeamChoice default_choice = BeamChoice::one;  ///< without --beam
@@ -117,11 +117,11 @@ const ViewSpec& view_of(const ImageOptions& options);
 ChosenBeam choose_beam(const ImageOptions& options, const BeamFan& fan);
 
 /// Of the picture to draw: its levels, and the fan of its ping.
-LevelImage levels_of(const ViewJob& job);
-const BeamFan& fan_of(const ViewJob& job);
+LevelImage levels_of(const PictureRequest& job);
+const BeamFan& fan_of(const PictureRequest& job);
 
 /// As ViewSpec::max_db, of pictures of all samples.
-double max_db_of_image(const ViewJob& job);
+double max_db_of_image(const PictureRequest& job);
 
 /// A beam in words, with its bearing.
 std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan);

@@ -25,9 +25,9 @@ const std::vector<ViewSpec>& all_views() {
   return views;
 }
 
-LevelImage levels_of(const ViewJob& job) { return levels_of(job.run, job.options, job.ping); }
+LevelImage levels_of(const PictureRequest& job) { return levels_of(job.run, job.options, job.ping); }
 
-const BeamFan& fan_of(const ViewJob& job) { return job.run.cube.pings[job.ping].fan; }
+const BeamFan& fan_of(const PictureRequest& job) { return job.run.cube.pings[job.ping].fan; }
 
 std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan) {
   if (chosen.choice == BeamChoice::strongest) return "strongest over all beams";
@@ -36,7 +36,9 @@ std::string beam_text(const ChosenBeam& chosen, const BeamFan& fan) {
   return fmt::format("beam {} at {:+.1f}°", chosen.beam, std::abs(bearing) < 0.05 ? 0.0 : bearing);
 }
 
-double max_db_of_image(const ViewJob& job) { return automatic_max_db(levels_of(job).level_db, job.picture.window_db); }
+double max_db_of_image(const PictureRequest& job) {
+  return automatic_max_db(levels_of(job).level_db, job.picture.window_db);
+}
 
 BeamRecord beam_record(const ImageRun& run, const ImageOptions& o, const std::vector<std::size_t>& pings) {
   const Ping& first = run.cube.pings[pings.front()];

@@ -4,12 +4,12 @@
 namespace insonify::tool {
 namespace {
 
-void draw_ascan(const ViewJob& job) {
+void draw_ascan(const PictureRequest& job) {
   const std::size_t beam = choose_beam(job.options, fan_of(job)).beam;
   show_ascan(levels_of(job), beam, job.picture, job.path);
 }
 
-double max_db_of_ascan(const ViewJob& job) {
+double max_db_of_ascan(const PictureRequest& job) {
   const LevelImage levels = levels_of(job);
   return next_five(
       levels.level_db.row(static_cast<Eigen::Index>(choose_beam(job.options, levels.fan).beam)).maxCoeff());

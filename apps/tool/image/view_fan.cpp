@@ -6,7 +6,7 @@ ViewSpec fan_view() {
   return {.name = "fan",
           .shows = "beams and ranges to scale",
           .options = {annotate_option, animate_option},
-          .draw = [](const ViewJob& job) { show_fan(levels_of(job), job.picture, job.path); },
+          .draw = [](const PictureRequest& job) { show_fan(levels_of(job), job.picture, job.path); },
           .max_db = max_db_of_image};
 }
 

@@ -6,7 +6,7 @@ namespace insonify::tool {
 namespace {
 
 /// Draws the samples as grey values: white at the brightest level, black at the end of the window.
-void draw_grey(const ViewJob& job) {
+void draw_grey(const PictureRequest& job) {
   const LevelImage levels = levels_of(job);
   const PictureOptions& picture = job.picture;
   const double max_db = std::isnan(picture.max_db) ? levels.level_db.maxCoeff() : picture.max_db;

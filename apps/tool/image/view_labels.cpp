@@ -14,7 +14,7 @@ namespace insonify::tool {
 namespace {
 
 /// Draws the classes of the pixels in true geometry, as view fan lies, and writes what the colours mean beside it.
-void draw_labels(const ViewJob& job) {
+void draw_labels(const PictureRequest& job) {
   const Ping& whole = job.run.cube.pings[job.ping];
   if (whole.labels.empty())
     fail(ErrorKind::content, job.run.path, ": ping ", job.ping,

@@ -56,7 +56,7 @@ std::vector<Fact> facts_of(const Cube& cube, std::size_t number) {
 }
 
 /// Image and facts of a ping, and the pattern of the beam if the run says with which array it was received.
-Panels panels_of(const ViewJob& job) {
+Panels panels_of(const PictureRequest& job) {
   const ImageRun& run = job.run;
   Panels panels;
   panels.image = levels_of(job);
@@ -74,7 +74,7 @@ Panels panels_of(const ViewJob& job) {
   return panels;
 }
 
-void draw_panels(const ViewJob& job) { show_panels(panels_of(job), job.picture, job.path); }
+void draw_panels(const PictureRequest& job) { show_panels(panels_of(job), job.picture, job.path); }
 
 }  // namespace
 

@@ -6,7 +6,7 @@ ViewSpec rect_view() {
   return {.name = "rect",
           .shows = "beams against range",
           .options = {annotate_option, animate_option},
-          .draw = [](const ViewJob& job) { show_rect(levels_of(job), job.picture, job.path); },
+          .draw = [](const PictureRequest& job) { show_rect(levels_of(job), job.picture, job.path); },
           .max_db = max_db_of_image};
 }
 

@@ -105,7 +105,7 @@ LevelImage sweep_in_world(const ImageRun& run, const ImageOptions& o, std::size_
 namespace {
 
 /// The sweep of the ping.
-void draw_scan(const ViewJob& job) {
+void draw_scan(const PictureRequest& job) {
   const bool in_world = job.options.frame == "world";
   PictureOptions picture = job.picture;
   if (job.options.picture.title.empty())

@@ -4,7 +4,7 @@
 namespace insonify::tool {
 namespace {
 
-void draw_soundings(const ViewJob& job) {
+void draw_soundings(const PictureRequest& job) {
   const Environment environment = find_run_pings(job.run.path, "").environment;
   const Ping& ping = job.run.cube.pings[job.ping];
   show_soundings(ping, detect_bottom(ping, bottom_options(job.run.cube, ping, environment, 1)), job.picture, job.path);

@@ -12,7 +12,7 @@ namespace insonify::tool {
 namespace {
 
 /// Spectrum of the chosen beams, and the spectrum of the pulse scaled to the same power.
-std::vector<SpectrumLine> spectrum_lines(const ViewJob& job) {
+std::vector<SpectrumLine> spectrum_lines(const PictureRequest& job) {
   const ImageRun& run = job.run;
   const Ping& ping = run.cube.pings[job.ping];
   const ChosenBeam chosen = choose_beam(job.options, ping.fan);
@@ -36,9 +36,9 @@ std::vector<SpectrumLine> spectrum_lines(const ViewJob& job) {
           {received.frequency, pulse_density(pulse, step_time, received.frequency, power), name}};
 }
 
-void draw_spectrum(const ViewJob& job) { show_spectrum(spectrum_lines(job), job.picture, job.path); }
+void draw_spectrum(const PictureRequest& job) { show_spectrum(spectrum_lines(job), job.picture, job.path); }
 
-double max_db_of_spectrum(const ViewJob& job) {
+double max_db_of_spectrum(const PictureRequest& job) {
   double highest = 0;
   for (const SpectrumLine& line : spectrum_lines(job))
     highest = std::max(highest, *std::max_element(line.density.begin(), line.density.end()));

@@ -90,7 +90,7 @@ PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard) 
 namespace {
 
 /// One head, or port and starboard (--starboard), by slant or ground range.
-void draw_waterfall(const ViewJob& job) {
+void draw_waterfall(const PictureRequest& job) {
   const ImageOptions& o = job.options;
   PingHistory history = history_of(job.run, o);
   std::string what = beam_text(choose_beam(o, fan_of(job)), fan_of(job));

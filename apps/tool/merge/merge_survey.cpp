@@ -12,7 +12,7 @@
 #include "files/sha256.hpp"
 #include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
-#include "store/join_cubes.hpp"
+#include "store/concatenate_cube_files.hpp"
 #include "store/survey_run.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/merge/survey_mosaic.hpp"
@@ -81,7 +81,7 @@ JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const st
     }
     const std::string cube = (fs::path(folder) / head.name / "cube.h5").string();
     if (!of_head.empty()) {
-      join_cubes(cube, of_head, copy);
+      concatenate_cube_files(cube, of_head, copy);
       all.joined_cubes.push_back({head.name, cube});
     }
     all.heads.push_back({{"name", head.name},

@@ -16,9 +16,9 @@ struct HeadCube {
   std::string name, path;
 };
 
-/// The ways of the heads as GeoJSON: for each a LineString of longitude, latitude and height (WGS 84, E90), with its name, the
-/// numbers of its pings, and their times: UTC, or [s] without start_utc. Heads of one ping give a Point. `frame` has an
-/// anchor.
+/// The ways of the heads as GeoJSON: for each a LineString of longitude, latitude and height (WGS 84, E90), with its
+/// name, the numbers of its pings, and their times: UTC, or [s] without start_utc. Heads of one ping give a Point.
+/// `frame` has an anchor.
 nlohmann::ordered_json track_geojson(const SurveyFrame& frame, const std::vector<HeadCube>& heads);
 
 }  // namespace insonify::tool

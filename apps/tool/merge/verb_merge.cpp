@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "store/merge_cubes.hpp"
+#include "store/merge_cubes_by_time.hpp"
 #include "store/run_directory.hpp"
 #include "store/survey_run.hpp"
 #include "tool/command/progress.hpp"
@@ -101,12 +101,12 @@ void merge(const MergeOptions& o) {
   std::vector<NamedCube> cubes;
   for (const std::string& run : o.runs) {
     progress.step("reading " + run);
-    if (const std::string doubt = doubt_of(run, "cube.h5"); !doubt.empty())
+    if (const std::string doubt = integrity_problem(run, "cube.h5"); !doubt.empty())
       fail(ErrorKind::content, doubt, "; copy the run again, or name its cube.h5 to merge it as it is");
     cubes.push_back({run, read_run_cube(run)});
   }
   ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"merged", inputs_json(cubes)}};
-  const MergedCube merged = merge_cubes(cubes);
+  const MergedCube merged = merge_cubes_by_time(cubes);
   manifest["pings"] = merged.cube.pings.size();
   std::vector<std::string> notes = merging_notes(cubes, merged.cube);
 

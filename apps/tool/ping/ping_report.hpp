@@ -18,8 +18,8 @@ nlohmann::ordered_json holes_json(const HoleReport& holes);
 nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);
 nlohmann::ordered_json motion_json(const Motion& motion);
 
-/// Notes on the result: a silent ping, refraction, multipath without any echo. `places` as from sampled_places; `mounted`:
-/// the pose of the options is that of a vehicle.
+/// Notes on the result: a silent ping, refraction, multipath without any echo. `places` as from sampled_places;
+/// `mounted`: the pose of the options is that of a vehicle.
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
                                     const std::vector<Eigen::Vector3d>& places, bool mounted);
 

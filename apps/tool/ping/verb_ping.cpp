@@ -73,7 +73,7 @@ ordered_json seconds_json(double load, const StageSeconds& of, double output) {
 }
 
 void ping(const PingCommand& command) {
-  PingOptions o = settled_options(command);
+  PingOptions o = complete_options(command);
   const CommonOptions& common = o.common;
   // The whole command line is checked before any work.
   Progress progress(common, 4);

@@ -14,7 +14,7 @@ namespace {
 void add_plan_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, false); }
 
 void plan(const PingCommand& command) {
-  const PingOptions o = settled_options(command);
+  const PingOptions o = complete_options(command);
   Progress progress(o.common, 2);
   PingSetup ready = set_up_ping(o);
   progress.step("loading " + o.scene.path);

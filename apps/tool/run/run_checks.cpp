@@ -65,7 +65,7 @@ RunCheck check_run(const std::string& run, const std::string& only) {
   return check;
 }
 
-std::string doubt_of(const std::string& run, const std::string& file) {
+std::string integrity_problem(const std::string& run, const std::string& file) {
   if (!fs::is_directory(run) || is_survey_run(run)) return {};
   const RunCheck check = check_run(run, file);
   return check.problems.empty() ? "" : run + ": " + check.problems.front() + " since the run was made";

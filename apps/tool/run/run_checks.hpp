@@ -19,13 +19,14 @@ struct RunCheck {
   std::vector<std::string> problems;  ///< "cube.h5 was changed", "fan.png is missing"
 };
 
-/// Compares the files of a run with the digests in its manifest, of a survey those of finished blocks with their marks; if
+/// Compares the files of a run with the digests in its manifest, of a survey those of finished blocks with their marks;
+/// if
 /// `only` is not empty, this file of a run alone. Throws Error(content) if the folder has no digests, Error(file) if a
 /// file cannot be read.
 RunCheck check_run(const std::string& run, const std::string& only = {});
 
-/// Empty, or in one line what is wrong with `file` of the run directory `run`; empty too for a cube, and for a run whose
-/// manifest has no digests.
-std::string doubt_of(const std::string& run, const std::string& file);
+/// Empty, or in one line what is wrong with `file` of the run directory `run`; empty too for a cube, and for a run
+/// whose manifest has no digests.
+std::string integrity_problem(const std::string& run, const std::string& file);
 
 }  // namespace insonify::tool

@@ -43,8 +43,8 @@ class ContributorWriter : public ContributorSink {
 
   void take(const Contributors& band, std::size_t first_beam) override;
 
-  /// Completes the file with the label images of the ping, whose objects are the instances of the scene's file if it has
-  /// them; `manifest` gets a summary.
+  /// Completes the file with the label images of the ping, whose objects are the instances of the scene's file if it
+  /// has them; `manifest` gets a summary.
   void finish(const PixelLabels& labels, const std::string& scene, nlohmann::ordered_json& manifest);
 
  private:

@@ -38,9 +38,9 @@ Cube read_run_cube(const std::string& path);
 /// Number of the leg on which a ping was sent, from 1; 0: of none, as of a run without a mission.
 std::size_t leg_at(const std::vector<MissionLeg>& legs, double time);
 
-/// Finds the cubes of a run directory (also of a merged head of a survey), a cube, or a survey, of which `head` names the head; "" if it has one only. Throws
-/// Error(file) for a run that does not exist, Error(content) for one without a cube or a survey with blocks that are not
-/// done, Error(argument) for a head that is not named or not there.
+/// Finds the cubes of a run directory (also of a merged head of a survey), a cube, or a survey, of which `head` names
+/// the head; "" if it has one only. Throws Error(file) for a run that does not exist, Error(content) for one without a
+/// cube or a survey with blocks that are not done, Error(argument) for a head that is not named or not there.
 RunPings find_run_pings(const std::string& run, const std::string& head);
 
 /// Calls `use` with each ping and the cube it is of, without pings: memory is that of one ping.
@@ -50,12 +50,13 @@ void each_ping(const RunPings& run, const std::function<void(const Cube&, const 
 /// says it.
 std::optional<double> water_level(const RunPings& run);
 
-/// Where the vehicle was when a head pinged: world_from_vehicle; absent if the run does not say how the head is mounted.
+/// Where the vehicle was when a head pinged: world_from_vehicle; absent if the run does not say how the head is
+/// mounted.
 std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping);
 
-/// The way of the vehicle: that of the mission; else of the trajectory or velocity that the run.toml of a ping names, if
-/// it leads through all pings; else through the places of the pings, head by head as they are stored, in the order of
-/// time. Absent for a single ping at rest.
+/// The way of the vehicle: that of the mission; else of the trajectory or velocity that the run.toml of a ping names,
+/// if it leads through all pings; else through the places of the pings, head by head as they are stored, in the order
+/// of time. Absent for a single ping at rest.
 std::optional<Trajectory> way_of(const RunPings& run);
 
 /// Options to find the bottom in a ping of a cube: with the water at the head, and its depth in the profile.

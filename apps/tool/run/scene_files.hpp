@@ -25,8 +25,8 @@ struct PingScene {
   std::vector<Eigen::Vector3d> places;  ///< of some surfels, or centres of tiles, in head axes [m]
   nlohmann::ordered_json json;          ///< for the manifest
 };
-/// Ends a range that is the sonar's own where the scene ends, and adds to the notes of the head what fits the scene badly.
-/// Throws Error(runtime) before reading if the part of a .tiles file would not fit into memory (--memory-limit).
+/// Ends a range that is the sonar's own where the scene ends, and adds to the notes of the head what fits the scene
+/// badly. Throws Error(runtime) before reading if the part of a .tiles file would not fit into memory (--memory-limit).
 PingScene load_ping_scene(const PingOptions& options, PingSetup& setup);
 /// Loads from tiles that are open already, within the range as it is.
 PingScene load_ping_scene(const PingOptions& options, const PingSimulator& simulator, const PingEvent& event,

@@ -8,8 +8,8 @@
 /// How far a scene reaches from a head: default ranges, and notes on heads that fit it badly.
 namespace insonify::tool {
 
-/// Distance [m] from a head to the farthest corner of the box of a scene, straight or by way of the surface and the bottom
-/// of the environment; 0 for an empty box.
+/// Distance [m] from a head to the farthest corner of the box of a scene, straight or by way of the surface and the
+/// bottom of the environment; 0 for an empty box.
 double reach_of(const Bounds& box, const Eigen::Vector3d& head, const Environment& environment);
 
 /// The end of a range [m] that holds a reach: a little more, in two digits.

@@ -61,8 +61,8 @@ Shard parse_shard(const std::string& text) {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// A ping that may be tried, and numbers of what it is made of: scatterers, and with the samples of its image what its time
-/// goes with; 1 each where the scene is not at hand.
+/// A ping that may be tried, and numbers of what it is made of: scatterers, and with the samples of its image what its
+/// time goes with; 1 each where the scene is not at hand.
 struct PlannedPing {
   SurveyPing ping;
   double scatterers = 1, work = 1;
@@ -127,8 +127,8 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene)
   return trials;
 }
 
-/// Makes a ping of each head, then more, as long as the plan takes at most a twentieth of the survey. `begun` is the CPU time
-/// when the scene began to be loaded.
+/// Makes a ping of each head, then more, as long as the plan takes at most a twentieth of the survey. `begun` is the
+/// CPU time when the scene began to be loaded.
 void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double begun,
                std::vector<HeadTrial>& trials) {
   constexpr double most_of_survey = 0.04;  // of a forecast that may fall when more than the first ping is known

@@ -4,8 +4,8 @@
 
 #include "beamforming/narrow_band/gridding_loops_internal.hpp"
 
-// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits on
-// each. They do not include Eigen, so wide registers are safe.
+// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
+// on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
 constexpr std::size_t brick_columns = 64, brick_overlap = 16;        // of lanes that begin in the columns
@@ -22,7 +22,8 @@ struct BrickEchoes {
   const Real *pulse_re, *pulse_im;
 };
 
-/// Adds pulse(row) x kernel(column) x kernel(line) of echoes [first, last) of `count` to their bricks, `rows` samples each.
+/// Adds pulse(row) x kernel(column) x kernel(line) of echoes [first, last) of `count` to their bricks, `rows` samples
+/// each.
 void grid_bricks(BrickEchoes<float> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
                  Pieces<float> columns_of, Pieces<float> lines_of, std::size_t lines, std::size_t plane);
 void grid_bricks(BrickEchoes<double> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
@@ -38,8 +39,8 @@ struct BrickColumn {
   const Real *own_weight, *before_weight;  ///< brick x rows_at_once
 };
 
-/// Sets rows_at_once rows, `row_stride` apart, of brick_columns numbers: sum of weight x brick, `offset` numbers after its
-/// beginning.
+/// Sets rows_at_once rows, `row_stride` apart, of brick_columns numbers: sum of weight x brick, `offset` numbers after
+/// its beginning.
 void weigh_bricks(BrickColumn<float> bricks, std::size_t offset, float* rows, std::size_t row_stride);
 void weigh_bricks(BrickColumn<double> bricks, std::size_t offset, double* rows, std::size_t row_stride);
 

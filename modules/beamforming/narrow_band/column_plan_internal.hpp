@@ -15,8 +15,8 @@ struct KernelTolerance {
   double u, v;
 };
 
-/// The grid over v of a planar array (E13, E56), upwards: `cycle` lines to one cycle of the phase between neighbours of the
-/// column, each a grid over u. Each row of beams is a weighted sum of all lines, then the image of a line array.
+/// The grid over v of a planar array (E13, E56), upwards: `cycle` lines to one cycle of the phase between neighbours of
+/// the column, each a grid over u. Each row of beams is a weighted sum of all lines, then the image of a line array.
 template <typename Real>
 struct ColumnPlan {
   GriddingKernel kernel;

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstddef>
 
-// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits on
-// each. They do not include Eigen, so wide registers are safe.
+// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
+// on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
 /// An echo from (range, u) in a beam at u_beam, focused at its range, and nearer and farther by the pulse's length [m].
@@ -26,8 +26,8 @@ void echo_phasors(const double* y, std::size_t count, const BeamEcho& echo, Echo
 /// Elements are summed so many at a time.
 inline constexpr std::size_t phasor_lanes = 8;
 
-/// Sums over elements: real and imaginary part of the first four rows; of the carrier times cosine and times i sine of a
-/// frequency off it, of which those of a frequency above and below the carrier are sum and difference.
+/// Sums over elements: real and imaginary part of the first four rows; of the carrier times cosine and times i sine of
+/// a frequency off it, of which those of a frequency above and below the carrier are sum and difference.
 struct PhasorSums {
   double row[4][2];
   double by_cosine[2][2], by_sine[2][2];  ///< near_off, far_off

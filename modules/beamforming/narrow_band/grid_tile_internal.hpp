@@ -11,7 +11,8 @@
 namespace insonify {
 
 /// The grid over bins, u and v of one tile of bins. It consists of bricks, each all bins of some columns of one line,
-/// which are there where echoes are: surfaces fill few of those of a planar array. A line array has one line and one brick.
+/// which are there where echoes are: surfaces fill few of those of a planar array. A line array has one line and one
+/// brick.
 template <typename Real>
 class GridTile {
  public:
@@ -20,8 +21,8 @@ class GridTile {
   /// Keeps a reference to `plan`.
   explicit GridTile(const GriddingPlan<Real>& plan);
 
-  /// Grids the listed echoes (E13), in order, on the tile that begins with bin `first_bin`. Calls may follow one another,
-  /// with the same bits as one of all echoes.
+  /// Grids the listed echoes (E13), in order, on the tile that begins with bin `first_bin`. Calls may follow one
+  /// another, with the same bits as one of all echoes.
   void add(const Echoes& echoes, const PulseReach& reach, List list, std::size_t first_bin);
   /// Forms bins [first, last) of all beams; then the tile is empty. Adds the energies of echoes and beams [Pa^2 bins].
   void form_beams(const BeamTransform<Real>& transform, std::size_t first, std::size_t last, ComplexGrid& pressure,

@@ -17,9 +17,9 @@
 //   3. transform: per bin an FFT turns the grid into element series (type 1);
 //   4. deconvolution and shading: one real factor per element, with 1 / (kernel transform)^2 for both transforms;
 //   5. transform back, and interpolation with the same kernel to the beam directions (type 2).
-// Cost: echoes x pulse samples x kernel widths + rows x bins x (grid log grid + beams x kernel width). No transform runs
-// along range: nothing wraps around, and errors are local in range. Kernel width and precision follow from the tolerance and
-// the fraction of the gridded energy that the beams receive (ping_synthesizer).
+// Cost: echoes x pulse samples x kernel widths + rows x bins x (grid log grid + beams x kernel width). No transform
+// runs along range: nothing wraps around, and errors are local in range. Kernel width and precision follow from the
+// tolerance and the fraction of the gridded energy that the beams receive (ping_synthesizer).
 namespace insonify {
 namespace {
 

@@ -25,8 +25,8 @@ class GriddedSynthesis {
                    KernelTolerance kernels);
   /// Each tile of bins is computed by one thread, which grids its echoes in their order and forms its beams.
   GriddedImage image(const Echoes& echoes) const;
-  /// The same of echoes that are not stored: each thread forms the beams of one slab of neighbouring tiles after another, and
-  /// visits the chunks that reach into it, in order.
+  /// The same of echoes that are not stored: each thread forms the beams of one slab of neighbouring tiles after
+  /// another, and visits the chunks that reach into it, in order.
   GriddedImage image(const EchoStream& stream) const;
   const SynthesisChoice& choice() const { return plan_.choice; }
 

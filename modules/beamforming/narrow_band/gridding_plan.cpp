@@ -53,8 +53,8 @@ void GriddingPlan<Real>::plan_time(double tolerance) {
   for (std::size_t k = 0; k < choice.pulse_samples; ++k)
     pulse_energy += std::norm(envelope.at((static_cast<double>(k) + 0.5) * axis.step - half));
   if (!sweep || medium.absorption.a1 != 0 || medium.absorption.a2 != 0) return;
-  // The ends of a sweep are discontinuous, which polynomials cannot follow: their pieces are constant, and the remainder
-  // is added echo by echo.
+  // The ends of a sweep are discontinuous, which polynomials cannot follow: their pieces are constant, and the
+  // remainder is added echo by echo.
   sweep_ends = half > head.pulse.duration - axis.step;
   const double first = -half / axis.step, last_piece = -first - 1;
   const auto value = [&](double x) {

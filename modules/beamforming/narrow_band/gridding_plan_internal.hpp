@@ -13,10 +13,10 @@
 
 namespace insonify {
 
-/// Constants of the gridded synthesis in one precision, shared by all pings of a head (E13). A direction is represented by
-/// the phase between neighbouring elements [cycles]; `grid` steps cover one cycle. Element positions are integers for
-/// odd numbers of elements and half-integers for even ones, in which case the grid changes sign from one cycle to the
-/// next. A planar array has a grid over v too, whose lines are such grids; a line array is one line.
+/// Constants of the gridded synthesis in one precision, shared by all pings of a head (E13). A direction is represented
+/// by the phase between neighbouring elements [cycles]; `grid` steps cover one cycle. Element positions are integers
+/// for odd numbers of elements and half-integers for even ones, in which case the grid changes sign from one cycle to
+/// the next. A planar array has a grid over v too, whose lines are such grids; a line array is one line.
 template <typename Real>
 struct GriddingPlan {
   using Complex = std::complex<Real>;

@@ -56,8 +56,8 @@ NarrowBandError::Sums NarrowBandError::of(const Scatterers& places, const std::v
   return sum;
 }
 
-// An echo that stands for `times`: in all beams that have it in or near their main lobes, and in a few that stand for the
-// rest.
+// An echo that stands for `times`: in all beams that have it in or near their main lobes, and in a few that stand for
+// the rest.
 NarrowBandError::Sums NarrowBandError::of_echo(double range, double u, double times) const {
   std::vector<double> u_beam = u_beam_;
   const std::size_t beams = u_beam.size(), near = std::min(near_beams, beams);

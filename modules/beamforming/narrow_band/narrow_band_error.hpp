@@ -22,8 +22,8 @@ class NarrowBandError {
     double error = 0, image = 0;
   };
 
-  /// Returns the expected sums of echoes from `places` with these powers at an element [Pa^2], none if `power` is empty.
-  /// Some 32 to 48 of the places each stand for the same power, in the nearest 16 beams and 8 of the others.
+  /// Returns the expected sums of echoes from `places` with these powers at an element [Pa^2], none if `power` is
+  /// empty. Some 32 to 48 of the places each stand for the same power, in the nearest 16 beams and 8 of the others.
   Sums of(const Scatterers& places, const std::vector<double>& power, int threads = 0) const;
 
  private:

@@ -17,9 +17,9 @@ constexpr double min_gridding_tolerance = 1e-13;
 /// transforms the grid into element series, which are deconvolved and shaded, and transformed and interpolated back to
 /// beams with the same kernel. There is no transform along range, hence no wrap-around, and the error is local:
 /// relative to the level at each range. Cost: echoes x pulse samples x kernel width + bins x (grid log grid + beams x
-/// kernel width). The grid of a planar array (E56) has lines over v too, and each row of beams is a weighted sum of them:
-/// echoes x pulse samples x widths of both kernels, and the transforms for each row. Kernel errors are distributed evenly
-/// over all beams: for the same tolerance, a fan of many narrow beams needs a wider kernel.
+/// kernel width). The grid of a planar array (E56) has lines over v too, and each row of beams is a weighted sum of
+/// them: echoes x pulse samples x widths of both kernels, and the transforms for each row. Kernel errors are
+/// distributed evenly over all beams: for the same tolerance, a fan of many narrow beams needs a wider kernel.
 ///
 /// Constructed once per head, medium and tolerance; `pressure` is const and may be called concurrently.
 class PingSynthesizer {
@@ -34,11 +34,11 @@ class PingSynthesizer {
   PingSynthesizer& operator=(PingSynthesizer&&) noexcept;
 
   /// Returns the image, beams x bins [Pa]. If the image is so weak relative to its echoes (they cancel, or lie outside
-  /// of all beams) that the tolerance may be exceeded, it is computed again with a lower one. Throws Error for a NaN in an
-  /// echo, with the echo's index, and for echoes of a planar array without v.
+  /// of all beams) that the tolerance may be exceeded, it is computed again with a lower one. Throws Error for a NaN in
+  /// an echo, with the echo's index, and for echoes of a planar array without v.
   ComplexGrid pressure(const Echoes& echoes) const;
-  /// The same of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c. Chunks are made
-  /// again for each slab of bins that they reach into.
+  /// The same of echoes that are made chunk by chunk, of a head and a scene at rest: delay = 2 range / c. Chunks are
+  /// made again for each slab of bins that they reach into.
   ComplexGrid pressure(const EchoStream& stream) const;
 
   /// Returns what the constructor has chosen for head, medium and tolerance.

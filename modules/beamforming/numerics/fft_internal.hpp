@@ -94,8 +94,8 @@ class Fft {
   ~Fft();
   Fft(const Fft&) = delete;
   Fft& operator=(const Fft&) = delete;
-  /// Transforms `data` in place, or one array to another, as the layout has it; both begin at a multiple of 16 bytes, as
-  /// memory of operator new does. May be called concurrently.
+  /// Transforms `data` in place, or one array to another, as the layout has it; both begin at a multiple of 16 bytes,
+  /// as memory of operator new does. May be called concurrently.
   void run(std::complex<Real>* data) const { Fftw<Real>::run(plan_, data, data); }
   void run(std::complex<Real>* from, std::complex<Real>* to) const { Fftw<Real>::run(plan_, from, to); }
 

@@ -11,8 +11,8 @@ constexpr double single_precision_from = 2e-6;
 /// Least tolerance of a kernel.
 constexpr double min_kernel_tolerance = 1e-15;
 
-/// Expected GriddedImage::share of an echo among beams in the directions `cosines`: root mean square of the pattern over
-/// their extent.
+/// Expected GriddedImage::share of an echo among beams in the directions `cosines`: root mean square of the pattern
+/// over their extent.
 double expected_share(const LineArray& array, double wavelength, std::span<const double> cosines);
 
 }  // namespace insonify

@@ -4,8 +4,8 @@
 
 #include "beamforming/narrow_band/gridding_loops_internal.hpp"
 
-// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits on
-// each. They do not include Eigen, so wide registers are safe.
+// Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
+// on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
 /// Echoes: delay, direction cosine, amplitude over the unit of gridding, Doppler shift.
@@ -28,8 +28,8 @@ struct GaussianState {
   double *re, *im, *turn_re, *turn_im, *ratio, *change, *power;
 };
 
-/// Places Gaussian pulses, attenuated and shifted in frequency by absorption and Doppler (E8, E13, E54), on the grid; the
-/// state is that of sample `sample` of each.
+/// Places Gaussian pulses, attenuated and shifted in frequency by absorption and Doppler (E8, E13, E54), on the grid;
+/// the state is that of sample `sample` of each.
 template <typename Real>
 struct GaussianPlaces {
   std::uint32_t *row, *column;

@@ -11,7 +11,8 @@
 
 namespace insonify {
 
-/// Elements of an array with the weights that a beam gives them. Responses are counted from an echo's arrival at `centre`.
+/// Elements of an array with the weights that a beam gives them. Responses are counted from an echo's arrival at
+/// `centre`.
 struct ArrayPart {
   std::vector<double> y;       ///< places [m], positive to port
   std::vector<double> weight;  ///< shading over the number of elements of the whole array
@@ -25,7 +26,8 @@ struct ArrayPart {
   static ArrayPart end(const LineArray& array, double fade);
 };
 
-/// What all tables of a part of the array share: steps of direction and time, and which ranges one table may span (E134).
+/// What all tables of a part of the array share: steps of direction and time, and which ranges one table may span
+/// (E134).
 struct BeamTableSizes {
   SonarHead head;
   Medium medium;
@@ -42,8 +44,8 @@ struct BeamTableSizes {
   std::size_t directions = 0;  ///< so many
   std::size_t per_bin = 0;     ///< samples of a table per bin of the gate
 
-  /// Doppler shifts over the carrier: of the tables of moving echoes, and the largest that they are good for. Between, and as
-  /// far beyond, responses change linearly with the shift.
+  /// Doppler shifts over the carrier: of the tables of moving echoes, and the largest that they are good for. Between,
+  /// and as far beyond, responses change linearly with the shift.
   static constexpr double shifted = 5e-3, most_shifted = 0.025;
 
   /// For a head with one beam and a Gaussian pulse, and echoes within `widest` of u = 0.
@@ -51,12 +53,13 @@ struct BeamTableSizes {
 
   /// Range of a bin of the gate [m].
   double range_of(double bin) const { return 0.5 * medium.sound_speed * (axis.start + bin * axis.step); }
-  /// By how much later than at the middle of the array an echo counts at the part [s]: its way to the centre of the part,
-  /// less that of a wave from the beam's focus.
+  /// By how much later than at the middle of the array an echo counts at the part [s]: its way to the centre of the
+  /// part, less that of a wave from the beam's focus.
   double lateness(double range, double u) const;
   /// Half length of a response to an echo from `near` to `far` [s]: the pulse, and what the part's delays add.
   double half_length(double near, double far) const;
-  /// The last bin of a table that begins at bin `first`: between its ranges phases turn by as much as four of them allow.
+  /// The last bin of a table that begins at bin `first`: between its ranges phases turn by as much as four of them
+  /// allow.
   double last_bin(double first) const;
 
  private:
@@ -64,16 +67,18 @@ struct BeamTableSizes {
   double phase_between(double near, double far) const;
 };
 
-/// The responses of one focused beam, or of a part of its array, to echoes of unit amplitude from some bins of the gate:
-/// smooth in 1 / range and direction, and of limited band, so polynomials between the entries of a table give them (E134). Refers to its sizes.
+/// The responses of one focused beam, or of a part of its array, to echoes of unit amplitude from some bins of the
+/// gate:
+/// smooth in 1 / range and direction, and of limited band, so polynomials between the entries of a table give them
+/// (E134). Refers to its sizes.
 class BeamTable {
  public:
   /// Sums over all elements for every entry. `doppler`: shift over the carrier. Directions count from the beam, times
   /// (1 + doppler), so that responses hardly depend on it.
   BeamTable(const BeamTableSizes& sizes, double first_bin, double last_bin, double doppler);
 
-  /// Adds an echo to an image of `bins` bins, the first of which is bin `first` of the gate. `shifted`: the same table for
-  /// BeamTableSizes::shifted, or nullptr for an echo at rest; doppler [Hz].
+  /// Adds an echo to an image of `bins` bins, the first of which is bin `first` of the gate. `shifted`: the same table
+  /// for BeamTableSizes::shifted, or nullptr for an echo at rest; doppler [Hz].
   void add(double delay, double u, std::complex<double> amplitude, double doppler, const BeamTable* shifted,
            std::ptrdiff_t first, std::ptrdiff_t bins, std::complex<double>* image) const;
 

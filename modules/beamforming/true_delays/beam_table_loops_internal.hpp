@@ -1,8 +1,8 @@
 #pragma once
 #include <cstddef>
 
-// Loops over raw pointers, compiled for several instruction sets and chosen at run time, with the same bits on each. They
-// include no Eigen, so wide registers are safe.
+// Loops over raw pointers, compiled for several instruction sets and chosen at run time, with the same bits on each.
+// They include no Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
 /// Where a beam is focused at each sample, as an element at `y` sees it: the range is `range` + j `step` [m].
@@ -10,7 +10,8 @@ struct ElementFocus {
   double range, step, u, y;
 };
 
-/// Writes by how much the element is farther from the focus than the centre of the array is [m], for `count` samples (E61).
+/// Writes by how much the element is farther from the focus than the centre of the array is [m], for `count` samples
+/// (E61).
 void focus_at(const ElementFocus& focus, std::size_t count, double* path);
 
 /// A Gaussian pulse at the elements: sample j is `late` + `start` + j `step` after the echo's delay [s].
@@ -21,13 +22,15 @@ struct ElementPulse {
   double a, b;     ///< of its EchoEnvelope (E8)
 };
 
-/// Adds what one element contributes to a beam: weight exp(-2 pi i f (D + late)) G(t + D), t the time after the delay and
-/// D = (focus[j] - path) / c, for the samples j of [begin, end). `path` is the path difference of the echo to the element,
+/// Adds what one element contributes to a beam: weight exp(-2 pi i f (D + late)) G(t + D), t the time after the delay
+/// and D = (focus[j] - path) / c, for the samples j of [begin, end). `path` is the path difference of the echo to the
+/// element,
 /// `focus[j]` that of the beam's focus [m].
 void add_element(const ElementPulse& pulse, const double* focus, double path, double weight, std::size_t begin,
                  std::size_t end, double* re, double* im);
 
 constexpr std::size_t range_taps = 4, direction_taps = 8, time_taps = 8;  ///< of an interpolation in a BeamTable
+constexpr std::size_t taps_before = 3;      ///< the interval that is interpolated, of direction and time
 constexpr std::size_t numbers_at_once = 8;  ///< a row of the table holds a multiple of so many numbers
 
 /// The rows of a table that give one response, and their weights: row (c, g, q) begins at c plane + g line + q row.

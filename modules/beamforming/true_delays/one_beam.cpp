@@ -14,7 +14,8 @@ constexpr double most_work = 1e9;   // samples of pulses in all tables: some sec
 constexpr double most_bytes = 3e8;  // of all tables
 constexpr double longest = 256;     // bins of a stretch
 
-/// Range from which on tables keep the tolerance: nearer, focusing spreads the frequencies of the outermost elements [m].
+/// Range from which on tables keep the tolerance: nearer, focusing spreads the frequencies of the outermost elements
+/// [m].
 double nearest_range(const SonarHead& head, const Medium& medium, double tolerance) {
   const double aperture = head.array.spacing * static_cast<double>(head.array.elements() - 1);
   const double moved = aperture * std::sqrt(head.pulse.centre_frequency / (8 * head.pulse.bandwidth));

@@ -33,13 +33,13 @@ class BeamTables {
   double guard_ = 0;
 };
 
-/// The image of one beam with true delays, focused at every range (E61, E62), as a sum of responses read from tables (E134).
-/// Of an echo far beyond the main lobe, all that lies between the ends of the array cancels: two tables of the ends give its
-/// response. The cost of an echo depends on neither elements nor directions.
+/// The image of one beam with true delays, focused at every range (E61, E62), as a sum of responses read from tables
+/// (E134). Of an echo far beyond the main lobe, all that lies between the ends of the array cancels: two tables of the
+/// ends give its response. The cost of an echo depends on neither elements nor directions.
 class OneBeam {
  public:
-  /// Returns nullptr if the head has several beams or a sweep, or if its tables cost more than they are worth. `widest`: |u|
-  /// of echoes.
+  /// Returns nullptr if the head has several beams or a sweep, or if its tables cost more than they are worth.
+  /// `widest`: |u| of echoes.
   static std::unique_ptr<const OneBeam> make(const SonarHead& head, const Medium& medium, double tolerance,
                                              double widest);
 

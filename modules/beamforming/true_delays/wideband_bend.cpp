@@ -37,8 +37,8 @@ double mean_bend(const BendSpan& span, double y) {
   return 0.5 * (Bend(span.mean_range, span.mean_u, y).b + Bend(span.mean_range, -span.mean_u, y).b);
 }
 
-/// exp(i phase), and what undoes gridding beside it: the kernel of directions, around which the phase is a parabola, and
-/// of echoes the time of their pulses.
+/// exp(i phase), and what undoes gridding beside it: the kernel of directions, around which the phase is a parabola,
+/// and of echoes the time of their pulses.
 Complex undone(const WidebandPlan& plan, const Bend& bend, double phase, double off, const std::vector<Complex>& moment,
                bool echoes) {
   const double wave = 2 * pi * (plan.head.pulse.centre_frequency - off) / plan.medium.sound_speed;

@@ -8,15 +8,15 @@
 
 namespace insonify {
 
-/// The bend of wavefronts over a block of time, as a short sum of products (E68): beyond the plane wave's delay -y u / c
-/// an element at y receives from (r, u) by b / c later, b = sqrt(r^2 - 2 r y u + y^2) - r + y u. At frequency F elements
-/// lie at places k = F y period / c between harmonics, and
+/// The bend of wavefronts over a block of time, as a short sum of products (E68): beyond the plane wave's delay -y u /
+/// c an element at y receives from (r, u) by b / c later, b = sqrt(r^2 - 2 r y u + y^2) - r + y u. At frequency F
+/// elements lie at places k = F y period / c between harmonics, and
 ///
 ///   exp(2 pi i F (b - b0(y)) / c) = sum over terms q of along_q(u, t) sum over s < band[q] of row_qs(k) power_s(F)
 ///
-/// power_s being WidebandPlan::line_power and b0 the bend of one range and direction, the same for echoes and beams of a
-/// block, where it cancels. Found from sampled values by elimination and singular values, to a tolerance of their root
-/// mean square; gridding over directions and interpolation between harmonics are undone.
+/// power_s being WidebandPlan::line_power and b0 the bend of one range and direction, the same for echoes and beams of
+/// a block, where it cancels. Found from sampled values by elimination and singular values, to a tolerance of their
+/// root mean square; gridding over directions and interpolation between harmonics are undone.
 struct BendSeries {
   std::size_t terms = 0;
   std::size_t powers = 0;         ///< of time in [-1, 1] over the block, highest first

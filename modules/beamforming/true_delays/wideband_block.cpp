@@ -76,13 +76,13 @@ WidebandRoom::WidebandRoom(const WidebandPlan& plan, const WidebandTransforms& t
 WidebandBlock::WidebandBlock(const WidebandPlan& plan, const RowFits& fits, double first_in, double last_in)
     : first(first_in),
       last(last_in),
-      received(bend_of_echoes(plan, fits, first, last)),
-      undone(bend_of_beams(plan, fits, first, last)) {}
+      echo_curvature(bend_of_echoes(plan, fits, first, last)),
+      beam_curvature(bend_of_beams(plan, fits, first, last)) {}
 
 void WidebandRoom::add_image(const WidebandBlock& block, ComplexGrid& pressure) {
   if (unit_ == 0) return;
   const WidebandPlan& plan = plan_;
-  const BendSeries &received = block.received, &undone = block.undone;
+  const BendSeries &received = block.echo_curvature, &undone = block.beam_curvature;
   const std::size_t tile = wideband_tile * plan.grid_stride, rows = plan.rows() + 1;
   grow(harmonics_, std::max(received.terms, undone.terms) * tile);
   grow(directions_, undone.terms * tile);
@@ -201,7 +201,7 @@ void WidebandRoom::add_beams(const WidebandBlock& block, ComplexGrid& pressure) 
     const std::ptrdiff_t from = std::max<std::ptrdiff_t>(first, 0),
                          to = std::min<std::ptrdiff_t>(first + static_cast<std::ptrdiff_t>(wideband_tile), end);
     if (from >= to) continue;
-    form_directions(block.undone, n0, static_cast<double>(first));
+    form_directions(block.beam_curvature, n0, static_cast<double>(first));
     for (std::size_t b = 0; b < plan.u_beam.size(); ++b) {
       kernels::take_beam(plan.beam_weight.data() + b * width, plan.beam_row.data() + b * width, width, across_.data(),
                          2 * wideband_tile, 2 * wideband_tile, beam_.data());

@@ -27,8 +27,8 @@ struct WidebandTransforms {
 
 /// A block of time.
 struct WidebandBlock {
-  double first, last;           ///< bins of the gate; they may begin before it
-  BendSeries received, undone;  ///< by echoes, and for beams
+  double first, last;                         ///< bins of the gate; they may begin before it
+  BendSeries echo_curvature, beam_curvature;  ///< by echoes, and for beams
 
   WidebandBlock(const WidebandPlan& plan, const RowFits& fits, double first, double last);
 };

@@ -28,8 +28,8 @@ WidebandStretches stretches_of(const WidebandLayout& layout, const SonarHead& he
 /// Of the tolerance that a WidebandSynthesizer is asked for, what its bounds aim at.
 constexpr double wideband_share = 0.7;
 
-/// The echoes of an image, stretch by stretch. visit(k, add) calls add(echoes, which) as often as need be for what stretch
-/// k holds, in the order of the echoes; it may be called concurrently.
+/// The echoes of an image, stretch by stretch. visit(k, add) calls add(echoes, which) as often as need be for what
+/// stretch k holds, in the order of the echoes; it may be called concurrently.
 struct WidebandFeed {
   using Add = std::function<void(const Echoes&, std::span<const std::uint32_t>)>;
   std::function<void(std::size_t stretch, const Add& add)> visit;
@@ -38,8 +38,8 @@ struct WidebandFeed {
 /// Of stored echoes, which must outlive it.
 WidebandFeed feed_of(const Echoes& echoes, const WidebandStretches& stretches);
 
-/// Of a stream, which must outlive it, of a head and a scene at rest: delay = 2 range / c. Chunks are made again for each
-/// stretch that they reach into. Calls throw Error for an echo that is not finite.
+/// Of a stream, which must outlive it, of a head and a scene at rest: delay = 2 range / c. Chunks are made again for
+/// each stretch that they reach into. Calls throw Error for an echo that is not finite.
 WidebandFeed feed_of(const EchoStream& stream, const WidebandStretches& stretches, double sound_speed);
 
 /// The largest |u| of a stream's echoes, or `least` if that is more.

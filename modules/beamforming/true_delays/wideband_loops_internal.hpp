@@ -21,13 +21,13 @@ struct TimeFactor {
 void weigh(TimeFactor factor, const float* time, const float* re, const float* im, std::size_t count,
            std::size_t stride, float* line);
 
-/// Sums over `terms`, whose lines lie `plane` numbers apart, of factor(g, time[n]) line(n, g): of each place g the times
-/// one after another, real and imaginary in turn. The factors of terms follow one another.
+/// Sums over `terms`, whose lines lie `plane` numbers apart, of factor(g, time[n]) line(n, g): of each place g the
+/// times one after another, real and imaginary in turn. The factors of terms follow one another.
 void weigh_back(TimeFactor factor, const float* time, const float* line, std::size_t terms, std::size_t plane,
                 std::size_t count, std::size_t stride, float* across);
 
-/// Sums of complex rows, eight numbers at a time: out o = sum over i < ins[o] of factor(o, i) in i. `factor` has, by eight
-/// numbers, out and in (of which there are `stride`), eight real parts and eight imaginary ones.
+/// Sums of complex rows, eight numbers at a time: out o = sum over i < ins[o] of factor(o, i) in i. `factor` has, by
+/// eight numbers, out and in (of which there are `stride`), eight real parts and eight imaginary ones.
 struct RowMix {
   const float* factor;
   std::size_t outs;
@@ -64,8 +64,8 @@ struct LinePowers {
   const float* power;          ///< by chunk, power and line
 };
 
-/// Sums lines of complex numbers `plane` numbers apart, one for each power of frequency, times those powers, in the chunks
-/// of `chunk`: of each lines_at_once real parts and as many imaginary ones, `stride` numbers apart.
+/// Sums lines of complex numbers `plane` numbers apart, one for each power of frequency, times those powers, in the
+/// chunks of `chunk`: of each lines_at_once real parts and as many imaginary ones, `stride` numbers apart.
 void sum_powers(LinePowers powers, const float* line, std::size_t plane, const std::size_t* chunk, std::size_t count,
                 float* to, std::size_t stride);
 

@@ -14,10 +14,10 @@
 
 namespace insonify {
 
-/// Sizes of the synthesis with true delays for blocks of time of one length. The pulses of a block and all that the array's
-/// delays make of them fit into one cycle of a transform. Directions lie on a grid over one period; its harmonics
-/// k / period, |k| <= most, are places on the array in wavelengths, between which the elements are interpolated, frequency
-/// by frequency.
+/// Sizes of the synthesis with true delays for blocks of time of one length. The pulses of a block and all that the
+/// array's delays make of them fit into one cycle of a transform. Directions lie on a grid over one period; its
+/// harmonics k / period, |k| <= most, are places on the array in wavelengths, between which the elements are
+/// interpolated, frequency by frequency.
 struct WidebandSizes {
   static constexpr std::size_t kernel_width = 8;
 

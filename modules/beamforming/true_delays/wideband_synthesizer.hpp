@@ -21,11 +21,11 @@ namespace insonify {
 ///
 /// A head of one beam with a Gaussian pulse reads its responses from tables instead (OneBeam, E134).
 ///
-/// Cost relative to PingSynthesizer: docs/results/accuracy.md. Plans and sums are made at the first ping that needs them.
-/// Echoes whose pulses begin nearer than max(3, sqrt(f_c / 2.4 B)) lengths of the array are summed element by element,
-/// which is slow; so are those where wavefronts bend too fast for the shortest block or over a long pulse.
-/// Error: of fans relative to the level of a block; of 256 elements within 3 m up to 1.7e-4, whatever the tolerance. Sweeps have
-/// no sharp band: held by a test at 1e-2.
+/// Cost relative to PingSynthesizer: docs/results/accuracy.md. Plans and sums are made at the first ping that needs
+/// them. Echoes whose pulses begin nearer than max(3, sqrt(f_c / 2.4 B)) lengths of the array are summed element by
+/// element, which is slow; so are those where wavefronts bend too fast for the shortest block or over a long pulse.
+/// Error: of fans relative to the level of a block; of 256 elements within 3 m up to 1.7e-4, whatever the tolerance.
+/// Sweeps have no sharp band: held by a test at 1e-2.
 ///
 /// Made once per head, medium and tolerance; `pressure` is const and may be called from several threads.
 class WidebandSynthesizer {

@@ -7,11 +7,11 @@
 #include "scene/estimate/surfel_cell_internal.hpp"
 #include "scene/scene_index.hpp"
 
-// Each point finds its own triangles: between two neighbouring sides of its Voronoi cell stands the middle of the circle
-// through the point and the two neighbours across, which holds no other point. All who could lie in a circle of radius R
-// through a point are within 2 R of it, so a cell is exact as far as neighbours were sought. A triangle is listed by its first
-// corner. Where four points lie on a circle, as on a grid, their cells must agree: places are moved by a ten-thousandth of a
-// spacing, by a hash of their index.
+// Each point finds its own triangles: between two neighbouring sides of its Voronoi cell stands the middle of the
+// circle through the point and the two neighbours across, which holds no other point. All who could lie in a circle of
+// radius R through a point are within 2 R of it, so a cell is exact as far as neighbours were sought. A triangle is
+// listed by its first corner. Where four points lie on a circle, as on a grid, their cells must agree: places are moved
+// by a ten-thousandth of a spacing, by a hash of their index.
 namespace insonify {
 namespace {
 
@@ -54,8 +54,8 @@ class Stars {
   }
 
  private:
-  /// Cuts the cell of a point out of a square that holds the widest circle, by as many neighbours as can change a corner within
-  /// it; returns the radius of that circle.
+  /// Cuts the cell of a point out of a square that holds the widest circle, by as many neighbours as can change a
+  /// corner within it; returns the radius of that circle.
   double find_cell(std::uint32_t i, Workspace& work) const {
     double widest = 0;
     for (std::size_t looked_at = first_look;; looked_at *= 2) {

@@ -10,9 +10,10 @@
 #include "scene/estimate/surfel_cell_internal.hpp"
 #include "scene/scene_index.hpp"
 
-// Wide cubics lose the short waves of a surface, narrow ones leave noise on it. Which is the less is seen of points that are
-// left out of them (cross-validation): their mean square distance from a cubic is the noise, the same for all, and its error.
-// Where that is least, about as much slope is lost of the waves as noise adds, so that the surface is as rough as it is.
+// Wide cubics lose the short waves of a surface, narrow ones leave noise on it. Which is the less is seen of points
+// that are left out of them (cross-validation): their mean square distance from a cubic is the noise, the same for all,
+// and its error. Where that is least, about as much slope is lost of the waves as noise adds, so that the surface is as
+// rough as it is.
 namespace insonify {
 namespace {
 

@@ -56,7 +56,8 @@ struct SurfelShapes {
 ///
 /// Points that were all seen from `viewpoint` keep the base normals; areas are those of their cells of solid angle
 /// over the cosine between normal and line of sight, at least 0.1 (E73): steps in range are no relief. That holds for a
-/// scanner; if the cells are more alike on the plan, the cloud is a raster of heights, and the viewpoint changes nothing.
+/// scanner; if the cells are more alike on the plan, the cloud is a raster of heights, and the viewpoint changes
+/// nothing.
 ///
 /// Lengths and degenerate input as for estimate_surfel_areas.
 SurfelShapes estimate_surfel_shapes(std::span<const Eigen::Vector3f> points,

@@ -141,8 +141,8 @@ class AreaEstimator {
     return clipped_area(work);
   }
 
-  // The direction of the facets between the point and the neighbours whose bisectors bound its cell, as `area` left them;
-  // zero if there are none.
+  // The direction of the facets between the point and the neighbours whose bisectors bound its cell, as `area` left
+  // them; zero if there are none.
   static Vector3d facet_normal(const Workspace& work) {
     Vector3d sum = Vector3d::Zero();
     if (work.cell.size() < 3) return sum;

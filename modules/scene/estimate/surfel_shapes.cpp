@@ -135,8 +135,8 @@ std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& ba
 }
 
 // Relief where a cubic leaves at most half of what a plane leaves, as it does not of noise; else the mean plane around.
-// The cell on its plane becomes one on the surface (E69). Strays, cells far larger than those around, take the area that
-// is typical there unless `keep_strays`.
+// The cell on its plane becomes one on the surface (E69). Strays, cells far larger than those around, take the area
+// that is typical there unless `keep_strays`.
 void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, const ShapeOptions& options, Estimate& e,
                    std::vector<Vector3f>& normals, SurfelShapes& counts) {
   constexpr double far_larger = 16;

@@ -1,4 +1,4 @@
-#include "store/join_cubes.hpp"
+#include "store/concatenate_cube_files.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -58,7 +58,7 @@ struct JoinedCube {
                                {beam_pose_name, false}};
 };
 
-std::vector<std::string> images_of(const Place& place, hid_t file) {
+std::vector<std::string> images_of(const FileContext& place, hid_t file) {
   std::vector<std::string> images{pressure_name.path};
   for (const std::string& layer : names_in(place, file, layers_group))
     images.push_back(std::string(layers_group) + "/" + layer);
@@ -68,7 +68,7 @@ std::vector<std::string> images_of(const Place& place, hid_t file) {
   return images;
 }
 
-Extent whole_extent(const Place& place, hid_t dataset, const char* name) {
+Extent whole_extent(const FileContext& place, hid_t dataset, const char* name) {
   const Handle space(place.checked(H5Dget_space(dataset), name), H5Sclose);
   Extent extent(static_cast<std::size_t>(place.checked(H5Sget_simple_extent_ndims(space), name)));
   place.checked(H5Sget_simple_extent_dims(space, extent.data(), nullptr), name);
@@ -76,7 +76,7 @@ Extent whole_extent(const Place& place, hid_t dataset, const char* name) {
 }
 
 /// Reads the values of a part's track; the extent is empty if it has none.
-Extent read_values_of(const Place& place, hid_t file, Track& track, hsize_t pings) {
+Extent read_values_of(const FileContext& place, hid_t file, Track& track, hsize_t pings) {
   const std::size_t before = track.bytes.size();
   if (H5Lexists(file, track.name.path, H5P_DEFAULT) <= 0) {
     if (track.without == Track::Without::nothing) return {};
@@ -93,7 +93,7 @@ Extent read_values_of(const Place& place, hid_t file, Track& track, hsize_t ping
   return extent;
 }
 
-void add_track(const Place& place, hid_t file, Track& track, hsize_t pings) {
+void add_track(const FileContext& place, hid_t file, Track& track, hsize_t pings) {
   const Extent extent = read_values_of(place, file, track, pings);
   if (extent.empty()) return;
   if (track.extent.empty())
@@ -103,7 +103,7 @@ void add_track(const Place& place, hid_t file, Track& track, hsize_t pings) {
 }
 
 void add_part(JoinedCube& joined, const std::string& path) {
-  const Place place{path, ErrorKind::content};
+  const FileContext place{path, ErrorKind::content};
   const Handle file = open_file(place);
   const Extent extent = extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3);
   const std::string sonar = read_text(place, file, "sonar");
@@ -126,7 +126,7 @@ void add_part(JoinedCube& joined, const std::string& path) {
 
 /// From where attributes are copied, and to where.
 struct Copy {
-  const Place& from;
+  const FileContext& from;
   hid_t to;
 };
 
@@ -149,7 +149,7 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to)
   return -1;
 }
 
-void copy_axes(const Place& place, const Place& from, hid_t first, hid_t file) {
+void copy_axes(const FileContext& place, const FileContext& from, hid_t first, hid_t file) {
   Copy copy{from, file};
   place.checked(H5Aiterate2(first, H5_INDEX_NAME, H5_ITER_INC, nullptr, copy_attribute, &copy), "attributes");
   const Handle bare(place.checked(H5Pcreate(H5P_OBJECT_COPY), "axes"), H5Pclose);
@@ -163,7 +163,7 @@ void copy_axes(const Place& place, const Place& from, hid_t first, hid_t file) {
 }
 
 /// Whether the values are those of all pings of a cube without this track.
-bool goes_without(const Place& from, hid_t first, const Track& track) {
+bool goes_without(const FileContext& from, hid_t first, const Track& track) {
   if (track.without == Track::Without::nothing) return false;
   std::vector<double> values(track.bytes.size() / 8);
   std::memcpy(values.data(), track.bytes.data(), track.bytes.size());
@@ -171,7 +171,8 @@ bool goes_without(const Place& from, hid_t first, const Track& track) {
   return std::all_of(values.begin(), values.end(), [same](double value) { return value == same; });
 }
 
-void write_tracks(const Place& place, hid_t file, const JoinedCube& joined, const Place& from, hid_t first) {
+void write_tracks(const FileContext& place, hid_t file, const JoinedCube& joined, const FileContext& from,
+                  hid_t first) {
   for (const Track& track : joined.tracks) {
     if (track.extent.empty() || goes_without(from, first, track)) continue;
     const Handle dataset = create_dataset(place, file, track.name, track.type(true), track.extent);
@@ -180,7 +181,7 @@ void write_tracks(const Place& place, hid_t file, const JoinedCube& joined, cons
   }
 }
 
-Handle rows(const Place& place, const Extent& extent, hsize_t first, hsize_t count) {
+Handle rows(const FileContext& place, const Extent& extent, hsize_t first, hsize_t count) {
   Handle space(place.checked(H5Screate_simple(3, extent.data(), nullptr), "selection"), H5Sclose);
   const Extent start = {first, 0, 0}, size = {count, extent[1], extent[2]};
   place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
@@ -188,7 +189,7 @@ Handle rows(const Place& place, const Extent& extent, hsize_t first, hsize_t cou
 }
 
 /// Makes `properties` refer to the parts. What is not there reads as NaN.
-void refer_to_parts(const Place& place, const JoinedCube& joined, const std::string& image, hid_t type,
+void refer_to_parts(const FileContext& place, const JoinedCube& joined, const std::string& image, hid_t type,
                     hid_t properties) {
   const std::filesystem::path folder = std::filesystem::path(place.path).parent_path();
   hsize_t first = 0;
@@ -204,7 +205,8 @@ void refer_to_parts(const Place& place, const JoinedCube& joined, const std::str
 }
 
 /// Copies an image of all parts, a few pings at a time.
-void copy_images(const Place& place, const JoinedCube& joined, const std::string& image, hid_t type, hid_t dataset) {
+void copy_images(const FileContext& place, const JoinedCube& joined, const std::string& image, hid_t type,
+                 hid_t dataset) {
   constexpr hsize_t bytes_at_once = 4 << 20;
   const hsize_t bytes = joined.extent[1] * joined.extent[2] * H5Tget_size(type);
   const hsize_t at_once = std::max<hsize_t>(1, bytes_at_once / std::max<hsize_t>(1, bytes));
@@ -215,7 +217,7 @@ void copy_images(const Place& place, const JoinedCube& joined, const std::string
       const hsize_t count = std::min(at_once, part.pings - first);
       const Extent some = {count, extent[1], extent[2]};
       const Handle memory = rows(place, some, 0, count);
-      ArrayReceiver sent = read_apart(part.path, [&](const Place& from, hid_t file, ArraySender& to) {
+      ArrayReceiver sent = read_apart(part.path, [&](const FileContext& from, hid_t file, ArraySender& to) {
         const Handle source = open_dataset(from, file, {image.c_str(), ""});
         read_values(from, source, {type, memory, rows(from, extent, first, count)}, to.take(count * bytes), image);
       });
@@ -233,8 +235,8 @@ struct Join {
   bool tried = false;  ///< without the numbers of images
 };
 
-void write_image(const Place& place, const JoinedCube& joined, const std::string& image, const Place& from, hid_t first,
-                 hid_t file, Join join) {
+void write_image(const FileContext& place, const JoinedCube& joined, const std::string& image, const FileContext& from,
+                 hid_t first, hid_t file, Join join) {
   const Handle like = open_dataset(place, first, {image.c_str(), ""});
   const Handle type(place.checked(H5Dget_type(like), image), H5Tclose);
   const Handle properties(place.checked(join.copy ? H5Dget_create_plist(like) : H5Pcreate(H5P_DATASET_CREATE), image),
@@ -251,7 +253,7 @@ void write_image(const Place& place, const JoinedCube& joined, const std::string
 }
 
 /// A file that is kept in memory, and lost; its name, which HDF5 looks for, cannot be there.
-Handle create_in_memory(const Place& place) {
+Handle create_in_memory(const FileContext& place) {
   constexpr std::size_t step = 1 << 20;
   const Handle access(place.checked(H5Pcreate(H5P_FILE_ACCESS), "file"), H5Pclose);
   place.checked(H5Pset_fapl_core(access, step, false), "file");
@@ -263,9 +265,9 @@ void join_parts(const std::string& path, const std::vector<std::string>& parts, 
   const QuietErrors quiet;
   JoinedCube joined;
   for (const std::string& part : parts) add_part(joined, part);
-  const Place from{parts.front(), ErrorKind::content};
+  const FileContext from{parts.front(), ErrorKind::content};
   const Handle first = open_file(from);
-  const auto write = [&](const Place& place, hid_t file) {
+  const auto write = [&](const FileContext& place, hid_t file) {
     copy_axes(place, from, first, file);
     write_tracks(place, file, joined, from, first);
     const auto is_layer = [](const std::string& image) { return image.starts_with(layers_group); };
@@ -275,14 +277,14 @@ void join_parts(const std::string& path, const std::vector<std::string>& parts, 
     if (!join.tried) name_dimensions(place, file);  // which looks whether the numbers are there
   };
   if (!join.tried) return write_hdf5(path, write);
-  const Place nowhere{path, ErrorKind::file};
+  const FileContext nowhere{path, ErrorKind::file};
   write(nowhere, create_in_memory(nowhere));
 }
 
 }  // namespace
 
-void join_cubes(const std::string& path, const std::vector<std::string>& parts, bool copy) {
-  if (parts.empty()) fail(ErrorKind::argument, "join_cubes: ", path, ": no parts, must be at least one");
+void concatenate_cube_files(const std::string& path, const std::vector<std::string>& parts, bool copy) {
+  if (parts.empty()) fail(ErrorKind::argument, "concatenate_cube_files: ", path, ": no parts, must be at least one");
   // A child makes every call of HDF5 on the parts first, so that none can end this process.
   std::size_t bytes = 0;
   for (const std::string& part : parts) {

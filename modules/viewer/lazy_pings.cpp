@@ -1,4 +1,4 @@
-#include "viewer/ping_reel.hpp"
+#include "viewer/lazy_pings.hpp"
 
 #include <utility>
 
@@ -6,10 +6,10 @@
 
 namespace insonify {
 
-PingReel::PingReel(std::vector<TrackPoint> places, PingSource source)
+LazyPings::LazyPings(std::vector<TrackPoint> places, PingSource source)
     : places_(std::move(places)), source_(std::move(source)) {}
 
-std::shared_ptr<const Ping> PingReel::ping(std::size_t i) const {
+std::shared_ptr<const Ping> LazyPings::ping(std::size_t i) const {
   constexpr const char* who = "show_viewer";
   if (i >= size()) fail(ErrorKind::argument, who, ": ping = ", i, ", must be below ", size(), ", the number of pings");
   if (last_ && last_index_ == i) return last_;
@@ -28,15 +28,15 @@ std::shared_ptr<const Ping> PingReel::ping(std::size_t i) const {
   return last_;
 }
 
-const PingReel::Frame& PingReel::frame() const {
+const LazyPings::Frame& LazyPings::frame() const {
   if (!frame_) ping(0);
   return *frame_;
 }
 
-ComplexGridF PingReel::beam(std::size_t first, std::size_t count, std::size_t beam) const {
+ComplexGridF LazyPings::beam(std::size_t first, std::size_t count, std::size_t beam) const {
   return source_.beam(first, count, beam);
 }
 
-Soundings PingReel::returns(std::size_t i) const { return has_returns() ? source_.returns(i) : Soundings{}; }
+Soundings LazyPings::returns(std::size_t i) const { return has_returns() ? source_.returns(i) : Soundings{}; }
 
 }  // namespace insonify

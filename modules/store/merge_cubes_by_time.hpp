@@ -25,10 +25,10 @@ struct MergedCube {
 };
 
 /// One cube with all pings, ordered by time of transmission; pings of equal time keep the given order. Ping numbers are
-/// kept if they are unique, else replaced by 0, 1, ... Layers, maps and labels are kept if all pings have the same ones, else dropped.
-/// Seed, tolerance, version and water are those of the first cube; pings keep the water that they were made in. Throws
-/// Error(argument) if there is no cube, Error(content) naming the cube and the difference if sonar, fan, gate, centre
-/// frequency or bandwidth differ from the first.
-MergedCube merge_cubes(std::vector<NamedCube> cubes);
+/// kept if they are unique, else replaced by 0, 1, ... Layers, maps and labels are kept if all pings have the same
+/// ones, else dropped. Seed, tolerance, version and water are those of the first cube; pings keep the water that they
+/// were made in. Throws Error(argument) if there is no cube, Error(content) naming the cube and the difference if
+/// sonar, fan, gate, centre frequency or bandwidth differ from the first.
+MergedCube merge_cubes_by_time(std::vector<NamedCube> cubes);
 
 }  // namespace insonify

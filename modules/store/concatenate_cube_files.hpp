@@ -10,6 +10,6 @@ namespace insonify {
 /// part. Layers and maps that not all parts have are left out. Takes as much memory as one image. The same parts give
 /// the same bytes. Throws Error(argument) without parts, Error(file) for one that is missing, Error(content) for one
 /// that is no cube or differs in sonar or extent, naming it.
-void join_cubes(const std::string& path, const std::vector<std::string>& parts, bool copy = false);
+void concatenate_cube_files(const std::string& path, const std::vector<std::string>& parts, bool copy = false);
 
 }  // namespace insonify

@@ -1,4 +1,4 @@
-#include "store/merge_cubes.hpp"
+#include "store/merge_cubes_by_time.hpp"
 
 #include <algorithm>
 #include <set>
@@ -65,8 +65,8 @@ void drop_unlike_parts(std::vector<Ping>& pings) {
 
 }  // namespace
 
-MergedCube merge_cubes(std::vector<NamedCube> cubes) {
-  if (cubes.empty()) fail(ErrorKind::argument, "merge_cubes: no cubes, must be at least one");
+MergedCube merge_cubes_by_time(std::vector<NamedCube> cubes) {
+  if (cubes.empty()) fail(ErrorKind::argument, "merge_cubes_by_time: no cubes, must be at least one");
   for (const NamedCube& one : cubes) {
     if (one.cube.pings.empty()) fail(ErrorKind::content, one.name, ": holds no pings");
     require_alike(one, cubes.front());

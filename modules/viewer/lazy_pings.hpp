@@ -21,11 +21,11 @@ struct PingSource {
 
 /// The pings that a viewer plays: the places of all are known, images are read one at a time, so that memory does not
 /// grow with their number. All pings have the fan and the gate of the first.
-class PingReel {
+class LazyPings {
  public:
-  PingReel() = default;
+  LazyPings() = default;
   /// `source.ping` and `source.beam` must be given.
-  PingReel(std::vector<TrackPoint> places, PingSource source);
+  LazyPings(std::vector<TrackPoint> places, PingSource source);
 
   /// Number of pings.
   std::size_t size() const { return places_.size(); }

@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "beamforming/numerics/path_difference_internal.hpp"
+#include "beamforming/numerics/require_synthesis_internal.hpp"
+#include "beamforming/true_delays/beam_table_internal.hpp"
+#include "beamforming/true_delays/beam_table_loops_internal.hpp"
+
+namespace insonify {
+namespace {
+
+using kernels::direction_taps;
+using kernels::taps_before;
+
+// Of the ranges of a table: losses and pulses change with range, not with its inverse.
+constexpr double farthest_ratio = 1.4;
+// What polynomials through eight steps leave at the middle of the inner one, of a wave that turns by one radian per
+// step.
+constexpr double eight_left = 1.07e-3;
+constexpr double four_left = 1.0 / 3072;  // the same of a cubic through Chebyshev nodes, by the phase over all of them
+
+/// Steps of the table per step of the sampling theorem, for the highest frequency of a Gaussian pulse's band: errors
+/// count by its spectrum, which has fallen to the tolerance there.
+double finer_in_time(double tolerance) {
+  const double fall = -std::log(tolerance), weight = std::pow(4 / fall, 4) * std::exp(-4.0);
+  return std::max(1.5, pi * std::pow(eight_left * weight / (0.1 * tolerance), 1.0 / 8));
+}
+
+/// The same for the elements at the ends of the array, which have a small part of its weight.
+double finer_in_direction(double tolerance) {
+  constexpr double weight = 0.04;
+  return std::max(1.5, pi * std::pow(eight_left * weight / (0.2 * tolerance), 1.0 / 8));
+}
+
+double half_band_of(const Pulse& pulse, double tolerance) {
+  return pulse.bandwidth * (0.03 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
+}
+
+bool is_symmetric(const std::vector<double>& w) {
+  for (std::size_t m = 0; m < w.size() / 2; ++m)
+    if (std::abs(w[m] - w[w.size() - 1 - m]) > 1e-12 * std::abs(w[m])) return false;
+  return true;
+}
+
+/// 1 for x <= 0 and 0 for x >= 1, as smooth as an integral of a Kaiser window.
+double faded(double x) {
+  constexpr int steps = 64;
+  constexpr double beta = 13;
+  if (x <= 0 || x >= 1) return x <= 0;
+  const auto area = [](double to) {
+    double sum = 0;  // the midpoint rule: the integrand is smooth
+    for (int k = 0; k < steps; ++k) {
+      const double z = 2 * to * (k + 0.5) / steps - 1;
+      sum += std::cyl_bessel_i(0, beta * std::sqrt(std::max(0.0, 1 - z * z)));
+    }
+    return to * sum / steps;
+  };
+  return area(1 - x) / area(1);
+}
+
+}  // namespace
+
+ArrayPart ArrayPart::whole(const LineArray& array) {
+  ArrayPart part;
+  for (std::size_t m = 0; m < array.elements(); ++m) {
+    part.y.push_back(array.spacing * element_place(m, array.elements()));
+    part.weight.push_back(array.shading[m] / static_cast<double>(array.elements()));
+  }
+  return part;
+}
+
+ArrayPart ArrayPart::end(const LineArray& array, double fade) {
+  const ArrayPart all = whole(array);
+  ArrayPart part;
+  part.centre = all.y.back(), part.fade = fade;
+  for (std::size_t m = 0; m < all.y.size(); ++m)
+    if (const double left = faded((part.centre - all.y[m]) / fade); left > 0) {
+      part.y.push_back(all.y[m]);
+      part.weight.push_back(left * all.weight[m]);
+    }
+  return part;
+}
+
+BeamTableSizes::BeamTableSizes(const SonarHead& head_in, const Medium& medium_in, double tolerance_in, double widest_in,
+                               ArrayPart part_in)
+    : head(head_in),
+      medium(medium_in),
+      tolerance(tolerance_in),
+      widest(widest_in),
+      part(std::move(part_in)),
+      axis(head.gate, medium.sound_speed),
+      reach(head.pulse, medium.absorption, medium.sound_speed, false, pulse_cut(tolerance)),
+      shapes(head.pulse, medium),
+      u_beam(beam_cosines(head.fan).front()),
+      mirrored(part.fade == 0 && std::abs(u_beam) < 1e-12 && is_symmetric(part.weight)) {
+  const double half_band = half_band_of(head.pulse, tolerance);
+  highest = head.pulse.centre_frequency + half_band;
+  // Steps of the sampling theorem: elements of an end lie to one side of its centre, and fade.
+  const double per_u =
+      highest / medium.sound_speed * (part.fade > 0 ? 0.65 * part.fade : part.y.back() - part.y.front());
+  u_step = std::min(0.25 * widest, 1 / (per_u * finer_in_direction(tolerance)));
+  const double farthest = (1 + 2 * most_shifted) * widest;
+  first_u = -(mirrored ? 0 : farthest) - taps_before * u_step;
+  directions = static_cast<std::size_t>(std::ceil((farthest - first_u) / u_step)) + direction_taps;
+  // Focusing at every range moves the frequencies of the outermost elements.
+  per_bin = static_cast<std::size_t>(std::ceil(axis.step * 2 * 1.3 * half_band * finer_in_time(tolerance)));
+}
+
+double BeamTableSizes::lateness(double range, double u) const {
+  return (path_difference(range, u, part.centre) - path_difference(range, u_beam, part.centre)) / medium.sound_speed;
+}
+
+/// By how much later than at the centre of the part an echo counts at y, `time` after it [m].
+double BeamTableSizes::path(double range, double u, double time, double y) const {
+  const double c = medium.sound_speed, focus = std::max(range + 0.5 * c * time, 1e-3);
+  return path_difference(range, u, y) - path_difference(focus, u_beam, y) - c * lateness(range, u);
+}
+
+double BeamTableSizes::half_length(double near, double far) const {
+  const double c = medium.sound_speed, pulse = reach.at(2 * far / c);
+  double half = pulse;
+  // Later responses are focused elsewhere. Of a part that fades, all but the end cancels.
+  for (int pass = 0; pass < 3; ++pass) {
+    double most = 0;
+    for (const double y : {part.fade > 0 ? part.centre : part.y.front(), part.y.back()})
+      for (const double u : {-widest, 0.0, widest})
+        for (const double late : {-half, half})
+          most = std::max(most, std::abs(path(near, u, late + lateness(near, u), y)));
+    half = pulse + 1.02 * most / c;
+  }
+  return half;
+}
+
+double BeamTableSizes::phase_between(double near, double far) const {
+  double most = 0;
+  for (const double y : {part.fade > 0 ? part.centre - 0.1 * part.fade : part.y.front(), part.y.back()})
+    for (const double u : {-widest, -0.5 * widest, 0.0, 0.5 * widest, widest})
+      for (const double late : {-reach.half, reach.half})
+        most = std::max(
+            most, std::abs(path(near, u, late + lateness(near, u), y) - path(far, u, late + lateness(far, u), y)));
+  return 2 * pi * highest / medium.sound_speed * most;
+}
+
+double BeamTableSizes::last_bin(double first) const {
+  constexpr double weight = 0.02;  // of the outermost elements, at the ends of the pulse
+  const double allowed = std::pow(0.2 * tolerance / (four_left * weight), 0.25), near = range_of(first);
+  double length = 8;
+  const auto fits = [&](double bins) {
+    const double far = range_of(first + bins);
+    return far <= farthest_ratio * near && phase_between(near, far) <= allowed;
+  };
+  while (fits(1.25 * length)) length *= 1.25;
+  return first + std::floor(length);
+}
+
+}  // namespace insonify
