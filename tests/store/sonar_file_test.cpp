@@ -1,46 +1,7 @@
-#include "store/sonar_file.hpp"
-
-#include "core/random.hpp"
-#include "support/test.hpp"
-
-namespace {
-
-const std::string plain =
-    "schema = 1\n"                     // line 1
-    "name = \"mine\"\n"                // 2
-    "centre_frequency_hz = 900_000\n"  // 3
-    "bandwidth_hz = 30e3\n"            // 4
-    "source_level_db = 210\n"          // 5
-    "beams = 128\n"                    // 6
-    "field_of_view_deg = 90\n"         // 7
-    "beam_width_deg = 1.5\n"           // 8
-    "elevation_width_deg = 20\n"       // 9
-    "min_range_m = 0.5\n"              // 10
-    "max_range_m = 30\n";              // 11
-
-SonarFile load(const std::string& text) { return load_sonar_file(own_file("s.toml", text)); }
-
-std::string error_of_sonar(const std::string& text) { return error_of_file(load_sonar_file, "s.toml", text); }
-
-void refuses_sonar(const std::string& text, const std::string& what) {
-  EXPECT_EQ(error_of_sonar(text), "content: s.toml:" + what);
-}
-
-void expect_same_bits(const SonarSpec& a, const SonarSpec& b) {
-  const auto fields = [](const SonarSpec& x) {
-    return std::tie(x.name, x.centre_frequency, x.bandwidth, x.source_level_db, x.beams, x.field_of_view, x.beam_width,
-                    x.elevation, x.elevation_width, x.elevation_shape, x.side_lobe_db, x.min_range, x.max_range,
-                    x.bin_size, x.azimuths, x.elevations, x.column_beam_width, x.transmit_width, x.pulse,
-                    x.pulse_length, x.replica_window);
-  };
-  EXPECT_EQ(fields(a), fields(b));
-  EXPECT_EQ(shading_of(a), shading_of(b));
-}
-
-}  // namespace
+#include "store/sonar_text.hpp"
 
 TEST(SonarFile, reads_plain_keys_in_si_and_radians) {
-  const SonarSpec s = load(plain).spec;
+  const SonarSpec s = load_sonar(plain).spec;
   EXPECT_EQ(s.name, "mine");
   EXPECT_EQ(s.centre_frequency, 900e3);
   EXPECT_EQ(s.bandwidth, 30e3);
@@ -59,9 +20,9 @@ TEST(SonarFile, reads_plain_keys_in_si_and_radians) {
 }
 
 TEST(SonarFile, reads_the_optional_keys) {
-  const SonarSpec s = load(plain +
-                           "elevation_deg = -10\nelevation_shape = \"sector\"\nside_lobe_db = 0\n"
-                           "bin_size_m = 0.01\ndescription = \"x\"\n")
+  const SonarSpec s = load_sonar(plain +
+                                 "elevation_deg = -10\nelevation_shape = \"sector\"\nside_lobe_db = 0\n"
+                                 "bin_size_m = 0.01\ndescription = \"x\"\n")
                           .spec;
   EXPECT_EQ(s.elevation, radians(-10));
   EXPECT_EQ(s.elevation_shape, ElevationShape::sector);
@@ -70,9 +31,9 @@ TEST(SonarFile, reads_the_optional_keys) {
 }
 
 TEST(SonarFile, reads_how_a_mission_mounts_the_head) {
-  EXPECT_TRUE(load(plain).mounting.isZero());
+  EXPECT_TRUE(load_sonar(plain).mounting.isZero());
   const SonarFile down =
-      load(plain + "mounting_deg = { value = [0, 90, 0], status = \"derived\", source = \"down\" }\n");
+      load_sonar(plain + "mounting_deg = { value = [0, 90, 0], status = \"derived\", source = \"down\" }\n");
   EXPECT_EQ(down.mounting.y(), radians(90));
   EXPECT_EQ(down.numbers.back().value, "[0.0, 90.0, 0.0]");
   refuses_sonar(plain + "mounting_deg = [0, 90]\n",
@@ -80,7 +41,8 @@ TEST(SonarFile, reads_how_a_mission_mounts_the_head) {
 }
 
 TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
-  const SonarFile file = load(replaced(plain, "210", "{ value = 221, status = \"recalled\", source = \"a talk\" }"));
+  const SonarFile file =
+      load_sonar(replaced(plain, "210", "{ value = 221, status = \"recalled\", source = \"a talk\" }"));
   std::map<std::string, SonarNumber> numbers;
   for (const auto& number : file.numbers) numbers[number.key] = number;
   EXPECT_EQ(file.spec.source_level_db, 221);
@@ -96,7 +58,7 @@ TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
 
 // B = c / 2 dr with the nominal 1500 m/s: one inch is 29.53 kHz.
 TEST(SonarFile, takes_range_resolution_for_bandwidth_but_not_both) {
-  EXPECT_DOUBLE_EQ(load(replaced(plain, "bandwidth_hz = 30e3", "range_resolution_m = 0.0254")).spec.bandwidth,
+  EXPECT_DOUBLE_EQ(load_sonar(replaced(plain, "bandwidth_hz = 30e3", "range_resolution_m = 0.0254")).spec.bandwidth,
                    1500 / 0.0508);
   refuses_sonar(plain + "range_resolution_m = 0.0254\n",
                 "4: bandwidth_hz follows from range_resolution_m; leave it out");
@@ -107,7 +69,7 @@ TEST(SonarFile, takes_range_resolution_for_bandwidth_but_not_both) {
 // Three beams at -20, 0, 30 deg: mean spacing 25 deg, half of it beyond either end makes 75 deg.
 TEST(SonarFile, takes_beams_at_given_azimuths) {
   const std::string text = replaced(plain, "beams = 128\nfield_of_view_deg = 90\n", "azimuths_deg = [-20, 0, 30.0]\n");
-  const SonarSpec s = load(text).spec;
+  const SonarSpec s = load_sonar(text).spec;
   EXPECT_EQ(s.azimuths, (std::vector<double>{radians(-20), 0, radians(30)}));
   EXPECT_EQ(s.beams, 3u);
   EXPECT_NEAR(s.field_of_view, radians(75), 1e-15);
@@ -170,81 +132,23 @@ TEST(SonarFile, other_schemas_and_broken_toml_are_errors_with_line) {
   EXPECT_EQ(error_of_sonar(plain + "beams = 3\n").substr(0, 19), "content: s.toml:12:");  // given twice
 }
 
-// Every angle read from degrees is written as degrees that read back to the same bits.
-TEST(SonarFile, survives_being_written_and_read_bit_for_bit) {
-  std::vector<SonarSpec> specs;
-  for (const auto& sonar : list_sonars()) specs.push_back(sonar.spec);
-  for (std::uint64_t i = 0; i < 300; ++i) {
-    const auto r = random_uniform(5, RandomStage::scene_points, {i, 0, 0});
-    SonarSpec& spec = specs.emplace_back(load(plain).spec);
-    spec.name = "n\"" + std::to_string(i) + "\\";
-    spec.centre_frequency = 1e6 * (0.2 + r[0]), spec.bandwidth = 1e4 * r[1];
-    spec.source_level_db = 200 + r[2];
-    spec.field_of_view = radians(180 * r[3]);
-    spec.beam_width = radians(r[0]), spec.elevation_width = radians(20 * r[1]);
-    spec.elevation = radians(90 * (2 * r[2] - 1));
-    spec.side_lobe_db = -20 - 30 * r[3];
-    spec.min_range = r[0], spec.max_range = 1 + 100 * r[1];
-    spec.bin_size = i % 2 ? std::optional<double>(r[2] * 1e-3) : std::nullopt;
-    spec.elevation_shape = static_cast<ElevationShape>(i % 3);
-  }
-  for (const char* azimuths : {"[-33.3, -7.1, 0, 12.34567890123]", "12.5"})
-    set_sonar_value(specs.emplace_back(load(plain).spec), "azimuths_deg", azimuths);
-  set_sonar_value(specs.emplace_back(specs.back()), "beam_width_deg", "2.5");
-  EXPECT_EQ(specs.back().beams, 1u);
-  EXPECT_EQ(specs.back().field_of_view, radians(2.5)) << "of one beam the field of view is the beam";
-  for (const char* window : {"uniform", "hann", "hamming"}) {
-    SonarSpec& sweep = specs.emplace_back(load(plain + "pulse = \"linear_fm\"\npulse_length_s = 2.1e-3\n").spec);
-    set_sonar_value(sweep, "replica_window", window);
-  }
-  for (const SonarSpec& spec : specs) expect_same_bits(load(sonar_as_toml(spec)).spec, spec);
-}
-
-// shading is redundant if it follows from side_lobe_db: Taylor below 0, else uniform.
-TEST(SonarFile, shading_is_kept_and_written_only_if_side_lobe_db_does_not_say_it) {
-  for (const double side_lobe_db : {-30.0, 0.0})
-    for (const Shading shading : {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev}) {
-      SonarSpec spec = load(plain).spec;
-      EXPECT_FALSE(spec.shading.has_value());
-      spec.side_lobe_db = side_lobe_db;
-      const bool said = shading_of(spec) == shading;
-      set_sonar_value(spec, "shading", shading_name(shading));
-      EXPECT_EQ(shading_of(spec), shading);
-      const std::string text = sonar_as_toml(spec);
-      EXPECT_EQ(text.find("shading = ") == std::string::npos, said) << text;
-      if (side_lobe_db == 0 && (shading == Shading::taylor || shading == Shading::chebyshev)) {
-        refuses_sonar(text,
-                      "9: side_lobe_db = 0 dB, must be within -80 and -13.3 for shading taylor or "
-                      "chebyshev");
-      } else {
-        expect_same_bits(load(text).spec, spec);
-      }
-    }
-}
-
 TEST(SonarFile, shading_is_one_of_four_words) {
-  EXPECT_EQ(load(plain + "shading = \"hamming\"\n").spec.shading, Shading::hamming);
+  EXPECT_EQ(load_sonar(plain + "shading = \"hamming\"\n").spec.shading, Shading::hamming);
   refuses_sonar(plain + "shading = \"hann\"\n",
                 "12: shading = \"hann\", must be one of taylor, uniform, hamming, chebyshev");
   refuses_sonar(plain + "shading = 3\n", "12: shading = 3, must be one of taylor, uniform, hamming, chebyshev");
   std::map<std::string, SonarNumber> numbers;
-  for (const auto& number : load(plain + "side_lobe_db = 0\n").numbers) numbers[number.key] = number;
+  for (const auto& number : load_sonar(plain + "side_lobe_db = 0\n").numbers) numbers[number.key] = number;
   EXPECT_EQ(numbers["shading"].value, "uniform");
   EXPECT_EQ(numbers["shading"].status, "derived");
 }
 
 TEST(SonarFile, takes_a_sweep_with_its_length_and_window) {
-  const SonarSpec s = load(plain + "pulse = \"linear_fm\"\npulse_length_s = 2.1e-3\n").spec;
+  const SonarSpec s = load_sonar(plain + "pulse = \"linear_fm\"\npulse_length_s = 2.1e-3\n").spec;
   EXPECT_EQ(s.pulse, PulseShape::linear_fm);
   EXPECT_EQ(s.pulse_length, 2.1e-3);
   EXPECT_FALSE(s.replica_window.has_value());
-  expect_same_bits(load(sonar_as_toml(s)).spec, s);
-}
-
-TEST(SonarFile, is_written_without_the_keys_that_it_does_not_need) {
-  for (const char* key :
-       {"pulse =", "pulse_length_s", "replica_window", "elevations_deg", "column_beam_width_deg", "transmit_width_deg"})
-    EXPECT_EQ(sonar_as_toml(load(plain).spec).find(key), std::string::npos) << key;
+  expect_same_bits(load_sonar(sonar_as_toml(s)).spec, s);
 }
 
 TEST(SonarFile, refuses_halves_of_a_sweep_with_line) {
@@ -266,22 +170,22 @@ TEST(SonarFile, refuses_halves_of_a_sweep_with_line) {
 TEST(SonarFile, takes_rows_of_beams_and_a_planar_array) {
   const std::string text =
       plain + "elevations_deg = [-10, 0.1, 20]\ncolumn_beam_width_deg = 3\ntransmit_width_deg = 70\n";
-  const SonarSpec s = load(text).spec;
+  const SonarSpec s = load_sonar(text).spec;
   EXPECT_EQ(s.elevations, (std::vector<double>{radians(-10), radians(0.1), radians(20)}));
   EXPECT_EQ(s.column_beam_width, radians(3));
   EXPECT_EQ(s.transmit_width, radians(70));
   EXPECT_EQ(s.beams, 128u);
   EXPECT_EQ(beams_of(s), 384u);
-  expect_same_bits(load(sonar_as_toml(s)).spec, s);
+  expect_same_bits(load_sonar(sonar_as_toml(s)).spec, s);
 }
 
 TEST(SonarFile, takes_a_table_of_beams) {
   const std::string text = replaced(plain, "beams = 128\nfield_of_view_deg = 90\n",
                                     "azimuths_deg = [-20, 0, 30]\nelevations_deg = [1, -2, 3]\n");
-  const SonarSpec s = load(text).spec;
+  const SonarSpec s = load_sonar(text).spec;
   EXPECT_EQ(beams_of(s), 3u);
   EXPECT_EQ(s.elevations, (std::vector<double>{radians(1), radians(-2), radians(3)}));
-  expect_same_bits(load(sonar_as_toml(s)).spec, s);
+  expect_same_bits(load_sonar(sonar_as_toml(s)).spec, s);
   refuses_sonar(replaced(text, "[1, -2, 3]", "[1, -2]"),
                 "7: elevations_deg = 2 numbers, must be as many as the 3 of azimuths_deg, one for each beam");
   refuses_sonar(replaced(text, "[1, -2, 3]", "[1, -2, 93]"),
@@ -306,73 +210,7 @@ TEST(SonarFile, refuses_widths_and_rows_that_make_no_array) {
 }
 
 TEST(SonarFile, is_also_the_sonar_table_of_a_run) {
-  const SonarSpec spec = load(plain).spec;
-  expect_same_bits(load("seed = 3\n[sonar]\n" + sonar_as_toml(spec) + "[water]\nsalinity_psu = 35\n").spec, spec);
+  const SonarSpec spec = load_sonar(plain).spec;
+  expect_same_bits(load_sonar("seed = 3\n[sonar]\n" + sonar_as_toml(spec) + "[water]\nsalinity_psu = 35\n").spec, spec);
   refuses_sonar("seed = 3\n[sonar]\nschema = 1\n", "2: missing key 'name'");
-}
-
-// What --set gives a key is what a file would.
-TEST(SetSonarValue, sets_every_key_as_a_file_does) {
-  const std::pair<const char*, const char*> numbers[] = {{"centre_frequency_hz", "700e3"},
-                                                         {"range_resolution_m", "0.01"},
-                                                         {"source_level_db", "+215.5"},
-                                                         {"beams", "64"},
-                                                         {"field_of_view_deg", "60"},
-                                                         {"beam_width_deg", "2"},
-                                                         {"elevation_width_deg", "12"},
-                                                         {"elevation_deg", "-5"},
-                                                         {"side_lobe_db", "-25"},
-                                                         {"min_range_m", "1"},
-                                                         {"max_range_m", "40"},
-                                                         {"bin_size_m", "2e-3"},
-                                                         {"pulse_length_s", "2e-3"},
-                                                         {"column_beam_width_deg", "4"},
-                                                         {"transmit_width_deg", "80"}};
-  const std::pair<const char*, const char*> words[] = {{"elevation_shape", "line"},
-                                                       {"shading", "chebyshev"},
-                                                       {"pulse", "linear_fm"},
-                                                       {"replica_window", "uniform"},
-                                                       {"name", "other"}};
-  SonarSpec s = load(plain).spec;
-  std::string text = "schema = 1\n";
-  for (const auto& [key, value] : numbers) {
-    set_sonar_value(s, key, value);
-    text += std::string(key) + " = " + value + "\n";
-  }
-  for (const auto& [key, value] : words) {
-    set_sonar_value(s, key, value);
-    text += std::string(key) + " = \"" + value + "\"\n";
-  }
-  expect_same_bits(load(text).spec, s);
-  EXPECT_EQ(s.bandwidth, 75e3);
-  EXPECT_EQ(s.elevation, radians(-5));
-  set_sonar_value(s, "azimuths_deg", "-1,0,1");
-  EXPECT_EQ(s.azimuths.size(), 3u);
-  EXPECT_EQ(s.beams, 3u);
-  set_sonar_value(s, "beams", "16");  // evenly spaced again
-  EXPECT_TRUE(s.azimuths.empty());
-  EXPECT_EQ(s.beams, 16u);
-  set_sonar_value(s, "elevations_deg", "-1,1");
-  set_sonar_value(s, "beams", "32");  // rows stay rows
-  EXPECT_EQ(beams_of(s), 64u);
-  set_sonar_value(s, "elevation_deg", "7");  // one row again
-  EXPECT_EQ(beams_of(s), 32u);
-}
-
-TEST(SetSonarValue, names_the_nearest_key_and_the_rule) {
-  SonarSpec s;
-  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "max_range", "3"); }),
-            "argument: sonar: unknown key 'max_range'; did you mean 'max_range_m'?");
-  EXPECT_THAT(error_with_kind([&] { set_sonar_value(s, "pressure", "3"); }),
-              HasSubstr("argument: sonar: unknown key 'pressure'; known are name, "));
-  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "beams", "many"); }),
-            "argument: sonar: beams = \"many\", must be a whole number within 1 and 65536");
-  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "max_range_m", "30 m"); }),
-            "argument: sonar: max_range_m = \"30 m\", must be a number");
-  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "max_range_m", ""); }),
-            "argument: sonar: max_range_m = \"\", must be a number");
-  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "max_range_m", "1,2"); }),
-            "argument: sonar: max_range_m = [1.0, 2.0], must be a number");
-  EXPECT_EQ(error_with_kind([&] { set_sonar_value(s, "elevation_shape", "3"); }),
-            "argument: sonar: elevation_shape = 3.0, must be one of gaussian, line, sector");
 }

@@ -7,65 +7,12 @@
 #include "core/geodesy.hpp"
 #include "formats/gsf_decoder.hpp"
 #include "formats/las_decoder.hpp"
-#include "formats/mcap_file.hpp"
-#include "formats/ros_decoder.hpp"
 #include "formats/tiff_decoder.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
-#include "store/cube.hpp"
 #include "support/scenes.hpp"
 #include "support/vtk_file.hpp"
-#include "tool/tool_runner.hpp"
-
-namespace {
-
-// The fan of a head that looks 30 degrees ahead of straight down, turned 20 degrees to port; the ball in beam 44.
-constexpr double yaw_deg = 20, pitch_deg = 60, beam_deg = 24, ball_range = 12, ball_radius = 0.3;
-const Anchor ball_anchor{54.1, 7.9, 90};  // x east, y north
-
-Pose head_above(const Eigen::Vector3d& ball) {
-  Pose pose = pose_from_yaw_pitch_roll({0, 0, 0}, radians(yaw_deg), radians(pitch_deg), 0);
-  pose.translation() = ball - ball_range * (pose.linear() * unit_vector({radians(beam_deg), 0}));
-  return pose;
-}
-
-}  // namespace
-
-class ExportProducts : public ToolTest {
- protected:
-  const Pose pose = head_above({3, 4, -15});
-
-  void SetUp() override {
-    SceneCloud scene;
-    add_sphere(scene, {3, 4, -15}, ball_radius, 4000);
-    save_scene(path("ball.ply"), scene);
-    const Eigen::Vector3d at = pose.translation();
-    std::ostringstream command;
-    command.precision(12);
-    command << "ping ball.ply --sonar r2sonic-2024 --mount=0,0,0,0,0,0 --set sonar.beams=65 --range 8:14 --split "
-               "--noise --no-picture -q "
-               "--pose="
-            << at.x() << ',' << at.y() << ',' << at.z() << ',' << yaw_deg << ',' << pitch_deg << ",0 -o out";
-    succeed(command.str());
-  }
-  std::string read_bytes(const std::string& name) const { return file_bytes(path(name)); }
-
-  /// The strongest point of a LAS file, in UTM.
-  Eigen::Vector3d strongest_point(const std::string& name) const {
-    const std::vector<decode::LasRow> rows = decode::read_las(read_bytes(name));
-    const auto best = std::max_element(rows.begin(), rows.end(),
-                                       [](const auto& a, const auto& b) { return a.level_db < b.level_db; });
-    return {best->place[0], best->place[1], best->place[2]};
-  }
-  /// A place in zone 32N in the world.
-  static Eigen::Vector3d in_world(const Eigen::Vector3d& utm) {
-    const Eigen::Vector3d world = world_from_geo(ball_anchor, geo_place_of(UtmPlace{utm.x(), utm.y()}, {32, true}));
-    return {world.x(), world.y(), utm.z()};
-  }
-
-  /// The beam's sounding, at the front of the ball within half a range resolution or somewhat behind.
-  static constexpr double least = ball_range - ball_radius - 0.006, most = ball_range - ball_radius + 0.25;
-};
+#include "tool/ball_fixture.hpp"
 
 TEST_F(ExportProducts, gsf_has_the_ball_to_port_ahead_and_at_its_depth) {
   succeed("export out --to gsf --anchor 54.1,7.9,90 --start-utc 2026-05-01T08:30:00Z -o ball.gsf -q");
@@ -215,86 +162,6 @@ TEST_F(ExportProducts, png_shows_it_to_port_at_its_range) {
   const auto& place = manifest["pings"][0]["world_from_head"];
   EXPECT_NEAR(place[3].get<double>(), pose.translation().x(), 1e-9);
   expect_refused("export out --to png -o pictures", 4, {"pictures", "--force"});
-}
-
-TEST_F(ExportProducts, mcap_has_it_in_image_points_and_transforms) {
-  succeed("export out --to mcap --start-utc 2026-05-01T08:30:00Z -o ball.mcap -q");
-  const decode::McapContent read = decode::read_mcap(read_bytes("ball.mcap"));
-  ASSERT_EQ(read.messages.size(), 5U);  // image, fan, points, and both transforms
-  for (const decode::McapMessage& message : read.messages) {
-    EXPECT_EQ(message.time, 1777624200000000000U);
-    if (message.topic == "/sonar/image") {
-      const std::vector<double>& data = message.content.numbers.at("image.data");
-      const auto brightest = static_cast<std::size_t>(std::max_element(data.begin(), data.end()) - data.begin());
-      const std::string beam = "beam_directions[" + std::to_string(brightest % 65) + "].";
-      EXPECT_NEAR(std::atan2(-message.content.one(beam + "y"), message.content.one(beam + "z")), radians(24),
-                  radians(2.1));
-      const double range = message.content.numbers.at("ranges").at(brightest / 65);
-      EXPECT_GT(range, least - 0.02);
-      EXPECT_LT(range, most);
-    } else if (message.topic == "/tf") {
-      EXPECT_NEAR(message.content.one("transforms[0].transform.translation.z"), pose.translation().z(), 1e-9);
-    } else if (message.topic == "/tf_static") {
-      EXPECT_EQ(message.content.texts.at("transforms[0].child_frame_id"), "head_sonar");
-    } else if (message.topic == "/sonar/points") {
-      EXPECT_GE(message.content.one("width"), 1);
-    }
-  }
-  EXPECT_EQ(read.metadata.at("/sonar/image").at("law"), "level = black_db + value / 255 (white_db - black_db)");
-  EXPECT_THAT(read.metadata.at("/tf_static").at("offered_qos_profiles"), HasSubstr("durability: 1"));
-  // Levels by that law are within half a step of those of the cube.
-  const Cube cube = cube_of("out");
-  const Grid<float> level = range_compensated_level_db(cube.pings[0], cube.absorption_db_per_m);
-  const double black = std::stod(read.metadata.at("/sonar/image").at("black_db")),
-               white = std::stod(read.metadata.at("/sonar/image").at("white_db")), half = (white - black) / 255 / 2;
-  double off = 0;
-  int compared = 0;
-  for (const decode::McapMessage& message : read.messages)
-    if (message.topic == "/sonar/image") {
-      const std::vector<double>& data = message.content.numbers.at("image.data");
-      for (Eigen::Index n = 0; n < level.cols(); ++n)
-        for (Eigen::Index b = 0; b < level.rows(); ++b)
-          if (const double value = data[static_cast<std::size_t>(n * level.rows() + b)]; value > 0 && value < 255) {
-            const double difference = black + value / 255 * (white - black) - static_cast<double>(level(b, n));
-            EXPECT_LE(std::abs(difference), 1.001 * half);
-            off += difference, ++compared;
-          }
-    }
-  ASSERT_GT(compared, 1000);
-  EXPECT_LT(std::abs(off / compared), 0.1 * half);  // without a bias
-}
-
-// The file says what made it, and what its grey values are, in a record of its own; compressed it is smaller, or says why
-// it is not.
-TEST_F(ExportProducts, mcap_has_metadata_and_compressed_chunks) {
-  const std::string to = "export out --to mcap --start-utc 2026-05-01T08:30:00Z -o ";
-  succeed(to + "plain.mcap -q");
-  const decode::McapContent content = decode::read_mcap(read("plain.mcap"));
-  ASSERT_EQ(content.records.size(), 1U);
-  std::map<std::string, std::string> about = content.records.at("insonify");
-  EXPECT_EQ(about["name"], "insonify");
-  EXPECT_THAT(about["version"], testing::MatchesRegex("[0-9]+[.][0-9]+[.][0-9]+"));
-  EXPECT_EQ(about["sonar"], cube_of("out").sonar);
-  EXPECT_EQ(about["start_utc"], "2026-05-01T08:30:00Z");
-  for (const auto& [key, value] : content.metadata.at("/sonar/image")) EXPECT_EQ(about[key], value) << key;
-  EXPECT_NEAR(std::stod(about["white_db"]) - std::stod(about["black_db"]), 80, 1e-9);
-  for (const auto& [compression, name] :
-       {std::pair(McapCompression::lz4, "lz4"), std::pair(McapCompression::zstd, "zstd")}) {
-    const std::string file = std::string(name) + ".mcap";
-    const ToolResult said = run(to + file + " --compression " + name);
-    EXPECT_EQ(said.exit_code, 0);
-    if (has_compression(compression)) {
-      EXPECT_LT(read(file).size(), read("plain.mcap").size());
-      const decode::Unpack none = [](const std::string& used, const std::string&, std::uint64_t) -> std::string {
-        throw std::runtime_error("packed by " + used);
-      };
-      EXPECT_THAT([&] { decode::read_mcap(read(file), none); },
-                  testing::ThrowsMessage<std::runtime_error>(std::string("packed by ") + name));
-    } else {
-      EXPECT_EQ(read(file), read("plain.mcap"));
-      EXPECT_THAT(said.err, testing::AllOf(HasSubstr("is not compressed"), HasSubstr(name)));
-    }
-  }
 }
 
 TEST_F(ExportProducts, soundings_can_be_looked_at) {

@@ -1,42 +1,13 @@
-// What a new user meets: default ranges, notes with a remedy, what `info` says of everything, materials, and heights of
-// soundings against the scene.
-#include <cmath>
-#include <filesystem>
-
+// What a new user meets: default ranges, notes with a remedy, missions to begin with, and heights of soundings against
+// the scene.
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "files/sha256.hpp"
-#include "tool/survey_fixture.hpp"
+#include "tool/first_hour_fixture.hpp"
 #include "view/grey_file.hpp"
 #include "view/test_pictures.hpp"
 
-namespace {
-
 using nlohmann::json;
-
-/// The commands under "next".
-std::string next_of(const json& info) {
-  std::string next;
-  for (const json& command : info["next"]) next += command.get<std::string>() + "\n";
-  return next;
-}
-
-class FirstHour : public ToolTest {
- protected:
-  void have_plane() const { have("plane.ply", "make-scene plane --size 8,8 --points 6000"); }
-  json info(const std::string& file) const { return json_of("info " + file); }
-  // Notes of a ping with a small head over the plane.
-  std::string notes(const std::string& options) const {
-    std::filesystem::remove_all(path("noted"));
-    const ToolResult result =
-        run("ping plane.ply --sonar p900-45 --set sonar.beams=8 --no-picture -o noted " + options);
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    return result.err;
-  }
-};
-
-}  // namespace
 
 TEST_F(FirstHour, a_ping_without_a_range_ends_where_the_scene_does) {
   have_plane();
@@ -107,104 +78,6 @@ TEST_F(FirstHour, fan_png_is_as_high_as_its_fan) {
   EXPECT_EQ(read("default.png"), read("wide/fan.png"));
   succeed("image wide -q --size 1400x1050 -o whole.png");
   EXPECT_EQ(read_png(path("whole.png")).height, 1050);
-}
-
-TEST_F(FirstHour, info_names_materials_with_their_shares) {
-  have("harbour.ply", "make-scene harbour --points 6000");
-  double share = 0, points = 0;
-  std::map<std::string, double> of;
-  const json harbour = info("harbour.ply");
-  for (const json& m : harbour["material_shares"]) {
-    share += m["share"].get<double>(), points += m["points"].get<double>();
-    of[m["name"]] = m["share"].get<double>();
-  }
-  EXPECT_NEAR(share, 1, 1e-6);
-  EXPECT_EQ(points, harbour["points"].get<double>());
-  EXPECT_GT(of.at("sand"), 0.7);
-  EXPECT_LT(of.at("rubber"), 0.01);
-  EXPECT_THAT(succeed("info harbour.ply"), HasSubstr("material   sand: "));
-  succeed("prepare harbour.ply -q -o harbour.tiles");
-  const json tiles = info("harbour.tiles");
-  EXPECT_EQ(tiles["material_shares"].size(), of.size());
-  for (const json& m : tiles["material_shares"]) EXPECT_NEAR(m["share"].get<double>(), of.at(m["name"]), 1e-6) << m;
-}
-
-TEST_F(FirstHour, info_proposes_commands_that_run_as_they_stand) {
-  have("reef.pcd", "make-scene reef --bare --points 6000");
-  const json reef = info("reef.pcd");
-  EXPECT_THAT(next_of(reef), HasSubstr("insonify prepare reef.pcd --viewpoint x,y,z"));
-  EXPECT_THAT(next_of(reef), HasSubstr("insonify materials"));
-  const std::string all = succeed("info reef.pcd");
-  for (const char* begin : {"insonify ping ", "insonify make-mission "}) {
-    const std::size_t at = all.find(begin);
-    ASSERT_NE(at, all.npos) << begin;
-    const std::string command = all.substr(at + 9, all.find('\n', at) - at - 9);
-    succeed(command + " -q" + (command.starts_with("ping") ? " --no-picture" : ""));
-  }
-  EXPECT_GT(manifest_of("first")["sampling"]["scatterers"].get<int>(), 1000);
-  const json mission = info("mission.toml");
-  EXPECT_EQ(mission["format"], "insonify mission");
-  EXPECT_GE(mission["legs"].size(), 2U);
-}
-
-TEST_F(SurveyTest, info_says_how_far_a_survey_and_a_head_are_and_what_comes_next) {
-  const auto info = [&](const std::string& file) { return json_of("info " + file); };
-  const json mission = info("m.toml");
-  EXPECT_EQ(mission["format"], "insonify mission");
-  EXPECT_EQ(mission["scene"], "harbour.ply");
-  EXPECT_EQ(mission["heads"][0]["pings"], 13);
-  EXPECT_EQ(mission["heads"][1]["range_m"], "1:6");
-  EXPECT_THAT(next_of(mission), HasSubstr("insonify survey m.toml --plan"));
-
-  survey("run", "--shard 0/2");
-  EXPECT_EQ(info("run")["state"], "unfinished");
-  EXPECT_THAT(next_of(info("run")), HasSubstr("insonify survey MISSION -o run"));
-  survey("run");
-  const json done = info("run"), head = info("run/fls");
-  EXPECT_EQ(done["state"], "done, not merged");
-  EXPECT_EQ(done["heads"][0]["blocks_done"], 5);
-  EXPECT_THAT(next_of(done), HasSubstr("insonify merge run"));
-  EXPECT_EQ(head["format"], "insonify survey, one head of it");
-  EXPECT_EQ(head["pings"], 13);
-  EXPECT_EQ(head["blocks_done"], 5);
-  EXPECT_THAT(next_of(head), HasSubstr("insonify merge run"));
-  EXPECT_THAT(succeed("info run/fls/"), HasSubstr("next"));
-  EXPECT_EQ(info("run/survey.toml")["format"], "insonify survey");
-  succeed("merge -q run");
-  EXPECT_EQ(info("run")["state"], "merged");
-  EXPECT_THAT(next_of(info("run")), HasSubstr("insonify image run --view track"));
-  EXPECT_EQ(info("run/fls")["pings"], 13);
-  EXPECT_EQ(info("run/fls/run.toml")["format"], "insonify settings of a run");
-}
-
-TEST_F(FirstHour, info_tells_toml_files_and_folders_apart) {
-  const auto format = [&](const std::string& file) { return info(file)["format"].get<std::string>(); };
-  write("sea.toml", "[water]\ntemperature_c = 4\n[surface]\nheight_m = 0\n");
-  write("own.toml", succeed("materials --toml"));
-  write("sonar.toml", succeed("sonars p900-45 --toml"));
-  EXPECT_EQ(format("sea.toml"), "insonify environment");
-  EXPECT_EQ(format("own.toml"), "insonify materials");
-  EXPECT_EQ(format("sonar.toml"), "insonify sonar");
-  EXPECT_THAT(next_of(info("own.toml")), HasSubstr("--materials own.toml"));
-  EXPECT_THAT(next_of(info("sonar.toml")), HasSubstr("insonify sonars sonar.toml"));
-  std::filesystem::create_directory(path("empty"));
-  expect_refused("info empty", 3, {"empty", "cube.h5, survey.toml or manifest.json"});
-  write("odd.toml", "[water]\nwarmth = 4\n");
-  expect_refused("info odd.toml", 3, {"odd.toml:2", "warmth"});
-}
-
-TEST_F(FirstHour, materials_lists_names_numbers_and_the_law) {
-  const std::string all = succeed("materials");
-  for (const char* text : {"sand ", "lambert_mu_db", "coherent_fraction", "relief_slope", "-16.6", "law: Lambert"})
-    EXPECT_THAT(all, HasSubstr(text));
-  const json sand = json_of("materials sand");
-  ASSERT_EQ(sand.size(), 1U);
-  EXPECT_EQ(sand[0]["label"], 6);
-  EXPECT_NEAR(sand[0]["lambert_mu_db"].get<double>(), -16.6, 1e-9);
-  write("own.toml", "schema = 1\n[[material]]\nname = \"kelp\"\nlambert_mu_db = -21\n");
-  EXPECT_THAT(succeed("materials own.toml"), HasSubstr("kelp"));
-  expect_refused("materials sandd", 2, {"'sandd' is unknown; did you mean 'sand'?"});
-  EXPECT_EQ(json_of("materials").size(), 23U);
 }
 
 TEST_F(FirstHour, a_mission_to_begin_with_reaches_to_the_end_of_the_scene_and_has_soundings) {
