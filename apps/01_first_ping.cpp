@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The first ping through the API: from a scene, a sonar and a pose to levels and points.
 #include <iostream>
 

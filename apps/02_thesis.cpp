@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reproduces figures 13 to 21 and Table 4 of A. Rascon's thesis (docs/results/thesis.md).
 //   02_thesis FOLDER [--quick | --figures]
 // --quick: small and coarse pictures, and run times of the smallest case only. --figures: no run times.

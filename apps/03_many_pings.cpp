@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Many pings of one scene: prepare it once, ping along a track, store all pings in one cube.
 #include <iostream>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A survey: a vehicle with a multibeam along a line over a scene, and the soundings of all its pings.
 #include <iostream>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # From a bare Debian 12 to a sonar picture: installs what is missing, builds the tool, makes the harbour scene, looks at it and
 # pings it; then builds the viewer, and names the files it wrote and what to try next. A second run installs and builds
 # nothing again and replaces the demo's own files.

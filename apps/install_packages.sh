@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs the Debian packages that insonify needs and this machine lacks; says which and why. Run by apps/demo.sh and
 # tests/run.sh. With --tests also what the tests need, with --tidy what tests/tidy.sh needs, with --packages what
 # tests/packages.sh and docs/make_site.sh need. Uses sudo when not root.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Measures error against run time on this machine and writes docs/results/accuracy.md with its pictures. The numbers are only
 # meaningful on an otherwise idle machine.
 #   docs/make_accuracy.sh [build/release/bin/insonify] [options of `insonify accuracy`, e.g. --full | --from RUN]

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Draws every view of a built-in scene and writes docs/results/gallery.md with each picture and its command. Needs no display.
 #   docs/make_gallery.sh [build/release/bin/insonify]
 set -euo pipefail

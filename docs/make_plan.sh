@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Measures what the plan promises and writes docs/results/plan.md. Takes about a minute.
 #   docs/make_plan.sh [build/release/bin]
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Compares insonify with public records and writes docs/results/comparison-with-records.md and its pictures. Takes about two minutes.
 #   docs/make_real.sh [build/release/bin]
 set -euo pipefail

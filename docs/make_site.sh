@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the site: README, the pages of docs/ and the reference of every public header, by Doxygen (Debian: doxygen). Fails for a
 # warning of Doxygen and for a link or picture that leads nowhere. Takes some 20 s.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Draws one picture of every sonar preset and writes docs/results/sonars.md with its numbers. Needs no display.
 #   docs/make_sonars.sh [build/release/bin/insonify [NAME...]]     with names: draws only these again
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Times pings and surveys and prints docs/results/speed.md: cold pings as processes (/usr/bin/time), warm pings inside one process
 # (tests/benchmarks/speed/ping_speed.cpp), and a survey against single calls. Takes five minutes; give it a quiet machine.
 #   docs/make_speed.sh [build/dev/bin] > docs/results/speed.md

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Sourced by the scripts that make a page of pictures. Needs no display.
 # begin_page NAME TOOL [keep]: the page is docs/results/NAME.md, its pictures are in docs/images/NAME, which is emptied unless
 # `keep`; the commands run in a folder of their own. `insonify` is the tool, which says nothing but errors.

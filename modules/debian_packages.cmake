@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # `cpack -G DEB` in the build folder of the release preset makes three packages for Debian 12; tests/packages.sh tries them.
 #   insonify          component program: tool, viewer, presets and materials, and what shells and desktops need
 #   libinsonify-dev   component development: headers, static libraries, files for find_package

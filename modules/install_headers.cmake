@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs the public headers below include/insonify, where they include each other as <insonify/...>: so `include` is the only
 # folder that a user's compiler searches, and no header of theirs is mistaken for one of insonify's.
 foreach(header IN LISTS headers)

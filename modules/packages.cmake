@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Finds the packages of the modules named in `insonify_modules`, for the build and for find_package(insonify). Each package
 # belongs to one module, its door; see docs/decisions.md.
 find_package(Threads REQUIRED)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs every command of the documentation as it stands, page by page, each in a folder that holds what apps/demo.sh makes in
 # its folder out: the harbour.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Lets every call by which a verb writes fail with ENOSPC, EIO, EACCES, EINTR or a short write, or kills the verb there:
 # exit code 4 and one line, or success and the right bytes; the old output whole, nothing half.
 #

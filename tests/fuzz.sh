@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Tries a reader with libFuzzer for a time, address and undefined-behaviour checks on. What it finds is kept in
 # build/fuzz/found/READER; a case that is mended goes to tests/fuzz/regressions/READER, which mutants.sh reads each time.
 # Builds the tool, which makes the seeds, and with clang in build/fuzz what reads files; the corpus grows there.
 #
 #   tests/fuzz.sh READER SECONDS     (names of readers: tests/fuzz/readers.cpp)
 set -euo pipefail
-[[ $# == 2 ]] || { sed -n '6s/^# *//p' "$0" >&2; exit 2; }
+[[ $# == 2 ]] || { sed -n '7s/^# *//p' "$0" >&2; exit 2; }
 cd "$(dirname "$0")/.."
 reader=$1 seconds=$2 build=build/fuzz
 command -v clang++-16 >/dev/null || {

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes git check format, layers and words before each commit. It needs a configured build/dev (tests/run.sh makes it), but
 # builds nothing.
 set -euo pipefail

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Presses Ctrl-C at COUNT (20) moments spread evenly over the run of each verb, and prints for every step that was met (as -v
 # names it) the time until the prompt is back. Fails if that is above a second, if the exit code is not 130 (or 0, where the
 # run was over), or if anything is left. The short form is tool.Interrupt.*.

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Kills (SIGKILL) each verb that writes COUNT times per output, at random times: the old or the new output is whole, and the
 # next run leaves nothing else.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs nine verbs under limits of address space (ulimit -v): exit code 0 with the bytes of an unlimited run, or 4 with one
 # line and no output; never a signal.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes the Debian packages and tries them on a bare Debian 12: apt installs them in a chroot that debootstrap makes, the tool
 # simulates and draws a ping there, and the program of docs/api.md is built against the library without PCL, VTK and HDF5.
 # Without root, debootstrap or a mirror the packages are unpacked into a folder and used from there. Not part of

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing, builds with warnings as errors, and runs tests.
 #
 #   tests/run.sh [--full] [--all] [OPTIONS OF CTEST]
@@ -11,7 +12,7 @@ cd "$(dirname "$0")/.."
 targets=(all)
 for argument in "$@"; do
   case $argument in
-    --help | -h) sed -n '2,8s/^# \{0,1\}//p' "$0" && exit 0 ;;
+    --help | -h) sed -n '3,9s/^# \{0,1\}//p' "$0" && exit 0 ;;
     --full) targets+=(all_verify_interface_header_sets) ;;
   esac
 done

@@ -1,4 +1,5 @@
 #!/usr/bin/env perl
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs the tests of build/dev whose inputs differ from those with which they last passed.
 #
 #   tests/run_changed.pl [--all] [--full] [OPTIONS OF CTEST]

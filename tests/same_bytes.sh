@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds the tool of another commit and that of this tree, makes the same runs with both, and compares the bytes of all
 # files that they write. For changes that must not change a result: moves, renames, merged code.
 #
@@ -16,7 +17,7 @@ while (($#)); do
   case $1 in
     --tools) tools=("$(realpath "$2")" "$(realpath "$3")") && shift 3 ;;
     --work) work=$2 && shift 2 ;;
-    -*) sed -n '2,12s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+    -*) sed -n '3,13s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
     *) base=$1 && shift ;;
   esac
 done

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs tests under sanitizers. The suite is in parts, each of which ends within an hour on two cores; without PART, says
 # which there are. The first part of a sanitizer builds what the others use.
 #

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # clang-tidy (.clang-tidy) over modules/ and apps/, each source by itself and without precompiled headers (build/tidy).
 #
 #   tests/tidy.sh                   everything: 5 to 10 s of CPU a source
@@ -24,7 +25,7 @@ changed_sources() {
 case ${1:-} in
   "") mapfile -t sources < <(git ls-files -- 'modules/*.cpp' 'apps/*.cpp') ;;
   --changed) mapfile -t sources < <(changed_sources "${2:-}" | sort -u) ;;
-  -*) sed -n '4,7s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+  -*) sed -n '5,8s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
   *) sources=("$@") ;;
 esac
 ((${#sources[@]})) || { echo "tests/tidy.sh: nothing has changed"; exit 0; }

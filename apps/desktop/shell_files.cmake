@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Writes into FOLDER, where Debian looks for them below /usr/share, what TOOL says of itself and its VERBS: man pages, and
 # completions of bash, zsh and fish.
 cmake_minimum_required(VERSION 3.25)

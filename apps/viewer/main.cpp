@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // insonify-view: the interactive viewer, and its pictures without a display.
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,5 @@
 #!/usr/bin/env perl
+# SPDX-License-Identifier: BSD-3-Clause
 # Fails if a page of the site in FOLDER links to a file, heading or picture that is not there.
 use strict;
 use warnings;

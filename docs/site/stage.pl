@@ -1,4 +1,5 @@
 #!/usr/bin/env perl
+# SPDX-License-Identifier: BSD-3-Clause
 # Puts what Doxygen reads into FOLDER:
 #   insonify/MODULE/*.hpp   the public headers, each in the group of its module; (E12) links to that row of the equations
 #   pages/*.md              README.md, docs/*.md and docs/results/*.md: a page's label is its name, a heading's is NAME-ITS-WORDS

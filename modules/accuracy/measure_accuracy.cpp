@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/measure_accuracy.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/reference_sums.hpp"
 
 #include <algorithm>

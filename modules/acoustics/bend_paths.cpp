@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Refraction: scatterers are moved to their apparent places, where a straight ray at the head's sound speed would put
 // them (rays in layers of constant gradient, Jensen et al., Computational Ocean Acoustics, ch. 3; E43). Steps:
 //   1. refraction_bound   an upper bound of the change, from the box of ranges and directions and Snell's law alone;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The fastest ray between two depths at a horizontal distance, in layers of constant gradient of sound speed, where
 // rays are arcs of circles (Jensen et al., Computational Ocean Acoustics, ch. 3; E43). Steps, from the upper to the
 // lower end:

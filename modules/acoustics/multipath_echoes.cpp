@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Echoes that touch the sea surface or the bottom, by the method of images (Jensen et al., Computational Ocean
 // Acoustics, section 1.4; E48), one bounce per leg at most. Steps:
 //   1. boundaries_of     surface and bottom as planes in head axes, with their reflection

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Echoes of the water and of plane boundaries, as sums over cells of complex-normal amplitude (the sonar equation's
 // volume and boundary reverberation, Urick, Principles of Underwater Sound, ch. 8; E49 to E51). Steps:
 //   1. reverberation_cells   slices of range, a fraction of a pulse long, across gate and sector

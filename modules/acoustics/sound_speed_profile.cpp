@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/sound_speed_profile.hpp"
 
 #include <algorithm>

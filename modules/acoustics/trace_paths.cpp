@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/trace_paths.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "acoustics/multipath_echoes.hpp"
 #include "acoustics/sound_paths.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The squared pattern of N elements is that of 2N - 1, shaded by the autocorrelation R of the shading. Over all beams:
 //   sum_b B_b(u)^2 = R_0 beams + 2 Re sum_m R_m exp(i k d m u) sum_b exp(-i k d m u_b)
 // The mean over u +- w has each term times sin(k d m w) / (k d m w).

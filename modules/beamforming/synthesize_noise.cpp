@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "beamforming/synthesize_noise.hpp"
 
 #include <algorithm>

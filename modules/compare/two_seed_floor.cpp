@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "compare/two_seed_floor.hpp"
 
 #include <algorithm>

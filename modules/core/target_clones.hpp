@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // Sanitizers are initialised after the loader resolves function variants and crash on them, so they use the plain code.

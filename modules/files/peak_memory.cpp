@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "files/peak_memory.hpp"
 
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "formats/grey_fan.hpp"
 
 #include "core/error.hpp"

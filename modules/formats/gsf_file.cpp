@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "formats/gsf_file.hpp"
 
 #include "core/error.hpp"

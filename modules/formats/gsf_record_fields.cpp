@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "formats/gsf_fields_internal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "returns/label_pixels.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "returns/looks.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sampling/seen_surfels.hpp"
 
 #include "core/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sampling/trust_lines_of_sight.hpp"
 
 #include <algorithm>

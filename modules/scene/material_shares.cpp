@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene/material_shares.hpp"
 
 namespace insonify {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene_io/cloud_field.hpp"
 
 #include <algorithm>

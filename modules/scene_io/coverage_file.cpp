@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene_io/coverage_file.hpp"
 
 #include <algorithm>

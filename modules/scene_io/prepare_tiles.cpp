@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene_io/prepare_tiles.hpp"
 
 #include <algorithm>

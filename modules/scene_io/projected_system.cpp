@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Projected coordinate systems through GDAL and PROJ. Without GDAL all are refused, with a remedy.
 #include "scene_io/projected_system.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Heights of GeoTIFF, BAG, netCDF, GMT and ESRI ASCII grids through GDAL. Without GDAL all are refused, with a remedy.
 #include <cctype>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene_io/save_cloud.hpp"
 
 #include <algorithm>

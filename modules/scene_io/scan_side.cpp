@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From which side a cloud was seen, if neither its file nor the options say so. Neighbours of an organised scan stand
 // at even steps of direction from where the scanner stood, however far each of them is; from any other place relief and
 // noise make those steps uneven, as they make the points uneven themselves.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"

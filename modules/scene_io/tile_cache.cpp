@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <utility>
 
 #include "scene_io/tile_cache_internal.hpp"

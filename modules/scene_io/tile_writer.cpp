@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writes a scene of any size as tiles of neighbouring surfels, in bounded memory: an external sort by place. Steps:
 //   1. add             records of 48 bytes are appended to a nameless file beside the output
 //   2. sort_by_place   the records' box is cut into 16^3 cells along a Morton curve, whose runs become parts of a second

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/ping_event.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A ping: the whole signal path. Start reading at PingSimulator::ping.
 #include "simulate/ping_simulator.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Stages of the plan that are effects of water, boundaries, motion and materials.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Stages of the plan that decide which surfels count: directions, ranges, occlusion. Bounds compare the energy that
 // beams receive of a sample of the scene outside sector and gate with that from inside.
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The plan of a ping: each stage of the three tables is judged on a sample of the scene, and those that the budget
 // decides are in where their bound exceeds their share.
 #include "simulate/plan_ping.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Stages of the plan that are ways of forming beams.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sample that a plan is made from. Surfels are sorted by where they stand; of each kind some thousands are pinged
 // by the stages of simulate_ping themselves: visibility, direct echoes (E7), the beams' patterns (E10, E14).
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sonar/beam_pattern.hpp"
 
 #include <algorithm>

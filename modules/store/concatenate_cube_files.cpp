@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "store/concatenate_cube_files.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "store/survey_run.hpp"
 
 #include <algorithm>

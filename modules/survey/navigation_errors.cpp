@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "survey/navigation_errors.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // vtk_glew.h must precede every other GL header.
 // clang-format off
 #include <vtk_glew.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "view/ping_record.hpp"
 
 #include <algorithm>

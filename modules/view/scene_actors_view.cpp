@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // View-dependent part of SceneActors: camera, axes, picking.
 #include <algorithm>
 #include <cmath>

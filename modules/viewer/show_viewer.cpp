@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/show_viewer.hpp"
 
 #include "viewer/viewer_window_internal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a click in a ViewerWindow does.
 #include <vtkCamera.h>
 

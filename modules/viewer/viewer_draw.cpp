@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Drawing of a ViewerWindow's state, restricted to what has changed.
 
 #include <algorithm>

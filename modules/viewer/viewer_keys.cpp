@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The table of keys: what it lists as help, the buttons that it gives, and what each key does.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the viewer shows of several pings: pages of a waterfall, and sweeps of a scanning head.
 #include <algorithm>
 #include <cmath>

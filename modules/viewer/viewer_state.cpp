@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/viewer_state.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The pieces of the sweep of error against run time.
 #include "accuracy/accuracy_sweep.hpp"
 #include "accuracy/reference_sums.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The plan's promise over the suite of docs/results/plan.md: no effect exceeds its bound, and no bound is idle.
 #include "benchmarks/accuracy/plan_suite.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/profiles.hpp"
 #include "support/point_targets.hpp"
 

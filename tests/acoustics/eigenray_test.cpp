@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rays from one depth to another through a profile, against closed forms and a march.
 #include "acoustics/profiles.hpp"
 

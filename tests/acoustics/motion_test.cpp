@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/motion.hpp"
 
 #include "acoustics/direct_echoes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Echoes by way of surface and bottom: images, formula, legs, and what must not change them.
 #include "acoustics/bounced_target.hpp"
 #include "acoustics/reflection.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where bounced echoes end: at boundaries, in rough water, at the gate; and what is refused.
 #include "acoustics/bounced_target.hpp"
 #include "acoustics/reflection.hpp"

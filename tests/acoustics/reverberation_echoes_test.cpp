@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Mean levels of the reverberation of water, surface and bottom against closed forms.
 #include "acoustics/reverberation_bench.hpp"
 #include "acoustics/reverberation_cells_internal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where and when reverberation comes from, whatever its kind, and what is refused.
 #include "acoustics/reverberation_bench.hpp"
 

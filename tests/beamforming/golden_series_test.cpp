@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Series computed independently of this project; tests/data/golden/README.md states their conventions.
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/scattering.hpp"

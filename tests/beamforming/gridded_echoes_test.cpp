@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gridding for every kind of pulse and absorption, of few echoes and of many.
 #include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/random.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ten million echoes, and a million in one bin: bounded memory, sums that add up.
 #include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/synthesize.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "beamforming/narrow_band/ping_synthesizer.hpp"
 
 #include "core/random.hpp"

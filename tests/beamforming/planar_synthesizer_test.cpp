@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A planar array gridded in time, u and v at once, against the sum over echoes.
 #include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/random.hpp"

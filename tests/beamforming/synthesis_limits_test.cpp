@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Synthesis at its limits: the edges of the gate, the smallest and largest numbers, odd and large sizes.
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"

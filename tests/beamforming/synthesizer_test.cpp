@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is kept from image to image changes nothing but the time that an image takes.
 #include "beamforming/synthesizer.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The inner loops of the synthesis by spreading, alone and in one thread.
 #include <vector>
 

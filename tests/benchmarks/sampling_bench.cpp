@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a scene to echoes: the built-in harbour of 200 000 surfels, 512 beams. Argument 0: scatterers per cell.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole images: 512 beams x 2000 bins by argument 0 echoes at a tolerance of 10^-argument 1, on argument 2 threads.
 #include <cmath>
 

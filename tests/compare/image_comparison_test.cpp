@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Two images and the floor that two seeds reach (E124).
 #include "compare/image_comparison.hpp"
 

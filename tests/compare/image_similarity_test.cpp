@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // MSE, PSNR and SSIM against scikit-image, and their closed forms (E120).
 #include "compare/image_similarity.hpp"
 

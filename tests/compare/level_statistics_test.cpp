@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Distances of distributions, lines and maps of levels (E121).
 #include "compare/level_statistics.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rank correlation and points of a scan (E122).
 #include "compare/rank_correlation.hpp"
 

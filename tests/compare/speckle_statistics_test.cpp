@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Statistics of speckle and their closed forms (E123, E124).
 #include "compare/speckle_statistics.hpp"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs BUILD into a folder of its own and uses the library from there as strangers do: the program of docs/api.md, and a
 # project that takes every component.
 cmake_minimum_required(VERSION 3.25)

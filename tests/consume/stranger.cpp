@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a user of PCL writes: a cloud in memory, pings from several threads, soundings back as a PCL cloud; a scene source
 // of one's own, and echoes of one's own.
 #include <future>

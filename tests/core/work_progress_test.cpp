@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/work_progress.hpp"
 
 #include "core/parallel.hpp"

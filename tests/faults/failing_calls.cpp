@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "faults/failing_calls.hpp"
 
 #include <atomic>

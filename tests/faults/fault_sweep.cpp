@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Makes every call by which a verb writes fail, one at a time and in every way, or kills the verb there or at a random time.
 // An error must be one line and exit code 4, the old output as it was, and no other file there; success in spite of it, as
 // after a short write, must give the bytes of an undisturbed run. After a kill the old or the new output must be whole, and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ARIS recordings, written here byte by byte after the public layout.
 #include "formats/aris_file.hpp"
 

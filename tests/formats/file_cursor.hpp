@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Reads files as their specifications say, and nothing of insonify's: any of the decoders of the tests may throw
 // std::runtime_error for a file that breaks its format.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "formats/geotiff_file.hpp"
 
 #include "formats/tiff_decoder.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files byte for byte as they stand in tests/data/golden/products, where the decoders of these tests and
 // other programs have read them (README.md there): a change of a writer is seen, whatever the decoders overlook.
 #include "formats/geotiff_file.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A decoder of the Generic Sensor Format 3.11, from its specification: every record that it has a name for, and of a ping
 // every array and the sensors 114, 149 and 152. Anything else, and a byte too many or too few, is an error.

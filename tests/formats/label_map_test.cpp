@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Objects in pictures, checked by an independent decoder of run lengths.
 #include "formats/label_map.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A decoder of LAS 1.4, point format 6, and LAS 1.2, point format 1, with the extra bytes level_db, deviation, ping and beam,
 // from ASPRS LAS 1.4 R15 and LAS 1.2.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "formats/las_file.hpp"
 
 #include "formats/las_decoder.hpp"

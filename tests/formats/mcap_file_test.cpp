@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "formats/mcap_file.hpp"
 
 #ifdef INSONIFY_TEST_LZ4

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // MCAP files as the npm packages @mcap/core and @foxglove/rosmsg2-serialization read them: every message, number by number as
 // the decoder of these tests.
 #include <cstdlib>

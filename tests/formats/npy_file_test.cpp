@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arrays of numpy, written here byte by byte.
 #include "formats/npy_file.hpp"
 

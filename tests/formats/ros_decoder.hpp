@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A decoder of MCAP and of ROS 2 messages in CDR, from their specifications: messages are read by the definitions that the
 // file itself holds.

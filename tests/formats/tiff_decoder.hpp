@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // A decoder of uncompressed GeoTIFF, from TIFF 6.0 and OGC 19-008.
 #include <map>

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Makes small valid files of every format that is read, as FOLDER/READER/*, and for libFuzzer the words in them,
 # FOLDER/READER.dict.
 #
 #   tests/fuzz/make_seeds.sh TOOL FOLDER
 set -euo pipefail
-[[ $# == 2 ]] || { sed -n '5s/^# *//p' "$0" >&2; exit 2; }
+[[ $# == 2 ]] || { sed -n '6s/^# *//p' "$0" >&2; exit 2; }
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
 mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environment mission materials profile \

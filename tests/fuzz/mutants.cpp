@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Damages small valid files at random and reads each in a process of its own, as the tool does: it must end with 0, 2, 3 or
 // 4, by no signal, within 5 s of processor and 1 GB, and say at most one line. Files that were found so once are read first, whole.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a bathymetric echo sounder finds of beds whose truth is known, and whether its predicted errors are its errors.
 #include "returns/bottom_detection.hpp"
 #include "simulate/simulate_ping.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A flat Lambert bottom, and the materials that ship with insonify against handbook values.
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/reflection.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Error rates of detection in noise. Bins are longer than the pulse and beams are in each other's nulls, so samples are
 // independent; seeds are fixed, tolerances are multiples of the binomial standard error.
 #include "acoustics/direct_echoes.hpp"

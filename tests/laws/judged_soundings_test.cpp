@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which soundings are rejected, and whether the deviations of the others are their errors, over beds whose surface is known:
 // the built-in river with its edges and gaps, reef and plane, and single targets on sand.
 #include "returns/bottom_detection.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Echoes by way of surface and bottom: images of one target in the layers of a ping.
 #include "acoustics/reflection.hpp"
 #include "simulate/simulate_ping.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Second-order laws of speckle: correlation between neighbouring beams and between neighbouring poses of the head.
 #include "acoustics/direct_echoes.hpp"
 #include "speckle_bench.hpp"

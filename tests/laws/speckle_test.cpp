@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // First-order laws of speckle: statistics of single pixels over independent cells and seeds. Seeds are fixed, so
 // results are reproducible; tolerances are multiples of the standard error stated beside them.
 #include "acoustics/direct_echoes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Calibrated targets: echoes of single bodies of known shape.
 #include "acoustics/direct_echoes.hpp"
 #include "returns/ping.hpp"

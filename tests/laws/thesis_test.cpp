@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A. Rascon, Forward-Looking Sonar Simulation Model for Robotic Applications (Naval Postgraduate School): what its
 // equations and figures come to when they are put right. docs/results/thesis.md has the details.
 #include "thesis/thesis.hpp"

@@ -1,10 +1,12 @@
 #!/usr/bin/env perl
+# SPDX-License-Identifier: BSD-3-Clause
 # Fails if, below ROOT,
 # - a type of a module is defined twice under one name, in headers or in sources outside unnamed namespaces;
 # - a header of a module is neither listed in its CMakeLists.txt, as public or shared, nor named _internal, or both; a public
 #   header includes one that is not public; a shared one includes an _internal one; or one is included outside its module, but for those in %lent (tests may use all);
 # - a header of the signal path, public or shared, has a std::function;
-# - a file of modules/ has more than 300 lines, or a function of modules/ or apps/ more than 60.
+# - a file does not begin with its licence (SPDX);
+# - a file of modules/ has more than 300 lines beside that, or a function of modules/ or apps/ more than 60.
 # It relies on clang-format: what begins and ends in one column belongs together.
 #
 #   tests/layers/check_code.pl ROOT [LINES-OF-A-FILE LINES-OF-A-FUNCTION]
@@ -53,6 +55,7 @@ for my $list (glob 'modules/*/CMakeLists.txt') {
 for my $path (sort @files) {
   open(my $in, '<', $path) or die "$path: $!\n";
   my @lines = <$in>;
+  $lines[0] =~ m{^// SPDX-License-Identifier: } ? shift @lines : complain("$path: must begin with its licence: // SPDX-License-Identifier: BSD-3-Clause");
   my ($module) = $path =~ m{^modules/([^/]+)/};
   my ($here) = $path =~ m{^\w+/([^/]+)/};
   my $user = $module // 'apps';
@@ -76,7 +79,7 @@ for my $path (sort @files) {
     if ($public{$path} && m{^#include "((?:[a-z_0-9]+/)+[a-z_0-9]+\.hpp)"} && $1 !~ /_internal/) {
       complain("$path: a public header includes $1, which is not installed") unless $public{"modules/$1"};
     }
-    complain("$path:", $i + 1, ": std::function in a header of the signal path, must be an abstract class")
+    complain("$path:", $i + 2, ": std::function in a header of the signal path, must be an abstract class")
       if /std::function\b/ && $listed{$path} && $signal_path{$module};
     if (/^namespace (\S* ?)\{$/) { $namespace .= '::' . ($1 =~ s/ $//r || 'unnamed') }
     if (m{^\}  // namespace}) { $namespace =~ s/^(.*)::(unnamed|.+?)$/$1/ }
@@ -92,7 +95,7 @@ for my $path (sort @files) {
       if (/^$indent\}$/ && defined $start[$column]) {
         my $length = $i - $start[$column] + 1;
         my $first = $lines[$start[$column]] =~ s/^\s+|\s+$//gr;
-        complain("$path:", $start[$column] + 1, ": function of $length lines, must be $function_limit at most: $first")
+        complain("$path:", $start[$column] + 2, ": function of $length lines, must be $function_limit at most: $first")
           if $length > $function_limit && !$long_function{"$path: $first"};
       }
       $start[$column] = $i if /^$indent[\w~]/ && !/^(?:namespace|#)/;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Fails if a path, file:function or test (`program.Suite.name`) named in README.md or docs/ does not exist, if an equation
 # of docs/equations.md is not marked by its id in the file it names, or if the code cites an id that the page does not have.
 cmake_minimum_required(VERSION 3.25)

@@ -1,4 +1,5 @@
 #!/usr/bin/env perl
+# SPDX-License-Identifier: BSD-3-Clause
 # Fails if a type, function, or alias that a public header of ROOT/modules shows has no /// comment before it. Destructors,
 # moves, deleted and defaulted functions say all by themselves. It relies on clang-format.
 use strict;

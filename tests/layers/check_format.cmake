@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Fails if a source file is not as .clang-format would have it.
 cmake_minimum_required(VERSION 3.25)
 file(GLOB_RECURSE sources "${ROOT}/modules/*.[ch]pp" "${ROOT}/apps/*.[ch]pp" "${ROOT}/tests/*.[ch]pp")

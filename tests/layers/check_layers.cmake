@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Fails if a module includes a module later in the walk, a numeric module includes a side door, a package is
 # included by another module than its door, or a public header of any module shows PCL, VTK, FLANN, FFTW or HDF5
 # (scene_io/pcl_bridge.hpp is the exception: it is the in-memory door for users of PCL).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Fails if a retired word of retired_words.txt stands in the tree below ROOT.
 cmake_minimum_required(VERSION 3.25)
 set(list "${CMAKE_CURRENT_LIST_DIR}/retired_words.txt")

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Switches off or spoils one term of the simulator's physics after the other, in a copy of the tree, and demands that
 # the test named beside it fails. Prints a table; 1 if a mutation survives, 2 if one cannot be tried.
 #
@@ -21,7 +22,7 @@ while (($#)); do
     --work) work=$2 && shift 2 ;;
     --jobs) jobs=$2 && shift 2 ;;
     --list | --check) mode=${1#--} && shift ;;
-    *) sed -n '5,12s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+    *) sed -n '6,13s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
   esac
 done
 

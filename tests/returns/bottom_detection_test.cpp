@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "returns/bottom_detection.hpp"
 
 #include "acoustics/bend_paths.hpp"

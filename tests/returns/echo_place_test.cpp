@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "returns/echo_place.hpp"
 
 #include "acoustics/motion.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/units.hpp"
 #include "returns/coverage.hpp"
 #include "sampling/find_scatterers.hpp"

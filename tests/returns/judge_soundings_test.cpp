@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Why soundings are rejected, and what their deviations hold, from pings made by hand.
 #include "core/random.hpp"
 #include "returns/bottom_detection.hpp"

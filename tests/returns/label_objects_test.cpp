@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Objects of label images.
 #include "returns/label_objects.hpp"
 

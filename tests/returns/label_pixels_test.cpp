@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What surface a pixel shows, and what is shadow (E125).
 #include "returns/label_pixels.hpp"
 

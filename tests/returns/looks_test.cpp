@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Averaging of intensities for display (E71) against the Gamma law of L looks.
 #include "returns/looks.hpp"
 

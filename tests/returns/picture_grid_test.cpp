@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Samples as pixels of pictures.
 #include "returns/picture_grid.hpp"
 

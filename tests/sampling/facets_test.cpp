@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfels that stand for triangles: what these hide, and what rays meet.
 #include <random>
 

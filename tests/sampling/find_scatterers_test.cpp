@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sampling/find_scatterers.hpp"
 
 #include "sampling_scenes.hpp"

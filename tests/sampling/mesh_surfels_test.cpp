@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfels that a ping takes from a mesh (E70): areas, places, ids, and how fine they are.
 #include "sampling/mesh_surfels.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfels that give little of what is heard from their range are split less (E127).
 #include "sampling/visible_surfels.hpp"
 #include "sampling_scenes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // KD-trees, raster and prepared scenes against brute force: the same bytes at different cost.
 #include "sampling_scenes.hpp"
 #include "scene/built_in_scenes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sampling/range_gaps.hpp"
 
 #include "sampling_scenes.hpp"

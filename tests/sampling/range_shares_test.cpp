@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parts of a surfel stand for the surface of their ranges (E128).
 #include "core/random.hpp"
 #include "sampling/range_shares_internal.hpp"

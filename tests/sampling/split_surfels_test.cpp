@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sampling/sampled_cells.hpp"
 #include "sampling_scenes.hpp"
 #include "support/test.hpp"

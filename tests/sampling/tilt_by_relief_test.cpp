@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sampling/tilt_by_relief_internal.hpp"
 #include "sampling_scenes.hpp"
 #include "support/test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Visibility of surfels on scenes whose shadows are known in closed form.
 #include <algorithm>
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene/built_in_scenes.hpp"
 
 #include "support/test.hpp"

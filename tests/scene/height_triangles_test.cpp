@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces between the points of height fields.
 #include "scene/estimate/height_triangles.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene/prepared_scene.hpp"
 
 #include "scene/built_in_scenes.hpp"

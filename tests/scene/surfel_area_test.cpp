@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene/estimate/surfel_area.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <vtkNew.h>
 #include <vtkSphereSource.h>
 #include <vtkXMLPolyDataWriter.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/random.hpp"
 #include "scene_io/test_files.hpp"
 #include "support/test.hpp"

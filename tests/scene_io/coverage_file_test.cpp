@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Coverage and bed of a survey, as files.
 #include "scene_io/coverage_file.hpp"
 

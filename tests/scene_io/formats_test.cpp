@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/io/pcd_io.h>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // glTF: files that assimp wrote, nodes that turn and move their meshes, and damaged documents.
 #include <nlohmann/json.hpp>
 

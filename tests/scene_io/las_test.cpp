@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // LAS files, written here byte by byte from the specification.
 #include "scene_io/describe_file.hpp"
 #include "scene_io/prepare_tiles.hpp"

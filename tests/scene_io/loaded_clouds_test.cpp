@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Clouds as they come from files: holes, uneven density, map coordinates, no materials; and pings of them.
 #include "scene_io/load_scene.hpp"
 #include "support/checked_ping.hpp"

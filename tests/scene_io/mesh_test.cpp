@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <vtkCubeSource.h>
 #include <vtkNew.h>
 #include <vtkPolyDataWriter.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene_io/pcl_bridge.hpp"
 
 #include <pcl/conversions.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rasters of heights in the formats of sea floors, written by GDAL.
 #include <cpl_error.h>
 #include <gdal.h>

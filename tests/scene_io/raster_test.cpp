@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Clouds that are rasters of heights become surfaces of triangles.
 #include <random>
 

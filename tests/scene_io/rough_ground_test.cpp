@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rough ground at grazing angles: pings of clouds drawn from generated beds against their triangles, facet by facet with an
 // exact walk of every line of sight. tests/benchmarks/accuracy/exact_height_field.cpp prints the same for larger ones.
 #include <cmath>

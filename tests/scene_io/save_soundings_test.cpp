@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Returns as files: every column under its name and type, places in double.
 #include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From which side a cloud was seen, where nobody says so: rasters of heights look up, organised scans that fan out from the
 // origin of their coordinates were seen from there.
 #include <cmath>

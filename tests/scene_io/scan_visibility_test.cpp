@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All of a scan was seen from where the scanner stood: pinged from there, it is seen whole.
 #include <cmath>
 #include <random>

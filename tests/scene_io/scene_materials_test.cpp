@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Materials of a scene: from labels, from intervals of a scalar field, from one for all.
 #include "scene_io/test_files.hpp"
 #include "support/test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "scene_io/tiled_scene.hpp"

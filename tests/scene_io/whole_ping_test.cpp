@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole pings of a captured cloud without normals, against sums over its true surface.
 #include <cmath>
 #include <random>

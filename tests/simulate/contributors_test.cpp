@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which surfels made a pixel, through the whole signal path.
 #include <set>
 

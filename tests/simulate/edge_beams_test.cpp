@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Levels of the outermost beams against those of everything ahead of the head: a line array receives along
 // cones, which reach far below the axis there.
 #include "acoustics/reverberation_echoes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Expected levels without speckle, how well finitely many points give them, and where the scan has holes.
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"

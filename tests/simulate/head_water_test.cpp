@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The water at the head's own depth: sound speed, absorption and rays of each ping follow from where its head is.
 #include "core/units.hpp"
 #include "simulate/plan_ping.hpp"

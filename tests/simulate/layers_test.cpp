@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The kinds of echo that make up a ping: they add up to it, and none depends on another.
 #include "acoustics/sound_speed_profile.hpp"
 #include "returns/compare.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Mean levels against closed forms. Random amplitudes make single levels scatter; every tolerance states how much.
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/scattering.hpp"

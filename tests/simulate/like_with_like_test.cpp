@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What one stage of the plan adds is compared with the same ping without it: no stage changes how the surfels of others are
 // split, and with that their speckle.
 #include <map>

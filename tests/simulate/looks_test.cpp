@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The intensity of a display that averages (E71), against the laws of speckle; and what the pressure keeps.
 #include <cmath>
 #include <complex>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Levels of a big mesh under a narrow swath, sampled for the ping_of, against a fine cloud and a closed form.
 #include <cmath>
 

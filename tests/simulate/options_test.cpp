@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options of a ping are refused by name, before any work.
 #include "simulate/plan_ping.hpp"
 #include "simulate/simulate_ping.hpp"

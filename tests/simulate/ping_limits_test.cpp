@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces, points and directions at the limits of what a ping can see.
 #include "acoustics/scattering.hpp"
 #include "support/checked_ping.hpp"

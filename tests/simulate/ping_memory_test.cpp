@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Memory of a ping: it grows with the points in view, and those out of view cost none.
 #include <malloc.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Levels at the limits of numbers, values in other units than SI, and what a ping refuses rather than computes.
 #include "acoustics/sound_speed_profile.hpp"
 #include "support/checked_ping.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The plan's promise: what a ping leaves out costs less than the plan says.
 #include "simulate/plan_ping.hpp"
 

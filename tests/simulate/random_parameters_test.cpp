@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parameters drawn at random from far wider ranges than any sonar has: whatever comes out is a number, or an Error
 // that says what is wrong. A failure prints the case's number, which draws it again.
 #include "beamforming/synthesize.hpp"

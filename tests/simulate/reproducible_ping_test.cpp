@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Threads, seeds and velocity: what changes the bits of a ping, and what does not.
 #include "acoustics/sound_speed_profile.hpp"
 #include "support/checked_ping.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Shadows on a level bed against closed forms, in labels and in levels (E16, E125).
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What side lobes alone receive is sampled by wider cells (E17): its level and its speckle stay what they are.
 #include "scene/built_in_scenes.hpp"
 #include "simulate/resolve_ping.hpp"

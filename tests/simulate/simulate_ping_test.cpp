@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "simulate/simulate_ping.hpp"
 
 #include "returns/compare.hpp"

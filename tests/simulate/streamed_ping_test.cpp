@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Patches that are made chunk by chunk give the same ping as those that are stored, to the byte.
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is heard of a surfel (E127), against the energy of pings of single surfels, and the error of parts by its share.
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize_intensity.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What forms beams is made once for each medium, method and tolerance, and the last few stay.
 #include "simulate/synthesizer_table_internal.hpp"
 #include "support/heads.hpp"

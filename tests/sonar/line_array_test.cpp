@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sonar/line_array.hpp"
 
 #include "sonar/shading.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sonar/pulse.hpp"
 
 #include "support/test.hpp"

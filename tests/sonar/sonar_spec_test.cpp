@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "sonar/sonar_spec.hpp"
 
 #include "support/heads.hpp"

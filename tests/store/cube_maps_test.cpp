@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Layers, maps and labels of a cube, and how many bits of pressures it keeps.
 #include "store/random_cube.hpp"
 #include "store/raw_file.hpp"

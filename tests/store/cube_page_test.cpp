@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a cube says of itself, as another program finds it, and the page that describes it: docs/formats.md.
 #include <hdf5_hl.h>
 

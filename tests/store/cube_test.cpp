@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "store/cube.hpp"
 
 #include "store/random_cube.hpp"

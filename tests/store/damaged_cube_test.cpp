@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Cubes of which one byte is wrong, where HDF5 trusts it.
 #include "store/concatenate_cube_files.hpp"
 #include "store/random_cube.hpp"

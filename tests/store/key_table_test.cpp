@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tables of keys of files are those of the docs.
 #include <fstream>
 #include <sstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "store/csv_tables.hpp"
 #include "support/test.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "store/materials_file.hpp"
 
 #include <tuple>

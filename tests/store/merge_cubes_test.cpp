@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "store/merge_cubes_by_time.hpp"
 #include "support/test.hpp"
 

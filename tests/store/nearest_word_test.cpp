@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "store/nearest_word.hpp"
 
 #include "support/test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "store/sonar_text.hpp"
 
 TEST(SonarFile, reads_plain_keys_in_si_and_radians) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sonars written and read again, and keys set by word.
 #include "core/random.hpp"
 #include "store/sonar_text.hpp"

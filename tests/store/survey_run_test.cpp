@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Blocks of a survey on disk, and cubes made of them.
 #include "store/survey_run.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/errors.hpp"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "sonar/line_array.hpp"
 #include "sonar/pulse.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "acoustics/direct_echoes.hpp"
 #include "sonar/sonar_head.hpp"

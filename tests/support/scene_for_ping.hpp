@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "sampling/mesh_surfels.hpp"
 #include "scene_io/load_scene.hpp"

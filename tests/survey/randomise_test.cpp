@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What differs from ping to ping of a survey (E126).
 #include "survey/randomise.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The engine of a survey: what is made, kept, left and resumed, with pings that cost nothing.
 #include "survey/simulate_survey.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mission becomes a list of pings, and each ping a place.
 #include "survey/survey_pings.hpp"
 

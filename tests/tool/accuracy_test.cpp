@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // insonify accuracy: what it writes, and what it refuses. The sizes here are the hidden --quick ones: times mean nothing.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bad environments, ways and pulses: one line with what was said, the value, its unit and the rule; nothing left
 // behind.
 #include "support/test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bad input gets one line that names the file or argument, the value and the remedy, the right exit code, and leaves
 // nothing behind.
 #include "support/test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // insonify beampattern: what it prints is what the beam of a ping is.
 #include <nlohmann/json.hpp>
 

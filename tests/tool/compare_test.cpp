@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs against runs and records through the whole tool.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small files that announce much: refused at little cost of time and memory, in one line.
 #include <hdf5.h>
 #include <sys/resource.h>

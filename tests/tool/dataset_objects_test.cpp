@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Objects of a data set: the instances of the scene, and those of its images.
 #include <hdf5.h>
 

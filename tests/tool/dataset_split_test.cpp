@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What goes into train, val and test of a data set.
 #include "tool/dataset/dataset_split.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Data sets to learn from, opened by readers of their own: the formats as their definitions have them.
 #include <nlohmann/json.hpp>
 

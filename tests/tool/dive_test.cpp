@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A vehicle that dives through a thermocline: every ping has the water of its own depth, and so has all that is made of it.
 #include <numeric>
 #include <sstream>

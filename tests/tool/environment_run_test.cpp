@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What surrounds head and scene, from the command line: each option does what it says, and a run can be fed back.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Expected levels and hole masks through the whole tool.
 #include <nlohmann/json.hpp>
 

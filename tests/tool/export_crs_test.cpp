@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rasters in any projected system, against its equations from the literature, in the plane of the world, and mosaics.
 #include <map>
 #include <sstream>

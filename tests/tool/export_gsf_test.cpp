@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // GSF of ships that roll, pitch, turn and drift below the surface, read by a decoder from the specification: soundings
 // follow from travel times, angles and profile as MB-System computes them, and attitude, course and depth are the ship's.
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What `export --to mcap` writes of a ball to port of the head, ahead of it and above the bed.
 #include "formats/mcap_file.hpp"
 #include "formats/ros_decoder.hpp"

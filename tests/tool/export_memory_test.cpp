@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Products of 10 000 pings take the memory of those of 1 000: pings stream.
 #include <sys/resource.h>
 #include <sys/wait.h>

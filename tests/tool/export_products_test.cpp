@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What `export --to gsf|las|mcap|geotiff` writes of a ball to port of the head, ahead of it and above the bed, read by
 // the decoders of tests/formats: every field's unit and sign.
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Products of a whole survey, read by the decoders of tests/formats.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What `export` and --keep paths write for VTK's own readers.
 #include <nlohmann/json.hpp>
 #include <vtkCellData.h>

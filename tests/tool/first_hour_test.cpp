@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a new user meets: default ranges, notes with a remedy, missions to begin with, and heights of soundings against
 // the scene.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every product of a survey with two heads, opened by programs of others where they are installed.
 #include "scene_io/load_scene.hpp"
 #include "tool/survey_fixture.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Soundings of a GSF file computed again from its travel times, angles and sound-speed profile.
 #include <algorithm>

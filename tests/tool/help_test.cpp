@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // --help, man pages and completions of shells come from one description of the options.
 #include <algorithm>
 #include <regex>

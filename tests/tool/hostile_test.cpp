@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files and disks that mean no good: one line, the right exit code, and nothing half-written.
 #include <hdf5.h>
 #include <sys/stat.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // insonify image: grey values, layers and gains.
 #include "returns/ping.hpp"
 #include "store/cube.hpp"

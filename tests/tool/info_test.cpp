@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What `info` says of every kind of file and what comes next, and what `materials` lists.
 #include "tool/first_hour_fixture.hpp"
 #include "tool/survey_fixture.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Ctrl-C and kill at any stage: the prompt is back within a second, and nothing is left that was not complete.
 #include <cmath>
 #include <csignal>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every verb prints: with --json one JSON value and nothing else, with -q no line of what was written.
 #include <nlohmann/json.hpp>
 

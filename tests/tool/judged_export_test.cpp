@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Soundings that are judged wrong: left out of products, or flagged in them; and soundings placed by a wrong profile.
 #include <map>
 #include <sstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What --keep contributors and --keep insonification write.
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Kills a survey of 200 pings (60 for fewer than 20 kills) at random times and lets it go on, until COUNT kills are done. The
 # result must have the bytes of a survey in one go, no finished block may be made twice, and nothing may be left over.
 # Kills hit within the time that the survey takes on this machine; a survey that ends before its kills is begun again.

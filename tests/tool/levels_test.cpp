@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Levels through the whole tool.
 #include <cstdio>
 

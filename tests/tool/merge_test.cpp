@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What merge joins beside the cubes: returns, contributors, insonification.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh of two triangles from the command line: a ping samples it as its beams need; and what a display averages.
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # Programs load no library from the folder in which they are called: there it may be a stranger's. Calls each in a folder
 # of empty files with the names of all its libraries.
 #

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What --force may replace: files that a run wrote, and never an input, whatever it is called.
 #include "tool/tool_runner.hpp"
 

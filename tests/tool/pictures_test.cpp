@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // insonify image and merge, from echoes at known places to the pixels of the PNG.
 #include "returns/quantise.hpp"
 #include "store/cube.hpp"

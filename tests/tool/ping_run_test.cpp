@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One ping from the command line: what it writes, and that the same words give the same bytes.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a ping would compute and leave out, through the tool.
 #include <nlohmann/json.hpp>
 

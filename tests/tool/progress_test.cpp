@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // On a terminal the tool says how far it is and how long it will take.
 #include <regex>
 

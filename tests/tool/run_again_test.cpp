@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A run.toml makes the same bytes again: every setting is in it and is read back, and the command line overrides it.
 #include "store/cube.hpp"
 #include "support/test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sweeps of a scanning head: bent where the vehicle moved, straight once that is compensated.
 #include "tool/image/scan_image.hpp"
 

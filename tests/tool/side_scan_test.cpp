@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Side-scan lines and swaths: heads mounted as their files say, slant and ground range, shadows of the length they must
 // have.
 #include "tool/image/side_scan.hpp"

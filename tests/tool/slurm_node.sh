@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
 # One node of Slurm without systemd, for a test: runs a command with Slurm's tools on it, then stops it all. Needs root.
 #   slurm_node.sh LOG COMMAND...     LOG: where the log of the scheduler is kept
 set -euo pipefail

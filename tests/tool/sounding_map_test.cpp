@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/export/sounding_map.hpp"
 
 #include "support/test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surveys that are killed, interrupted or without space, and blocks that are missing or wrong.
 #include <nlohmann/json.hpp>
 #include <signal.h>

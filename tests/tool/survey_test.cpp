@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surveys: one result whatever the shards, threads and order, and what it holds.
 #include <nlohmann/json.hpp>
 

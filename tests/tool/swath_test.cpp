@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A line of a multibeam straight down over a level bed: where the beams meet it, how loud, and how wide the swath is.
 #include "core/units.hpp"
 #include "scene/material.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Scenes on disk: a ping of what the fan reaches is the ping of the whole.
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files of a run against the digests of when it was made.
 #include "tool/tool_runner.hpp"
 

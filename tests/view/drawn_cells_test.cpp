@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/test.hpp"
 #include "view/axes_internal.hpp"
 #include "view/drawn_cells_internal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Properties of every view: room for all texts at all sizes, both themes, Greek letters.
 #include "support/test.hpp"
 #include "view/drawing_internal.hpp"

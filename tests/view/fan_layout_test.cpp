@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/test.hpp"
 #include "view/fan_layout_internal.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Grey pictures as files.
 #include "view/grey_file.hpp"
 

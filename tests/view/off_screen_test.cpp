@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pictures drawn in a child process, which a limit of memory asks for.
 #include <sys/resource.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <vtkCamera.h>
 #include <vtkNew.h>
 #include <vtkRenderer.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Holes of the scan and normals in the picture of a scene.
 
 #include "support/test.hpp"

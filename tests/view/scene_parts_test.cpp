@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parts of a scene picture that do not need VTK.
 #include "support/test.hpp"
 #include "view/scene_camera_internal.hpp"

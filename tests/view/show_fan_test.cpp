@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "files/pending_file.hpp"
 #include "support/test.hpp"
 #include "view/drawn_cells_internal.hpp"

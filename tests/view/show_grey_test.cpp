@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <vtkImageData.h>
 #include <vtkPNGReader.h>
 #include <vtkPNMReader.h>

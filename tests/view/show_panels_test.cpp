@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "support/test.hpp"
 #include "view/show_image.hpp"
 #include "view/test_pictures.hpp"

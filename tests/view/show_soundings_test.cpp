@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Soundings of a ping across its way: drawn wherever in the world they are.
 #include "support/test.hpp"
 #include "view/show_image.hpp"

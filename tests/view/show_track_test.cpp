@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A survey from above: ways and levels to one scale, x to the right and y up.
 #include "view/show_track.hpp"
 

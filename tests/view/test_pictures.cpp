@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "view/test_pictures.hpp"
 
 #include <vtkImageData.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The program: a real window on a virtual display, pictures without one, and bad input.
 #include <hdf5.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "viewer/three_targets.hpp"
 
 #include "support/test.hpp"

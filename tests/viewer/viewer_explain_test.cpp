@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Explanation of a sample, and the surfels highlighted for it.
 #include "viewer/viewer_explain.hpp"
 

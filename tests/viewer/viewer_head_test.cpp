@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The head of the viewer, moved by keys, and its option.
 #include "support/test.hpp"
 #include "viewer/viewer_state.hpp"

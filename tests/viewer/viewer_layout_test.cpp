@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Layout of the panels, picking, and parsing of events.
 #include "viewer/viewer_layout.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Keys and clicks as functions from state to state.
 #include "viewer/viewer_state.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A survey in the viewer: pings read one at a time, sweeps, waterfalls, seeking; and the program on a survey's folder.
 #include "core/units.hpp"
 #include "support/test.hpp"

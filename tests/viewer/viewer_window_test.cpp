@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The whole window, drawn off-screen: clicks and keys change the state, and the drawing follows it.
 #include "support/test.hpp"
 #include "view/test_pictures.hpp"

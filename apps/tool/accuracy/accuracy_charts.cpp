@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pictures of the sweep of error against run time.
 #include <algorithm>
 #include <cmath>

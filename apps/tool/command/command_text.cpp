@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/command/command_text.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/compare/compare_soundings.hpp"
 
 #include <algorithm>

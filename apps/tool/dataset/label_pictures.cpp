@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/dataset/label_pictures.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/export/raster_plane.hpp"
 
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/image/image.hpp"
 #include "view/colour_maps_internal.hpp"
 

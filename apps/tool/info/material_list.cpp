@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/info/material_list.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/merge/merge_survey.hpp"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/run/scene_files.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "tool/survey/survey_setup.hpp"
 
 #include <algorithm>

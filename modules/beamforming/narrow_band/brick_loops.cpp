@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
 
 #include "beamforming/narrow_band/brick_loops_internal.hpp"

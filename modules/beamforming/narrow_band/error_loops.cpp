@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
 #include "beamforming/narrow_band/error_loops_internal.hpp"

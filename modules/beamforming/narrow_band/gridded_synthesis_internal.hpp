@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "acoustics/echo_stream.hpp"
 #include "beamforming/narrow_band/beam_transform_internal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "beamforming/narrow_band/gridding_loops_internal.hpp"
 #include "beamforming/numerics/kernel_lanes_internal.hpp"
 #include "core/target_clones.hpp"

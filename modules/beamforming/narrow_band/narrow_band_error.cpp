@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "beamforming/narrow_band/narrow_band_error.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
 #include "beamforming/narrow_band/tile_lists_internal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
 #include "beamforming/pulses/gaussian_batch_internal.hpp"

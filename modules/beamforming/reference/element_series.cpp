@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "beamforming/reference/element_series.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
 #include "beamforming/true_delays/beam_table_loops_internal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "beamforming/true_delays/wideband_loops_internal.hpp"
 #include "core/target_clones.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Expected levels and visibility of whole pings of rough ground against its triangles: facet by facet, every line of sight
 // walked over the triangles without a step.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Expected levels by how surfels are split, for cells of main lobes and of side lobes (E17), by shares of what is heard
 // (E127) and of the surface of a range (E128): part_accuracy [SURFELS] [PRESET[@MIN:MAX] ...], a table in Markdown
 // (docs/results/sampling.md).

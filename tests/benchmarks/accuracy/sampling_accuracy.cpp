@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sampling of point clouds against the true surfaces they were scanned from: sampling_accuracy [SPACING_MM ...].
 //
 // Three tables: range errors of rays, the same apart near silhouettes and elsewhere, and surfels hidden or shown wrongly.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // True delays (E68) against element by element: true_delays_accuracy [HEAD] prints the table of docs/results/accuracy.md, one
 // row for each head, direction and range, and one for each head above a rough height field. Never asserted.
 #include <algorithm>

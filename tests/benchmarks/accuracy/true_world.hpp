@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A sea bed of facets, spheres, and boxes of six faces: what a ray truly meets, in closed form, and surfels scanned from it.
 #pragma once
 #include <algorithm>

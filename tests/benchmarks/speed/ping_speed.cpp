@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How long warm pings of prepared scenes take, as tables in Markdown (docs/results/speed.md):
 //   ping_speed work [NAME]     some pings of the harbour of a million surfels: medians of five, or of eleven short ones
 //   ping_speed presets [NAME]  every preset on harbour and plane: medians of three, of eleven short ones, or one if the first

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How long one ping of a prepared harbour takes, as a table in Markdown: sampling_speed [REPEATS [MOST_POINTS]].
 //
 // Medians and quartiles of wall times and medians of CPU times, warm. Gates are chosen so that each row holds the scatterers it names.
