@@ -89,8 +89,7 @@ void BeamTable::fill(std::size_t node) {
                              static_cast<std::size_t>(end), re.data() + g * samples,
                              im.data() + g * samples);  // (E134)
     }
-  for (std::size_t g = 0; g < of.directions; ++g)
-    write(node, g, re.data() + g * samples, im.data() + g * samples);  // (E134)
+  for (std::size_t g = 0; g < of.directions; ++g) write(node, g, re.data() + g * samples, im.data() + g * samples);
 }
 
 void BeamTable::write(std::size_t node, std::size_t direction, const double* re, const double* im) {

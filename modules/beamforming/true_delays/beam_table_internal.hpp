@@ -18,8 +18,8 @@ struct ArrayPart {
   std::vector<double> y;       ///< places [m], positive to port
   std::vector<double> weight;  ///< shading over the number of elements of the whole array
   double centre = 0;           ///< [m]
-  double fade =
-      0;  ///< weights fade out over this length from `centre`, which is the end of the array [m]; 0: they do not
+  /// Weights fade out over this length from `centre`, which is then the end of the array [m]; 0: they do not.
+  double fade = 0;
 
   /// The whole array, about its middle.
   static ArrayPart whole(const LineArray& array);
@@ -69,9 +69,8 @@ struct BeamTableSizes {
 };
 
 /// The responses of one focused beam, or of a part of its array, to echoes of unit amplitude from some bins of the
-/// gate:
-/// smooth in 1 / range and direction, and of limited band, so polynomials between the entries of a table give them
-/// (E134). Refers to its sizes.
+/// gate (E134). They are smooth in 1 / range and direction, and their band is limited, so polynomials between the
+/// entries of a table give them. Refers to its sizes.
 class BeamTable {
  public:
   /// Sums over all elements for every entry. `doppler`: shift over the carrier. Directions count from the beam, times

@@ -24,10 +24,10 @@ double nearest_range(const SonarHead& head, const Medium& medium, double toleran
   return std::max(1.5 * aperture, moved / std::sqrt(0.3)) + medium.sound_speed * reach.half;
 }
 
-/// The same in bins of the gate; echoes that cannot reach into it do not count.
-double nearest_bin(const SonarHead& head, const Medium& medium, double tolerance, double guard) {
+/// The same in bins of the gate, from its first on.
+double nearest_bin(const SonarHead& head, const Medium& medium, double tolerance) {
   const double bin = (nearest_range(head, medium, tolerance) - head.gate.min_range) / head.gate.bin_size;
-  return std::max(-guard, std::ceil(bin));
+  return std::max(0.0, std::ceil(bin));
 }
 
 /// Length over which weights must fade so that elements between them receive nothing from beyond |u| [m].
@@ -84,7 +84,7 @@ double BeamTables::bytes() const {
 OneBeam::OneBeam(const SonarHead& head, const Medium& medium, double tolerance, double widest, double split)
     : split_(split),
       whole_(BeamTableSizes(head, medium, tolerance, std::min(split, widest), ArrayPart::whole(head.array)),
-             nearest_bin(head, medium, tolerance, 0)),
+             nearest_bin(head, medium, tolerance)),
       guard_(whole_.guard()),
       stretches_{TimeAxis(head.gate, medium.sound_speed), {}} {
   if (split < widest) {
