@@ -26,6 +26,7 @@ void append(const SceneCloud& from, std::size_t i, SceneCloud& to) {
   to.material.push_back(from.material[i]);
   to.id.push_back(from.id[i]);
   if (!from.noise.empty()) to.noise.push_back(from.noise[i]);
+  if (!from.unevenness.empty()) to.unevenness.push_back(from.unevenness[i]);
   if (!from.facet.empty()) to.facet.push_back(Facet(from.facet[i]));
 }
 

@@ -71,6 +71,7 @@ Sector insonified_sector(const BeamFan& fan, const SamplingOptions& options);
 /// Counts of the sampling, for log and manifest.
 struct SamplingReport {
   std::size_t surfels = 0;      ///< in the scene
+  std::size_t merged_to = 0;    ///< surfels and nodes that stand for those within reach (E137); 0: none are merged
   std::size_t in_gate = 0;      ///< inside sector and range gate
   std::size_t back_facing = 0;  ///< of these, surfels facing away from the head
   std::size_t hidden = 0;       ///< of these, surfels hidden behind others; 0 for rays

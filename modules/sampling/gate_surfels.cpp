@@ -39,6 +39,7 @@ struct Gate {
     s.plane_distance = static_cast<float>(std::abs(along));
     s.radius = static_cast<float>(radius);
     s.spacing = static_cast<float>(spacing);
+    s.unevenness = scene.unevenness.empty() ? s.spacing : scene.unevenness[i];
     s.noise = scene.noise.empty() ? 0 : scene.noise[i];
     s.surfel = static_cast<std::uint32_t>(i);
     s.in_gate = r >= range.min_range && sector.holds(p);

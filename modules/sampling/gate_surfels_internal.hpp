@@ -24,6 +24,7 @@ struct GatedSurfel {
   float plane_distance;      ///< from the head to the tangent plane [m], >= 0; 0: seen edge-on
   float radius;              ///< of the disc, or the farthest corner of the facet [m]
   float spacing;             ///< sqrt(area) [m]
+  float unevenness;          ///< how far below its plane its own surface may lie [m]
   float noise;               ///< of the surface [m]
   std::uint32_t surfel;      ///< index in the scene
   bool in_gate;              ///< inside sector and gate; else it can only occlude

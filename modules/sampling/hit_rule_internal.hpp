@@ -26,10 +26,9 @@ struct LineOfSight {
 using Cover = std::uint32_t;
 inline constexpr Cover whole_cover = ~Cover{0};
 
-/// How deep below the tangent plane of one surfel another must lie to be behind it [m]: the larger spacing, which
-/// allows for roughness, and three standard deviations of noise (E16).
+/// How deep below the tangent plane of one surfel another must lie to be behind it [m]: the larger unevenness, and three standard deviations of noise (E16).
 inline float hiding_depth(const GatedSurfel& a, const GatedSurfel& b) {
-  return std::max(a.spacing, b.spacing) + 3 * std::sqrt(a.noise * a.noise + b.noise * b.noise);
+  return std::max(a.unevenness, b.unevenness) + 3 * std::sqrt(a.noise * a.noise + b.noise * b.noise);
 }
 
 /// What `front` covers of the line of sight to a surfel that lies deeper below its tangent plane than the hiding depth

@@ -45,7 +45,7 @@ std::vector<Cover> covers_by_index(const GatedSurfels& surfels, const DirectionI
 }
 
 // Depth beyond which a surfel may occlude. In the coordinates of a cube face its tangent plane is at depth
-// plane_distance / g(x, y) with g linear, and occluded points are deeper than (plane_distance + spacing + 3 noise) / g.
+// plane_distance / g(x, y) with g linear, and occluded points are deeper than (plane_distance + unevenness + 3 noise) / g.
 // Stores the inverse of that bound, slightly enlarged for rounding.
 struct HidingDepth {
   float constant, along_x, along_y;  // inverse depth and its slopes [1/m]
@@ -56,7 +56,8 @@ struct HidingDepth {
     const GatedSurfel& s = surfels[surfel];
     const GatedFacet* const facet = surfels.facet.empty() ? nullptr : &surfels.facet[surfel];
     const Eigen::Vector3f& away = facet ? facet->away : s.away;
-    const float beyond = facet ? facet->plane_distance + facet->tolerance : s.plane_distance + s.spacing + 3 * s.noise;
+    const float beyond =
+        facet ? facet->plane_distance + facet->tolerance : s.plane_distance + s.unevenness + 3 * s.noise;
     const float scale = beyond > 0 ? rounding / beyond : 0;
     constant = ((face % 2 == 0 ? away[k] : -away[k]) + slack) * scale;
     along_x = away[(k + 1) % 3] * scale;

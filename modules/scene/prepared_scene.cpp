@@ -5,24 +5,21 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "core/error.hpp"
+#include "core/morton.hpp"
 #include "core/parallel.hpp"
+#include "core/radix_sort.hpp"
+#include "scene/detail_levels.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr std::size_t block_surfels = 128;
 constexpr std::uint32_t steps_per_axis = 1 << 10;  // cells of the Morton curve along each axis
+constexpr int code_bits = 30;
 constexpr float rounding = 1 + 1e-5f;
-
-// Inserts two zero bits after each of the ten low bits of v.
-std::uint32_t insert_two_zeros(std::uint32_t v) {
-  v = (v | v << 16) & 0x030000ff;
-  v = (v | v << 8) & 0x0300f00f;
-  v = (v | v << 4) & 0x030c30c3;
-  return (v | v << 2) & 0x09249249;
-}
 
 // Quantises coordinates over the bulk of the points; the few points beyond the 0.5 % quantiles share the outermost
 // cells.
@@ -43,12 +40,12 @@ class Quantiser {
   }
   std::uint32_t code(const Eigen::Vector3f& p) const {
     const float per_metre = extent_ > 0 ? static_cast<float>(steps_per_axis / extent_) : 0;
-    std::uint32_t code = 0;
+    std::array<std::uint32_t, 3> cell{};
     for (int axis = 0; axis < 3; ++axis) {
       const float step = std::clamp((p[axis] - low_[axis]) * per_metre, 0.0f, float{steps_per_axis - 1});
-      code |= insert_two_zeros(static_cast<std::uint32_t>(step)) << axis;
+      cell[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(step);
     }
-    return code;
+    return static_cast<std::uint32_t>(morton_code(cell));
   }
 
  private:
@@ -56,27 +53,13 @@ class Quantiser {
   double extent_ = 0;  // of the longest axis; used for all axes, so cells are cubes
 };
 
-// Sorts by the Morton code in the upper 32 bits; stable, so equal codes keep their order.
-void radix_sort(std::vector<std::uint64_t>& keys) {
-  constexpr int digit_bits = 10, code_bits = 30;
-  std::vector<std::uint64_t> sorted(keys.size());
-  for (int shift = 32; shift < 32 + code_bits; shift += digit_bits) {
-    const auto digit = [shift](std::uint64_t key) { return key >> shift & ((1u << digit_bits) - 1); };
-    std::array<std::size_t, (1u << digit_bits) + 1> first{};
-    for (const std::uint64_t key : keys) ++first[digit(key) + 1];
-    for (std::size_t d = 1; d < first.size(); ++d) first[d] += first[d - 1];
-    for (const std::uint64_t key : keys) sorted[first[digit(key)]++] = key;
-    keys.swap(sorted);
-  }
-}
-
 std::vector<std::uint32_t> morton_order(const std::vector<Eigen::Vector3f>& points, int threads) {
   const Quantiser quantiser(points);
   std::vector<std::uint64_t> keys(points.size());
   parallel_blocks(points.size(), 1 << 15, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) keys[i] = std::uint64_t{quantiser.code(points[i])} << 32 | i;
   });
-  radix_sort(keys);
+  radix_sort(keys, 32, 32 + code_bits, [](std::uint64_t key) { return key; });
   std::vector<std::uint32_t> order(keys.size());
   for (std::size_t i = 0; i < keys.size(); ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
   return order;
@@ -98,10 +81,21 @@ void enclose(const SceneCloud& scene, std::span<const std::uint32_t> members, Su
 
 }  // namespace
 
+struct PreparedScene::Levels {
+  std::once_flag once;
+  DetailLevels levels;
+};
+
 PreparedScene::PreparedScene(const SceneCloud& scene, int threads)
     : PreparedScene(std::shared_ptr<const SceneCloud>(std::shared_ptr<void>(), &scene), threads) {}
 
-PreparedScene::PreparedScene(std::shared_ptr<const SceneCloud> shared, int threads) : scene_(std::move(shared)) {
+const DetailLevels& PreparedScene::levels(int threads) const {
+  std::call_once(levels_->once, [&] { levels_->levels = detail_levels(*scene_, whole_.mean_spacing, threads); });
+  return levels_->levels;
+}
+
+PreparedScene::PreparedScene(std::shared_ptr<const SceneCloud> shared, int threads)
+    : scene_(std::move(shared)), levels_(std::make_shared<Levels>()) {
   const SceneCloud& scene = *scene_;
   require_valid(scene, "PreparedScene");
   if (scene.size() > std::numeric_limits<std::uint32_t>::max())

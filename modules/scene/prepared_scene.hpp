@@ -15,6 +15,8 @@
 
 namespace insonify {
 
+struct DetailLevels;
+
 /// A block of neighbouring surfels and a bounding ball of their centres.
 struct SurfelBlock {
   Eigen::Vector3f centre;            ///< [m], relative to the scene's origin
@@ -67,12 +69,17 @@ class PreparedScene {
   SurfelMarks marks_of(const std::function<bool(const SurfelBlock&)>& wanted, int threads = 0) const;
   /// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.
   const WholeScene& whole() const { return whole_; }
+  /// Returns the levels of detail of the scene, from its mean spacing on. They are made by the first call; several
+  /// threads may call at once. Copies share them. Errors as detail_levels.
+  const DetailLevels& levels(int threads = 0) const;
 
  private:
+  struct Levels;
   std::shared_ptr<const SceneCloud> scene_;
   std::vector<SurfelBlock> blocks_;
   std::vector<std::uint32_t> order_;
   WholeScene whole_;
+  std::shared_ptr<Levels> levels_;
 };
 
 }  // namespace insonify

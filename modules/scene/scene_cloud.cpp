@@ -54,6 +54,7 @@ void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const 
   scene.material.push_back(material);
   scene.id.push_back(scene.id.empty() ? 0 : scene.id.back() + 1);
   if (!scene.noise.empty()) scene.noise.push_back(0);
+  if (!scene.unevenness.empty()) scene.unevenness.push_back(static_cast<float>(std::sqrt(area)));
   if (!scene.facet.empty()) scene.facet.push_back({scene.point.back(), scene.point.back(), scene.point.back()});
 }
 
@@ -63,6 +64,7 @@ void require_valid(const SceneCloud& scene, const char* who) {
   require_length(scene.material.size(), scene.size(), "material", who);
   require_length(scene.id.size(), scene.size(), "id", who);
   if (!scene.noise.empty()) require_length(scene.noise.size(), scene.size(), "noise", who);
+  if (!scene.unevenness.empty()) require_length(scene.unevenness.size(), scene.size(), "unevenness", who);
   if (!scene.facet.empty()) require_length(scene.facet.size(), scene.size(), "facet", who);
   if (!scene.origin.allFinite()) fail(ErrorKind::content, who, ": scene.origin must be finite");
   for (const Material& material : scene.materials) require_valid(material, who, ErrorKind::content);
@@ -96,6 +98,7 @@ SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& kee
   gather(scene.material, part.material);
   gather(scene.id, part.id);
   if (!scene.noise.empty()) gather(scene.noise, part.noise);
+  if (!scene.unevenness.empty()) gather(scene.unevenness, part.unevenness);
   if (!scene.facet.empty()) gather(scene.facet, part.facet);
   return part;
 }

@@ -25,7 +25,7 @@ using Facet = std::array<Eigen::Vector3f, 3>;
 
 /// The captured scene: surfels (small oriented patches) as a structure of arrays, one entry per surfel in each array
 /// but
-/// `noise` and `facet`, which may be empty. World frame; coordinates are stored in single precision relative to `origin`, which is
+/// `noise`, `unevenness` and `facet`, which may be empty. World frame; coordinates are stored in single precision relative to `origin`, which is
 /// subtracted in double.
 struct SceneCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; world position = origin + point
@@ -35,6 +35,8 @@ struct SceneCloud {
   std::vector<std::uint16_t> material;               ///< index into `materials`
   std::vector<std::uint32_t> id;                     ///< unique; speckle is bound to it
   std::vector<float> noise;                          ///< standard deviation across the surface [m]; empty: 0 everywhere
+  /// How far below a surfel's plane its own surface may lie [m]; empty: as far as its spacing sqrt(area).
+  std::vector<float> unevenness{};
   /// The triangle of a surface that each surfel stands for, anywhere in it: what it hides is hidden by the triangle.
   /// Empty: surfels hide as discs.
   std::vector<Facet> facet{};

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/morton.hpp"
 #include "scene_io/tile_sort_internal.hpp"
 
 namespace insonify {
@@ -15,9 +16,6 @@ constexpr std::size_t cells = 4096;
 
 using Place = Eigen::Map<const Eigen::Vector3d>;
 
-// Spreads four bits to every third bit.
-std::uint32_t every_third(std::uint32_t v) { return (v & 1) | (v & 2) << 2 | (v & 4) << 4 | (v & 8) << 6; }
-
 // Cubic cells over a box, numbered along a Morton curve, so that cells with adjacent numbers are neighbours.
 struct Cells {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = Eigen::Vector3d::Constant(-1e300);
@@ -28,12 +26,12 @@ struct Cells {
   }
   double extent() const { return (high - low).maxCoeff(); }
   std::size_t cell(const TileRecord& record) const {
-    std::uint32_t number = 0;
-    for (int axis = 0; axis < 3; ++axis) {
+    std::array<std::uint32_t, 3> place{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = (record.place[axis] - low[axis]) / extent() * cells_per_axis;
-      number |= every_third(std::min(static_cast<std::uint32_t>(step), cells_per_axis - 1)) << axis;
+      place[axis] = std::min(static_cast<std::uint32_t>(step), cells_per_axis - 1);
     }
-    return number;
+    return morton_code(place);
   }
 };
 

@@ -10,6 +10,7 @@
 #include "core/stop_watch.hpp"
 #include "core/work_progress.hpp"
 #include "returns/looks.hpp"
+#include "sampling/scene_cut.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
@@ -49,6 +50,24 @@ void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& sim
   ping.intensity = mean_over_bins(sum / wanted.looks_pings, wanted.looks_range);
 }
 
+/// Returns use(scene), or where the options ask for it use() of the scene as fine as the head resolves it (E137).
+template <typename Use>
+auto with_detail(const PreparedScene& scene, ResolvedPing& ping, const Use& use) {
+  const SimulationOptions& o = ping.options;
+  if (!merges_surfels(scene.scene(), o)) return use(scene);
+  const SceneCut cut = cut_scene(scene, ping.region, ping.view.fan, ping.view.gate, o.sampling.detail_width, o.threads);
+  ping.stands_for = cut.stands_for;
+  auto result = use(cut.scene);
+  ping.stands_for = {};
+  return result;
+}
+
+/// Says of how many surfels a scene is, where a part of them or nodes were pinged.
+void count_merged(const PreparedScene& scene, const ResolvedPing& ping, SamplingReport& report) {
+  if (merges_surfels(scene.scene(), ping.options))
+    report.merged_to = std::exchange(report.surfels, scene.scene().size());
+}
+
 }  // namespace
 
 PingSimulator::PingSimulator(SonarHead head, Environment environment, SimulationOptions options)
@@ -65,13 +84,17 @@ ResolvedPing PingSimulator::resolve(const WholeScene& scene, const PingEvent& ev
 }
 
 PingPlan PingSimulator::plan(const PreparedScene& scene, const PingEvent& event) const {
-  return plan_of(scene, resolve(scene.whole(), event));
+  ResolvedPing ping = resolve(scene.whole(), event);
+  return with_detail(scene, ping, [&](const PreparedScene& pinged) { return plan_of(pinged, ping); });
 }
 
 SamplingReport PingSimulator::count(const PreparedScene& scene, const PingEvent& event) const {
   ResolvedPing ping = resolve(scene.whole(), event);
-  decide_effects(scene, ping);
-  SamplingReport report = visible_surfels(scene, ping).report;
+  SamplingReport report = with_detail(scene, ping, [&](const PreparedScene& pinged) {
+    decide_effects(pinged, ping);
+    return visible_surfels(pinged, ping).report;
+  });
+  count_merged(scene, ping, report);
   const SamplingOptions& sampling = ping.view.sampling;
   if (sampling.kind == SamplingKind::rays)
     report.scatterers = ping.head.fan.beams() * static_cast<std::size_t>(sampling.rays_per_beam);
@@ -84,8 +107,16 @@ InsonifiedRegion PingSimulator::reach(const WholeScene& scene, const PingEvent& 
 
 SimulatedPing PingSimulator::ping(const PreparedScene& scene, const PingEvent& event) const {
   ResolvedPing ping = resolve(scene.whole(), event);
-  decide_effects(scene, ping);
-  return this->ping(scene, ping);
+  StopWatch watch;
+  SimulatedPing result = with_detail(scene, ping, [&](const PreparedScene& pinged) {
+    decide_effects(pinged, ping);
+    const double seconds = watch.lap();
+    SimulatedPing made = this->ping(pinged, ping);
+    made.report.seconds.sampling += seconds;
+    return made;
+  });
+  count_merged(scene, ping, result.report.sampling);
+  return result;
 }
 
 SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing& decided) const {

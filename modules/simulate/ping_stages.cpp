@@ -55,6 +55,9 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
     put_labels(label_pixels(scene, {echoes[0], others, found}, head, ping.view.world_from_head, ping.sent.medium,
                             options.threads),
                first, ping.head.fan.beams(), result.ping.labels);
+    if (!ping.stands_for.empty())
+      for (std::uint32_t& named : found.surfel)
+        if (named != Contributors::none) named = ping.stands_for[named];
     if (wanted.contributor_sink)
       wanted.contributor_sink->take(found, first);
     else

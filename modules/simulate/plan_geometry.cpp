@@ -25,6 +25,12 @@ constexpr PlanStage geometry[] = {
      [](const PlanFacts& facts) { return bound_of_added_echoes(facts, facts.sample.off_azimuth); },
      [](bool in, E&, O& o) { o.sampling.outer_azimuths = chosen(in); },
      [](const O& o) { return o.sampling.outer_azimuths; }},
+    {"detail", DecidedBy::choice, [](const PlanCause& of) { return merges_surfels(of.scene, of.options); },
+     "surfels finer than the head resolves are merged", "not asked for, or the scene or an output has no use for it",
+     nullptr,
+     [](bool in, E&, O& o) {
+       if (!in || o.sampling.detail_width == 0) o.sampling.detail_width = in ? usual_detail_width : 0;
+     }},
     {"occlusion", DecidedBy::choice, [](const PlanCause& of) { return of.options.sampling.occlusion; },
      "surfels hide others", "off by the options",
      [](const PlanFacts&) { return std::numeric_limits<double>::infinity(); },

@@ -128,6 +128,11 @@ SamplingOptions sampling_in_view(const ResolvedPing& ping) {
   return s;
 }
 
+bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options) {
+  return options.sampling.detail_width > 0 && scene.facet.empty() && !options.outputs.scatterers &&
+         !options.outputs.mask;
+}
+
 bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }
 
 void derive(const WholeScene& scene, ResolvedPing& ping) {

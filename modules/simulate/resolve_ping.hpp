@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstdint>
+#include <span>
+
 #include "acoustics/environment.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "sampling/insonified_region.hpp"
+#include "scene/scene_cloud.hpp"
 #include "simulate/ping_event.hpp"
 #include "simulate/simulation_options.hpp"
 #include "sonar/sonar_head.hpp"
@@ -15,12 +19,14 @@ struct ResolvedPing {
   PingEvent event;
   Environment environment;  ///< its water is that at the head's own depth (environment_at)
   SimulationOptions options;
-  Transmission sent{};           ///< pulse, medium and the patterns that echoes are weighted by
-  View view{};                   ///< pose, fan, sampled ranges and sampling
-  InsonifiedRegion region{};     ///< all that can be received or block sound; with multipath a ball about the head. It
-                                 ///< includes what effects that are still open may need
-  double element_noise_db = 0;   ///< of all noise in the band, at an element [dB re 1 uPa]
-  double beam_noise_db = 0;      ///< of the same in a beam: less the array's gain (E19)
+  Transmission sent{};          ///< pulse, medium and the patterns that echoes are weighted by
+  View view{};                  ///< pose, fan, sampled ranges and sampling
+  InsonifiedRegion region{};    ///< all that can be received or block sound; with multipath a ball about the head. It
+                                ///< includes what effects that are still open may need
+  double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
+  double beam_noise_db = 0;     ///< of the same in a beam: less the array's gain (E19)
+  /// Of each surfel of the scene that is pinged, its index in the scene that was given (SceneCut); empty: the same.
+  std::span<const std::uint32_t> stands_for{};
   DetectionOptions detection{};  ///< with that noise floor and the pulse's resolution, if the options leave them open
 };
 
@@ -33,6 +39,9 @@ inline constexpr double lobes_everywhere = 2;
 
 /// Sampling of what counts as in view: main lobes with their margin, and elevations above the floor of the pattern.
 SamplingOptions sampling_in_view(const ResolvedPing& ping);
+
+/// Whether a ping of a scene merges surfels: SamplingSettings::detail_width, where scene and outputs allow it.
+bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options);
 
 /// Whether sound can come by way of a surface or bottom.
 bool has_boundary(const Environment& environment);

@@ -15,6 +15,9 @@ namespace insonify {
 /// Whether an effect is computed: if the plan of the ping finds that accuracy_db needs it, always, or never.
 enum class Choice { as_needed, always, never };
 
+/// SamplingSettings::detail_width where it is asked for without a number.
+inline constexpr double usual_detail_width = 0.5;
+
 /// Which points stand for the scene.
 struct SamplingSettings {
   SamplingKind kind = SamplingKind::surfels;
@@ -22,6 +25,9 @@ struct SamplingSettings {
   double scatterers_per_cell = SamplingOptions{}.scatterers_per_cell;
   int rays_per_beam = 64;  ///< for sampling by rays, and for the mask of holes
   bool occlusion = true;
+  /// Surfels are merged to nodes up to this width, in beam widths, within 0 and 4 (E137); 0: none. Not done for surfels
+  /// with facets, nor where outputs are of each surfel: scatterers, mask.
+  double detail_width = 0;
   double elevation_floor_db = -40;              ///< elevations where the two-way pattern is lower are not sampled; < 0
   double azimuth_margin = 0;                    ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
   Choice outer_elevations = Choice::as_needed;  ///< always: elevations below the floor are sampled too

@@ -112,6 +112,8 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
       {"ping", "sampling", "--sampling", &o.sampling, "surfels or rays", samplings},
       {"ping", "scatterers_per_cell", "--scatterers-per-cell", &o.scatterers_per_cell,
        "surfels are split until a resolution cell holds so many"},
+      {"ping", "detail_width", "--detail-width", &o.detail_width,
+       "surfels of dense clouds are merged up to this width, in beam widths; 0: none; --with detail takes 0.5"},
       {"ping", "rays_per_beam", "--rays-per-beam", &o.rays_per_beam, "with --sampling rays"},
       {"ping", "amplitude", "--amplitude", &o.amplitude, "speckle, random-phase or coherent", amplitudes},
       {"ping", "noise", "--noise", &o.noise,

@@ -122,16 +122,18 @@ ordered_json layers_json(const std::vector<LayerReport>& layers) {
 
 ordered_json sampling_json(const SimulatedPing& p) {
   const SamplingReport& s = p.report.sampling;
-  return {{"surfels", s.surfels},
-          {"in_fan_and_gate", s.in_gate},
-          {"back_facing", s.back_facing},
-          {"hidden", s.hidden},
-          {"visible", s.visible},
-          {"rays_missed", s.rays_missed},
-          {"sparse_beams", s.sparse_beams},
-          {"scatterers", s.scatterers},
-          {"soundings", p.soundings.size()},
-          {"noise_floor_db", p.report.noise_floor_db}};
+  ordered_json json{{"surfels", s.surfels},
+                    {"in_fan_and_gate", s.in_gate},
+                    {"back_facing", s.back_facing},
+                    {"hidden", s.hidden},
+                    {"visible", s.visible},
+                    {"rays_missed", s.rays_missed},
+                    {"sparse_beams", s.sparse_beams},
+                    {"scatterers", s.scatterers},
+                    {"soundings", p.soundings.size()},
+                    {"noise_floor_db", p.report.noise_floor_db}};
+  if (s.merged_to > 0) json["merged_to"] = s.merged_to;
+  return json;
 }
 
 ordered_json holes_json(const HoleReport& holes) {

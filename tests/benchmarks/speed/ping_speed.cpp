@@ -99,7 +99,8 @@ void time_work(const std::string& part) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 1000000});
   const PreparedScene harbour(scene);
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
-  const SimulationOptions unsplit{.sampling = {.scatterers_per_cell = 0}};
+  const SimulationOptions unsplit{.sampling = {.scatterers_per_cell = 0}},
+      merged{.sampling = {.detail_width = usual_detail_width}};
   std::printf(
       "| warm ping with detection | scatterers | samples | wall [ms] | CPU [ms] | CPU per scatterer [ns] | page faults "
       "| "
@@ -110,11 +111,13 @@ void time_work(const std::string& part) {
   time("512 beams, 2.5 cm, 0.5:15 m", wide_head(30e3, 15));
   time("512 beams, 12 cm, 0.5:30 m", wide_head(6250, 30));
   time("512 beams, 12 cm, 0.5:30 m, unsplit", wide_head(6250, 30), unsplit);
+  time("512 beams, 12 cm, 0.5:30 m, merged", wide_head(6250, 30), merged);
   time("512 beams, 2.5 cm, 0.5:8 m, unsplit", wide_head(30e3, 8), unsplit);
   time("oculus-m750d, 0.5:30 m", preset("oculus-m750d", 0.5, 30));
   time("oculus-m750d, 0.5:40 m", preset("oculus-m750d", 0.5, 40));
   time("oculus-m1200d, 0.5:30 m", preset("oculus-m1200d", 0.5, 30));
   time("p900-45, 0.5:30 m", preset("p900-45", 0.5, 30));
+  time("p900-45, 0.5:30 m, merged", preset("p900-45", 0.5, 30), merged);
   time("waterlinked-3d15, 0.3:15 m", preset("waterlinked-3d15", 0.3, 15));
 }
 

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sampling/scene_cut.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "core/radix_sort.hpp"
+#include "sampling/gate_surfels_internal.hpp"
+#include "scene/detail_levels.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double most_spread = 0.05;  // at normal incidence
+constexpr float per_thickness = 16;   // how far below a node's plane its surface may lie, as far as its disc reaches
+constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
+constexpr std::size_t blocks_at_once = 16;
+
+/// Part of a cut.
+struct Part {
+  SceneCloud scene;
+  std::vector<std::uint32_t> stands_for;
+};
+
+/// Walks down the levels, as far as a head resolves their nodes.
+class LevelWalk {
+ public:
+  LevelWalk(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan, const RangeGate& gate,
+            double most_width, const DetailLevels& levels)
+      : scene_(prepared.scene()),
+        levels_(levels),
+        head_(scene_, region.world_from_head),
+        sector_(region.sector),
+        max_range_(region.gate.max_range),
+        gate_(gate),
+        width_(most_width * fan.beam_width) {}
+
+  /// Adds what stands for a root or child; `inside`: its cell is known to lie within the region.
+  void visit(std::uint32_t index, bool inside, Part& out) const {
+    if (index < levels_.surfels) return add_surfel(index, out);
+    const DetailNode& node = levels_.node[index - levels_.surfels];
+    const Vector3d p = head_.position(node.point);
+    const double range = p.norm();
+    if (range - node.extent > max_range_ || !sector_.holds(p, 2 * hiding_reach * node.extent)) return;
+    inside = inside || holds_cell(node);
+    if (inside && suffices(node, p, range)) return add_node(node, out);
+    for (std::uint32_t k = 0; k < node.children; ++k) visit(levels_.child[node.first_child + k], inside, out);
+  }
+
+ private:
+  /// Whether the head does not resolve the surfels of a node (E137).
+  bool suffices(const DetailNode& node, const Vector3d& p, double range) const {
+    const double nearest = range - node.extent, farthest = range + node.extent;
+    const auto divides = [&](double end) { return nearest < end && end < farthest; };
+    if (!(nearest > 0) || std::sqrt(node.area) > width_ * nearest) return false;
+    if (divides(gate_.min_range) || divides(gate_.max_range)) return false;
+    const double cosine = head_.direction(node.normal.cast<double>()).dot(p) / range;
+    return node.spread <= most_spread * cosine * cosine;
+  }
+  /// Whether the cell of a node lies within the region, whatever surfels of it are loaded.
+  bool holds_cell(const DetailNode& node) const {
+    const double edge = node.cell, radius = half_diagonal * edge;
+    const Vector3d cell = (scene_.point[node.nearest].cast<double>() / edge).array().floor() + 0.5;
+    const Vector3d centre = head_.position((cell * edge).cast<float>());
+    return centre.norm() + radius <= max_range_ && sector_.holds(centre, -radius);
+  }
+  void add_surfel(std::uint32_t i, Part& out) const {
+    add(scene_.point[i], scene_.normal[i], scene_.area[i], i, out);
+    out.scene.unevenness.push_back(std::sqrt(scene_.area[i]));
+    if (!scene_.noise.empty()) out.scene.noise.push_back(scene_.noise[i]);
+  }
+  void add_node(const DetailNode& node, Part& out) const {
+    add(node.point, node.normal, node.area, node.nearest, out);
+    out.scene.unevenness.push_back(std::sqrt(scene_.area[node.nearest]) + per_thickness * node.thickness);
+    if (!scene_.noise.empty()) out.scene.noise.push_back(node.noise);
+  }
+  void add(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, float area, std::uint32_t stands_for,
+           Part& out) const {
+    out.scene.point.push_back(point);
+    out.scene.normal.push_back(normal);
+    out.scene.area.push_back(area);
+    out.scene.material.push_back(scene_.material[stands_for]);
+    out.scene.id.push_back(scene_.id[stands_for]);
+    out.stands_for.push_back(stands_for);
+  }
+
+  const SceneCloud& scene_;
+  const DetailLevels& levels_;
+  HeadFrame head_;
+  SectorBounds sector_;
+  double max_range_;
+  RangeGate gate_;
+  double width_;
+};
+
+/// Where something stands: in which part, and where there.
+struct Place {
+  std::uint32_t stands_for, part, at;
+};
+
+/// Returns all places in the order of the scene, which does not depend on how its surfels are arranged in levels.
+std::vector<Place> sorted_places(const std::vector<Part>& parts) {
+  std::vector<Place> places;
+  for (std::uint32_t p = 0; p < parts.size(); ++p)
+    for (std::uint32_t k = 0; k < parts[p].stands_for.size(); ++k) places.push_back({parts[p].stands_for[k], p, k});
+  radix_sort(places, 0, 32, [](const Place& place) { return std::uint64_t{place.stands_for}; });
+  return places;
+}
+
+/// Joins one array of all parts.
+template <typename Array>
+void gather(const std::vector<Part>& parts, const std::vector<Place>& places, Array SceneCloud::*array,
+            SceneCloud& to) {
+  (to.*array).reserve(places.size());
+  for (const Place& place : places) (to.*array).push_back((parts[place.part].scene.*array)[place.at]);
+}
+
+}  // namespace
+
+SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,
+                   const RangeGate& gate, double most_width, int threads) {
+  const SceneCloud& scene = prepared.scene();
+  const DetailLevels& levels = prepared.levels(threads);
+  const LevelWalk walk(prepared, region, fan, gate, most_width, levels);
+  std::vector<Part> parts((levels.block.size() + blocks_at_once - 1) / blocks_at_once);
+  parallel_blocks(levels.block.size(), blocks_at_once, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const DetailBlock& block = levels.block[b];
+      const Vector3d centre = scene.origin + block.centre.cast<double>();
+      if (!may_intersect(region, centre, block.radius, block.largest_area)) continue;
+      for (std::uint32_t k = block.begin; k < block.end; ++k)
+        walk.visit(levels.root[k], false, parts[begin / blocks_at_once]);
+    }
+  });
+  const std::vector<Place> places = sorted_places(parts);
+  SceneCloud cut;
+  gather(parts, places, &SceneCloud::point, cut);
+  gather(parts, places, &SceneCloud::normal, cut);
+  gather(parts, places, &SceneCloud::area, cut);
+  gather(parts, places, &SceneCloud::material, cut);
+  gather(parts, places, &SceneCloud::id, cut);
+  gather(parts, places, &SceneCloud::unevenness, cut);
+  if (!scene.noise.empty()) gather(parts, places, &SceneCloud::noise, cut);
+  std::vector<std::uint32_t> stands_for;
+  for (const Place& place : places) stands_for.push_back(place.stands_for);
+  cut.origin = scene.origin;
+  cut.materials = scene.materials;
+  cut.normals_oriented = scene.normals_oriented;
+  cut.part_of = prepared.whole();
+  return {PreparedScene(std::move(cut), threads), std::move(stands_for)};
+}
+
+}  // namespace insonify

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "sampling/insonified_region.hpp"
+#include "scene/prepared_scene.hpp"
+#include "sonar/beam_fan.hpp"
+#include "sonar/range_gate.hpp"
+
+namespace insonify {
+
+/// A scene as fine as a head resolves it, for one ping.
+struct SceneCut {
+  PreparedScene scene;  ///< with SceneCloud::part_of of the whole
+  /// Of each of its surfels, the index of a surfel of the whole: itself, or of those that are merged the one nearest to
+  /// their middle.
+  std::vector<std::uint32_t> stands_for;
+};
+
+/// Returns what a ping needs of a scene (E137): within `region` a node of the scene's levels of detail stands for its
+/// surfels, if
+///
+///   sqrt(area) <= r fan.beam_width most_width   at its nearest range r: no beam resolves its surfels
+///   spread <= 0.05 cos^2(incidence)             Lambert's law gives the same level within a fortieth
+///
+/// and all of it lies within the region and on one side of either end of `gate` (the sampled ranges). Surfels elsewhere
+/// in the region stand for themselves. The surface of a node lies sqrt(area of a surfel) + 16 thickness below its plane
+/// at most, as far as its disc hides others.
+///
+/// The surfels within the region alone give the same cut, which does not depend on `threads` (0: all cores). Errors as
+/// detail_levels.
+SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,
+                   const RangeGate& gate, double most_width, int threads = 0);
+
+}  // namespace insonify

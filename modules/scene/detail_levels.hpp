@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "scene/scene_cloud.hpp"
+
+namespace insonify {
+
+/// One surfel that stands for neighbouring surfels of one material on one smooth piece of surface (E137).
+struct DetailNode {
+  Eigen::Vector3f point =
+      Eigen::Vector3f::Zero();  ///< area-weighted mean of the surfels' centres [m], relative to the scene's origin
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< area-weighted mean of their normals, a unit vector
+  float area = 0;                                    ///< sum of their areas [m^2]
+  float noise = 0;                                   ///< root of their area-weighted mean square [m]
+  float extent = 0;                                  ///< radius about `point` of a ball that holds the surfels [m]
+  float thickness = 0;            ///< most of how far a child's middle lies from the plane, and its own thickness [m]
+  float spread = 0;               ///< mean square sine of the angle between their normals and `normal`
+  std::uint32_t nearest = 0;      ///< index of the surfel nearest to `point`, whose id the node has
+  std::uint32_t first_child = 0;  ///< in DetailLevels::child
+  std::uint16_t children = 0;     ///< number of them
+  std::uint16_t material = 0;     ///< of all of them
+  float cell = 0;                 ///< edge of the cubic cell that holds their centres [m]
+};
+
+/// Consecutive roots of the levels, and a bounding ball of the surfels below them.
+struct DetailBlock {
+  Eigen::Vector3f centre;            ///< [m], relative to the scene's origin
+  float radius = 0;                  ///< [m]
+  float largest_area = 0;            ///< of a surfel [m^2]
+  std::uint32_t begin = 0, end = 0;  ///< range of DetailLevels::root
+};
+
+/// Levels of detail of a scene: a forest over its surfels, in which a node stands for its children where they are not
+/// resolved. Cells are cubes with an edge of a power of two metres, aligned with the scene's own origin, so that the
+/// surfels of a cell alone give the nodes within it.
+///
+/// Within a cell, children of one material whose normals lie within 30 degrees of each other are merged if together
+/// they are one compact, flat piece: no thicker than a tenth of its extent, and neither sparse nor in several sheets
+/// (its area is 1.2 to 3.5 times its extent squared; 2 for a square). What does not merge, such as rods, nets and rough
+/// ground, may do so in a larger cell, else its surfels stay as they are (rows of single surfels merge in pairs).
+struct DetailLevels {
+  std::size_t surfels = 0;           ///< of the scene
+  std::vector<DetailNode> node;      ///< each stands for at least two children
+  std::vector<std::uint32_t> child;  ///< of all nodes: below `surfels`, a surfel; else `surfels` + the index of a node
+  std::vector<std::uint32_t> root;   ///< what is no child of a node, along a Morton curve; numbers as of `child`
+  std::vector<DetailBlock> block;    ///< of roots
+};
+
+/// Returns the levels of a scene, from cells of an eighth of `spacing` [m] on, in ten doublings; without a spacing no
+/// surfels merge. O(n) time and memory; the result does not depend on `threads` (0: all cores). Throws Error(argument)
+/// for surfels with facets and for more than 2^30.
+DetailLevels detail_levels(const SceneCloud& scene, double spacing, int threads = 0);
+
+}  // namespace insonify

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/merge_surfels_internal.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double least_cosine = 0.866;               // of a normal with the mean of its group
+constexpr float least_fill = 1.2f, most_fill = 3.5;  // area in squares of the extent; 2 for a square
+constexpr float most_thickness = 0.1f;               // in extents
+constexpr float half_diagonal = 0.70710678f;         // of a square, in its widths
+
+}  // namespace
+
+MergedPieces::Piece MergedPieces::piece(std::uint32_t index) const {
+  const std::size_t surfels = scene_.size();
+  if (index >= surfels) {
+    const DetailNode& n = nodes_[index - surfels];
+    return {n.point, n.normal, n.area, n.noise, n.extent, n.thickness, std::sqrt(1 - n.spread), n.nearest, n.material};
+  }
+  const float area = scene_.area[index];
+  return {scene_.point[index],
+          scene_.normal[index],
+          area,
+          scene_.noise.empty() ? 0 : scene_.noise[index],
+          half_diagonal * std::sqrt(area),
+          0,
+          1,
+          index,
+          scene_.material[index]};
+}
+
+MergedPieces::Groups MergedPieces::grouped(std::span<const std::uint32_t> cell) const {
+  Groups groups;
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    const Piece p = piece(cell[k]);
+    const Vector3d normal = p.normal.cast<double>();
+    const auto along = [&](const Group& g) {
+      const double cosine = g.normals.dot(normal);
+      return scene_.normals_oriented ? cosine : std::abs(cosine);
+    };
+    const auto joins = [&](const Group& g) {
+      return g.material == p.material && along(g) >= least_cosine * g.normals.norm();
+    };
+    Group* const end = groups.group.data() + groups.count;
+    Group* found = std::find_if(groups.group.data(), end, joins);
+    if (found == end) {
+      if (groups.count == most_groups) return {};
+      ++groups.count;
+      found->material = p.material;
+    }
+    const double weight = p.area * p.resultant * (found->normals.dot(normal) < 0 ? -1 : 1);
+    found->member[found->members++] = static_cast<std::uint8_t>(k);
+    found->normals += weight * normal;
+    found->area += p.area;
+  }
+  return groups;
+}
+
+std::optional<DetailNode> MergedPieces::merged(const Group& group, std::span<const std::uint32_t> cell,
+                                               float edge) const {
+  if (group.members < 2 || !(group.area > 0) || !(group.normals.norm() > 0)) return {};
+  Vector3d point = Vector3d::Zero();
+  double noise = 0;
+  for (const std::uint8_t m : group.all()) {
+    const Piece p = piece(cell[m]);
+    point += p.area * p.point.cast<double>();
+    noise += p.area * p.noise * p.noise;
+  }
+  const double resultant = std::min(1.0, group.normals.norm() / group.area);
+  DetailNode node;
+  node.point = (point / group.area).cast<float>();
+  node.normal = group.normals.normalized().cast<float>();
+  node.area = static_cast<float>(group.area);
+  node.noise = static_cast<float>(std::sqrt(noise / group.area));
+  node.spread = static_cast<float>(1 - resultant * resultant);
+  node.material = group.material;
+  node.children = group.members;
+  node.cell = edge;
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const std::uint8_t m : group.all()) {
+    const Piece p = piece(cell[m]);
+    const Vector3f away = p.point - node.point;
+    const float distance = away.norm();
+    node.extent = std::max(node.extent, distance + p.extent);
+    node.thickness = std::max(node.thickness, std::abs(away.dot(node.normal)) + p.thickness);
+    if (distance < nearest) nearest = distance, node.nearest = p.nearest;
+  }
+  const float square = node.extent * node.extent;
+  const bool compact = node.area >= least_fill * square && node.area <= most_fill * square;
+  if (!compact || node.thickness > most_thickness * node.extent) return {};
+  return node;
+}
+
+}  // namespace insonify

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Error against run time of levels of detail (E137): detail_accuracy [SURFELS ...], a table in Markdown
+// (docs/results/detail.md).
+//
+// Expected levels of a harbour of so many surfels, merged up to several widths, against a harbour of four million with ten
+// scatterers per cell; and the time of a warm ping with speckle and detection.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "core/stop_watch.hpp"
+#include "core/units.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "simulate/ping_simulator.hpp"
+#include "store/sonar_file.hpp"
+
+namespace {
+
+using namespace insonify;
+
+constexpr double widths[] = {0, 0.125, 0.25, 0.5, 1, 2};  // [beam widths]
+
+struct Case {
+  std::string name;
+  SonarHead head;
+};
+
+/// 512 beams over 130 x 20 degrees that resolve 12 cm, and a preset, both from 0.5 to 30 m.
+std::vector<Case> cases(double c) {
+  SonarSpec wide;
+  wide.name = "wide";
+  wide.centre_frequency = 750e3, wide.bandwidth = 6250, wide.beams = 512;
+  wide.field_of_view = radians(130), wide.beam_width = radians(1), wide.elevation_width = radians(20);
+  wide.min_range = 0.5, wide.max_range = 30;
+  SonarSpec narrow = find_sonar("p900-45").spec;
+  narrow.min_range = 0.5, narrow.max_range = 30;
+  return {{"512 beams, 12 cm", make_head(wide, c)}, {"p900-45", make_head(narrow, c)}};
+}
+
+const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+
+SimulatedPing expected_level(const PreparedScene& scene, const SonarHead& head, const SamplingSettings& sampling) {
+  const SimulationOptions options{.sampling = sampling, .synthesis = {.method = SynthesisMethod::incoherent}};
+  return PingSimulator(head, {}, options).ping(scene, {pose});
+}
+
+Grid<double> mean_of(const Grid<double>& level, Eigen::Index beams, Eigen::Index bins) {
+  Grid<double> mean(level.rows() / beams, level.cols() / bins);
+  for (Eigen::Index b = 0; b < mean.rows(); ++b)
+    for (Eigen::Index n = 0; n < mean.cols(); ++n) mean(b, n) = level.block(b * beams, n * bins, beams, bins).mean();
+  return mean;
+}
+
+/// Root mean square of the differences [dB] of what lies within 40 dB of the strongest, none counted as more than 30;
+/// and the share of those of more than 10 dB.
+std::pair<double, double> difference(const Grid<double>& level, const Grid<double>& exact) {
+  double squares = 0, cells = 0, far = 0;
+  for (Eigen::Index i = 0; i < exact.size(); ++i) {
+    if (exact.data()[i] < 1e-4 * exact.maxCoeff()) continue;
+    const double off = std::clamp(db_from_power(std::max(1e-30, level.data()[i] / exact.data()[i])), -30.0, 30.0);
+    squares += off * off, ++cells, far += std::abs(off) > 10;
+  }
+  return {std::sqrt(squares / cells), far / cells};
+}
+
+/// Median wall and CPU time [ms] of seven warm pings.
+std::pair<double, double> time_of(const PreparedScene& scene, const SonarHead& head, const SamplingSettings& sampling) {
+  const PingSimulator simulator(head, {}, {.sampling = sampling});
+  std::vector<double> wall, cpu;
+  for (int k = 0; k < 8; ++k) {
+    const std::clock_t begin = std::clock();
+    StopWatch watch;
+    simulator.ping(scene, {pose});
+    if (k == 0) continue;
+    wall.push_back(1e3 * watch.lap());
+    cpu.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+  }
+  std::sort(wall.begin(), wall.end()), std::sort(cpu.begin(), cpu.end());
+  return {wall[3], cpu[3]};
+}
+
+void print_rows(std::size_t surfels, const PreparedScene& reference) {
+  const PreparedScene scene(make_built_in_scene("harbour", {.points = surfels}));
+  for (const auto& [name, head] : cases(sound_speed(Water{}))) {
+    const Grid<double> exact =
+        expected_level(reference, head, {.scatterers_per_cell = 10}).ping.pressure.abs2().cast<double>();
+    for (const double width : widths) {
+      const SamplingSettings sampling{.detail_width = width};
+      const SimulatedPing ping = expected_level(scene, head, sampling);
+      const Grid<double> level = ping.ping.pressure.abs2().cast<double>();
+      const auto [cells, far] = difference(level, exact);
+      const auto [wall, cpu] = time_of(scene, head, sampling);
+      const SamplingReport& s = ping.report.sampling;
+      std::printf("| %s, %.3g M surfels | %.3g | %zu | %zu | %.2f | %.2f | %.2f | %+.3f | %.0f | %.0f |\n",
+                  name.c_str(), 1e-6 * static_cast<double>(surfels), width, s.in_gate, s.scatterers, cells,
+                  difference(mean_of(level, 8, 4), mean_of(exact, 8, 4)).first, 100 * far,
+                  db_from_power(level.sum() / exact.sum()), wall, cpu);
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::printf(
+      "| head, harbour | widest node [beam widths] | surfels and nodes in view | scatterers | rms of cells [dB] | of "
+      "means "
+      "over 8 beams x 4 bins [dB] | cells off by 10 dB [%%] | total [dB] | wall [ms] | CPU [ms] |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n");
+  const PreparedScene reference(make_built_in_scene("harbour", {.points = 4000000}));
+  if (argc < 2) print_rows(1000000, reference);
+  for (int k = 1; k < argc; ++k) print_rows(std::strtoull(argv[k], nullptr, 10), reference);
+}

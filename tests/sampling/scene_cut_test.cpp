@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sampling/scene_cut.hpp"
+
+#include "scene/built_in_scenes.hpp"
+#include "support/heads.hpp"
+#include "support/scenes.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+const Pose over_the_scene = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+
+/// What a head of 64 beams of two degrees reaches, out to 20 m.
+struct Reach {
+  BeamFan fan = small_head({}).fan;
+  RangeGate gate{0.5, 20, 0.05};
+  InsonifiedRegion region;
+  explicit Reach(const Pose& pose = over_the_scene) {
+    fan.beam_width = radians(2);
+    region.world_from_head = pose;
+    region.sector = insonified_sector(fan, radians(20));
+    region.gate = gate;
+  }
+};
+
+SceneCut cut_of(const SceneCloud& scene, const Reach& reach = Reach(), int threads = 0) {
+  return cut_scene(PreparedScene(scene, threads), reach.region, reach.fan, reach.gate, 0.5, threads);
+}
+
+double range_of(const SceneCloud& scene, std::size_t i, const Reach& reach) {
+  return (scene.origin + scene.point[i].cast<double>() - reach.region.world_from_head.translation()).norm();
+}
+
+void expect_same(const SceneCloud& a, const SceneCloud& b) {
+  EXPECT_TRUE(a.point == b.point && a.normal == b.normal && a.area == b.area && a.id == b.id &&
+              a.unevenness == b.unevenness && a.material == b.material);
+}
+
+}  // namespace
+
+TEST(SceneCut, is_coarser_but_nowhere_wider_than_half_a_beam) {
+  const SceneCloud scene = harbour(200000);
+  const Reach reach;
+  const SceneCut cut = cut_of(scene, reach);
+  const SceneCloud& s = cut.scene.scene();
+  std::size_t merged = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const float own = scene.area[cut.stands_for[i]];
+    EXPECT_EQ(s.id[i], scene.id[cut.stands_for[i]]);
+    EXPECT_EQ(s.material[i], scene.material[cut.stands_for[i]]);
+    if (s.area[i] == own) continue;
+    ++merged;
+    EXPECT_LE(std::sqrt(s.area[i]), 0.5 * reach.fan.beam_width * range_of(s, i, reach));
+  }
+  EXPECT_GT(merged, 1000U);
+  EXPECT_EQ(s.part_of->surfels, scene.size());
+  EXPECT_EQ(cut.scene.whole().mean_spacing, whole_of(scene).mean_spacing);
+}
+
+TEST(SceneCut, holds_as_much_surface_as_there_is_within_reach) {
+  const SceneCloud scene = harbour(200000);
+  const Reach reach;
+  const SceneCut cut = cut_of(scene, reach);
+  const SectorBounds sector(reach.region.sector);
+  const auto surface = [&](const SceneCloud& s) {
+    double sum = 0;
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const Eigen::Vector3d p = reach.region.world_from_head.inverse() * (s.origin + s.point[i].cast<double>());
+      if (p.norm() < 20 && sector.holds(p)) sum += s.area[i];
+    }
+    return sum;
+  };
+  EXPECT_NEAR(surface(cut.scene.scene()) / surface(scene), 1, 1e-3);
+  std::set<std::uint32_t> ids(cut.scene.scene().id.begin(), cut.scene.scene().id.end());
+  EXPECT_EQ(ids.size(), cut.scene.scene().size());
+}
+
+TEST(SceneCut, of_the_surfels_within_reach_alone_is_the_same) {
+  const SceneCloud scene = harbour(200000);
+  const Reach reach;
+  const float largest = whole_of(scene).largest_area;
+  const auto within_reach = [&](const SceneCloud& s) {
+    std::vector<std::uint32_t> near;
+    for (std::uint32_t i = 0; i < s.size(); ++i)
+      if (may_intersect(reach.region, s.origin + s.point[i].cast<double>(), 0, largest)) near.push_back(i);
+    return subset(s, near);
+  };
+  SceneCloud part = within_reach(scene);
+  ASSERT_LT(part.size(), scene.size() / 2);
+  part.part_of = whole_of(scene);
+  // Some surfels of the whole stand just beside the region.
+  expect_same(within_reach(cut_of(part, reach).scene.scene()), within_reach(cut_of(scene, reach).scene.scene()));
+}
+
+TEST(SceneCut, does_not_depend_on_threads_or_where_scene_and_head_are) {
+  SceneCloud scene = harbour(60000);
+  const SceneCut here = cut_of(scene, Reach(), 1);
+  expect_same(here.scene.scene(), cut_of(scene, Reach(), 3).scene.scene());
+  const Eigen::Vector3d far(512345, 4.2e6, -32);
+  scene.origin += far;
+  Pose moved = over_the_scene;
+  moved.pretranslate(far);
+  expect_same(here.scene.scene(), cut_of(scene, Reach(moved)).scene.scene());
+}
+
+TEST(SceneCut, is_finer_where_the_surface_turns_away) {
+  const SceneCloud ball = make_built_in_scene("sphere", {.points = 200000, .radius = 1});
+  const Reach reach(Pose(Eigen::Translation3d(-15, 0, 0)));
+  const SceneCut cut = cut_of(ball, reach);
+  const SceneCloud& s = cut.scene.scene();
+  double at_middle = 0, at_edge = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double cosine = -s.normal[i].x();
+    (cosine > 0.9 ? at_middle : at_edge) =
+        std::max<double>(cosine > 0.9 ? at_middle : at_edge, cosine > 0.9 || std::abs(cosine) < 0.2 ? s.area[i] : 0);
+  }
+  EXPECT_GT(at_middle, 3.9 * at_edge);
+}
+
+// A node that reaches across an end of the sampled ranges would be heard as a whole or not at all.
+TEST(SceneCut, no_node_reaches_across_the_ends_of_the_gate) {
+  const SceneCloud plane = make_built_in_scene("plane", {.points = 300000, .size = {30, 30}});
+  Reach reach(pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0));
+  reach.gate.min_range = 10;
+  const SceneCut cut = cut_of(plane, reach);
+  const SceneCloud& s = cut.scene.scene();
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double radius = std::sqrt(s.area[i] / 2), off = std::abs(range_of(s, i, reach) - 10);
+    const bool merged = s.area[i] > 1.5 * plane.area[cut.stands_for[i]];
+    EXPECT_TRUE(!merged || off >= 0.75 * radius) << s.area[i];
+    near += off < 0.1;
+  }
+  EXPECT_GT(near, 100U);
+}
