@@ -20,7 +20,7 @@ GreyWindow window_of(const Grid<float>& level_db) {
     if (!std::isnan(level)) levels.push_back(static_cast<double>(level));
   const auto top = levels.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(levels.size() - 1));
   std::nth_element(levels.begin(), top, levels.end());
-  const double max_db = 5 * std::ceil(*top / 5);
+  const double max_db = 5 * std::ceil(*top / 5) + 0.0;  // no -0
   return {max_db - default_span_db, max_db};
 }
 

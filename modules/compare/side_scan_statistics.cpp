@@ -40,6 +40,34 @@ Grid<double> bed_of(const Grid<float>& level_db, const RangeGate& gate, const Si
   return intensity.isNaN().select(std::numeric_limits<double>::quiet_NaN(), smooth);
 }
 
+/// At each range the intensity below which a bed is in shadow: by the median over pings, and over so much of range that a
+/// shadow along all pings is a small part of it. (E136)
+std::vector<double> darkest_bed(const Grid<double>& bed, const RangeGate& gate, const ShadowOptions& o) {
+  std::vector<double> typical;  // from the first range with a bed on
+  std::size_t first = 0;
+  for (Eigen::Index n = 0; n < bed.cols(); ++n) {
+    std::vector<double> column;
+    for (const double value : bed.col(n))
+      if (!std::isnan(value)) column.push_back(value);
+    if (2 * std::ssize(column) >= bed.rows())
+      typical.push_back(median_of(column));
+    else if (typical.empty())
+      ++first;
+    else
+      typical.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+  const auto reach = static_cast<std::size_t>(o.along / gate.bin_size);
+  std::vector<double> least(static_cast<std::size_t>(bed.cols()), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t n = 0; n < typical.size(); ++n) {
+    const std::size_t half = std::min({reach, n, typical.size() - 1 - n});  // symmetric: levels fall with range
+    std::vector<double> around;
+    for (std::size_t k = n - half; k <= n + half; ++k)
+      if (!std::isnan(typical[k])) around.push_back(typical[k]);
+    least[first + n] = median_of(around) * power_from_db(-o.below_db);
+  }
+  return least;
+}
+
 }  // namespace
 
 SideScanStatistics side_scan_statistics(const Grid<float>& level_db, const RangeGate& gate, const ShadowOptions& o) {
@@ -52,14 +80,7 @@ SideScanStatistics side_scan_statistics(const Grid<float>& level_db, const Range
     s.first_return.push_back(first_return(level_db.row(p).isNaN().select(silence, level_db.row(p)), gate));
   const Grid<double> bed = bed_of(level_db, gate, s);
 
-  // A shadow lies below the median of all pings at its range. (E136)
-  std::vector<double> least(static_cast<std::size_t>(bed.cols()));
-  for (Eigen::Index n = 0; n < bed.cols(); ++n) {
-    std::vector<double> column;
-    for (const double value : bed.col(n))
-      if (!std::isnan(value)) column.push_back(value);
-    least[static_cast<std::size_t>(n)] = median_of(column) * power_from_db(-o.below_db);
-  }
+  const std::vector<double> least = darkest_bed(bed, gate, o);
   const auto shortest = static_cast<Eigen::Index>(std::ceil(o.least / gate.bin_size));
   double samples = 0, dark = 0, bright_power = 0, dark_power = 0;
   for (Eigen::Index p = 0; p < bed.rows(); ++p)

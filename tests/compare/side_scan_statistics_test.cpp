@@ -11,8 +11,8 @@ namespace {
 constexpr RangeGate side_gate{0.01, 30.01, 0.03};
 constexpr double side_altitude = 4, mast_height = 1, mast_range = 12;
 
-/// One look of speckle on a bed that falls off by 30 log r; an object hides it in pings 20 to 29.
-Grid<float> bed_with_shadow(unsigned seed) {
+/// One look of speckle on a bed that falls off by 30 log r; an object hides it in pings `first` to `last`.
+Grid<float> bed_with_shadow(unsigned seed, Eigen::Index first = 20, Eigen::Index last = 29) {
   std::mt19937 random(seed);
   std::exponential_distribution<double> intensity(1);
   Grid<float> level(60, static_cast<Eigen::Index>(side_gate.bins()));
@@ -20,7 +20,7 @@ Grid<float> bed_with_shadow(unsigned seed) {
     for (Eigen::Index n = 0; n < level.cols(); ++n) {
       const double r = side_gate.centre(static_cast<std::size_t>(n));
       const bool hidden =
-          p >= 20 && p < 30 && r > mast_range && r < mast_range * side_altitude / (side_altitude - mast_height);
+          p >= first && p <= last && r > mast_range && r < mast_range * side_altitude / (side_altitude - mast_height);
       level(p, n) = static_cast<float>((r < side_altitude ? -90
                                         : hidden          ? -25
                                                           : 0) -
@@ -42,6 +42,17 @@ TEST(SideScanStatistics, shadow_is_as_long_as_its_object_is_high) {
   EXPECT_LT(s.longest_ping, 30U);
   EXPECT_NEAR(s.shadow_share, 8 * (4 - 8 * 0.03) / (60 * 26.0), 0.0005);  // a ping and four bins less at each edge
   EXPECT_GT(s.shadow_depth_db, 15);
+}
+
+// A wall along the way is no bed, though it hides the same ranges in every ping.
+TEST(SideScanStatistics, shadow_along_all_pings_is_one) {
+  const SideScanStatistics s = side_scan_statistics(bed_with_shadow(4, 0, 59), side_gate);
+  EXPECT_NEAR(s.longest_shadow, 4, 0.3);
+  EXPECT_NEAR(s.shadow_share, 4 / 26.0, 0.01);
+  // Of r^-3 the mean from 4 to 12 and 16 to 30 m over that from 12 to 16 m.
+  const auto integral = [](double from, double to) { return (1 / (from * from) - 1 / (to * to)) / 2; };
+  EXPECT_NEAR(s.shadow_depth_db, 25 + db_from_power((integral(4, 12) + integral(16, 30)) / 22 / (integral(12, 16) / 4)),
+              0.5);
 }
 
 TEST(SideScanStatistics, bed_without_objects_has_no_shadow) {
