@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
