@@ -77,6 +77,21 @@ LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes) {
   return {std::move(places), std::move(source)};
 }
 
+LazyPings lazy_pings_of(std::vector<Ping> pings) {
+  std::vector<TrackPoint> places;
+  for (const Ping& ping : pings) places.push_back(track_point_of(ping));
+  const auto all = std::make_shared<const std::vector<Ping>>(std::move(pings));
+  PingSource source;
+  source.ping = [all](std::size_t i) { return all->at(i); };
+  source.beam = [all](std::size_t first, std::size_t count, std::size_t beam) {
+    ComplexGridF rows(static_cast<Eigen::Index>(count), all->at(first).pressure.cols());
+    for (std::size_t k = 0; k < count; ++k)
+      rows.row(static_cast<Eigen::Index>(k)) = all->at(first + k).pressure.row(static_cast<Eigen::Index>(beam));
+    return rows;
+  };
+  return {std::move(places), std::move(source)};
+}
+
 std::optional<SurveyHeadRun> find_survey_head(const std::string& target, const std::string& head) {
   const fs::path given = fs::path(target).has_filename() ? fs::path(target) : fs::path(target).parent_path();
   const bool is_whole = is_survey_run(given.string());

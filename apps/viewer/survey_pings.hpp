@@ -16,6 +16,9 @@ struct CubeOfPings {
 /// The pings of cubes in turn, read one at a time; of the returns those of one cube are kept. Errors as read_cube.
 LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes);
 
+/// Pings that are in memory.
+LazyPings lazy_pings_of(std::vector<Ping> pings);
+
 /// One head of a survey.
 struct SurveyHeadRun {
   std::string folder;  ///< of the head, with its run.toml

@@ -19,6 +19,7 @@
 #include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/run/ping_setup.hpp"
+#include "tool/run/record_file.hpp"
 #include "tool/run/run_checks.hpp"
 #include "tool/run/scene_reach.hpp"
 #include "viewer/survey_pings.hpp"
@@ -35,13 +36,17 @@ std::string footer() {
          "  insonify view survey --head port --ping 100          a survey: plays, seeks, shows its way\n"
          "  insonify view harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0   visibility from a head, without a ping\n"
          "  insonify view out --screenshot viewer.png            the same picture without a display\n"
+         "  insonify view line.xtf --head STARBOARD              a channel of a side-scan's recording\n"
          "\nExit codes: 0 ok, 1 run-time failure (no display), 2 usage, 3 bad content, 4 file missing or unwritable.";
 }
 
 void add_options(tool::OptionList list, ViewerCommand& c) {
-  list.add("TARGET", &c.target, "run directory, survey, cube.h5, or a scene to inspect: " + scene_extensions(),
+  list.add("TARGET", &c.target,
+           "run directory, survey, cube.h5, a recording (" + tool::record_extensions() +
+               "), or a scene to inspect: " + scene_extensions(),
            {.required = true});
-  list.add("--head", &c.head, "of a survey: the head to show; default: the first of its mission");
+  list.add("--head", &c.head,
+           "of a survey: the head to show; of the recording of a side-scan: the channel; default: the first");
   list.add("--ping", &c.start.ping, "which ping to begin with, from 0");
   list.add("--beam", &c.beam, "beam to select at its loudest sample, from 0");
   list.add("--colormap", &c.start.colour_map, joined(colour_map_names()), {.words = colour_map_names()});
@@ -168,6 +173,37 @@ void choose_start(const ViewerCommand& command, LoadedView& view) {
   if (view.data.scene.materials.size() > 1) start.scene_colour = SceneColour::material;
 }
 
+// The channel that --head names, of a side-scan, whose beams are its channels.
+std::size_t channel_of(const ViewerCommand& command, const tool::Record& record) {
+  if (command.head.empty()) return 0;
+  const auto named = std::find(record.channels.begin(), record.channels.end(), command.head);
+  if (named == record.channels.end())
+    fail(ErrorKind::argument, "--head = '", command.head, "' must name a channel of ", command.target, ": ",
+         joined(record.channels));
+  return static_cast<std::size_t>(named - record.channels.begin());
+}
+
+// Levels of a recording are shown as they are recorded.
+LoadedView load_record(const ViewerCommand& command) {
+  LoadedView view{{}, command.start, {}};
+  tool::Record record = tool::read_record(command.target);
+  view.data.title = record.kind;
+  view.data.recorded_unit = record.unit;
+  if (record.side_scan) {
+    const std::size_t channel = channel_of(command, record);
+    view.data.title = record.channels[channel] + ", " + view.data.title;
+    if (record.channels.size() > 1 && command.head.empty())
+      view.notes.push_back("the recording has the channels " + joined(record.channels) + ": choose with --head");
+    for (Ping& ping : record.cube.pings) ping = tool::channel_alone(ping, channel);
+  } else if (!command.head.empty()) {
+    fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no side-scan; leave --head out");
+  }
+  view.data.pings = lazy_pings_of(std::move(record.cube.pings));
+  view.start.tvg = false;
+  choose_start(command, view);
+  return view;
+}
+
 }  // namespace
 
 ViewerCommand parse_viewer_command(int argc, char** argv) {
@@ -182,12 +218,15 @@ ViewerCommand parse_viewer_command(int argc, char** argv) {
   return command;
 }
 
-bool is_run(const std::string& target) { return fs::is_directory(target) || fs::path(target).extension() == ".h5"; }
+bool is_run(const std::string& target) {
+  return fs::is_directory(target) || fs::path(target).extension() == ".h5" || tool::is_record(target);
+}
 
 LoadedView load_run(const ViewerCommand& command) {
   if (!command.run.sonar.empty() || !command.pose.empty())
     fail(ErrorKind::argument, command.target,
          " is a run, whose sonar and poses are known; leave --sonar and --pose out");
+  if (tool::is_record(command.target)) return load_record(command);
   LoadedView view{{}, command.start, {}};
   if (const auto head = find_survey_head(command.target, command.head)) {
     open_cubes(head->cubes, view);

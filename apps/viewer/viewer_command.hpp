@@ -15,10 +15,10 @@ struct ViewerCommand {
   tool::CommonOptions common;
   tool::SceneOptions scene;  ///< path: of --scene, or the target itself
   tool::RunOptions run;      ///< of which sonar, range and environment count
-  std::string target;        ///< run directory, cube.h5, or scene
+  std::string target;        ///< run directory, cube.h5, recording, or scene
   std::string pose;
   std::string world = "z-up";
-  std::string head;   ///< of a survey; empty: its first
+  std::string head;   ///< of a survey, or channel of a side-scan's recording; empty: its first
   std::string beam;   ///< number, or empty: nothing is selected
   ViewerState start;  ///< with ping, colour map and window
   std::string size = "1600x1000";
@@ -36,7 +36,7 @@ struct LoadedView {
   std::vector<std::string> notes;  ///< for the user, one sentence each
 };
 
-/// True if the target is a run directory or a cube rather than a scene.
+/// True if the target is a run directory, a cube or a recording rather than a scene.
 bool is_run(const std::string& target);
 
 /// Opens a run: its cube, whose pings are read as they are shown, and contributors, returns and scene if they exist. Of

@@ -14,23 +14,13 @@ namespace {
 
 constexpr double default_span_db = 60;
 
-// Levels that say something: NaN where an image is silent, or at an end of its scale.
-Grid<float> unclipped(const ComparedImage& image) {
-  const float nothing = std::numeric_limits<float>::quiet_NaN();
-  return image.level_db.unaryExpr([&](float level) {
-    const bool clipped =
-        level <= silence_db || (image.scale && (level <= image.scale->min_db || level >= image.scale->max_db));
-    return clipped ? nothing : level;
-  });
-}
-
 GreyWindow window_of(const Grid<float>& level_db) {
   std::vector<double> levels;
   for (const float level : level_db.reshaped<Eigen::RowMajor>())
     if (!std::isnan(level)) levels.push_back(static_cast<double>(level));
   const auto top = levels.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(levels.size() - 1));
   std::nth_element(levels.begin(), top, levels.end());
-  const double max_db = 5 * std::ceil(*top / 5);
+  const double max_db = 5 * std::ceil(*top / 5) + 0.0;  // no -0
   return {max_db - default_span_db, max_db};
 }
 
@@ -134,11 +124,20 @@ TwoSeedFloor floor_of(const ComparedImage& a, const ComparedImage& b, const Grid
 
 }  // namespace
 
+Grid<float> unclipped_levels(const ComparedImage& image) {
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  return image.level_db.unaryExpr([&](float level) {
+    const bool clipped =
+        level <= silence_db || (image.scale && (level <= image.scale->min_db || level >= image.scale->max_db));
+    return clipped ? nothing : level;
+  });
+}
+
 ImageComparison compare_level_images(const ComparedImage& a, const ComparedImage& b, const ComparisonOptions& options) {
   if (a.level_db.rows() != b.level_db.rows() || a.level_db.cols() != b.level_db.cols())
     fail(ErrorKind::argument, "compare_level_images: images of ", a.level_db.rows(), " x ", a.level_db.cols(), " and ",
          b.level_db.rows(), " x ", b.level_db.cols(), " beams x bins, must have the same size");
-  const Grid<float> la = unclipped(a), lb = unclipped(b);
+  const Grid<float> la = unclipped_levels(a), lb = unclipped_levels(b);
   const LevelPairs pairs = pairs_of(la, lb, b.gate);
   ImageComparison c;
   c.window = options.window ? *options.window : window_of(lb);

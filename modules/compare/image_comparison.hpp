@@ -55,6 +55,9 @@ struct ImageComparison {
   ImageCharacter a, b;
 };
 
+/// Levels that say something: NaN where an image is silent, or at an end of its scale.
+Grid<float> unclipped_levels(const ComparedImage& image);
+
 /// Compares images of the same size, pixel by pixel (E120 to E124). Throws Error(argument) if sizes differ, or if no
 /// pixel has a level in both.
 ImageComparison compare_level_images(const ComparedImage& a, const ComparedImage& b,

@@ -94,4 +94,17 @@ Grid<float> resampled(const ComparedImage& image, const BeamFan& fan, const Rang
   return level;
 }
 
+Grid<float> resampled_in_range(const ComparedImage& image, const RangeGate& gate) {
+  if (!image.gate) fail(ErrorKind::argument, "resampled_in_range: the image has no ranges");
+  Grid<float> level(image.level_db.rows(), static_cast<Eigen::Index>(gate.bins()));
+  for (Eigen::Index n = 0; n < level.cols(); ++n) {
+    const double from = gate.min_range + static_cast<double>(n) * gate.bin_size;
+    for (Eigen::Index p = 0; p < level.rows(); ++p) level(p, n) = level_between(image, p, from, from + gate.bin_size);
+  }
+  if (level.isNaN().all())
+    fail(ErrorKind::argument, "resampled_in_range: ranges of the images do not overlap: ", image.gate->min_range,
+         " to ", image.gate->max_range, " m and ", gate.min_range, " to ", gate.max_range, " m");
+  return level;
+}
+
 }  // namespace insonify

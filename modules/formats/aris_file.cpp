@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "files/input_file.hpp"
+#include "formats/binary_input_internal.hpp"
 #include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {
@@ -34,23 +33,6 @@ enum ArisOffset : std::size_t {
   aris_ordered = 516
 };
 
-template <typename Number>
-Number number_at(const std::string& bytes, std::size_t offset) {
-  Number number{};
-  std::memcpy(&number, bytes.data() + offset, sizeof number);
-  return number;
-}
-
-std::string read_part(std::ifstream& file, const std::string& path, std::size_t offset, std::size_t length,
-                      std::size_t size, const char* what) {
-  std::string bytes(length, '\0');
-  file.seekg(static_cast<std::streamoff>(offset));
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(length)))
-    fail(ErrorKind::content, path, ": ends within ", what, ": has ", size, " bytes, must have ", offset + length,
-         "; the file is truncated, copy it again");
-  return bytes;
-}
-
 std::size_t beams_of_mode(const std::string& path, std::uint32_t mode) {
   constexpr std::size_t beams[] = {0, 48, 48, 96, 96, 96, 64, 64, 64, 128, 128, 128, 128};
   if (mode < 1 || mode > 12) fail(ErrorKind::content, path, ": ping mode ", mode, ", must be 1 to 12");
@@ -75,7 +57,7 @@ BeamFan aris_fan(std::size_t beams, std::uint32_t model, bool telephoto) {
 }
 
 void require_version(const std::string& path, const std::string& header, std::size_t offset, const char* what) {
-  const auto version = number_at<std::uint32_t>(header, offset);
+  const auto version = little_at<std::uint32_t>(header, offset);
   if (version == aris_swapped)
     fail(ErrorKind::content, path, ": ", what,
          " is of the other byte order (big-endian); ARIS recordings are little-endian");
@@ -84,10 +66,10 @@ void require_version(const std::string& path, const std::string& header, std::si
 }
 
 RangeGate aris_gate(const std::string& path, const std::string& head) {
-  const double speed = static_cast<double>(number_at<float>(head, aris_speed));
-  const double period = 1e-6 * number_at<std::uint32_t>(head, aris_period);
-  const double delay = 1e-6 * number_at<std::uint32_t>(head, aris_delay);
-  const auto samples = number_at<std::uint32_t>(head, aris_samples);
+  const double speed = static_cast<double>(little_at<float>(head, aris_speed));
+  const double period = 1e-6 * little_at<std::uint32_t>(head, aris_period);
+  const double delay = 1e-6 * little_at<std::uint32_t>(head, aris_delay);
+  const auto samples = little_at<std::uint32_t>(head, aris_samples);
   if (!(speed > 1000 && speed < 2000) || !(period > 0) || !(delay > 0) || samples == 0 || samples > 100000)
     fail(ErrorKind::content, path, ": has no geometry: sound speed ", speed, " m/s, sample period ", period,
          " s, delay ", delay, " s, ", samples, " samples; must be 1000 to 2000 m/s and > 0");
@@ -101,19 +83,17 @@ RangeGate aris_gate(const std::string& path, const std::string& head) {
 }  // namespace
 
 ArisFrame read_aris_frame(const std::string& path, std::size_t number) {
-  require_regular_file(path);
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) fail(ErrorKind::file, path, ": cannot be read");
-  const auto size = static_cast<std::size_t>(file.tellg());
-  require_version(path, read_part(file, path, 0, aris_header_bytes, size, "its header"), 0, "the file");
-  std::string head = read_part(file, path, aris_header_bytes, aris_header_bytes, size, "the header of frame 0");
+  BinaryInput file(path);
+  const std::size_t size = file.size();
+  require_version(path, file.part(0, aris_header_bytes, "its header"), 0, "the file");
+  std::string head = file.part(aris_header_bytes, aris_header_bytes, "the header of frame 0");
   require_version(path, head, aris_frame_version, "frame 0");
 
   // All frames have the size of the first.
-  const std::size_t beams = beams_of_mode(path, number_at<std::uint32_t>(head, aris_mode));
+  const std::size_t beams = beams_of_mode(path, little_at<std::uint32_t>(head, aris_mode));
   ArisFrame frame;
   frame.gate = aris_gate(path, head);
-  const std::size_t samples = number_at<std::uint32_t>(head, aris_samples);
+  const std::size_t samples = little_at<std::uint32_t>(head, aris_samples);
   const std::size_t stride = aris_header_bytes + beams * samples;
   frame.frames = (size - aris_header_bytes) / stride;
   if (frame.frames == 0 || (size - aris_header_bytes) % stride != 0)
@@ -122,24 +102,24 @@ ArisFrame read_aris_frame(const std::string& path, std::size_t number) {
   if (number >= frame.frames)
     fail(ErrorKind::argument, path, ": frame ", number, ", must be below the number of frames, ", frame.frames);
   const std::size_t begin = aris_header_bytes + number * stride;
-  head = read_part(file, path, begin, aris_header_bytes, size, "the header of a frame");
+  head = file.part(begin, aris_header_bytes, "the header of a frame");
   require_version(path, head, aris_frame_version, "the frame");
-  if (number_at<std::uint32_t>(head, aris_ordered) == 0)
+  if (little_at<std::uint32_t>(head, aris_ordered) == 0)
     fail(ErrorKind::content, path, ": samples of frame ", number, " are not in order; save it by the maker's program");
-  const std::uint32_t model = number_at<std::uint32_t>(head, aris_model);
-  const bool telephoto = number_at<std::uint32_t>(head, aris_lens) != 0;
+  const std::uint32_t model = little_at<std::uint32_t>(head, aris_model);
+  const bool telephoto = little_at<std::uint32_t>(head, aris_lens) != 0;
   frame.model = std::string(model == aris_3000 ? "ARIS 3000"
                             : model == 2       ? "ARIS 1200"
                                                : "ARIS 1800") +
                 (telephoto ? ", telephoto lens" : "");
   frame.fan = aris_fan(beams, model, telephoto);
-  frame.time = 1e-6 * static_cast<double>(number_at<std::uint64_t>(head, aris_time));
-  frame.sound_speed = static_cast<double>(number_at<float>(head, aris_speed));
-  frame.temperature_c = static_cast<double>(number_at<float>(head, aris_temperature));
-  frame.pulse_length = 1e-6 * number_at<std::uint32_t>(head, aris_pulse);
-  frame.receiver_gain_db = number_at<std::uint32_t>(head, aris_gain);
+  frame.time = 1e-6 * static_cast<double>(little_at<std::uint64_t>(head, aris_time));
+  frame.sound_speed = static_cast<double>(little_at<float>(head, aris_speed));
+  frame.temperature_c = static_cast<double>(little_at<float>(head, aris_temperature));
+  frame.pulse_length = 1e-6 * little_at<std::uint32_t>(head, aris_pulse);
+  frame.receiver_gain_db = little_at<std::uint32_t>(head, aris_gain);
 
-  const std::string data = read_part(file, path, begin + aris_header_bytes, beams * samples, size, "a frame");
+  const std::string data = file.part(begin + aris_header_bytes, beams * samples, "a frame");
   const Eigen::Map<const Grid<std::uint8_t>> rows(reinterpret_cast<const std::uint8_t*>(data.data()),
                                                   static_cast<Eigen::Index>(samples), static_cast<Eigen::Index>(beams));
   frame.grey = rows.transpose();

@@ -28,6 +28,26 @@ void put_big(std::string& bytes, Number number) {
   bytes.append(raw.data(), raw.size());
 }
 
+/// Puts a number over the bytes at `offset`, lowest byte first.
+template <typename Number>
+void put_little_at(std::string& bytes, std::size_t offset, Number number) {
+  std::memcpy(bytes.data() + offset, &number, sizeof number);
+}
+
+/// The number at `offset`, lowest byte first.
+template <typename Number>
+Number little_at(std::string_view bytes, std::size_t offset) {
+  Number number{};
+  std::memcpy(&number, bytes.data() + offset, sizeof number);
+  return number;
+}
+
+/// The text of a field that ends at its first zero, or with the field.
+inline std::string field_at(std::string_view bytes, std::size_t offset, std::size_t length) {
+  const std::string_view field = bytes.substr(offset, length);
+  return std::string(field.substr(0, field.find('\0')));
+}
+
 /// Appends text in a field of `length` bytes, zero-filled; longer text is cut.
 inline void put_field(std::string& bytes, std::string_view text, std::size_t length) {
   bytes.append(text.substr(0, length));

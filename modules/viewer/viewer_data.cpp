@@ -2,6 +2,7 @@
 #include "viewer/viewer_data.hpp"
 
 #include "core/error.hpp"
+#include "view/ping_record.hpp"
 
 namespace insonify {
 namespace {
@@ -45,6 +46,11 @@ View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const
 ViewerPicture picture_of(const ViewerData& data) {
   if (data.pings.size() < 2 || data.pings.fan().beams() > 1) return ViewerPicture::fan;
   return data.pings.place(0).scan ? ViewerPicture::sweep : ViewerPicture::waterfall;
+}
+
+std::string unit_of(const ViewerData& data, bool tvg) {
+  if (data.recorded_unit.empty()) return level_unit(tvg ? std::optional(Tvg{}) : std::nullopt);
+  return data.recorded_unit + (tvg ? ", range compensated" : "");
 }
 
 ViewerExtent extent_of(const ViewerData& data) {

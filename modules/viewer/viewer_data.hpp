@@ -21,6 +21,7 @@ inline constexpr const char* viewer_caller = "show_viewer";
 /// Data of the viewer. Of a run: pings, and the other members as far as available. To inspect: scene, fan and gate.
 struct ViewerData {
   std::string title;
+  std::string recorded_unit{};              ///< of levels of a recording, "dB re full scale"; empty: those of sound
   LazyPings pings;                          ///< all with the same fan and gate
   std::vector<Contributors> contributors;   ///< one per ping, empty if unknown; or no elements
   std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
@@ -47,6 +48,9 @@ void require_viewable(const ViewerData& data, ViewerMode mode);
 
 /// Returns where a head at `pose` with this fan and gate looks in the scene.
 View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate);
+
+/// The unit of levels, with the gain of range compensation or without.
+std::string unit_of(const ViewerData& data, bool tvg);
 
 /// Numbers of pings, beams and bins.
 ViewerExtent extent_of(const ViewerData& data);

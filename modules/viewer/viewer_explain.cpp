@@ -173,6 +173,7 @@ PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, Pixe
   if (ping.scan) facts.scan_angle = ping.scan->angle;
   const auto row = static_cast<Eigen::Index>(place.beam), column = static_cast<Eigen::Index>(place.bin);
   facts.level_db = pressure_level_db(static_cast<double>(std::abs(ping.pressure(row, column))));  // (E6)
+  facts.unit = unit_of(data, false);
   facts.compensated_level_db =
       facts.level_db + 40 * std::log10(facts.range) + 2 * ping.absorption_db_per_m * facts.range;  // (E20)
   if (!data.contributors.empty() && !data.contributors[ping_index].empty()) {
@@ -196,7 +197,7 @@ std::string explain_pixel(const PixelFacts& facts) {
     text += "  of which the head turned " + bearing_words(std::remainder(*facts.scan_angle, 2 * pi)) + "\n";
   text += printed("Elevation %+.2f° of the beam\n", degrees(facts.elevation));
   if (std::isfinite(facts.level_db)) {
-    text += printed("Level %.1f dB re 1 µPa\n", facts.level_db);
+    text += printed("Level %.1f %s\n", facts.level_db, facts.unit.c_str());
     text += printed("  %.1f dB range compensated\n", facts.compensated_level_db);
   } else {
     text += "Level: no sound at all\n";

@@ -41,7 +41,8 @@ struct PixelFacts {
   double azimuth = 0;                       ///< of the beam [rad], positive to port
   std::optional<double> scan_angle;         ///< of a scanning head [rad], positive to port
   double elevation = 0;                     ///< of the beam [rad]
-  double level_db = 0;                      ///< dB re 1 uPa
+  double level_db = 0;                      ///< in `unit`
+  std::string unit = "dB re 1 µPa";         ///< or that of a recording
   double compensated_level_db = 0;          ///< dB re 1 uPa at 1 m, range compensated (E20)
   std::vector<Contribution> contributions;  ///< strongest first; empty: none, or unknown
   bool contributions_known = false;

@@ -62,6 +62,7 @@ std::optional<std::size_t> strongest_at(const LevelImage& image, double bearing,
 LevelImage levels_of(const ViewerData& data, std::size_t ping_index, bool tvg) {
   const auto ping = data.pings.ping(ping_index);
   LevelImage image = level_image(*ping, tvg ? std::optional(Tvg{40, ping->absorption_db_per_m}) : std::nullopt);
+  image.unit = unit_of(data, tvg);
   if (ping->scan)
     for (double& azimuth : image.fan.azimuth) azimuth = std::remainder(azimuth + ping->scan->angle, 2 * pi);
   return image;

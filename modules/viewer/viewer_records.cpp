@@ -38,7 +38,7 @@ PageOfPings page_of(const LazyPings& pings, std::size_t ping) {
 }
 
 BeamRecord record_of(const ViewerData& data, const BeamPage& page, bool tvg) {
-  BeamRecord record{{}, data.pings.gate(), {}, level_unit(tvg ? std::optional(Tvg{}) : std::nullopt)};
+  BeamRecord record{{}, data.pings.gate(), {}, unit_of(data, tvg)};
   record.level_db = page.pressure.unaryExpr([](std::complex<float> pressure) {
     return static_cast<float>(std::max(silence_db, pressure_level_db(static_cast<double>(std::abs(pressure)))));
   });

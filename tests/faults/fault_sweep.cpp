@@ -37,6 +37,8 @@ struct Case {
 };
 
 const char* const ping = "ping poles.ply --no-picture -q --sonar p900-45 --set sonar.beams=4 --pose=0,0,0,0,0,0 ";
+const char* const side_ping =
+    "ping poles.ply --no-picture -q --sonar starfish-450 --set sonar.range_resolution_m=0.05 --pose=0,0,0,0,0,0 ";
 
 std::vector<Case> cases() {
   static const std::string old_ping = std::string(ping) + "--range 3:4 -o out",
@@ -58,6 +60,8 @@ std::vector<Case> cases() {
       {"export", "b.gsf", "export short --to gsf --anchor 54,8,90 -o b.gsf",
        "export run --to gsf --anchor 54,8,90 -o b.gsf --force"},
       {"export", "b.mcap", "export short --to mcap -o b.mcap", "export run --to mcap -o b.mcap --force"},
+      {"export", "b.xtf", "export short-side --to xtf --anchor 54,8 -o b.xtf",
+       "export side --to xtf --anchor 54,8 -o b.xtf --force"},
       {"survey", "survey", "", "survey mission.toml --pings-per-block 2 -j 1 -o survey", true},
   };
 }
@@ -223,10 +227,12 @@ class Sweep {
 // What the cases start from.
 void make_inputs() {
   const std::string to_run = std::string(ping) + "--range 3:5 -o run",
-                    to_short = std::string(ping) + "--range 3:4 -o short";
+                    to_short = std::string(ping) + "--range 3:4 -o short",
+                    to_side = std::string(side_ping) + "--range 3:5 -o side",
+                    to_short_side = std::string(side_ping) + "--range 3:4 -o short-side";
   for (const std::string& command :
        {std::string("make-scene poles --points 50 -o small.ply"),
-        std::string("make-scene poles --points 4000 -o poles.ply"), to_run, to_short,
+        std::string("make-scene poles --points 4000 -o poles.ply"), to_run, to_short, to_side, to_short_side,
         std::string("make-mission lawnmower --scene poles.ply --sonar p900-45 --range 3:5 --centre 0,0,0 --size 2,1 "
                     "--spacing 4 --rate 2 -o mission.toml")})
     if (const Ended made = run_apart(command); made.code() != 0)

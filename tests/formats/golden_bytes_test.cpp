@@ -10,6 +10,8 @@
 #include "formats/ros_decoder.hpp"
 #include "formats/ros_messages.hpp"
 #include "formats/tiff_decoder.hpp"
+#include "formats/xtf_decoder.hpp"
+#include "formats/xtf_file.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -109,4 +111,26 @@ TEST(GoldenBytes, of_geotiff) {
   write_geotiff(path, bands, {32632, 565400, 5995100, 0.5});
   EXPECT_EQ(decode::read_geotiff(file_bytes(path)).bands.size(), 2U);
   expect_golden(path, "bed.tif");
+}
+
+TEST(GoldenBytes, of_xtf) {
+  const std::string path = own_path("line.xtf");
+  XtfHeader header;
+  header.program = "insonify", header.version = "223", header.sonar = "klein-3000", header.note = "simulated";
+  header.channels = {{XtfSide::port, XtfSamples::integer_16, "port", 5e5, radians(0.25), radians(40), radians(15)},
+                     {XtfSide::starboard, XtfSamples::ieee_float, "starboard", 5e5, radians(0.25), radians(40), 0}};
+  header.notes = {"amplitude [Pa] = value * 0.5"};
+  XtfFile file(path, header);
+  for (const double time : {1777624200.25, 1777624200.75}) {
+    XtfPing ping;
+    ping.number = 12, ping.time = time, ping.sound_speed = 1490.5, ping.period = 0.5;
+    ping.ship = {7.90625, 54.125}, ping.sensor = {7.9062500625, 54.1250000625};
+    ping.ship_heading = radians(70), ping.heading = radians(71.5), ping.pitch = radians(2), ping.roll = radians(-3);
+    ping.speed = 1.5, ping.depth = 1.5, ping.altitude = 4.25;
+    ping.traces = {{0, 0, 30, 5e5, true, {0, 1, 2, 65535}}, {1, 0.5, 30, 5e5, true, {0, 0.25F, 1e6F}}};
+    file.add(ping);
+  }
+  file.finish();
+  EXPECT_EQ(decode::read_xtf_file(file_bytes(path)).pings.size(), 2U);
+  expect_golden(path, "line.xtf");
 }

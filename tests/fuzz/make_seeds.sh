@@ -9,7 +9,7 @@ set -euo pipefail
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
 mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environment mission materials profile \
-  trajectory tum scatterers labels cube contributors aris npy png run work
+  trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run work
 
 # Formats that the tool writes.
 "$tool" make-scene poles --points 40 -o ply/scene.ply -q >/dev/null
@@ -26,6 +26,10 @@ cp work/run/run.toml sonar/ && cp work/run/run.toml run/
 "$tool" export work/run --to geotiff --cell 0.05 --utm 32N -o tiff/bottom.tif -q >/dev/null
 "$tool" export work/run -o work/vtk -q >/dev/null
 find work/vtk -name '*.vtp' -size -64k -exec cp {} vtp/ \;
+"$tool" ping work/poles.ply --sonar starfish-450 --set sonar.range_resolution_m=0.05 --pose=0,0,0,0,0,0 --range 3:5 --no-picture -q \
+  -o work/side >/dev/null
+"$tool" export work/side --to xtf --anchor 54,8 -o xtf/side.xtf -q >/dev/null
+"$tool" export work/side --to xtf --linear --anchor 54,8 -o xtf/floats.xtf -q >/dev/null
 cp "$root"/data/sonars/{p900-45,ping360,em2040}.toml sonar/
 cp "$root"/data/materials.toml materials/
 
@@ -99,6 +103,19 @@ perl -e '
   put("npy/array.npy", "\x93NUMPY\1\0" . pack("v", length $header) . $header . $floats);
   open(my $in, "<:raw", "'"$root"'/data/records/sample.aris") or die; read($in, my $record, 1 << 20); close $in;
   put("aris/sample.aris", $record);
+  # The header of a record and two of its pings.
+  open($in, "<:raw", "'"$root"'/data/records/sidescan_scotsman.xtf") or die; read($in, $record, 1024 + 2 * 4480); close $in;
+  put("xtf/record.xtf", $record), put("record/record.xtf", $record);
+  # A ping of three beams and four ranges, by itself and as an item of a log, and one of 16 bits with gains, of version 2.
+  my $bearings = pack("s<3", -1000, 100, 1000);
+  my $fire = sub { my ($version, $flags) = @_; pack("C5d<4", 2, 0, 0, 127, $flags, 2, 50, 0, 0) . ($version == 2 ? "\0" x 36 : "") };
+  my $message = sub { my ($version, $rest) = @_; pack("v5Vv", 0x4f53, 1, 0, 0x23, $version, length $rest, 0) . $rest };
+  my $one = $message->(1, $fire->(1, 25) . pack("VVd<4VCd<vvVVV", 7, 0, 2.1e6, 8, 1, 1490, 0, 0, .25, 4, 3, 128, 12, 140)
+    . $bearings . pack("C*", 1 .. 12));
+  my $two = $message->(2, $fire->(2, 29) . pack("VVd<8Cd<vvV4VVV", 8, 0, 2.1e6, 8, 1, 45, 2, 3, 1490, 9, 1, .25, 4, 3, 0, 0, 0, 0,
+    208, 40, 248) . $bearings . join("", map { pack("f<v3", $_, 1, 2, 3) } 1 .. 4));
+  put("oculus/both.raw", $one . $two);
+  put("oculus/log.raw", pack("VVx40", 0x11223344, 48) . pack("VVvvx4d<vx2VVx4", 0xaabbccdd, 40, 10, 1, 0, 0, length $one, length $one) . $one);
 '
 for kind in lawnmower orbit tunnel; do
   "$tool" make-mission $kind --scene x.ply -o mission/$kind.toml -q >/dev/null

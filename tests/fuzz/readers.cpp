@@ -3,6 +3,8 @@
 
 #include "formats/aris_file.hpp"
 #include "formats/npy_file.hpp"
+#include "formats/oculus_file.hpp"
+#include "formats/xtf_file.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/tiled_scene.hpp"
@@ -15,6 +17,7 @@
 #include "store/sonar_file.hpp"
 #ifdef INSONIFY_FUZZ_TOOL
 #include "tool/command/run_settings.hpp"
+#include "tool/run/record_file.hpp"
 #include "view/grey_file.hpp"
 #endif
 
@@ -65,10 +68,13 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"cube", ".h5", [](const std::string& path) { read_cube(path); }},
       {"contributors", ".h5", [](const std::string& path) { read_contributor_file(path); }},
       {"aris", ".aris", [](const std::string& path) { read_aris_frame(path, 0); }},
+      {"xtf", ".xtf", [](const std::string& path) { read_xtf(path); }},
+      {"oculus", ".raw", [](const std::string& path) { level_db(read_oculus_ping(path, 0)); }},
       {"npy", ".npy", [](const std::string& path) { read_npy(path); }},
 #ifdef INSONIFY_FUZZ_TOOL
       {"png", ".png", [](const std::string& path) { load_grey_png(path); }},
       {"run", ".toml", [](const std::string& path) { tool::load_ping_settings(path); }},
+      {"record", ".xtf", [](const std::string& path) { tool::read_record(path); }},
 #endif
   };
   return readers;

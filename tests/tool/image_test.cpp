@@ -92,7 +92,8 @@ TEST_F(ImageVerb, bad_input_gets_one_line) {
   expect_refused("image out --view grey -o grey.jpg", 2, {"grey.jpg", ".png or .pgm"});
   expect_refused("image out --view grey --bits 12 -o grey.png", 2, {"--bits", "12"});
   expect_refused("image out --view grey --tvg much -o grey.png", 2, {"--tvg", "much"});
-  expect_refused("image out --tvg nan -o x.png", 2, {"--tvg", "nan", "must be within"});
+  expect_refused("image out --tvg nan -o x.png", 2, {"--tvg", "nan", "is not a number"});
+  expect_refused("image out --tvg 1e4 -o x.png", 2, {"--tvg = 10000 dB, must be within -1000 and 1000"});
   expect_refused("image out --tvg 30 --raw -o x.png", 2, {"--tvg", "--raw"});
   expect_refused("image out --window 0 -o x.png", 2, {"--window = 0 dB", "must be > 0"});
   expect_refused("image out --window inf -o x.png", 2, {"--window = inf dB"});

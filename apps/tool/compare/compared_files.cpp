@@ -13,9 +13,11 @@
 #include "core/units.hpp"
 #include "formats/aris_file.hpp"
 #include "formats/npy_file.hpp"
+#include "formats/oculus_file.hpp"
 #include "returns/looks.hpp"
 #include "scene_io/cloud_field.hpp"
 #include "tool/command/parse_values.hpp"
+#include "tool/run/record_file.hpp"
 #include "tool/run/run_pings.hpp"
 #include "view/grey_file.hpp"
 
@@ -41,6 +43,53 @@ ComparedFile compared_aris(const std::string& path, int frame) {
   ComparedFile file{{level_db(a), a.fan, a.gate, aris_scale}};
   file.kind = a.model;
   file.sound_speed = a.sound_speed;
+  return file;
+}
+
+ComparedFile compared_oculus(const std::string& path, int number) {
+  const OculusPing o = read_oculus_ping(path, static_cast<std::size_t>(number));
+  ComparedFile file{{level_db(o), o.fan, shown_gate(0, o.gate.bins(), o.gate.bin_size), GreyWindow{silence_db, 0}}};
+  file.kind = "Oculus of " + std::to_string(o.bits) + " bits";
+  file.sound_speed = o.sound_speed, file.centre_frequency = o.frequency;
+  return file;
+}
+
+/// One channel of a side-scan. Its strongest level, at which recorders clip, does not count.
+ComparedFile compared_side_scan(const std::string& path, int channel) {
+  Record record = read_record(path);
+  const std::size_t channels = record.channels.size();
+  if (static_cast<std::size_t>(channel) >= channels)
+    fail(ErrorKind::argument, "--channel = ", channel, ", must be below ", channels, ", the number of channels in ",
+         path);
+  ComparedFile file{
+      {levels_of_beam(record.cube, static_cast<std::size_t>(channel)), std::nullopt, record.cube.pings.front().gate}};
+  const double strongest = static_cast<double>(file.image.level_db.maxCoeff());
+  if (record.has_scale) file.image.scale = GreyWindow{silence_db, strongest - 1e-3};
+  file.kind = record.kind + ", " + record.channels[static_cast<std::size_t>(channel)];
+  file.sound_speed = record.cube.sound_speed, file.centre_frequency = record.cube.centre_frequency;
+  file.waterfall = true, file.altitude = std::move(record.altitude);
+  return file;
+}
+
+/// All pings of a run of one beam.
+ComparedFile compared_waterfall(const std::string& path) {
+  const RunPings run = find_run_pings(path, "");
+  ComparedFile file;
+  std::vector<Grid<float>> rows;
+  each_ping(run, [&](const Cube& cube, const Ping& ping) {
+    if (ping.fan.beams() != 1)
+      fail(ErrorKind::content, path, ": ", cube.sonar, " has ", ping.fan.beams(),
+           " beams; the recording of a side-scan is compared with a run of one");
+    if (file.image.gate && !(*file.image.gate == ping.gate))
+      fail(ErrorKind::content, path, ": its pings differ in range");
+    file.image.gate = ping.gate, file.image.expected_level = ping.expected_level;
+    file.centre_frequency = cube.centre_frequency, file.bandwidth = cube.bandwidth, file.sound_speed = ping.sound_speed;
+    rows.push_back(shown_level_db(ping));
+  });
+  if (rows.empty()) fail(ErrorKind::content, path, ": has no pings");
+  file.image.level_db.resize(std::ssize(rows), rows.front().cols());
+  for (std::size_t p = 0; p < rows.size(); ++p) file.image.level_db.row(static_cast<Eigen::Index>(p)) = rows[p];
+  file.kind = "run, waterfall", file.waterfall = true;
   return file;
 }
 
@@ -130,21 +179,34 @@ GreyWindow parse_window(const std::string& option, const std::string& text) {
   return window;
 }
 
-ComparedFile load_compared(const std::string& path, int ping, const CompareOptions& options) {
+bool is_waterfall(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string()) == ".xtf";
+}
+
+ComparedFile load_compared(const std::string& path, int ping, const CompareOptions& options, bool waterfall) {
   namespace fs = std::filesystem;
   if (!fs::exists(path)) fail(ErrorKind::file, path, ": no such run or record");
   const std::string ending = lower_case(fs::path(path).extension().string());
-  if (fs::is_directory(path) || ending == ".h5") return compared_run(path, ping);
+  if (fs::is_directory(path) || ending == ".h5") return waterfall ? compared_waterfall(path) : compared_run(path, ping);
+  if (is_waterfall(path)) return compared_side_scan(path, options.channel);
   if (ending == ".aris") return compared_aris(path, options.frame);
+  if (is_record(path)) return compared_oculus(path, options.frame);
   if (ending == ".npy") return compared_npy(path, options);
   if (ending == ".png") return compared_png(path, options);
-  fail(ErrorKind::argument, path,
-       ": must be a run directory, cube.h5, .aris, .npy or .png; of a cloud name its field by --strength");
+  fail(ErrorKind::argument, path, ": must be a run directory, cube.h5, a recording (", record_extensions(),
+       "), .npy or .png; of a cloud name its field by --strength");
 }
 
 void match(ComparedFile& a, ComparedFile& b, const CompareOptions& options) {
   const bool same_size =
       a.image.level_db.rows() == b.image.level_db.rows() && a.image.level_db.cols() == b.image.level_db.cols();
+  if (a.waterfall && b.waterfall) {
+    if (!(*a.image.gate == *b.image.gate)) a.image.level_db = resampled_in_range(a.image, *b.image.gate);
+    a.image.gate = b.image.gate;
+    const Eigen::Index pings = std::min(a.image.level_db.rows(), b.image.level_db.rows());
+    for (ComparedFile* file : {&a, &b}) file->image.level_db = Grid<float>(file->image.level_db.topRows(pings));
+    return;
+  }
   if (a.image.fan && b.image.fan) {
     if (same_size && same_geometry(a.image, b.image)) return;
     a.image.level_db = resampled(a.image, *b.image.fan, *b.image.gate);

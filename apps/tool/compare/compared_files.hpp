@@ -18,7 +18,8 @@ struct CompareOptions {
   CommonOptions common;
   std::string a, b, output;
   int ping = 0, ping_b = -1;  ///< of A; of B, -1: the same
-  int frame = 0;              ///< of an .aris recording
+  int frame = 0;              ///< of a recording of an imaging sonar
+  int channel = 0;            ///< of a recording of a side-scan
   std::string scale;          ///< MIN:MAX [dB] of grey values, or empty
   std::string window;         ///< MIN:MAX [dB], or empty: automatic
   std::string strength;       ///< field of a cloud
@@ -36,17 +37,23 @@ struct ComparedFile {
   std::optional<Pose> world_from_head{};  ///< of a run
   double centre_frequency = 0, bandwidth = 0, sound_speed = 0;  ///< of a run; 0: unknown
   std::string kind{};                                           ///< run, ARIS 1200, NPY, PNG of 8 bits, ...
+  bool waterfall = false;                                       ///< rows are pings of one beam
+  std::vector<double> altitude{};  ///< of a waterfall that is a recording [m], by ping; 0: unknown
 };
 
 /// "MIN:MAX" in dB. Throws Error(argument) naming the option.
 GreyWindow parse_window(const std::string& option, const std::string& text);
 
-/// Reads a run (directory or cube), .aris, .npy or .png. Throws Error(argument) for another file, a ping or frame that
-/// is not there, or grey values without --scale; and as the readers.
-ComparedFile load_compared(const std::string& path, int ping, const CompareOptions& options);
+/// Whether a path is the recording of a side-scan, which is compared as a waterfall: pings x bins.
+bool is_waterfall(const std::string& path);
+
+/// Reads a run (directory or cube), a recording, .npy or .png; with `waterfall` all pings of a run of one beam. Throws
+/// Error(argument) for another file, a ping, frame or channel that is not there, or grey values without --scale;
+/// Error(content) for the waterfall of a run of several beams; and as the readers.
+ComparedFile load_compared(const std::string& path, int ping, const CompareOptions& options, bool waterfall = false);
 
 /// Brings two images to one grid: of one size as they are, beams of pictures in the order of the other's fan; of two
-/// geometries A as resampled to B. Throws Error(content) naming sizes and remedy if neither is possible.
+/// geometries A as resampled to B; of two waterfalls as many pings as both have, from the first on. Throws Error(content) naming sizes and remedy if neither is possible.
 void match(ComparedFile& a, ComparedFile& b, const CompareOptions& options);
 
 /// Levels predicted by a run at the points of a cloud, against their strengths.

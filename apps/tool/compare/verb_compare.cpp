@@ -11,7 +11,9 @@
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/compare/compare_page.hpp"
+#include "tool/compare/compare_ranges.hpp"
 #include "tool/compare/compare_soundings.hpp"
+#include "tool/run/record_file.hpp"
 #include "tool/run/run_checks.hpp"
 
 namespace insonify::tool {
@@ -22,8 +24,9 @@ using nlohmann::ordered_json;
 void add_options(OptionList list, CompareOptions& o) {
   list.add("A", &o.a, "run directory or cube.h5; also a record; or soundings of export --to csv", {.required = true});
   list.add("B", &o.b,
-           "the reference: a run, .aris, .npy (dB, complex Pa, or grey), .png (grey, as view grey makes it), or with "
-           "--strength a cloud; of soundings their scene",
+           "the reference: a run, a recording (" + record_extensions() +
+               "), .npy (dB, complex Pa, or grey), .png (grey, "
+               "as view grey makes it), or with --strength a cloud; of soundings their scene",
            {.required = true});
   list.add("-o,--output", &o.output, "folder to make: compare.json and a page of pictures, index.html");
   list.add("--window", &o.window, "MIN:MAX [dB] in which images are compared; default: 60 dB below the top of B");
@@ -33,7 +36,9 @@ void add_options(OptionList list, CompareOptions& o) {
   list.add("--align", &o.align,
            "move A by the whole beams and bins at which it correlates best with B, before anything is measured; the "
            "result says by how many");
-  list.add("--frame", &o.frame, "of an .aris recording, from 0", {.within = std::pair(0, 1 << 30), .shown_as = "INT"});
+  const OptionRules from_0{.within = std::pair(0, 1 << 30), .shown_as = "INT"};
+  list.add("--frame", &o.frame, "ping of the recording of an imaging sonar, from 0", from_0);
+  list.add("--channel", &o.channel, "of the recording of a side-scan, all of whose pings count; from 0", from_0);
   list.add("--strength", &o.strength,
            "B is a cloud with this field of measured strengths: the levels of A at its points are compared");
   list.add("--strength-unit", &o.unit, "of the field: db, linear (amplitude) or power",
@@ -170,10 +175,11 @@ std::string table_of(const ordered_json& r) {
                                   {"shadow_contrast_db", "shadow contrast [dB]"},
                                   {"clipped", "clipped share"}})
     row(name, a[key], b[key]);
-  for (const auto& [key, name] : {std::pair("bins", "width in range [bins]"),
-                                  {"range_over_c_2b", "width over c / 2B"},
-                                  {"beams", "width in azimuth [beams]"},
-                                  {"azimuth_over_beam_width", "width over beam width"}})
+  for (const auto& [key, name] :
+       {std::pair("bins", "width in range [bins]"),
+        {"range_over_c_2b", "width over c / 2B"},
+        {"beams", r["side_scan"].is_null() ? "width in azimuth [beams]" : "width along track [pings]"},
+        {"azimuth_over_beam_width", "width over beam width"}})
     row(name, a["autocorrelation_width"].value(key, ordered_json()),
         b["autocorrelation_width"].value(key, ordered_json()));
   return text;
@@ -254,7 +260,9 @@ void compare(const CompareOptions& o) {
     return finish(o, directory, result, soundings_table(result));
   }
   if (!o.repeat.empty()) fail(ErrorKind::argument, "--repeat goes with --strength, the field of both clouds");
-  ComparedFile a = load_compared(o.a, o.ping, o), b = load_compared(o.b, o.ping_b < 0 ? o.ping : o.ping_b, o);
+  const bool waterfall = is_waterfall(o.a) || is_waterfall(o.b);
+  ComparedFile a = load_compared(o.a, o.ping, o, waterfall),
+               b = load_compared(o.b, o.ping_b < 0 ? o.ping : o.ping_b, o, waterfall);
   match(a, b, o);
   progress.step("comparing");
   ComparisonOptions options;
@@ -270,9 +278,11 @@ void compare(const CompareOptions& o) {
   }
   ordered_json result = json_of(comparison, a, b, o);
   if (o.align) result["aligned_by"] = aligned;
+  result["bands"] = range_bands_json(a, b), result["side_scan"] = side_scan_json(a, b);
+  const std::string table = table_of(result) + ranges_table(result["bands"], result["side_scan"]);
   progress.step("drawing");
-  if (directory) write_compare_page(*directory, o, a, b, comparison, table_of(result));
-  finish(o, directory, result, table_of(result));
+  if (directory) write_compare_page(*directory, o, a, b, comparison, table);
+  finish(o, directory, result, table);
 }
 
 }  // namespace

@@ -39,11 +39,19 @@ struct Product {
   bool placed;
   SoundingCount (*write)(const PlacedRun& run);
 };
-constexpr Product products[] = {{"gsf", true, gsf_product},
-                                {"las", true, las_product},
-                                {"geotiff", true, geotiff_product},
-                                {"csv", false, csv_product},
-                                {"mcap", false, mcap_product}};
+constexpr Product products[] = {{"gsf", true, gsf_product},         {"las", true, las_product},
+                                {"geotiff", true, geotiff_product}, {"csv", false, csv_product},
+                                {"mcap", false, mcap_product},      {"xtf", true, xtf_product}};
+
+/// The pings to write: of a survey those of one head, of its side-scans in an xtf all if there are two.
+PlacedRun placed_run(const ProductOptions& o) {
+  const std::vector<std::string> heads =
+      o.to == "xtf" && o.head.empty() ? head_names(o.run) : std::vector<std::string>{};
+  if (heads.size() != 2) return {o, find_run_pings(o.run, o.head)};
+  PlacedRun run{o, find_run_pings(o.run, heads[0])};
+  run.others.push_back(find_run_pings(o.run, heads[1]));
+  return run;
+}
 
 }  // namespace
 
@@ -97,7 +105,7 @@ SoundingCount each_swath(const PlacedRun& run,
 void export_product(const ProductOptions& o, const CommonOptions& common) {
   Progress progress(common, 2);
   progress.step("reading " + o.run);
-  PlacedRun run{o, find_run_pings(o.run, o.head)};
+  PlacedRun run = placed_run(o);
   run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
   run.place = georeference_of(o, run.pings);
   if (!o.processing_profile.empty()) run.processing_profile = load_sound_speed_profile(o.processing_profile);
@@ -127,6 +135,11 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   progress.step("writing " + o.output);
   const SoundingCount count = product.write(run);
   if (const std::string note = o.to == "mcap" ? compression_note(o) : ""; !note.empty()) progress.note(note);
+  if (o.to == "xtf") {
+    print_summary(common, {{"output", o.output}, {"to", o.to}, {"pings", count.pings}},
+                  fmt::format("{}: {} pings as xtf", o.output, count.pings));
+    return;
+  }
   nlohmann::ordered_json summary = {
       {"output", o.output}, {"to", o.to}, {"soundings", count.soundings}, {"rejected", count.rejected}};
   if (!o.processing_profile.empty()) summary["processing_profile"] = profile_name(o);

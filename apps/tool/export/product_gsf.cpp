@@ -9,43 +9,13 @@
 #include "formats/gsf_file.hpp"
 #include "returns/echo_place.hpp"
 #include "tool/export/product_run.hpp"
+#include "tool/export/ship_axes.hpp"
 
 namespace insonify::tool {
 namespace {
 
 constexpr double deepest_profile = 12000;  // [m], below any sea floor
 constexpr double profile_step = 0.01;      // of sound speeds in a profile [m/s]
-
-/// Level axes of a ship, and its attitude.
-struct ShipAxes {
-  Eigen::Vector3d ahead, starboard;
-  double pitch = 0, roll = 0;  ///< bow up, starboard down [rad]
-
-  /// By a direction ahead, level or not, or if that is upright by the port axis.
-  ShipAxes(const Eigen::Vector3d& x, const Eigen::Vector3d& port) {
-    ahead = {x.x(), x.y(), 0};
-    if (ahead.norm() < 1e-6) ahead = port.cross(Eigen::Vector3d::UnitZ());
-    ahead = ahead.norm() > 1e-6 ? ahead.normalized() : Eigen::Vector3d::UnitX();
-    starboard = ahead.cross(Eigen::Vector3d::UnitZ());
-  }
-};
-
-/// Axes of the ship with its axes x ahead, y to port and z up as columns: pitch is of x, roll about it.
-ShipAxes axes_of_ship(const Eigen::Matrix3d& axes) {
-  ShipAxes ship(axes.col(0), axes.col(1));
-  ship.pitch = std::asin(std::clamp(axes(2, 0), -1.0, 1.0));
-  ship.roll = std::atan2(axes(2, 1), axes(2, 2));
-  return ship;
-}
-
-/// Axes of the ship at a ping; of an unknown one by the port axis of the head, without pitch.
-ShipAxes ship_axes(const PlacedRun& run, const Ping& ping) {
-  if (const std::optional<Pose> ship = vehicle_pose(run.pings, ping)) return axes_of_ship(ship->linear());
-  const Eigen::Vector3d port = ping.world_from_head.linear().col(1);
-  ShipAxes ship(port.cross(Eigen::Vector3d::UnitZ()), port);
-  ship.roll = std::asin(std::clamp(port.z(), -1.0, 1.0));
-  return ship;
-}
 
 /// How a head is mounted, against one whose swath is straight down: its x axis down, its z axis ahead.
 GsfMounting mounting_of(const Pose& ship_from_head) {
@@ -121,9 +91,7 @@ void add_sonar(const Cube& cube, const Ping& ping, GsfPing& out) {
 /// Course and speed over ground at a ping; without a way the ship is at rest.
 void add_motion(const PlacedRun& run, const std::optional<Trajectory>& way, const Ping& ping, GsfPing& out) {
   out.course = out.heading;
-  if (!way) return;
-  const Motion motion = motion_at(*way, std::clamp(ping.time, way->time.front(), way->time.back()));
-  const Eigen::Vector3d level(motion.velocity.x(), motion.velocity.y(), 0);
+  const Eigen::Vector3d level = level_velocity(way, ping.time);
   out.speed = level.norm();
   if (out.speed > 1e-6) out.course = heading_of(run.reference(), ping.world_from_head.translation(), level / out.speed);
 }
@@ -131,7 +99,7 @@ void add_motion(const PlacedRun& run, const std::optional<Trajectory>& way, cons
 GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, const Cube& cube, const Ping& ping,
                  const BottomSoundings& found) {
   const Eigen::Vector3d head = ping.world_from_head.translation();
-  const ShipAxes ship = ship_axes(run, ping);
+  const ShipAxes ship = ship_axes(run.pings, ping);
   const double water = water_level(run.pings).value_or(0);
   GsfPing out;
   out.time = run.start + ping.time;

@@ -15,6 +15,7 @@ namespace insonify::tool {
 struct PlacedRun {
   const ProductOptions& options;
   RunPings pings;
+  std::vector<RunPings> others{};                         ///< further heads of its survey, in an xtf
   std::optional<Georeference> place{};                    ///< where its world is; csv, mcap and png need none
   double start = 0;                                       ///< seconds since 1970 of time 0
   std::optional<SoundSpeedProfile> processing_profile{};  ///< by which soundings are placed; absent: the true one
@@ -31,9 +32,9 @@ struct UtmWorld {
   Eigen::Vector3d place(const Eigen::Vector3d& world) const;
 };
 
-/// How many soundings a product has, and how many were rejected, whether it has them or not.
+/// How many soundings a product has, and how many were rejected, whether it has them or not; of an xtf its pings.
 struct SoundingCount {
-  std::size_t soundings = 0, rejected = 0;
+  std::size_t soundings = 0, rejected = 0, pings = 0;
 };
 
 /// The name of the processing profile, without its folder.
@@ -53,7 +54,8 @@ struct GreyScale {
   static Tvg tvg_of(const Ping& ping) { return {40, ping.absorption_db_per_m}; }
 };
 
-// Writers of the products: each returns how many soundings there were.
+// Writers of the products: each returns how many soundings there were, that of an xtf how many pings.
+SoundingCount xtf_product(const PlacedRun& run);
 SoundingCount gsf_product(const PlacedRun& run);
 SoundingCount las_product(const PlacedRun& run);
 SoundingCount geotiff_product(const PlacedRun& run);

@@ -37,14 +37,13 @@ void add_options(OptionList list, ExportOptions& o) {
       "vtk: grids and returns for ParaView; soundings of the bottom as gsf: Generic Sensor Format 3.11, las: LAS 1.4 "
       "in "
       "UTM, geotiff: a grid in UTM or another projected system, or csv: a table; mcap: images, points and poses as "
-      "messages of ROS 2; png: bare "
-      "pictures",
-      {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png"}});
+      "messages of ROS 2; png: bare pictures; xtf: the samples of side-scans and scanning heads",
+      {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png", "xtf"}});
   list.add("--anchor", &p.anchor,
            "LAT,LON[,HEADING] [deg] of the world's origin and x axis (clockwise from north); default: the mission's");
   list.add("--utm", &p.utm, "zone of a world in UTM, e.g. 32N", {.excludes = "--anchor"});
   list.add("--start-utc", &p.start_utc, "of time 0, as 2026-05-01T08:30:00Z; default: the mission's, else 1970");
-  list.add("--head", &p.head, "of a survey with several heads");
+  list.add("--head", &p.head, "of a survey with several heads; an xtf takes both of two");
   list.add("--crs", &p.crs, crs_help);
   list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
   list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
@@ -58,7 +57,10 @@ void add_options(OptionList list, ExportOptions& o) {
   list.add("--las-version", &p.las_version, "of a las; 1.2 for readers that know no other", {.words = {"1.4", "1.2"}});
   list.add("--compression", &p.compression, "of the chunks of an mcap; one that this build lacks is noted, and none",
            {.words = {"none", "lz4", "zstd"}});
-  list.add("--linear", &p.linear, "mcap: images of pressure in 32 bits instead of levels in 8");
+  list.add(
+      "--linear", &p.linear,
+      "mcap: images of pressure in 32 bits instead of levels in 8; xtf: floats of pressure as received instead of 16 "
+      "bits with a gain");
   list.add("--force", &p.force, "replace an existing file, or the directory of an earlier export");
   add_common(list, o.common);
 }
@@ -96,8 +98,9 @@ std::optional<std::size_t> save_returns(const RunPings& run, const std::string& 
 
 /// Throws for options of soundings beside a product that has none.
 void require_soundings(const ProductOptions& o) {
-  if ((o.to == "vtk" || o.to == "png") && (o.keep_rejected || std::isfinite(o.min_level) ||
-                                           std::isfinite(o.max_deviation) || !o.processing_profile.empty()))
+  if ((o.to == "vtk" || o.to == "png" || o.to == "xtf") &&
+      (o.keep_rejected || std::isfinite(o.min_level) || std::isfinite(o.max_deviation) ||
+       !o.processing_profile.empty()))
     fail(ErrorKind::argument, "--to = ", o.to,
          " has no soundings of the bottom: --keep-rejected, --min-level, --max-deviation and --processing-profile must "
          "go "
@@ -145,10 +148,10 @@ void export_run(const ExportOptions& options) {
 
 Verb export_verb() {
   return make_verb<ExportOptions>(
-      "export", "a run for other programs: ParaView, hydrography, GIS, ROS",
+      "export", "a run for other programs: ParaView, hydrography, side-scan, GIS, ROS",
       {"insonify export out -o out-vtk", "insonify export survey -o vtk && paraview vtk/fan.pvd",
        "insonify export survey --to gsf --anchor 54.1,7.9,90 -o survey.gsf",
-       "insonify export out --to mcap -o out.mcap"},
+       "insonify export out --to mcap -o out.mcap", "insonify export survey --to xtf --anchor 54.1,7.9,90 -o line.xtf"},
       add_options, export_run);
 }
 

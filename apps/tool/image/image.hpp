@@ -33,7 +33,7 @@ struct ImageOptions {
   bool animate = false;
   bool force = false;
   bool raw = false;
-  double tvg = 40;             ///< [dB per decade of range]
+  std::optional<double> tvg;   ///< [dB per decade of range]; absent: 40 of a run, none of a recording
   int bits = 8;                ///< of view grey
   std::string frame = "head";  ///< of view scan
   std::string min_level;       ///< of view labels [dB] or black; empty: none
@@ -53,13 +53,18 @@ struct ImageRun {
   std::string path;                    ///< as the user gave it
   Cube cube;                           ///< with --layer: holds that layer in place of the whole pressure
   std::optional<SonarHead> head = {};  ///< from the run's run.toml; absent for a bare cube
+  std::string unit = {};               ///< of levels of a recording; empty: those of sound
+  bool side_scan = false;              ///< a recording whose beams are its channels, as Record has them
 };
 
-/// Reads a run directory or a cube. Throws Error(file) if there is none, Error(content) if it is unfinished or damaged,
+/// Reads a run directory, a cube, or a recording. Throws Error(file) if there is none, Error(content) if it is unfinished or damaged,
 /// Error(argument) for a layer that is not in it.
 ImageRun read_image_run(const std::string& path, const std::string& layer);
 
-/// The levels of a ping with the gain of the options (--tvg, --raw).
+/// The gain of the options (--tvg, --raw) for a ping of a run or of a recording; absent: as received, or as recorded.
+std::optional<Tvg> tvg_of(const ImageOptions& options, double absorption_db_per_m, bool recording = false);
+
+/// The levels of a ping with that gain.
 LevelImage levels_of(const ImageRun& run, const ImageOptions& options, std::size_t ping);
 
 /// One picture to draw: a ping of a run (a waterfall shows all pings), with title and marks in `picture`.

@@ -6,12 +6,15 @@
 #include "core/error.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/image/image.hpp"
+#include "tool/run/record_file.hpp"
 #include "tool/run/run_pings.hpp"
 
 namespace insonify::tool {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double default_tvg = 40;  // [dB per decade of range], a point's
 
 /// Replaces the pressure of a ping by one of its layers.
 void take_layer(Ping& ping, const std::string& name, const std::string& run) {
@@ -29,6 +32,11 @@ void take_layer(Ping& ping, const std::string& name, const std::string& run) {
 }  // namespace
 
 ImageRun read_image_run(const std::string& path, const std::string& layer) {
+  if (is_record(path)) {
+    if (!layer.empty()) fail(ErrorKind::argument, "--layer = '", layer, "': ", path, " is a recording, which has none");
+    Record record = read_record(path);
+    return {path, std::move(record.cube), {}, record.unit, record.side_scan};
+  }
   ImageRun run{path, read_run_cube(path)};
   const fs::path settings = fs::path(path) / "run.toml";
   if (fs::is_directory(path) && fs::exists(settings))
@@ -38,9 +46,16 @@ ImageRun read_image_run(const std::string& path, const std::string& layer) {
   return run;
 }
 
+std::optional<Tvg> tvg_of(const ImageOptions& o, double absorption_db_per_m, bool recording) {
+  if (o.raw || (recording && !o.tvg)) return {};
+  return Tvg{o.tvg.value_or(default_tvg), absorption_db_per_m};
+}
+
 LevelImage levels_of(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
-  return level_image(run.cube.pings[ping],
-                     o.raw ? std::nullopt : std::optional(Tvg{o.tvg, run.cube.pings[ping].absorption_db_per_m}));
+  const Ping& of = run.cube.pings[ping];
+  LevelImage image = level_image(of, tvg_of(o, of.absorption_db_per_m, !run.unit.empty()));
+  if (!run.unit.empty()) image.unit = run.unit;
+  return image;
 }
 
 }  // namespace insonify::tool

@@ -77,6 +77,7 @@ ChosenBeam choose_beam(const ImageOptions& o, const BeamFan& fan) {
 }
 
 std::string default_title(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
+  if (!run.unit.empty()) return fmt::format("{}, ping {}", run.cube.sonar, run.cube.pings[ping].number);
   return picture_title(run.cube.sonar, run.cube.pings[ping]) + (o.layer.empty() ? "" : ", " + o.layer + " alone");
 }
 

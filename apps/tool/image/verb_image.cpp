@@ -15,6 +15,7 @@
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/image/image.hpp"
+#include "tool/run/record_file.hpp"
 #include "tool/run/run_checks.hpp"
 #include "view/show_image.hpp"
 
@@ -54,7 +55,9 @@ void add_options(OptionList list, ImageOptions& o) {
     names.emplace_back(view.name);
     views.push_back(fmt::format("{}: {}", view.name, view.shows));
   }
-  list.add("RUN", &o.run, "run directory or cube.h5; for view scene also a cloud or mesh", {.required = true});
+  list.add("RUN", &o.run,
+           "run directory, cube.h5, or a recording (" + record_extensions() + "); for view scene also a cloud or mesh",
+           {.required = true});
   list.add("-o,--output", &o.output, "picture to write, .png (grey also .pgm); with --animate a folder",
            {.required = true});
   list.add("--view", &o.view, joined(views, "; "), {.words = names});
@@ -63,7 +66,10 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("--ping", &o.ping, "which ping, from 0");
   list.add("--beam", &o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
   list.add("--raw", &o.raw, "levels as received; default: range compensated; excludes --tvg", {.shown_as = " "});
-  list.add("--tvg", &o.tvg, "[dB per decade of range] given back, with absorption; 40: a point's, 30: a bottom's",
+  const auto take_tvg = [&o](const std::string& text) { o.tvg = parse_number("--tvg", text); };
+  list.add("--tvg", take_tvg,
+           "[dB per decade of range] given back, with absorption; 40: a point's, 30: a bottom's; default: 40, of a "
+           "recording 0",
            {.excludes = "--raw", .shown_as = "FLOAT"});
   PictureOptions& picture = o.picture;
   const auto take_max = [&picture](const std::string& text) { picture.max_db = parse_number("--max", text); };
@@ -92,7 +98,8 @@ void require_drawable(const ImageOptions& o) {
   constexpr std::size_t most = 1000;
   if (const double window = o.picture.window_db; !(window > 0 && window <= 1000))
     fail(ErrorKind::argument, "--window = ", window, " dB, must be > 0 and at most 1000");
-  if (!(std::abs(o.tvg) <= 1000)) fail(ErrorKind::argument, "--tvg = ", o.tvg, " dB, must be within -1000 and 1000");
+  if (o.tvg && !(std::abs(*o.tvg) <= 1000))
+    fail(ErrorKind::argument, "--tvg = ", *o.tvg, " dB, must be within -1000 and 1000");
   if (const std::size_t size = o.picture.title.size(); size > most)
     fail(ErrorKind::argument, "--title of ", size, " characters, must have at most ", most);
 }

@@ -22,9 +22,7 @@ void draw_labels(const PictureRequest& job) {
          " has no labels: make the run with --keep contributors");
   const Ping ping = row_of(whole, rows_of(whole) / 2);
   const std::vector<std::string> classes = class_names(ping.labels);
-  const Grid<float> level =
-      level_image(ping, job.options.raw ? std::nullopt : std::optional(Tvg{job.options.tvg, whole.absorption_db_per_m}))
-          .level_db;
+  const Grid<float> level = level_image(ping, tvg_of(job.options, whole.absorption_db_per_m)).level_db;
   const ColourScale scale = colour_scale(level, job.picture, "image");
   const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, least_label_share, classes), level,
                                                     parse_min_level(job.options.min_level, scale.min_db));

@@ -75,7 +75,7 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   if (!fs::exists(returns)) {
     progress.note(returns.string() + " is missing, so no returns are drawn");
   } else if (!covered) {
-    const auto tvg = o.raw ? std::nullopt : std::optional(Tvg{o.tvg, ping.absorption_db_per_m});
+    const std::optional<Tvg> tvg = tvg_of(o, ping.absorption_db_per_m);
     drawing.look.soundings = soundings_of_ping(load_soundings(returns.string()), ping.number, tvg);
     drawing.look.level_unit = level_unit(tvg);
   }

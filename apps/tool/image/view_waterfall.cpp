@@ -28,6 +28,22 @@ PingHistory history_of(const ImageRun& run, const ImageOptions& o) {
   return altitude.empty() ? slant : on_flat_bottom(slant, altitude);
 }
 
+/// The first channels to port and to starboard of a recording; nothing if it lacks one.
+std::optional<std::pair<std::size_t, std::size_t>> channels_of_sides(const BeamFan& fan) {
+  const auto first = [&](auto looks) {
+    return static_cast<std::size_t>(std::find_if(fan.azimuth.begin(), fan.azimuth.end(), looks) - fan.azimuth.begin());
+  };
+  const std::size_t port = first([](double azimuth) { return azimuth > 0; });
+  const std::size_t starboard = first([](double azimuth) { return azimuth < 0; });
+  if (port == fan.beams() || starboard == fan.beams()) return {};
+  return std::pair(port, starboard);
+}
+
+PingHistory history_of_channel(const ImageRun& run, ImageOptions o, std::size_t channel) {
+  o.beam = std::to_string(channel);
+  return history_of(run, o);
+}
+
 }  // namespace
 
 PingHistory beam_history(const ImageRun& run, const ImageOptions& o) {
@@ -93,8 +109,15 @@ namespace {
 /// One head, or port and starboard (--starboard), by slant or ground range.
 void draw_waterfall(const PictureRequest& job) {
   const ImageOptions& o = job.options;
-  PingHistory history = history_of(job.run, o);
+  PingHistory history;
   std::string what = beam_text(choose_beam(o, fan_of(job)), fan_of(job));
+  const auto sides = job.run.side_scan && o.beam.empty() ? channels_of_sides(fan_of(job)) : std::nullopt;
+  if (sides) {
+    history = side_by_side(history_of_channel(job.run, o, sides->first), history_of_channel(job.run, o, sides->second));
+    what = "port and starboard";
+  } else {
+    history = history_of(job.run, o);
+  }
   if (!o.starboard.empty()) {
     history = side_by_side(history, history_of(read_image_run(o.starboard, o.layer), o));
     what = "port and starboard";

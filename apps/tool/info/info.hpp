@@ -24,6 +24,9 @@ nlohmann::ordered_json info_of_toml(const std::string& path);
 /// Of a cloud, mesh, raster or tiles.
 nlohmann::ordered_json info_of_scene(const std::string& path);
 
+/// Of a recording of a real sonar, by its first ping.
+nlohmann::ordered_json info_of_record(const std::string& path);
+
 /// Prints what info_of_scene says of a cloud, mesh or raster.
 void print_scene(const nlohmann::ordered_json& info);
 

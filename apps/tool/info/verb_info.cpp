@@ -8,6 +8,7 @@
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/info/info.hpp"
+#include "tool/run/record_file.hpp"
 #include "tool/run/run_checks.hpp"
 #include "tool/run/scene_files.hpp"
 
@@ -26,7 +27,8 @@ void add_options(OptionList list, InfoOptions& o) {
   list.add(
       "FILE", &o.files,
       "cloud, mesh, tiles, run, survey, head of a survey, cube.h5, or a .toml: mission, materials, sonar, environment, "
-      "run.toml",
+      "run.toml; or a recording: " +
+          record_extensions(),
       {.required = true});
   list.add("--verify", &o.verify, "compare the files of runs and surveys with the SHA-256 of when they were made");
   add_common(list, o.common);
@@ -71,9 +73,12 @@ void info(const InfoOptions& o) {
   ordered_json all = ordered_json::array();
   for (const std::string& path : o.files) {
     const std::filesystem::path file(path);
+    const bool recorded = !std::filesystem::is_directory(file) && is_record(path);
     const bool is_scene =
-        !std::filesystem::is_directory(file) && file.extension() != ".h5" && file.extension() != ".toml";
-    if (is_scene)
+        !recorded && !std::filesystem::is_directory(file) && file.extension() != ".h5" && file.extension() != ".toml";
+    if (recorded)
+      all.push_back(info_of_record(path));
+    else if (is_scene)
       all.push_back(info_of_scene(path));
     else if (file.extension() == ".toml")
       all.push_back(info_of_toml(path));

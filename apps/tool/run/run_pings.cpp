@@ -152,6 +152,13 @@ RunPings find_run_pings(const std::string& run, const std::string& head) {
   return pings_of_directory(run);
 }
 
+std::vector<std::string> head_names(const std::string& run) {
+  std::vector<std::string> names;
+  if (fs::is_directory(run) && is_survey_run(run))
+    for (const SurveyRunHead& head : load_survey_run(run).heads) names.push_back(head.name);
+  return names;
+}
+
 std::optional<double> water_level(const RunPings& run) {
   return run.water.level ? run.water.level : surface_height(run.environment);
 }

@@ -44,6 +44,9 @@ std::size_t leg_at(const std::vector<MissionLeg>& legs, double time);
 /// cube or a survey with blocks that are not done, Error(argument) for a head that is not named or not there.
 RunPings find_run_pings(const std::string& run, const std::string& head);
 
+/// Names of the heads of a survey; none of another run.
+std::vector<std::string> head_names(const std::string& run);
+
 /// Calls `use` with each ping and the cube it is of, without pings: memory is that of one ping.
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use);
 

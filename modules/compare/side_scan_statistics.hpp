@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/grid.hpp"
+#include "sonar/range_gate.hpp"
+
+namespace insonify {
+
+/// What counts as a shadow.
+struct ShadowOptions {
+  double below_db = 10;  ///< a shadow is so far below the bed at its range
+  double least = 0.5;    ///< [m] of slant range: shorter ones do not count
+  double along = 5;      ///< [m] of slant range to either side over which the bed is smooth
+};
+
+/// The bed and the shadows of one side of a side-scan.
+struct SideScanStatistics {
+  std::vector<std::optional<double>> first_return{};  ///< of each ping [m] (E135)
+  double shadow_share = 0;                            ///< of the samples of the bed
+  double longest_shadow = 0, longest_from = 0;        ///< [m] of slant range: its length and where it begins
+  std::size_t longest_ping = 0;                       ///< row of the longest
+  double shadow_depth_db = 0;                         ///< mean intensity of the bed over that of its shadows
+};
+
+/// Measures levels [dB], pings x bins; NaN: not measured. The bed reaches from the first return of each ping on; a shadow
+/// is a run of bins whose mean intensity over 3 pings x 9 bins is `below_db` below the bed at their range: the median over
+/// ranges within `along` of the median over all pings of that mean (E136). Throws Error(argument) unless there are as
+/// many bins as the gate has.
+SideScanStatistics side_scan_statistics(const Grid<float>& level_db, const RangeGate& gate,
+                                        const ShadowOptions& options = {});
+
+}  // namespace insonify

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "formats/binary_input_internal.hpp"
+#include "formats/packed_bytes_internal.hpp"
+#include "formats/xtf_file.hpp"
+#include "formats/xtf_layout_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double farthest_range = 1e5;        // [m], beyond any side-scan
+constexpr double slowest_sound = 1000;        // [m/s]: below it a speed is that of one way
+constexpr double highest_in_kilohertz = 1e4;  // a frequency above is in Hz
+
+double number_of(float value) { return std::isfinite(value) ? static_cast<double>(value) : 0.0; }
+double real_at(std::string_view bytes, std::size_t at) { return number_of(little_at<float>(bytes, at)); }
+std::uint8_t byte_at(std::string_view bytes, std::size_t at) { return static_cast<std::uint8_t>(bytes[at]); }
+
+double hertz(double frequency) { return frequency > highest_in_kilohertz ? frequency : 1000 * frequency; }
+
+/// A number of IBM's: a sign, seven bits of exponent to 16, and a fraction of 24 bits.
+float ibm_float(std::uint32_t raw) {
+  const double fraction = std::ldexp(static_cast<double>(raw & 0xffffffu), -24);
+  const double value = std::ldexp(fraction, 4 * (static_cast<int>(raw >> 24 & 0x7fu) - 64));
+  return static_cast<float>(raw >> 31 ? -value : value);
+}
+
+/// How samples are stored: as the format says, or in files before it by their size.
+XtfSamples samples_of(const std::string& path, std::string_view channel, std::size_t number) {
+  const std::uint8_t format = byte_at(channel, xtf_sample_format_at);
+  const auto size = little_at<std::uint16_t>(channel, xtf_sample_bytes_at);
+  for (const XtfSamples known : {XtfSamples::ibm_float, XtfSamples::integer_32, XtfSamples::integer_16,
+                                 XtfSamples::ieee_float, XtfSamples::integer_8})
+    if (format == static_cast<std::uint8_t>(known) && size == sample_bytes(known)) return known;
+  if (format == 0)
+    for (const XtfSamples known : {XtfSamples::integer_8, XtfSamples::integer_16, XtfSamples::integer_32})
+      if (size == sample_bytes(known)) return known;
+  fail(ErrorKind::content, path, ": samples of channel ", number, " are of format ", int{format}, " and ", size,
+       " bytes, must be of format 0, 1, 2, 3, 5 or 8 and 1, 2 or 4 bytes that go with it");
+}
+
+XtfChannel channel_of(const std::string& path, std::string_view bytes, std::size_t number) {
+  XtfChannel channel;
+  const std::uint8_t side = byte_at(bytes, xtf_side_at);
+  if (side > static_cast<std::uint8_t>(XtfSide::starboard))
+    fail(ErrorKind::content, path, ": channel ", number, " is of type ", int{side},
+         ", must be 0 (sub-bottom), 1 (port) or 2 (starboard)");
+  channel.side = static_cast<XtfSide>(side);
+  channel.samples = samples_of(path, bytes, number);
+  channel.name = field_at(bytes, xtf_channel_name_at, 16);
+  channel.frequency = hertz(std::max(0.0, real_at(bytes, xtf_channel_frequency_at)));
+  channel.beam_width = radians(real_at(bytes, xtf_beam_angle_at));
+  channel.elevation_width = radians(real_at(bytes, xtf_beam_width_at));
+  channel.depression = radians(real_at(bytes, xtf_tilt_at));
+  return channel;
+}
+
+/// All channels that the header describes, whatever they are of.
+std::size_t described_channels(std::string_view head) {
+  return std::size_t{little_at<std::uint16_t>(head, xtf_sonar_channels_at)} +
+         little_at<std::uint16_t>(head, xtf_bathymetry_channels_at) + byte_at(head, xtf_snippet_channels_at) +
+         byte_at(head, xtf_forward_channels_at) + little_at<std::uint16_t>(head, xtf_echo_channels_at) +
+         byte_at(head, xtf_interferometry_channels_at);
+}
+
+/// The header and where the packets begin: it grows by 1024 bytes where they have no room for all channels.
+std::size_t read_header(BinaryInput& file, const std::string& path, XtfHeader& header) {
+  const std::string format = file.part(0, 1, "its header");
+  if (byte_at(format, xtf_format_at) != xtf_file_format)
+    fail(ErrorKind::content, path, ": does not begin with 123, so it is no XTF recording");
+  std::string head = file.part(0, xtf_header_bytes, "its header");
+  const std::size_t sonars = little_at<std::uint16_t>(head, xtf_sonar_channels_at);
+  const std::size_t needed = xtf_channels_at + described_channels(head) * xtf_channel_bytes;
+  const std::size_t size =
+      std::max(xtf_header_bytes, (needed + xtf_header_bytes - 1) / xtf_header_bytes * xtf_header_bytes);
+  if (sonars == 0) fail(ErrorKind::content, path, ": has no channel of a side-scan");
+  head = file.part(0, size, "its header");
+  header.program = field_at(head, xtf_program_at, 8);
+  header.version = field_at(head, xtf_version_at, 8);
+  header.sonar = field_at(head, xtf_sonar_at, 16);
+  header.note = field_at(head, xtf_note_at, 64);
+  header.in_degrees = little_at<std::uint16_t>(head, xtf_nav_units_at) == xtf_degrees;
+  for (std::size_t c = 0; c < sonars; ++c)
+    header.channels.push_back(
+        channel_of(path, std::string_view(head).substr(xtf_channels_at + c * xtf_channel_bytes, xtf_channel_bytes), c));
+  return size;
+}
+
+/// UTC; 0 where no date is said.
+double time_of(std::string_view packet, const std::string& where) {
+  using namespace std::chrono;
+  const auto year_number = little_at<std::uint16_t>(packet, xtf_year_at);
+  const std::uint8_t month_number = byte_at(packet, xtf_month_at), day_number = byte_at(packet, xtf_day_at);
+  if (year_number == 0 && month_number == 0) return 0;
+  const year_month_day date{year(year_number), month(month_number), day(day_number)};
+  const int clock[] = {byte_at(packet, xtf_hour_at), byte_at(packet, xtf_minute_at), byte_at(packet, xtf_second_at),
+                       byte_at(packet, xtf_hundredth_at)};
+  if (!date.ok() || clock[0] > 23 || clock[1] > 59 || clock[2] > 60 || clock[3] > 99)
+    fail(ErrorKind::content, where, " has the date ", year_number, "-", int{month_number}, "-", int{day_number}, " ",
+         clock[0], ":", clock[1], ":", clock[2], ".", clock[3], ", which is none");
+  return 86400.0 * static_cast<double>(sys_days(date).time_since_epoch().count()) + 3600.0 * clock[0] +
+         60.0 * clock[1] + clock[2] + 0.01 * clock[3];
+}
+
+float sample_at(std::string_view bytes, std::size_t at, XtfSamples samples) {
+  switch (samples) {
+    case XtfSamples::integer_8:
+      return byte_at(bytes, at);
+    case XtfSamples::integer_16:
+      return little_at<std::uint16_t>(bytes, at);
+    case XtfSamples::integer_32:
+      return static_cast<float>(little_at<std::uint32_t>(bytes, at));
+    case XtfSamples::ieee_float:
+      return little_at<float>(bytes, at);
+    case XtfSamples::ibm_float:
+      return ibm_float(little_at<std::uint32_t>(bytes, at));
+  }
+  return 0;
+}
+
+/// The samples of a channel, weighted, the nearest first.
+std::vector<float> samples_of(std::string_view bytes, const XtfChannel& channel, int weight, const std::string& where) {
+  const std::size_t size = sample_bytes(channel.samples);
+  std::vector<float> values(bytes.size() / size);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const float value = std::ldexp(sample_at(bytes, i * size, channel.samples), -weight);
+    if (!std::isfinite(value)) fail(ErrorKind::content, where, ": sample ", i, " is not a finite number");
+    values[i] = value;
+  }
+  if (channel.side == XtfSide::port) std::reverse(values.begin(), values.end());
+  return values;
+}
+
+double sound_speed_of(std::string_view packet) {
+  double speed = real_at(packet, xtf_sound_speed_at);
+  if (!(speed > 0)) speed = real_at(packet, xtf_computed_speed_at);
+  if (!(speed > 0)) return 0;
+  return speed < slowest_sound ? 2 * speed : speed;
+}
+
+/// A channel of a ping that begins at `at`, which goes on behind its samples.
+XtfTrace trace_of(std::string_view packet, std::size_t& at, std::size_t place, const XtfHeader& header,
+                  double sound_speed, const std::string& where) {
+  if (packet.size() - at < xtf_trace_bytes)
+    fail(ErrorKind::content, where, " ends within the header of channel ", place);
+  const std::string_view head = packet.substr(at, xtf_trace_bytes);
+  XtfTrace trace;
+  trace.channel = little_at<std::uint16_t>(head, xtf_trace_channel_at);
+  if (trace.channel >= header.channels.size()) trace.channel = place;
+  if (trace.channel >= header.channels.size())
+    fail(ErrorKind::content, where, " has a channel ", place, ", the file has ", header.channels.size());
+  const XtfChannel& channel = header.channels[trace.channel];
+  const std::uint64_t count = little_at<std::uint32_t>(head, xtf_samples_at);
+  const std::uint64_t bytes = count * sample_bytes(channel.samples);
+  at += xtf_trace_bytes;
+  if (count == 0 || bytes > packet.size() - at)
+    fail(ErrorKind::content, where, " has ", count, " samples of channel ", place,
+         ", must have at least 1 and at most ", (packet.size() - at) / sample_bytes(channel.samples),
+         ", as many as its packet holds");
+  trace.samples = samples_of(packet.substr(at, bytes), channel, little_at<std::int16_t>(head, xtf_weight_at), where);
+  at += bytes;
+  trace.end = real_at(head, xtf_slant_range_at);
+  trace.begin = std::max(0.0, 0.5 * real_at(head, xtf_delay_at) * sound_speed);
+  if (!(trace.end > trace.begin && trace.end < farthest_range))
+    fail(ErrorKind::content, where, " reaches from ", trace.begin, " to ", trace.end,
+         " m, must reach farther, and less than ", farthest_range, " m");
+  trace.with_gain = (little_at<std::uint16_t>(head, xtf_flags_at) & xtf_tvg_flag) != 0;
+  trace.frequency =
+      channel.frequency > 0 ? channel.frequency : hertz(little_at<std::uint16_t>(head, xtf_trace_frequency_at));
+  return trace;
+}
+
+XtfPing ping_of(std::string_view packet, const XtfHeader& header, const std::string& where) {
+  if (packet.size() < xtf_ping_bytes) fail(ErrorKind::content, where, " ends within its header");
+  XtfPing ping;
+  ping.number = little_at<std::uint32_t>(packet, xtf_ping_number_at);
+  ping.time = time_of(packet, where);
+  ping.sound_speed = sound_speed_of(packet);
+  const auto place_at = [&](std::size_t x_at, std::size_t y_at) {
+    const Eigen::Vector2d place(little_at<double>(packet, x_at), little_at<double>(packet, y_at));
+    return place.allFinite() ? place : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  };
+  ping.ship = place_at(xtf_ship_x_at, xtf_ship_y_at), ping.sensor = place_at(xtf_sensor_x_at, xtf_sensor_y_at);
+  ping.ship_heading = radians(real_at(packet, xtf_ship_gyro_at)),
+  ping.heading = radians(real_at(packet, xtf_heading_at));
+  ping.pitch = radians(real_at(packet, xtf_pitch_at)), ping.roll = radians(real_at(packet, xtf_roll_at));
+  ping.yaw = radians(real_at(packet, xtf_yaw_at));
+  ping.speed = xtf_knot * real_at(packet, xtf_sensor_speed_at);
+  ping.depth = real_at(packet, xtf_depth_at), ping.altitude = real_at(packet, xtf_altitude_at);
+  std::size_t at = xtf_ping_bytes;
+  for (std::size_t c = 0; c < little_at<std::uint16_t>(packet, xtf_traces_at); ++c) {
+    if (c == 0 && packet.size() >= at + xtf_trace_bytes) ping.period = real_at(packet, at + xtf_period_at);
+    ping.traces.push_back(trace_of(packet, at, c, header, ping.sound_speed, where));
+  }
+  return ping;
+}
+
+}  // namespace
+
+XtfRecord read_xtf(const std::string& path) {
+  BinaryInput file(path);
+  XtfRecord record;
+  std::size_t at = read_header(file, path, record.header);
+  for (std::size_t number = 0; at < file.size(); ++number) {
+    const std::string where = path + ": packet " + std::to_string(number) + " at byte " + std::to_string(at);
+    const std::string head = file.part(at, xtf_packet_head, "packet " + std::to_string(number));
+    if (little_at<std::uint16_t>(head, xtf_magic_at) != xtf_magic)
+      fail(ErrorKind::content, where, " does not begin with 0xFACE; the file is damaged, copy it again");
+    const std::size_t bytes = little_at<std::uint32_t>(head, xtf_packet_bytes_at);
+    if (bytes < xtf_packet_head)
+      fail(ErrorKind::content, where, " has ", bytes, " bytes, must have at least ", xtf_packet_head);
+    const std::string packet = file.part(at, bytes, "packet " + std::to_string(number));
+    at += bytes;
+    const std::uint8_t type = byte_at(packet, xtf_packet_type_at);
+    if (type == xtf_sonar_packet && little_at<std::uint16_t>(packet, xtf_traces_at) > 0)
+      record.pings.push_back(ping_of(packet, record.header, where));
+    else if (type == xtf_notes_packet && packet.size() >= xtf_note_bytes)
+      record.header.notes.push_back(field_at(packet, xtf_note_text_at, xtf_note_bytes - xtf_note_text_at));
+    else
+      ++record.other_packets;
+  }
+  if (record.pings.empty()) fail(ErrorKind::content, path, ": has no ping of a side-scan");
+  return record;
+}
+
+}  // namespace insonify
