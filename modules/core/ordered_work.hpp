@@ -11,6 +11,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -26,7 +27,11 @@ class OrderedWork {
   /// Begins `count` items on `threads` threads (at least 1); make(i) makes the i-th, and is called by any of them.
   OrderedWork(std::size_t count, std::size_t threads, std::function<Item(std::size_t)> make)
       : count_(count), ahead_(2 * threads), make_(std::move(make)) {
-    for (std::size_t t = 0; t < std::min(threads, count); ++t) threads_.emplace_back(&OrderedWork::work, this);
+    try {
+      while (threads_.size() < std::min(threads, count)) threads_.emplace_back(&OrderedWork::work, this);
+    } catch (const std::system_error&) {
+      if (threads_.empty()) throw;  // the system gives no more threads: those that there are do the work
+    }
   }
   /// Stops what is under way, by StopScope: it takes as long as one call of a parallel loop.
   ~OrderedWork() { stop(); }
@@ -37,15 +42,16 @@ class OrderedWork {
   std::size_t count() const { return count_; }
 
   /// Waits for the next item and returns it, or nothing after the last. Meanwhile calls `look` ten times a second: what
-  /// it throws ends all work, as does what make(i) has thrown. To be called by one thread at a time.
+  /// it throws ends all work, as does what make(i) has thrown. Several threads may call it; each item is given once.
   std::optional<Item> next(const std::function<void()>& look = [] {}) try {
     std::unique_lock lock(guard_);
-    if (given_ == count_) return std::nullopt;
-    while (!changed_.wait_for(lock, std::chrono::milliseconds(100), [&] { return made_.contains(given_); })) {
+    const auto settled = [&] { return given_ == count_ || made_.contains(given_); };
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(100), settled)) {
       lock.unlock();
       look();
       lock.lock();
     }
+    if (given_ == count_) return std::nullopt;
     std::future<Item> made = std::move(made_.extract(given_++).mapped());
     lock.unlock();
     changed_.notify_all();
@@ -74,21 +80,21 @@ class OrderedWork {
   }
 
   void stop() {
+    std::vector<std::thread> ending;
     {
       const std::scoped_lock lock(guard_);
       stop_ = true;
+      given_ = count_;
+      ending.swap(threads_);
     }
     changed_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
-    threads_.clear();
-    made_.clear();
-    given_ = count_;
+    for (std::thread& thread : ending) thread.join();
   }
 
   const std::size_t count_, ahead_;
   const std::function<Item(std::size_t)> make_;
   std::atomic<bool> stop_{false};
-  std::mutex guard_;  // of the next four
+  std::mutex guard_;  // of all below
   std::condition_variable changed_;
   std::size_t begun_ = 0, given_ = 0;
   std::map<std::size_t, std::future<Item>> made_;

@@ -12,8 +12,7 @@
 #include "store/key_table_internal.hpp"
 #include "tool/run/ping_setup.hpp"
 
-// Private to python: what its classes hold (those of the library, and what a run folder says of them), and how arguments
-// become that. Errors name the argument.
+// Private to python: what its classes hold, and how arguments become that. Errors name the argument.
 namespace insonify::python {
 
 namespace py = pybind11;
@@ -47,15 +46,17 @@ struct Sonar {
   SonarSpec spec;
 };
 
-/// A cloud in arrays, and the scene that it becomes.
+/// A cloud in arrays, which may be empty but for the points, and the scene that it becomes.
 struct PointArrays {
-  std::vector<Eigen::Vector3d> point, normal;  ///< [m]; normals of any length, or empty
-  std::vector<double> area;                    ///< [m^2], or empty
-  std::vector<std::uint16_t> label;            ///< of materials, or empty
+  std::vector<Eigen::Vector3d> point, normal;  ///< [m]; normals of any length
+  std::vector<double> area;                    ///< [m^2]
+  std::vector<std::uint16_t> label;            ///< of materials
   LoadOptions options;
   LoadedScene loaded;
 };
 
+using By = std::shared_ptr<const struct Simulator>;
+using Of = std::shared_ptr<const struct Scene>;
 /// A scene that is prepared once for many pings.
 struct Scene {
   Scene(LoadedScene loaded, tool::SceneOptions how = {}, SceneInstances of = {});
@@ -63,10 +64,6 @@ struct Scene {
   std::shared_ptr<const PreparedScene> prepared;
   tool::SceneOptions options;  ///< how it was completed, for run.toml
   SceneInstances instances;
-
-  /// The surfels that a ping takes: all of a cloud, those of a mesh that its beams resolve.
-  std::shared_ptr<const PreparedScene> of_ping(const tool::PingOptions& options, const PingSimulator& simulator,
-                                               const PingEvent& event) const;
 };
 
 /// A head in an environment with its options; throws Error(argument) as set_up_ping, but for the pose.
@@ -79,9 +76,6 @@ struct Simulator {
   std::optional<PingSimulator> simulator;
 };
 
-using By = std::shared_ptr<const Simulator>;
-using Of = std::shared_ptr<const Scene>;
-
 /// A ping, and what saving it needs.
 struct MadePing {
   By by;
@@ -92,6 +86,8 @@ struct MadePing {
   SimulatedPing made{};
 };
 using Pings = OrderedWork<std::shared_ptr<MadePing>>;
+/// The surfels that a ping takes: all of a cloud, those of a mesh that its beams resolve.
+std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator);
 
 /// A function of the second extension, which loads PCL and VTK.
 py::object io(const char* function);

@@ -76,7 +76,7 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   const double z = ping.event.world_from_head.translation().z();
   const auto head = tool::set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
   const PingSimulator simulator = by.simulator->with(ping.simulation);
-  const auto pinged = scene.of_ping(o, simulator, ping.event);
+  const auto pinged = surfels_of(ping, simulator);
   tool::save_ping_run(o, {ping.event, head, ping.simulation},
                       {ping.made, simulator, *pinged, scene.loaded->scene, scene.loaded->report, scene.instances});
 }

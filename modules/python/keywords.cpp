@@ -54,8 +54,7 @@ TomlValue value_of(const py::handle& value, const std::string& name) {
   }
   if (!PyNumber_Check(value.ptr()) || PyComplex_Check(value.ptr()))
     fail(ErrorKind::argument, name, " is a ", Py_TYPE(value.ptr())->tp_name, ", must be a number, a text or a list");
-  const py::object number = py::float_(py::reinterpret_borrow<py::object>(value));
-  const double x = py::cast<double>(number);
+  const double x = py::cast<double>(py::float_(py::reinterpret_borrow<py::object>(value)));
   if (!PyIndex_Check(value.ptr())) return {.kind = Kind::number, .number = x};
   // Long integers are text, as in files.
   if (std::abs(x) < 0x1p53) return {.kind = Kind::integer, .number = x};

@@ -80,7 +80,7 @@ PingSimulator settle(MadePing& ping, int threads) {
 
 std::shared_ptr<MadePing> make(MadePing ping, int threads) {
   const PingSimulator simulator = settle(ping, threads);
-  ping.made = simulator.ping(*ping.scene->of_ping(ping.options, simulator, ping.event), ping.event);
+  ping.made = simulator.ping(*surfels_of(ping, simulator), ping.event);
   return std::make_shared<MadePing>(std::move(ping));
 }
 
@@ -92,11 +92,10 @@ Scene::Scene(LoadedScene given, tool::SceneOptions how, SceneInstances of)
       options(std::move(how)),
       instances(std::move(of)) {}
 
-std::shared_ptr<const PreparedScene> Scene::of_ping(const tool::PingOptions& asked, const PingSimulator& simulator,
-                                                    const PingEvent& event) const {
-  if (!loaded->mesh) return prepared;
-  tool::MeshSample sample = tool::mesh_sample_for(asked, simulator, event, *loaded);
-  if (!sample.scene) return prepared;
+std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator) {
+  if (!ping.scene->loaded->mesh) return ping.scene->prepared;
+  tool::MeshSample sample = tool::mesh_sample_for(ping.options, simulator, ping.event, *ping.scene->loaded);
+  if (!sample.scene) return ping.scene->prepared;
   return std::make_shared<const PreparedScene>(std::move(*sample.scene), simulator.options().threads);
 }
 
@@ -127,10 +126,9 @@ std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::objec
   if (!areas.is_none()) {
     const Numbers given = numbers_of(areas, "Scene: areas", 0, n);
     arrays.area.assign(given.data(), given.data() + n);
-    const auto least = std::ranges::min_element(arrays.area);
-    if (*least < 0)
-      fail(ErrorKind::argument, "Scene: areas[", least - arrays.area.begin(), "] = ", *least, ", must be >= 0");
   }
+  for (std::size_t i = 0; i < arrays.area.size(); ++i)
+    if (arrays.area[i] < 0) fail(ErrorKind::argument, "Scene: areas[", i, "] = ", arrays.area[i], ", must be >= 0");
   tool::SceneOptions how;
   set_keywords(keywords(how), keys, "Scene");
   if (py::isinstance<py::str>(material))
@@ -172,8 +170,7 @@ py::list plan(const By& by, const Of& scene, const py::object& position, double 
   MadePing ping = asked_at(asked(by, scene, keys, "plan"), position, yaw, pitch, roll);
   py::list stages;
   const PingSimulator simulator = settle(ping, 0);
-  for (const PlannedStage& s :
-       simulator.plan(*scene->of_ping(ping.options, simulator, ping.event), ping.event).stages) {
+  for (const PlannedStage& s : simulator.plan(*surfels_of(ping, simulator), ping.event).stages) {
     using namespace py::literals;
     stages.append(py::dict("name"_a = s.name, "included"_a = s.included, "why"_a = s.why, "bound_db"_a = s.bound_db));
   }
@@ -182,8 +179,7 @@ py::list plan(const By& by, const Of& scene, const py::object& position, double 
 
 std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& poses, int threads,
                              const py::kwargs& keys) {
-  if (threads < 0 || threads > 1024)
-    fail(ErrorKind::argument, "pings: threads = ", threads, ", must be within 0 and 1024");
+  if (threads < 0 || threads > 1024) fail(ErrorKind::argument, "pings: threads = ", threads, ", must be 0 to 1024");
   const Numbers numbers = numbers_of(poses, "pings: poses", 6);
   const std::vector<double> pose(numbers.data(), numbers.data() + numbers.size());
   const MadePing each = asked(by, scene, keys, "pings");

@@ -23,6 +23,19 @@ TEST(OrderedWork, gives_all_items_in_order_and_holds_two_for_each_thread) {
   }
 }
 
+TEST(OrderedWork, gives_each_item_once_to_several_threads) {
+  OrderedWork<int> work(300, 2, [](std::size_t i) { return static_cast<int>(i); });
+  std::atomic<int> sum{0}, given{0};
+  const auto take = [&] {
+    while (const auto item = work.next()) sum += *item, ++given;
+  };
+  std::thread other(take);
+  take();
+  other.join();
+  EXPECT_EQ(given, 300);
+  EXPECT_EQ(sum, 299 * 150);
+}
+
 TEST(OrderedWork, ends_with_the_error_of_an_item_in_its_turn) {
   OrderedWork<int> work(10, 3, [](std::size_t i) {
     if (i == 4) throw std::runtime_error("four");

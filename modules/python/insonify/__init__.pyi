@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from collections.abc import Iterator, Sequence
 from os import PathLike
-from typing import Any, Final, TypeAlias, TypedDict
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -62,12 +62,6 @@ class Pings(Iterator[Ping]):
     def __next__(self) -> Ping: ...
     def __len__(self) -> int: ...
 
-class PlannedStage(TypedDict):
-    name: str
-    included: bool
-    why: str
-    bound_db: float
-
 class PingSimulator:
     def __init__(self, sonar: Sonar, environment: Environment = ..., **keys: _Value) -> None: ...
     def ping(self, scene: Scene, position: ArrayLike, yaw: float = 0, pitch: float = 0, roll: float = 0, *,
@@ -77,7 +71,7 @@ class PingSimulator:
               contributors: int | None = None, velocity: ArrayLike | None = None,
               turn_rate: ArrayLike | None = None) -> Pings: ...
     def plan(self, scene: Scene, position: ArrayLike, yaw: float = 0, pitch: float = 0, roll: float = 0,
-             **keys: _Value) -> list[PlannedStage]: ...
+             **keys: _Value) -> list[dict[str, Any]]: ...
 
 def draw_fan(ping: Ping, path: _Path, *, width: int = 1400, height: int = 1050, title: str | None = None,
              colour_map: str = "bronze", min_db: float = ..., max_db: float = ..., dark: bool = False) -> None: ...
