@@ -72,5 +72,13 @@ if(INSONIFY_PYTHON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "insonify (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), python3-numpy,
  python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor})")
   string(REPLACE "\n" "" CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS}")
+  # Compiled by apt, so that root's first import leaves nothing that a purge would not remove.
+  foreach(script IN ITEMS postinst:py3compile prerm:py3clean)
+    string(REGEX MATCH "(.*):(.*)" matched ${script})
+    set(path ${PROJECT_BINARY_DIR}/debian/${CMAKE_MATCH_1})
+    file(WRITE ${path} "#!/bin/sh\nset -e\nif command -v ${CMAKE_MATCH_2} >/dev/null; then ${CMAKE_MATCH_2} -p python3-insonify; fi\n")
+    file(CHMOD ${path} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+    list(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${path})
+  endforeach()
 endif()
 include(CPack)
