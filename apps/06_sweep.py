@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A sweep of poses past a wreck: mean level against place, as numbers and, where matplotlib is there, as a chart.
+"""A sweep of poses along a quay: mean level against place, as numbers and, where matplotlib is there, as a chart.
 
     PYTHONPATH=build/release/python python3 apps/06_sweep.py sweep.png
 """
@@ -11,6 +11,11 @@ import insonify as iy
 import numpy as np
 
 
+def mean_level_db(ping: iy.Ping) -> float:
+    """Of the mean intensity of a ping [dB re 1 uPa rms]."""
+    return float(10 * np.log10(np.mean(np.abs(ping.pressure) ** 2) / 2) + 120)
+
+
 def main(picture: str | None) -> None:
     scene = iy.make_scene("harbour", points=50000)
     head = iy.sonar("p900-45", beams=64, min_range=1, max_range=15)
@@ -20,7 +25,7 @@ def main(picture: str | None) -> None:
     x = np.linspace(0, 20, 24)
     poses = np.zeros((len(x), 6))
     poses[:, 0], poses[:, 2], poses[:, 4] = x, -3, 15
-    mean_db = np.array([10 * np.log10(np.mean(np.abs(ping.pressure) ** 2)) + 120 for ping in simulator.pings(scene, poses)])
+    mean_db = np.array([mean_level_db(ping) for ping in simulator.pings(scene, poses)])
     for place, level in zip(x[::6], mean_db[::6]):
         print(f"x = {place:4.1f} m: {level:.1f} dB re 1 uPa")
 
