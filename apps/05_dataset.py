@@ -49,8 +49,9 @@ def main() -> None:
     pings = SonarPings(scene, length=6)
     names = dict(enumerate(scene.material_names))
     for index, (level, material) in enumerate(pings):
+        beams, bins = level.shape
         found = [names[number] for number in np.unique(material) if number in names]
-        print(f"{index}: {level.shape[0]} beams x {level.shape[1]} bins, mean level {level.mean():.2f}, {', '.join(found)}")
+        print(f"{index}: {beams} beams x {bins} bins, mean level {level.mean():.2f}, {', '.join(found)}")
     again, _ = pings[3]
     print("the same alone and in a batch:", np.array_equal(again, list(pings)[3][0]))
 
