@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the Debian packages that insonify needs and this machine lacks; says which and why. Run by apps/demo.sh and
-# tests/run.sh. With --tests also what the tests need, with --tidy what tests/tidy.sh needs, with --packages what
-# tests/packages.sh and docs/make_site.sh need. Uses sudo when not root.
+# tests/run.sh. With --python also what Python's module needs, with --tests that and what the tests need, with --tidy what
+# tests/tidy.sh needs, with --packages what tests/packages.sh and docs/make_site.sh need. Uses sudo when not root.
 set -euo pipefail
 
 declare -A why=(
@@ -15,11 +15,14 @@ declare -A why=(
   [libgl1-mesa-dri]="off-screen pictures in software" [libglew-dev]="VTK's headers ask for it" [fonts-dejavu-core]="letters in pictures"
   [libx11-dev]="the viewer's window" [libgdal-dev]="rasters as scenes, map projections (GDAL; libvtk9-dev needs it too)"
 )
+if [[ "${1:-}" == --python || "${1:-}" == --tests || "${1:-}" == --packages ]]; then
+  why+=([pybind11-dev]="Python's module" [python3-dev]="Python's module" [python3-numpy]="Python's module")
+fi
 if [[ "${1:-}" == --tests ]]; then
   why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"
     [libbenchmark-dev]="benchmarks" [xvfb]="a display for the tests of the viewer"
     [parallel]="shards of a survey" [slurm-wlm]="shards of a survey as a job array" [munge]="Slurm's keys"
-    [python3-h5py]="cubes as Python reads them" [gdal-bin]="grids as GDAL reads them" [pcl-tools]="clouds as PCL reads them")
+    [python3-pytest]="tests of Python's module" [mypy]="types of Python's module" [python3-h5py]="cubes as Python reads them" [gdal-bin]="grids as GDAL reads them" [pcl-tools]="clouds as PCL reads them")
 fi
 if [[ "${1:-}" == --tidy ]]; then why+=([clang-tidy]="tests/tidy.sh"); fi
 if [[ "${1:-}" == --packages ]]; then

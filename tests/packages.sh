@@ -20,7 +20,7 @@ rm -rf build/release/packages
 (cd build/release && cpack -G DEB >cpack.log 2>&1) || { cat build/release/cpack.log; exit 1; }
 packages=(build/release/packages/*.deb)
 printf '%s\n' "${packages[@]}"
-[[ ${#packages[@]} -eq 3 ]]
+[[ ${#packages[@]} -eq 4 ]]
 
 work=$(mktemp -d)
 clean() { if mountpoint -q "$work/root/proc"; then umount "$work/root/proc"; fi; rm -rf "$work"; }
@@ -46,6 +46,13 @@ for file in applications/insonify-view.desktop doc/insonify/copyright doc/insoni
   man/man1/insonify-ping.1 bash-completion/completions/insonify; do
   [[ -s $prefix/usr/share/$file ]] || { echo "no /usr/share/$file" >&2; exit 1; }
 done
+PYTHONPATH=$prefix/usr/lib/python3/dist-packages /usr/bin/python3 - <<'PYTHON'
+import insonify as iy
+assert "libvtk" not in open("/proc/self/maps").read() and "libpcl" not in open("/proc/self/maps").read()
+ping = iy.PingSimulator(iy.sonar("p900-45", min_range=1, max_range=20)).ping(iy.load_scene("harbour.ply"), (0, 0, -3), pitch=10)
+ping.save("from-python")
+PYTHON
+cmp ping/cube.h5 from-python/cube.h5
 block() { awk -v fence="\`\`\`$1" '$0 == fence { inside = 1; next } inside && /^\`\`\`/ { exit } inside' "$prefix/usr/share/doc/insonify-doc/docs/api.md"; }
 mkdir my_ping
 block cmake >my_ping/CMakeLists.txt
@@ -66,7 +73,7 @@ if [[ ${1:-} != --unpack && $(id -u) -eq 0 ]] && command -v debootstrap >/dev/nu
     if inside dpkg -s $absent >/dev/null 2>&1; then echo "the packages pull $absent in" >&2; exit 1; fi
   done
   inside bash /tmp/try.sh
-  inside apt-get purge -y -qq insonify libinsonify-dev insonify-doc >/dev/null
+  inside apt-get purge -y -qq insonify libinsonify-dev insonify-doc python3-insonify >/dev/null
   if left=$(inside find /usr -name '*insonify*' | grep .); then echo "left after purge: $left" >&2; exit 1; fi
   echo "installed, used and removed in a bare Debian 12"
 else

@@ -29,6 +29,7 @@ spew("$stage/insonify/groups.dox", "$groups/// \@namespace insonify\n/// All of 
 
 for my $path (grep { !/_internal\.hpp$/ } glob 'modules/*/*.hpp') {
   my ($module) = $path =~ m{^modules/(\w+)/};
+  next if slurp("modules/$module/CMakeLists.txt") =~ /TOOL_ONLY/;
   die "docs/api.md has no component $module\n" unless $known{$module};
   my $text = slurp($path);
   $text =~ s{^#include "([a-z_]+/[a-z0-9_]+\.hpp)"}{#include <insonify/$1>}mg;

@@ -22,7 +22,7 @@ struct PingSimulator::Shared {
   SonarHead head;
   Environment environment;
   SimulationOptions options;
-  SynthesizerTable synthesizers;
+  std::shared_ptr<SynthesizerTable> synthesizers = std::make_shared<SynthesizerTable>();
 };
 
 namespace {
@@ -71,8 +71,14 @@ void count_merged(const PreparedScene& scene, const ResolvedPing& ping, Sampling
 }  // namespace
 
 PingSimulator::PingSimulator(SonarHead head, Environment environment, SimulationOptions options)
-    : shared_(std::make_shared<Shared>(std::move(head), std::move(environment), std::move(options))) {
+    : PingSimulator(std::make_shared<Shared>(std::move(head), std::move(environment), std::move(options))) {}
+
+PingSimulator::PingSimulator(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {
   require_valid(shared_->head, shared_->environment, shared_->options, me);
+}
+
+PingSimulator PingSimulator::with(SimulationOptions options) const {
+  return PingSimulator(std::make_shared<Shared>(head(), environment(), std::move(options), shared_->synthesizers));
 }
 
 const SonarHead& PingSimulator::head() const { return shared_->head; }
@@ -138,7 +144,7 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
 
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
   begin_stage("synthesis");
-  LayerSum layers(ping, shared_->synthesizers);
+  LayerSum layers(ping, *shared_->synthesizers);
   layers.add("direct", *direct);
   add_multipath(scene, ping, parts, layers);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);

@@ -23,6 +23,9 @@ class PingSimulator {
   /// Throws Error(argument) for an invalid head or option, and for multipath without surface or bottom.
   PingSimulator(SonarHead head, Environment environment, SimulationOptions options = {});
 
+  /// The same head in the same environment with other options, sharing tables and buffers. Throws as the constructor.
+  PingSimulator with(SimulationOptions options) const;
+
   /// The head given to the constructor.
   const SonarHead& head() const;
   /// The environment given to the constructor.
@@ -48,6 +51,7 @@ class PingSimulator {
 
  private:
   struct Shared;
+  explicit PingSimulator(std::shared_ptr<Shared> shared);
   ResolvedPing resolve(const WholeScene& scene, const PingEvent& event) const;
   SimulatedPing ping(const PreparedScene& scene, const ResolvedPing& decided) const;
 

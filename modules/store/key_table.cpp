@@ -120,9 +120,13 @@ void require_schema(const std::string& path, const TomlValue& document, int sche
 }
 
 void set_key(const std::vector<Key>& keys, const std::string& name, const std::string& text, const std::string& who) {
+  set_key(keys, name, values_of_text(text), who);
+}
+
+void set_key(const std::vector<Key>& keys, const std::string& name, const std::vector<TomlValue>& values,
+             const std::string& who) {
   const Key* key = find_key(keys, name);
   if (!key) fail(ErrorKind::argument, who, refusal_of_unknown(keys, name));
-  const std::vector<TomlValue> values = values_of_text(text);
   if (std::ranges::none_of(values, [&](const TomlValue& value) { return key->value.set(value, ""); }))
     fail(ErrorKind::argument, who, refusal_of_value(*key, values.front()));
 }

@@ -50,6 +50,10 @@ void require_schema(const std::string& path, const TomlValue& document, int sche
 /// Error(argument), its text after `who`, for an unknown key or a value that breaks its rule.
 void set_key(const std::vector<Key>& keys, const std::string& name, const std::string& text, const std::string& who);
 
+/// The same from a value; of several that it may mean, as a text may mean a list, the first one that obeys the rule.
+void set_key(const std::vector<Key>& keys, const std::string& name, const std::vector<TomlValue>& values,
+             const std::string& who);
+
 /// The keys as TOML, each section under its title.
 std::string keys_as_toml(const std::vector<Key>& keys);
 

@@ -93,3 +93,18 @@ TEST(PingEvents, are_refused_if_they_are_not_finite) {
   EXPECT_THAT(error({.motion = {{infinity, 0, 0}}}), HasSubstr("motion.velocity = "));
   EXPECT_THAT(error({.time = infinity}), HasSubstr("event.time = inf, must be finite"));
 }
+
+TEST(PingOptions, replace_those_of_a_simulator) {
+  SceneCloud bed;
+  for (int i = 0; i < 40; ++i) add_surfel(bed, {3 + 0.05 * i, 0, -1}, {0, 0, 1}, 0.0025);
+  const PreparedScene scene(bed);
+  const PingSimulator first(small_head({}), {}, {.seed = 1}), other = first.with({.seed = 2});
+  const auto pressure = [&](const PingSimulator& simulator) {
+    return simulator.ping(scene, PingEvent{}).ping.pressure;
+  };
+  const ComplexGridF by_first = pressure(first);
+  EXPECT_TRUE((pressure(other) == pressure(PingSimulator(small_head({}), {}, {.seed = 2}))).all());
+  EXPECT_FALSE((pressure(other) == by_first).all());
+  EXPECT_TRUE((pressure(first) == by_first).all());
+  EXPECT_THAT(error_of([&] { first.with({.accuracy_db = -1}); }), HasSubstr("accuracy_db"));
+}

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "store/key_table_internal.hpp"
-
 namespace insonify::tool {
 namespace {
 
@@ -27,11 +25,15 @@ KeyValue key_value(const RunSetting& setting) {
   return texts(*std::get<std::vector<std::string>*>(setting.value), rules.words);
 }
 
+}  // namespace
+
 std::vector<Key> keys_of(const std::vector<RunSetting>& settings) {
   std::vector<Key> keys;
   for (const RunSetting& s : settings) keys.push_back({s.section, s.key, "", key_value(s), s.help});
   return keys;
 }
+
+namespace {
 
 /// Reads [scene] and [ping] of a document, of which it may have neither.
 void read_sections(const std::string& path, const TomlValue& document, const std::vector<Key>& keys) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "store/key_table_internal.hpp"
 #include "tool/command/option_list.hpp"
 #include "tool/command/options.hpp"
 
@@ -32,6 +33,8 @@ std::vector<RunSetting> scene_settings(SceneOptions& options);
 std::vector<RunSetting> synthesis_settings(RunOptions& options);
 /// Rows of [ping].
 std::vector<RunSetting> ping_settings(PingOptions& options);
+/// Rows of what stays the same from ping to ping: seed, synthesis, and those of [ping] but for pose, motion and time.
+std::vector<RunSetting> simulator_settings(PingOptions& options);
 /// Rows of the tables [scene] and [ping] of a mission.
 std::vector<RunSetting> mission_settings(PingOptions& options);
 /// The seed.
@@ -45,7 +48,8 @@ std::vector<RunSetting> all_settings(PingOptions& options);
 /// The files that settings name as inputs.
 std::vector<std::string> input_files(const std::vector<RunSetting>& settings);
 
-void add_settings(OptionList list, const std::vector<RunSetting>& settings);
+/// The settings as keys of run.toml, which write where the settings do.
+std::vector<Key> keys_of(const std::vector<RunSetting>& settings);
 
 /// The settings as TOML: "key = value" lines under their tables.
 std::string settings_as_toml(const std::vector<RunSetting>& settings);

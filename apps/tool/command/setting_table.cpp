@@ -3,7 +3,6 @@
 #include <map>
 #include <utility>
 
-#include "scene_io/load_scene.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/run_settings.hpp"
 
@@ -39,7 +38,7 @@ std::vector<RunSetting> under_titles(std::vector<RunSetting> settings,
 
 std::vector<RunSetting> scene_settings(SceneOptions& o) {
   std::vector<RunSetting> settings{
-      {"scene", "path", "SCENE", &o.path, "cloud or mesh: " + scene_extensions(), scene, true},
+      {"scene", "path", "SCENE", &o.path, "cloud or mesh", scene, true},
       {"scene", "viewpoint", "--viewpoint", &o.viewpoint,
        "x,y,z [m] where the capture stood; orients estimated normals; default: the file's, else 0,0,0 of an organised "
        "scan that fans out from there, and from above of a raster of heights"},
@@ -179,16 +178,33 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
                                        {"with", accuracy_title}});
 }
 
+namespace {
+
+/// Whether a setting says what is pinged, from where and when.
+bool is_of_one_ping(const RunSetting& setting) {
+  const std::vector<std::string> keys = {"path", "pose",  "mount",    "trajectory", "time",
+                                         "ping", "world", "velocity", "turn_rate"};
+  return std::find(keys.begin(), keys.end(), setting.key) != keys.end();
+}
+
+}  // namespace
+
+std::vector<RunSetting> simulator_settings(PingOptions& o) {
+  std::vector<RunSetting> all{seed_setting(o.common)};
+  for (const auto& group : {synthesis_settings(o.run), ping_settings(o)})
+    for (const RunSetting& setting : group)
+      if (!is_of_one_ping(setting)) all.push_back(setting);
+  return all;
+}
+
 std::vector<RunSetting> mission_settings(PingOptions& o) {
   // All but what the mission says in its own tables; some outputs are of a single ping alone.
-  const std::vector<std::string> others = {"path", "pose",  "mount",    "trajectory", "time",
-                                           "ping", "world", "velocity", "turn_rate"};
   std::vector<RunSetting> all;
   for (auto& group : {scene_settings(o.scene), synthesis_settings(o.run), ping_settings(o)})
     for (RunSetting setting : group) {
       if (*setting.section == '\0') setting.section = "ping";
       if (std::string_view(setting.key) == "keep") setting.rules.words = {"contributors", "mask"};
-      if (std::find(others.begin(), others.end(), setting.key) == others.end()) all.push_back(setting);
+      if (!is_of_one_ping(setting)) all.push_back(setting);
     }
   return all;
 }
@@ -205,10 +221,6 @@ std::vector<std::string> input_files(const std::vector<RunSetting>& settings) {
   for (const RunSetting& setting : settings)
     if (setting.is_path) files.push_back(*std::get<std::string*>(setting.value));
   return files;
-}
-
-void add_settings(OptionList list, const std::vector<RunSetting>& settings) {
-  for (const RunSetting& s : settings) list.add(s.option, s.value, s.help, s.rules);
 }
 
 }  // namespace insonify::tool

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "core/units.hpp"
+#include "scene_io/load_scene.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/command/run_settings.hpp"
+#include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
 
@@ -23,6 +24,16 @@ void add_work(OptionList list, CommonOptions& o) {
   list.add("-j,--threads", &o.threads, "threads, at most 1024; 0: all cores (results do not depend on it)",
            {.within = std::pair(0, 1024)});
   add_settings(list, {seed_setting(o)});
+}
+
+void add_settings(OptionList list, const std::vector<RunSetting>& settings) {
+  for (const RunSetting& s : settings) list.add(s.option, s.value, s.help, s.rules);
+}
+
+void add_scene(OptionList list, SceneOptions& o) {
+  std::vector<RunSetting> settings = scene_settings(o);
+  settings.front().help += ": " + scene_extensions();
+  add_settings(list, settings);
 }
 
 void add_completion(OptionList list, SceneOptions& o) {
@@ -67,7 +78,7 @@ void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
       "run.toml of an earlier ping: the same again, but for the options given beside it; then SCENE and --sonar need "
       "not be given, and a flag is switched off by e.g. --noise=false");
   PingOptions& o = command.options;
-  add_settings(list, scene_settings(o.scene));
+  add_scene(list, o.scene);
   add_sonar(list, o.common, o.run, "to the end of the scene, at most the sonar's");
   // Titles stand in the order in which they are first used.
   if (with_output) add_output(list, o.run);
@@ -75,17 +86,6 @@ void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
   add_common(list, o.common);
   add_work(list, o.common);
 }
-
-namespace {
-
-/// The mounting that the file of a sonar names, as --mount takes it; empty if it is none.
-std::string mounting_text(const SonarFile& sonar) {
-  if (sonar.mounting.isZero()) return "";
-  const Eigen::Vector3d angles = sonar.mounting * degrees(1);
-  return fmt::format("0,0,0,{:.10g},{:.10g},{:.10g}", angles.x(), angles.y(), angles.z());
-}
-
-}  // namespace
 
 PingOptions complete_options(const PingCommand& command) {
   PingOptions o = command.options;

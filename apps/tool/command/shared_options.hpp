@@ -4,6 +4,7 @@
 
 #include "tool/command/option_list.hpp"
 #include "tool/command/options.hpp"
+#include "tool/command/run_settings.hpp"
 
 /// Options that several verbs share.
 namespace insonify::tool {
@@ -14,6 +15,10 @@ void add_verbosity(OptionList list, CommonOptions& options);
 void add_common(OptionList list, CommonOptions& options);
 /// --threads and --seed.
 void add_work(OptionList list, CommonOptions& options);
+/// The options of settings.
+void add_settings(OptionList list, const std::vector<RunSetting>& settings);
+/// The scene that is required, and how it is completed.
+void add_scene(OptionList list, SceneOptions& options);
 /// How a scene is completed: viewpoint, materials, unit.
 void add_completion(OptionList list, SceneOptions& options);
 /// --sonar, which is required, the environment and the synthesis. `default_range` says what range holds by default.

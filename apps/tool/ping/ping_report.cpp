@@ -93,13 +93,12 @@ ordered_json number(double value) { return std::isfinite(value) ? ordered_json(v
 
 }  // namespace
 
-ordered_json scene_json(const LoadedScene& loaded) {
-  const LoadReport& r = loaded.report;
+ordered_json scene_json(const LoadReport& r, const SceneCloud& scene) {
   return {{"path", r.path},
           {"format", r.format},
           {"points_read", r.points_read},
           {"triangles_read", r.triangles_read},
-          {"surfels", loaded.scene.size()},
+          {"surfels", scene.size()},
           {"dropped_not_finite", r.dropped_not_finite},
           {"dropped_withheld", r.dropped_withheld},
           {"dropped_duplicates", r.dropped_duplicates},
@@ -107,11 +106,11 @@ ordered_json scene_json(const LoadedScene& loaded) {
           {"dropped_without_normal", r.dropped_without_normal},
           {"repaired_normals", r.repaired_normals},
           {"normals", r.normals_estimated ? "estimated" : "from file"},
-          {"normals_oriented", loaded.scene.normals_oriented},
+          {"normals_oriented", scene.normals_oriented},
           {"material_field", r.material_field},
           {"outside_intervals", r.outside_intervals},
           {"areas", r.areas_estimated ? "estimated" : "from file"},
-          {"origin", {loaded.scene.origin.x(), loaded.scene.origin.y(), loaded.scene.origin.z()}}};
+          {"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}}};
 }
 
 ordered_json layers_json(const std::vector<LayerReport>& layers) {

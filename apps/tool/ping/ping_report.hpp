@@ -13,7 +13,7 @@
 /// The parts of a ping's manifest, its notes, and its plan.
 namespace insonify::tool {
 
-nlohmann::ordered_json scene_json(const LoadedScene& loaded);
+nlohmann::ordered_json scene_json(const LoadReport& report, const SceneCloud& scene);
 nlohmann::ordered_json sampling_json(const SimulatedPing& ping);
 nlohmann::ordered_json holes_json(const HoleReport& holes);
 nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);

@@ -25,7 +25,9 @@ namespace {
 
 constexpr int drawn_paths = 64;  // of each kind; more would hide one another
 
-SimulationOptions simulation_options(const CommonOptions& common, const PingOptions& o) {
+}  // namespace
+
+SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& o) {
   SimulationOptions s;
   s.seed = common.seed;
   s.threads = common.threads;
@@ -56,6 +58,8 @@ SimulationOptions simulation_options(const CommonOptions& common, const PingOpti
   }
   return s;
 }
+
+namespace {
 
 /// Pose of the vehicle, and its motion if it follows a trajectory.
 struct Track {
@@ -112,27 +116,35 @@ Motion asked_motion(const PingOptions& o) {
   return motion;
 }
 
-/// The setup of a ping at the pose of the options, or of one that has another.
-PingSetup set_up(const PingOptions& o, bool at_pose) {
+}  // namespace
+
+PingEvent asked_event(const PingOptions& o) {
   const Track track = track_of(o);
   const bool mounted = !o.mount.empty();
   const Pose mount = mounted ? parse_pose(o.mount, "z-up", "--mount") : Pose::Identity();
-  PingSetup setup;
-  PingEvent& event = setup.event;
+  PingEvent event;
   event.world_from_head = mounted ? track.pose * mount : track.pose;
-  const double z = event.world_from_head.translation().z();
-  setup.head = set_up_head(o.common, o.run, at_pose ? std::optional(z) : std::nullopt);
-  setup.simulation = simulation_options(o.common, o);
   Motion& motion = event.motion;
-  motion = asked_motion(o);
-  if (!o.trajectory.empty()) {
-    motion = track.motion;
-    for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
-  }
+  motion = o.trajectory.empty() ? asked_motion(o) : track.motion;
   // A head away from the vehicle's centre moves as the vehicle turns.
   if (mounted) motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
   event.time = o.time;
   event.number = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
+  return event;
+}
+
+namespace {
+
+/// The setup of a ping at the pose of the options, or of one that has another.
+PingSetup set_up(const PingOptions& o, bool at_pose) {
+  PingSetup setup;
+  PingEvent& event = setup.event;
+  event = asked_event(o);
+  const double z = event.world_from_head.translation().z();
+  setup.head = set_up_head(o.common, o.run, at_pose ? std::optional(z) : std::nullopt);
+  setup.simulation = asked_simulation(o.common, o);
+  if (!o.trajectory.empty())
+    for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
   for (const std::string& stage : o.with) force_stage(stage, true, event, setup.head.environment, setup.simulation);
   for (const std::string& stage : o.without) force_stage(stage, false, event, setup.head.environment, setup.simulation);
   require_boundaries(o, setup.head.environment);
@@ -143,6 +155,12 @@ PingSetup set_up(const PingOptions& o, bool at_pose) {
 }
 
 }  // namespace
+
+std::string mounting_text(const SonarFile& sonar) {
+  if (sonar.mounting.isZero()) return "";
+  const Eigen::Vector3d angles = sonar.mounting * degrees(1);
+  return fmt::format("0,0,0,{:.10g},{:.10g},{:.10g}", angles.x(), angles.y(), angles.z());
+}
 
 SynthesisSettings asked_synthesis(const RunOptions& o) {
   return {*find_named(method_words, o.method), o.tolerance, o.method == "gridded" ? Choice::never : Choice::as_needed};
@@ -180,25 +198,34 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
 }
 
 HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::optional<double> head_height) {
-  HeadSetup setup;
   const SonarFile file = find_sonar(run.sonar);
-  setup.spec = file.spec;
-  setup.mount = pose_from_yaw_pitch_roll({0, 0, 0}, file.mounting.x(), file.mounting.y(), file.mounting.z());
-  for (const SonarNumber& n : file.numbers)
-    if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
-  if (!run.environment.empty()) setup.environment = load_environment(run.environment);
-  if (!run.profile.empty()) setup.environment.profile = load_sound_speed_profile(run.profile);
+  SonarSpec spec = file.spec;
+  Environment environment;
+  if (!run.environment.empty()) environment = load_environment(run.environment);
+  if (!run.profile.empty()) environment.profile = load_sound_speed_profile(run.profile);
   bool sets_range = false;
   for (const std::string& text : common.settings) {
     const Setting setting = parse_setting(text);
     sets_range |= setting.section == "sonar" && setting.key == "max_range_m";
     if (setting.section == "sonar")
-      set_sonar_value(setup.spec, setting.key, setting.value);
+      set_sonar_value(spec, setting.key, setting.value);
     else
-      set_environment_value(setup.environment, setting.section, setting.key, setting.value);
+      set_environment_value(environment, setting.section, setting.key, setting.value);
   }
-  if (!run.range.empty()) std::tie(setup.spec.min_range, setup.spec.max_range) = parse_range(run.range);
+  if (!run.range.empty()) std::tie(spec.min_range, spec.max_range) = parse_range(run.range);
+  HeadSetup setup = set_up_head(file, spec, std::move(environment), head_height);
   setup.range_is_own = run.range.empty() && !sets_range && !file.of_run;
+  return setup;
+}
+
+HeadSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment environment,
+                      std::optional<double> head_height) {
+  HeadSetup setup;
+  setup.spec = spec;
+  setup.environment = std::move(environment);
+  setup.mount = pose_from_yaw_pitch_roll({0, 0, 0}, file.mounting.x(), file.mounting.y(), file.mounting.z());
+  for (const SonarNumber& n : file.numbers)
+    if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
   require_valid(setup.environment, "environment");
   const Environment there =
       head_height ? environment_at(setup.environment, *head_height, "environment") : setup.environment;

@@ -31,6 +31,12 @@ struct HeadSetup {
 };
 HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run,
                       std::optional<double> head_height = std::nullopt);
+/// The same of a sonar and an environment that are read already: `spec` is that of the file, changed perhaps.
+HeadSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment environment,
+                      std::optional<double> head_height = std::nullopt);
+
+/// The mounting that the file of a sonar names, as --mount takes it; empty if it is none.
+std::string mounting_text(const SonarFile& sonar);
 
 /// Options of loading a scene. Materials come from --materials, else, with --material, from the table that is part of
 /// insonify.
@@ -56,11 +62,17 @@ struct PingSetup {
   PingSimulator simulator() const { return {head.head, head.environment, simulation}; }
 };
 
+/// Where and when the head of the options pings, and how it moves; Error(argument) names the option.
+PingEvent asked_event(const PingOptions& options);
+
 /// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
 /// read.
 PingSetup set_up_ping(const PingOptions& options);
 /// The same, but for the depth of the head: of pings that have other poses than the options'.
 PingSetup set_up_any_ping(const PingOptions& options);
+
+/// What the options ask of a simulator; the plan of a ping decides the rest.
+SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& options);
 
 /// How beams are formed, as --method and --tolerance ask for it.
 SynthesisSettings asked_synthesis(const RunOptions& options);

@@ -21,7 +21,6 @@
 #include "store/toml_tree_internal.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/run/run_checks.hpp"
-#include "tool/run/scene_files.hpp"
 #include "view/ping_record.hpp"
 #include "view/save_vtk.hpp"
 #include "view/show_image.hpp"
@@ -163,9 +162,9 @@ void ContributorWriter::take(const Contributors& band, std::size_t first_beam) {
   }
 }
 
-void ContributorWriter::finish(const PixelLabels& labels, const std::string& scene, ordered_json& manifest) {
+void ContributorWriter::finish(const PixelLabels& labels, const SceneInstances& instances, ordered_json& manifest) {
   if (!file_) return;
-  file_->finish(material_image(labels), instance_image(labels, instances_of_scene(scene)));
+  file_->finish(material_image(labels), instance_image(labels, instances));
   manifest["contributors"] = {{"per_pixel", per_pixel_},
                               {"pixels", pixels_},
                               {"mean_share_listed", pixels_ > 0 ? share_ / static_cast<double>(pixels_) : 0}};

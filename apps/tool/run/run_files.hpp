@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "returns/label_objects.hpp"
 #include "returns/ping.hpp"
 #include "simulate/simulated_ping.hpp"
 #include "store/contributor_file.hpp"
@@ -44,9 +45,9 @@ class ContributorWriter : public ContributorSink {
 
   void take(const Contributors& band, std::size_t first_beam) override;
 
-  /// Completes the file with the label images of the ping, whose objects are the instances of the scene's file if it
-  /// has them; `manifest` gets a summary.
-  void finish(const PixelLabels& labels, const std::string& scene, nlohmann::ordered_json& manifest);
+  /// Completes the file with the label images of the ping, whose objects are the instances of the scene if it has
+  /// them; `manifest` gets a summary.
+  void finish(const PixelLabels& labels, const SceneInstances& instances, nlohmann::ordered_json& manifest);
 
  private:
   std::unique_ptr<ContributorFile> file_;

@@ -63,7 +63,7 @@ PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, 
                                      near.tiles.size(), info.tiles));
   for (const Eigen::Vector3d& place : tiled.places())
     result.places.push_back(event.world_from_head.linear().transpose() * (place - event.world_from_head.translation()));
-  result.json = scene_json(result.loaded);
+  result.json = scene_json(result.loaded.report, result.loaded.scene);
   result.json["tiles"] = {{"surfels", info.surfels},
                           {"surfels_read", near.surfels},
                           {"tiles", info.tiles},
@@ -90,7 +90,7 @@ PingScene load_ping_scene(const PingOptions& o, PingSetup& setup) {
   result.places = sampled_places(result.loaded.scene, setup.event.world_from_head);
   require_in_reach(result.places, setup.head.head.gate, o.scene.path);
   sample_for_ping(o, setup, result.loaded);
-  result.json = scene_json(result.loaded);
+  result.json = scene_json(result.loaded.report, result.loaded.scene);
   return result;
 }
 

@@ -32,7 +32,7 @@ struct PrepareOptions {
 };
 
 void add_options(OptionList list, PrepareOptions& o) {
-  add_settings(list, scene_settings(o.scene));
+  add_scene(list, o.scene);
   list.add("-o,--output", &o.output, "prepared scene, .ply or .pcd; or .tiles, for any size: a ping reads what it sees",
            {.required = true});
   list.add("--thin", &o.thin, "[m] between surfels: denser parts are thinned, area and materials kept",

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "scene_io/load_scene.hpp"
+#include "simulate/ping_plan.hpp"
+#include "simulate/ping_simulator.hpp"
+#include "simulate/simulated_ping.hpp"
+#include "store/run_directory.hpp"
+#include "tool/command/progress.hpp"
+#include "tool/run/ping_setup.hpp"
+#include "tool/run/run_files.hpp"
+
+namespace insonify::tool {
+
+/// What the run folder of a ping says of how it was made.
+struct PingRun {
+  const PingOptions& options;
+  const PingSetup& setup;
+  const SceneCloud& scene;              ///< that was pinged
+  nlohmann::ordered_json scene_json;    ///< as from scene_json
+  std::vector<Eigen::Vector3d> places;  ///< as from sampled_places
+  PingPlan plan{};
+  SceneInstances instances{};        ///< of its surfels, if contributors are kept
+  std::vector<std::string> notes{};  ///< so far
+  double load_seconds = 0;
+};
+
+/// Writes all files of a run: cube, picture, returns, what is kept beside them, run.toml and manifest. `contributors` is
+/// the writer that took those of the ping. Returns the manifest. The folder is still to be committed. Throws
+/// Error(file).
+nlohmann::ordered_json write_ping_run(RunDirectory& directory, const PingRun& run, SimulatedPing ping,
+                                      ContributorWriter& contributors, Progress& progress);
+
+/// A ping that is made already, with what made it.
+struct PingInMemory {
+  const SimulatedPing& ping;  ///< with its contributors, if it keeps them
+  const PingSimulator& simulator;
+  const PreparedScene& pinged;
+  const SceneCloud& whole;  ///< of which `pinged` may be a finer sample
+  const LoadReport& report;
+  const SceneInstances& instances;
+};
+/// Writes the whole run folder of such a ping, options.run.output. Throws Error(file).
+void save_ping_run(const PingOptions& options, PingSetup setup, const PingInMemory& of);
+
+}  // namespace insonify::tool

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include "core/ordered_work.hpp"
+#include "returns/label_objects.hpp"
+#include "store/key_table_internal.hpp"
+#include "tool/run/ping_setup.hpp"
+
+// Private to python: what its classes hold, and how arguments become that. Errors name the argument.
+namespace insonify::python {
+
+namespace py = pybind11;
+
+/// The keys of one object, bound to it.
+struct Keywords {
+  std::vector<Key> keys;
+  std::string main;  ///< the section whose keys need no prefix
+};
+Keywords keywords(SonarSpec& spec);
+Keywords keywords(Environment& environment);
+Keywords keywords(tool::SceneOptions& options);
+/// Of a simulator, or of one of its pings.
+Keywords keywords(tool::PingOptions& options, bool of_ping = false);
+
+/// Sets keys by keywords. A keyword is the key, after the name of its section unless that is the main one or no other
+/// section has the key; the units m, Hz, s and m/s at its end may be left out. None leaves a key as it is. Throws
+/// Error(argument), its text after `who`, for unknown keywords with the nearest one, and for values that break a rule.
+void set_keywords(const Keywords& of, const py::dict& given, const std::string& who);
+/// `text` with one line for each keyword: name, unit, rule, help. It lives as long as the module.
+const char* with_docs(const char* text, const Keywords& of);
+
+/// Finite numbers of shape (rows, columns), or (rows,) if columns is 0; any number of rows if it is -1. Throws
+/// Error(argument) that names the argument, what it is and what it must be.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+Numbers numbers_of(const py::handle& value, const std::string& name, py::ssize_t columns, py::ssize_t rows = -1);
+
+/// A sonar as its file describes it, and as keywords have changed it.
+struct Sonar {
+  SonarFile file;
+  SonarSpec spec;
+};
+
+/// A cloud in arrays, which may be empty but for the points, and the scene that it becomes.
+struct PointArrays {
+  std::vector<Eigen::Vector3d> point, normal;  ///< [m]; normals of any length
+  std::vector<double> area;                    ///< [m^2]
+  std::vector<std::uint16_t> label;            ///< of materials
+  LoadOptions options;
+  LoadedScene loaded;
+};
+
+using By = std::shared_ptr<const struct Simulator>;
+using Of = std::shared_ptr<const struct Scene>;
+/// A scene that is prepared once for many pings.
+struct Scene {
+  Scene(LoadedScene loaded, tool::SceneOptions how = {}, SceneInstances of = {});
+  std::shared_ptr<const LoadedScene> loaded;
+  std::shared_ptr<const PreparedScene> prepared;
+  tool::SceneOptions options;  ///< how it was completed, for run.toml
+  SceneInstances instances;
+};
+
+/// A head in an environment with its options; throws Error(argument) as set_up_ping, but for the pose.
+struct Simulator {
+  Simulator(const Sonar& sonar, const Environment& environment, const py::kwargs& keys);
+  Sonar sonar;
+  tool::PingOptions options;  ///< for run.toml
+  tool::HeadSetup head;
+  SimulationOptions simulation;
+  std::optional<PingSimulator> simulator;
+};
+
+/// A ping, and what saving it needs.
+struct MadePing {
+  By by;
+  Of scene;
+  tool::PingOptions options;  ///< of the simulator, with pose, seed and what to keep
+  PingEvent event{};
+  SimulationOptions simulation{};  ///< that was asked for
+  SimulatedPing made{};
+};
+using Pings = OrderedWork<std::shared_ptr<MadePing>>;
+/// The surfels that a ping takes: all of a cloud, those of a mesh that its beams resolve.
+std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator);
+
+/// A function of the second extension, which loads PCL and VTK.
+py::object io(const char* function);
+
+std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::object& normals, const py::object& areas,
+                                       const py::object& material, const py::object& instance, const py::kwargs& keys);
+/// One ping at a position [m] and angles [deg], or what is planned of it: a dict for each stage.
+std::shared_ptr<MadePing> ping(const By& by, const Of& scene, const py::object& position, double yaw, double pitch,
+                               double roll, const py::kwargs& keys);
+py::list plan(const By& by, const Of& scene, const py::object& position, double yaw, double pitch, double roll,
+              const py::kwargs& keys);
+/// Pings at rows of position and angles.
+std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& poses, int threads,
+                             const py::kwargs& keys);
+/// The next ping, without the GIL but for a look at signals; nullptr after the last.
+std::shared_ptr<MadePing> next_of(Pings& pings);
+
+/// The numbers at `data` as an array that cannot be written, without a copy; `owner` lives as long as the array.
+template <typename T>
+py::array view_of(const T* data, const std::vector<py::ssize_t>& shape, const py::handle& owner) {
+  py::array_t<T> array(shape, data, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+/// Soundings as a structured array: position [m] (three float64) and the columns of files.
+py::array array_of(const Soundings& soundings);
+
+}  // namespace insonify::python

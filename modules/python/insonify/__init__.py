@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Simulates imaging sonar on captured scenes.
+
+A scene and a head in an environment give pings: complex pressure of beams x range bins, soundings, and what every pixel
+shows. Lengths are metres, times seconds, pressures pascals, levels dB re 1 uPa; angles of poses and of keys that end in
+_deg are degrees, those of arrays radians. World axes have z up.
+"""
+
+from ._insonify import (ArgumentError, Environment, Error, Ping, Pings, PingSimulator, Scene, Sonar, __version__,
+                        draw_fan, load_scene, make_scene, sonar, sonars)
+
+__all__ = ["ArgumentError", "Environment", "Error", "Ping", "PingSimulator", "Pings", "Scene", "Sonar", "__version__",
+           "draw_fan", "load_scene", "make_scene", "sonar", "sonars"]
+
+for _type in (Environment, Ping, PingSimulator, Pings, Scene, Sonar):
+    _type.__module__ = __name__

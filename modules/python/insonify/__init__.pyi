@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+from collections.abc import Iterator, Sequence
+from os import PathLike
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+
+_Path: TypeAlias = str | PathLike[str]
+_Value: TypeAlias = bool | float | str | PathLike[str] | Sequence[float] | Sequence[str] | NDArray[Any] | None
+_Words: TypeAlias = str | Sequence[str] | None
+
+class Error(Exception): ...
+class ArgumentError(Error, ValueError): ...
+
+class Sonar:
+    name: Final[str]
+    toml: Final[str]
+
+def sonar(name: _Path, **keys: _Value) -> Sonar: ...
+def sonars() -> list[str]: ...
+
+class Environment:
+    toml: Final[str]
+    def __init__(self, path: _Path | None = None, **keys: _Value) -> None: ...
+
+class Scene:
+    origin: Final[NDArray[np.float64]]
+    material_names: Final[list[str]]
+    notes: Final[list[str]]
+    def __init__(self, points: ArrayLike, *, normals: ArrayLike | None = None, areas: ArrayLike | None = None,
+                 material: ArrayLike | str | None = None, instance: ArrayLike | None = None,
+                 **keys: _Value) -> None: ...
+    def __len__(self) -> int: ...
+
+def load_scene(path: _Path, **keys: _Value) -> Scene: ...
+def make_scene(name: str, points: int = 200000, seed: int = 1) -> Scene: ...
+
+class Ping:
+    pressure: Final[NDArray[np.complex64]]
+    layers: Final[dict[str, NDArray[np.complex64]]]
+    intensity: Final[NDArray[np.float32] | None]
+    unknown: Final[NDArray[np.uint8] | None]
+    material_image: Final[NDArray[np.uint16]]
+    instance_image: Final[NDArray[np.uint32]]
+    range: Final[NDArray[np.float64]]
+    azimuth: Final[NDArray[np.float64]]
+    elevation: Final[NDArray[np.float64]]
+    soundings: Final[NDArray[np.void]]
+    world_from_head: Final[NDArray[np.float64]]
+    number: Final[int]
+    time: Final[float]
+    seed: Final[int]
+    sound_speed: Final[float]
+    notes: Final[list[str]]
+    def level_db(self, floor_db: float = -200) -> NDArray[np.float32]: ...
+    def save(self, path: _Path, force: bool = False, picture: bool = True) -> None: ...
+
+class Pings(Iterator[Ping]):
+    def __next__(self) -> Ping: ...
+    def __len__(self) -> int: ...
+
+class PingSimulator:
+    def __init__(self, sonar: Sonar, environment: Environment = ..., **keys: _Value) -> None: ...
+    def ping(self, scene: Scene, position: ArrayLike, yaw: float = 0, pitch: float = 0, roll: float = 0, *,
+             seed: int | None = None, keep: _Words = None, contributors: int | None = None, time: float | None = None,
+             ping: int | None = None, velocity: ArrayLike | None = None, turn_rate: ArrayLike | None = None) -> Ping: ...
+    def pings(self, scene: Scene, poses: ArrayLike, threads: int = 0, *, seed: int | None = None, keep: _Words = None,
+              contributors: int | None = None, velocity: ArrayLike | None = None,
+              turn_rate: ArrayLike | None = None) -> Pings: ...
+    def plan(self, scene: Scene, position: ArrayLike, yaw: float = 0, pitch: float = 0, roll: float = 0,
+             **keys: _Value) -> list[dict[str, Any]]: ...
+
+def draw_fan(ping: Ping, path: _Path, *, width: int = 1400, height: int = 1050, title: str | None = None,
+             colour_map: str = "bronze", min_db: float = ..., max_db: float = ..., dark: bool = False) -> None: ...

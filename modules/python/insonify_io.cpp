@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// insonify._insonify_io: what needs PCL, VTK and the files of runs.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "python/binding_internal.hpp"
+#include "scene_io/pcl_bridge.hpp"
+#include "tool/ping/ping_run.hpp"
+#include "tool/run/scene_files.hpp"
+#include "view/ping_record.hpp"
+
+namespace insonify::python {
+namespace {
+
+using namespace py::literals;
+using Path = std::filesystem::path;
+
+std::shared_ptr<Scene> load(const Path& path, const py::kwargs& keys) {
+  tool::SceneOptions how;
+  how.path = path.string();
+  set_keywords(keywords(how), keys, "load_scene");
+  const py::gil_scoped_release release;
+  LoadedScene loaded = load_scene(how.path, tool::load_options({}, how));
+  return std::make_shared<Scene>(std::move(loaded), how, tool::instances_of_scene(how.path));
+}
+
+/// Completes arrays as load_scene completes files.
+void complete(const py::capsule& capsule) {
+  PointArrays& arrays = *capsule.get_pointer<PointArrays>();
+  using Field = pcl::PCLPointField;
+  struct Row {
+    double place[3];
+    float normal[3], area;
+    std::uint32_t id, label;
+  };
+  pcl::PCLPointCloud2 cloud;
+  const auto add = [&](bool is_there, const char* name, std::size_t offset, std::uint8_t type) {
+    pcl::PCLPointField field;
+    field.name = name, field.offset = static_cast<std::uint32_t>(offset), field.datatype = type, field.count = 1;
+    if (is_there) cloud.fields.push_back(field);
+  };
+  const bool normals = !arrays.normal.empty(), areas = !arrays.area.empty(), labels = !arrays.label.empty();
+  for (const std::size_t axis : {0, 1, 2}) {
+    add(true, (const char*[]){"x", "y", "z"}[axis], 8 * axis, Field::FLOAT64);
+    add(normals, (const char*[]){"normal_x", "normal_y", "normal_z"}[axis], offsetof(Row, normal) + 4 * axis,
+        Field::FLOAT32);
+  }
+  add(areas, "area", offsetof(Row, area), Field::FLOAT32);
+  add(labels, "label", offsetof(Row, label), Field::UINT32);
+  add(true, "id", offsetof(Row, id), Field::UINT32);
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < arrays.point.size(); ++i) {
+    const Eigen::Vector3d p = arrays.point[i], n = normals ? arrays.normal[i] : p;
+    rows.push_back({{p.x(), p.y(), p.z()},
+                    {float(n.x()), float(n.y()), float(n.z())},
+                    areas ? static_cast<float>(arrays.area[i]) : 0,
+                    static_cast<std::uint32_t>(i),
+                    labels ? arrays.label[i] : 0U});
+  }
+  cloud.height = 1, cloud.width = static_cast<std::uint32_t>(rows.size()), cloud.point_step = sizeof(Row);
+  cloud.row_step = cloud.width * cloud.point_step;
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(rows.data());
+  cloud.data.assign(bytes, bytes + cloud.row_step);
+  const py::gil_scoped_release release;
+  arrays.loaded = from_pcl(cloud, arrays.options);
+}
+
+void save(const MadePing& ping, const Path& path, bool force, bool picture) {
+  const py::gil_scoped_release release;
+  const Simulator& by = *ping.by;
+  const Scene& scene = *ping.scene;
+  tool::PingOptions o = ping.options;
+  o.common.quiet = true;
+  o.scene = scene.options;
+  o.run.output = path.string(), o.run.force = force, o.run.no_picture = !picture;
+  const double z = ping.event.world_from_head.translation().z();
+  const auto head = tool::set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
+  const PingSimulator simulator = by.simulator->with(ping.simulation);
+  const auto pinged = surfels_of(ping, simulator);
+  tool::save_ping_run(o, {ping.event, head, ping.simulation},
+                      {ping.made, simulator, *pinged, scene.loaded->scene, scene.loaded->report, scene.instances});
+}
+
+void draw(const MadePing& ping, const Path& path, int width, int height, const std::optional<std::string>& title,
+          const std::string& colour_map, double min_db, double max_db, bool dark) {
+  const py::gil_scoped_release release;
+  const Ping& made = ping.made.ping;
+  PictureOptions options;
+  options.width = width, options.height = height, options.dark = dark, options.trim = true;
+  options.title = title ? *title : tool::picture_title(ping.by->head.head.name, made);
+  options.colour_map = colour_map, options.min_db = min_db, options.max_db = max_db;
+  show_fan(level_image(made, Tvg{40, made.absorption_db_per_m}), options, path.string());
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_insonify_io, m) {
+  const PictureOptions usual;
+  m.def("load_scene", &load, "path"_a);
+  m.def("complete", &complete, "arrays"_a);
+  m.def("save", &save, "ping"_a, "path"_a, "force"_a, "picture"_a);
+  m.def("draw_fan", &draw, "ping"_a, "path"_a, py::kw_only(), "width"_a = usual.width, "height"_a = usual.height,
+        "title"_a = py::none(), "colour_map"_a = usual.colour_map, "min_db"_a = usual.min_db, "max_db"_a = usual.max_db,
+        "dark"_a = false);
+}
+
+}  // namespace insonify::python

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "python/binding_internal.hpp"
+#include "returns/sounding_columns.hpp"
+#include "simulate/plan_ping.hpp"
+
+namespace insonify::python {
+namespace {
+
+/// The whole numbers of an argument, one a row, each within 0 and `most`.
+template <typename T>
+std::vector<T> whole_numbers(const py::handle& value, const std::string& name, py::ssize_t rows, double most) {
+  const Numbers numbers = numbers_of(value, name, 0, rows);
+  std::vector<T> whole;
+  for (py::ssize_t i = 0; i < rows; ++i) {
+    const double x = numbers.at(i);
+    if (x != std::floor(x) || x < 0 || x > most)
+      fail(ErrorKind::argument, name, "[", i, "] = ", x, ", must be a whole number within 0 and ", most);
+    whole.push_back(static_cast<T>(x));
+  }
+  return whole;
+}
+
+std::vector<Eigen::Vector3d> vectors_of(const Numbers& numbers) {
+  const auto* rows = reinterpret_cast<const Eigen::Vector3d*>(numbers.data());
+  return {rows, rows + numbers.shape(0)};
+}
+
+/// Makes the scene of arrays that lack nothing, without PCL.
+void complete(PointArrays& arrays) {
+  SceneCloud& scene = arrays.loaded.scene;
+  Eigen::Vector3d low = arrays.point.front(), high = low;
+  for (const Eigen::Vector3d& p : arrays.point) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  scene.origin = ((low + high) / 2).array().round();
+  scene.materials = arrays.options.materials;
+  const int most = arrays.label.empty() ? 0 : *std::ranges::max_element(arrays.label);
+  for (int label = 0; arrays.options.materials.empty() && label <= most; ++label)
+    scene.materials.push_back(Material{.name = arrays.label.empty() ? "default" : fmt::format("label {}", label)});
+  for (std::size_t i = 0; i < arrays.point.size(); ++i)
+    add_surfel(scene, arrays.point[i], arrays.normal[i].normalized(), arrays.area[i],
+               arrays.label.empty() ? arrays.options.material.value_or(0) : arrays.label[i]);
+  arrays.loaded.report.points_read = scene.size();
+}
+
+/// A ping that is still to be made, with the options of its simulator but for `keys`.
+MadePing asked(const By& by, const Of& scene, const py::kwargs& keys, const char* who) {
+  MadePing ping{by, scene, by->options};
+  set_keywords(keywords(ping.options, true), keys, who);
+  return ping;
+}
+
+/// Six numbers as --pose takes them.
+std::string pose_text(const double* pose) { return fmt::format("{}", fmt::join(pose, pose + 6, ",")); }
+
+MadePing asked_at(MadePing ping, const py::object& position, double yaw, double pitch, double roll) {
+  const Numbers at = numbers_of(position, "ping: position", 0, 3);
+  const Numbers turn = numbers_of(py::make_tuple(yaw, pitch, roll), "ping: yaw, pitch, roll", 0, 3);
+  const double pose[] = {at.at(0), at.at(1), at.at(2), turn.at(0), turn.at(1), turn.at(2)};
+  ping.options.pose = pose_text(pose);
+  return ping;
+}
+
+/// Settles event and options of a ping; returns its simulator.
+PingSimulator settle(MadePing& ping, int threads) {
+  ping.event = tool::asked_event(ping.options);
+  ping.simulation = ping.by->simulation;
+  ping.simulation.seed = ping.options.common.seed;
+  ping.simulation.threads = threads;
+  ping.simulation.outputs = tool::asked_simulation(ping.options.common, ping.options).outputs;
+  return ping.by->simulator->with(ping.simulation);
+}
+
+std::shared_ptr<MadePing> make(MadePing ping, int threads) {
+  const PingSimulator simulator = settle(ping, threads);
+  ping.made = simulator.ping(*surfels_of(ping, simulator), ping.event);
+  return std::make_shared<MadePing>(std::move(ping));
+}
+
+}  // namespace
+
+Scene::Scene(LoadedScene given, tool::SceneOptions how, SceneInstances of)
+    : loaded(std::make_shared<const LoadedScene>(std::move(given))),
+      prepared(std::make_shared<const PreparedScene>(std::shared_ptr<const SceneCloud>(loaded, &loaded->scene))),
+      options(std::move(how)),
+      instances(std::move(of)) {}
+
+std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator) {
+  if (!ping.scene->loaded->mesh) return ping.scene->prepared;
+  tool::MeshSample sample = tool::mesh_sample_for(ping.options, simulator, ping.event, *ping.scene->loaded);
+  if (!sample.scene) return ping.scene->prepared;
+  return std::make_shared<const PreparedScene>(std::move(*sample.scene), simulator.options().threads);
+}
+
+Simulator::Simulator(const Sonar& of, const Environment& environment, const py::kwargs& keys)
+    : sonar(of), head(tool::set_up_head(of.file, of.spec, environment)) {
+  set_keywords(keywords(options), keys, "PingSimulator");
+  options.run.sonar = sonar.file.path;
+  options.mount = tool::mounting_text(sonar.file);
+  simulation = tool::asked_simulation(options.common, options);
+  for (const std::string& stage : options.with) force_stage(stage, true, {}, head.environment, simulation);
+  for (const std::string& stage : options.without) force_stage(stage, false, {}, head.environment, simulation);
+  require_depths_known(head.environment, "environment");
+  simulator.emplace(head.head, head.environment, simulation);
+}
+
+py::object io(const char* function) { return py::module_::import("insonify._insonify_io").attr(function); }
+
+std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::object& normals, const py::object& areas,
+                                       const py::object& material, const py::object& instance, const py::kwargs& keys) {
+  const Numbers places = numbers_of(points, "Scene: points", 3);
+  const py::ssize_t n = places.shape(0);
+  if (n == 0) fail(ErrorKind::argument, "Scene: points has no row, must have one or more");
+  PointArrays arrays;
+  arrays.point = vectors_of(places);
+  if (!normals.is_none()) arrays.normal = vectors_of(numbers_of(normals, "Scene: normals", 3, n));
+  for (std::size_t i = 0; i < arrays.normal.size(); ++i)
+    if (arrays.normal[i].isZero(0)) fail(ErrorKind::argument, "Scene: normals: row ", i, " is zero, has no direction");
+  if (!areas.is_none()) {
+    const Numbers given = numbers_of(areas, "Scene: areas", 0, n);
+    arrays.area.assign(given.data(), given.data() + n);
+  }
+  for (std::size_t i = 0; i < arrays.area.size(); ++i)
+    if (arrays.area[i] < 0) fail(ErrorKind::argument, "Scene: areas[", i, "] = ", arrays.area[i], ", must be >= 0");
+  tool::SceneOptions how;
+  set_keywords(keywords(how), keys, "Scene");
+  if (py::isinstance<py::str>(material))
+    how.material = py::cast<std::string>(material);
+  else if (!material.is_none())
+    arrays.label = whole_numbers<std::uint16_t>(material, "Scene: material", n, 65533);
+  SceneInstances instances;
+  if (!instance.is_none())
+    for (const auto of : whole_numbers<std::uint32_t>(instance, "Scene: instance", n, 4294967294.0))
+      instances.emplace(static_cast<std::uint32_t>(instances.size()), of);
+  arrays.options = tool::load_options({}, how);
+  if (arrays.normal.empty() || arrays.area.empty())
+    io("complete")(py::capsule(&arrays));
+  else
+    complete(arrays);
+  arrays.loaded.report.format = "arrays";
+  const py::gil_scoped_release release;
+  return std::make_shared<Scene>(std::move(arrays.loaded), std::move(how), std::move(instances));
+}
+
+std::shared_ptr<MadePing> next_of(Pings& pings) {
+  const py::gil_scoped_release release;
+  const auto next = pings.next([] {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  });
+  return next.value_or(nullptr);
+}
+
+std::shared_ptr<MadePing> ping(const By& by, const Of& scene, const py::object& position, double yaw, double pitch,
+                               double roll, const py::kwargs& keys) {
+  const MadePing ping = asked_at(asked(by, scene, keys, "ping"), position, yaw, pitch, roll);
+  Pings one(1, 1, [&ping](std::size_t) { return make(ping, 0); });
+  return next_of(one);
+}
+
+py::list plan(const By& by, const Of& scene, const py::object& position, double yaw, double pitch, double roll,
+              const py::kwargs& keys) {
+  MadePing ping = asked_at(asked(by, scene, keys, "plan"), position, yaw, pitch, roll);
+  py::list stages;
+  const PingSimulator simulator = settle(ping, 0);
+  for (const PlannedStage& s : simulator.plan(*surfels_of(ping, simulator), ping.event).stages) {
+    using namespace py::literals;
+    stages.append(py::dict("name"_a = s.name, "included"_a = s.included, "why"_a = s.why, "bound_db"_a = s.bound_db));
+  }
+  return stages;
+}
+
+std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& poses, int threads,
+                             const py::kwargs& keys) {
+  if (threads < 0 || threads > 1024) fail(ErrorKind::argument, "pings: threads = ", threads, ", must be 0 to 1024");
+  const Numbers numbers = numbers_of(poses, "pings: poses", 6);
+  const std::vector<double> pose(numbers.data(), numbers.data() + numbers.size());
+  const MadePing each = asked(by, scene, keys, "pings");
+  return std::make_unique<Pings>(pose.size() / 6, thread_count(threads), [each, pose](std::size_t i) {
+    MadePing ping = each;
+    ping.options.pose = pose_text(&pose[6 * i]);
+    ping.options.ping = static_cast<int>(i);
+    return make(std::move(ping), 1);
+  });
+}
+
+py::array array_of(const Soundings& soundings) {
+  py::list fields;
+  fields.append(py::make_tuple("position", "f8", py::make_tuple(3)));
+  each_column(
+      [&]<typename T>(const SoundingColumn& column, const std::vector<T>&) {
+        fields.append(py::make_tuple(column.name, py::dtype::of<T>()));
+      },
+      soundings);
+  py::array table(py::dtype::from_args(fields), std::vector{static_cast<py::ssize_t>(soundings.size())});
+  std::size_t offset = 0;
+  const auto fill = [&](const SoundingColumn&, const auto& column) {
+    for (std::size_t i = 0; i < column.size(); ++i)
+      std::memcpy(static_cast<char*>(table.mutable_data(i)) + offset, &column[i], sizeof(column[0]));
+    offset += sizeof(column[0]);
+  };
+  fill({}, soundings.position);
+  each_column(fill, soundings);
+  return table;
+}
+
+}  // namespace insonify::python

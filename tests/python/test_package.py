@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The package: what it loads, its docs and stubs, its examples."""
+from __future__ import annotations
+
+import ast
+import importlib.util
+import inspect
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import insonify as iy
+import pytest
+
+root = Path(__file__).parents[2]
+package = Path(iy.__file__).parent
+examples = sorted((root / "apps").glob("*.py"))
+
+
+def run(*arguments, **options):
+    return subprocess.run([sys.executable, *arguments], check=True, text=True, capture_output=True, **options).stdout
+
+
+def test_neither_pcl_nor_vtk_is_loaded_before_it_is_needed(folder):
+    program = """
+import insonify as iy, numpy as np
+def libraries(): return {word for word in ("libvtk", "libpcl", "libgdal") if word in open("/proc/self/maps").read()}
+grid = np.stack(np.meshgrid(np.arange(5.0), np.arange(5.0), [0.0]), -1).reshape(-1, 3)
+scene = iy.Scene(grid, normals=np.tile((0, 0, 1), (25, 1)), areas=np.ones(25))
+sim = iy.PingSimulator(iy.sonar("p900-45", beams=4, max_range=5), iy.Environment(temperature_c=4))
+for ping in sim.pings(scene, [(0, 0, 2, 0, 45, 0)], keep="contributors"): ping.soundings, ping.material_image
+print(sorted(libraries()))
+iy.load_scene("harbour.ply")
+print(sorted(libraries())[:2])
+"""
+    before, after = run("-c", program, cwd=folder).splitlines()
+    assert before == "[]" or before == "['libgdal']"
+    assert "libpcl" in after and "libvtk" in run("-c", program.replace("[:2]", ""), cwd=folder).splitlines()[1]
+
+
+def public_things():
+    for name in iy.__all__:
+        thing = getattr(iy, name)
+        yield name, thing
+        if inspect.isclass(thing) and thing.__module__ == "insonify":
+            yield from ((f"{name}.{member}", value) for member, value in vars(thing).items() if member[0] != "_")
+
+
+def test_all_that_is_public_has_docs():
+    for name, thing in public_things():
+        if name != "__version__":
+            assert thing.__doc__ and len(thing.__doc__.split("\n\n", 1)[-1]) >= 3, name
+
+
+def test_docs_name_all_keywords():
+    for thing, words in ((iy.sonar, ("min_range_m [m]", "azimuths_deg [deg]", "shading")),
+                         (iy.Environment.__init__, ("temperature_c [deg C]", "surface_height_m [m]", "wind_speed_m_s")),
+                         (iy.PingSimulator.__init__, ("accuracy_db", "noise", "looks_range", "seed", "without")),
+                         (iy.load_scene, ("unit", "viewpoint", "mesh_spacing")), (iy.Scene.__init__, ("points", "areas")),
+                         (iy.PingSimulator.ping, ("position", "deg", "turn_rate", "keep", "number", "velocity", "seed"))):
+        for word in words:
+            assert f"{word}" in thing.__doc__, (thing, word)
+
+
+def test_stubs_have_all_that_is_public_and_nothing_else():
+    names = set()
+    for node in ast.parse((package / "__init__.pyi").read_text()).body:
+        if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
+            names.add(node.name)
+            for member in node.body if isinstance(node, ast.ClassDef) else []:
+                name = member.name if isinstance(member, ast.FunctionDef) else ast.unparse(getattr(member, "target", member))
+                if name[0] not in "_." and hasattr(iy, node.name):
+                    names.add(f"{node.name}.{name}")
+    public = {name for name, _ in public_things() if name != "__version__"}
+    assert names == public
+    assert (package / "py.typed").exists()
+
+
+@pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
+@pytest.mark.parametrize("example", examples, ids=lambda path: path.name)
+def test_examples_pass_mypy(example, tmp_path):
+    run("-m", "mypy", "--strict", "--cache-dir", str(tmp_path), str(example), env={**os.environ, "MYPYPATH": str(package.parent)})
+
+
+def test_the_data_set_example():
+    lines = run(str(root / "apps/05_dataset.py")).splitlines()
+    assert len(lines) == 7 and lines[-1].endswith("True") and all("64 beams" in line for line in lines[:-1])
+
+
+def test_the_sweep_example(tmp_path):
+    out = run(str(root / "apps/06_sweep.py"), str(tmp_path / "sweep.png"))
+    assert out.count("dB re 1 uPa") == 4
+    if importlib.util.find_spec("matplotlib"):
+        assert (tmp_path / "sweep.png").read_bytes()[1:4] == b"PNG"
+    else:
+        assert "no chart" in out
