@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Puts what Doxygen reads into FOLDER:
 #   insonify/MODULE/*.hpp   the public headers, each in the group of its module; (E12) links to that row of the equations
-#   pages/*.md              README.md, docs/*.md and docs/results/*.md: a page's label is its name, a heading's is NAME-ITS-WORDS
+#   pages/*.md              README.md, docs/*.md and docs/results/*.md: a page's label is its name (of results: results-NAME), a heading's is NAME-ITS-WORDS
 #   files/                  other files that the pages link to
 use strict;
 use warnings;
@@ -41,7 +41,7 @@ for my $path (grep { !/_internal\.hpp$/ } glob 'modules/*/*.hpp') {
 }
 
 for my $path ('README.md', glob('docs/*.md'), glob('docs/results/*.md')) {
-  my $page = $path eq 'README.md' ? 'mainpage' : basename($path, '.md');
+  my $page = page_of($path);
   my $folder = $path eq 'README.md' ? '' : dirname($path) . '/';
   my ($fenced, $first, $text, %seen) = (0, 1, '');
   for my $line (split /^/, slurp($path)) {
@@ -75,6 +75,13 @@ for my $path ('README.md', glob('docs/*.md'), glob('docs/results/*.md')) {
   spew("$stage/pages/$page.md", $text);
 }
 
+# The name of a page. Pages of results may be named as pages of docs/ are.
+sub page_of {
+  my ($path) = @_;
+  return 'mainpage' if $path eq 'README.md';
+  return ($path =~ m{^docs/results/} ? 'results-' : '') . basename($path, '.md');
+}
+
 # A link of a page: to a page or heading, to the web, or to a file, which is copied.
 sub link_of {
   my ($words, $target, $folder, $page) = @_;
@@ -86,8 +93,8 @@ sub link_of {
   for (split m{/}, "$folder$path") { if ($_ eq '..') { pop @parts } else { push @parts, $_ } }
   my $full = join '/', @parts;
   die "$page: $target does not exist\n" unless -e $full;
-  if ($full =~ m{^(?:docs/(?:results/)?([\w-]+)|(README))\.md$}) {
-    my $name = $1 // 'mainpage';
+  if ($full =~ m{^(?:docs/(?:results/)?[\w-]+|README)\.md$}) {
+    my $name = page_of($full);
     return $name eq 'mainpage' ? "[$words](index.html)" : "[$words](\@ref $name" . ($heading ? "-$heading" : '') . ')';
   }
   return $words =~ /`/ ? $words : "`$words`" if -d $full;
