@@ -69,6 +69,7 @@ TEST_F(RecordRun, pictures_are_of_levels_as_recorded) {
   succeed("image " + aris + " --view grey --ping 1 -o grey.png -q");
   EXPECT_EQ(size_of("grey.png"), 48 * 2000);
   expect_refused("image " + side_scan + " --layer noise -o x.png", 2, {"is a recording, which has none"});
+  expect_refused("image " + side_scan + " -o x.png", 2, {"--view fan shows beams by bearing", "take --view waterfall"});
   expect_refused("image " + oculus + " --ping 3 -o x.png", 2, {"--ping = 3, must be below 3"});
 }
 

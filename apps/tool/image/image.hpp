@@ -111,6 +111,7 @@ struct ViewSpec {
   const char* beam_word = "";                   ///< that --beam takes beside a number
   BeamChoice beam_choice = BeamChoice::one;     ///< that the word means
   BeamChoice default_choice = BeamChoice::one;  ///< without --beam
+  bool of_bearings = false;  ///< shows beams by bearing, which the sides of a recorded side-scan have not
   /// Set for a view that reads what it draws by itself, in place of `draw`.
   void (*draw_alone)(const ImageOptions& options) = nullptr;
 };

@@ -183,6 +183,9 @@ void image(const ImageOptions& o) {
   const std::size_t pings = run.cube.pings.size();
   if (o.ping >= pings)
     fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", pings, ", the number of pings in ", o.run);
+  if (run.side_scan && view_of(o).of_bearings)
+    fail(ErrorKind::argument, "--view ", o.view, " shows beams by bearing, which the sides of a side-scan (", o.run,
+         ") have not; take --view waterfall");
   choose_beam(o, run.cube.pings.front().fan);
 
   Progress progress(o.common, o.animate ? static_cast<int>(pings) : 1);

@@ -8,7 +8,8 @@ ViewSpec fan_view() {
           .shows = "beams and ranges to scale",
           .options = {annotate_option, animate_option},
           .draw = [](const PictureRequest& job) { show_fan(levels_of(job), job.picture, job.path); },
-          .max_db = max_db_of_image};
+          .max_db = max_db_of_image,
+          .of_bearings = true};
 }
 
 }  // namespace insonify::tool

@@ -84,7 +84,8 @@ ViewSpec panels_view() {
           .shows = "fan, one beam, its pattern and facts",
           .options = {annotate_option, animate_option},
           .draw = draw_panels,
-          .max_db = max_db_of_image};
+          .max_db = max_db_of_image,
+          .of_bearings = true};
 }
 
 }  // namespace insonify::tool

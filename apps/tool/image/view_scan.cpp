@@ -125,7 +125,8 @@ ViewSpec scan_view() {
                        &ImageOptions::frame,
                        "head, as an operator sees it, or world: the vehicle's motion compensated",
                        {.words = {"head", "world"}}}},
-          .draw = draw_scan};
+          .draw = draw_scan,
+          .of_bearings = true};
 }
 
 }  // namespace insonify::tool
