@@ -19,7 +19,7 @@ constexpr float per_thickness = 16;   // how far below a node's plane its surfac
 constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
 constexpr std::size_t blocks_at_once = 16;
 
-/// Part of a cut.
+/// What stands for the surfels of some blocks.
 struct Part {
   SceneCloud scene;
   std::vector<std::uint32_t> stands_for;

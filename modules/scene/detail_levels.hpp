@@ -13,15 +13,15 @@ namespace insonify {
 
 /// One surfel that stands for neighbouring surfels of one material on one smooth piece of surface (E137).
 struct DetailNode {
-  Eigen::Vector3f point =
-      Eigen::Vector3f::Zero();  ///< area-weighted mean of the surfels' centres [m], relative to the scene's origin
+  /// Area-weighted mean of the surfels' centres [m], relative to the scene's origin.
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< area-weighted mean of their normals, a unit vector
   float area = 0;                                    ///< sum of their areas [m^2]
   float noise = 0;                                   ///< root of their area-weighted mean square [m]
   float extent = 0;                                  ///< radius about `point` of a ball that holds the surfels [m]
   float thickness = 0;            ///< most of how far a child's middle lies from the plane, and its own thickness [m]
   float spread = 0;               ///< mean square sine of the angle between their normals and `normal`
-  std::uint32_t nearest = 0;      ///< index of the surfel nearest to `point`, whose id the node has
+  std::uint32_t nearest = 0;      ///< surfel for which the child nearest to `point` stands; the node has its id
   std::uint32_t first_child = 0;  ///< in DetailLevels::child
   std::uint16_t children = 0;     ///< number of them
   std::uint16_t material = 0;     ///< of all of them
