@@ -53,6 +53,9 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "simulates imaging sonar on captured
 Headers, static libraries and files for CMake's find_package(insonify).")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libfftw3-dev, liblz4-dev, libssl-dev, pkg-config")
+if(EMBREE_LIBRARY)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libembree-dev")
+endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "insonify (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), cmake,
  libhdf5-dev, libzstd-dev, libtomlplusplus-dev, libpcl-dev, libvtk9-dev, libgdal-dev, libglew-dev, libegl-dev, libx11-dev")
 string(REPLACE "\n" "" CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS}")

@@ -12,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "core/radix_sort.hpp"
 #include "scene/detail_levels.hpp"
+#include "scene/surface_rays.hpp"
 
 namespace insonify {
 namespace {
@@ -81,21 +82,27 @@ void enclose(const SceneCloud& scene, std::span<const std::uint32_t> members, Su
 
 }  // namespace
 
-struct PreparedScene::Levels {
-  std::once_flag once;
+struct PreparedScene::MadeLater {
+  std::once_flag levels_once, rays_once;
   DetailLevels levels;
+  std::unique_ptr<const SurfaceRays> rays;
 };
 
 PreparedScene::PreparedScene(const SceneCloud& scene, int threads)
     : PreparedScene(std::shared_ptr<const SceneCloud>(std::shared_ptr<void>(), &scene), threads) {}
 
 const DetailLevels& PreparedScene::levels(int threads) const {
-  std::call_once(levels_->once, [&] { levels_->levels = detail_levels(*scene_, whole_.mean_spacing, threads); });
-  return levels_->levels;
+  std::call_once(later_->levels_once, [&] { later_->levels = detail_levels(*scene_, whole_.mean_spacing, threads); });
+  return later_->levels;
+}
+
+const SurfaceRays& PreparedScene::rays(double footprint) const {
+  std::call_once(later_->rays_once, [&] { later_->rays = std::make_unique<SurfaceRays>(*scene_, footprint); });
+  return *later_->rays;
 }
 
 PreparedScene::PreparedScene(std::shared_ptr<const SceneCloud> shared, int threads)
-    : scene_(std::move(shared)), levels_(std::make_shared<Levels>()) {
+    : scene_(std::move(shared)), later_(std::make_shared<MadeLater>()) {
   const SceneCloud& scene = *scene_;
   require_valid(scene, "PreparedScene");
   if (scene.size() > std::numeric_limits<std::uint32_t>::max())

@@ -16,6 +16,7 @@
 namespace insonify {
 
 struct DetailLevels;
+class SurfaceRays;
 
 /// A block of neighbouring surfels and a bounding ball of their centres.
 struct SurfelBlock {
@@ -72,14 +73,17 @@ class PreparedScene {
   /// Returns the levels of detail of the scene, from its mean spacing on. They are made by the first call; several
   /// threads may call at once. Copies share them. Errors as detail_levels.
   const DetailLevels& levels(int threads = 0) const;
+  /// Returns the rays between surfaces of discs of this footprint. Their tree is made by the first call, which settles
+  /// the footprint; several threads may call at once. Copies share it. Errors as SurfaceRays.
+  const SurfaceRays& rays(double footprint) const;
 
  private:
-  struct Levels;
+  struct MadeLater;
   std::shared_ptr<const SceneCloud> scene_;
   std::vector<SurfelBlock> blocks_;
   std::vector<std::uint32_t> order_;
   WholeScene whole_;
-  std::shared_ptr<Levels> levels_;
+  std::shared_ptr<MadeLater> later_;
 };
 
 }  // namespace insonify

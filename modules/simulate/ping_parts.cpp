@@ -90,4 +90,15 @@ void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, Ping
   layers.add("multipath", parts.multipath.echoes);
 }
 
+void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers) {
+  const double rays_per_cell = ping.options.effects.double_echoes;
+  if (!(rays_per_cell > 0)) return;
+  std::vector<std::uint32_t> seen =
+      ping.view.sampling.kind == SamplingKind::rays ? parts.sampling.scatterers.surfel : parts.visible.surfel;
+  std::sort(seen.begin(), seen.end());
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+  parts.doubles = double_echoes(prepared, seen, ping.view, ping.sent, {rays_per_cell});
+  layers.add("double-echoes", parts.doubles.echoes);
+}
+
 }  // namespace insonify

@@ -147,6 +147,7 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
   LayerSum layers(ping, *shared_->synthesizers);
   layers.add("direct", *direct);
   add_multipath(scene, ping, parts, layers);
+  add_double_echoes(scene, ping, parts, layers);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (ping.options.effects.noise) layers.add_noise();
   layers.finish(result);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "acoustics/double_echoes.hpp"
 #include "acoustics/echo_stream.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "sampling/visible_surfels.hpp"
@@ -22,6 +23,7 @@ struct PingParts {
   Sampling sampling{};       ///< the report; patches if stored
   Echoes direct{};           ///< if stored
   Multipath multipath{};
+  DoubleEchoes doubles{};
 };
 
 /// The surfels that the head sees, counted; sets ping.view.sampling.energy.
@@ -38,6 +40,9 @@ std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const R
 /// echo by a boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible surfels are
 /// therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
 void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
+
+/// Adds the layer of echoes by way of two surfaces (E158), if the options say so, and leaves them in parts.doubles.
+void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
 struct Reverberation {

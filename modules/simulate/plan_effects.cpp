@@ -148,6 +148,11 @@ constexpr PlanStage effects[] = {
     {"multipath", DecidedBy::budget, [](const PlanCause& of) { return has_boundary(of.environment); },
      "sound also comes by way of surface or bottom", "there is neither surface nor bottom", multipath_bound,
      [](bool in, E&, O& o) { o.effects.multipath = chosen(in); }, [](const O& o) { return o.effects.multipath; }},
+    {"double-echoes", DecidedBy::choice, [](const PlanCause& of) { return of.options.effects.double_echoes > 0; },
+     "sound goes on from one surface to another", "not asked for", double_echo_bound,
+     [](bool in, E&, O& o) {
+       if (!in || o.effects.double_echoes == 0) o.effects.double_echoes = in ? usual_double_echoes : 0;
+     }},
     {"volume", DecidedBy::choice, [](const PlanCause& of) { return of.environment.volume_scattering_db.has_value(); },
      strength_given, "volume.scattering_db is not given", nullptr,
      [](bool in, E& e, O&) {

@@ -54,6 +54,11 @@ void require_valid(const SynthesisSettings& s, bool elements, const char* who) {
                   "within 1e-5 and 0.1 for method true_delays");
 }
 
+void require_valid(const EffectSettings& e, const char* who) {
+  Checker{who, "effects."}.require(e.double_echoes == 0 || (e.double_echoes >= 1e-6 && e.double_echoes <= 1e4),
+                                   "double_echoes", e.double_echoes, "0, or within 1e-6 and 10000");
+}
+
 void require_valid(const DetectionOptions& d, const char* who) {
   const Checker check{who, "detection."};
   check.require(d.noise_floor_db < infinity, "noise_floor_db", d.noise_floor_db,
@@ -71,6 +76,7 @@ void require_valid(const DetectionOptions& d, const char* who) {
 void require_valid(const SimulationOptions& o, const char* who) {
   require_valid(o.sampling, who);
   require_valid(o.synthesis, o.outputs.elements, who);
+  require_valid(o.effects, who);
   require_valid(o.detection, who);
   const int order = o.effects.absorption_order.value_or(0);
   Checker{who, "effects."}.require(order >= 0 && order <= 2, "absorption_order", order, "0, 1 or 2");

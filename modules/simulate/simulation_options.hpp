@@ -17,6 +17,8 @@ enum class Choice { as_needed, always, never };
 
 /// SamplingSettings::detail_width where it is asked for without a number.
 inline constexpr double usual_detail_width = 0.5;
+/// EffectSettings::double_echoes where they are asked for without a number.
+inline constexpr double usual_double_echoes = 1;
 
 /// Which points stand for the scene.
 struct SamplingSettings {
@@ -60,6 +62,9 @@ struct EffectSettings {
   std::optional<int> absorption_order{};
   Choice refraction = Choice::as_needed;  ///< bends rays by the environment's profile (E43)
   Choice moving = Choice::as_needed;      ///< whether the motion of the head counts (E44)
+  /// Echoes by way of two surfaces (E158): rays from each resolution cell of the surface, within 0 and 10 000; 0: no
+  /// such echoes.
+  double double_echoes = 0;
 };
 
 /// Takes the contributors of a ping in bands of beams.

@@ -63,6 +63,7 @@ struct PingOptions {
   int rays_per_beam = library_options.sampling.rays_per_beam;
   bool noise = false;
   bool multipath = false;
+  double double_echoes = library_options.effects.double_echoes;
   std::vector<std::string> keep;  ///< "elements", "mask", "contributors", "insonification", "paths"
   int contributors = 4;           ///< of each pixel, if they are kept
   bool layers = false;

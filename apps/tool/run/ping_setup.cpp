@@ -40,6 +40,7 @@ SimulationOptions asked_simulation(const CommonOptions& common, const PingOption
   s.accuracy_db = o.accuracy_db;
   s.effects.noise = o.noise;
   if (o.multipath) s.effects.multipath = Choice::always;
+  s.effects.double_echoes = o.double_echoes;
   s.outputs.layers = o.layers;
   s.outputs.looks_range = o.looks_range;
   s.outputs.looks_pings = o.looks_pings;

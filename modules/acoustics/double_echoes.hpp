@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "acoustics/echoes.hpp"
+#include "acoustics/multipath_echoes.hpp"
+#include "acoustics/transmission.hpp"
+#include "scene/prepared_scene.hpp"
+
+namespace insonify {
+
+/// Echoes by way of two surfaces.
+struct DoubleEchoes {
+  Echoes echoes;                     ///< those of the two senses of a pair stand side by side
+  std::vector<std::uint32_t> first;  ///< of every echo, the surfel that sound met first, index in the scene
+  std::vector<std::uint32_t> last;   ///< and the one that it came back from
+  std::size_t rays = 0;              ///< sent from surface to surface
+};
+
+/// Options of double_echoes.
+struct DoubleEchoOptions {
+  /// Rays sent from each cell of range resolution and beam width of the surface that the head sees, on average, within
+  /// 1e-6 and 1e4. The error of the expected level of a piece of image falls with the root of its rays.
+  double rays_per_cell = 1;
+};
+
+/// Echoes that meet two rough surfaces: out to a patch i, on to a patch j, and back (E158).
+///
+///   amplitude = sqrt2 p0 xi_ij sqrt(sigma_i(h, j) dA_i sigma_j(i, h) dA_j) b_o b_i exp(i k (r_i + r_ij + r_j))
+///               / (r_i r_ij r_j),   delay = (r_i + r_ij + r_j) / c
+///
+/// sigma is the law of a surface for both directions of its path, b the one-way pattern of each leg (the square root of
+/// the two-way pattern E14; times E57 on the leg out). u and v are those of the leg back from j. Sound also goes from j
+/// to i: another echo of the same delay and amplitude, with the same random number xi_ij, from the other direction. A
+/// beam that holds both directions adds them coherently, and hears twice the power of a radiosity sum.
+///
+/// Pairs are drawn by rays (E159): from patch i, half of them by its cosine, half over the lobe of its law, if it has
+/// one. W = sigma_i dA_i sigma_j density / (rays pdf cos_j) of the first surface met takes the place of both
+/// cross-sections and of r_ij^2. Since both ends send rays, each pair is met twice, and each ray stands for W / 2. The
+/// expected power is that of the sum over all pairs. Rays and xi are bound to surfels: they stand still while the head
+/// moves.
+///
+/// seen     the surfels that the head sees, indices in the scene, ascending: both ends are among them
+/// returns  two echoes per ray that meets a surfel of `seen`, but those whose patterns take off more than 80 dB, or whose
+///          half path lies farther outside the view's gate than the pulse reaches
+///
+/// Of second order: echoes by three surfaces and more are left out. Legs are straight, surfels are smooth. Does not
+/// depend on the thread count. Throws Error for an invalid argument, and Error(runtime) without Embree.
+DoubleEchoes double_echoes(const PreparedScene& scene, std::span<const std::uint32_t> seen, const View& view,
+                           const Transmission& sent, const DoubleEchoOptions& options = {});
+
+}  // namespace insonify

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SurfaceRays of a build without Embree.
+#include "core/error.hpp"
+#include "scene/surface_rays.hpp"
+
+namespace insonify {
+
+struct SurfaceRays::Tree {};
+
+bool SurfaceRays::available() { return false; }
+
+SurfaceRays::SurfaceRays(const SceneCloud&, double) {
+  fail(ErrorKind::runtime, "SurfaceRays: this build of insonify has no rays from surface to surface; install ",
+       "libembree-dev, and build it again");
+}
+
+SurfaceRays::~SurfaceRays() = default;
+SurfaceRays::SurfaceRays(SurfaceRays&&) noexcept = default;
+SurfaceRays& SurfaceRays::operator=(SurfaceRays&&) noexcept = default;
+SurfaceHit SurfaceRays::first_hit(const SurfaceRay&) const { return {}; }
+
+}  // namespace insonify

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/surface_rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <embree3/rtcore.h>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr float near_radii = 3;      // so near, backs belong to the surface that the ray leaves
+constexpr float noise_widths = 3;    // so near to its plane, a start belongs to a surfel's surface
+constexpr float cluster_radii = 2;   // along the ray, what is one place of one surface
+constexpr float cluster_height = 1;  // across it, in radii
+constexpr float like_normals = 0.7f;
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+/// A ray under way, as Embree hands it to the filter.
+struct Query {
+  RTCIntersectContext context;  // first, so that its address is that of the query
+  const SceneCloud& scene;
+  float footprint;
+  const SurfaceRay& ray;
+  /// Where the first surface is met; surfels met beside it are added up. nullptr: it is looked for.
+  struct Place {
+    Vector3f at, normal;
+    float radius;
+    std::uint32_t nearest;
+    float squared_distance;
+    int surfels;
+  }* place = nullptr;
+
+  float radius(std::uint32_t j) const { return footprint * std::sqrt(scene.area[j]); }
+  float noise(std::uint32_t j) const { return scene.noise.empty() ? 0 : scene.noise[j]; }
+
+  /// Whether surfel j at `distance` belongs to the surface that the ray leaves.
+  bool passes(std::uint32_t j, float distance) const {
+    if (j == ray.surfel) return true;
+    float height = scene.normal[j].dot(ray.from - scene.point[j]);
+    if (!scene.normals_oriented) height = std::abs(height);
+    if (height <= 0 && distance < near_radii * radius(j)) return true;
+    return std::abs(height) <= noise_widths * (noise(j) + noise(ray.surfel));
+  }
+  /// Adds surfel j, met at `distance`, if it belongs to the place.
+  void add(std::uint32_t j, float distance) const {
+    const Vector3f at = ray.from + distance * ray.direction;
+    float alike = scene.normal[j].dot(place->normal);
+    if (!scene.normals_oriented) alike = std::abs(alike);
+    if (alike < like_normals || std::abs((at - place->at).dot(place->normal)) > cluster_height * place->radius) return;
+    ++place->surfels;
+    const float squared = (scene.point[j] - place->at).squaredNorm();
+    if (squared > place->squared_distance || (squared == place->squared_distance && j > place->nearest)) return;
+    place->nearest = j, place->squared_distance = squared;
+  }
+
+  /// Takes or refuses the disc that a ray has met.
+  static void filter(const RTCFilterFunctionNArguments* met) {
+    if (met->valid[0] != -1) return;
+    const auto& query = *reinterpret_cast<const Query*>(met->context);
+    const std::uint32_t surfel = RTCHitN_primID(met->hit, met->N, 0);
+    const float distance = RTCRayN_tfar(met->ray, met->N, 0);
+    const bool passes = query.passes(surfel, distance);
+    if (query.place && !passes) query.add(surfel, distance);
+    if (query.place || passes) met->valid[0] = 0;
+  }
+};
+
+RTCRayHit ray_within(const SurfaceRay& ray, float from, float to) {
+  RTCRayHit result{};
+  result.ray.org_x = ray.from.x(), result.ray.org_y = ray.from.y(), result.ray.org_z = ray.from.z();
+  result.ray.dir_x = ray.direction.x(), result.ray.dir_y = ray.direction.y(), result.ray.dir_z = ray.direction.z();
+  result.ray.tnear = from, result.ray.tfar = to;
+  result.ray.mask = 0xffffffffu;
+  result.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  return result;
+}
+
+}  // namespace
+
+struct SurfaceRays::Tree {
+  const SceneCloud& scene;
+  float footprint;
+  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device;
+  std::unique_ptr<RTCSceneTy, ReleaseScene> discs;
+
+  Tree(const SceneCloud& of, double disc) : scene(of), footprint(static_cast<float>(disc)) {
+    device.reset(rtcNewDevice(nullptr));
+    require_no_error();
+    discs.reset(rtcNewScene(device.get()));
+    rtcSetSceneFlags(discs.get(), RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
+    auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                                                                4 * sizeof(float), scene.size()));
+    auto* normals = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3,
+                                                                3 * sizeof(float), scene.size()));
+    require_no_error();
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      std::copy_n(scene.point[i].data(), 3, corners + 4 * i);
+      corners[4 * i + 3] = footprint * std::sqrt(scene.area[i]);
+      std::copy_n(scene.normal[i].data(), 3, normals + 3 * i);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(discs.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(discs.get());
+    require_no_error();
+  }
+
+  void require_no_error() const {
+    const RTCError error = rtcGetDeviceError(device.get());
+    if (error != RTC_ERROR_NONE)
+      fail(ErrorKind::runtime, "SurfaceRays: Embree cannot build a tree over ", scene.size(), " surfels (",
+           error == RTC_ERROR_OUT_OF_MEMORY ? "memory is short; thin the scene" : "error of its own", ")");
+  }
+};
+
+bool SurfaceRays::available() { return true; }
+
+SurfaceRays::SurfaceRays(const SceneCloud& scene, double footprint) : tree_(std::make_unique<Tree>(scene, footprint)) {}
+
+SurfaceRays::~SurfaceRays() = default;
+SurfaceRays::SurfaceRays(SurfaceRays&&) noexcept = default;
+SurfaceRays& SurfaceRays::operator=(SurfaceRays&&) noexcept = default;
+
+SurfaceHit SurfaceRays::first_hit(const SurfaceRay& ray) const {
+  const SceneCloud& scene = tree_->scene;
+  Query query{{}, scene, tree_->footprint, ray};
+  rtcInitIntersectContext(&query.context);
+  query.context.filter = Query::filter;
+
+  // The nearest disc.
+  RTCRayHit first = ray_within(ray, 0, std::numeric_limits<float>::infinity());
+  rtcIntersect1(tree_->discs.get(), &query.context, &first);
+  if (first.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const std::uint32_t met = first.hit.primID;
+  const float distance = first.ray.tfar;
+  if (scene.normals_oriented && scene.normal[met].dot(ray.direction) >= 0) return {};
+
+  // All discs of that surface there.
+  Query::Place place{ray.from + distance * ray.direction,
+                     scene.normal[met],
+                     query.radius(met),
+                     met,
+                     std::numeric_limits<float>::infinity(),
+                     0};
+  query.place = &place;
+  RTCRayHit beside =
+      ray_within(ray, std::max(0.0f, distance - cluster_radii * place.radius), distance + cluster_radii * place.radius);
+  rtcIntersect1(tree_->discs.get(), &query.context, &beside);
+  const float share = 1 / (static_cast<float>(pi) * tree_->footprint * tree_->footprint);  // of a disc that is surfel
+  return {place.nearest, distance, static_cast<float>(std::max(1, place.surfels)) * share};
+}
+
+}  // namespace insonify

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "scene/scene_cloud.hpp"
+
+namespace insonify {
+
+/// A ray that leaves a surfel.
+struct SurfaceRay {
+  std::uint32_t surfel = 0;   ///< index in the scene; the ray does not meet it
+  Eigen::Vector3f from;       ///< [m], relative to the scene's origin
+  Eigen::Vector3f direction;  ///< unit vector
+};
+
+/// Where a ray first meets a surface.
+struct SurfaceHit {
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t surfel = none;  ///< of the surfels met there, the one whose centre is nearest; none: the ray meets none
+  float distance = 0;           ///< from the start of the ray [m]
+  /// Area of the surfels met there over that of their discs. Its mean over a surface is 1, and its integral over all
+  /// places where rays meet a piece of surface is the area of that piece, at its edges too.
+  float density = 0;
+};
+
+/// Rays from surface to surface of a scene (Embree, oriented discs). Queries are const, may run concurrently, and do not
+/// depend on the number of threads.
+class SurfaceRays {
+ public:
+  /// Whether this build of insonify has Embree. Without it the constructor throws.
+  static bool available();
+
+  /// Builds the tree over the surfels of a scene, which must outlive it, in some 1 us and 150 bytes per surfel. A surfel
+  /// is a disc of radius `footprint` sqrt(area). Throws Error(runtime) without Embree, or if memory is short.
+  SurfaceRays(const SceneCloud& scene, double footprint);
+  ~SurfaceRays();
+  SurfaceRays(SurfaceRays&&) noexcept;
+  SurfaceRays& operator=(SurfaceRays&&) noexcept;
+
+  /// Returns where a ray first meets the front of a surface. It meets none if a back side is in the way. Surfels that
+  /// belong to the surface it leaves are passed: those whose planes hold its start within three standard deviations of
+  /// noise, and those nearer than three radii whose back it would meet.
+  SurfaceHit first_hit(const SurfaceRay& ray) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace insonify

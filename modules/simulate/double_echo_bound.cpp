@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+#include "simulate/plan_stages_internal.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t most_places = 1024;
+
+/// A place of the sample that is in view.
+struct Place {
+  Vector3d at, normal, to_head;  ///< in head axes
+  double area, power, received;  ///< surface [m^2]; of its echo at one element [Pa^2]; of that in all beams
+  const SurfaceScattering* law;
+};
+
+std::vector<Place> places_in_view(const PlanFacts& facts) {
+  const SceneSample& s = facts.sample;
+  std::vector<std::size_t> heard;
+  for (std::size_t i = 0; i < s.energy.size(); ++i)
+    if (s.energy[i] > 0 && s.power[i] > 0) heard.push_back(i);
+  const std::size_t step = (heard.size() + most_places - 1) / most_places;
+  const Eigen::Matrix3d to_head = facts.ping.view.world_from_head.linear().transpose();
+  std::vector<Place> places;
+  for (std::size_t k = 0; k < heard.size(); k += step) {
+    const std::size_t i = heard[k];
+    const std::uint32_t surfel = s.places.surfel[i];
+    const Vector3d direction = unit_vector({s.places.azimuth[i], s.places.elevation[i]});
+    Vector3d normal = to_head * s.scene.normal[surfel].cast<double>();
+    if (normal.dot(direction) > 0) normal = -normal;
+    places.push_back({s.places.range[i] * direction, normal, -direction,
+                      static_cast<double>(s.scene.area[surfel]) * static_cast<double>(step), s.power[i] * step,
+                      s.energy[i] / s.power[i], facts.ping.sent.surfaces[s.places.material[i]].get()});
+  }
+  return places;
+}
+
+/// Power at one element of the echoes by way of i and j, one sense (E158), from those of each alone.
+double pair_power(const Place& i, const Place& j) {
+  const Vector3d between = j.at - i.at;
+  const double squared = between.squaredNorm();
+  if (!(squared > 0)) return 0;
+  const Vector3d direction = between / std::sqrt(squared);
+  const PathAngles here{i.normal.dot(i.to_head), i.normal.dot(direction), i.to_head.dot(direction)},
+      there{j.normal.dot(-direction), j.normal.dot(j.to_head), -direction.dot(j.to_head)};
+  if (!(here.cos_out > 0 && there.cos_in > 0 && here.cos_in > 0 && there.cos_out > 0)) return 0;
+  const auto straight_back = [](const Place& p, double cosine) { return p.law->cross_section({cosine, cosine, 1}); };
+  const double alone = straight_back(i, here.cos_in) * straight_back(j, there.cos_out);
+  if (!(alone > 0)) return 0;
+  const double clamped = squared + (i.area + j.area) / (2 * pi);  // patches are no points
+  return i.law->cross_section(here) * j.law->cross_section(there) *
+         std::sqrt(i.power * j.power * i.area * j.area / alone) / clamped;
+}
+
+}  // namespace
+
+double double_echo_bound(const PlanFacts& facts) {
+  const std::vector<Place> places = places_in_view(facts);
+  std::vector<double> energy(places.size(), 0);
+  parallel_for(places.size(), facts.ping.options.threads, [&](std::size_t j) {
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (i != j) energy[j] += pair_power(places[i], places[j]) * places[j].received;
+  });
+  const double both_senses = 2;  // in one beam they add coherently
+  return bound_of_added_echoes(facts, both_senses * std::accumulate(energy.begin(), energy.end(), 0.0));
+}
+
+}  // namespace insonify
