@@ -60,9 +60,8 @@ AccuracyTask task_of(const SceneCloud& scene, const SonarHead& head, const Pose&
   if (head.column || fan_rows(head.fan).size() != 1)
     fail(ErrorKind::argument, "task_of: ", head.name, " has several rows of beams; the sweep takes sonars with one");
   const ResolvedPing ping = resolve_ping(whole_of(scene), head, {world_from_head}, environment, options, "task_of");
-  const auto& [pulse, medium, echo_options] = ping.sent;
   const Sampling sampling = find_scatterers(scene, world_from_head, head.fan, ping.view.gate, ping.view.sampling);
-  AccuracyTask task{head, medium, direct_echoes(sampling.scatterers, scene.materials, pulse, medium, echo_options)};
+  AccuracyTask task{head, ping.sent.medium, direct_echoes(sampling.scatterers, scene.materials, ping.sent)};
   if (task.echoes.size() == 0) fail(ErrorKind::content, "task_of: nothing of the scene is in fan and range gate");
   return task;
 }

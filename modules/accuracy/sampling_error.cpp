@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/scattering.hpp"
+#include "acoustics/surface_scattering.hpp"
 #include "core/parallel.hpp"
 #include "core/pose.hpp"
 #include "core/random.hpp"

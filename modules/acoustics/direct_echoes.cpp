@@ -7,7 +7,6 @@
 
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/echo_loops_internal.hpp"
-#include "acoustics/scattering.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
@@ -121,27 +120,39 @@ double transmit_pattern(const EchoOptions& options, double azimuth) {
   return gaussian_lobe(options.transmit_width, std::remainder(azimuth, 2 * pi));  // (E57)
 }
 
-Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
-                     const Medium& medium, const EchoOptions& options) {
-  require_valid(pulse, "direct_echoes");
-  require_valid(medium, "direct_echoes");
+SurfaceTable surfaces_of(const Transmission& sent, std::span<const Material> materials) {
+  if (sent.surfaces.empty()) return surface_table(materials, sent.pulse.centre_frequency, sent.medium.sound_speed);
+  if (sent.surfaces.size() != materials.size())
+    fail(ErrorKind::argument, "surfaces_of: sent.surfaces has ", sent.surfaces.size(), " laws, but there are ",
+         materials.size(), " materials");
+  return sent.surfaces;
+}
+
+Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Transmission& sent) {
+  require_valid(sent.pulse, "direct_echoes");
+  require_valid(sent.medium, "direct_echoes");
   for (const Material& material : materials) require_valid(material, "direct_echoes");
-  Echoes echoes = room_for(scatterers.size(), options.threads);
-  const EchoBuilder builder(pulse, medium, options);
-  parallel_blocks(scatterers.size(), block, options.threads, [&](std::size_t begin, std::size_t end) {
+  const SurfaceTable surfaces = surfaces_of(sent, materials);
+  Echoes echoes = room_for(scatterers.size(), sent.echo_options.threads);
+  const EchoBuilder builder(sent.pulse, sent.medium, sent.echo_options);
+  parallel_blocks(scatterers.size(), block, sent.echo_options.threads, [&](std::size_t begin, std::size_t end) {
     std::array<double, block> sigma, xi_re, xi_im;
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t m = scatterers.material[i];
-      if (m >= materials.size())
-        fail(ErrorKind::argument, "direct_echoes: material[", i, "] = ", m, ", but there are ", materials.size());
+      if (m >= surfaces.size())
+        fail(ErrorKind::argument, "direct_echoes: material[", i, "] = ", m, ", but there are ", surfaces.size());
       const double cosine = scatterers.cos_incidence[i];
-      sigma[i - begin] =
-          cross_section(materials[m], {cosine, cosine, scatterers.projected_area[i]}, pulse.centre_frequency);
+      sigma[i - begin] = cosine > 0 ? surfaces[m]->back(cosine) * scatterers.projected_area[i] : 0;
     }
-    surface_amplitudes(options, materials, scatterers, begin, end, xi_re.data(), xi_im.data());
+    surface_amplitudes(sent.echo_options, materials, scatterers, begin, end, xi_re.data(), xi_im.data());
     builder.build(scatterers, begin, end, sigma.data(), xi_re.data(), xi_im.data(), echoes);
   });
   return echoes;
+}
+
+Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
+                     const Medium& medium, const EchoOptions& options) {
+  return direct_echoes(scatterers, materials, {pulse, medium, options});
 }
 
 Echoes target_echoes(const Scatterers& scatterers, std::span<const double> sigma,

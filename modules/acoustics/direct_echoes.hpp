@@ -1,28 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <complex>
-#include <cstdint>
 #include <span>
 
-#include "acoustics/echoes.hpp"
+#include "acoustics/transmission.hpp"
 #include "sampling/scatterers.hpp"
-#include "scene/material.hpp"
-#include "sonar/elevation_pattern.hpp"
-#include "sonar/pulse.hpp"
-#include "sonar/water.hpp"
 
 namespace insonify {
-
-/// Patterns of the head, and amplitudes of the surface.
-struct EchoOptions {
-  SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
-  ElevationShape elevation_shape = ElevationShape::gaussian;
-  double elevation_width = 0;   ///< [rad]; 0: no elevation pattern
-  double elevation_centre = 0;  ///< [rad]
-  std::uint64_t seed = 1;
-  int threads = 0;            ///< 0: all cores
-  double transmit_width = 0;  ///< -3 dB width of the transmitter's one-way intensity in azimuth [rad]; 0: no pattern
-};
 
 /// Two-way pressure response of the head at `elevation` [rad], by shape, width and centre of `options` (E14); 1 without
 /// a pattern.
@@ -33,7 +17,7 @@ double elevation_pattern(const EchoOptions& options, double elevation);
 double transmit_pattern(const EchoOptions& options, double azimuth);
 
 /// The direct echo of every scatterer (E7): amplitude = sqrt2 p0 xi sqrt(sigma) b_E b_T exp(2 i k_c r) / r^2 [Pa], with
-/// sigma the material's cross_section, b_E the elevation pattern and b_T the transmitter's in azimuth.
+/// sigma the cross_section of the material's law, b_E the elevation pattern and b_T the transmitter's in azimuth.
 ///
 /// materials   looked up by scatterers.material
 /// returns     one echo per scatterer, in order; delay = 2 r / c. The phase is reduced to one cycle in double.
@@ -42,6 +26,8 @@ double transmit_pattern(const EchoOptions& options, double azimuth);
 /// xi = sqrt(g) + sqrt(1 - g) z, z the random amplitude of options.amplitude; mean power 1.
 ///
 /// Throws Error for an invalid pulse, medium, material or material index, and for a range that is not > 0.
+Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Transmission& sent);
+/// The same, of a transmission without a table of surfaces.
 Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
                      const Medium& medium, const EchoOptions& options = {});
 

@@ -32,7 +32,7 @@ void keep_wanted(const EchoSink& sink, const VisibleSurfels& visible, std::span<
 
 Echoes echoes_in_motion(const SceneCloud& scene, const Scatterers& patches, const Pose& world_from_head,
                         const Motion& motion, const Transmission& sent) {
-  Echoes echoes = direct_echoes(patches, scene.materials, sent.pulse, sent.medium, sent.echo_options);
+  Echoes echoes = direct_echoes(patches, scene.materials, sent);
   if (!motion.none())
     move_echoes(motion, world_from_head, patches, sent.pulse.centre_frequency, sent.medium.sound_speed, echoes);
   return echoes;
@@ -51,6 +51,7 @@ DirectStream::DirectStream(const SceneCloud& scene, const VisibleSurfels& visibl
                            const Motion& motion, const Transmission& sent)
     : scene_(scene), visible_(visible), world_from_head_(world_from_head), motion_(motion), sent_(sent) {
   sent_.echo_options.threads = 1;
+  sent_.surfaces = surfaces_of(sent, scene.materials);
   for (std::uint32_t k = 0; k < visible.surfel.size(); ++k) {
     const SurfelBounds& s = visible.bounds[k];
     if (first_surfel_.back() == k) chunks_.push_back({0, s.range - s.reach, s.range + s.reach});

@@ -24,8 +24,7 @@ namespace {
 using Eigen::Vector3d;
 using complex = std::complex<double>;
 
-constexpr const char* me = "double_echoes";
-constexpr double echo_floor = 1e-4;  // -80 dB: what patterns may leave of an echo
+constexpr double least_gain = 1e-4;  // -80 dB: what patterns may leave of an echo
 constexpr double nearest = 1e-3;     // [m]: spreading has no bound nearer to the head
 constexpr std::size_t surfels_per_block = 2048;
 
@@ -144,7 +143,7 @@ class PairBuilder {
   void add_sense(const HeadLeg& out, const HeadLeg& back, double path, complex amplitude,
                  std::array<std::uint32_t, 2> from_to, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
     const double gain = out.sent * back.gain;
-    if (!(gain >= echo_floor)) return;
+    if (!(gain >= least_gain)) return;
     add_echo(echoes, path / sound_speed_, back.u, back.v, amplitude * gain);  // (E158)
     ends.insert(ends.end(), from_to.begin(), from_to.end());
   }
@@ -173,11 +172,11 @@ class PairBuilder {
 DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::uint32_t> seen, const View& view,
                            const Transmission& sent, const DoubleEchoOptions& options) {
   const SceneCloud& scene = prepared.scene();
-  require(options.rays_per_cell >= 1e-6 && options.rays_per_cell <= 1e4, me, "rays_per_cell", options.rays_per_cell, "",
-          "within 1e-6 and 1e4");
+  require(options.rays_per_cell >= 1e-6 && options.rays_per_cell <= 1e4, "double_echoes", "rays_per_cell",
+          options.rays_per_cell, "", "within 1e-6 and 1e4");
   for (const std::uint32_t i : seen)
     if (i >= scene.size())
-      fail(ErrorKind::argument, me, ": seen holds ", i, ", but the scene has ", scene.size(), " surfels");
+      fail(ErrorKind::argument, "double_echoes: seen holds ", i, ", but the scene has ", scene.size(), " surfels");
   DoubleEchoes result;
   if (seen.empty()) return result;
   const PairBuilder builder(prepared, seen, view, sent, options);

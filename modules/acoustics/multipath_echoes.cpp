@@ -18,7 +18,6 @@
 #include "acoustics/boundary_internal.hpp"
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/find_legs_internal.hpp"
-#include "acoustics/scattering.hpp"
 #include "core/error.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
@@ -41,12 +40,13 @@ double pulse_margin(const Transmission& sent) {
 
 /// One leg between head and patch, in the axes of the head.
 struct Leg {
-  double range;     ///< [m]
-  double u, v;      ///< direction cosines
-  double cosine;    ///< at the patch
-  complex gain;     ///< one-way pattern times reflection
-  complex sent;     ///< gain of the leg out: with the transmitter's pattern in azimuth too
-  std::uint8_t by;  ///< 0: direct; k: by the k-th boundary
+  double range;      ///< [m]
+  double u, v;       ///< direction cosines
+  double cosine;     ///< at the patch
+  Vector3d towards;  ///< unit vector from the patch along it
+  complex gain;      ///< one-way pattern times reflection
+  complex sent;      ///< gain of the leg out: with the transmitter's pattern in azimuth too
+  std::uint8_t by;   ///< 0: direct; k: by the k-th boundary
 };
 
 /// Up to three legs to one patch, the direct one first.
@@ -70,11 +70,11 @@ class PathBuilder {
         boundaries_(boundaries),
         found_(found),
         echo_options_(sent.echo_options),
+        surfaces_(surfaces_of(sent, scene.materials)),
         to_head_(view.world_from_head.linear().transpose()),
         source_(source_pressure(sent.pulse)),
         sound_speed_(sent.medium.sound_speed),
-        frequency_(sent.pulse.centre_frequency),
-        cycles_per_m_(frequency_ / sent.medium.sound_speed) {
+        cycles_per_m_(sent.pulse.centre_frequency / sent.medium.sound_speed) {
     const double margin = pulse_margin(sent);
     least_leg_ = 2 * (view.gate.min_range - margin);
     longest_leg_ = 2 * (view.gate.max_range + margin);
@@ -133,6 +133,7 @@ class PathBuilder {
       const double sine = std::min(1.0, std::abs(boundary.up.dot(image)) / image.norm());
       Leg& leg = legs.leg[legs.count];
       leg = leg_to(image, boundary.mirrored_direction(normal), boundary.reflection(std::asin(sine)));
+      leg.towards = boundary.mirrored_direction(leg.towards);
       leg.by = static_cast<std::uint8_t>(b + 1);
       legs.count += leg.cosine > 0;
     }
@@ -144,6 +145,7 @@ class PathBuilder {
     leg.range = place.norm();
     leg.u = place.y() / leg.range;
     leg.v = place.z() / leg.range;
+    leg.towards = -place / leg.range;
     const double cosine = -normal.dot(place) / leg.range;
     leg.cosine = std::min(1.0, scene_.normals_oriented ? cosine : std::abs(cosine));
     leg.gain = reflection * one_way_pattern(leg.v);
@@ -159,8 +161,9 @@ class PathBuilder {
 
   void add_paths(const LegsToPatch& legs, const Scatterers& patches, std::size_t patch, double area, Echoes& out,
                  Origins& from) const {
-    const Material& material = scene_.materials[patches.material[patch]];
-    const complex amplitude = source_ * surface_amplitude(echo_options_, material.coherent_fraction, patches.id[patch]);
+    const std::size_t material = patches.material[patch];
+    const complex amplitude =
+        source_ * surface_amplitude(echo_options_, scene_.materials[material].coherent_fraction, patches.id[patch]);
     for (std::size_t o = 0; o < legs.count; ++o)
       for (std::size_t i = 0; i < legs.count; ++i) {
         const Leg &there = legs.leg[o], &back = legs.leg[i];
@@ -170,7 +173,8 @@ class PathBuilder {
         if (!(std::norm(gain) >= echo_floor * echo_floor)) continue;
         from.legs.push_back({there.by, back.by});
         const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * length);
-        const double sigma = cross_section(material, {there.cosine, back.cosine, there.cosine * area}, frequency_);
+        const double sigma = cross_section(*surfaces_[material], {there.cosine, back.cosine, there.cosine * area,
+                                                                  std::min(1.0, there.towards.dot(back.towards))});
         const double size = std::sqrt(sigma) / (there.range * back.range);
         add_echo(out, length / sound_speed_, back.u, back.v, amplitude * gain * std::polar(size, phase));  // (E48)
       }
@@ -180,8 +184,9 @@ class PathBuilder {
   const std::vector<Boundary>& boundaries_;
   const FoundLegs& found_;
   const EchoOptions& echo_options_;
+  SurfaceTable surfaces_;
   Eigen::Matrix3d to_head_;
-  double source_, sound_speed_, frequency_, cycles_per_m_, least_leg_ = 0, longest_leg_ = 0;
+  double source_, sound_speed_, cycles_per_m_, least_leg_ = 0, longest_leg_ = 0;
 };
 
 /// The view as far as legs may lead out of it and still belong to an echo inside the gate.

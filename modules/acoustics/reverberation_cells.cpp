@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/direct_echoes.hpp"
 #include "acoustics/reverberation_cells_internal.hpp"
 #include "core/error.hpp"
 #include "core/require.hpp"

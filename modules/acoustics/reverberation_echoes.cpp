@@ -15,7 +15,6 @@
 
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/reverberation_cells_internal.hpp"
-#include "acoustics/scattering.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/require.hpp"
@@ -52,7 +51,7 @@ class PlaneEchoes {
         sector_(cells.sector),
         echo_options_(sent.echo_options),
         source_(source_pressure(sent.pulse)),
-        frequency_(sent.pulse.centre_frequency),
+        surface_(surface_table({&plane.material, 1}, sent.pulse.centre_frequency, sent.medium.sound_speed).front()),
         two_over_c_(2 / sent.medium.sound_speed) {
     const Eigen::Matrix3d to_head = world_from_head.linear().transpose();
     forward_ = to_head.col(0);
@@ -95,8 +94,7 @@ class PlaneEchoes {
     const double pattern = elevation_pattern(echo_options_, std::asin(v));
     if (!(std::abs(pattern) >= pattern_floor)) return;
     const double sine = distance_ / r;  // of the grazing angle
-    const double sigma =
-        plane_.strength * area + cross_section(plane_.material, {sine, sine, sine * area}, frequency_);  // (E50, E51)
+    const double sigma = plane_.strength * area + cross_section(*surface_, {sine, sine, sine * area});  // (E50, E51)
     const double transmitted = transmit_pattern(echo_options_, std::atan2(place.y(), place.x()));
     add_echo(out, two_over_c_ * r, place.y() / r, v,
              source_ * std::sqrt(sigma) * pattern * transmitted / (r * r) *
@@ -109,7 +107,9 @@ class PlaneEchoes {
   const ReverberationCells& cells_;
   SectorBounds sector_;
   const EchoOptions& echo_options_;
-  double source_, frequency_, two_over_c_, step_ = 0;
+  double source_;
+  SurfaceTable::value_type surface_;
+  double two_over_c_, step_ = 0;
   Vector3d forward_, left_, to_plane_;  // in head axes; to_plane_: to the foot of the head's perpendicular
   std::size_t directions_ = 0;
   std::vector<Vector3d> centre_;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "acoustics/direct_echoes.hpp"
-#include "acoustics/scattering.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "core/require.hpp"
@@ -110,8 +109,9 @@ class ResolutionCell {
 };
 
 std::vector<SurfelContribution> surfel_contributions(const SceneCloud& scene, const Scatterers& scatterers,
-                                                     const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                                                     double min_response) {
+                                                     const Echoes& echoes, const SonarHead& head,
+                                                     const Transmission& sent, double min_response) {
+  const Medium& medium = sent.medium;
   Beams beams(head, medium);
   const ResolutionCell cell(head, medium, beams);
   std::vector<std::uint32_t> place(scene.size(), none);
@@ -129,8 +129,7 @@ std::vector<SurfelContribution> surfel_contributions(const SceneCloud& scene, co
     const double cosine = scatterers.cos_incidence[i], seen_area = scatterers.projected_area[i];
     h.intensity += arriving * response;
     h.on_axis += arriving * beams.intensity({h.beam.row, echoes.u[i]}, echoes.u[i], echoes.v[i]);
-    h.cross_section += cross_section(scene.materials[scatterers.material[i]], {cosine, cosine, seen_area},
-                                     head.pulse.centre_frequency);
+    h.cross_section += cross_section(*sent.surfaces[scatterers.material[i]], {cosine, cosine, seen_area});
     if (cosine > 0) h.area += seen_area / cosine;
     if (!(response >= min_response && range >= head.gate.min_range && range <= head.gate.max_range)) continue;
     const auto r = static_cast<float>(range);
@@ -157,12 +156,13 @@ std::vector<CoveredSurfel> coverage_of(const SceneCloud& scene, const Scatterers
   EchoOptions echo_options;
   echo_options.amplitude = SurfaceAmplitude::coherent;
   echo_options.threads = options.threads;
-  const Echoes echoes =
-      direct_echoes(scatterers, scene.materials, head.pulse, medium, with_patterns(echo_options, head));
+  Transmission sent{head.pulse, medium, with_patterns(echo_options, head)};
+  sent.surfaces = surfaces_of(sent, scene.materials);
+  const Echoes echoes = direct_echoes(scatterers, scene.materials, sent);
 
   std::vector<CoveredSurfel> covered;
   const double min_response = power_from_db(options.min_response_db);
-  for (const SurfelContribution& h : surfel_contributions(scene, scatterers, echoes, head, medium, min_response)) {
+  for (const SurfelContribution& h : surfel_contributions(scene, scatterers, echoes, head, sent, min_response)) {
     if (!h.hit) continue;
     const float grazing = std::asin(std::min(1.0F, h.cosine));
     CoveredSurfel& s = covered.emplace_back(CoveredSurfel{

@@ -28,6 +28,7 @@ std::vector<Place> places_in_view(const PlanFacts& facts) {
   for (std::size_t i = 0; i < s.energy.size(); ++i)
     if (s.energy[i] > 0 && s.power[i] > 0) heard.push_back(i);
   const std::size_t step = (heard.size() + most_places - 1) / most_places;
+  const auto each = static_cast<double>(step);
   const Eigen::Matrix3d to_head = facts.ping.view.world_from_head.linear().transpose();
   std::vector<Place> places;
   for (std::size_t k = 0; k < heard.size(); k += step) {
@@ -36,8 +37,7 @@ std::vector<Place> places_in_view(const PlanFacts& facts) {
     const Vector3d direction = unit_vector({s.places.azimuth[i], s.places.elevation[i]});
     Vector3d normal = to_head * s.scene.normal[surfel].cast<double>();
     if (normal.dot(direction) > 0) normal = -normal;
-    places.push_back({s.places.range[i] * direction, normal, -direction,
-                      static_cast<double>(s.scene.area[surfel]) * static_cast<double>(step), s.power[i] * step,
+    places.push_back({s.places.range[i] * direction, normal, -direction, s.scene.area[surfel] * each, s.power[i] * each,
                       s.energy[i] / s.power[i], facts.ping.sent.surfaces[s.places.material[i]].get()});
   }
   return places;

@@ -53,6 +53,7 @@ void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& sim
 /// Returns use(scene), or where the options ask for it use() of the scene as fine as the head resolves it (E137).
 template <typename Use>
 auto with_detail(const PreparedScene& scene, ResolvedPing& ping, const Use& use) {
+  ping.sent.surfaces = surfaces_of(ping.sent, scene.scene().materials);
   const SimulationOptions& o = ping.options;
   if (!merges_surfels(scene.scene(), o)) return use(scene);
   const SceneCut cut = cut_scene(scene, ping.region, ping.view.fan, ping.view.gate, o.sampling.detail_width, o.threads);

@@ -57,9 +57,9 @@ double difference_bound(const PlanFacts& facts, const Echoes& before, const Echo
 }
 
 Echoes echoes_of(const PlanFacts& facts, const Scatterers& places) {
-  EchoOptions mean_power = facts.ping.sent.echo_options;
-  mean_power.amplitude = SurfaceAmplitude::mean_power;
-  return direct_echoes(places, facts.scene.materials, facts.ping.sent.pulse, facts.ping.sent.medium, mean_power);
+  Transmission mean_power = facts.ping.sent;
+  mean_power.echo_options.amplitude = SurfaceAmplitude::mean_power;
+  return direct_echoes(places, facts.scene.materials, mean_power);
 }
 
 /// Error of an echo of the centre frequency's absorption, over the pulse's spectrum.

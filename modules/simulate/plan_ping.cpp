@@ -110,7 +110,9 @@ PingPlan plan_of(const PreparedScene& prepared, const ResolvedPing& ping) {
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options) {
   const PreparedScene prepared(scene, options.threads);
-  return plan_of(prepared, resolve_ping(prepared.whole(), head, event, environment, options, "plan_ping"));
+  ResolvedPing ping = resolve_ping(prepared.whole(), head, event, environment, options, "plan_ping");
+  ping.sent.surfaces = surfaces_of(ping.sent, scene.materials);
+  return plan_of(prepared, ping);
 }
 
 void decide_effects(const PreparedScene& prepared, ResolvedPing& ping) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
@@ -140,7 +141,7 @@ void derive(const WholeScene& scene, ResolvedPing& ping) {
   const SimulationOptions& options = ping.options;
   const Medium medium =
       medium_of(ping.environment, head.pulse.centre_frequency, options.effects.absorption_order.value_or(0));
-  ping.sent = {head.pulse, medium, echo_options_of(head, options)};
+  ping.sent = {head.pulse, medium, echo_options_of(head, options), std::move(ping.sent.surfaces)};
   ping.view = {ping.event.world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
                sampling_of(scene, ping)};
   ping.view.sampling.inner_sector = insonified_sector(head.fan, sampling_in_view(ping));

@@ -19,7 +19,8 @@ struct ResolvedPing {
   PingEvent event;
   Environment environment;  ///< its water is that at the head's own depth (environment_at)
   SimulationOptions options;
-  Transmission sent{};          ///< pulse, medium and the patterns that echoes are weighted by
+  Transmission sent{};          ///< pulse, medium and the patterns that echoes are weighted by; surfaces: those of the
+                                ///< scene that is pinged, once it is known
   View view{};                  ///< pose, fan, sampled ranges and sampling
   InsonifiedRegion region{};    ///< all that can be received or block sound; with multipath a ball about the head. It
                                 ///< includes what effects that are still open may need

@@ -162,10 +162,10 @@ SceneSample sample_scene(const PreparedScene& prepared, const ResolvedPing& ping
   const View& view = ping.view;
   Scatterers patches =
       find_scatterers(sampled.scene, view.world_from_head, view.fan, sorter.reach(), Sorter::widest(ping)).scatterers;
-  EchoOptions mean_power = ping.sent.echo_options;
-  mean_power.amplitude = SurfaceAmplitude::mean_power;
+  Transmission mean_power = ping.sent;
+  mean_power.echo_options.amplitude = SurfaceAmplitude::mean_power;
   const Medium& medium = ping.sent.medium;
-  const Echoes echoes = direct_echoes(patches, sampled.scene.materials, ping.sent.pulse, medium, mean_power);
+  const Echoes echoes = direct_echoes(patches, sampled.scene.materials, mean_power);
 
   // Energies and numbers, by where the echoes come from.
   SceneSample s;

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include "acoustics/scattering.hpp"
 #include "beamforming/received_energy.hpp"
 #include "simulate/surfel_energy_internal.hpp"
 
@@ -36,19 +35,18 @@ class EchoEnergy final : public SurfelEnergy {
   EchoEnergy(const ResolvedPing& ping, std::span<const Material> materials)
       : sent_(ping.sent.echo_options),
         gains_(sent_),
-        materials_(materials),
-        frequency_(ping.head.pulse.centre_frequency),
+        surfaces_(surfaces_of(ping.sent, materials)),
         absorption_(ping.sent.medium.absorption.a0) {
     const BeamFan& fan = ping.head.fan;
     if (fan.beams() == 1)
-      response_.emplace(ping.head, ping.sent.medium.sound_speed / frequency_,
+      response_.emplace(ping.head, ping.sent.medium.sound_speed / ping.head.pulse.centre_frequency,
                         fan.beam_width + ping.view.sampling.lobe_margin);
   }
 
   double of(const Eigen::Vector3d& p, double cosine, double area, std::size_t material) const override {
     const double range = p.norm();
     const double sent_there = sent_.transmit_width > 0 ? transmit_pattern(sent_, std::atan2(p.y(), p.x())) : 1;
-    const double sigma = cross_section(materials_[material], {cosine, cosine, area * cosine}, frequency_);
+    const double sigma = cross_section(*surfaces_[material], {cosine, cosine, area * cosine});
     return sigma * gains_.squared(p.z() / range) * sent_there * sent_there * std::exp(-4 * absorption_ * range) /
            (range * range * range * range) * (response_ ? response_->along_array(p.y() / range) : 1);  // (E7, E10)
   }
@@ -56,8 +54,8 @@ class EchoEnergy final : public SurfelEnergy {
  private:
   EchoOptions sent_;
   ElevationGains gains_;
-  std::span<const Material> materials_;
-  double frequency_, absorption_;
+  SurfaceTable surfaces_;
+  double absorption_;
   std::optional<ReceivedEnergy> response_;
 };
 

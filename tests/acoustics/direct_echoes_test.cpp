@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/direct_echoes.hpp"
 
-#include "acoustics/scattering.hpp"
+#include "acoustics/surface_scattering.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
@@ -33,7 +33,8 @@ TEST(LambertCrossSection, has_one_cosine_per_projected_area) {
   // A surfel of 1 m^2 at 60 degrees: mu cos^2 dS = 0.1 * 0.25 * 1.
   EXPECT_NEAR(lambert_cross_section(0.1, 0.5, 0.5 * 1.0), 0.025, 1e-15);
   // Seen at 60 degrees, heard at arccos 0.25: mu cos_out cos_back dS.
-  EXPECT_NEAR(cross_section({"m", 0.1}, {0.5, 0.25, 0.5 * 1.0}, 1e5), 0.0125, 1e-15);
+  EXPECT_NEAR(cross_section(*surface_table(std::vector<Material>{{"m", 0.1}}, 1e5, 1500)[0], {0.5, 0.25, 0.5 * 1.0}),
+              0.0125, 1e-15);
 }
 
 TEST(DirectEchoes, gives_the_sonar_equation_before_absorption) {

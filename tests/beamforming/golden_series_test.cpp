@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Series computed independently of this project; tests/data/golden/README.md states their conventions.
 #include "acoustics/direct_echoes.hpp"
-#include "acoustics/scattering.hpp"
+#include "acoustics/surface_scattering.hpp"
 #include "beamforming/synthesize.hpp"
 #include "sonar/shading.hpp"
 #include "support/heads.hpp"

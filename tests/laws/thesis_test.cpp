@@ -3,7 +3,7 @@
 // equations and figures come to when they are put right. docs/results/thesis.md has the details.
 #include "thesis/thesis.hpp"
 
-#include "acoustics/scattering.hpp"
+#include "acoustics/surface_scattering.hpp"
 #include "beamforming/synthesize.hpp"
 #include "sonar/beam_pattern.hpp"
 #include "sonar/shading.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mean levels against closed forms. Random amplitudes make single levels scatter; every tolerance states how much.
 #include "acoustics/direct_echoes.hpp"
-#include "acoustics/scattering.hpp"
+#include "acoustics/surface_scattering.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "sonar/shading.hpp"

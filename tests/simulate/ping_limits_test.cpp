@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Surfaces, points and directions at the limits of what a ping can see.
-#include "acoustics/scattering.hpp"
+#include "acoustics/surface_scattering.hpp"
 #include "support/checked_ping.hpp"
 #include "support/point_targets.hpp"
 
