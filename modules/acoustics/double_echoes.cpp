@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Echoes by way of two rough surfaces, by rays from surface to surface (Veach 1997, chapter 8: light transport by
 // importance sampling; with the phases of sound). Steps, block by block of the surfels seen:
-//   1. rays_from    so many rays as the surfel's share of the resolution cells asks for
+//   1. ray_numbers  so many rays as a surfel's share of the resolution cells asks for, more where some rays of its block
+//                   of surfels meet a surface in view, fewer where none does
 //   2. draw_ray     start in the surfel and direction, with its density of probability
 //   3. add_pair     the surface met, both cross-sections, and the two echoes of the pair
 #include "acoustics/double_echoes.hpp"
@@ -27,6 +28,8 @@ using complex = std::complex<double>;
 constexpr double least_gain = 1e-4;  // -80 dB: what patterns may leave of an echo
 constexpr double nearest = 1e-3;     // [m]: spreading has no bound nearer to the head
 constexpr std::size_t surfels_per_block = 2048;
+constexpr std::uint64_t trials = 16;  // rays that find out how many of a block of surfels meet a surface in view
+constexpr double least_share = 0.01;  // counted as met, of blocks of which no trial meets one
 
 /// The leg between the head and a place on a surface.
 struct HeadLeg {
@@ -40,6 +43,14 @@ struct HeadLeg {
 struct DrawnRay {
   Vector3d from, direction;  ///< world axes; `from` relative to the scene's origin
   double pdf = 0;
+};
+
+/// Two surfels that a ray connects, and the legs to them.
+struct Pair {
+  std::uint32_t first, last;
+  HeadLeg out, back;
+  double path = 0;    ///< of both legs and the ray [m]
+  double weight = 0;  ///< both cross-sections [m^2], for a single ray
 };
 
 class PairBuilder {
@@ -58,18 +69,48 @@ class PairBuilder {
         seen_(scene_.size(), false) {
     const double margin = 0.5 * sound_speed_ * pulse_half_length(sent.pulse, pulse_floor);
     least_path_ = 2 * (view.gate.min_range - margin), longest_path_ = 2 * (view.gate.max_range + margin);
-    cells_ = options.rays_per_cell / (view.fan.beam_width * range_resolution(sent.pulse, sound_speed_));
+    rays_per_cell_ = options.rays_per_cell;
+    cell_width_ = view.fan.beam_width * range_resolution(sent.pulse, sound_speed_);
     for (const std::uint32_t i : seen) seen_[i] = true;
   }
 
-  /// Adds the echoes of the rays from surfel i; returns how many rays it sent.
-  std::size_t add(std::uint32_t i, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
-    const Vector3d place = scene_.point[i].cast<double>();
-    const double rays = cells_ * scene_.area[i] / (head_ - place).norm();
-    const double whole =
-        std::floor(rays + random_uniform(options_.seed, RandomStage::surface_ray, {scene_.id[i], 0, 1})[0]);
-    const auto count = static_cast<std::size_t>(whole);
-    for (std::size_t k = 0; k < count; ++k) add_pair(i, k, rays, echoes, ends);
+  /// Returns how many rays each surfel of `seen` sends on average. Of all rays, blocks of surfels have shares as the root
+  /// of the part of their rays that meets a surface in view: so the errors of all pairs together are least. Where no
+  /// trial of all blocks meets one, there are none.
+  std::vector<double> ray_numbers(const PreparedScene& prepared, std::span<const std::uint32_t> seen) const {
+    const std::span<const SurfelBlock> blocks = prepared.blocks();
+    std::vector<double> share(blocks.size(), 0), cells(blocks.size(), 0);
+    std::atomic<bool> any{false};
+    parallel_for(blocks.size(), options_.threads, [&](std::size_t b) {
+      std::vector<std::uint32_t> members;
+      for (const std::uint32_t i : prepared.order().subspan(blocks[b].begin, blocks[b].end - blocks[b].begin))
+        if (seen_[i]) members.push_back(i), cells[b] += cells_of(i);
+      if (members.empty()) return;
+      std::size_t met = 0;
+      for (std::uint64_t k = 0; k < trials; ++k)
+        met += find_pair(members[k * members.size() / trials], k, 2).has_value();
+      if (met > 0) any = true;
+      share[b] = std::sqrt(std::max(least_share, static_cast<double>(met) / trials));
+    });
+    std::vector<double> numbers(seen.size(), 0);
+    if (!any) return numbers;
+    double all = 0, shared = 0;
+    std::vector<float> of_surfel(scene_.size(), 0);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      all += cells[b], shared += cells[b] * share[b];
+      for (std::size_t k = blocks[b].begin; k < blocks[b].end; ++k)
+        of_surfel[prepared.order()[k]] = static_cast<float>(share[b]);
+    }
+    for (std::size_t k = 0; k < seen.size(); ++k) numbers[k] = cells_of(seen[k]) * of_surfel[seen[k]] * all / shared;
+    return numbers;
+  }
+
+  /// Adds the echoes of the rays from surfel i, `rays` of them on average; returns how many it sent.
+  std::size_t add(std::uint32_t i, double rays, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
+    const double part = random_uniform(options_.seed, RandomStage::surface_ray, {scene_.id[i], 0, 1})[0];
+    const auto count = static_cast<std::size_t>(rays + part);
+    for (std::size_t k = 0; k < count; ++k)
+      if (const std::optional<Pair> pair = find_pair(i, k, 0)) add_pair(*pair, k, rays, echoes, ends);
     return count;
   }
 
@@ -91,10 +132,16 @@ class PairBuilder {
     return leg;
   }
 
-  /// The k-th ray from surfel i; of density 0 if it points below the surface.
-  DrawnRay draw_ray(std::uint32_t i, std::size_t k, const Vector3d& normal, double slope) const {
+  /// So many rays a surfel sends if all do alike.
+  double cells_of(std::uint32_t i) const {
+    return rays_per_cell_ * scene_.area[i] / (cell_width_ * (head_ - scene_.point[i].cast<double>()).norm());
+  }
+
+  /// The k-th ray of series `series` from surfel i; of density 0 if it points below the surface.
+  DrawnRay draw_ray(std::uint32_t i, std::uint64_t k, std::uint64_t series, const Vector3d& normal,
+                    double slope) const {
     const auto [radius, turn, number, angle] =
-        random_uniform(options_.seed, RandomStage::surface_ray, {scene_.id[i], k, 0});
+        random_uniform(options_.seed, RandomStage::surface_ray, {scene_.id[i], k, series});
     Eigen::Matrix3d from_surface;  // along, across and off the surface
     from_surface.col(0) = normal.unitOrthogonal(), from_surface.col(2) = normal;
     from_surface.col(1) = normal.cross(from_surface.col(0));
@@ -111,33 +158,36 @@ class PairBuilder {
     return ray;
   }
 
-  void add_pair(std::uint32_t i, std::size_t k, double rays, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
+  /// What the k-th ray of a series from surfel i meets, if both surfaces return sound to the head inside the gate.
+  std::optional<Pair> find_pair(std::uint32_t i, std::uint64_t k, std::uint64_t series) const {
     const SurfaceScattering& law = *laws_[scene_.material[i]];
     const Vector3d normal = normal_of(i, head_ - scene_.point[i].cast<double>());
-    const DrawnRay ray = draw_ray(i, k, normal, law.lobe_slope());
-    if (!(ray.pdf > 0)) return;
+    const DrawnRay ray = draw_ray(i, k, series, normal, law.lobe_slope());
+    if (!(ray.pdf > 0)) return {};
     const SurfaceHit hit = rays_.first_hit({i, ray.from.cast<float>(), ray.direction.cast<float>()});
-    if (hit.surfel == SurfaceHit::none || !seen_[hit.surfel]) return;
+    if (hit.surfel == SurfaceHit::none || !seen_[hit.surfel]) return {};
 
-    // Both surfaces, met from the other one and from the head.
-    const HeadLeg out = leg_to(ray.from), back = leg_to(ray.from + hit.distance * ray.direction);
-    const Vector3d normal_there = normal_of(hit.surfel, back.to_head);
-    const PathAngles here{normal.dot(out.to_head), normal.dot(ray.direction), out.to_head.dot(ray.direction)};
-    const PathAngles there{-normal_there.dot(ray.direction), normal_there.dot(back.to_head),
-                           -ray.direction.dot(back.to_head)};
-    if (!(there.cos_in > 0 && there.cos_out > 0 && std::min(out.range, back.range) > nearest)) return;
-    const double weight = law.cross_section(here) * scene_.area[i] *
-                          laws_[scene_.material[hit.surfel]]->cross_section(there) * hit.density /
-                          (rays * ray.pdf * there.cos_in);  // (E159)
-    const double path = out.range + hit.distance + back.range;
-    if (!(weight > 0) || path < least_path_ || path > longest_path_) return;
+    Pair pair{i, hit.surfel, leg_to(ray.from), leg_to(ray.from + hit.distance * ray.direction)};
+    const Vector3d normal_there = normal_of(hit.surfel, pair.back.to_head);
+    const PathAngles here{normal.dot(pair.out.to_head), normal.dot(ray.direction), pair.out.to_head.dot(ray.direction)};
+    const PathAngles there{-normal_there.dot(ray.direction), normal_there.dot(pair.back.to_head),
+                           -ray.direction.dot(pair.back.to_head)};
+    if (!(there.cos_in > 0 && there.cos_out > 0 && std::min(pair.out.range, pair.back.range) > nearest)) return {};
+    pair.path = pair.out.range + hit.distance + pair.back.range;
+    pair.weight = law.cross_section(here) * scene_.area[i] * laws_[scene_.material[hit.surfel]]->cross_section(there) *
+                  hit.density / (ray.pdf * there.cos_in);
+    if (!(pair.weight > 0) || pair.path < least_path_ || pair.path > longest_path_) return {};
+    return pair;
+  }
 
-    // One echo for each sense.
-    const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * path);
-    const complex amplitude =
-        source_ * xi(i, k) * std::polar(std::sqrt(0.5 * weight) / (out.range * back.range), phase);
-    add_sense(out, back, path, amplitude, {i, hit.surfel}, echoes, ends);
-    add_sense(back, out, path, amplitude, {hit.surfel, i}, echoes, ends);
+  /// Adds one echo for each sense of the pair that the k-th of so many rays has found.
+  void add_pair(const Pair& pair, std::uint64_t k, double rays, Echoes& echoes,
+                std::vector<std::uint32_t>& ends) const {
+    const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * pair.path);
+    const double size = std::sqrt(0.5 * pair.weight / rays) / (pair.out.range * pair.back.range);  // (E159)
+    const complex amplitude = source_ * xi(pair.first, k) * std::polar(size, phase);
+    add_sense(pair.out, pair.back, pair.path, amplitude, {pair.first, pair.last}, echoes, ends);
+    add_sense(pair.back, pair.out, pair.path, amplitude, {pair.last, pair.first}, echoes, ends);
   }
 
   void add_sense(const HeadLeg& out, const HeadLeg& back, double path, complex amplitude,
@@ -163,7 +213,7 @@ class PairBuilder {
   Vector3d head_;  // relative to the scene's origin
   Eigen::Matrix3d to_head_;
   double source_, sound_speed_, cycles_per_m_, least_path_ = 0, longest_path_ = 0;
-  double cells_ = 0;  // rays [1/m]: times area, over range
+  double rays_per_cell_ = 0, cell_width_ = 0;  // area of a cell over its range [m]
   std::vector<bool> seen_;
 };
 
@@ -172,21 +222,23 @@ class PairBuilder {
 DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::uint32_t> seen, const View& view,
                            const Transmission& sent, const DoubleEchoOptions& options) {
   const SceneCloud& scene = prepared.scene();
-  require(options.rays_per_cell >= 1e-6 && options.rays_per_cell <= 1e4, "double_echoes", "rays_per_cell",
-          options.rays_per_cell, "", "within 1e-6 and 1e4");
+  require(options.rays_per_cell >= 1e-6 && options.rays_per_cell <= 1e6, "double_echoes", "rays_per_cell",
+          options.rays_per_cell, "", "within 1e-6 and 1e6");
   for (const std::uint32_t i : seen)
     if (i >= scene.size())
       fail(ErrorKind::argument, "double_echoes: seen holds ", i, ", but the scene has ", scene.size(), " surfels");
   DoubleEchoes result;
   if (seen.empty()) return result;
   const PairBuilder builder(prepared, seen, view, sent, options);
+  const std::vector<double> numbers = builder.ray_numbers(prepared, seen);
   std::vector<std::vector<std::uint32_t>> ends((seen.size() + surfels_per_block - 1) / surfels_per_block);
   std::atomic<std::size_t> rays{0};
   result.echoes = collect_echoes(seen.size(), surfels_per_block, sent.echo_options.threads,
                                  [&](std::size_t begin, std::size_t end, Echoes& echoes) {
                                    std::size_t sent_here = 0;
                                    for (std::size_t k = begin; k < end; ++k)
-                                     sent_here += builder.add(seen[k], echoes, ends[begin / surfels_per_block]);
+                                     sent_here +=
+                                         builder.add(seen[k], numbers[k], echoes, ends[begin / surfels_per_block]);
                                    rays += sent_here;
                                  });
   result.rays = rays;

@@ -23,7 +23,7 @@ struct DoubleEchoes {
 /// Options of double_echoes.
 struct DoubleEchoOptions {
   /// Rays sent from each cell of range resolution and beam width of the surface that the head sees, on average, within
-  /// 1e-6 and 1e4. The error of the expected level of a piece of image falls with the root of its rays.
+  /// 1e-6 and 1e6. More are sent where others have met a surface. The error of the expected level of a piece of image falls with the root of its rays.
   double rays_per_cell = 1;
 };
 

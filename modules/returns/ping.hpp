@@ -17,7 +17,7 @@ namespace insonify {
 
 /// One part of a ping: the pressure due to one kind of path or source.
 struct Layer {
-  std::string name;       ///< direct, multipath, volume, surface, bottom, noise
+  std::string name;       ///< direct, multipath, double-echoes, volume, surface, bottom, noise
   ComplexGridF pressure;  ///< beams x bins [Pa]
 };
 

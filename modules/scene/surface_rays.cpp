@@ -20,6 +20,7 @@ constexpr float noise_widths = 3;    // so near to its plane, a start belongs to
 constexpr float cluster_radii = 2;   // along the ray, what is one place of one surface
 constexpr float cluster_height = 1;  // across it, in radii
 constexpr float like_normals = 0.7f;
+constexpr float kernel = 0.6f;  // radius over the root of the area: as small as the scatter of the density allows
 
 struct ReleaseDevice {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -60,7 +61,7 @@ struct Query {
     float alike = scene.normal[j].dot(place->normal);
     if (!scene.normals_oriented) alike = std::abs(alike);
     if (alike < like_normals || std::abs((at - place->at).dot(place->normal)) > cluster_height * place->radius) return;
-    ++place->surfels;
+    if ((at - scene.point[j]).squaredNorm() <= kernel * kernel * scene.area[j]) ++place->surfels;
     const float squared = (scene.point[j] - place->at).squaredNorm();
     if (squared > place->squared_distance || (squared == place->squared_distance && j > place->nearest)) return;
     place->nearest = j, place->squared_distance = squared;
@@ -160,8 +161,8 @@ SurfaceHit SurfaceRays::first_hit(const SurfaceRay& ray) const {
   RTCRayHit beside =
       ray_within(ray, std::max(0.0f, distance - cluster_radii * place.radius), distance + cluster_radii * place.radius);
   rtcIntersect1(tree_->discs.get(), &query.context, &beside);
-  const float share = 1 / (static_cast<float>(pi) * tree_->footprint * tree_->footprint);  // of a disc that is surfel
-  return {place.nearest, distance, static_cast<float>(std::max(1, place.surfels)) * share};
+  const float share = 1 / (static_cast<float>(pi) * kernel * kernel);  // of a kernel's area that is surfel
+  return {place.nearest, distance, static_cast<float>(place.surfels) * share};
 }
 
 }  // namespace insonify
