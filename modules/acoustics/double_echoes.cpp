@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Echoes by way of two rough surfaces, by rays from surface to surface (Veach 1997, chapter 8: light transport by
 // importance sampling; with the phases of sound). Steps, block by block of the surfels seen:
-//   1. ray_numbers  so many rays as a surfel's share of the resolution cells asks for, more where some rays of its block
-//                   of surfels meet a surface in view, fewer where none does
+//   1. share_rays   so many rays as a surfel's share of the resolution cells asks for, more where rays of its
+//                   neighbours meet a surface in view, fewer where none does
 //   2. draw_ray     start in the surfel and direction, with its density of probability
-//   3. add_pair     the surface met, both cross-sections, and the two echoes of the pair
+//   3. find_pair    the surface met, both cross-sections, and how many rays join the two surfels from both ends
+//   4. add_pair     the two echoes of the pair
 #include "acoustics/double_echoes.hpp"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "acoustics/collect_echoes_internal.hpp"
@@ -28,8 +30,9 @@ using complex = std::complex<double>;
 constexpr double least_gain = 1e-4;  // -80 dB: what patterns may leave of an echo
 constexpr double nearest = 1e-3;     // [m]: spreading has no bound nearer to the head
 constexpr std::size_t surfels_per_block = 2048;
-constexpr std::uint64_t trials = 16;  // rays that find out how many of a block of surfels meet a surface in view
-constexpr double least_share = 0.01;  // counted as met, of blocks of which no trial meets one
+constexpr std::size_t surfels_per_piece = 1024;  // neighbours, whose rays meet surfaces about as often
+constexpr std::uint64_t trials = 32;             // of each piece, to find out how often
+constexpr double least_share = 0.01;             // of rays that meet one, where no trial does
 
 /// The leg between the head and a place on a surface.
 struct HeadLeg {
@@ -49,8 +52,9 @@ struct DrawnRay {
 struct Pair {
   std::uint32_t first, last;
   HeadLeg out, back;
-  double path = 0;    ///< of both legs and the ray [m]
-  double weight = 0;  ///< both cross-sections [m^2], for a single ray
+  PathAngles here{}, there{};  ///< in from the head, out to the other one
+  double density = 0;          ///< of surface where the ray ends (SurfaceHit)
+  double path = 0;             ///< of both legs and the ray [m]
 };
 
 class PairBuilder {
@@ -66,55 +70,53 @@ class PairBuilder {
         source_(source_pressure(sent.pulse)),
         sound_speed_(sent.medium.sound_speed),
         cycles_per_m_(sent.pulse.centre_frequency / sent.medium.sound_speed),
-        seen_(scene_.size(), false) {
+        seen_(scene_.size(), false),
+        number_(scene_.size(), 0) {
     const double margin = 0.5 * sound_speed_ * pulse_half_length(sent.pulse, pulse_floor);
     least_path_ = 2 * (view.gate.min_range - margin), longest_path_ = 2 * (view.gate.max_range + margin);
     rays_per_cell_ = options.rays_per_cell;
     cell_width_ = view.fan.beam_width * range_resolution(sent.pulse, sound_speed_);
     for (const std::uint32_t i : seen) seen_[i] = true;
+    share_rays(prepared.order());
   }
 
-  /// Returns how many rays each surfel of `seen` sends on average. Of all rays, blocks of surfels have shares as the root
-  /// of the part of their rays that meets a surface in view: so the errors of all pairs together are least. Where no
-  /// trial of all blocks meets one, there are none.
-  std::vector<double> ray_numbers(const PreparedScene& prepared, std::span<const std::uint32_t> seen) const {
-    const std::span<const SurfelBlock> blocks = prepared.blocks();
-    std::vector<double> share(blocks.size(), 0), cells(blocks.size(), 0);
-    std::atomic<bool> any{false};
-    parallel_for(blocks.size(), options_.threads, [&](std::size_t b) {
-      std::vector<std::uint32_t> members;
-      for (const std::uint32_t i : prepared.order().subspan(blocks[b].begin, blocks[b].end - blocks[b].begin))
-        if (seen_[i]) members.push_back(i), cells[b] += cells_of(i);
-      if (members.empty()) return;
-      std::size_t met = 0;
-      for (std::uint64_t k = 0; k < trials; ++k)
-        met += find_pair(members[k * members.size() / trials], k, 2).has_value();
-      if (met > 0) any = true;
-      share[b] = std::sqrt(std::max(least_share, static_cast<double>(met) / trials));
-    });
-    std::vector<double> numbers(seen.size(), 0);
-    if (!any) return numbers;
-    double all = 0, shared = 0;
-    std::vector<float> of_surfel(scene_.size(), 0);
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      all += cells[b], shared += cells[b] * share[b];
-      for (std::size_t k = blocks[b].begin; k < blocks[b].end; ++k)
-        of_surfel[prepared.order()[k]] = static_cast<float>(share[b]);
-    }
-    for (std::size_t k = 0; k < seen.size(); ++k) numbers[k] = cells_of(seen[k]) * of_surfel[seen[k]] * all / shared;
-    return numbers;
-  }
-
-  /// Adds the echoes of the rays from surfel i, `rays` of them on average; returns how many it sent.
-  std::size_t add(std::uint32_t i, double rays, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
+  /// Adds the echoes of the rays from surfel i; returns how many it sent.
+  std::size_t add(std::uint32_t i, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
     const double part = random_uniform(options_.seed, RandomStage::surface_ray, {scene_.id[i], 0, 1})[0];
-    const auto count = static_cast<std::size_t>(rays + part);
+    const auto count = static_cast<std::size_t>(number_[i] + part);
     for (std::size_t k = 0; k < count; ++k)
-      if (const std::optional<Pair> pair = find_pair(i, k, 0)) add_pair(*pair, k, rays, echoes, ends);
+      if (const std::optional<Pair> pair = find_pair(i, k, 0)) add_pair(*pair, k, echoes, ends);
     return count;
   }
 
  private:
+  /// Decides how many rays each surfel sends on average. Of all rays, pieces of the scene have shares as the part of
+  /// their rays that meets a surface in view. Where no trial of any piece meets one, there are none.
+  void share_rays(std::span<const std::uint32_t> order) {
+    const std::size_t pieces = (order.size() + surfels_per_piece - 1) / surfels_per_piece;
+    const auto piece = [&](std::size_t p) {
+      return order.subspan(p * surfels_per_piece, std::min(surfels_per_piece, order.size() - p * surfels_per_piece));
+    };
+    std::vector<double> share(pieces, 0), cells(pieces, 0);
+    std::atomic<bool> any{false};
+    parallel_for(pieces, options_.threads, [&](std::size_t p) {
+      std::vector<std::uint32_t> members;
+      for (const std::uint32_t i : piece(p))
+        if (seen_[i]) members.push_back(i), cells[p] += cells_of(i);
+      std::size_t met = 0;
+      for (std::uint64_t k = 0; k < trials && !members.empty(); ++k)
+        met += find_pair(members[k * members.size() / trials], k, 2).has_value();
+      if (met > 0) any = true;
+      share[p] = std::max(least_share, static_cast<double>(met) / trials);
+    });
+    if (!any) return;
+    const double all = std::accumulate(cells.begin(), cells.end(), 0.0),
+                 shared = std::inner_product(cells.begin(), cells.end(), share.begin(), 0.0);
+    for (std::size_t p = 0; p < pieces; ++p)
+      for (const std::uint32_t i : piece(p))
+        if (seen_[i]) number_[i] = cells_of(i) * share[p] * all / shared;
+  }
+
   Vector3d normal_of(std::uint32_t i, const Vector3d& towards) const {
     const Vector3d normal = scene_.normal[i].cast<double>();
     return !scene_.normals_oriented && normal.dot(towards) < 0 ? -normal : normal;
@@ -169,22 +171,27 @@ class PairBuilder {
 
     Pair pair{i, hit.surfel, leg_to(ray.from), leg_to(ray.from + hit.distance * ray.direction)};
     const Vector3d normal_there = normal_of(hit.surfel, pair.back.to_head);
-    const PathAngles here{normal.dot(pair.out.to_head), normal.dot(ray.direction), pair.out.to_head.dot(ray.direction)};
-    const PathAngles there{-normal_there.dot(ray.direction), normal_there.dot(pair.back.to_head),
-                           -ray.direction.dot(pair.back.to_head)};
-    if (!(there.cos_in > 0 && there.cos_out > 0 && std::min(pair.out.range, pair.back.range) > nearest)) return {};
-    pair.path = pair.out.range + hit.distance + pair.back.range;
-    pair.weight = law.cross_section(here) * scene_.area[i] * laws_[scene_.material[hit.surfel]]->cross_section(there) *
-                  hit.density / (ray.pdf * there.cos_in);
-    if (!(pair.weight > 0) || pair.path < least_path_ || pair.path > longest_path_) return {};
+    pair.here = {normal.dot(pair.out.to_head), normal.dot(ray.direction), pair.out.to_head.dot(ray.direction)};
+    pair.there = {normal_there.dot(pair.back.to_head), -normal_there.dot(ray.direction),
+                  -ray.direction.dot(pair.back.to_head)};
+    pair.density = hit.density, pair.path = pair.out.range + hit.distance + pair.back.range;
+    if (!(pair.there.cos_in > 0 && pair.there.cos_out > 0 && std::min(pair.out.range, pair.back.range) > nearest &&
+          pair.density > 0 && pair.path >= least_path_ && pair.path <= longest_path_))
+      return {};
     return pair;
   }
 
-  /// Adds one echo for each sense of the pair that the k-th of so many rays has found.
-  void add_pair(const Pair& pair, std::uint64_t k, double rays, Echoes& echoes,
-                std::vector<std::uint32_t>& ends) const {
+  double rays_per_area(std::uint32_t i) const { return scene_.area[i] > 0 ? number_[i] / scene_.area[i] : 0; }
+
+  /// Adds one echo for each sense of the pair that the k-th ray has found.
+  void add_pair(const Pair& pair, std::uint64_t k, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
+    const SurfaceScattering &law = *laws_[scene_.material[pair.first]], &law_there = *laws_[scene_.material[pair.last]];
+    const double rays =
+        rays_per_area(pair.first) * sampling_density(law.lobe_slope(), pair.here) * pair.there.cos_out +
+        rays_per_area(pair.last) * sampling_density(law_there.lobe_slope(), pair.there) * pair.here.cos_out;
+    const double power = law.cross_section(pair.here) * law_there.cross_section(pair.there) * pair.density / rays;
     const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * pair.path);
-    const double size = std::sqrt(0.5 * pair.weight / rays) / (pair.out.range * pair.back.range);  // (E159)
+    const double size = std::sqrt(power) / (pair.out.range * pair.back.range);  // (E159)
     const complex amplitude = source_ * xi(pair.first, k) * std::polar(size, phase);
     add_sense(pair.out, pair.back, pair.path, amplitude, {pair.first, pair.last}, echoes, ends);
     add_sense(pair.back, pair.out, pair.path, amplitude, {pair.last, pair.first}, echoes, ends);
@@ -215,6 +222,7 @@ class PairBuilder {
   double source_, sound_speed_, cycles_per_m_, least_path_ = 0, longest_path_ = 0;
   double rays_per_cell_ = 0, cell_width_ = 0;  // area of a cell over its range [m]
   std::vector<bool> seen_;
+  std::vector<double> number_;  // of rays from each surfel, on average
 };
 
 }  // namespace
@@ -230,15 +238,13 @@ DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::u
   DoubleEchoes result;
   if (seen.empty()) return result;
   const PairBuilder builder(prepared, seen, view, sent, options);
-  const std::vector<double> numbers = builder.ray_numbers(prepared, seen);
   std::vector<std::vector<std::uint32_t>> ends((seen.size() + surfels_per_block - 1) / surfels_per_block);
   std::atomic<std::size_t> rays{0};
   result.echoes = collect_echoes(seen.size(), surfels_per_block, sent.echo_options.threads,
                                  [&](std::size_t begin, std::size_t end, Echoes& echoes) {
                                    std::size_t sent_here = 0;
                                    for (std::size_t k = begin; k < end; ++k)
-                                     sent_here +=
-                                         builder.add(seen[k], numbers[k], echoes, ends[begin / surfels_per_block]);
+                                     sent_here += builder.add(seen[k], echoes, ends[begin / surfels_per_block]);
                                    rays += sent_here;
                                  });
   result.rays = rays;
@@ -246,6 +252,23 @@ DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::u
     for (std::size_t k = 0; k < of_block.size(); k += 2)
       result.first.push_back(of_block[k]), result.last.push_back(of_block[k + 1]);
   return result;
+}
+
+Scatterers apparent_places(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
+                           double sound_speed) {
+  const Pose head_from_world = world_from_head.inverse();
+  Scatterers places;
+  for (std::size_t i = 0; i < doubles.echoes.size(); ++i) {
+    const std::uint32_t last = doubles.last[i];
+    const Vector3d place = head_from_world * Vector3d(scene.origin + scene.point[last].cast<double>());
+    places.range.push_back(0.5 * sound_speed * doubles.echoes.delay[i]);
+    places.azimuth.push_back(std::atan2(place.y(), place.x()));
+    places.elevation.push_back(std::asin(std::clamp(place.z() / place.norm(), -1.0, 1.0)));
+    places.material.push_back(scene.material[last]);
+    places.id.push_back(std::uint64_t{scene.id[last]} << 32);
+  }
+  places.surfel = doubles.last;
+  return places;
 }
 
 }  // namespace insonify

@@ -38,10 +38,9 @@ struct DoubleEchoOptions {
 /// beam that holds both directions adds them coherently, and hears twice the power of a radiosity sum.
 ///
 /// Pairs are drawn by rays (E159): from patch i, half of them by its cosine, half over the lobe of its law, if it has
-/// one. W = sigma_i dA_i sigma_j density / (rays pdf cos_j) of the first surface met takes the place of both
-/// cross-sections and of r_ij^2. Since both ends send rays, each pair is met twice, and each ray stands for W / 2. The
-/// expected power is that of the sum over all pairs. Rays and xi are bound to surfels: they stand still while the head
-/// moves.
+/// one. A ray stands for sigma_i sigma_j density / (n_i pdf_i cos_j + n_j pdf_j cos_i), n the rays per area from either
+/// end, in place of both cross-sections and of r_ij^2 (balance heuristic of Veach 1997, 9.2). The expected power is that
+/// of the sum over all pairs. Rays and xi are bound to surfels: they stand still while the head moves.
 ///
 /// seen     the surfels that the head sees, indices in the scene, ascending: both ends are among them
 /// returns  two echoes per ray that meets a surfel of `seen`, but those whose patterns take off more than 80 dB, or whose
@@ -51,5 +50,10 @@ struct DoubleEchoOptions {
 /// depend on the thread count. Throws Error for an invalid argument, and Error(runtime) without Embree.
 DoubleEchoes double_echoes(const PreparedScene& scene, std::span<const std::uint32_t> seen, const View& view,
                            const Transmission& sent, const DoubleEchoOptions& options = {});
+
+/// Where the array hears double echoes, as a scatterer for each: at half the path, in the direction of the last surfel;
+/// id, material and surfel are those of that one. Areas and incidence are empty.
+Scatterers apparent_places(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
+                           double sound_speed);
 
 }  // namespace insonify

@@ -19,6 +19,9 @@ void require_valid(const Contributors& c, const char* who) {
   if (c.per_pixel < 1 || c.per_pixel > 255)
     fail(ErrorKind::argument, who, ": per_pixel = ", c.per_pixel, ", must be within 1 and 255");
   const std::size_t entries = c.beams * c.bins * c.per_pixel;
+  if (!c.surfel_before.empty() && c.surfel_before.size() != entries)
+    fail(ErrorKind::argument, who, ": surfel_before has ", c.surfel_before.size(), " entries, must have none or ",
+         entries);
   for (const std::size_t size :
        {c.surfel.size(), c.id.size(), c.share.size(), c.elevation.size(), c.material.size(), c.path.size()})
     if (size != entries)

@@ -9,7 +9,7 @@
 namespace insonify {
 
 /// Kind of path from head to contributor and back.
-enum class PathKind : std::uint8_t { direct, one_bounce, two_bounces };
+enum class PathKind : std::uint8_t { direct, one_bounce, two_bounces, two_surfaces };
 
 /// The strongest contributors of every pixel of a ping, as a structure of arrays. Entry (beam x bins + bin) x per_pixel
 /// + k is the k-th strongest of a pixel; unused entries have surfel `none` and share 0. Computed by find_contributors.
@@ -24,6 +24,9 @@ struct Contributors {
   std::vector<float> elevation;         ///< direction of arrival [rad], head axes; 0 if unused
   std::vector<std::uint16_t> material;  ///< index into the scene's materials; `no_material` if unused
   std::vector<PathKind> path;
+  /// Of an echo by way of two surfaces the surfel that sound met before, index in the scene; else `none`. Empty if there
+  /// were no such echoes.
+  std::vector<std::uint32_t> surfel_before{};
   std::vector<float> total{};  ///< energy of all contributors of each pixel [Pa^2]; empty if read from a file
 
   /// Returns true if contributors were not asked for.

@@ -159,6 +159,14 @@ double background_factor(double false_alarm_rate, int cells) {
 }
 
 Soundings detect_soundings(const Ping& ping, const EchoStream& stream, const DetectionOptions& options) {
+  const StoredEchoes none({}, {}, me);
+  Soundings soundings = detect_soundings(ping, stream, none, options);
+  soundings.true_order.clear();
+  return soundings;
+}
+
+Soundings detect_soundings(const Ping& ping, const EchoStream& direct, const EchoStream& doubles,
+                           const DetectionOptions& options) {
   require(options.false_alarm_rate > 0 && options.false_alarm_rate <= 1, me, "false_alarm_rate",
           options.false_alarm_rate, "", "above 0 and at most 1");
   require(options.range_resolution >= 0, me, "range_resolution", options.range_resolution, "m", ">= 0");
@@ -171,11 +179,17 @@ Soundings detect_soundings(const Ping& ping, const EchoStream& stream, const Det
   std::vector<Pixel> pixels;
   for (std::size_t b = 0; b < of_beam.size(); ++b)
     for (const Cell cell : of_beam[b]) pixels.push_back({static_cast<std::uint32_t>(b), cell.bin});
-  const auto from = strongest_contributors(pixels, stream, ping.fan, ping.gate, options.threads);
+  const auto by_one = strongest_contributors(pixels, direct, ping.fan, ping.gate, options.threads);
+  const auto by_two = strongest_contributors(pixels, doubles, ping.fan, ping.gate, options.threads);
   Soundings all;
-  auto contributor = from.begin();
+  std::size_t pixel = 0;
   for (std::size_t b = 0; b < of_beam.size(); ++b)
-    for (const Cell cell : of_beam[b]) add_sounding(all, ping, b, cell, *contributor++);
+    for (const Cell cell : of_beam[b]) {
+      const bool twice = is_stronger(by_two[pixel], by_one[pixel]);
+      add_sounding(all, ping, b, cell, twice ? by_two[pixel] : by_one[pixel]);
+      all.true_order.push_back(twice ? 2 : 1);
+      ++pixel;
+    }
   return all;
 }
 

@@ -49,6 +49,10 @@ double background_factor(double false_alarm_rate, int cells);
 /// options.threads. Throws Error for a rate outside (0, 1], or a resolution or reach that is not >= 0.
 Soundings detect_soundings(const Ping& ping, const EchoStream& stream, const DetectionOptions& options = {});
 
+/// The same with the echoes by way of two surfaces (apparent_places) beside the direct ones; sets true_order.
+Soundings detect_soundings(const Ping& ping, const EchoStream& direct, const EchoStream& doubles,
+                           const DetectionOptions& options);
+
 /// The same for patches and echoes that are stored, index by index; throws Error if their numbers differ.
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,
                            const DetectionOptions& options = {});

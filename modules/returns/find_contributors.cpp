@@ -248,6 +248,8 @@ Contributors Search::contributors(const SceneCloud& scene) const {
   c.elevation.assign(entries, 0);
   c.material.assign(entries, Contributors::no_material);
   c.path.assign(entries, PathKind::direct);
+  if (std::any_of(groups_.begin(), groups_.end(), [](const Group& g) { return g.before != Contributors::none; }))
+    c.surfel_before.assign(entries, Contributors::none);
   c.total.assign(found_.total.begin(), found_.total.end());
   parallel_blocks(entries, 1 << 16, options_.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -259,6 +261,9 @@ Contributors Search::contributors(const SceneCloud& scene) const {
       c.elevation[i] = group.elevation;
       c.material[i] = scene.material[group.surfel];
       c.path[i] = static_cast<PathKind>(group.legs.bounces());
+      if (group.before == Contributors::none) continue;
+      c.path[i] = PathKind::two_surfaces;
+      c.surfel_before[i] = group.before;
     }
   });
   return c;

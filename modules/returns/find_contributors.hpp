@@ -17,6 +17,8 @@ struct SurfelEchoes {
   const Echoes& echoes;                   ///< must have upward direction cosines v
   std::span<const std::uint32_t> surfel;  ///< surfel of every echo, index in the scene
   std::span<const LegPair> legs{};        ///< legs of every echo; empty: all direct
+  /// Of echoes by way of two surfaces, the surfel that sound met before `surfel`; empty: they met one surface.
+  std::span<const std::uint32_t> before{};
 };
 
 /// Options of find_contributors.
@@ -35,7 +37,7 @@ double contributor_mib(std::size_t pixels, int per_pixel);
 ///   E(b, n) = sum_p |A_p|^2 |B_b(u_p, v_p)|^2 |G_p(2 r_n / c - delay_p)|^2
 ///
 /// over the echoes p of one surfel (all its parts) with one pair of legs out and back: the same surfel by way of a
-/// boundary is another contributor. A, B and G are those of the synthesis (E7, E10, E12, E14, E48, E56): spreading,
+/// boundary, or after another surfel, is another contributor. A, B and G are those of the synthesis (E7, E10, E12, E14, E48, E56): spreading,
 /// scattering with the speckle amplitude of the patch, patterns, and frequency-dependent absorption. Phases between
 /// echoes are ignored: shares are those of expected energies for independent phases, and add up to 1 over all
 /// contributors. Noise and reverberation do not come from surfels and are not included.

@@ -18,10 +18,10 @@ inline std::string signed_unit(const SoundingColumn& column) {
   return at == unit.npos ? unit : std::string(unit).replace(at, none.size(), "-1");
 }
 
-/// Calls use(SoundingColumn, column ...) for every column beside position, in the order of files, with the columns of
-/// one or more soundings.
+/// Calls use(SoundingColumn, column ...) for every column that all soundings have beside position, in the order of
+/// files, with the columns of one or more soundings.
 template <typename Use, typename... Some>
-void each_column(const Use& use, Some&... soundings) {
+void each_common_column(const Use& use, Some&... soundings) {
   use(SoundingColumn{"level_db", "dB re 1 uPa"}, soundings.level_db...);
   use(SoundingColumn{"range", "m"}, soundings.range...);
   use(SoundingColumn{"azimuth", "rad, positive to port"}, soundings.azimuth...);
@@ -34,10 +34,25 @@ void each_column(const Use& use, Some&... soundings) {
   use(SoundingColumn{"true_material", "number in the scene; 4294967295: none"}, soundings.true_material...);
 }
 
+/// The column that soundings may have beside these, last in files.
+inline constexpr SoundingColumn order_column = {"true_order", "surfaces met: 1 or 2"};
+
+/// The same for every column that these soundings have.
+template <typename Use, typename Those>
+void each_column(const Use& use, Those& soundings) {
+  each_common_column(use, soundings);
+  if (!soundings.true_order.empty()) use(order_column, soundings.true_order);
+}
+
 /// Appends sounding i of `from`.
 inline void append_row(Soundings& to, const Soundings& from, std::size_t i) {
+  const auto append = [i](const SoundingColumn&, auto& column, const auto& source) { column.push_back(source[i]); };
+  if (!from.true_order.empty() || !to.true_order.empty()) {
+    to.true_order.resize(to.size(), 1);
+    to.true_order.push_back(from.true_order.empty() ? 1 : from.true_order[i]);
+  }
   to.position.push_back(from.position[i]);
-  each_column([i](const SoundingColumn&, auto& column, const auto& source) { column.push_back(source[i]); }, to, from);
+  each_common_column(append, to, from);
 }
 
 }  // namespace insonify

@@ -25,6 +25,9 @@ struct Soundings {
   std::vector<float> true_elevation;         ///< of the strongest contributor [rad]; NaN: none
   std::vector<std::uint32_t> true_surfel;    ///< its id in the scene
   std::vector<std::uint32_t> true_material;  ///< index into the scene's materials
+  /// Surfaces that the strongest contributor met: 1, or 2 for an echo by way of two, where true_surfel is the last. Empty
+  /// if no such echoes were computed.
+  std::vector<std::uint32_t> true_order{};
 
   /// Returns the number of soundings.
   std::size_t size() const { return position.size(); }

@@ -175,10 +175,12 @@ class SlabSearch final : public EchoSink {
       const double du = std::abs(echoes.u[i] - region.u), up = std::abs(s.elevation[i] - region.elevation);
       if (!(du <= region.width.u && up <= region.width.elevation)) continue;
       const bool own = du <= region.share.u && up <= region.share.elevation;
-      const double power = std::norm(echoes.amplitude[i]);
-      StrongestContributor& best = found_[at->pixel];
-      if (own == best.own_share ? power > best.power : own && power > 0)
-        best = {power, own, {s.azimuth[i], s.elevation[i]}, static_cast<std::uint32_t>(s.id[i] >> 32), s.material[i]};
+      const StrongestContributor offered{std::norm(echoes.amplitude[i]),
+                                         own,
+                                         {s.azimuth[i], s.elevation[i]},
+                                         static_cast<std::uint32_t>(s.id[i] >> 32),
+                                         s.material[i]};
+      if (StrongestContributor& best = found_[at->pixel]; is_stronger(offered, best)) best = offered;
     }
   }
 

@@ -23,6 +23,11 @@ struct StrongestContributor {
   std::uint16_t material = 0;
 };
 
+/// Whether `a` contributes more than `b`: what stands in the beam's own share of the fan before what does not.
+inline bool is_stronger(const StrongestContributor& a, const StrongestContributor& b) {
+  return a.own_share == b.own_share ? a.power > b.power : a.own_share && a.power > 0;
+}
+
 /// Returns the strongest contributor of each pixel within one bin length: searched in the beam's own share of the fan,
 /// so that neighbouring beams do not report the same scatterer, else in its -3 dB width (in azimuth, and in elevation
 /// for a fan of several rows or a planar array). Only parts near the pixels are visited. The result does not depend on

@@ -21,9 +21,11 @@ DelayBins::DelayBins(const SonarHead& head, const Medium& medium, double floor_d
 
 void require_arrivals(const SceneCloud& scene, const SurfelEchoes& part, const char* who) {
   const std::size_t n = part.echoes.size();
-  if (part.surfel.size() != n || part.echoes.v.size() != n || !(part.legs.empty() || part.legs.size() == n))
+  if (part.surfel.size() != n || part.echoes.v.size() != n || !(part.legs.empty() || part.legs.size() == n) ||
+      !(part.before.empty() || part.before.size() == n))
     fail(ErrorKind::argument, who, ": ", n, " echoes, but ", part.surfel.size(), " surfels, ", part.echoes.v.size(),
-         " directions upwards and ", part.legs.size(), " pairs of legs; give one of each (no legs: all direct)");
+         " directions upwards, ", part.legs.size(), " pairs of legs and ", part.before.size(),
+         " surfels before; give one of each (no legs: all direct; none before: all by one surface)");
   for (std::size_t i = 0; i < n; ++i) {
     if (part.surfel[i] >= scene.size())
       fail(ErrorKind::argument, who, ": surfel[", i, "] = ", part.surfel[i], ", but the scene has ", scene.size());
@@ -44,7 +46,7 @@ std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> parts, const 
       const Echoes& e = h.echoes;
       if (!axis.reaches(e.delay[i])) continue;
       arrivals.push_back({e.delay[i], e.u[i], e.v[i], std::norm(e.amplitude[i]), e.doppler_of(i), h.surfel[i],
-                          h.legs.empty() ? LegPair{} : h.legs[i]});
+                          h.legs.empty() ? LegPair{} : h.legs[i], h.before.empty() ? Contributors::none : h.before[i]});
     }
   const auto before = [](const Arrival& a, const Arrival& b) { return a.key() < b.key(); };
   if (!std::is_sorted(arrivals.begin(), arrivals.end(), before))
@@ -65,6 +67,7 @@ std::vector<Group> groups_of(const std::vector<Arrival>& arrivals) {
     group.u_high = std::max(group.u_high, a.u);
     if (a.power > strongest) {
       strongest = a.power;
+      group.before = a.before;
       group.elevation = static_cast<float>(std::asin(std::clamp(a.v, -1.0, 1.0)));
     }
   }

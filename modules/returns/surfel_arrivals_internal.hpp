@@ -39,8 +39,9 @@ struct Arrival {
   double delay, u, v, power, doppler;
   std::uint32_t surfel;
   LegPair legs;
+  std::uint32_t before = Contributors::none;
 
-  auto key() const { return std::tuple(surfel, legs.out, legs.back); }
+  auto key() const { return std::tuple(surfel, legs.out, legs.back, before != Contributors::none); }
 };
 
 /// The arrivals [first, last) of one contributor.
@@ -50,6 +51,7 @@ struct Group {
   float elevation;  ///< elevation of the strongest arrival [rad]
   std::size_t first, last;
   double u_low, u_high;
+  std::uint32_t before = Contributors::none;  ///< of the strongest arrival
 };
 
 /// Throws Error(argument) unless the echoes are complete, finite and of surfels of the scene.

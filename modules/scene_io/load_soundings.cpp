@@ -58,9 +58,12 @@ void append_soundings(const ReturnsTable& table, Soundings& soundings) {
   for (int axis = 0; axis < 3; ++axis) table.append(axes[axis], places[axis]);
   for (std::size_t i = 0; i < table.rows(); ++i)
     soundings.position.emplace_back(places[0][i], places[1][i], places[2][i]);
-  each_column(
-      [&](const SoundingColumn& column, auto& values) { table.append(std::string("scalar_") + column.name, values); },
-      soundings);
+  const auto append = [&](const SoundingColumn& column, auto& values) {
+    table.append(std::string("scalar_") + column.name, values);
+  };
+  each_common_column(append, soundings);
+  if (table.has(std::string("scalar_") + order_column.name) || !soundings.true_order.empty())
+    append(order_column, soundings.true_order);
 }
 
 }  // namespace

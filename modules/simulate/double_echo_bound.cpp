@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t most_places = 1024;
+constexpr std::size_t most_places = 512;
 
 /// A place of the sample that is in view.
 struct Place {

@@ -101,4 +101,12 @@ void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, 
   layers.add("double-echoes", parts.doubles.echoes);
 }
 
+Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,
+                 const Ping& image) {
+  if (!(ping.options.effects.double_echoes > 0)) return detect_soundings(image, direct, ping.detection);
+  const Scatterers places =
+      apparent_places(parts.doubles, scene, ping.view.world_from_head, ping.sent.medium.sound_speed);
+  return detect_soundings(image, direct, StoredEchoes(places, parts.doubles.echoes, "PingSimulator"), ping.detection);
+}
+
 }  // namespace insonify

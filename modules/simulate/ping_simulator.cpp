@@ -157,7 +157,7 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
 
   // What an operator would mark: detections, as points in the world.
   begin_stage("detection");
-  result.soundings = detect_soundings(result.ping, *direct, ping.detection);
+  result.soundings = detect(scene.scene(), ping, *direct, parts, result.ping);
   seconds.detection = watch.lap();
 
   // What the options ask for besides, and how the ping came about.

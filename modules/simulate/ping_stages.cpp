@@ -41,7 +41,9 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
   const OutputSettings& wanted = ping.options.outputs;
   const std::vector<std::uint32_t>& surfel = parts.sampling.scatterers.surfel;
   const Multipath& multipath = parts.multipath;
-  const SurfelEchoes echoes[] = {{parts.direct, surfel}, {multipath.echoes, multipath.surfel, multipath.legs}};
+  const SurfelEchoes echoes[] = {{parts.direct, surfel},
+                                 {multipath.echoes, multipath.surfel, multipath.legs},
+                                 {parts.doubles.echoes, parts.doubles.last, {}, parts.doubles.first}};
   const std::vector<Visibility> others = others_than(parts.sampling.scatterers, prepared, ping.view);
   ContributorOptions options;
   options.per_pixel = wanted.contributors;
@@ -56,8 +58,9 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
                             options.threads),
                first, ping.head.fan.beams(), result.ping.labels);
     if (!ping.stands_for.empty())
-      for (std::uint32_t& named : found.surfel)
-        if (named != Contributors::none) named = ping.stands_for[named];
+      for (std::vector<std::uint32_t>* of : {&found.surfel, &found.surfel_before})
+        for (std::uint32_t& named : *of)
+          if (named != Contributors::none) named = ping.stands_for[named];
     if (wanted.contributor_sink)
       wanted.contributor_sink->take(found, first);
     else

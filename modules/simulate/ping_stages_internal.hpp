@@ -44,6 +44,10 @@ void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, Ping
 /// Adds the layer of echoes by way of two surfaces (E158), if the options say so, and leaves them in parts.doubles.
 void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
+/// The soundings of a ping, with the echoes by way of two surfaces among those they may come from, if there are any.
+Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,
+                 const Ping& image);
+
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
 struct Reverberation {
   const char* name;

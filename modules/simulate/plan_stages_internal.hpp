@@ -51,7 +51,7 @@ double bound_of_changed_echoes(const PlanFacts& facts, const Change& change) {
 }
 
 /// Error that leaving out the echoes by way of two surfaces causes: their expected energy (E158), of all pairs of some
-/// 1000 places of the sample as if nothing stood between them. A bound for Lambert's law. For laws with lobes, which the
+/// 500 places of the sample as if nothing stood between them. A bound for Lambert's law. For laws with lobes, which the
 /// sample may miss, it is an estimate.
 double double_echo_bound(const PlanFacts& facts);
 

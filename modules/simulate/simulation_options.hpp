@@ -18,7 +18,7 @@ enum class Choice { as_needed, always, never };
 /// SamplingSettings::detail_width where it is asked for without a number.
 inline constexpr double usual_detail_width = 0.5;
 /// EffectSettings::double_echoes where they are asked for without a number.
-inline constexpr double usual_double_echoes = 1;
+inline constexpr double usual_double_echoes = 2;
 
 /// Which points stand for the scene.
 struct SamplingSettings {

@@ -20,7 +20,7 @@ const std::string content = "contributors";
 constexpr DatasetName surfel_name{"/surfel", ""}, id_name{"/id", ""}, share_name{"/share", ""},
     elevations_name{"/elevation", "rad"}, material_name{"/material", ""}, path_name{"/path", ""},
     material_image_name{"/material_image", ""}, instance_image_name{"/instance_image", ""},
-    names_name{"/material_names", ""};
+    names_name{"/material_names", ""}, before_name{"/surfel_before", ""};
 
 template <typename Number>
 void send_numbers(const FileContext& place, hid_t file, const DatasetName& name, const Extent& extent,
@@ -119,19 +119,21 @@ struct ContributorFile::Open {
 };
 
 ContributorFile::ContributorFile(const std::string& path, std::size_t beams, std::size_t bins, std::size_t per_pixel,
-                                 const std::vector<std::string>& materials) {
+                                 const std::vector<std::string>& materials, bool two_surfaces) {
   const QuietErrors quiet;
   failed_to_close = false;
   open_ = std::make_unique<Open>(path, Extent{beams, bins, per_pixel}, materials.size());
   write_attribute(open_->place, open_->file, "schema", contributor_schema);
   write_attribute(open_->place, open_->file, "content", content);
-  write_attribute(open_->place, open_->file, "paths", std::string("0 direct, 1 one bounce, 2 two bounces"));
+  write_attribute(open_->place, open_->file, "paths",
+                  std::string("0 direct, 1 one bounce, 2 two bounces") + (two_surfaces ? ", 3 two surfaces" : ""));
   open_->add<std::uint32_t>(surfel_name);
   open_->add<std::uint32_t>(id_name);
   open_->add<float>(share_name);
   open_->add<float>(elevations_name);
   open_->add<std::uint16_t>(material_name);
   open_->add<std::uint8_t>(path_name);
+  if (two_surfaces) open_->add<std::uint32_t>(before_name);
   write_names(open_->place, open_->file, materials);
 }
 
@@ -153,6 +155,9 @@ void ContributorFile::write(const Contributors& band, std::size_t first_beam) {
   open_->write(4, material_name, first_beam, band.beams, band.material.data());
   static_assert(sizeof(PathKind) == 1);
   open_->write(5, path_name, first_beam, band.beams, reinterpret_cast<const std::uint8_t*>(band.path.data()));
+  if (open_->datasets.size() <= 6) return;
+  const std::vector<std::uint32_t> none(band.surfel_before.empty() ? band.surfel.size() : 0, Contributors::none);
+  open_->write(6, before_name, first_beam, band.beams, none.empty() ? band.surfel_before.data() : none.data());
 }
 
 void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Grid<std::uint32_t>& instance_image) {
@@ -173,7 +178,7 @@ void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Gr
 void write_contributor_file(const std::string& path, const NamedContributors& named) {
   const Contributors& c = named.contributors;
   require_valid(c, "write_contributor_file");
-  ContributorFile file(path, c.beams, c.bins, c.per_pixel, named.materials);
+  ContributorFile file(path, c.beams, c.bins, c.per_pixel, named.materials, !c.surfel_before.empty());
   file.write(c, 0);
   const Grid<std::uint16_t> materials = material_image(c);
   file.finish(materials, number_objects(materials.unaryExpr([](std::uint16_t material) {
@@ -203,16 +208,20 @@ NamedContributors read_contributor_file(const std::string& path) {
     send_numbers<float>(place, file, elevations_name, extent, to);
     send_numbers<std::uint16_t>(place, file, material_name, extent, to);
     send_numbers<std::uint8_t>(place, file, path_name, extent, to);
+    if (H5Lexists(file, before_name.path, H5P_DEFAULT) > 0)
+      send_numbers<std::uint32_t>(place, file, before_name, extent, to);
+    else
+      to(std::vector<std::uint32_t>{});
     to(read_names(place, file));
   });
   NamedContributors named;
   Contributors& c = named.contributors;
   Extent extent;
-  sent(extent, c.surfel, c.id, c.share, c.elevation, c.material, c.path, named.materials);
+  sent(extent, c.surfel, c.id, c.share, c.elevation, c.material, c.path, c.surfel_before, named.materials);
   c.beams = extent[0], c.bins = extent[1], c.per_pixel = extent[2];
   for (const PathKind kind : c.path)
-    if (kind > PathKind::two_bounces)
-      fail(ErrorKind::content, path, ": ", path_name.path, " holds ", static_cast<int>(kind), ", must be 0, 1 or 2");
+    if (kind > PathKind::two_surfaces)
+      fail(ErrorKind::content, path, ": ", path_name.path, " holds ", static_cast<int>(kind), ", must be 0, 1, 2 or 3");
   return named;
 }
 

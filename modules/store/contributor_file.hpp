@@ -16,7 +16,7 @@ struct NamedContributors {
 };
 
 /// Writes /surfel, /id (uint32), /share, /elevation (float32), /material (uint16) and /path (uint8) as beams x bins x
-/// per_pixel, the label images /material_image (uint16) and /instance_image (uint32) as beams x bins, /material_names
+/// per_pixel, with echoes by way of two surfaces also /surfel_before (uint32), the label images /material_image (uint16) and /instance_image (uint32) as beams x bins, /material_names
 /// (text), and the root attributes schema, content "contributors" and paths, the meaning of the numbers of /path.
 /// Unused entries have surfel and id 4294967295 and material 65535. The images are of the strongest contributors: their
 /// material, and connected parts of one material, from 1. Byte-identical for identical input.
@@ -28,9 +28,10 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
 /// write_contributor_file.
 class ContributorFile {
  public:
-  /// Begins a file for beams x bins x per_pixel entries, and the names of the materials.
+  /// Begins a file for beams x bins x per_pixel entries, and the names of the materials; with /surfel_before if there
+  /// may be echoes by way of two surfaces.
   ContributorFile(const std::string& path, std::size_t beams, std::size_t bins, std::size_t per_pixel,
-                  const std::vector<std::string>& materials);
+                  const std::vector<std::string>& materials, bool two_surfaces = false);
   ~ContributorFile();
   ContributorFile(const ContributorFile&) = delete;
   ContributorFile& operator=(const ContributorFile&) = delete;

@@ -107,7 +107,7 @@ std::vector<Contribution> contributions_of(const Contributors& list, PixelPlace 
   return found;
 }
 
-constexpr const char* path_texts[] = {"direct", "by one bounce", "by two bounces"};  // by PathKind
+constexpr const char* path_texts[] = {"direct", "by one bounce", "by two bounces", "by two surfaces"};  // by PathKind
 
 std::string bearing_words(double azimuth) {
   const double bearing_deg = -degrees(azimuth);

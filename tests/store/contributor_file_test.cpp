@@ -126,7 +126,7 @@ TEST(ContributorFile, that_contradicts_itself_is_refused) {
   EXPECT_EQ(error_of_contributors(path), "content: c.h5: /share has 2 dimensions, must have 3");
   const std::string other = write(make_contributors());
   raw_overwrite(RawFile(other), "/path", std::vector<double>(105, 9));
-  EXPECT_EQ(error_of_contributors(other), "content: c.h5: /path holds 9, must be 0, 1 or 2");
+  EXPECT_EQ(error_of_contributors(other), "content: c.h5: /path holds 9, must be 0, 1, 2 or 3");
 }
 
 TEST(ContributorFile, foreign_missing_and_truncated_files_are_refused) {

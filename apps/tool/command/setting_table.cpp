@@ -121,7 +121,7 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
        "add echoes by way of the environment's surface and bottom even where --accuracy-db does not need them"},
       {"ping", "double_echoes", "--double-echoes", &o.double_echoes,
        "rays from each resolution cell of the surface for echoes by way of two surfaces; 0: none; --with double-echoes "
-       "takes 1"},
+       "takes 2"},
   };
 }
 

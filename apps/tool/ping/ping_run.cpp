@@ -104,9 +104,9 @@ void save_ping_run(const PingOptions& o, PingSetup setup, const PingInMemory& of
   for (std::string& note : loading_notes(of.report)) run.notes.push_back(std::move(note));
 
   Progress progress(o.common, 1);
-  OutputSettings outputs = setup.simulation.outputs;
-  ContributorWriter contributors(directory, scene, setup.head.head, outputs);
-  if (outputs.contributor_sink) contributors.take(of.ping.outputs.contributors, 0);
+  SimulationOptions options = setup.simulation;
+  ContributorWriter contributors(directory, scene, setup.head.head, options);
+  if (options.outputs.contributor_sink) contributors.take(of.ping.outputs.contributors, 0);
   write_ping_run(directory, run, of.ping, contributors, progress);
   directory.commit();
 }

@@ -51,7 +51,7 @@ void ping(const PingCommand& command) {
   if (run.plan.options.outputs.contributors > 0) run.instances = instances_of_scene(o.scene.path);
 
   progress.step("pinging");
-  ContributorWriter contributors(directory, run.scene, setup.head, run.plan.options.outputs);
+  ContributorWriter contributors(directory, run.scene, setup.head, run.plan.options);
   SimulatedPing result = PingSimulator(setup.head, setup.environment, run.plan.options).ping(scene, ready.event);
   const ordered_json manifest = write_ping_run(directory, run, std::move(result), contributors, progress);
   progress.step("done");

@@ -144,13 +144,15 @@ ordered_json write_paths(const RunDirectory& directory, const SoundPaths& paths)
 }  // namespace
 
 ContributorWriter::ContributorWriter(const RunDirectory& directory, const SceneCloud& scene, const SonarHead& head,
-                                     OutputSettings& outputs) {
+                                     SimulationOptions& options) {
+  OutputSettings& outputs = options.outputs;
   if (outputs.contributors == 0) return;
   per_pixel_ = outputs.contributors;
   std::vector<std::string> materials;
   for (const Material& material : scene.materials) materials.push_back(material.name);
   file_ = std::make_unique<ContributorFile>(directory.file("contributors.h5"), head.fan.beams(), head.gate.bins(),
-                                            static_cast<std::size_t>(per_pixel_), materials);
+                                            static_cast<std::size_t>(per_pixel_), materials,
+                                            options.effects.double_echoes > 0);
   outputs.contributor_sink = this;
 }
 

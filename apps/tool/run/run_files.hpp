@@ -37,9 +37,10 @@ std::string picture_title(const std::string& sonar, const Ping& ping);
 /// Writes contributors.h5 of a ping while they are found, band by band of beams.
 class ContributorWriter : public ContributorSink {
  public:
-  /// Has `outputs` hand over the contributors, if it asks for any, to this writer, which must outlive the ping.
+  /// Has a ping with `options` hand over its contributors, if they ask for any, to this writer, which must outlive the
+  /// ping.
   ContributorWriter(const RunDirectory& directory, const SceneCloud& scene, const SonarHead& head,
-                    OutputSettings& outputs);
+                    SimulationOptions& options);
   ContributorWriter(const ContributorWriter&) = delete;
   ContributorWriter& operator=(const ContributorWriter&) = delete;
 
