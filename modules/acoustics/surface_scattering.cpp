@@ -4,34 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/tabulated_surface_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
-namespace {
 
 using Eigen::Vector3d;
-
-class LambertSurface final : public SurfaceScattering {
- public:
-  explicit LambertSurface(double mu) : mu_(mu) {}
-  double cross_section(const PathAngles& path) const override {
-    return path.cos_in > 0 && path.cos_out > 0 ? lambert_cross_section(mu_, path.cos_out, path.cos_in) : 0;
-  }
-  double per_seen_area(const PathAngles& path) const override { return lambert_cross_section(mu_, path.cos_out, 1); }
-  double back(double cosine) const override { return lambert_cross_section(mu_, cosine, 1); }
-
- private:
-  double mu_;
-};
-
-}  // namespace
-
-SurfaceTable surface_table(std::span<const Material> materials, double /*frequency*/, double /*sound_speed*/) {
-  SurfaceTable table;
-  for (const Material& m : materials) table.push_back(std::make_shared<const LambertSurface>(m.lambert_mu));
-  return table;
-}
-
 double lambert_cross_section(double lambert_mu, double cos_back, double seen_area) {
   return lambert_mu * cos_back * seen_area;  // (E4)
 }
@@ -63,17 +41,8 @@ double sampling_density(double lobe_slope, const PathAngles& path) {
 }
 
 double albedo(const SurfaceScattering& surface, double cos_in) {
-  constexpr int numbers = 128, turns = 64;
-  const Vector3d in(std::sqrt(std::max(0.0, 1 - cos_in * cos_in)), 0, cos_in);
-  double sum = 0;
-  for (int k = 0; k < numbers; ++k)
-    for (int j = 0; j < turns; ++j) {
-      const Vector3d out = sampled_direction(surface.lobe_slope(), in, (k + 0.5) / numbers, (j + 0.5) / turns);
-      if (!(out.z() > 0)) continue;
-      const PathAngles path{cos_in, out.z(), in.dot(out)};
-      sum += surface.cross_section(path) / sampling_density(surface.lobe_slope(), path);
-    }
-  return sum / (numbers * turns * cos_in);
+  return power_share(surface.lobe_slope(), cos_in, 8192,
+                     [&](const PathAngles& path) { return surface.cross_section(path); });
 }
 
 }  // namespace insonify

@@ -64,7 +64,7 @@ Eigen::Vector3d sampled_direction(double lobe_slope, const Eigen::Vector3d& in, 
 double sampling_density(double lobe_slope, const PathAngles& path);
 
 /// Part of the power arriving at cosine `cos_in` > 0 that leaves again: integral of the cross-section over all
-/// directions, over cos_in. By 128 x 64 directions of sampled_direction: within 0.002 for lobes, exact for Lambert's.
+/// directions, over cos_in. By 8192 directions of sampled_direction, within 0.001.
 double albedo(const SurfaceScattering& surface, double cos_in);
 
 }  // namespace insonify

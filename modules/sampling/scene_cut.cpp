@@ -51,8 +51,9 @@ class LevelWalk {
   }
 
  private:
-  /// Whether the head does not resolve the surfels of a node (E137).
+  /// Whether the head does not resolve the surfels of a node (E137), whose law's mean over normals is known.
   bool suffices(const DetailNode& node, const Vector3d& p, double range) const {
+    if (!std::holds_alternative<LambertLaw>(scene_.materials[node.material].law)) return false;
     const double nearest = range - node.extent, farthest = range + node.extent;
     const auto divides = [&](double end) { return nearest < end && end < farthest; };
     if (!(nearest > 0) || std::sqrt(node.area) > width_ * nearest) return false;

@@ -15,6 +15,11 @@ void require_valid(const Material& material, const char* who, ErrorKind kind) {
     fail(kind, who, ": ", n.name, " of material '", material.name, "' = ", value, unit, ", must be within 0 and ",
          n.most);
   }
+  if (const std::string problem = problem_of(material.law); !problem.empty())
+    fail(kind, who, ": law '", name_of(material.law), "' of material '", material.name, "': ", problem);
+  if (material.relief_slope > 0 && has_own_slopes(material.law))
+    fail(kind, who, ": relief_slope of material '", material.name, "' = ", material.relief_slope, ", must be 0: law '",
+         name_of(material.law), "' has slopes of its own");
 }
 
 }  // namespace insonify

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "scene/surface_law.hpp"
 
 namespace insonify {
 
@@ -12,9 +13,11 @@ namespace insonify {
 struct Material {
   std::string name = "default";
   double lambert_mu = 0.001995262314968880;  ///< [1/sr], cross-section per area and solid angle at normal incidence;
-                                             ///< -27 dB: Mackenzie (1961), the usual default for a sea bed
+                                             ///< -27 dB: Mackenzie (1961), the usual default for a sea bed. Lambert's
+                                             ///< law alone uses it
   double coherent_fraction = 0;  ///< part of the mean intensity, in [0, 1], whose amplitude is 1, not random (E53)
   double relief_slope = 0;       ///< rms slope [rise over run] of relief finer than the surfels (E52); 0: smooth
+  SurfaceLaw law{};
 
   bool operator==(const Material&) const = default;
 };
@@ -44,7 +47,8 @@ inline constexpr MaterialNumber material_numbers[] = {
      1, "rise over run, rms: 45 degrees", "rms slope of relief finer than the cloud"},
 };
 
-/// Throws Error of `kind` unless every number is finite, >= 0 and at most its `most`.
+/// Throws Error of `kind` unless every number is finite, >= 0 and at most its `most`, its law valid (problem_of), and
+/// relief_slope 0 where the law has slopes of its own.
 void require_valid(const Material& material, const char* who, ErrorKind kind = ErrorKind::argument);
 
 }  // namespace insonify

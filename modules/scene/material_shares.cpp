@@ -24,6 +24,7 @@ std::vector<MaterialShare> material_shares(std::span<const Material> table, std:
   for (std::size_t m = 0; m < of.size(); ++m) {
     if (of[m].points == 0) continue;
     MaterialShare share{m < table.size() ? table[m].name : "label " + std::to_string(m), of[m].points, {}, 0};
+    if (m < table.size()) share.law = name_of(table[m].law);
     if (area.empty()) {
       share.share = static_cast<double>(of[m].points) / static_cast<double>(material.size());
     } else {

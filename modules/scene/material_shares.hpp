@@ -15,8 +15,9 @@ namespace insonify {
 struct MaterialShare {
   std::string name;
   std::size_t points = 0;
-  std::optional<double> area;  ///< [m^2]; empty where the areas of the points are not known
-  double share = 0;            ///< of the whole area; of all points where areas are not known
+  std::optional<double> area;               ///< [m^2]; empty where the areas of the points are not known
+  double share = 0;                         ///< of the whole area; of all points where areas are not known
+  std::string law = name_of(SurfaceLaw{});  ///< name of its law
 };
 
 /// The shares of the materials that occur, in the order of the table. `material` holds an index for each point; an

@@ -11,7 +11,7 @@ namespace insonify {
 namespace {
 
 /// A material stands in one line with its first number, and in a second one, "surface", with the others if any of them
-/// is not the default.
+/// is not the default; a law other than Lambert's in a third one, "law".
 constexpr std::span surface_numbers = std::span(material_numbers).subspan(1);
 
 /// Shortest text that reads back as the same double.
@@ -58,6 +58,12 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
     if (!rest.empty()) rest.remove_prefix(1);
     material.name = std::string(rest);
     tags.materials.push_back(material);
+  } else if (key == "law") {
+    std::size_t index = 0;
+    if (!to_number(take_word(rest), index) || index >= tags.materials.size()) bad();
+    const std::optional<SurfaceLaw> law = law_from_text(rest);
+    if (!law || !problem_of(*law).empty()) bad();
+    tags.materials[index].law = *law;
   } else if (key == "surface") {
     std::size_t index = 0;
     if (!to_number(take_word(rest), index) || index >= tags.materials.size()) bad();
@@ -91,6 +97,7 @@ std::vector<std::string> tag_lines(const SceneCloud& scene) {
       plain = plain && material.*n.member == Material{}.*n.member;
     }
     if (!plain) lines.push_back(surface);
+    if (material.law != SurfaceLaw{}) lines.push_back("insonify law " + index + " " + law_to_text(material.law));
   }
   return lines;
 }

@@ -53,7 +53,17 @@ std::string pack_materials(const std::vector<Material>& materials) {
     append(bytes, static_cast<std::uint32_t>(m.name.size()));
     bytes += m.name;
   }
+  if (!has_laws(materials)) return bytes;
+  for (const Material& m : materials) {
+    const std::string law = law_to_text(m.law);
+    append(bytes, static_cast<std::uint32_t>(law.size()));
+    bytes += law;
+  }
   return bytes;
+}
+
+bool has_laws(const std::vector<Material>& materials) {
+  return std::any_of(materials.begin(), materials.end(), [](auto& m) { return m.law != SurfaceLaw{}; });
 }
 
 std::vector<Material> unpack_materials(std::span<const char> bytes, const TileHeader& header, const std::string& path) {
@@ -69,16 +79,26 @@ std::vector<Material> unpack_materials(std::span<const char> bytes, const TileHe
   if (numbers > std::size(material_numbers))
     fail(ErrorKind::content, path, ": a material has ", numbers, " numbers, this insonify reads up to ",
          std::size(material_numbers), "; update insonify, or prepare the scene with this one");
+  const auto take_text = [&] {
+    std::uint32_t length = 0;
+    take(length);
+    require(bytes.size() >= length);
+    const std::string text(bytes.data(), length);
+    bytes = bytes.subspan(length);
+    return text;
+  };
   std::vector<Material> materials(header.materials <= bytes.size() ? header.materials : 0);
   require(materials.size() == header.materials);
   for (Material& m : materials) {
     for (std::size_t k = 0; k < numbers; ++k) take(m.*material_numbers[k].member);
-    std::uint32_t length = 0;
-    take(length);
-    require(bytes.size() >= length);
-    m.name.assign(bytes.data(), length);
-    bytes = bytes.subspan(length);
+    m.name = take_text();
   }
+  if (header.flags & flag_laws)
+    for (Material& m : materials) {
+      const std::optional<SurfaceLaw> law = law_from_text(take_text());
+      require(law && problem_of(*law).empty());
+      m.law = *law;
+    }
   require(bytes.empty());
   return materials;
 }

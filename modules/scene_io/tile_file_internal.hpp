@@ -31,7 +31,7 @@ struct TileHeader {
   std::uint64_t header_checksum;  ///< of all bytes before it
 };
 static_assert(sizeof(TileHeader) == 256);
-constexpr std::uint32_t flag_normals_oriented = 1, flag_wide = 2;
+constexpr std::uint32_t flag_normals_oriented = 1, flag_wide = 2, flag_laws = 4;
 
 struct TileEntry {
   double reference[3];  ///< [m], relative to the origin; the points of the tile are relative to it
@@ -56,7 +56,9 @@ std::uint64_t checksum(std::span<const char> bytes);
 /// Numbers that a material had when the format was made; all since are announced as added_numbers.
 constexpr std::size_t first_material_numbers = 3;
 
+/// Numbers and names, and if any has a law other than Lambert's (has_laws, flag_laws) the laws of all as text.
 std::string pack_materials(const std::vector<Material>& materials);
+bool has_laws(const std::vector<Material>& materials);
 /// The materials of a file; numbers that it does not hold keep their defaults. Throws Error(content) if the bytes are
 /// not exactly those that the header announces, or hold numbers that are not known.
 std::vector<Material> unpack_materials(std::span<const char> bytes, const TileHeader& header, const std::string& path);

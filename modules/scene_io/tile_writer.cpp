@@ -199,7 +199,8 @@ void TileWriter::State::write_tail(BinaryFile& file) {
   TileHeader h{};
   std::memcpy(h.magic, tile_magic, sizeof(h.magic));
   h.version = tile_version;
-  h.flags = (options.normals_oriented ? flag_normals_oriented : 0) | (wide ? flag_wide : 0);
+  h.flags = (options.normals_oriented ? flag_normals_oriented : 0) | (wide ? flag_wide : 0) |
+            (has_laws(options.materials) ? flag_laws : 0);
   h.file_bytes = report.bytes = end + tail.size();
   h.surfels = report.surfels;
   h.tiles = report.tiles = tiles.size();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "acoustics/reverberation_echoes.hpp"
+#include "acoustics/surface_laws.hpp"
 #include "acoustics/trace_paths.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
@@ -136,6 +137,8 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   if (wanted.paths > 0) result.outputs.paths = paths_of(scene, ping, parts, patches);
 
   if (ping.view.sampling.kind == SamplingKind::rays) report.notes = gap_notes(scene, ping.view, patches);
+  for (std::string& note : surface_notes(scene.materials, ping.head.pulse.centre_frequency))
+    report.notes.push_back(std::move(note));
   for (std::string& note : sparse_notes(report.sampling, ping.view.fan.beams()))
     report.notes.push_back(std::move(note));
   if (wanted.scatterers) result.outputs.scatterers = std::move(parts.sampling.scatterers);

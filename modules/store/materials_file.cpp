@@ -5,22 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "acoustics/surface_laws.hpp"
 #include "store/material_keys_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr int materials_schema = 1;
-
-/// A number of a material. In decibels -inf means 0, and the limit is rounded up to 0.01 dB, as it is written in tables
-/// of materials.
-KeyValue number_of(Material& material, const MaterialNumber& n) {
-  if (!n.in_decibels) return number(at(material.*n.member), {.least = 0, .most = n.most_in_files, .note = n.note});
-  Number power = at(material.*n.member);
-  power.set = [set = power.set, most = n.most_in_files](double x) { set(std::min(x, most)); };
-  const double most = std::ceil(100 * db_from_power(n.most_in_files)) / 100;
-  return number(power, {.most = most, .infinite = true, .note = n.note}, in_decibels);
-}
 
 /// Adds the interval of a material that has one; [from, to) must not overlap earlier ones.
 void add_interval(const std::string& path, const TomlValue& entry, const MaterialEntry& of, MaterialTable& table) {
@@ -52,27 +43,6 @@ void require_new(const std::string& path, int line, const SourcedMaterial& next,
 
 }  // namespace
 
-std::vector<Key> material_keys(MaterialEntry& entry) {
-  Material& material = entry.sourced.material;
-  std::vector<Key> keys = {{"material", "name", "", text(material.name), "", true}};
-  for (const MaterialNumber& n : material_numbers)
-    keys.push_back({"material", n.key, n.in_decibels ? "dB" : n.unit, number_of(material, n), n.help, n.required});
-  const NumberRule label{.least = 0, .most = std::numeric_limits<std::uint16_t>::max(), .whole = true},
-      any{.infinite = true};
-  keys.insert(
-      keys.end(),
-      {
-          {"material", "label", "", number(at(entry.sourced.label), label),
-           "in the cloud; default: its position in the file"},
-          {"material", "from", "", number(at(entry.interval.from), any),
-           "or an interval of field values: from (included)"},
-          {"material", "to", "", number(at(entry.interval.to), any), "to (excluded); one of the two may be omitted"},
-          {"material", "status", "", text(entry.sourced.status), "of the values: sourced, derived, user, ..."},
-          {"material", "source", "", text(entry.sourced.source), "where they come from"},
-      });
-  return keys;
-}
-
 MaterialTable load_materials(const std::string& path) {
   const TomlValue document = load_toml(path);
   require_schema(path, document, materials_schema);
@@ -85,7 +55,8 @@ MaterialTable load_materials(const std::string& path) {
     MaterialEntry entry;
     entry.sourced.label = static_cast<int>(table.materials.size());
     entry.sourced.status = "user";
-    read_keys(path, item, material_keys(entry), "material");
+    read_material(path, item, entry);
+    require_energy(entry.sourced.material, (path + ":" + std::to_string(item.line)).c_str(), ErrorKind::content);
     require_new(path, item.line, entry.sourced, table);
     add_interval(path, item, entry, table);
     table.materials.push_back(entry.sourced);

@@ -5,14 +5,12 @@
 
 #include "core/error.hpp"
 #include "store/sonar_keys_internal.hpp"
+#include "store/sourced_values_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr int sonar_schema = 1;
-
-constexpr Named<int> statuses[] = {{"sourced", 0}, {"recalled", 1}, {"derived", 2},
-                                   {"assumed", 3}, {"unknown", 4},  {"user", 5}};
 
 /// The keys of a file: those of the spec, and what is no property of the sonar itself.
 std::vector<Key> keys_of_file(SonarFile& file) {
@@ -21,36 +19,6 @@ std::vector<Key> keys_of_file(SonarFile& file) {
   keys.push_back({"", "mounting_deg", "deg", vector(file.mounting, "yaw, pitch, roll", in_degrees),
                   "attitude of the head on a vehicle: yaw to port, pitch nose down, roll starboard down"});
   return keys;
-}
-
-/// The value of an entry, plain or a table {value, status, source} whose status and source go into `number`.
-TomlValue value_of(const std::string& path, const TomlValue& entry, SonarNumber& number) {
-  if (entry.kind != TomlValue::Kind::table) return entry;
-  TomlValue value;
-  int status = 0;
-  const auto take = [&value](const TomlValue& from, const std::string&) {
-    value = from;
-    return true;
-  };
-  const auto known = word(status, statuses);
-  const auto check = [&](const TomlValue& from, const std::string& file) {
-    number.status = from.text;
-    return known.set(from, file);
-  };
-  read_keys(path, entry,
-            {{number.key.c_str(), "value", "", {"", take, {}}, "", true},
-             {number.key.c_str(), "status", "", {known.rule, check, {}}, "", true},
-             {number.key.c_str(), "source", "", text(number.source), ""}},
-            number.key);
-  return value;
-}
-
-/// A value as `numbers` list it: all numbers with a fraction.
-std::string listed(TomlValue value) {
-  for (TomlValue& item : value.items)
-    if (item.is_number()) item.kind = TomlValue::Kind::number;
-  if (value.is_number()) value.kind = TomlValue::Kind::number;
-  return value.kind == TomlValue::Kind::text ? value.text : as_toml(value);
 }
 
 /// Lists the default of an omitted key among the numbers.
@@ -91,12 +59,7 @@ SonarFile load_sonar_file(const std::string& path) {
   TomlValue table = file.of_run ? *section : document;
   require_schema(path, table, sonar_schema);
 
-  std::vector<SonarNumber> numbers;
-  for (std::size_t i = 0; i < table.keys.size(); ++i) {
-    SonarNumber& number = numbers.emplace_back(SonarNumber{table.keys[i], "", "user", ""});
-    table.items[i] = value_of(path, table.items[i], number);
-    number.value = listed(table.items[i]);
-  }
+  const std::vector<SonarNumber> numbers = take_sources(path, table);
   const std::vector<Key> keys = keys_of_file(file);
   read_keys(path, table, keys, "", {"schema"});
   for (const Key& key : keys) {

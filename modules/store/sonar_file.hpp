@@ -6,16 +6,12 @@
 #include <Eigen/Core>
 
 #include "sonar/sonar_spec.hpp"
+#include "store/sourced_number.hpp"
 
 namespace insonify {
 
 /// One value of a sonar file with its source.
-struct SonarNumber {
-  std::string key;     ///< e.g. "centre_frequency_hz"
-  std::string value;   ///< as text
-  std::string status;  ///< sourced | recalled | derived | assumed | unknown | user
-  std::string source;  ///< e.g. "datasheet DA-148-P01443-10"
-};
+using SonarNumber = SourcedNumber;
 
 /// A sonar as its file describes it.
 struct SonarFile {

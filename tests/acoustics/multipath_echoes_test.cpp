@@ -70,6 +70,17 @@ TEST(MultipathEchoes, arrives_from_the_direction_of_the_leg_back) {
       testing::UnorderedElementsAre(testing::DoubleNear(-1 / direct, 1e-7), testing::DoubleNear(5 / image, 1e-7)));
 }
 
+// The mixed path of a target with a lobe: out at 3, back at 14 degrees from its normal, against Lambert's.
+TEST(MultipathEchoes, scatter_by_the_angle_between_their_legs) {
+  Setting s = one_target();
+  const double range = 0.5 * (r_direct + r_surface), lambert = std::abs(sum_at(s.compute().echoes, range));
+  s.scene.materials[0].law = RoughLaw{.slope = 0.15};
+  const PathAngles path{20 / r_direct, 20 / r_surface, (20 * 20 + 1 * 5) / (r_direct * r_surface)};
+  const auto surface = surface_table(s.scene.materials, pulse_900k.centre_frequency, 1500)[0];
+  EXPECT_NEAR(std::pow(std::abs(sum_at(s.compute().echoes, range)) / lambert, 2),
+              surface->cross_section(path) / (mu * path.cos_in * path.cos_out), 1e-4);
+}
+
 TEST(MultipathEchoes, by_the_surface_alone_is_the_direct_echo_of_the_mirrored_scene) {
   Setting s = one_target();
   s.environment.bottom.reset();

@@ -57,6 +57,21 @@ TEST(SceneCut, is_coarser_but_nowhere_wider_than_half_a_beam) {
   EXPECT_EQ(cut.scene.whole().mean_spacing, whole_of(scene).mean_spacing);
 }
 
+// The bound on the spread of normals is that of Lambert's law.
+TEST(SceneCut, merges_no_surfels_of_another_law) {
+  SceneCloud scene = harbour(100000);
+  scene.materials[0].law = SeabedLaw{};
+  const SceneCut cut = cut_of(scene);
+  const SceneCloud& s = cut.scene.scene();
+  std::size_t merged = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const bool alone = s.area[i] == scene.area[cut.stands_for[i]];
+    EXPECT_TRUE(alone || s.material[i] != 0);
+    merged += !alone;
+  }
+  EXPECT_GT(merged, 10U);
+}
+
 TEST(SceneCut, holds_as_much_surface_as_there_is_within_reach) {
   const SceneCloud scene = harbour(200000);
   const Reach reach;

@@ -99,6 +99,24 @@ TEST(SaveScene, scenes_without_relief_and_coherence_have_the_lines_they_always_h
   EXPECT_EQ(load_scene(changed(" 0.3333333333333333\n", "\n")).scene.materials[1].relief_slope, 0);
 }
 
+TEST(SaveScene, laws_are_kept_by_both_formats) {
+  SceneCloud scene = scene_at(Eigen::Vector3d::Zero());
+  const SurfaceLaw laws[] = {SeabedLaw{{.loss = 1.0 / 300}},
+                             RoughLaw{.slope = 0.3, .density = 7850, .compression_speed = 5960},
+                             TableLaw{{0, 0.1, 1.4}, {1e5, 2e5}, {-10, -11.25, -30, -1.0 / 3, -20, -30}, true}};
+  for (const char* name : {"law.ply", "law.pcd"})
+    for (const SurfaceLaw& law : laws) {
+      scene.materials[1] = {"rock, grey", 1.0 / 30};
+      scene.materials[1].law = law;
+      save_scene(own_path(name), scene);
+      EXPECT_EQ(load_scene(own_path(name)).scene.materials, scene.materials) << name;
+    }
+  std::string text = file_bytes(own_path("law.ply"));
+  const std::string path = own_file("bad.ply", text.replace(text.find("half_vector=1"), 13, "half_vectors=1"));
+  expect_error(ErrorKind::content, {path, "cannot understand the comment line 'insonify law 1 table"},
+               [&] { load_scene(path); });
+}
+
 TEST(SaveScene, unit_scales_a_saved_scene_too) {
   const std::string path = own_path("a.ply");
   save_scene(path, scene_at({1000, 0, 0}));

@@ -72,6 +72,16 @@ TEST(SaveSoundings, a_ply_holds_double_coordinates_and_scalars_that_cloudcompare
   }
 }
 
+TEST(SaveSoundings, orders_come_back_where_they_are_known) {
+  Soundings s = some_soundings();
+  const std::string path = own_path("a.ply"), without = own_path("b.ply");
+  save_soundings(without, s);
+  s.true_order.assign(s.size(), 1), s.true_order[3] = 2;
+  save_soundings(path, s);
+  EXPECT_EQ(load_soundings(path).true_order, s.true_order);
+  EXPECT_TRUE(load_soundings(without).true_order.empty());
+}
+
 TEST(SaveSoundings, files_of_unsigned_columns_are_read_as_those_of_today) {
   Soundings s = some_soundings();
   s.true_surfel[3] = s.true_material[3] = Soundings::none;

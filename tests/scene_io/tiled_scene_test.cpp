@@ -30,6 +30,7 @@ SceneCloud one_point(std::size_t copies = 1) {
 TEST(TiledScene, loading_all_tiles_gives_the_scene_back_bit_by_bit) {
   SceneCloud scene = harbour();
   scene.materials[2] = {"old timber", 0.01, 0.25, 0.125};
+  scene.materials[3].law = TableLaw{{0, 1.4}, {}, {-10, -30.1}, true};
   scene.normals_oriented = false;
   const TileReport report = save_tiles(own_path("a.tiles"), scene, small_tiles());
   const TiledScene tiled(own_path("a.tiles"));

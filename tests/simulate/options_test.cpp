@@ -27,6 +27,7 @@ TEST(PingOptions, are_refused_by_name_before_the_scene_is_looked_at) {
       {{.sampling = {.elevation_floor_db = 0}}, "sampling.elevation_floor_db = 0, must be < 0 dB"},
       {{.sampling = {.azimuth_margin = -0.1}}, "sampling.azimuth_margin = -0.1, must be finite and >= 0 rad"},
       {{.effects = {.absorption_order = 3}}, "effects.absorption_order = 3, must be 0, 1 or 2"},
+      {{.effects = {.double_echoes = -1}}, "effects.double_echoes = -1, must be 0, or within 1e-6 and 10000"},
       {{.outputs = {.paths = -1}}, "outputs.paths = -1, must be at least 0"},
       {{.outputs = {.contributors = 300}}, "outputs.contributors = 300, must be within 0 and 255"},
       {{.outputs = {.contributors = -1}}, "outputs.contributors = -1, must be within 0 and 255"},

@@ -57,6 +57,16 @@ TEST(ContributorFile, comes_back_bit_for_bit) {
   EXPECT_EQ(named.materials, back.materials);
 }
 
+TEST(ContributorFile, names_the_surfel_before_the_last) {
+  NamedContributors named = make_contributors();
+  Contributors& c = named.contributors;
+  c.surfel_before.assign(c.surfel.size(), Contributors::none);
+  c.path[4] = PathKind::two_surfaces, c.surfel_before[4] = 17;
+  EXPECT_EQ(read_contributor_file(write(named)).contributors.surfel_before, c.surfel_before);
+  c.surfel_before.pop_back();
+  EXPECT_THAT(error_of([&] { write(named); }), HasSubstr("surfel_before has 104 entries, must have none or 105"));
+}
+
 TEST(ContributorFile, in_bands_is_the_same_file) {
   const NamedContributors named = make_contributors();
   const Contributors& c = named.contributors;

@@ -3,6 +3,8 @@
 
 #include <tuple>
 
+#include "acoustics/surface_laws.hpp"
+#include "store/material_library.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -186,4 +188,45 @@ TEST(ShippedMaterials, sea_beds_get_quieter_from_rock_to_clay) {
   for (std::size_t i = 1; i < std::size(order); ++i)
     EXPECT_LE(shipped(order[i]).lambert_mu, shipped(order[i - 1]).lambert_mu) << order[i];
   EXPECT_EQ(shipped("rough-rock").lambert_mu, 1 / pi);
+}
+
+// Numbers of files are in their own units, and a material that is like another has all of its numbers but those given.
+TEST(MaterialLaws, are_read_with_units_and_defaults_of_others) {
+  const auto list =
+      load_materials(
+          own_file(
+              "m.toml",
+              "schema = 1\n[[material]]\nname = \"a\"\nlaw = \"rough\"\nslope = 0.25\nmicro_roughness_mm = "
+              "0.5\ndiffuse_mu_db = -20\n"
+              "density = 2300\ncompression_speed = 4000\nshear_speed = 2400\n"
+              "[[material]]\nname = \"b\"\nlike = \"coarse-sand@small_slope\"\nloss = 0.02\ncoherent_fraction = 0.5\n"
+              "[[material]]\nname = \"c\"\nlike = \"fine-sand\"\nlambert_mu_db = -20\n"
+              "[[material]]\nname = \"d\"\nlaw = \"table\"\nincidence_deg = [0, 45, 80]\nfrequency_khz = [100, 300]\n"
+              "sigma_db = [-10, -20, -30, -11, -21, -31]\nbistatic = \"half_vector\"\n"))
+          .materials;
+  const auto& rough = std::get<RoughLaw>(list[0].material.law);
+  EXPECT_EQ(rough, (RoughLaw{0.25, 0.5e-3, 0.01, 1, 2300, 4000, 2400}));
+  const auto& sand = std::get<SmallSlopeLaw>(list[1].material.law);
+  EXPECT_EQ(sand.loss, 0.02);
+  EXPECT_EQ(sand.speed_ratio, 1.2503);
+  EXPECT_DOUBLE_EQ(sand.grain_size, 0.707e-3);
+  EXPECT_EQ(list[1].material.coherent_fraction, 0.5);
+  EXPECT_EQ(list[2].material.law, SurfaceLaw{});
+  EXPECT_DOUBLE_EQ(list[2].material.lambert_mu, 0.01);
+  EXPECT_EQ(list[3].material.law,
+            SurfaceLaw(TableLaw{{0, radians(45), radians(80)}, {1e5, 3e5}, {-10, -20, -30, -11, -21, -31}, true}));
+}
+
+TEST(MaterialLibrary, has_sources_and_names_that_lead_back) {
+  const std::vector<MaterialFile> all = list_materials();
+  EXPECT_GE(all.size(), 2 * 11 + 13U);
+  for (const MaterialFile& file : all) {
+    EXPECT_EQ(find_material(file.material.name), file.material);
+    EXPECT_FALSE(file.description.empty());
+    for (const SourcedNumber& n : file.numbers) EXPECT_FALSE(n.source.empty()) << file.path << ": " << n.key;
+    EXPECT_EQ(error_of([&] { require_energy(file.material, "here"); }), "no error") << file.material.name;
+  }
+  EXPECT_EQ(find_material("medium-sand"), find_material("medium-sand@seabed"));
+  EXPECT_EQ(find_material("steel").law, SurfaceLaw{});  // of Lambert's table
+  EXPECT_THAT(error_of([] { find_material("medium-snad"); }), HasSubstr("did you mean 'medium-sand'"));
 }

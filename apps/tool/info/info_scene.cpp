@@ -139,7 +139,8 @@ void print_scene(const ordered_json& d) {
   fmt::print("  spacing    {:.4g} (median)\n  normals    {}\n  area       {}\n  materials  {}\n", spacing,
              yes("normals"), yes("area"), yes("materials"));
   for (const auto& m : d["material_shares"])
-    fmt::print("  material   {}: {} points, {}{:.3g} %\n", text(m["name"]), m["points"].get<std::size_t>(),
+    fmt::print("  material   {}: law {}, {} points, {}{:.3g} %\n", text(m["name"]), text(m["law"]),
+               m["points"].get<std::size_t>(),
                m.contains("area_m2") ? fmt::format("{:.4g} m2, ", m["area_m2"].get<double>()) : "",
                100 * m["share"].get<double>());
   if (d.contains("viewpoint"))

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "acoustics/surface_laws.hpp"
+#include "core/units.hpp"
 #include "store/sonar_file.hpp"
 
 namespace insonify::tool {
@@ -29,6 +31,8 @@ ordered_json materials_json(const std::vector<SourcedMaterial>& materials) {
     ordered_json row = {{"name", m.material.name}, {"label", m.label}};
     for (const MaterialNumber& number : material_numbers) row[number.key] = in_file(m.material, number);
     row["status"] = m.status, row["source"] = m.source;
+    row["law"] = name_of(m.material.law);
+    if (m.material.law != SurfaceLaw{}) row["law_numbers"] = law_to_text(m.material.law);
     all.push_back(row);
   }
   return all;
@@ -43,16 +47,58 @@ void print_materials(const std::vector<SourcedMaterial>& materials) {
     for (const MaterialNumber& number : material_numbers) fmt::print("  {:>17.4g}", in_file(m.material, number));
     fmt::print("  {:<8} {}\n", m.status, m.source);
   }
+  for (const SourcedMaterial& m : materials)
+    if (m.material.law != SurfaceLaw{}) fmt::print("{}: law {}\n", m.material.name, law_to_text(m.material.law));
   fmt::print(
-      "\nlaw: Lambert, cross-section per area = mu cos^2 of the angle of incidence (E4); lambert_mu_db = 10 log10(mu / "
+      "\nlaw of all others: Lambert, cross-section per area = mu cos^2 of the angle of incidence (E4); lambert_mu_db = "
+      "10 log10(mu / "
       "(1/sr)), "
       "coherent_fraction of the intensity has no speckle (E53), relief_slope: rms slope of finer relief (E52)\n");
+}
+
+ordered_json material_json(const MaterialFile& file) {
+  ordered_json numbers = ordered_json::array();
+  for (const SourcedNumber& n : file.numbers)
+    numbers.push_back({{"key", n.key}, {"value", n.value}, {"status", n.status}, {"source", n.source}});
+  return {{"name", file.material.name},
+          {"description", file.description},
+          {"law", name_of(file.material.law)},
+          {"path", file.path},
+          {"numbers", numbers}};
+}
+
+void print_material_files(const std::vector<MaterialFile>& files, bool as_table) {
+  if (files.empty()) return;
+  if (as_table)
+    fmt::print("\nwith laws of their own (docs/surfaces.md):\n\n{:<28} {:<12} {}\n", "name", "law", "description");
+  for (const MaterialFile& file : files) {
+    const Material& m = file.material;
+    if (as_table) {
+      fmt::print("{:<28} {:<12} {}\n", m.name, name_of(m.law), file.description);
+      continue;
+    }
+    fmt::print("{}: {}, law {}\n\n", m.name, file.description, name_of(m.law));
+    for (const SourcedNumber& n : file.numbers)
+      fmt::print("  {:<22} {:>10}  {:<9} {}\n", n.key, n.value, n.status, n.source);
+    for (const double frequency : {30e3, 100e3, 400e3, 900e3}) {
+      fmt::print("\n  at {:3.0f} kHz, {} deg grazing:", frequency * 1e-3, "10 20 30 45 60 90");
+      const auto surface = surface_of(m, frequency, 1500);
+      for (const double deg : {10, 20, 30, 45, 60, 90}) {
+        const double sine = std::sin(radians(deg));
+        fmt::print(" {:6.1f}", db_from_power(surface->back(sine) * sine));
+      }
+      fmt::print(" dB");
+      for (const std::string& note : surface_notes({&m, 1}, frequency))
+        fmt::print("; {}", note.substr(note.find("its level")));
+    }
+    fmt::print("\n");
+  }
 }
 
 ordered_json shares_json(const std::vector<MaterialShare>& shares) {
   ordered_json all = ordered_json::array();
   for (const MaterialShare& share : shares) {
-    ordered_json row = {{"name", share.name}, {"points", share.points}, {"share", share.share}};
+    ordered_json row = {{"name", share.name}, {"law", share.law}, {"points", share.points}, {"share", share.share}};
     if (share.area) row["area_m2"] = *share.area;
     all.push_back(row);
   }

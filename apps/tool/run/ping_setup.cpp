@@ -14,6 +14,7 @@
 #include "simulate/resolve_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
+#include "store/material_library.hpp"
 #include "store/materials_file.hpp"
 #include "store/nearest_word.hpp"
 #include "store/toml_tree_internal.hpp"
@@ -87,15 +88,19 @@ void require_boundaries(const PingOptions& o, const Environment& environment) {
          "--set surface.height_m=0");
 }
 
-/// Index of the material called `name`; Error(argument) with the nearest name.
-std::uint16_t material_index(const std::vector<Material>& materials, const std::string& name) {
+/// Index of the material called `name`, which is added if insonify knows it; Error(argument) with the nearest name.
+std::uint16_t material_index(std::vector<Material>& materials, const std::string& name) {
   std::vector<std::string> names;
   for (const Material& m : materials) names.push_back(m.name);
   const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end())
-    fail(ErrorKind::argument, "--material = '", name, "' is unknown", did_you_mean(name, names), "; known are ",
-         joined(names));
-  return static_cast<std::uint16_t>(at - names.begin());
+  if (at != names.end()) return static_cast<std::uint16_t>(at - names.begin());
+  const std::vector<std::string> built_in = material_names();
+  names.insert(names.end(), built_in.begin(), built_in.end());
+  if (std::find(built_in.begin(), built_in.end(), name) == built_in.end())
+    fail(ErrorKind::argument, "--material = '", name, "' is unknown", did_you_mean(name, names),
+         "; see insonify materials");
+  materials.push_back(find_material(name));
+  return static_cast<std::uint16_t>(materials.size() - 1);
 }
 
 /// A sentence with the remedy if the range ends beyond that of the sonar's file.
@@ -248,8 +253,7 @@ LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene)
   options.keep_strays = scene.keep_strays;
   if (!scene.viewpoint.empty()) options.viewpoint = parse_vector("--viewpoint", scene.viewpoint, "x,y,z in metres");
   if (!scene.materials_file.empty() || !scene.material.empty()) {
-    const std::string path = scene.materials_file.empty() ? data_folder() + "/materials.toml" : scene.materials_file;
-    const MaterialTable table = load_materials(path);
+    const MaterialTable table = load_materials(path_of_materials(scene.materials_file));
     options.materials = materials_by_label(table);
     options.material_field = table.field;
   }

@@ -6,10 +6,13 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/tile_writer.hpp"
+#include "store/material_library.hpp"
+#include "store/materials_file.hpp"
 #include "store/output_rules.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
@@ -30,6 +33,7 @@ struct MakeSceneOptions {
   std::string size = "40,40";
   double radius = 0.5;
   double lambert_mu_db = -27;
+  std::string materials_file;
   bool bare = false;
   bool force = false;
 };
@@ -41,6 +45,9 @@ void add_options(OptionList list, MakeSceneOptions& o) {
   list.add("--size", &o.size, "plane: x,y extent; wall: width,height [m]");
   list.add("--radius", &o.radius, "of the sphere [m]");
   list.add("--mu-db", &o.lambert_mu_db, "10 log10 of the Lambert coefficient of plane, sphere, wall, poles");
+  list.add(
+      "--materials", &o.materials_file,
+      "TOML table whose materials replace those of the same names, or `natural`: sediments, concrete, steel, rock");
   list.add("--bare", &o.bare, "only the points, as a scanner gives them: `prepare` finds the rest");
   list.add("--force", &o.force, "replace an existing file");
   add_common(list, o.common);
@@ -54,9 +61,22 @@ nlohmann::ordered_json summary_json(const MakeSceneOptions& o, std::size_t surfe
   return {{"output", o.output}, {"scene", o.name}, {"surfels", surfels}, {"seed", o.common.seed}, {"materials", names}};
 }
 
+/// Replaces the materials that a table of the options has.
+void replace_materials(const MakeSceneOptions& o, std::vector<Material>& materials) {
+  if (o.materials_file.empty()) return;
+  std::size_t replaced = 0;
+  for (const SourcedMaterial& other : load_materials(path_of_materials(o.materials_file)).materials)
+    for (Material& material : materials)
+      if (material.name == other.material.name) material = other.material, ++replaced;
+  if (replaced == 0)
+    fail(ErrorKind::argument, "--materials = ", o.materials_file,
+         ": has none of the scene's materials: ", joined(materials, ", ", [](const Material& m) { return m.name; }));
+}
+
 void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& built_in, Progress& progress) {
   TileWriterOptions options;
   options.materials = empty_built_in_scene(o.name, built_in).materials;
+  replace_materials(o, options.materials);
   TileWriter writer(o.output, options);
   make_built_in_scene_in_batches(o.name, built_in, batch_surfels, [&](const SceneCloud& batch) { writer.add(batch); });
   progress.step("writing " + o.output);
@@ -97,7 +117,8 @@ void make_scene(const MakeSceneOptions& o) {
   if (is_tiles(o.output) && o.bare)
     fail(ErrorKind::argument, "--bare: ", o.output, ": tiles are prepared surfels; write .ply or .pcd");
   if (is_tiles(o.output)) return make_scene_as_tiles(o, built_in, progress);
-  const SceneCloud scene = make_built_in_scene(o.name, built_in);
+  SceneCloud scene = make_built_in_scene(o.name, built_in);
+  replace_materials(o, scene.materials);
   progress.step("writing " + o.output);
   if (o.bare)
     save_bare_points(o.output, scene);

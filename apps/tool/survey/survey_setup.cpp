@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "files/sha256.hpp"
 #include "store/environment_file.hpp"
+#include "store/material_library.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/run/scene_files.hpp"
 #include "tool/run/scene_reach.hpp"
@@ -92,7 +93,7 @@ std::string digest_of(const SurveySetup& s) {
   const auto add = [&](const std::string& part) { sha.add(std::to_string(part.size()) + ":" + part); };
   for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, scene_digest(s.file.scene)}) add(part);
   for (const std::string& path : {s.file.trajectory, s.heads.front().options.scene.materials_file})
-    if (!path.empty()) add(sha256_of_file(path));
+    if (!path.empty()) add(sha256_of_file(path_of_materials(path)));
   for (const MissionHead& head : s.file.mission.heads)  // the mounting may be that of the sonar file
     add(std::string(reinterpret_cast<const char*>(head.vehicle_from_head.data()), 16 * sizeof(double)));
   for (const SurveyHead& head : s.heads)

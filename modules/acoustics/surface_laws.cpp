@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "acoustics/surface_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "acoustics/tabulated_surface_internal.hpp"
+#include "core/error.hpp"
+#include "core/require.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+class LambertSurface final : public SurfaceScattering {
+ public:
+  explicit LambertSurface(double mu) : mu_(mu) {}
+  double cross_section(const PathAngles& path) const override {
+    return path.cos_in > 0 && path.cos_out > 0 ? lambert_cross_section(mu_, path.cos_out, path.cos_in) : 0;
+  }
+  double per_seen_area(const PathAngles& path) const override { return lambert_cross_section(mu_, path.cos_out, 1); }
+  double back(double cosine) const override { return lambert_cross_section(mu_, cosine, 1); }
+
+ private:
+  double mu_;
+};
+
+/// Where a law is known to hold [Hz], and by how much it may be off beyond [dB].
+struct Validity {
+  double least, most;
+  const char* of;
+  double off_db;
+};
+
+/// TR 9407 for its own range: 3 dB for sand and silt, 10 dB for gravel and rock. Beyond, to 400 kHz, within 5 dB of a
+/// later model for sand and finer sediments at grazing angles from 20 degrees on, 6 to 19 dB for coarser ones.
+double off_beyond(const Sediment& bed, double frequency) {
+  constexpr double sandy_gravel = 1.3;  // speed ratio that parts sand from gravel
+  return bed.speed_ratio < sandy_gravel && frequency <= 400e3 ? 5 : bed.speed_ratio < sandy_gravel ? 10 : 19;
+}
+
+struct ValidityOf {
+  double frequency;
+  Validity operator()(const LambertLaw&) const { return {0, HUGE_VAL, "", 0}; }
+  Validity operator()(const SeabedLaw& law) const { return {10e3, 100e3, "TR 9407", off_beyond(law, frequency)}; }
+  Validity operator()(const SmallSlopeLaw& law) const {
+    return {10e3, 300e3, "the sediment's numbers", off_beyond(law, frequency)};
+  }
+  Validity operator()(const RoughLaw&) const { return {0, HUGE_VAL, "", 0}; }
+  Validity operator()(const TableLaw& law) const {
+    if (law.frequency.empty()) return {0, HUGE_VAL, "", 0};
+    return {law.frequency.front(), law.frequency.back(), "its table", 10};
+  }
+};
+
+}  // namespace
+
+FluidBed::FluidBed(const Sediment& sediment, double frequency, double sound_speed, const char* who)
+    : rho(sediment.density_ratio),
+      nu(sediment.speed_ratio),
+      delta(sediment.loss),
+      sigma2(sediment.volume_parameter),
+      w2(sediment.spectral_strength_cm4),
+      gamma(sediment.spectral_exponent),
+      alpha(0.5 * gamma - 1),
+      kappa(1 / nu, delta / nu) {
+  require_valid(SeabedLaw{sediment}, frequency, sound_speed, who);
+  // Grains scatter as the frequency at which k grain / 2 = 1: what is above was never fitted.
+  const double most = sediment.grain_size > 0 ? sound_speed / (pi * sediment.grain_size) : frequency;
+  k = 2 * pi * std::min(frequency, most) / (100 * sound_speed);
+  c = 2 * pi * w2 * std::tgamma(2 - alpha) * std::pow(2, -2 * alpha) / (alpha * (1 - alpha) * std::tgamma(1 + alpha));
+}
+
+void require_valid(const SurfaceLaw& law, double frequency, double sound_speed, const char* who) {
+  require(frequency > 0 && std::isfinite(frequency), who, "frequency", frequency, "Hz", "finite and > 0");
+  require(sound_speed > 0 && std::isfinite(sound_speed), who, "sound_speed", sound_speed, "m/s", "finite and > 0");
+  if (const std::string problem = problem_of(law); !problem.empty())
+    fail(ErrorKind::argument, who, ": law '", name_of(law), "': ", problem);
+}
+
+std::shared_ptr<const SurfaceScattering> lambert_surface(double lambert_mu) {
+  return std::make_shared<const LambertSurface>(lambert_mu);
+}
+
+std::shared_ptr<const SurfaceScattering> surface_of(const Material& material, double frequency, double sound_speed) {
+  return std::visit(
+      [&](const auto& law) -> std::shared_ptr<const SurfaceScattering> {
+        if constexpr (std::is_same_v<decltype(law), const LambertLaw&>)
+          return lambert_surface(material.lambert_mu);
+        else
+          return surface_of(law, frequency, sound_speed);
+      },
+      material.law);
+}
+
+SurfaceTable surface_table(std::span<const Material> materials, double frequency, double sound_speed) {
+  SurfaceTable table;
+  for (const Material& m : materials) table.push_back(surface_of(m, frequency, sound_speed));
+  return table;
+}
+
+void require_energy(const Material& material, const char* who, ErrorKind kind) {
+  constexpr double most_albedo = 1.001, sound_speed = 1500;
+  constexpr int incidences = 10;
+  if (std::holds_alternative<LambertLaw>(material.law)) return;
+  std::vector<double> frequencies = {10e3, 100e3, 1e6};
+  if (const auto* table = std::get_if<TableLaw>(&material.law); table && !table->frequency.empty())
+    frequencies = table->frequency;
+  for (const double frequency : frequencies) {
+    const auto surface = surface_of(material, frequency, sound_speed);
+    for (int k = 0; k < incidences; ++k) {
+      const double incidence = k * pi / (2 * incidences), part = albedo(*surface, std::cos(incidence));
+      if (part > most_albedo)
+        fail(kind, who, ": material '", material.name, "' sends back ", part, " of the power that falls in at ",
+             degrees(incidence), " deg and ", frequency * 1e-3, " kHz, must be at most 1; lower its numbers");
+    }
+  }
+}
+
+std::vector<std::string> surface_notes(std::span<const Material> materials, double frequency) {
+  std::vector<std::string> notes;
+  for (const Material& m : materials) {
+    const Validity v = std::visit(ValidityOf{frequency}, m.law);
+    if (frequency >= v.least * (1 - 1e-9) && frequency <= v.most * (1 + 1e-9)) continue;
+    std::ostringstream text;
+    text << "material '" << m.name << "': law " << name_of(m.law) << " is known from " << v.least * 1e-3 << " to "
+         << v.most * 1e-3 << " kHz (" << v.of << "), not at " << frequency * 1e-3 << " kHz: its level may be off by "
+         << v.off_db << " dB";
+    notes.push_back(text.str());
+  }
+  return notes;
+}
+
+}  // namespace insonify

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "core/units.hpp"
+
+namespace insonify {
+
+/// Lambert's law (E4), of Material::lambert_mu.
+struct LambertLaw {
+  bool operator==(const LambertLaw&) const = default;
+};
+
+/// A sea bed as the six numbers of APL-UW TR 9407 (1994); by default medium sand.
+struct Sediment {
+  double density_ratio = 1.845;               ///< over water
+  double speed_ratio = 1.1782;                ///< of sound, over water
+  double loss = 0.01624;                      ///< imaginary over real part of the wavenumber
+  double volume_parameter = 0.002;            ///< ratio of volume scattering to attenuation
+  double spectral_strength_cm4 = 0.00444600;  ///< of the relief, at 1 / cm
+  double spectral_exponent = 3.25;            ///< of the relief
+  double grain_size = 0;  ///< [m]; frequencies count as at most sound speed / (pi grain size); 0: unknown
+  bool operator==(const Sediment&) const = default;
+};
+
+/// Roughness and volume of a sea bed by TR 9407 (E139, E140).
+struct SeabedLaw : Sediment {
+  bool operator==(const SeabedLaw&) const = default;
+};
+
+/// The same sea bed by the small-slope approximation (E141): bistatic, for sand and mud.
+struct SmallSlopeLaw : Sediment {
+  bool operator==(const SmallSlopeLaw&) const = default;
+};
+
+/// Facets of a solid or fluid, with finer roughness on them (E142, E143): metal, concrete, rock.
+struct RoughLaw {
+  double slope = 0.2;            ///< rms slope of the facets over both axes
+  double micro_roughness = 0;    ///< rms height on a facet [m]
+  double diffuse_mu = 0;         ///< [1/sr], Lambert's law that adds to it
+  double reflection = 1;         ///< of pressure, at all angles, unless there is a density
+  double density = 0;            ///< [kg/m^3]; 0: see reflection
+  double compression_speed = 0;  ///< of sound [m/s]
+  double shear_speed = 0;        ///< [m/s]; 0: a fluid
+  bool operator==(const RoughLaw&) const = default;
+};
+
+/// A measured backscattering strength (E144).
+struct TableLaw {
+  std::vector<double> incidence;  ///< [rad], ascending from 0 to 75 degrees or more, below 90
+  std::vector<double> frequency;  ///< [Hz], ascending; empty: the same at all
+  std::vector<double> sigma_db;   ///< [dB re 1/sr] = 10 log10 of the cross-section per area, frequency by frequency
+  bool half_vector = false;  ///< in two directions that of their half vector (lobes), instead of the geometric mean
+  bool operator==(const TableLaw&) const = default;
+};
+
+/// The law by which a surface scatters.
+using SurfaceLaw = std::variant<LambertLaw, SeabedLaw, SmallSlopeLaw, RoughLaw, TableLaw>;
+
+/// Names of the laws in files, in the order of SurfaceLaw.
+inline constexpr const char* surface_law_names[] = {"lambert", "seabed", "small_slope", "rough", "table"};
+
+/// The name of a law.
+const char* name_of(const SurfaceLaw& law);
+/// A law of that name with its defaults, if there is one.
+std::optional<SurfaceLaw> law_named(std::string_view name);
+
+/// One number of laws: what checks, material files, comment lines of clouds and tiles know of it.
+struct LawNumber {
+  double* (*in)(SurfaceLaw&);  ///< the number in a law, nullptr if it has none such
+  const char* name;            ///< of the member, and in comment lines
+  const char* unit;            ///< "": none
+  double least, most;          ///< [unit]
+  bool above;                  ///< `least` itself is refused
+  const char* key;             ///< in material files
+  const char* file_unit;
+  double in_file;    ///< file units in one unit
+  bool in_decibels;  ///< files hold 10 log10 of it
+  bool required;     ///< of files
+  const char* help;  ///< what it is, for the docs
+};
+
+namespace law_members {
+/// The number `member` of a law that has one.
+template <typename Law, double Law::*member>
+double* of(SurfaceLaw& law) {
+  return std::visit(
+      [](auto& l) -> double* {
+        if constexpr (std::is_base_of_v<Law, std::remove_reference_t<decltype(l)>>)
+          return &(l.*member);
+        else
+          return nullptr;
+      },
+      law);
+}
+}  // namespace law_members
+
+/// All numbers of laws.
+inline constexpr LawNumber law_numbers[] = {
+    {law_members::of<Sediment, &Sediment::density_ratio>, "density_ratio", "", 0.5, 10, false, "density_ratio", "", 1,
+     false, true, "seabed, small_slope: density over that of water"},
+    {law_members::of<Sediment, &Sediment::speed_ratio>, "speed_ratio", "", 0.5, 10, false, "speed_ratio", "", 1, false,
+     true, "seabed, small_slope: sound speed over that of water"},
+    {law_members::of<Sediment, &Sediment::loss>, "loss", "", 0, 0.1, true, "loss", "", 1, false, true,
+     "seabed, small_slope: imaginary over real part of the wavenumber"},
+    {law_members::of<Sediment, &Sediment::volume_parameter>, "volume_parameter", "", 0, 1, false, "volume_parameter",
+     "", 1, false, true, "seabed, small_slope: volume scattering over attenuation"},
+    {law_members::of<Sediment, &Sediment::spectral_strength_cm4>, "spectral_strength_cm4", "cm^4", 0, 10, true,
+     "spectral_strength_cm4", "cm^4", 1, false, true, "seabed, small_slope: spectrum of the relief at 1 / cm"},
+    {law_members::of<Sediment, &Sediment::spectral_exponent>, "spectral_exponent", "", 2.1, 3.9, false,
+     "spectral_exponent", "", 1, false, false, "seabed, small_slope: of that spectrum, between 2 and 4"},
+    {law_members::of<Sediment, &Sediment::grain_size>, "grain_size", "m", 0, 1, false, "grain_mm", "mm", 1e3, false,
+     false, "seabed, small_slope: frequency counts as at most c / (pi grain); 0: unknown"},
+    {law_members::of<RoughLaw, &RoughLaw::slope>, "slope", "", 0.02, 2, false, "slope", "", 1, false, true,
+     "rough: rms slope of the facets, over both axes; what is smoother is a mirror"},
+    {law_members::of<RoughLaw, &RoughLaw::micro_roughness>, "micro_roughness", "m", 0, 1, false, "micro_roughness_mm",
+     "mm", 1e3, false, false, "rough: rms height of what is finer than a facet"},
+    {law_members::of<RoughLaw, &RoughLaw::diffuse_mu>, "diffuse_mu", "1/sr", 0, 1 / pi, false, "diffuse_mu_db",
+     "dB re 1/sr", 1, true, false, "rough: Lambert's law that adds to it"},
+    {law_members::of<RoughLaw, &RoughLaw::reflection>, "reflection", "", 0, 1, false, "reflection", "", 1, false, false,
+     "rough: reflection coefficient of pressure at all angles; or density and speeds"},
+    {law_members::of<RoughLaw, &RoughLaw::density>, "density", "kg/m^3", 0, 3e4, false, "density", "kg/m^3", 1, false,
+     false, "rough: of the material, which with its speeds gives the reflection"},
+    {law_members::of<RoughLaw, &RoughLaw::compression_speed>, "compression_speed", "m/s", 0, 2e4, false,
+     "compression_speed", "m/s", 1, false, false, "rough: of sound in the material"},
+    {law_members::of<RoughLaw, &RoughLaw::shear_speed>, "shear_speed", "m/s", 0, 1e4, false, "shear_speed", "m/s", 1,
+     false, false, "rough: of shear waves in it; 0: a fluid"},
+};
+
+/// Whether facets of the law have slopes of their own, so that relief beside it would count twice.
+bool has_own_slopes(const SurfaceLaw& law);
+
+/// What is wrong with a law: "slope = 0.01, must be within 0.02 and 2"; empty: nothing.
+std::string problem_of(const SurfaceLaw& law);
+
+/// The law in one line of text, "rough slope=0.2 ...", which law_from_text reads back to the same bits.
+std::string law_to_text(const SurfaceLaw& law);
+/// Nothing if the text is no law with known numbers.
+std::optional<SurfaceLaw> law_from_text(std::string_view text);
+
+}  // namespace insonify

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "acoustics/surface_laws.hpp"
+#include "store/material_keys_internal.hpp"
+#include "store/material_library.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr Scale in_kilohertz{[](double x) { return 1e3 * x; }, [](double x) { return 1e-3 * x; }};
+
+/// A number of a material. In decibels -inf means 0, and the limit is rounded up to 0.01 dB, as it is written in tables
+/// of materials.
+KeyValue number_of(Material& material, const MaterialNumber& n) {
+  if (!n.in_decibels) return number(at(material.*n.member), {.least = 0, .most = n.most_in_files, .note = n.note});
+  Number power = at(material.*n.member);
+  power.set = [set = power.set, most = n.most_in_files](double x) { set(std::min(x, most)); };
+  const double most = std::ceil(100 * db_from_power(n.most_in_files)) / 100;
+  return number(power, {.most = most, .infinite = true, .note = n.note}, in_decibels);
+}
+
+/// A number of a law, in the unit of files.
+KeyValue number_of(std::optional<double>& x, const LawNumber& n) {
+  if (n.in_decibels) return number(at(x), {.most = db_from_power(n.most), .infinite = true}, in_decibels);
+  const auto get = [&x, n]() -> std::optional<double> { return x ? std::optional(*x * n.in_file) : std::nullopt; };
+  return number({get, [&x, n](double value) { x = value / n.in_file; }},
+                {.least = n.least * n.in_file, .most = n.most * n.in_file, .above = n.above});
+}
+
+/// The law of an entry: the numbers that it gives, on those of what it is like. `line` is that of a key.
+template <typename Line>
+SurfaceLaw law_of(const std::string& path, const MaterialEntry& entry, int begin, const Line& line) {
+  SurfaceLaw law = entry.law.empty() ? entry.sourced.material.law : *law_named(entry.law);
+  const bool complete = !entry.like.empty() && law.index() == entry.sourced.material.law.index();
+  if (complete) law = entry.sourced.material.law;
+  for (std::size_t k = 0; k < std::size(law_numbers); ++k) {
+    const LawNumber& n = law_numbers[k];
+    double* const number = n.in(law);
+    if (entry.numbers[k] && !number)
+      fail_in_file(path, line(n.key), "law '", name_of(law), "' of material '", entry.sourced.material.name,
+                   "' has no ", n.key, " (", n.help, ")");
+    if (number && n.required && !entry.numbers[k] && !complete)
+      fail_in_file(path, begin, "missing key 'material.", n.key, "' of law '", name_of(law), "'");
+    if (entry.numbers[k]) *number = *entry.numbers[k];
+  }
+  const auto* rough = std::get_if<RoughLaw>(&law);
+  if (rough && !complete && (rough->density > 0) == (line("reflection") > 0))
+    fail_in_file(path, begin, "law 'rough' of material '", entry.sourced.material.name,
+                 "' needs either density with compression_speed, or reflection");
+  auto* table = std::get_if<TableLaw>(&law);
+  if (table && !complete) *table = entry.table, table->half_vector = entry.bistatic == "half_vector";
+  for (const char* key : {"incidence_deg", "frequency_khz", "sigma_db", "bistatic"})
+    if (line(key) > 0 && (!table || complete)) fail_in_file(path, line(key), key, " belongs to law = \"table\"");
+  return law;
+}
+
+}  // namespace
+
+std::vector<Key> material_keys(MaterialEntry& entry) {
+  Material& material = entry.sourced.material;
+  std::vector<Key> keys = {
+      {"material", "name", "", text(material.name), "", true},
+      {"material", "law", "", word(entry.law, {"lambert", "seabed", "small_slope", "rough", "table"}),
+       "by which it scatters; default: lambert"},
+      {"material", "like", "", text(entry.like), "a material by name, whose numbers are the defaults of this one"}};
+  for (const MaterialNumber& n : material_numbers)
+    keys.push_back({"material", n.key, n.in_decibels ? "dB" : n.unit, number_of(material, n), n.help, n.required});
+  for (std::size_t k = 0; k < std::size(law_numbers); ++k)
+    keys.push_back({"material", law_numbers[k].key, law_numbers[k].file_unit,
+                    number_of(entry.numbers[k], law_numbers[k]), law_numbers[k].help});
+  const NumberRule label{.least = 0, .most = std::numeric_limits<std::uint16_t>::max(), .whole = true},
+      any{.infinite = true};
+  keys.insert(
+      keys.end(),
+      {
+          {"material", "incidence_deg", "deg", list(entry.table.incidence, {.least = 0, .most = 90}, in_degrees),
+           "table: angles of incidence, from 0 to 75 or more, below 90"},
+          {"material", "frequency_khz", "kHz", list(entry.table.frequency, positive, in_kilohertz),
+           "table: frequencies; default: the same at all"},
+          {"material", "sigma_db", "dB re 1/sr", list(entry.table.sigma_db),
+           "table: backscattering strength at all angles, frequency by frequency"},
+          {"material", "bistatic", "", word(entry.bistatic, {"separable", "half_vector"}),
+           "table: in two directions the geometric mean of both, or that of the half vector, for lobes; default: "
+           "separable"},
+          {"material", "label", "", number(at(entry.sourced.label), label),
+           "in the cloud; default: its position in the file"},
+          {"material", "from", "", number(at(entry.interval.from), any),
+           "or an interval of field values: from (included)"},
+          {"material", "to", "", number(at(entry.interval.to), any), "to (excluded); one of the two may be omitted"},
+          {"material", "status", "", text(entry.sourced.status), "of the values: sourced, derived, user, ..."},
+          {"material", "source", "", text(entry.sourced.source), "where they come from"},
+      });
+  return keys;
+}
+
+void read_material(const std::string& path, const TomlValue& table, MaterialEntry& entry,
+                   const std::vector<std::string>& others) {
+  const auto line = [&](const char* key) { return table.find(key) ? table.find(key)->line : 0; };
+  if (const TomlValue* like = table.find("like"); like && like->kind == TomlValue::Kind::text) {
+    try {
+      entry.sourced.material = find_material(like->text);
+    } catch (const Error& error) {
+      fail_in_file(path, like->line, "like: ", error.what());
+    }
+  }
+  std::vector<Key> keys = material_keys(entry);
+  const bool lambert = !line("like") && (!line("law") || table.find("law")->text == "lambert");
+  for (Key& key : keys) key.required = key.required && (lambert || key.name != std::string("lambert_mu_db"));
+  read_keys(path, table, keys, "material", others);
+  Material& material = entry.sourced.material;
+  material.law = law_of(path, entry, table.line, line);
+  if (!lambert && line("lambert_mu_db") && material.law != SurfaceLaw{})
+    fail_in_file(path, line("lambert_mu_db"), "lambert_mu_db of material '", material.name, "' has no use beside law '",
+                 name_of(material.law), "'; leave it out");
+  const std::string here = path + ":" + std::to_string(table.line);
+  require_valid(material, here.c_str(), ErrorKind::content);
+}
+
+}  // namespace insonify

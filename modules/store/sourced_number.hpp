@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+namespace insonify {
+
+/// One value of a file of data with its source.
+struct SourcedNumber {
+  std::string key;     ///< e.g. "centre_frequency_hz"
+  std::string value;   ///< as text
+  std::string status;  ///< sourced | recalled | derived | assumed | unknown | user | chosen
+  std::string source;  ///< e.g. "datasheet DA-148-P01443-10"
+};
+
+}  // namespace insonify
