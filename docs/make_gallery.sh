@@ -55,6 +55,11 @@ chapter "Speckle, and the level behind it" "The expected level has no speckle: i
 steps "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --method incoherent -o mean"
 picture expected "Expected level." "insonify image mean --size 900x700 -o expected.png"
 
+chapter "From one surface to another" "Sound that goes from quay, wreck or pilings to the bed, or back, before it returns. [Double echoes](../double-echoes.md)."
+steps "insonify ping harbour.ply --sonar oculus-m750d --pose=0,0,-3,0,10,0 --range 0.5:30 --with double-echoes --layers -o double"
+picture double-echoes "The layer of double echoes: the foot of the quay to port and of the pilings to starboard, and ghosts of wreck and pilings behind them." \
+  "insonify image double --layer double-echoes --size 1000x700 -o double-echoes.png"
+
 chapter "With the sea around it" "Echoes via surface and bottom only."
 steps "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --range 2:20 --multipath --layers --set surface.height_m=0 -o sea"
 picture multipath "The multipath layer." "insonify image sea --layer multipath --raw --size 900x700 -o multipath.png"
