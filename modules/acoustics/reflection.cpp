@@ -6,6 +6,7 @@
 
 #include "acoustics/boundary_internal.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -21,6 +22,29 @@ std::complex<double> bottom_reflection(const FlatBottom& bottom, double grazing)
   const double p = bottom.density_ratio * std::sin(grazing);
   if (p + q == 0.0) return (bottom.density_ratio - 1) / (bottom.density_ratio + 1);  // as fast as water: the limit
   return (p - q) / (p + q);                                                          // (E45)
+}
+
+std::complex<double> reflection_coefficient(const ElasticSolid& solid, double cosine, double density,
+                                            double sound_speed) {
+  constexpr const char* me = "reflection_coefficient";
+  require(cosine >= 0 && cosine <= 1, me, "cosine", cosine, "", "within 0 and 1");
+  require(solid.density > 0 && std::isfinite(solid.density), me, "solid.density", solid.density, "kg/m^3", "> 0");
+  require(solid.pressure_speed > 0 && std::isfinite(solid.pressure_speed), me, "solid.pressure_speed",
+          solid.pressure_speed, "m/s", "> 0");
+  require(solid.shear_speed >= 0 && std::isfinite(solid.shear_speed), me, "solid.shear_speed", solid.shear_speed, "m/s",
+          ">= 0");
+  const double sine_2 = 1 - cosine * cosine, p = solid.pressure_speed / sound_speed,
+               s = solid.shear_speed / sound_speed;
+  const std::complex<double> cos_p = std::sqrt(std::complex<double>(1 - p * p * sine_2)),
+                             cos_s = std::sqrt(std::complex<double>(1 - s * s * sine_2));
+  const double sin_s_2 = s * s * sine_2, cos_2s = 1 - 2 * sin_s_2;
+  // Both impedances times cosine cos_p, so that none is infinite: sin^2(2 s) / cos_s = 4 sin_s^2 cos_s.
+  const std::complex<double> inside =
+      solid.density * cosine *
+      (solid.pressure_speed * cos_2s * cos_2s + 4 * solid.shear_speed * sin_s_2 * cos_s * cos_p);
+  const std::complex<double> water = density * sound_speed * cos_p;
+  if (inside + water == 0.0) return -1;
+  return (inside - water) / (inside + water);  // (E148)
 }
 
 double rms_wave_height(double wind_speed) {
