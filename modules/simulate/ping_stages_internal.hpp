@@ -22,6 +22,7 @@ struct PingParts {
   Sampling sampling{};       ///< the report; patches if stored
   Echoes direct{};           ///< if stored
   Multipath multipath{};
+  Multipath mirrors{};  ///< without glints, which are of no surfel
 };
 
 /// The surfels that the head sees, counted; sets ping.view.sampling.energy.
@@ -34,10 +35,10 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
 /// parts.direct.
 std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
-/// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.multipath. An
-/// echo by a boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible surfels are
-/// therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
-void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
+/// Adds the layers of echoes by way of the boundaries and of the mirrors, if the options say so, and leaves them in
+/// parts. An echo by a boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible
+/// surfels are therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
+void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
 /// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
 struct Reverberation {
