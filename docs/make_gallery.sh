@@ -64,6 +64,13 @@ chapter "With the sea around it" "Echoes via surface and bottom only."
 steps "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --range 2:20 --multipath --layers --set surface.height_m=0 -o sea"
 picture multipath "The multipath layer." "insonify image sea --layer multipath --raw --size 900x700 -o multipath.png"
 
+chapter "Ghosts in a wall" "Two pilings and a smooth wall across the view, as in Figure 22 of the thesis that this project began with. [Mirrors](../mirrors.md)."
+steps "awk 'BEGIN { for (c = 0; c < 2; ++c) for (k = 0; k < 48; ++k) for (z = -6; z <= 0; z += 6) print \"v\", 20 - 4 * c + 0.15 * cos(k * 0.1309), 4 * c - 2 + 0.15 * sin(k * 0.1309), z; for (c = 0; c < 2; ++c) for (k = 0; k < 48; ++k) { a = 96 * c + 2 * k + 1; b = 96 * c + 2 * ((k + 1) % 48) + 1; print \"f\", a, b, b + 1, a + 1 } }' > pilings.obj" \
+  "printf '[[mirror]]\nname = \"wall\"\nplace_m = [25, 0, 0]\nnormal = [-1, 0, 0]\nreflection = 0.71\nrms_height_m = 0.0002\n' > wall.toml" \
+  "insonify ping pilings.obj --sonar m900-2250-130 --pose=0,0,-3,0,0,0 --range 5:36 --environment wall.toml --layers -o ghost"
+picture ghost "Pilings at 20 m to starboard and 16 m to port, and behind the wall at 25 m their ghosts: a spot at 30 m mirrors the one at 20 m. The wall itself is the head's own image, heard through side lobes all around." \
+  "insonify image ghost --annotate 1 --size 900x700 -o ghost.png"
+
 chapter "Many pings" "A head moves towards the quay; its pings are merged into one run."
 steps "printf 'time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,-4,-3,0,10,0\n24,12,4,-3,20,10,0\n' > track.csv" \
   "for t in \$(seq 0 1 23); do insonify ping harbour.ply --sonar p900-45 --set sonar.beams=64 --trajectory track.csv --time \$t --range 2:20 --no-picture -o track-\$(printf %02d \$t); done" \

@@ -2,48 +2,83 @@
 #pragma once
 #include <complex>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include "acoustics/aperture.hpp"
 #include "acoustics/environment.hpp"
 #include "acoustics/multipath_echoes.hpp"
 
 namespace insonify {
 
-/// A reflecting plane, as a head sees it.
+/// A point mirrored in a plane; exact for level planes, of which it turns the height alone.
+inline Eigen::Vector3d mirrored_in(const MirrorPlane& plane, const Eigen::Vector3d& point) {
+  return (point - 2 * plane.normal().dot(point) * plane.normal()) - 2 * plane.offset() * plane.normal();
+}
+
+/// A reflecting plane, as a head sees it: the surface, a flat bottom or a mirror.
 struct Boundary {
-  double height = 0;         ///< world z [m]
-  double water_side = 1;     ///< 1: the water lies above it, -1: below
-  double head_height = 0;    ///< of the head above the plane, negative below it [m]
-  Eigen::Vector3d up;        ///< of the world, in head axes
-  double rms_height = 0;     ///< of its relief [m]
-  double thickness = 0;      ///< captured points so near to it are the boundary itself [m]
-  double wavenumber = 0;     ///< [rad/m]
-  const FlatBottom* bottom;  ///< nullptr: the surface, which reflects everything with the sign turned
+  MirrorPlane plane;                       ///< world; its normal points into the water
+  Eigen::Vector3d normal;                  ///< the same in head axes
+  double head_distance = 0;                ///< of the head from the plane, into the water [m]
+  double rms_height = 0;                   ///< of its relief [m]
+  double thickness = 0;                    ///< captured points so near to it are the boundary itself [m]
+  double wavenumber = 0;                   ///< [rad/m]
+  double sound_speed = 0;                  ///< of the water [m/s]
+  bool ends_water = false;                 ///< nothing beyond it counts: the surface, mirrors without edges
+  const FlatBottom* bottom = nullptr;      ///< of a flat bottom
+  const Mirror* mirror = nullptr;          ///< of a mirror; neither: the surface, which turns the sign
+  std::vector<Eigen::Vector3d> corners{};  ///< in head axes; empty: no edges
 
   /// Distance from the plane into the water [m] of a place in head axes; negative beyond it.
-  double distance(const Eigen::Vector3d& place) const { return water_side * (up.dot(place) + head_height); }
-  Eigen::Vector3d mirrored(const Eigen::Vector3d& place) const {
-    return place - 2 * (up.dot(place) + head_height) * up;
-  }
+  double distance(const Eigen::Vector3d& place) const { return normal.dot(place) + head_distance; }
+  Eigen::Vector3d mirrored(const Eigen::Vector3d& place) const { return place - 2 * distance(place) * normal; }
   Eigen::Vector3d mirrored_direction(const Eigen::Vector3d& direction) const {
-    return direction - 2 * up.dot(direction) * up;
+    return direction - 2 * normal.dot(direction) * normal;
   }
-  /// True for a captured piece of the boundary itself: near the plane and lying rather than standing. The mirror
-  /// stands for it already; its own image would all but coincide with it.
-  bool holds(double distance_into_water, double normal_up) const {
-    return std::abs(distance_into_water) <= thickness && std::abs(normal_up) > 0.5;
+  /// True for a captured piece of the boundary itself: near the plane and lying along it. The mirror stands for it
+  /// already; its own image would all but coincide with it.
+  bool holds(double distance_into_water, double along_normal) const {
+    return std::abs(distance_into_water) <= thickness && std::abs(along_normal) > 0.5;
   }
   /// Pressure reflection coefficient, with what roughness leaves of it.
   std::complex<double> reflection(double grazing) const;
+  /// What its edges let through (E150) of the path from the head to a place whose image in it, in head axes, this is.
+  std::complex<double> edges(const Eigen::Vector3d& image) const;
   /// What roughness leaves at most of a bounce within `range` [m] of the image, at the least grazing angle there is.
   double strongest_bounce(double range) const;
 };
 
-/// The boundaries of `environment`, surface first. Throws Error if there is none, or the head is not in the water
+/// -80 dB: what patterns, reflections and edges may leave of an echo at least.
+inline constexpr double echo_floor = 1e-4;
+
+/// How far outside the gate an echo may stand whose pulse reaches into it [m].
+double pulse_margin(const Transmission& sent);
+
+/// Square root of the two-way pattern; imaginary where that is negative, so that its square is the two-way pattern.
+std::complex<double> one_way_pattern(const EchoOptions& options, double v);
+
+/// Two directions across a straight path from the head to `end`, as columns.
+Eigen::Matrix<double, 3, 2> across_way(const Eigen::Vector3d& end);
+
+/// Fresnel parameters per metre across a path of this length [m], at `crossing` as a part of it (E150).
+double fresnel_scale(double length, double crossing, double wavenumber);
+
+/// Corners of a plane as Fresnel parameters across a straight path from the head to `end` (E150), which crosses the
+/// plane where `crossing` says, as a part of the way; in the same order.
+ConvexPolygon fresnel_corners(std::span<const Eigen::Vector3d> corners, const Eigen::Vector3d& end, double crossing,
+                              double wavenumber);
+
+/// Surface and bottom of `environment`, surface first. Throws Error if there is none, or the head is not in the water
 /// between them.
 std::vector<Boundary> boundaries_of(const Environment& environment, const Pose& world_from_head,
                                     const Transmission& transmission, double tolerance, const char* who);
+
+/// The mirrors that a head faces; refers to `mirrors`. Throws Error if the head stands on one or behind one without
+/// edges.
+std::vector<Boundary> boundaries_of(std::span<const Mirror> mirrors, const Pose& world_from_head,
+                                    const Transmission& transmission, const char* who);
 
 }  // namespace insonify

@@ -55,6 +55,11 @@ void require_valid(const Environment& e, const char* who) {
   if (e.surface && e.water_level && !(std::abs(*e.water_level - e.surface->height) <= depths_agree_to))
     fail(ErrorKind::argument, who, ": water.level_m = ", *e.water_level,
          " m, must be that of surface.height_m = ", e.surface->height, " m to 0.01 m; leave one of them out");
+  for (const Mirror& mirror : e.mirrors) require_valid(mirror, who);
+  if (e.tank) require_valid(*e.tank, who);
+  if (e.tank && (e.surface || e.bottom || e.water_level))
+    fail(ErrorKind::argument, who,
+         ": a tank has a surface and a floor of its own; leave surface, bottom and water.level ", "out");
   const double volume = e.volume_scattering_db.value_or(-70), self = e.self_noise_db.value_or(0);
   const double wind = e.wind_speed.value_or(0);
   require(volume <= 0 && std::isfinite(volume), who, "volume.scattering_db", volume, "dB", "finite and at most 0");
@@ -62,7 +67,15 @@ void require_valid(const Environment& e, const char* who) {
   require(std::abs(self) <= 400, who, "self_noise_db", self, "dB re 1 uPa^2/Hz", "within -400 and 400");
 }
 
+std::vector<Mirror> mirrors_of(const Environment& e) {
+  std::vector<Mirror> all = e.mirrors;
+  if (e.tank)
+    for (Mirror& plane : mirrors_of(*e.tank)) all.push_back(std::move(plane));
+  return all;
+}
+
 std::optional<double> surface_height(const Environment& e) {
+  if (e.tank) return e.tank->corner.z() + e.tank->size.z();
   return e.surface ? std::optional(e.surface->height) : e.water_level;
 }
 

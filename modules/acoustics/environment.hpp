@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <optional>
+#include <vector>
 
+#include "acoustics/mirror.hpp"
 #include "acoustics/sound_speed_profile.hpp"
 #include "sonar/pulse.hpp"
 #include "sonar/water.hpp"
@@ -41,13 +43,18 @@ struct Environment {
   std::optional<double> wind_speed{};            ///< 10 m above the sea [m/s]: waves and noise; absent: neither
   std::optional<double> self_noise_db{};         ///< spectrum level of platform and electronics at an element
                                                  ///< [dB re 1 uPa^2/Hz]
+  std::vector<Mirror> mirrors{};
+  std::optional<Tank> tank{};  ///< a box instead of `surface` and `bottom`
 };
+
+/// Returns the mirrors, with the planes of the tank.
+std::vector<Mirror> mirrors_of(const Environment& environment);
 
 /// Throws Error naming the value, its unit and its rule.
 void require_valid(const Environment& environment, const char* who);
 
-/// Returns the world z of the surface [m], from which depth counts: that of `surface`, else water_level; empty if both
-/// are absent.
+/// Returns the world z of the surface [m], from which depth counts: that of `surface` or of the tank, else water_level;
+/// empty if all are absent.
 std::optional<double> surface_height(const Environment& environment);
 
 /// Returns the depth [m] of a head at world z `head_height` [m]: below the surface if that is known, else water.depth.

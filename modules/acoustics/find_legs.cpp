@@ -30,16 +30,16 @@ void append(const SceneCloud& from, std::size_t i, SceneCloud& to) {
   if (!from.facet.empty()) to.facet.push_back(Facet(from.facet[i]));
 }
 
-bool above_surface(const std::vector<Boundary>& boundaries, double z) {
+bool out_of_water(const std::vector<Boundary>& boundaries, const Eigen::Vector3d& world) {
   return std::any_of(boundaries.begin(), boundaries.end(),
-                     [&](const Boundary& b) { return !b.bottom && z > b.height + b.thickness; });
+                     [&](const Boundary& b) { return b.ends_water && b.plane.signedDistance(world) < -b.thickness; });
 }
 
 // Whether neither a surfel nor its image can come within the gate: both stand as far from the head across.
-bool out_of_reach(const SceneCloud& scene, std::size_t i, const View& view) {
+bool out_of_reach(const SceneCloud& scene, std::size_t i, const View& view, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d from_head = scene.origin - view.world_from_head.translation() + scene.point[i].cast<double>();
   const double disc = view.sampling.footprint * std::sqrt(static_cast<double>(scene.area[i]));
-  return from_head.head<2>().norm() > (view.gate.max_range + disc) * (1 + 1e-6);
+  return (from_head - normal.dot(from_head) * normal).norm() > (view.gate.max_range + disc) * (1 + 1e-6);
 }
 
 MirroredScene mirrored_scene(const SceneCloud& scene, const View& view, const Boundary& boundary,
@@ -49,21 +49,25 @@ MirroredScene mirrored_scene(const SceneCloud& scene, const View& view, const Bo
   cloud.origin = scene.origin;
   cloud.materials = scene.materials;
   cloud.normals_oriented = scene.normals_oriented;
-  const double plane = boundary.height - scene.origin.z();
+  const Eigen::Vector3d& normal = boundary.plane.normal();
+  const MirrorPlane plane(normal, boundary.plane.offset() + normal.dot(scene.origin));  // from the origin
   for (std::size_t i = 0; i < scene.size(); ++i) {
-    const double z = scene.point[i].z(), into_water = boundary.water_side * (z - plane);
-    if (into_water <= 0 || boundary.holds(into_water, scene.normal[i].z())) continue;
-    if (above_surface(boundaries, z + scene.origin.z()) || out_of_reach(scene, i, view)) continue;
+    const Eigen::Vector3d point = scene.point[i].cast<double>();
+    const double into_water = plane.signedDistance(point);
+    if (into_water <= 0 || boundary.holds(into_water, normal.dot(scene.normal[i].cast<double>()))) continue;
+    if (out_of_water(boundaries, point + scene.origin) || out_of_reach(scene, i, view, normal)) continue;
     append(scene, i, cloud);
     all.surfel.push_back(static_cast<std::uint32_t>(i));
   }
   const std::size_t real = cloud.size();
+  const auto mirror = [&](Eigen::Vector3f& point) { point = mirrored_in(plane, point.cast<double>()).cast<float>(); };
   for (std::size_t k = 0; k < real; ++k) {
     append(cloud, k, cloud);
-    cloud.point.back().z() = static_cast<float>(2 * plane - cloud.point[k].z());
-    cloud.normal.back().z() = -cloud.normal[k].z();
+    mirror(cloud.point.back());
+    const Eigen::Vector3d side = cloud.normal[k].cast<double>();
+    cloud.normal.back() = (side - 2 * normal.dot(side) * normal).cast<float>();
     if (!cloud.facet.empty())
-      for (Eigen::Vector3f& corner : cloud.facet.back()) corner.z() = static_cast<float>(2 * plane - corner.z());
+      for (Eigen::Vector3f& corner : cloud.facet.back()) mirror(corner);
   }
   all.asked.assign(real, 0);
   all.asked.resize(2 * real, 1);

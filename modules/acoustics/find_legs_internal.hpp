@@ -9,7 +9,8 @@
 namespace insonify {
 
 /// Which legs lead from the head to a surfel: bit 0 direct, bit 1 + b by boundary b.
-using LegSet = std::uint8_t;
+using LegSet = std::uint32_t;
+constexpr std::size_t most_boundaries = 31;
 constexpr LegSet direct_leg = 1;
 constexpr LegSet leg_by(std::size_t boundary) { return static_cast<LegSet>(2u << boundary); }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Echoes that touch the sea surface or the bottom, by the method of images (Jensen et al., Computational Ocean
+// Echoes that touch the sea surface, the bottom or a mirror, by the method of images (Jensen et al., Computational Ocean
 // Acoustics, section 1.4; E48), one bounce per leg at most. Steps:
-//   1. boundaries_of     surface and bottom as planes in head axes, with their reflection
+//   1. boundaries_of     surface, bottom and mirrors as planes in head axes, with their reflection
 //   2. find_legs         for each surfel the legs, direct and by a boundary, that the scene leaves open: the head sees the
 //                        scene mirrored in each boundary with the same visibility test as the scene itself
 //   3. split_listed      patches of the surfels that only a boundary shows; those seen directly keep their patches
 //   4. add_paths         for each patch every pair of legs, out and back, except the direct pair
-// Cost: one visibility test of the scene per boundary, which dominates, and up to 8 paths of constant cost per patch (3
-// legs out x 3 back, less one). Blocks of patches run in parallel and are joined in order.
+// Cost: one visibility test of the scene per boundary, which dominates, and for n boundaries up to (n + 1)^2 - 1 paths of constant
+// cost per patch (legs out x legs back, less the direct pair). Blocks of patches run in parallel and are joined in order.
 #include "acoustics/multipath_echoes.hpp"
 
 #include <algorithm>
@@ -30,13 +30,7 @@ using Eigen::Vector3d;
 using complex = std::complex<double>;
 
 constexpr const char* me = "multipath_echoes";
-constexpr double echo_floor = 1e-4;  // -80 dB: what pattern and reflection may leave of an echo
 constexpr std::size_t patches_per_block = 4096;
-
-/// How far outside the gate an echo may stand whose pulse reaches into it [m].
-double pulse_margin(const Transmission& sent) {
-  return 0.5 * sent.medium.sound_speed * pulse_half_length(sent.pulse, pulse_floor);
-}
 
 /// One leg between head and patch, in the axes of the head.
 struct Leg {
@@ -49,9 +43,9 @@ struct Leg {
   std::uint8_t by;   ///< 0: direct; k: by the k-th boundary
 };
 
-/// Up to three legs to one patch, the direct one first.
+/// The legs to one patch, the direct one first.
 struct LegsToPatch {
-  Leg leg[3];
+  Leg leg[1 + most_boundaries];
   std::size_t count = 0;
 };
 
@@ -64,9 +58,10 @@ struct Origins {
 /// Makes the echoes of the patches of one list by all their paths.
 class PathBuilder {
  public:
-  PathBuilder(const SceneCloud& scene, const std::vector<Boundary>& boundaries, const FoundLegs& found,
-              const View& view, const Transmission& sent)
+  PathBuilder(const SceneCloud& scene, const std::vector<Boundary>& boundaries, std::size_t first,
+              const FoundLegs& found, const View& view, const Transmission& sent)
       : scene_(scene),
+        first_(first),
         boundaries_(boundaries),
         found_(found),
         echo_options_(sent.echo_options),
@@ -130,9 +125,10 @@ class PathBuilder {
       const Boundary& boundary = boundaries_[b];
       if (!(open & leg_by(b)) || boundary.distance(place) <= 0) continue;
       const Vector3d image = boundary.mirrored(place);
-      const double sine = std::min(1.0, std::abs(boundary.up.dot(image)) / image.norm());
+      const double sine = std::min(1.0, std::abs(boundary.normal.dot(image)) / image.norm());
       Leg& leg = legs.leg[legs.count];
-      leg = leg_to(image, boundary.mirrored_direction(normal), boundary.reflection(std::asin(sine)));
+      leg = leg_to(image, boundary.mirrored_direction(normal),
+                   boundary.reflection(std::asin(sine)) * boundary.edges(image));
       leg.towards = boundary.mirrored_direction(leg.towards);
       leg.by = static_cast<std::uint8_t>(b + 1);
       legs.count += leg.cosine > 0;
@@ -148,15 +144,9 @@ class PathBuilder {
     leg.towards = -place / leg.range;
     const double cosine = -normal.dot(place) / leg.range;
     leg.cosine = std::min(1.0, scene_.normals_oriented ? cosine : std::abs(cosine));
-    leg.gain = reflection * one_way_pattern(leg.v);
+    leg.gain = reflection * one_way_pattern(echo_options_, leg.v);
     leg.sent = leg.gain * transmit_pattern(echo_options_, std::atan2(place.y(), place.x()));
     return leg;
-  }
-
-  /// Square root of the two-way pattern; imaginary where that is negative, so that its square is the two-way pattern.
-  complex one_way_pattern(double v) const {
-    const double two_way = elevation_pattern(echo_options_, std::asin(std::clamp(v, -1.0, 1.0)));
-    return two_way < 0 ? complex(0, std::sqrt(-two_way)) : complex(std::sqrt(two_way), 0);
   }
 
   void add_paths(const LegsToPatch& legs, const Scatterers& patches, std::size_t patch, double area, Echoes& out,
@@ -168,7 +158,7 @@ class PathBuilder {
       for (std::size_t i = 0; i < legs.count; ++i) {
         const Leg &there = legs.leg[o], &back = legs.leg[i];
         const double length = there.range + back.range;
-        if (!(there.by || back.by) || length < least_leg_ || length > longest_leg_) continue;
+        if (std::max(there.by, back.by) < first_ || length < least_leg_ || length > longest_leg_) continue;
         const complex gain = there.sent * back.gain;
         if (!(std::norm(gain) >= echo_floor * echo_floor)) continue;
         from.legs.push_back({there.by, back.by});
@@ -181,6 +171,7 @@ class PathBuilder {
   }
 
   const SceneCloud& scene_;
+  std::size_t first_;  // number of the first boundary without which an echo does not count
   const std::vector<Boundary>& boundaries_;
   const FoundLegs& found_;
   const EchoOptions& echo_options_;
@@ -189,10 +180,9 @@ class PathBuilder {
   double source_, sound_speed_, cycles_per_m_, least_leg_ = 0, longest_leg_ = 0;
 };
 
-/// The view as far as legs may lead out of it and still belong to an echo inside the gate.
-View widened(const View& view, const Environment& environment, const Transmission& sent) {
+/// The view as far as legs up to `max_range` may lead out of it and still belong to an echo inside the gate.
+View widened(const View& view, double max_range, const Transmission& sent) {
   View wide = view;
-  const double max_range = longest_leg(environment, view, sent);
   wide.gate = {1e-3 * view.gate.min_range, max_range, view.gate.bin_size * max_range / view.gate.max_range};
   wide.sampling.elevation_half_extent = extent_of_legs(sent.echo_options);
   return wide;
@@ -216,31 +206,24 @@ std::vector<std::uint32_t> surfels_beside(const FoundLegs& found, const std::vec
   return list;
 }
 
-}  // namespace
-
-Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
-                           const View& view, const Transmission& transmission, const MultipathOptions& options) {
-  require_valid(scene, me);
-  require_valid(environment, me);
-  require_valid(view.gate, me);
-  require_valid(transmission.pulse, me);
-  require_valid(transmission.medium, me);
-  require(options.boundary_tolerance >= 0 && std::isfinite(options.boundary_tolerance), me,
-          "options.boundary_tolerance", options.boundary_tolerance, "m", "finite and >= 0");
-  const auto boundaries =
-      boundaries_of(environment, view.world_from_head, transmission, options.boundary_tolerance, me);
+/// The echoes by `boundaries`, of whose legs at least one is by the boundary number `first` or a later one.
+Multipath bounced_echoes(const SceneCloud& scene, const Scatterers& direct, const std::vector<Boundary>& boundaries,
+                         std::size_t first, double longest, const View& view, const Transmission& sent) {
+  if (boundaries.size() > most_boundaries)
+    fail(ErrorKind::argument, me, ": ", boundaries.size(), " planes, must be at most ", most_boundaries);
+  Multipath result;
+  for (const Boundary& boundary : boundaries) result.planes.push_back(boundary.plane);
 
   // Legs, surfel by surfel.
   const bool rays = view.sampling.kind == SamplingKind::rays;
   const auto parts = parts_per_surfel(direct, scene.size());
   std::vector<std::uint8_t> seen_directly(scene.size(), 0);
   for (std::size_t i = 0; i < scene.size() && !rays; ++i) seen_directly[i] = parts[i] > 0;
-  const FoundLegs found = find_legs(scene, widened(view, environment, transmission), boundaries, seen_directly);
-  Multipath result;
+  const FoundLegs found = find_legs(scene, widened(view, longest, sent), boundaries, seen_directly);
   result.blocked = found.hidden;
 
   // Paths, patch by patch: first those seen directly, then those that only a boundary shows.
-  const PathBuilder builder(scene, boundaries, found, view, transmission);
+  const PathBuilder builder(scene, boundaries, first, found, view, sent);
   if (!rays) builder.add(direct, parts, true, result);
   const Scatterers beside = split_listed(scene, view.world_from_head, view.fan, view.gate,
                                          surfels_beside(found, seen_directly), view.sampling);
@@ -248,11 +231,57 @@ Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, co
   return result;
 }
 
-double longest_leg(const Environment& environment, const View& view, const Transmission& transmission) {
+void require_arguments(const SceneCloud& scene, const Environment& environment, const View& view,
+                       const Transmission& transmission, const MultipathOptions& options) {
+  require_valid(scene, me);
+  require_valid(environment, me);
+  require_valid(view.gate, me);
+  require_valid(transmission.pulse, me);
+  require_valid(transmission.medium, me);
+  require(options.boundary_tolerance >= 0 && std::isfinite(options.boundary_tolerance), me,
+          "options.boundary_tolerance", options.boundary_tolerance, "m", "finite and >= 0");
+}
+
+}  // namespace
+
+Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
+                           const View& view, const Transmission& transmission, const MultipathOptions& options) {
+  require_arguments(scene, environment, view, transmission, options);
+  const auto boundaries =
+      boundaries_of(environment, view.world_from_head, transmission, options.boundary_tolerance, me);
+  return bounced_echoes(scene, direct, boundaries, 1, longest_leg(environment, {}, view, transmission), view,
+                        transmission);
+}
+
+Multipath mirror_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
+                        std::span<const Mirror> mirrors, bool with_levels, const View& view,
+                        const Transmission& transmission, const MultipathOptions& options) {
+  require_arguments(scene, environment, view, transmission, options);
+  for (const Mirror& mirror : mirrors) require_valid(mirror, me);
+  std::vector<Boundary> boundaries;
+  if (with_levels)
+    boundaries = boundaries_of(environment, view.world_from_head, transmission, options.boundary_tolerance, me);
+  const std::size_t first = boundaries.size() + 1;
+  for (Boundary& boundary : boundaries_of(mirrors, view.world_from_head, transmission, me))
+    boundaries.push_back(std::move(boundary));
+  return bounced_echoes(scene, direct, boundaries, first, longest_leg(environment, mirrors, view, transmission), view,
+                        transmission);
+}
+
+void append(Echoes& echoes, const Echoes& more) {
+  for (std::size_t i = 0; i < more.size(); ++i)
+    add_echo(echoes, more.delay[i], more.u[i], more.v[i], more.amplitude[i]);
+}
+
+double longest_leg(const Environment& environment, std::span<const Mirror> mirrors, const View& view,
+                   const Transmission& transmission) {
   const double head = view.world_from_head.translation().z();
   double farthest = 0;
   if (environment.surface) farthest = std::max(farthest, std::abs(head - environment.surface->height));
   if (environment.bottom) farthest = std::max(farthest, std::abs(head - environment.bottom->height));
+  for (const Mirror& m : mirrors)
+    farthest =
+        std::max(farthest, MirrorPlane(m.normal.normalized(), m.place).absDistance(view.world_from_head.translation()));
   return view.gate.max_range + pulse_margin(transmission) + farthest;
 }
 
@@ -260,7 +289,7 @@ double strongest_bounce(const Environment& environment, const View& view, const 
   require_valid(environment, "strongest_bounce");
   if (!environment.surface && !environment.bottom) return 0;
   const auto boundaries = boundaries_of(environment, view.world_from_head, transmission, 0, "strongest_bounce");
-  const double range = longest_leg(environment, view, transmission);
+  const double range = longest_leg(environment, {}, view, transmission);
   double most = 0;
   for (const Boundary& b : boundaries) most = std::max(most, b.strongest_bounce(range));
   return most;

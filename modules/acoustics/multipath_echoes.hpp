@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/echoes.hpp"
@@ -11,8 +14,11 @@
 
 namespace insonify {
 
+/// A plane that sound is mirrored by, in the world [m]; its normal points into the water.
+using MirrorPlane = Eigen::Hyperplane<double, 3>;
+
 /// By which legs sound went out to a patch and came back: 0 direct, k by the k-th boundary (the surface before the
-/// bottom).
+/// bottom before the mirrors).
 struct LegPair {
   std::uint8_t out = 0, back = 0;
 
@@ -26,6 +32,7 @@ struct Multipath {
   Echoes echoes;
   std::vector<std::uint32_t> surfel{};  ///< of every echo, index in the scene
   std::vector<LegPair> legs{};          ///< of every echo
+  std::vector<MirrorPlane> planes{};    ///< the boundaries that legs are numbered by
   std::size_t one_bounce = 0;           ///< out direct and back by a boundary, or the other way round
   std::size_t two_bounces = 0;          ///< out and back by a boundary
   std::size_t blocked = 0;              ///< legs from surfels by a boundary that the scene hides
@@ -74,10 +81,26 @@ struct MultipathOptions {
 Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
                            const View& view, const Transmission& transmission, const MultipathOptions& options = {});
 
+/// The same by way of `mirrors`: the echoes of whose legs at least one is by a mirror. The others are direct or, if
+/// `with_levels`, by surface and bottom. A leg by a mirror has the factor
+///
+///   R exp(-2 (k H cos)^2) F                                                                      (E47, E148, E150)
+///
+/// with R its reflection, H its rms height, cos that of incidence and F what its edges let through, by the Fresnel
+/// parameters of the corners of the plane. Only mirrors that face the head count; those without edges must. Surfels
+/// that are a mirror's own (Mirror::thickness) have no legs by it.
+Multipath mirror_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
+                        std::span<const Mirror> mirrors, bool with_levels, const View& view,
+                        const Transmission& transmission, const MultipathOptions& options = {});
+
+/// Adds `more` at the end of `echoes`, both with v and at rest.
+void append(Echoes& echoes, const Echoes& more);
+
 /// Range [m] beyond which neither a surfel nor its image takes part in multipath_echoes. By the triangle inequality two
 /// legs to one patch differ by no more than twice the head's distance from the farther boundary, so neither is longer
 /// than their mean, which lies within the gate and a pulse, by more than that distance.
-double longest_leg(const Environment& environment, const View& view, const Transmission& transmission);
+double longest_leg(const Environment& environment, std::span<const Mirror> mirrors, const View& view,
+                   const Transmission& transmission);
 
 /// The most, as a pressure factor, that roughness leaves of a bounce off any boundary within the view's gate: leaving
 /// multipath out costs no more than this, relative to a direct echo of the same length and pattern, per mixed path. 1

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/boundary_internal.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -21,6 +21,29 @@ std::complex<double> bottom_reflection(const FlatBottom& bottom, double grazing)
   const double p = bottom.density_ratio * std::sin(grazing);
   if (p + q == 0.0) return (bottom.density_ratio - 1) / (bottom.density_ratio + 1);  // as fast as water: the limit
   return (p - q) / (p + q);                                                          // (E45)
+}
+
+std::complex<double> reflection_coefficient(const ElasticSolid& solid, double cosine, double density,
+                                            double sound_speed) {
+  constexpr const char* me = "reflection_coefficient";
+  require(cosine >= 0 && cosine <= 1, me, "cosine", cosine, "", "within 0 and 1");
+  require(solid.density > 0 && std::isfinite(solid.density), me, "solid.density", solid.density, "kg/m^3", "> 0");
+  require(solid.pressure_speed > 0 && std::isfinite(solid.pressure_speed), me, "solid.pressure_speed",
+          solid.pressure_speed, "m/s", "> 0");
+  require(solid.shear_speed >= 0 && std::isfinite(solid.shear_speed), me, "solid.shear_speed", solid.shear_speed, "m/s",
+          ">= 0");
+  const double sine_2 = 1 - cosine * cosine, p = solid.pressure_speed / sound_speed,
+               s = solid.shear_speed / sound_speed;
+  const std::complex<double> cos_p = std::sqrt(std::complex<double>(1 - p * p * sine_2)),
+                             cos_s = std::sqrt(std::complex<double>(1 - s * s * sine_2));
+  const double sin_s_2 = s * s * sine_2, cos_2s = 1 - 2 * sin_s_2;
+  // Both impedances times cosine cos_p, so that none is infinite: sin^2(2 s) / cos_s = 4 sin_s^2 cos_s.
+  const std::complex<double> inside =
+      solid.density * cosine *
+      (solid.pressure_speed * cos_2s * cos_2s + 4 * solid.shear_speed * sin_s_2 * cos_s * cos_p);
+  const std::complex<double> water = density * sound_speed * cos_p;
+  if (inside + water == 0.0) return -1;
+  return (inside - water) / (inside + water);  // (E148)
 }
 
 double rms_wave_height(double wind_speed) {
@@ -39,36 +62,6 @@ double rms_wave_height(const Environment& environment) {
 double coherent_reflection_loss(double wavenumber, double rms_height, double grazing) {
   const double roughness = wavenumber * rms_height * std::sin(grazing);
   return std::exp(-2 * roughness * roughness);  // (E47)
-}
-
-std::complex<double> Boundary::reflection(double grazing) const {
-  const double left = coherent_reflection_loss(wavenumber, rms_height, grazing);
-  return bottom ? left * bottom_reflection(*bottom, grazing) : -left;
-}
-
-double Boundary::strongest_bounce(double range) const {
-  const double sine = std::min(1.0, std::abs(head_height) / range);
-  return coherent_reflection_loss(wavenumber, rms_height, std::asin(sine));
-}
-
-std::vector<Boundary> boundaries_of(const Environment& environment, const Pose& world_from_head,
-                                    const Transmission& transmission, double tolerance, const char* who) {
-  if (!environment.surface && !environment.bottom)
-    fail(ErrorKind::argument, who, ": environment has neither surface nor bottom, must have one of them");
-  const double head = world_from_head.translation().z();
-  const Eigen::Vector3d up = world_from_head.linear().transpose() * Eigen::Vector3d::UnitZ();
-  const double wavenumber = 2 * pi * transmission.pulse.centre_frequency / transmission.medium.sound_speed;
-  std::vector<Boundary> boundaries;
-  const auto add = [&](double height, double water_side, double rms_height, const FlatBottom* bottom) {
-    boundaries.push_back(
-        {height, water_side, head - height, up, rms_height, tolerance + 3 * rms_height, wavenumber, bottom});
-    if (!(water_side * (head - height) > 0))
-      fail(ErrorKind::argument, who, ": the head stands at height ", head, " m, must be ",
-           bottom ? "above bottom.height = " : "below surface.height = ", height, " m");
-  };
-  if (environment.surface) add(environment.surface->height, -1, rms_wave_height(environment), nullptr);
-  if (environment.bottom) add(environment.bottom->height, 1, environment.bottom->rms_height, &*environment.bottom);
-  return boundaries;
 }
 
 }  // namespace insonify

@@ -15,6 +15,20 @@ namespace insonify {
 /// Throws Error unless 0 <= grazing <= pi / 2.
 std::complex<double> bottom_reflection(const FlatBottom& bottom, double grazing);
 
+/// Plane-wave pressure reflection coefficient (E148) of a thick elastic solid in water of `density` [kg/m^3] and
+/// `sound_speed` [m/s], `cosine` that of incidence against the normal:
+///
+///   R = (Z - Zw) / (Z + Zw),  Zw = rho_w c_w / cosine,  Z = Zp cos^2(2 s) + Zs sin^2(2 s)
+///
+/// Zp and Zs are the impedances rho c / cos of both waves inside, at the angles p and s of Snell's law (Brekhovskikh and
+/// Lysanov, Fundamentals of Ocean Acoustics, section 4.2). Waves that cannot enter fade: a root has Im >= 0. No loss
+/// inside; -1 at cosine 0. Throws Error unless 0 <= cosine <= 1, density and pressure_speed > 0, shear_speed >= 0.
+std::complex<double> reflection_coefficient(const ElasticSolid& solid, double cosine, double density,
+                                            double sound_speed);
+
+/// Density of sea water [kg/m^3] that reflections are computed with; that of fresh water is 2.6 % less.
+inline constexpr double sea_water_density = 1026;
+
 /// Rms height of the waves of a fully developed sea [m] (E46): 0.00561 s^2/m U^2 with U the wind speed [m/s] 10 m above
 /// the sea. From the spectrum of Pierson and Moskowitz (1964), a = 0.0081, b = 0.74, U19 the wind at 19.5 m:
 /// h = sqrt(a / b) U19^2 / (2 g), which is H_s = 4 h = 0.21 U19^2 / g; U19 = 1.026 U as Stewart, Introduction to

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "acoustics/boundary_internal.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
@@ -40,10 +41,10 @@ void add_path(SoundPaths& paths, std::vector<Vector3d> points, double amplitude,
   paths.bounces.push_back(bounces);
 }
 
-/// Where the leg from `head` to the image of `place` in the plane z = height meets that plane.
-Vector3d bounce_of(const Vector3d& head, const Vector3d& place, double height) {
-  const Vector3d image(place.x(), place.y(), 2 * height - place.z());
-  return head + (height - head.z()) / (image.z() - head.z()) * (image - head);
+/// Where the leg from `head` to the image of `place` in a plane meets it.
+Vector3d bounce_of(const Vector3d& head, const Vector3d& place, const MirrorPlane& plane) {
+  const Vector3d image = mirrored_in(plane, place), &normal = plane.normal();
+  return head - plane.signedDistance(head) / (normal.dot(image) - normal.dot(head)) * (image - head);
 }
 
 }  // namespace
@@ -60,12 +61,9 @@ SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, cons
   return paths;
 }
 
-SoundPaths multipath_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
-                           const View& view, const Medium& medium, std::size_t count) {
-  std::vector<double> heights;  // of the boundaries, as legs count them
-  if (environment.surface) heights.push_back(environment.surface->height);
-  if (environment.bottom) heights.push_back(environment.bottom->height);
-  const auto boundaries = static_cast<std::uint8_t>(heights.size());
+SoundPaths multipath_paths(const Multipath& multipath, const SceneCloud& scene, const View& view, const Medium& medium,
+                           std::size_t count) {
+  const auto boundaries = static_cast<std::uint8_t>(multipath.planes.size());
 
   SoundPaths paths;
   const Vector3d head = view.world_from_head.translation();
@@ -76,9 +74,9 @@ SoundPaths multipath_paths(const Multipath& multipath, const SceneCloud& scene, 
       for (const std::size_t i : loudest(multipath.echoes, medium, count, in_group)) {
         const Vector3d place = scene.origin + scene.point[multipath.surfel[i]].cast<double>();
         std::vector<Vector3d> points = {head};
-        if (out > 0) points.push_back(bounce_of(head, place, heights[out - 1]));
+        if (out > 0) points.push_back(bounce_of(head, place, multipath.planes[out - 1]));
         points.push_back(place);
-        if (back > 0) points.push_back(bounce_of(head, place, heights[back - 1]));
+        if (back > 0) points.push_back(bounce_of(head, place, multipath.planes[back - 1]));
         points.push_back(head);
         add_path(paths, std::move(points), amplitude_of(multipath.echoes, i, medium), legs.bounces());
       }

@@ -11,9 +11,9 @@ namespace insonify {
 SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, const Pose& world_from_head,
                         const Medium& medium, std::size_t count);
 
-/// The same of echoes by way of the boundaries, for each pair of legs out and back: they bounce where the line from the
+/// The same of echoes by way of boundaries, for each pair of legs out and back: they bounce where the line from the
 /// head to the surfel's image meets the boundary (E48).
-SoundPaths multipath_paths(const Multipath& multipath, const SceneCloud& scene, const Environment& environment,
-                           const View& view, const Medium& medium, std::size_t count);
+SoundPaths multipath_paths(const Multipath& multipath, const SceneCloud& scene, const View& view, const Medium& medium,
+                           std::size_t count);
 
 }  // namespace insonify

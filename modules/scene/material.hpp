@@ -17,6 +17,10 @@ struct Material {
                                              ///< law alone uses it
   double coherent_fraction = 0;  ///< part of the mean intensity, in [0, 1], whose amplitude is 1, not random (E53)
   double relief_slope = 0;       ///< rms slope [rise over run] of relief finer than the surfels (E52); 0: smooth
+  double mirror = 0;             ///< 1: its flat parts are mirrors; 0: they are not
+  double coherent = 0;           ///< 1: its parts are plates, spheres and cylinders that reflect as wholes; 0: not
+  double reflection = 1;         ///< of pressure, of such mirrors and shapes
+  double rms_height = 0;         ///< of their roughness [m]
   SurfaceLaw law{};
 
   bool operator==(const Material&) const = default;
@@ -34,6 +38,8 @@ struct MaterialNumber {
   double most_in_files;  ///< [unit] largest that material files may give
   const char* note;      ///< why, for messages; "": none
   const char* help;      ///< what it is, for the docs
+  const char* word =
+      "";  ///< what files say instead of 1, and nothing instead of 0: "true", "fit"; "": they give a number
 };
 
 /// All numbers of a Material. A new one goes last: files written before have its default.
@@ -45,7 +51,18 @@ inline constexpr MaterialNumber material_numbers[] = {
      "fraction of the mean intensity that does not fluctuate"},
     {&Material::relief_slope, "relief_slope", "", std::numeric_limits<double>::infinity(), "relief_slope", false, false,
      1, "rise over run, rms: 45 degrees", "rms slope of relief finer than the cloud"},
+    {&Material::mirror, "mirror", "", 1, "mirror", false, false, 1, "",
+     "flat parts are mirrors of the scene ([mirrors.md](mirrors.md))", "true"},
+    {&Material::coherent, "coherent", "", 1, "coherent", false, false, 1, "",
+     "plates, spheres and cylinders are calibrated targets ([mirrors.md](mirrors.md))", "fit"},
+    {&Material::reflection, "reflection", "", 1, "mirror_reflection", false, false, 1, "",
+     "pressure reflection of such mirrors and targets"},
+    {&Material::rms_height, "rms_height", "m", std::numeric_limits<double>::infinity(), "rms_height_m", false, false, 1,
+     "", "rms height of the roughness of such mirrors and targets"},
 };
+
+/// Whether parts of a material reflect as wholes.
+inline bool is_smooth(const Material& material) { return material.mirror > 0 || material.coherent > 0; }
 
 /// Throws Error of `kind` unless every number is finite, >= 0 and at most its `most`, its law valid (problem_of), and
 /// relief_slope 0 where the law has slopes of its own.

@@ -76,7 +76,8 @@ WholeScene whole_of(const SceneCloud& scene) {
   if (scene.size() == 0) return {};
   const double area = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
   return {scene.size(), std::sqrt(area / static_cast<double>(scene.size())),
-          *std::max_element(scene.area.begin(), scene.area.end())};
+          *std::max_element(scene.area.begin(), scene.area.end()),
+          std::any_of(scene.materials.begin(), scene.materials.end(), is_smooth)};
 }
 
 SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& keep) {

@@ -18,6 +18,7 @@ struct WholeScene {
   std::size_t surfels = 0;
   double mean_spacing = 0;  ///< root of the mean surfel area [m]
   float largest_area = 0;   ///< area of the largest surfel [m^2]
+  bool smooth = false;      ///< parts of a material reflect as wholes (is_smooth)
 };
 
 /// Corners of a triangle [m], relative to the origin of its scene.

@@ -58,7 +58,7 @@ TiledSceneInfo info_of(const TileHeader& h, const std::string& path) {
   info.origin = vector_of(h.origin);
   info.box = {vector_of(h.low), vector_of(h.high)};
   info.total_area = h.total_area;
-  info.whole = {h.surfels, h.mean_spacing, h.largest_area};
+  info.whole = {h.surfels, h.mean_spacing, h.largest_area, false};
   info.normals_oriented = (h.flags & flag_normals_oriented) != 0;
   return info;
 }
@@ -137,6 +137,7 @@ struct TiledScene::State {
     const std::size_t entry_bytes = tiles.size() * sizeof(TileEntry);
     if (entry_bytes > 0) std::memcpy(static_cast<void*>(tiles.data()), tail.data(), entry_bytes);
     info.materials = unpack_materials(std::span(tail).subspan(entry_bytes), header, path);
+    info.whole.smooth = std::any_of(info.materials.begin(), info.materials.end(), is_smooth);
     std::uint64_t surfels = 0;
     for (const TileEntry& tile : tiles) {
       surfels += tile.count;

@@ -4,6 +4,7 @@
 
 #include "acoustics/bend_paths.hpp"
 #include "acoustics/direct_stream.hpp"
+#include "acoustics/glints.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/surfel_energy_internal.hpp"
@@ -74,8 +75,11 @@ std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const R
   return std::make_unique<StoredEchoes>(parts.sampling.scatterers, parts.direct, "PingSimulator");
 }
 
-void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers) {
-  if (ping.options.effects.multipath != Choice::always) return;
+void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers) {
+  const bool multipath = ping.options.effects.multipath == Choice::always;
+  const bool mirrors = ping.options.effects.mirrors == Choice::always;
+  if (!multipath && !mirrors) return;
+  const SceneCloud& scene = prepared.scene();
   View view = ping.view;
   view.sampling.lobe_margin = lobes_everywhere;
   view.sampling.energy = nullptr;
@@ -86,8 +90,16 @@ void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, Ping
     seen = split_seen(prepared, view.world_from_head, view.fan, view.gate, surfels, view.sampling);
     bend(ping, seen);
   }
-  parts.multipath = multipath_echoes(prepared.scene(), seen, ping.environment, view, ping.sent);
-  layers.add("multipath", parts.multipath.echoes);
+  if (multipath) {
+    parts.multipath = multipath_echoes(scene, seen, ping.environment, view, ping.sent);
+    layers.add("multipath", parts.multipath.echoes);
+  }
+  if (!mirrors) return;
+  if (!ping.smooth.mirrors.empty())
+    parts.mirrors = mirror_echoes(scene, seen, ping.environment, ping.smooth.mirrors, multipath, view, ping.sent);
+  Echoes all = parts.mirrors.echoes;
+  append(all, glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent));
+  layers.add("mirrors", all);
 }
 
 void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers) {

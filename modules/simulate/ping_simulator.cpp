@@ -55,10 +55,14 @@ template <typename Use>
 auto with_detail(const PreparedScene& scene, ResolvedPing& ping, const Use& use) {
   ping.sent.surfaces = surfaces_of(ping.sent, scene.scene().materials);
   const SimulationOptions& o = ping.options;
-  if (!merges_surfels(scene.scene(), o)) return use(scene);
+  const auto of = [&](const PreparedScene& pinged) {
+    find_smooth(pinged.scene(), ping);
+    return use(pinged);
+  };
+  if (!merges_surfels(scene.scene(), o)) return of(scene);
   const SceneCut cut = cut_scene(scene, ping.region, ping.view.fan, ping.view.gate, o.sampling.detail_width, o.threads);
   ping.stands_for = cut.stands_for;
-  auto result = use(cut.scene);
+  auto result = of(cut.scene);
   ping.stands_for = {};
   return result;
 }
@@ -147,7 +151,7 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
   begin_stage("synthesis");
   LayerSum layers(ping, *shared_->synthesizers);
   layers.add("direct", *direct);
-  add_multipath(scene, ping, parts, layers);
+  add_bounces(scene, ping, parts, layers);
   add_double_echoes(scene, ping, parts, layers);
   for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
   if (ping.options.effects.noise) layers.add_noise();

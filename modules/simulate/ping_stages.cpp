@@ -41,9 +41,10 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
   const SceneCloud& scene = prepared.scene();
   const OutputSettings& wanted = ping.options.outputs;
   const std::vector<std::uint32_t>& surfel = parts.sampling.scatterers.surfel;
-  const Multipath& multipath = parts.multipath;
+  const auto of = [](const Multipath& m) { return SurfelEchoes{m.echoes, m.surfel, m.legs}; };
   const SurfelEchoes echoes[] = {{parts.direct, surfel},
-                                 {multipath.echoes, multipath.surfel, multipath.legs},
+                                 of(parts.multipath),
+                                 of(parts.mirrors),
                                  {parts.doubles.echoes, parts.doubles.last, {}, parts.doubles.first}};
   const std::vector<Visibility> others = others_than(parts.sampling.scatterers, prepared, ping.view);
   ContributorOptions options;
@@ -74,7 +75,8 @@ SoundPaths paths_of(const SceneCloud& scene, const ResolvedPing& ping, const Pin
   const auto count = static_cast<std::size_t>(ping.options.outputs.paths);
   const Medium& medium = ping.sent.medium;
   SoundPaths paths = direct_paths(patches, parts.direct, ping.view.world_from_head, medium, count);
-  append(paths, multipath_paths(parts.multipath, scene, ping.environment, ping.view, medium, count));
+  for (const Multipath* bounced : {&parts.multipath, &parts.mirrors})
+    append(paths, multipath_paths(*bounced, scene, ping.view, medium, count));
   return paths;
 }
 

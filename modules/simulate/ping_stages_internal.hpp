@@ -23,6 +23,7 @@ struct PingParts {
   Sampling sampling{};       ///< the report; patches if stored
   Echoes direct{};           ///< if stored
   Multipath multipath{};
+  Multipath mirrors{};  ///< without glints, which are of no surfel
   DoubleEchoes doubles{};
 };
 
@@ -36,10 +37,10 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
 /// parts.direct.
 std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
-/// Adds the layer of echoes by way of the boundaries, if the options say so, and leaves them in parts.multipath. An
-/// echo by a boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible surfels are
-/// therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
-void add_multipath(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
+/// Adds the layers of echoes by way of the boundaries and of the mirrors, if the options say so, and leaves them in
+/// parts. An echo by a boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible
+/// surfels are therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
+void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
 /// Adds the layer of echoes by way of two surfaces (E158), if the options say so, and leaves them in parts.doubles.
 void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);

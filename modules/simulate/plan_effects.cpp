@@ -4,8 +4,10 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "acoustics/bend_paths.hpp"
+#include "acoustics/glints.hpp"
 #include "acoustics/motion.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "beamforming/received_energy.hpp"
@@ -94,25 +96,49 @@ double motion_bound(const PlanFacts& facts) {
   return difference_bound(facts, still, moved);
 }
 
+/// Energy that beams receive of echoes within the gate.
+double received_energy(const ResolvedPing& ping, const Echoes& echoes) {
+  const Medium& medium = ping.sent.medium;
+  ReceivedEnergy received(ping.head, medium.sound_speed / ping.sent.pulse.centre_frequency);
+  double energy = 0;
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    const double range = 0.5 * medium.sound_speed * echoes.delay[i];
+    if (range < ping.head.gate.min_range || range > ping.head.gate.max_range) continue;
+    energy += std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * range) *
+              received.at(echoes.u[i], echoes.v.empty() ? 0 : echoes.v[i]);
+  }
+  return energy;
+}
+
+/// The ping for a sample: echoes of mean power of surfels that are not split.
+std::pair<Transmission, View> of_sample(const ResolvedPing& ping) {
+  std::pair<Transmission, View> of{ping.sent, ping.view};
+  of.first.echo_options.amplitude = SurfaceAmplitude::mean_power;
+  of.second.sampling.scatterers_per_cell = 0;
+  of.second.sampling.kind = SamplingKind::surfels;
+  return of;
+}
+
 /// Energy of the echoes by the boundaries, of the sample.
 double multipath_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
-  Transmission sent = ping.sent;
-  sent.echo_options.amplitude = SurfaceAmplitude::mean_power;
-  View view = ping.view;
-  view.sampling.scatterers_per_cell = 0;
-  view.sampling.kind = SamplingKind::surfels;
+  const auto [sent, view] = of_sample(ping);
   const Echoes multipath =
       multipath_echoes(facts.sample.scene, facts.sample.places, ping.environment, view, sent).echoes;
-  ReceivedEnergy received(ping.head, sent.medium.sound_speed / sent.pulse.centre_frequency);
-  double energy = 0;
-  for (std::size_t i = 0; i < multipath.size(); ++i) {
-    const double range = 0.5 * sent.medium.sound_speed * multipath.delay[i];
-    if (range < ping.head.gate.min_range || range > ping.head.gate.max_range) continue;
-    energy += std::norm(multipath.amplitude[i]) * std::exp(-4 * sent.medium.absorption.a0 * range) *
-              received.at(multipath.u[i], multipath.v.empty() ? 0 : multipath.v[i]);
-  }
-  return bound_of_added_echoes(facts, energy);
+  return bound_of_added_echoes(facts, received_energy(ping, multipath));
+}
+
+/// The same of ghosts by the mirrors, and all energy of glints.
+double mirrors_bound(const PlanFacts& facts) {
+  const ResolvedPing& ping = facts.ping;
+  const auto [sent, view] = of_sample(ping);
+  const bool levels = has_boundary(ping.environment) && ping.options.effects.multipath != Choice::never;
+  Echoes echoes = glint_echoes(facts.scene, ping.smooth, ping.environment, levels, view, sent);
+  if (!ping.smooth.mirrors.empty())
+    append(echoes, mirror_echoes(facts.sample.scene, facts.sample.places, ping.environment, ping.smooth.mirrors, levels,
+                                 view, sent)
+                       .echoes);
+  return bound_of_added_echoes(facts, received_energy(ping, echoes));
 }
 
 /// Energy of noise in all bins over that of the echoes.
@@ -148,6 +174,14 @@ constexpr PlanStage effects[] = {
     {"multipath", DecidedBy::budget, [](const PlanCause& of) { return has_boundary(of.environment); },
      "sound also comes by way of surface or bottom", "there is neither surface nor bottom", multipath_bound,
      [](bool in, E&, O& o) { o.effects.multipath = chosen(in); }, [](const O& o) { return o.effects.multipath; }},
+    {"mirrors", DecidedBy::budget,
+     [](const PlanCause& of) {
+       const std::vector<Material>& materials = of.scene.materials;
+       return may_mirror(of.environment, std::any_of(materials.begin(), materials.end(), is_smooth));
+     },
+     "smooth planes and shapes show ghosts and glints", "neither environment nor materials have smooth planes",
+     mirrors_bound, [](bool in, E&, O& o) { o.effects.mirrors = chosen(in); },
+     [](const O& o) { return o.effects.mirrors; }, nullptr, true},
     {"double-echoes", DecidedBy::choice, [](const PlanCause& of) { return of.options.effects.double_echoes > 0; },
      "sound goes on from one surface to another", "not asked for", double_echo_bound,
      [](bool in, E&, O& o) {

@@ -38,9 +38,11 @@ std::vector<PlanStage> all_stages() {
 double level_of(double relative_error) { return db_from_amplitude(1 + relative_error); }
 
 /// The part of the budget that each stage may cost: even in squares.
-double budget_share(const std::vector<PlanStage>& stages, double accuracy_db) {
-  const auto n = std::count_if(stages.begin(), stages.end(), [](auto& s) { return s.by == DecidedBy::budget; });
-  return (amplitude_from_db(accuracy_db) - 1) / std::sqrt(static_cast<double>(n));
+double budget_share(const std::vector<PlanStage>& stages, const PlanFacts& facts) {
+  const auto n = std::count_if(stages.begin(), stages.end(), [&](auto& s) {
+    return s.by == DecidedBy::budget && (!s.shares_if_caused || s.cause(facts.cause()));
+  });
+  return (amplitude_from_db(facts.ping.options.accuracy_db) - 1) / std::sqrt(static_cast<double>(n));
 }
 
 bool is_open(const PlanStage& stage, const SimulationOptions& options) {
@@ -76,7 +78,7 @@ PlannedStage judge(const PlanStage& stage, const PlanFacts& facts, double share,
 /// The stages, or only those that are open, judged: open ones by the budget, which sets `decided`.
 std::vector<PlannedStage> judge_stages(const PlanFacts& facts, bool only_open, SimulationOptions& decided) {
   const std::vector<PlanStage> stages = all_stages();
-  const double share = budget_share(stages, facts.ping.options.accuracy_db);
+  const double share = budget_share(stages, facts);
   std::vector<PlannedStage> judged;
   for (const PlanStage& stage : stages)
     if (!only_open || is_open(stage, facts.ping.options)) judged.push_back(judge(stage, facts, share, decided));
@@ -97,7 +99,7 @@ PingPlan plan_of(const PreparedScene& prepared, const ResolvedPing& ping) {
   PingPlan plan;
   plan.options = ping.options;
   plan.synthesis = facts.synthesis;
-  plan.share_relative = budget_share(all_stages(), ping.options.accuracy_db);
+  plan.share_relative = budget_share(all_stages(), facts);
   plan.share_db = level_of(plan.share_relative);
   plan.stages = judge_stages(facts, false, plan.options);
   double left_out = 0;
@@ -112,6 +114,7 @@ PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEve
   const PreparedScene prepared(scene, options.threads);
   ResolvedPing ping = resolve_ping(prepared.whole(), head, event, environment, options, "plan_ping");
   ping.sent.surfaces = surfaces_of(ping.sent, scene.materials);
+  find_smooth(scene, ping);
   return plan_of(prepared, ping);
 }
 
@@ -131,7 +134,8 @@ SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echo
     water.profile = SoundSpeedProfile{{0}, {medium_of(environment, head.pulse.centre_frequency).sound_speed}};
   SimulationOptions synthesis = options;
   synthesis.sampling.outer_elevations = synthesis.sampling.outer_azimuths = Choice::never;
-  synthesis.effects.multipath = synthesis.effects.refraction = synthesis.effects.moving = Choice::never;
+  synthesis.effects.multipath = synthesis.effects.mirrors = Choice::never;
+  synthesis.effects.refraction = synthesis.effects.moving = Choice::never;
   const ResolvedPing ping = resolve_ping({}, head, {}, water, synthesis, me);
   const SimulationOptions settled = decided_by({SceneCloud{}, ping, sample_of(places, echoes, ping), {}});
   SimulationOptions result = options;
@@ -142,6 +146,9 @@ SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echo
 
 void force_stage(const std::string& name, bool included, const PingEvent& event, Environment& environment,
                  SimulationOptions& options) {
+  // The scene is not known yet: its materials may be a cause for what can be forced in.
+  SceneCloud unknown;
+  unknown.materials[0].mirror = 1;
   std::string names;
   for (const PlanStage& stage : all_stages()) {
     if (!stage.force) continue;
@@ -150,7 +157,7 @@ void force_stage(const std::string& name, bool included, const PingEvent& event,
     Environment forced_environment = environment;
     SimulationOptions forced = options;
     stage.force(included, forced_environment, forced);
-    if (included && !stage.cause({SceneCloud{}, forced_environment, forced, event}))
+    if (included && !stage.cause({unknown, forced_environment, forced, event}))
       fail(ErrorKind::argument, "force_stage: ", name, " cannot be forced in: ", stage.without);
     environment = std::move(forced_environment), options = std::move(forced);
     return;

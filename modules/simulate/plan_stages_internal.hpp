@@ -72,6 +72,8 @@ struct PlanStage {
   Choice (*asked)(const SimulationOptions&) = nullptr;
   /// What is too dear for a budget to ask for; nullptr: nothing.
   bool (*only_if_forced)(const PlanFacts&) = nullptr;
+  /// Takes a share of the budget only where there is a cause.
+  bool shares_if_caused = false;
 };
 
 std::span<const PlanStage> geometry_stages();

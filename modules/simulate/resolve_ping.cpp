@@ -90,11 +90,10 @@ Sector widest_sector(const ResolvedPing& ping) {
 /// What is open counts as in.
 InsonifiedRegion region_of(const ResolvedPing& ping) {
   const View& view = ping.view;
-  if (ping.options.effects.multipath == Choice::never || !has_boundary(ping.environment))
-    return {view.world_from_head, widest_sector(ping), view.gate, view.sampling.footprint};
+  const double legs = reach_of_legs(ping);
+  if (legs == 0) return {view.world_from_head, widest_sector(ping), view.gate, view.sampling.footprint};
   // Bounces come from all sides: whatever is nearer than the longest leg may reflect or block one.
-  InsonifiedRegion region =
-      region_around(view.world_from_head.translation(), rounding * longest_leg(ping.environment, view, ping.sent));
+  InsonifiedRegion region = region_around(view.world_from_head.translation(), rounding * legs);
   region.footprint = view.sampling.footprint;
   return region;
 }
@@ -136,6 +135,26 @@ bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options) {
 
 bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }
 
+bool may_mirror(const Environment& environment, bool smooth_scene) {
+  return smooth_scene || environment.tank || !environment.mirrors.empty();
+}
+
+void find_smooth(const SceneCloud& scene, ResolvedPing& ping) {
+  if (ping.options.effects.mirrors == Choice::never || !ping.smooth_scene) return;
+  const SmoothShapes fitted = fit_shapes(scene, ping.view.world_from_head.translation(), reach_of_legs(ping));
+  ping.smooth = {mirrors_of(ping.environment), fitted.targets};
+  ping.smooth.mirrors.insert(ping.smooth.mirrors.end(), fitted.mirrors.begin(), fitted.mirrors.end());
+}
+
+double reach_of_legs(const ResolvedPing& ping) {
+  const EffectSettings& effects = ping.options.effects;
+  const bool multipath = effects.multipath != Choice::never && has_boundary(ping.environment);
+  const bool mirrors = effects.mirrors != Choice::never && may_mirror(ping.environment, ping.smooth_scene);
+  if (!multipath && !mirrors) return 0;
+  const std::vector<Mirror> declared = mirrors_of(ping.environment);
+  return longest_leg(ping.environment, mirrors ? declared : std::vector<Mirror>{}, ping.view, ping.sent);
+}
+
 void derive(const WholeScene& scene, ResolvedPing& ping) {
   const SonarHead& head = ping.head;
   const SimulationOptions& options = ping.options;
@@ -144,6 +163,7 @@ void derive(const WholeScene& scene, ResolvedPing& ping) {
   ping.sent = {head.pulse, medium, echo_options_of(head, options), std::move(ping.sent.surfaces)};
   ping.view = {ping.event.world_from_head, head.fan, sampled_gate(scene, head, medium, options.synthesis.tolerance),
                sampling_of(scene, ping)};
+  ping.smooth_scene = scene.smooth;
   ping.view.sampling.inner_sector = insonified_sector(head.fan, sampling_in_view(ping));
   ping.region = region_of(ping);
   ping.detection = detection_of(options, head.array, ping.view.sampling.range_resolution, ping.beam_noise_db);
@@ -163,6 +183,7 @@ ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const 
   require_valid(head, surroundings, options, who);
   require_valid(event, who);
   ResolvedPing ping{head, event, environment_at(surroundings, event.world_from_head.translation().z(), who), options};
+  ping.smooth.mirrors = mirrors_of(ping.environment);
   ping.element_noise_db = element_noise_level_db(ping.environment, head.pulse);
   ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
   derive(scene, ping);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "acoustics/environment.hpp"
+#include "acoustics/fit_shapes.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "sampling/insonified_region.hpp"
 #include "scene/scene_cloud.hpp"
@@ -24,6 +25,9 @@ struct ResolvedPing {
   View view{};                  ///< pose, fan, sampled ranges and sampling
   InsonifiedRegion region{};    ///< all that can be received or block sound; with multipath a ball about the head. It
                                 ///< includes what effects that are still open may need
+  SmoothShapes smooth{};        ///< mirrors of the environment; once the scene is known (find_smooth) all that reflects
+                                ///< as a whole
+  bool smooth_scene = false;    ///< WholeScene::smooth
   double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
   double beam_noise_db = 0;     ///< of the same in a beam: less the array's gain (E19)
   /// Of each surfel of the scene that is pinged, its index in the scene that was given (SceneCut); empty: the same.
@@ -46,6 +50,16 @@ bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options);
 
 /// Whether sound can come by way of a surface or bottom.
 bool has_boundary(const Environment& environment);
+
+/// Whether a scene or its environment has what reflects as a whole.
+bool may_mirror(const Environment& environment, bool smooth_scene);
+
+/// Adds to ping.smooth the shapes of smooth materials within the ping's region, unless mirrors are off.
+void find_smooth(const SceneCloud& scene, ResolvedPing& ping);
+
+/// Range [m] within which surfels may take part in echoes by way of boundaries and mirrors; 0: there are none, or their
+/// effects are off.
+double reach_of_legs(const ResolvedPing& ping);
 
 /// Resolves a ping of a scene with the properties `scene` (whole_of, PreparedScene::whole), for plan_ping,
 /// simulate_ping and all that asks what a ping would see. The surfels inside `region` alone, in their order and with

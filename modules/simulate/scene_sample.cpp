@@ -66,7 +66,8 @@ Sampled sampled_surfels(const PreparedScene& prepared, const ResolvedPing& ping,
   const SceneCloud& scene = prepared.scene();
   const Eigen::Matrix3d to_head = ping.view.world_from_head.linear().transpose();
   const Eigen::Vector3d shift = scene.origin - ping.view.world_from_head.translation();
-  const double legs = has_boundary(ping.environment) ? longest_leg(ping.environment, ping.view, ping.sent) : 0;
+  const double levels = has_boundary(ping.environment) ? longest_leg(ping.environment, {}, ping.view, ping.sent) : 0;
+  const double legs = std::max(levels, reach_of_legs(ping));
   const double farthest = std::max(sorter.reach().max_range, legs);
   const auto reaches = [&](const SurfelBlock& block) {
     return (shift + block.centre.cast<double>()).norm() <= farthest + block.radius;

@@ -56,7 +56,9 @@ struct SynthesisSettings {
 /// What is computed beside direct echoes along straight rays from a head at rest. Noise is a choice: no plan adds it.
 struct EffectSettings {
   Choice multipath = Choice::as_needed;  ///< echoes by way of the environment's surface and bottom (E48)
-  bool noise = false;                    ///< thermal, wind and self noise of independent elements (E18, E25, E41)
+  /// Ghosts and glints by the environment's mirrors and tank, and by smooth materials (E48, E151, E152).
+  Choice mirrors = Choice::as_needed;
+  bool noise = false;  ///< thermal, wind and self noise of independent elements (E18, E25, E41)
   /// 0: absorption of the centre frequency for the whole pulse; 1: its slope too; 2: its curvature too; empty: 0 or 2, as
   /// needed.
   std::optional<int> absorption_order{};

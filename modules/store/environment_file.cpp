@@ -25,6 +25,35 @@ KeyValue profile_list(Environment& e, std::vector<double> SoundSpeedProfile::*me
   return {"a list of numbers", set, text};
 }
 
+/// A vector of the tank.
+KeyValue tank_vector(Environment& e, Eigen::Vector3d Tank::*member, const char* meaning) {
+  const auto set = [=, &e](const TomlValue& value, const std::string& path) {
+    return vector((e.tank ? *e.tank : e.tank.emplace()).*member, meaning).set(value, path);
+  };
+  const auto text = [=, &e]() { return e.tank ? vector((*e.tank).*member, meaning).text() : std::nullopt; };
+  Eigen::Vector3d any;
+  return {vector(any, meaning).rule, set, text};
+}
+
+/// Reads [[mirror]] tables.
+std::vector<Mirror> mirrors_in(const std::string& path, const TomlValue& tables) {
+  std::vector<Mirror> mirrors;
+  for (const TomlValue& table : tables.items) {
+    MirrorEntry entry;
+    read_keys(path, table, mirror_keys(entry), "mirror");
+    Mirror& mirror = entry.mirror;
+    const bool with_place = table.find("place_m") || table.find("normal");
+    if (!mirror.corners.empty() == with_place)
+      fail_in_file(path, table.line, "mirror '", mirror.name, "' must have either corners_m, or place_m and normal");
+    if (!entry.size.empty() && (!with_place || entry.size.size() != 2))
+      fail_in_file(path, table.line, "mirror.size_m must be [width, height] beside place_m and normal");
+    if (!mirror.corners.empty()) mirror = with_corners(mirror, mirror.corners);
+    if (!entry.size.empty()) mirror = with_size(mirror, entry.size[0], entry.size[1]);
+    mirrors.push_back(std::move(mirror));
+  }
+  return mirrors;
+}
+
 /// Tables of a run.toml, which is recognised by its version, that are none of the environment; all keys outside of
 /// tables.
 std::vector<std::string> others_of_run(const TomlValue& document) {
@@ -75,6 +104,15 @@ std::vector<Key> environment_keys(Environment& e) {
        "at 10 m height: wave height, and with `--noise` wind noise"},
       {"noise", "self_db", "dB re 1 uPa^2/Hz", number(at(e.self_noise_db)),
        "self noise of platform and electronics, with `--noise`"},
+      {"tank", "size_m", "m", tank_vector(e, &Tank::size, "length along x, y and z"),
+       "a box of water, instead of surface and bottom, with a free surface on top ([mirrors.md](mirrors.md))"},
+      {"tank", "corner_m", "m", tank_vector(e, &Tank::corner, "x, y, z"),
+       "its corner of least x, y and z in the world"},
+      {"tank", "reflection", "", number(at(e.tank, &Tank::reflection), {.least = -1, .most = 1}),
+       "of pressure, of walls and floor"},
+      {"tank", "rms_height_m", "m", number(at(e.tank, &Tank::rms_height), not_negative),
+       "rms height of their roughness"},
+      {"", "mirror", "", list_of_tables(), "smooth planes, see below"},
       {"profile", "depth_m", "m", profile_list(e, &SoundSpeedProfile::depth),
        "of the sound-speed profile; `--profile` reads it from CSV. One that changes with depth needs "
        "`surface.height_m` or "
@@ -84,12 +122,43 @@ std::vector<Key> environment_keys(Environment& e) {
   };
 }
 
+std::vector<Key> mirror_keys(MirrorEntry& entry) {
+  Mirror& m = entry.mirror;
+  const auto vector_of = [](Eigen::Vector3d& of, const char* meaning, bool written) {
+    return omitted_if(vector(of, meaning), [=] { return !written; });
+  };
+  const bool endless = m.corners.empty();
+  return {
+      {"mirror", "name", "", text(m.name), "for messages"},
+      {"mirror", "place_m", "m", vector_of(m.place, "x, y, z", endless),
+       "a point of the plane; the middle, with `size_m`"},
+      {"mirror", "normal", "", vector_of(m.normal, "x, y, z", endless), "into the water, of any length"},
+      {"mirror", "size_m", "m", list(entry.size, positive),
+       "width along the level direction in the plane (x, if the plane is level) and height of a rectangle; default: no "
+       "edges"},
+      {"mirror", "corners_m", "m", omitted_if(points(m.corners), [endless] { return endless; }),
+       "instead of these: corners of a convex plane, counterclockwise as seen from the water"},
+      {"mirror", "reflection", "", number(at(m.reflection), {.least = -1, .most = 1}),
+       "of pressure; 1: rigid, -1: air behind a thin skin"},
+      {"mirror", "density_kg_m3", "kg/m^3", number(at(m.solid, &ElasticSolid::density), positive),
+       "of a thick solid, with its speeds instead of `reflection` (E148)"},
+      {"mirror", "pressure_speed", "m/s", number(at(m.solid, &ElasticSolid::pressure_speed), positive),
+       "of pressure waves in it"},
+      {"mirror", "shear_speed", "m/s", number(at(m.solid, &ElasticSolid::shear_speed), not_negative),
+       "of shear waves in it; 0: a fluid"},
+      {"mirror", "rms_height_m", "m", number(at(m.rms_height), not_negative), "rms height of its roughness"},
+      {"mirror", "thickness_m", "m", number(at(m.thickness), not_negative),
+       "captured surfels along the plane that are nearer are the mirror itself"},
+  };
+}
+
 Environment load_environment(const std::string& path) {
   const TomlValue document = load_toml(path);
   Environment e;
   if (document.find("surface")) e.surface.emplace();
   if (document.find("bottom")) e.bottom.emplace();
   read_keys(path, document, environment_keys(e), "", others_of_run(document));
+  if (const TomlValue* mirrors = document.find("mirror")) e.mirrors = mirrors_in(path, *mirrors);
   try {
     require_valid(e, path.c_str());
   } catch (const Error& error) {
@@ -101,6 +170,7 @@ Environment load_environment(const std::string& path) {
 void set_environment_value(Environment& e, const std::string& section, const std::string& key,
                            const std::string& value) {
   const std::string name = section + "." + key;
+  if (section == "mirror") fail(ErrorKind::argument, name, ": mirrors are set by [[mirror]] of an environment file");
   if (section == "profile")
     fail(ErrorKind::argument, name,
          ": a profile is set as a whole: by [profile] of an environment file, or by a CSV file (--profile)");
@@ -109,13 +179,18 @@ void set_environment_value(Environment& e, const std::string& section, const std
 
 std::string environment_as_toml(const Environment& e) {
   Environment written = e;
-  return keys_as_toml(environment_keys(written));
+  std::string text = keys_as_toml(environment_keys(written));
+  for (const Mirror& mirror : e.mirrors) {
+    MirrorEntry entry{mirror};
+    text += (text.empty() ? "[" : "\n[") + keys_as_toml(mirror_keys(entry)).insert(8, "]");
+  }
+  return text;
 }
 
 std::vector<std::string> environment_key_names() {
   Environment e;
   std::vector<std::string> names = names_of(environment_keys(e));
-  std::erase_if(names, [](const std::string& name) { return name.starts_with("profile."); });
+  std::erase_if(names, [](const std::string& name) { return name.starts_with("profile.") || name == "mirror"; });
   return names;
 }
 

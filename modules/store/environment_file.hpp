@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// Reads an environment from TOML: tables [water], [surface], [bottom], [volume], [wind], [noise] with the keys of
-/// environment_key_names, and [profile] with the lists depth_m and sound_speed. Each table enables its part of the
+/// Reads an environment from TOML: tables [water], [surface], [bottom], [volume], [wind], [noise], [tank] with the keys of
+/// environment_key_names, [profile] with the lists depth_m and sound_speed, and [[mirror]] for each mirror. Each table enables its part of the
 /// environment; omitted keys keep their defaults. Other tables of a run.toml (recognised by its key insonify_version)
 /// are ignored. Unknown tables or keys and values of the wrong type are errors with file, line and the nearest known
 /// name. Throws Error(file) or Error(content).

@@ -119,7 +119,11 @@ KeyValue points(std::vector<Eigen::Vector3d>& points) {
     for (const TomlValue& item : value.items) points.push_back(vector_of(item, as_it_is));
     return true;
   };
-  return {"a list of points [x, y, z]", set, [] { return std::nullopt; }};
+  const auto text = [&points]() -> std::optional<std::string> {
+    if (points.empty()) return std::nullopt;
+    return "[" + joined(points, ", ", [](const Eigen::Vector3d& p) { return text_of_vector(p, as_it_is); }) + "]";
+  };
+  return {"a list of points [x, y, z]", set, text};
 }
 
 KeyValue flag(bool& flag) {

@@ -15,6 +15,14 @@ constexpr Scale in_kilohertz{[](double x) { return 1e3 * x; }, [](double x) { re
 /// A number of a material. In decibels -inf means 0, and the limit is rounded up to 0.01 dB, as it is written in tables
 /// of materials.
 KeyValue number_of(Material& material, const MaterialNumber& n) {
+  if (*n.word) {
+    const bool flag = n.word == std::string("true");
+    const auto set = [&number = material.*n.member, &n, flag](const TomlValue& value, const std::string&) {
+      number = flag ? value.number : value.text == n.word;
+      return value.kind == (flag ? TomlValue::Kind::boolean : TomlValue::Kind::text) && (flag || number > 0);
+    };
+    return {flag ? "true or false" : '"' + std::string(n.word) + '"', set, [] { return std::optional<std::string>(); }};
+  }
   if (!n.in_decibels) return number(at(material.*n.member), {.least = 0, .most = n.most_in_files, .note = n.note});
   Number power = at(material.*n.member);
   power.set = [set = power.set, most = n.most_in_files](double x) { set(std::min(x, most)); };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/reflection.hpp"
 
+#include "support/errors.hpp"
 #include "support/test.hpp"
 
 // Values of an independent evaluation for the medium sand of the APL-UW handbook TR 9407 (1994), to three digits.
@@ -101,4 +102,35 @@ TEST(CoherentReflectionLoss, is_the_mean_phase_over_normal_heights) {
   EXPECT_NEAR(coherent_reflection_loss(k, h, g), mean.real(), 1e-9);
   EXPECT_EQ(coherent_reflection_loss(k, 0, g), 1);
   EXPECT_EQ(coherent_reflection_loss(k, h, 0), 1);
+}
+
+// An independent evaluation in water of 1026 kg/m^3 and 1500 m/s, to three digits: steel, concrete, hard PVC, butyl
+// rubber.
+TEST(ReflectionCoefficient, of_solids_is_that_of_their_waves) {
+  struct Row {
+    ElasticSolid solid;
+    double size[4];  // at 0, 20, 30, 60 degrees
+  };
+  const Row rows[] = {{{7850, 5960, 3240}, {.936, .916, 1, 1}},
+                      {{2300, 4000, 2400}, {.713, .696, .656, 1}},
+                      {{1400, 2352, 1093}, {.363, .345, .341, .241}},
+                      {{1110, 1830, 0}, {.138, .154, .181, 1}}};
+  const double angles[] = {0, 20, 30, 60};
+  for (const Row& row : rows)
+    for (int k = 0; k < 4; ++k)
+      EXPECT_NEAR(std::abs(reflection_coefficient(row.solid, std::cos(radians(angles[k])), 1026, 1500)), row.size[k],
+                  6e-4)
+          << row.solid.density << " " << angles[k];
+}
+
+TEST(ReflectionCoefficient, is_total_beyond_both_critical_angles_and_never_above_one) {
+  const ElasticSolid steel{7850, 5960, 3240};
+  EXPECT_NEAR(std::abs(reflection_coefficient(steel, std::cos(radians(45)), 1026, 1500)), 1, 1e-12);
+  for (const double shear : {0.0, 1400.0, 1500.0, 3240.0})
+    for (double cosine = 0; cosine <= 1; cosine += 1e-3)
+      EXPECT_LE(std::abs(reflection_coefficient({7850, 5960, shear}, cosine, 1026, 1500)), 1 + 1e-12);
+  EXPECT_EQ(reflection_coefficient(steel, 0, 1026, 1500), -1.0);
+  EXPECT_NEAR(reflection_coefficient({1.2, 343, 0}, 1, 1026, 1500).real(), -.999, 1e-3);
+  expect_error(ErrorKind::argument, {"reflection_coefficient", "cosine"},
+               [&] { reflection_coefficient(steel, 1.1, 1026, 1500); });
 }

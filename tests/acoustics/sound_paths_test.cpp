@@ -37,7 +37,7 @@ TEST(SoundPaths, bounced_lines_are_as_long_as_the_echo_is_late_and_bounce_on_the
   const Scatterers seen =
       find_scatterers(c.scene, c.view.world_from_head, c.view.fan, c.view.gate, c.view.sampling).scatterers;
   const Multipath multipath = multipath_echoes(c.scene, seen, c.environment, c.view, c.sent);
-  const SoundPaths paths = multipath_paths(multipath, c.scene, c.environment, c.view, c.sent.medium, 64);
+  const SoundPaths paths = multipath_paths(multipath, c.scene, c.view, c.sent.medium, 64);
 
   // Out and back by direct, surface, bottom: nine pairs of legs less the direct one.
   ASSERT_EQ(paths.size(), 8u);

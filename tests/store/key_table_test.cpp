@@ -29,6 +29,8 @@ TEST(KeyTables, of_the_docs_are_those_of_the_code) {
   Environment environment;
   environment.surface.emplace(), environment.bottom.emplace();
   key_tables::expect_on("keys.md", environment_keys(environment));
+  MirrorEntry mirror;
+  key_tables::expect_on("keys.md", mirror_keys(mirror));
   MaterialEntry material;
   key_tables::expect_on("keys.md", material_keys(material));
   MissionTables tables;

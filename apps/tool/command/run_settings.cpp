@@ -76,7 +76,8 @@ PingOptions load_ping_settings(const std::string& path) {
   // Sonar and environment have readers of their own, which refuse what they do not know.
   std::vector<std::string> others{"schema", "insonify_version", "environment_file", "profile_file"};
   for (std::size_t i = 0; i < document.keys.size(); ++i)
-    if (document.items[i].kind == TomlValue::Kind::table) others.push_back(document.keys[i]);
+    if (document.items[i].kind == TomlValue::Kind::table || document.keys[i] == "mirror")
+      others.push_back(document.keys[i]);
   read_keys(path, document, keys, "", others);
   options.run.sonar = options.run.environment = path;
   return options;

@@ -123,7 +123,9 @@ constexpr TomlKind toml_kinds[] = {{"insonify_version", settings_info},
                                    {"volume", environment_info},
                                    {"wind", environment_info},
                                    {"noise", environment_info},
-                                   {"profile", environment_info}};
+                                   {"profile", environment_info},
+                                   {"tank", environment_info},
+                                   {"mirror", environment_info}};
 
 }  // namespace
 

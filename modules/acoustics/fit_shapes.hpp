@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "acoustics/mirror.hpp"
+#include "scene/scene_cloud.hpp"
+
+namespace insonify {
+
+/// A body that reflects as a whole: a plate, a sphere or a cylinder. World frame [m].
+struct SmoothTarget {
+  Mirror surface{};            ///< its reflection and roughness; of a plate its corners too
+  std::uint16_t material = 0;  ///< of its surfels
+  double radius = 0;           ///< 0: a plate
+  double length = 0;           ///< of a cylinder about surface.place, along `axis`; 0: a sphere
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+};
+
+/// What reflects as a whole.
+struct SmoothShapes {
+  std::vector<Mirror> mirrors;
+  std::vector<SmoothTarget> targets;
+
+  /// Whether there is nothing.
+  bool empty() const { return mirrors.empty() && targets.empty(); }
+};
+
+/// The surfels within `radius` [m] of `centre` (world) of materials with is_smooth, as shapes: flat parts of those that
+/// say `mirror` as mirrors; connected parts of those that say `coherent` as cylinders (with their ends as plates),
+/// spheres or plates, whichever fits. Least squares, weighted by area.
+///
+/// A plane ends half a spacing outside the convex outline of its surfels. Surfels are connected that are within three
+/// spacings of each other. Planes of fewer than twelve surfels are left out. Throws Error(content) for a coherent part
+/// that fits no shape, and for a plane that fills less than half of its outline.
+SmoothShapes fit_shapes(const SceneCloud& scene, const Eigen::Vector3d& centre, double radius);
+
+}  // namespace insonify

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Echoes of a head from its images in mirrors, and from targets. All coordinates are in the axes of the head.
+#include "acoustics/glints.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "acoustics/collect_echoes_internal.hpp"
+#include "acoustics/image_ways_internal.hpp"
+#include "acoustics/reflection.hpp"
+#include "core/parallel.hpp"
+#include "core/require.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+using complex = std::complex<double>;
+
+constexpr const char* glints = "glint_echoes";
+constexpr double same_image = 1e-6;  // [m]
+constexpr std::size_t surfels_at_once = 4096;
+
+/// The way to a sphere or cylinder and back (E152). False if the head is not in front of it.
+bool find_way(const SmoothTarget& target, const Pose& to_head, double wavenumber, ImageWay& way) {
+  const Vector3d middle = to_head * target.surface.place, axis = to_head.linear() * target.axis;
+  const double beside = axis.dot(middle);  // of the middle from where a cylinder would reflect, along it
+  const Vector3d centre = middle - beside * axis;
+  const double d = centre.norm() - target.radius, a = target.radius;
+  if (!(d > 0)) return false;
+  const Vector3d reflects = d / centre.norm() * centre;
+  way.sent = way.heard = 2 * reflects;
+  way.target = &target;
+  way.factor = target.surface.reflection * coherent_reflection_loss(wavenumber, target.surface.rms_height, pi / 2);
+  if (target.length > 0) {
+    const double scale = std::sqrt(2 * wavenumber / (pi * d)), half = 0.5 * target.length;
+    way.factor *= (fresnel_integral(scale * (beside + half)) - fresnel_integral(scale * (beside - half))) /
+                  complex(1, 1) / std::sqrt(1 + d / a);
+    way.bounces = {reflects + std::clamp(0.0, beside - half, beside + half) * axis};
+  } else {
+    way.factor /= 1 + d / a;  // (E152)
+    way.bounces = {reflects};
+  }
+  return true;
+}
+
+/// What surfels do to ways: block them, or cover the place at which a target reflects.
+class SurfelTests {
+ public:
+  SurfelTests(const SceneCloud& scene, const View& view, const std::vector<ImageWay>& ways)
+      : scene_(scene), to_head_(view.world_from_head.inverse()), footprint_(view.sampling.footprint), ways_(ways) {}
+
+  /// Which ways surfels leave open.
+  std::vector<std::uint8_t> open_ways(bool occlusion, int threads) const {
+    std::vector<std::atomic<std::uint8_t>> blocked(ways_.size()), covered(ways_.size());
+    parallel_blocks(scene_.size(), surfels_at_once, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        const Vector3d p = to_head_ * (scene_.origin + scene_.point[s].cast<double>());
+        const Vector3d n = to_head_.linear() * scene_.normal[s].cast<double>();
+        for (std::size_t w = 0; w < ways_.size(); ++w) {
+          if (occlusion && !blocked[w] && blocks(ways_[w], s, p, n)) blocked[w] = 1;
+          if (ways_[w].target && !covered[w] && covers(ways_[w], s, p)) covered[w] = 1;
+        }
+      }
+    });
+    std::vector<std::uint8_t> open(ways_.size());
+    for (std::size_t w = 0; w < ways_.size(); ++w) open[w] = !blocked[w] && (!ways_[w].target || covered[w]);
+    return open;
+  }
+
+ private:
+  bool covers(const ImageWay& way, std::size_t s, const Vector3d& p) const {
+    return scene_.material[s] == way.target->material && (p - way.bounces[0]).squaredNorm() < 4 * scene_.area[s];
+  }
+
+  bool blocks(const ImageWay& way, std::size_t s, const Vector3d& p, const Vector3d& n) const {
+    for (const Boundary* mirror : way.by)
+      if (mirror->holds(mirror->distance(p), mirror->normal.dot(n))) return false;
+    const double reach_2 = footprint_ * footprint_ * scene_.area[s];
+    Vector3d from = Vector3d::Zero();
+    for (std::size_t k = 0; k <= way.bounces.size(); ++k) {
+      const Vector3d to = k < way.bounces.size() ? way.bounces[k] : Vector3d::Zero(), leg = to - from;
+      const double fall = n.dot(leg), part = n.dot(p - from) / fall;
+      // Its own surface does not hide a target.
+      const double margin = way.target ? 2 * way.target->surface.thickness / leg.norm() : 1e-9;
+      if (part > margin && part < 1 - margin && (from + part * leg - p).squaredNorm() < reach_2) return true;
+      from = to;
+    }
+    return false;
+  }
+
+  const SceneCloud& scene_;
+  Pose to_head_;
+  double footprint_;
+  const std::vector<ImageWay>& ways_;
+};
+
+/// Ways by one image as one.
+std::vector<ImageWay> joined(const std::vector<ImageWay>& ways, const std::vector<std::uint8_t>& open) {
+  std::vector<ImageWay> all;
+  for (std::size_t w = 0; w < ways.size(); ++w) {
+    if (!open[w]) continue;
+    const auto same = std::find_if(all.begin(), all.end(), [&](const ImageWay& other) {
+      return !other.target && !ways[w].target && (other.sent - ways[w].sent).norm() < same_image &&
+             (other.heard - ways[w].heard).norm() < same_image;
+    });
+    if (same == all.end())
+      all.push_back(ways[w]);
+    else
+      same->factor += ways[w].factor;
+  }
+  return all;
+}
+
+/// The boundaries that mirrors are chained from; number of the first mirror.
+std::pair<std::vector<Boundary>, std::size_t> all_boundaries(const SmoothShapes& shapes, const Environment& environment,
+                                                             bool with_levels, const View& view,
+                                                             const Transmission& sent) {
+  std::vector<Boundary> all;
+  if (with_levels)
+    all = boundaries_of(environment, view.world_from_head, sent, MultipathOptions{}.boundary_tolerance, glints);
+  const std::size_t first = all.size();
+  for (Boundary& mirror : boundaries_of(shapes.mirrors, view.world_from_head, sent, glints))
+    all.push_back(std::move(mirror));
+  return {std::move(all), first};
+}
+
+}  // namespace
+
+Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const Environment& environment,
+                    bool with_levels, const View& view, const Transmission& sent, const GlintOptions& options) {
+  require(options.most_bounces >= 0 && options.most_bounces <= 6, glints, "options.most_bounces", options.most_bounces,
+          "", "within 0 and 6");
+  const double frequency = sent.pulse.centre_frequency, c = sent.medium.sound_speed, margin = pulse_margin(sent);
+  const auto [mirrors, first] = all_boundaries(shapes, environment, with_levels, view, sent);
+  std::vector<ImageWay> ways = image_ways(mirrors, first, options.most_bounces);
+  std::vector<Mirror> plates;
+  for (const SmoothTarget& target : shapes.targets) {
+    ImageWay way;
+    if (target.radius == 0)
+      plates.push_back(target.surface);
+    else if (find_way(target, view.world_from_head.inverse(), 2 * pi * frequency / c, way))
+      ways.push_back(std::move(way));
+  }
+  const std::vector<Boundary> planes = boundaries_of(plates, view.world_from_head, sent, glints);
+  for (const Boundary& plane : planes)
+    for (ImageWay& way : image_ways({&plane, 1}, 0, 1)) ways.push_back(std::move(way));
+  std::erase_if(ways, [&](const ImageWay& way) {
+    const double range = 0.5 * way.sent.norm();
+    return range < view.gate.min_range - margin || range > view.gate.max_range + margin;
+  });
+
+  Echoes echoes;
+  const std::vector<std::uint8_t> open =
+      SurfelTests(scene, view, ways).open_ways(view.sampling.occlusion, sent.echo_options.threads);
+  for (const ImageWay& way : joined(ways, open)) {
+    const double length = way.sent.norm();
+    const Vector3d out = way.sent / length, back = way.heard / length;
+    const complex gain = one_way_pattern(sent.echo_options, out.z()) * one_way_pattern(sent.echo_options, back.z()) *
+                         transmit_pattern(sent.echo_options, std::atan2(out.y(), out.x())) * way.factor;
+    if (!(std::norm(gain) >= echo_floor * echo_floor)) continue;
+    const double phase = 2 * pi * reduced_cycles(frequency / c * length);
+    add_echo(echoes, length / c, back.y(), back.z(),
+             source_pressure(sent.pulse) * gain * std::polar(1 / length, phase));
+  }
+  return echoes;  // (E151)
+}
+
+}  // namespace insonify
