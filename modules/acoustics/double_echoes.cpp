@@ -12,9 +12,9 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
+#include "acoustics/boundary_internal.hpp"
 #include "acoustics/collect_echoes_internal.hpp"
 #include "core/random.hpp"
 #include "core/require.hpp"
@@ -27,19 +27,19 @@ namespace {
 using Eigen::Vector3d;
 using complex = std::complex<double>;
 
-constexpr double least_gain = 1e-4;  // -80 dB: what patterns may leave of an echo
-constexpr double nearest = 1e-3;     // [m]: spreading has no bound nearer to the head
+constexpr double nearest = 1e-3;  // [m]: spreading has no bound nearer to the head
 constexpr std::size_t surfels_per_block = 2048;
 constexpr std::size_t surfels_per_piece = 1024;  // neighbours, whose rays meet surfaces about as often
 constexpr std::uint64_t trials = 32;             // of each piece, to find out how often
+constexpr std::uint64_t first_trials = 4;        // of these
 constexpr double least_share = 0.01;             // of rays that meet one, where no trial does
 
 /// The leg between the head and a place on a surface.
 struct HeadLeg {
-  Vector3d to_head;   ///< unit vector from the place, world axes
-  double range;       ///< [m]
-  double u, v;        ///< of the place, direction cosines
-  double gain, sent;  ///< one-way pattern; with the transmitter's in azimuth
+  Vector3d to_head;    ///< unit vector from the place, world axes
+  double range;        ///< [m]
+  double u, v;         ///< of the place, direction cosines
+  complex gain, sent;  ///< one-way pattern; with the transmitter's in azimuth
 };
 
 /// A ray that leaves a surfel, with the density of probability [1/sr] of its direction.
@@ -72,7 +72,7 @@ class PairBuilder {
         cycles_per_m_(sent.pulse.centre_frequency / sent.medium.sound_speed),
         seen_(scene_.size(), false),
         number_(scene_.size(), 0) {
-    const double margin = 0.5 * sound_speed_ * pulse_half_length(sent.pulse, pulse_floor);
+    const double margin = pulse_margin(sent);
     least_path_ = 2 * (view.gate.min_range - margin), longest_path_ = 2 * (view.gate.max_range + margin);
     rays_per_cell_ = options.rays_per_cell;
     cell_width_ = view.fan.beam_width * range_resolution(sent.pulse, sound_speed_);
@@ -91,30 +91,33 @@ class PairBuilder {
 
  private:
   /// Decides how many rays each surfel sends on average. Of all rays, pieces of the scene have shares as the part of
-  /// their rays that meets a surface in view. Where no trial of any piece meets one, there are none.
+  /// their rays that meets a surface in view. Where the first trials of all pieces meet none, there are none.
   void share_rays(std::span<const std::uint32_t> order) {
-    const std::size_t pieces = (order.size() + surfels_per_piece - 1) / surfels_per_piece;
-    const auto piece = [&](std::size_t p) {
-      return order.subspan(p * surfels_per_piece, std::min(surfels_per_piece, order.size() - p * surfels_per_piece));
+    struct Piece {
+      std::vector<std::uint32_t> seen;
+      double cells = 0;
+      std::uint64_t met = 0;
+      double share() const { return std::max(least_share, static_cast<double>(met) / trials); }
     };
-    std::vector<double> share(pieces, 0), cells(pieces, 0);
-    std::atomic<bool> any{false};
-    parallel_for(pieces, options_.threads, [&](std::size_t p) {
-      std::vector<std::uint32_t> members;
-      for (const std::uint32_t i : piece(p))
-        if (seen_[i]) members.push_back(i), cells[p] += cells_of(i);
-      std::size_t met = 0;
-      for (std::uint64_t k = 0; k < trials && !members.empty(); ++k)
-        met += find_pair(members[k * members.size() / trials], k, 2).has_value();
-      if (met > 0) any = true;
-      share[p] = std::max(least_share, static_cast<double>(met) / trials);
+    std::vector<Piece> pieces((order.size() + surfels_per_piece - 1) / surfels_per_piece);
+    std::atomic<std::uint64_t> met{0};
+    const auto meet = [&](Piece& piece, std::uint64_t first, std::uint64_t end) {
+      for (std::uint64_t k = first; k < end && !piece.seen.empty(); ++k)
+        piece.met += find_pair(piece.seen[k * piece.seen.size() / trials], k, 2).has_value();
+      met += piece.met;
+    };
+    parallel_for(pieces.size(), options_.threads, [&](std::size_t p) {
+      for (const std::uint32_t i : order.subspan(p * surfels_per_piece)
+                                       .first(std::min(surfels_per_piece, order.size() - p * surfels_per_piece)))
+        if (seen_[i]) pieces[p].seen.push_back(i), pieces[p].cells += cells_of(i);
+      meet(pieces[p], 0, first_trials);
     });
-    if (!any) return;
-    const double all = std::accumulate(cells.begin(), cells.end(), 0.0),
-                 shared = std::inner_product(cells.begin(), cells.end(), share.begin(), 0.0);
-    for (std::size_t p = 0; p < pieces; ++p)
-      for (const std::uint32_t i : piece(p))
-        if (seen_[i]) number_[i] = cells_of(i) * share[p] * all / shared;
+    if (met == 0) return;
+    parallel_for(pieces.size(), options_.threads, [&](std::size_t p) { meet(pieces[p], first_trials, trials); });
+    double all = 0, shared = 0;
+    for (const Piece& piece : pieces) all += piece.cells, shared += piece.cells * piece.share();
+    for (const Piece& piece : pieces)
+      for (const std::uint32_t i : piece.seen) number_[i] = cells_of(i) * piece.share() * all / shared;
   }
 
   Vector3d normal_of(std::uint32_t i, const Vector3d& towards) const {
@@ -129,7 +132,7 @@ class PairBuilder {
     leg.to_head = -from_head / leg.range;
     const Vector3d direction = to_head_ * from_head / leg.range;
     leg.u = direction.y(), leg.v = direction.z();
-    leg.gain = std::sqrt(std::abs(elevation_pattern(options_, std::asin(std::clamp(leg.v, -1.0, 1.0)))));
+    leg.gain = one_way_pattern(options_, leg.v);
     leg.sent = leg.gain * transmit_pattern(options_, std::atan2(direction.y(), direction.x()));
     return leg;
   }
@@ -199,8 +202,8 @@ class PairBuilder {
 
   void add_sense(const HeadLeg& out, const HeadLeg& back, double path, complex amplitude,
                  std::array<std::uint32_t, 2> from_to, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
-    const double gain = out.sent * back.gain;
-    if (!(gain >= least_gain)) return;
+    const complex gain = out.sent * back.gain;
+    if (!(std::norm(gain) >= echo_floor * echo_floor)) return;
     add_echo(echoes, path / sound_speed_, back.u, back.v, amplitude * gain);  // (E158)
     ends.insert(ends.end(), from_to.begin(), from_to.end());
   }

@@ -4,6 +4,7 @@
 // Acoustics, section 4.2); what finer roughness takes from a facet's mirror image (Eckart 1953) it scatters diffusely.
 #include <cmath>
 
+#include "acoustics/reflection.hpp"
 #include "acoustics/surface_laws.hpp"
 #include "acoustics/tabulated_surface_internal.hpp"
 #include "core/require.hpp"
@@ -11,8 +12,6 @@
 
 namespace insonify {
 namespace {
-
-constexpr double water_density = 1026;  // [kg/m^3]
 
 class RoughSurface final : public SurfaceScattering {
  public:
@@ -54,21 +53,8 @@ std::complex<double> rough_reflection(const RoughLaw& law, double sound_speed, d
   require(cos_incidence >= 0 && cos_incidence <= 1, "rough_reflection", "cos_incidence", cos_incidence, "",
           "within 0 and 1");
   if (!(law.density > 0)) return law.reflection;
-  const double sine2 = 1 - cos_incidence * cos_incidence;
-  // Impedances times cos_incidence, so that grazing incidence divides by nothing; waves that fade have a root >= 0.
-  const auto vertical = [&](double speed) {
-    const double x = 1 - sine2 * speed * speed / (sound_speed * sound_speed);
-    return x >= 0 ? std::complex<double>(std::sqrt(x), 0) : std::complex<double>(0, std::sqrt(-x));
-  };
-  const double shear2 = law.shear_speed * law.shear_speed / (sound_speed * sound_speed);
-  const double double_angle = 1 - 2 * sine2 * shear2;  // cos of twice the angle of the shear wave
-  const std::complex<double> cos_p = vertical(law.compression_speed), cos_s = vertical(law.shear_speed);
-  std::complex<double> solid = law.density * law.compression_speed * double_angle * double_angle;
-  // Zs sin^2(2 s) = 4 rho cs cos_s sin^2(s).
-  solid += 4 * law.density * law.shear_speed * shear2 * sine2 * cos_s * cos_p;
-  solid *= cos_incidence;
-  const std::complex<double> water = water_density * sound_speed * cos_p;
-  return solid + water == 0.0 ? -1.0 : (solid - water) / (solid + water);  // (E142)
+  return reflection_coefficient({law.density, law.compression_speed, law.shear_speed}, cos_incidence, sea_water_density,
+                                sound_speed);
 }
 
 std::shared_ptr<const SurfaceScattering> surface_of(const RoughLaw& law, double frequency, double sound_speed) {
