@@ -5,6 +5,7 @@
 
 #include "acoustics/surface_laws.hpp"
 #include "store/material_library.hpp"
+#include "support/errors.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -45,6 +46,26 @@ TEST(Materials, are_read_with_their_origin) {
   }
   EXPECT_EQ(list[1].material.coherent_fraction, 0.25);
   EXPECT_EQ(list[1].material.relief_slope, 0.1);
+}
+
+TEST(Materials, may_be_mirrors_and_targets) {
+  const std::string head = "schema = 1\n[[material]]\nname = \"quay\"\nlambert_mu_db = -20\n";
+  const Material quay =
+      load_materials(own_file("m.toml", head + "mirror = true\nreflection = 0.7\nrms_height_m = 0.01\n"
+                                               "coherent = \"fit\"\n"))
+          .materials[0]
+          .material;
+  EXPECT_EQ(quay.mirror, 1);
+  EXPECT_EQ(quay.coherent, 1);
+  EXPECT_EQ(quay.reflection, 0.7);
+  EXPECT_EQ(quay.rms_height, 0.01);
+  EXPECT_FALSE(is_smooth(load_materials(own_file("n.toml", head + "mirror = false\n")).materials[0].material));
+  expect_error(ErrorKind::content, {"m.toml:5", "mirror", "true or false"},
+               [&] { load_materials(own_file("m.toml", head + "mirror = 1\n")); });
+  expect_error(ErrorKind::content, {"coherent", "must be \"fit\""},
+               [&] { load_materials(own_file("m.toml", head + "coherent = \"fitted\"\n")); });
+  expect_error(ErrorKind::content, {"did you mean 'material.mirror'?"},
+               [&] { load_materials(own_file("m.toml", head + "miror = true\n")); });
 }
 
 TEST(Materials, may_be_intervals_of_any_scalar_field) {
