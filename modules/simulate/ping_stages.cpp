@@ -60,8 +60,8 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
                             options.threads),
                first, ping.head.fan.beams(), result.ping.labels);
     if (!ping.stands_for.empty())
-      for (std::vector<std::uint32_t>* of : {&found.surfel, &found.surfel_before})
-        for (std::uint32_t& named : *of)
+      for (std::vector<std::uint32_t>* surfels : {&found.surfel, &found.surfel_before})
+        for (std::uint32_t& named : *surfels)
           if (named != Contributors::none) named = ping.stands_for[named];
     if (wanted.contributor_sink)
       wanted.contributor_sink->take(found, first);

@@ -51,7 +51,7 @@ TEST(Materials, are_read_with_their_origin) {
 TEST(Materials, may_be_mirrors_and_targets) {
   const std::string head = "schema = 1\n[[material]]\nname = \"quay\"\nlambert_mu_db = -20\n";
   const Material quay =
-      load_materials(own_file("m.toml", head + "mirror = true\nreflection = 0.7\nrms_height_m = 0.01\n"
+      load_materials(own_file("m.toml", head + "mirror = true\nmirror_reflection = 0.7\nrms_height_m = 0.01\n"
                                                "coherent = \"fit\"\n"))
           .materials[0]
           .material;
