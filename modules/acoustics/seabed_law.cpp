@@ -25,6 +25,9 @@ class SeabedModel {
     using std::pow, std::tgamma;
     a_ = pow(8 * al * al * tgamma(1 / (2 * al) + 0.5) / (tgamma(0.5) * tgamma(1 / al) * tgamma(1 / (2 * al))), 2 * al);
     b_ = pow(a_, (1 + 1 / al) / 2) * tgamma(1 / al) / (2 * al);
+    q_ = bed_.c * pow(2, 1 - 2 * al) * pow(bed_.k, 2 - 2 * al);
+    slope_ = std::sqrt(pow(2 * pi * bed_.w2, 1 / al) / (2 * (1 - al)) * pow(bed_.k * bed_.k / al, (1 - al) / al));
+    share_ = pow(1000, 1 / (1 + al));
     critical_deg_ = nu >= 1.001 ? degrees(std::acos(1 / nu)) : 2.5613;
     impedance_ = pow((1 - 2 / rho) / (nu * nu) + 1, 2) * pow(nu, 3.25);
   }
@@ -69,9 +72,9 @@ class SeabedModel {
     double q, slope;
   };
   Relief relief_at(double times) const {
-    const double al = bed_.alpha, k = bed_.k * times;
-    return {bed_.c * std::pow(2, 1 - 2 * al) * std::pow(k, 2 - 2 * al),
-            std::sqrt(std::pow(2 * pi * bed_.w2, 1 / al) / (2 * (1 - al)) * std::pow(k * k / al, (1 - al) / al))};
+    const double al = bed_.alpha;
+    if (times == 1) return {q_, slope_};
+    return {q_ * std::pow(times, 2 - 2 * al), slope_ * std::pow(times, (1 - al) / al)};
   }
   static double large_roughness(const Relief& relief) { return 1 - fade((degrees(std::atan(relief.slope)) - 7) / 0.5); }
   double corner(double g) const { return 1 + 0.81 * critical_deg_ * critical_deg_ / (g * g); }
@@ -85,7 +88,7 @@ class SeabedModel {
   /// Of the lobe, where it and the composite model both hold.
   double kirchhoff_share(const Relief& relief, double g) const {
     const double al = bed_.alpha;
-    const double c4 = std::pow(1000, 1 / (1 + al)) * std::pow(a_ * relief.q * relief.q, 1 / al);
+    const double c4 = share_ * std::pow(a_ * relief.q * relief.q, 1 / al);
     return fade((std::cos(radians(g)) - std::pow(1 / c4 + 4, -0.25)) / 0.0125);
   }
 
@@ -120,6 +123,7 @@ class SeabedModel {
   FluidBed bed_;
   double normal_;  ///< reflection of power at normal incidence
   double a_ = 0, b_ = 0, critical_deg_ = 0, impedance_ = 0;
+  double q_ = 0, slope_ = 0, share_ = 0;
 };
 
 class SeabedSurface final : public SurfaceScattering {
@@ -155,8 +159,8 @@ class SeabedSurface final : public SurfaceScattering {
     std::vector<double> limit(limits + 1, 1);
     for (int k = limits; k >= 0; --k) {
       const double cosine = std::max(0.02, static_cast<double>(k) / limits);
-      const double of_lobe = power_share(lobe_slope(), cosine, 400, [this](const PathAngles& p) { return lobe(p); });
-      const double rest = all - power_share(0, cosine, 400, [this](const PathAngles& p) { return diffuse(p); });
+      const double of_lobe = power_share(lobe_slope(), cosine, 256, [this](const PathAngles& p) { return lobe(p); });
+      const double rest = all - power_share(0, cosine, 256, [this](const PathAngles& p) { return diffuse(p); });
       limit[static_cast<std::size_t>(k)] = of_lobe > rest ? std::max(0.0, rest / of_lobe) : 1;
     }
     for (std::size_t k = limits; k > 0; --k) limit[k - 1] = std::min(limit[k - 1], limit[k]);

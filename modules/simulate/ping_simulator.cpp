@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 #include "acoustics/echo_stream.hpp"
@@ -18,11 +19,36 @@
 
 namespace insonify {
 
+namespace {
+
+/// The laws of the last ping's materials: the same water and scene as a rule, and some ms of work for each sea bed.
+class KeptSurfaces {
+ public:
+  SurfaceTable of(const std::vector<Material>& materials, const Transmission& sent) {
+    const std::lock_guard lock(guard_);
+    if (!(materials == materials_ && sent.pulse.centre_frequency == frequency_ &&
+          sent.medium.sound_speed == sound_speed_)) {
+      table_ = surface_table(materials, sent.pulse.centre_frequency, sent.medium.sound_speed);
+      materials_ = materials, frequency_ = sent.pulse.centre_frequency, sound_speed_ = sent.medium.sound_speed;
+    }
+    return table_;
+  }
+
+ private:
+  std::mutex guard_;
+  std::vector<Material> materials_;
+  double frequency_ = 0, sound_speed_ = 0;
+  SurfaceTable table_;
+};
+
+}  // namespace
+
 struct PingSimulator::Shared {
   SonarHead head;
   Environment environment;
   SimulationOptions options;
   std::shared_ptr<SynthesizerTable> synthesizers = std::make_shared<SynthesizerTable>();
+  KeptSurfaces surfaces{};
 };
 
 namespace {
@@ -53,7 +79,6 @@ void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& sim
 /// Returns use(scene), or where the options ask for it use() of the scene as fine as the head resolves it (E137).
 template <typename Use>
 auto with_detail(const PreparedScene& scene, ResolvedPing& ping, const Use& use) {
-  ping.sent.surfaces = surfaces_of(ping.sent, scene.scene().materials);
   const SimulationOptions& o = ping.options;
   const auto of = [&](const PreparedScene& pinged) {
     find_smooth(pinged.scene(), ping);
@@ -96,11 +121,13 @@ ResolvedPing PingSimulator::resolve(const WholeScene& scene, const PingEvent& ev
 
 PingPlan PingSimulator::plan(const PreparedScene& scene, const PingEvent& event) const {
   ResolvedPing ping = resolve(scene.whole(), event);
+  ping.sent.surfaces = shared_->surfaces.of(scene.scene().materials, ping.sent);
   return with_detail(scene, ping, [&](const PreparedScene& pinged) { return plan_of(pinged, ping); });
 }
 
 SamplingReport PingSimulator::count(const PreparedScene& scene, const PingEvent& event) const {
   ResolvedPing ping = resolve(scene.whole(), event);
+  ping.sent.surfaces = shared_->surfaces.of(scene.scene().materials, ping.sent);
   SamplingReport report = with_detail(scene, ping, [&](const PreparedScene& pinged) {
     decide_effects(pinged, ping);
     return visible_surfels(pinged, ping).report;
@@ -118,6 +145,7 @@ InsonifiedRegion PingSimulator::reach(const WholeScene& scene, const PingEvent& 
 
 SimulatedPing PingSimulator::ping(const PreparedScene& scene, const PingEvent& event) const {
   ResolvedPing ping = resolve(scene.whole(), event);
+  ping.sent.surfaces = shared_->surfaces.of(scene.scene().materials, ping.sent);
   StopWatch watch;
   SimulatedPing result = with_detail(scene, ping, [&](const PreparedScene& pinged) {
     decide_effects(pinged, ping);

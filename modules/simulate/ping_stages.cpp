@@ -86,6 +86,16 @@ std::vector<std::string> gap_notes(const SceneCloud& scene, const View& view, co
   return range_gap_notes(gaps, s.rays_per_beam, s.range_resolution);
 }
 
+/// The materials that surfels have.
+std::vector<Material> materials_in(const SceneCloud& scene) {
+  std::vector<bool> used(scene.materials.size());
+  for (const std::uint16_t m : scene.material) used[m] = true;
+  std::vector<Material> materials;
+  for (std::size_t m = 0; m < used.size(); ++m)
+    if (used[m]) materials.push_back(scene.materials[m]);
+  return materials;
+}
+
 /// Beams that meet too few surfels, if any, with a remedy.
 std::vector<std::string> sparse_notes(const SamplingReport& report, std::size_t beams) {
   if (report.sparse_beams == 0) return {};
@@ -139,7 +149,7 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   if (wanted.paths > 0) result.outputs.paths = paths_of(scene, ping, parts, patches);
 
   if (ping.view.sampling.kind == SamplingKind::rays) report.notes = gap_notes(scene, ping.view, patches);
-  for (std::string& note : surface_notes(scene.materials, ping.head.pulse.centre_frequency))
+  for (std::string& note : surface_notes(materials_in(scene), ping.head.pulse.centre_frequency))
     report.notes.push_back(std::move(note));
   for (std::string& note : sparse_notes(report.sampling, ping.view.fan.beams()))
     report.notes.push_back(std::move(note));

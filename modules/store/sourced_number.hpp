@@ -8,7 +8,7 @@ namespace insonify {
 struct SourcedNumber {
   std::string key;     ///< e.g. "centre_frequency_hz"
   std::string value;   ///< as text
-  std::string status;  ///< sourced | recalled | derived | assumed | unknown | user | chosen
+  std::string status;  ///< sourced | recalled | derived | assumed | unknown | user
   std::string source;  ///< e.g. "datasheet DA-148-P01443-10"
 };
 

@@ -5,8 +5,8 @@
 namespace insonify {
 namespace {
 
-constexpr Named<int> statuses[] = {{"sourced", 0}, {"recalled", 1}, {"derived", 2}, {"assumed", 3},
-                                   {"unknown", 4}, {"user", 5},     {"chosen", 6}};
+constexpr Named<int> statuses[] = {{"sourced", 0}, {"recalled", 1}, {"derived", 2},
+                                   {"assumed", 3}, {"unknown", 4},  {"user", 5}};
 
 /// The value of an entry, plain or a table {value, status, source} whose status and source go into `number`.
 TomlValue value_of(const std::string& path, const TomlValue& entry, SourcedNumber& number) {

@@ -21,6 +21,11 @@ double in_file(const Material& material, const MaterialNumber& number) {
   return number.in_decibels ? std::round(1e4 * db_from_power(value)) / 1e4 : value;
 }
 
+/// Whether the material's law uses a number: Lambert's alone its coefficient.
+bool counts(const Material& material, const MaterialNumber& number) {
+  return number.member != &Material::lambert_mu || material.law == SurfaceLaw{};
+}
+
 }  // namespace
 
 std::string built_in_materials() { return data_folder() + "/materials.toml"; }
@@ -29,7 +34,8 @@ ordered_json materials_json(const std::vector<SourcedMaterial>& materials) {
   ordered_json all = ordered_json::array();
   for (const SourcedMaterial& m : materials) {
     ordered_json row = {{"name", m.material.name}, {"label", m.label}};
-    for (const MaterialNumber& number : material_numbers) row[number.key] = in_file(m.material, number);
+    for (const MaterialNumber& number : material_numbers)
+      if (counts(m.material, number)) row[number.key] = in_file(m.material, number);
     row["status"] = m.status, row["source"] = m.source;
     row["law"] = name_of(m.material.law);
     if (m.material.law != SurfaceLaw{}) row["law_numbers"] = law_to_text(m.material.law);
@@ -44,13 +50,14 @@ void print_materials(const std::vector<SourcedMaterial>& materials) {
   fmt::print("  {:<8} {}\n", "status", "source");
   for (const SourcedMaterial& m : materials) {
     fmt::print("{:<16} {:>5}", m.material.name, m.label);
-    for (const MaterialNumber& number : material_numbers) fmt::print("  {:>17.4g}", in_file(m.material, number));
+    for (const MaterialNumber& number : material_numbers)
+      fmt::print("  {:>17}", counts(m.material, number) ? fmt::format("{:.4g}", in_file(m.material, number)) : "-");
     fmt::print("  {:<8} {}\n", m.status, m.source);
   }
   for (const SourcedMaterial& m : materials)
     if (m.material.law != SurfaceLaw{}) fmt::print("{}: law {}\n", m.material.name, law_to_text(m.material.law));
   fmt::print(
-      "\nlaw of all others: Lambert, cross-section per area = mu cos^2 of the angle of incidence (E4); lambert_mu_db = "
+      "\nlaw: Lambert, cross-section per area = mu cos^2 of the angle of incidence (E4); lambert_mu_db = "
       "10 log10(mu / "
       "(1/sr)), "
       "coherent_fraction of the intensity has no speckle (E53), relief_slope: rms slope of finer relief (E52)\n");
