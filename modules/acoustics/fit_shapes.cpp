@@ -101,10 +101,9 @@ Mirror mirror_of(const SurfelPart& part, const Plane& plane, const Material& mat
 
 /// The surfels of `part` along the plane that grows from `seed`.
 SurfelPart grown_from(const SurfelPart& part, std::uint32_t seed) {
-  const double spacing = part.spacing();
+  const double spacing = part.spacing(), reach = 4 * std::max(spacing, std::sqrt(double{part.scene.area[seed]}));
   SurfelPart grown = part.where([&](auto s) {
-    return (part.point(s) - part.point(seed)).norm() < 4 * spacing &&
-           part.normal(s).dot(part.normal(seed)) > along_plane;
+    return (part.point(s) - part.point(seed)).norm() < reach && part.normal(s).dot(part.normal(seed)) > along_plane;
   });
   for (int turn = 0; turn < 20 && grown.members.size() >= fewest; ++turn) {
     const Plane plane = plane_through(grown);
@@ -238,7 +237,9 @@ SmoothShapes fit_shapes(const SceneCloud& scene, const Vector3d& centre, double 
       fail(ErrorKind::content, fitting, ": material '", material.name,
            "' is smooth, but the normals of the scene have no ",
            "side; orient them by a viewpoint (prepare --viewpoint)");
-    for (const SurfelPart& part : connected_parts(all, 3 * all.spacing())) {
+    double largest = 0;
+    for (const std::uint32_t s : all.members) largest = std::max(largest, double{scene.area[s]});
+    for (const SurfelPart& part : connected_parts(all, 3 * std::sqrt(largest))) {
       if (material.coherent > 0)
         for (SmoothTarget& target : targets_of(part, material)) shapes.targets.push_back(std::move(target));
       if (material.mirror > 0)

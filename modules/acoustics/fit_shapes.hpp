@@ -32,8 +32,8 @@ struct SmoothShapes {
 /// spheres or plates, whichever fits. Least squares, weighted by area.
 ///
 /// A plane ends half a spacing outside the convex outline of its surfels. Surfels are connected that are within three
-/// spacings of each other. Planes of fewer than twelve surfels are left out. Throws Error(content) for a coherent part
-/// that fits no shape, and for a plane that fills less than half of its outline.
+/// spacings (of the largest) of each other. Planes of fewer than twelve surfels are left out. Throws Error(content) for
+/// a coherent part that fits no shape, and for a plane that fills less than half of its outline.
 SmoothShapes fit_shapes(const SceneCloud& scene, const Eigen::Vector3d& centre, double radius);
 
 }  // namespace insonify

@@ -231,7 +231,8 @@ void sample_mesh(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
   for (SceneColumn& column : raw.columns) keep_rows(column, corner);
 
   if (options.mesh_spacing > 0) return;
-  mesh.whole = {count, std::sqrt(surface.total() / static_cast<double>(count)), 0};
+  mesh.whole = {count, std::sqrt(surface.total() / static_cast<double>(count)), 0,
+                std::any_of(mesh.materials.begin(), mesh.materials.end(), is_smooth)};
   result.mesh = std::move(mesh);
 }
 

@@ -184,6 +184,9 @@ ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const 
   require_valid(event, who);
   ResolvedPing ping{head, event, environment_at(surroundings, event.world_from_head.translation().z(), who), options};
   ping.smooth.mirrors = mirrors_of(ping.environment);
+  if (options.effects.mirrors == Choice::always && !may_mirror(ping.environment, scene.smooth))
+    fail(ErrorKind::argument, who, ": options.effects.mirrors = always, but neither the environment nor a material of ",
+         "the scene has mirrors: give [[mirror]], [tank], or `mirror = true` of a material");
   ping.element_noise_db = element_noise_level_db(ping.environment, head.pulse);
   ping.beam_noise_db = ping.element_noise_db - array_gain_db(head);
   derive(scene, ping);

@@ -69,7 +69,7 @@ double reach_of_legs(const ResolvedPing& ping);
 /// parts of the largest surfel stand off its middle; never below 0.1 m, or the gate's own beginning if that is nearer.
 ///
 /// Throws Error for an invalid head, event, environment or option, for a head at or above the surface and what else
-/// environment_at refuses, and for multipath without a boundary; `who` names the caller.
+/// environment_at refuses, for multipath without a boundary and for mirrors without any; `who` names the caller.
 ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const PingEvent& event,
                           const Environment& environment, const SimulationOptions& options = {},
                           const char* who = "resolve_ping");

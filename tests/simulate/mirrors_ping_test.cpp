@@ -2,6 +2,7 @@
 // Mirrors through the whole signal path: ghosts and glints in a ping, in its plan, layers and outputs.
 #include "simulate/plan_ping.hpp"
 #include "simulate/simulate_ping.hpp"
+#include "support/errors.hpp"
 #include "support/heads.hpp"
 #include "support/scenes.hpp"
 #include "support/simulate_event.hpp"
@@ -103,6 +104,8 @@ TEST(MirrorsPing, costs_nothing_without_mirrors) {
   const SimulatedPing none = c.ping();
   EXPECT_TRUE((none.ping.pressure == off.ping.pressure).all());
   EXPECT_GT(plan_ping(c.scene, c.head, c.event, c.environment, c.options).share_relative, share * 1.01);
+  c.options.effects.mirrors = Choice::always;
+  expect_error(ErrorKind::argument, {"effects.mirrors = always", "[[mirror]]"}, [&] { c.ping(); });
 }
 
 TEST(MirrorsPing, fits_planes_of_materials_and_names_the_surfels_of_ghosts) {
