@@ -303,7 +303,8 @@ TEST(PlanPing, names_the_stages_that_can_be_forced) {
   Situation s = situation(1);
   EXPECT_EQ(error_of([&] { force_stage("noize", true, s.event, s.environment, s.options); }),
             "force_stage: 'noize' cannot be forced; these can: outer-elevations, outer-azimuths, detail, "
-            "occlusion, absorption-slope, refraction, motion, multipath, mirrors, volume, surface, bottom, noise, "
+            "occlusion, absorption-slope, refraction, motion, multipath, mirrors, double-echoes, volume, surface, "
+            "bottom, noise, "
             "direct-sum, "
             "true-delays");
 }
