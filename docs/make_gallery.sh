@@ -57,10 +57,10 @@ picture expected "Expected level." "insonify image mean --size 900x700 -o expect
 
 chapter "From one surface to another" "Sound that goes from quay, wreck or pilings to the bed, or back, before it returns. [Double echoes](../double-echoes.md)."
 steps "insonify ping harbour.ply --sonar oculus-m750d --pose=0,0,-3,0,10,0 --range 0.5:30 --with double-echoes --layers -o double"
-picture double-direct "Without them." "insonify image double --layer direct --size 1000x700 -o double-direct.png"
-picture double-sum "With them." "insonify image double --size 1000x700 -o double-sum.png"
+picture double-direct "Without them." "insonify image double --layer direct --size 700x500 -o double-direct.png"
+picture double-sum "With them: less black behind quay and wreck." "insonify image double --size 700x500 -o double-sum.png"
 picture double-echoes "The layer of double echoes: the foot of the quay to port and of the pilings to starboard, and ghosts of wreck and pilings behind them." \
-  "insonify image double --layer double-echoes --size 1000x700 -o double-echoes.png"
+  "insonify image double --layer double-echoes --size 700x500 -o double-echoes.png"
 
 chapter "With the sea around it" "Echoes via surface and bottom only."
 steps "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --range 2:20 --multipath --layers --set surface.height_m=0 -o sea"
