@@ -53,7 +53,7 @@ struct Pair {
   std::uint32_t first, last;
   HeadLeg out, back;
   PathAngles here{}, there{};  ///< in from the head, out to the other one
-  double density = 0;          ///< of surface where the ray ends (SurfaceHit)
+  double density = 0;          ///< of surface where the ray ends (SurfaceRayEnd)
   double path = 0;             ///< of both legs and the ray [m]
 };
 
@@ -169,8 +169,8 @@ class PairBuilder {
     const Vector3d normal = normal_of(i, head_ - scene_.point[i].cast<double>());
     const DrawnRay ray = draw_ray(i, k, series, normal, law.lobe_slope());
     if (!(ray.pdf > 0)) return {};
-    const SurfaceHit hit = rays_.first_hit({i, ray.from.cast<float>(), ray.direction.cast<float>()});
-    if (hit.surfel == SurfaceHit::none || !seen_[hit.surfel]) return {};
+    const SurfaceRayEnd hit = rays_.first_hit({i, ray.from.cast<float>(), ray.direction.cast<float>()});
+    if (hit.surfel == SurfaceRayEnd::none || !seen_[hit.surfel]) return {};
 
     Pair pair{i, hit.surfel, leg_to(ray.from), leg_to(ray.from + hit.distance * ray.direction)};
     const Vector3d normal_there = normal_of(hit.surfel, pair.back.to_head);

@@ -242,10 +242,8 @@ Contributors Search::contributors(const SceneCloud& scene) const {
   Contributors c;
   c.beams = head_.fan.beams(), c.bins = axis_.bins, c.per_pixel = found_.per_pixel;
   const std::size_t entries = found_.energy.size();
-  c.surfel.assign(entries, Contributors::none);
-  c.id.assign(entries, Contributors::none);
-  c.share.assign(entries, 0);
-  c.elevation.assign(entries, 0);
+  c.surfel.assign(entries, Contributors::none), c.id.assign(entries, Contributors::none);
+  c.share.assign(entries, 0), c.elevation.assign(entries, 0);
   c.material.assign(entries, Contributors::no_material);
   c.path.assign(entries, PathKind::direct);
   if (std::any_of(groups_.begin(), groups_.end(), [](const Group& g) { return g.before != Contributors::none; }))
@@ -260,10 +258,8 @@ Contributors Search::contributors(const SceneCloud& scene) const {
       c.share[i] = static_cast<float>(found_.energy[i] / found_.total[i / found_.per_pixel]);  // (E63)
       c.elevation[i] = group.elevation;
       c.material[i] = scene.material[group.surfel];
-      c.path[i] = static_cast<PathKind>(group.legs.bounces());
-      if (group.before == Contributors::none) continue;
-      c.path[i] = PathKind::two_surfaces;
-      c.surfel_before[i] = group.before;
+      c.path[i] = group.path();
+      if (!c.surfel_before.empty()) c.surfel_before[i] = group.before;
     }
   });
   return c;

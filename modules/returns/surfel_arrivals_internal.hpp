@@ -52,6 +52,10 @@ struct Group {
   std::size_t first, last;
   double u_low, u_high;
   std::uint32_t before = Contributors::none;  ///< of the strongest arrival
+
+  PathKind path() const {
+    return before == Contributors::none ? static_cast<PathKind>(legs.bounces()) : PathKind::two_surfaces;
+  }
 };
 
 /// Throws Error(argument) unless the echoes are complete, finite and of surfels of the scene.

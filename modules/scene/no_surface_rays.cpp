@@ -5,8 +5,6 @@
 
 namespace insonify {
 
-struct SurfaceRays::Tree {};
-
 bool SurfaceRays::available() { return false; }
 
 SurfaceRays::SurfaceRays(const SceneCloud&, double) {
@@ -14,9 +12,6 @@ SurfaceRays::SurfaceRays(const SceneCloud&, double) {
        "libembree-dev, and build it again");
 }
 
-SurfaceRays::~SurfaceRays() = default;
-SurfaceRays::SurfaceRays(SurfaceRays&&) noexcept = default;
-SurfaceRays& SurfaceRays::operator=(SurfaceRays&&) noexcept = default;
-SurfaceHit SurfaceRays::first_hit(const SurfaceRay&) const { return {}; }
+SurfaceRayEnd SurfaceRays::first_hit(const SurfaceRay&) const { return {}; }
 
 }  // namespace insonify

@@ -130,13 +130,10 @@ struct SurfaceRays::Tree {
 
 bool SurfaceRays::available() { return true; }
 
-SurfaceRays::SurfaceRays(const SceneCloud& scene, double footprint) : tree_(std::make_unique<Tree>(scene, footprint)) {}
+SurfaceRays::SurfaceRays(const SceneCloud& scene, double footprint)
+    : tree_(std::make_shared<const Tree>(scene, footprint)) {}
 
-SurfaceRays::~SurfaceRays() = default;
-SurfaceRays::SurfaceRays(SurfaceRays&&) noexcept = default;
-SurfaceRays& SurfaceRays::operator=(SurfaceRays&&) noexcept = default;
-
-SurfaceHit SurfaceRays::first_hit(const SurfaceRay& ray) const {
+SurfaceRayEnd SurfaceRays::first_hit(const SurfaceRay& ray) const {
   const SceneCloud& scene = tree_->scene;
   Query query{{}, scene, tree_->footprint, ray};
   rtcInitIntersectContext(&query.context);
@@ -161,8 +158,8 @@ SurfaceHit SurfaceRays::first_hit(const SurfaceRay& ray) const {
   RTCRayHit beside =
       ray_within(ray, std::max(0.0f, distance - cluster_radii * place.radius), distance + cluster_radii * place.radius);
   rtcIntersect1(tree_->discs.get(), &query.context, &beside);
-  const float share = 1 / (static_cast<float>(pi) * kernel * kernel);  // of a kernel's area that is surfel
-  return {place.nearest, distance, static_cast<float>(place.surfels) * share};
+  const float share = 1 / (static_cast<float>(pi) * kernel * kernel);           // of a kernel's area that is surfel
+  return {place.nearest, distance, static_cast<float>(place.surfels) * share};  // (E159)
 }
 
 }  // namespace insonify

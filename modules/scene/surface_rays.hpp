@@ -18,7 +18,7 @@ struct SurfaceRay {
 };
 
 /// Where a ray first meets a surface.
-struct SurfaceHit {
+struct SurfaceRayEnd {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t surfel = none;  ///< of the surfels met there, the one whose centre is nearest; none: the ray meets none
   float distance = 0;           ///< from the start of the ray [m]
@@ -29,8 +29,8 @@ struct SurfaceHit {
   float density = 0;
 };
 
-/// Rays from surface to surface of a scene (Embree, oriented discs). Queries are const, may run concurrently, and do not
-/// depend on the number of threads.
+/// Rays from surface to surface of a scene (Embree, oriented discs). Copies share the tree. Queries are const, may run
+/// concurrently, and do not depend on the number of threads.
 class SurfaceRays {
  public:
   /// Whether this build of insonify has Embree. Without it the constructor throws.
@@ -39,18 +39,15 @@ class SurfaceRays {
   /// Builds the tree over the surfels of a scene, which must outlive it, in some 1 us and 150 bytes per surfel. A surfel
   /// is a disc of radius `footprint` sqrt(area). Throws Error(runtime) without Embree, or if memory is short.
   SurfaceRays(const SceneCloud& scene, double footprint);
-  ~SurfaceRays();
-  SurfaceRays(SurfaceRays&&) noexcept;
-  SurfaceRays& operator=(SurfaceRays&&) noexcept;
 
   /// Returns where a ray first meets the front of a surface. It meets none if a back side is in the way. Surfels that
   /// belong to the surface it leaves are passed: those whose planes hold its start within three standard deviations of
   /// noise, and those nearer than three radii whose back it would meet.
-  SurfaceHit first_hit(const SurfaceRay& ray) const;
+  SurfaceRayEnd first_hit(const SurfaceRay& ray) const;
 
  private:
   struct Tree;
-  std::unique_ptr<Tree> tree_;
+  std::shared_ptr<const Tree> tree_;
 };
 
 }  // namespace insonify

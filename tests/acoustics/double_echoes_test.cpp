@@ -185,20 +185,20 @@ TEST_F(DoubleEchoesTest, of_a_sphere_seen_from_its_centre) {
 
 namespace {
 
-/// Lambert's law and a lobe of facets, which the sampler is told of or not.
+/// Lambert's law and a lobe of facets, whose slope the sampler knows or not.
 class WithLobe final : public SurfaceScattering {
  public:
-  explicit WithLobe(double told_slope) : told_slope_(told_slope) {}
+  explicit WithLobe(double known_slope) : known_slope_(known_slope) {}
   double cross_section(const PathAngles& p) const override {
     if (!(p.cos_in > 0 && p.cos_out > 0)) return 0;
     const double cos_tilt = (p.cos_in + p.cos_out) / std::sqrt(2 * (1 + p.cos_between));
     return 0.01 * p.cos_in * p.cos_out + 0.3 * std::exp(-(1 / (cos_tilt * cos_tilt) - 1) / 0.04);
   }
   double back(double cosine) const override { return cross_section({cosine, cosine, 1}) / cosine; }
-  double lobe_slope() const override { return told_slope_; }
+  double lobe_slope() const override { return known_slope_; }
 
  private:
-  double told_slope_;
+  double known_slope_;
 };
 
 }  // namespace
@@ -206,9 +206,9 @@ class WithLobe final : public SurfaceScattering {
 TEST_F(DoubleEchoesTest, have_one_level_whatever_directions_are_drawn) {
   Room room(corner_of(0.1, 40), Vector3d(20, 0.5, 12), 1000000);
   double level[2];
-  for (const bool told : {false, true}) {
-    room.sent.surfaces = {std::make_shared<const WithLobe>(told ? 0.2 : 0)};
-    level[told] = db_from_power(power_in_one_beam(room.doubles().echoes));
+  for (const bool known : {false, true}) {
+    room.sent.surfaces = {std::make_shared<const WithLobe>(known ? 0.2 : 0)};
+    level[known] = db_from_power(power_in_one_beam(room.doubles().echoes));
   }
   EXPECT_NEAR(level[0], level[1], 0.1);
 }

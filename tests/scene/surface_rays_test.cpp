@@ -31,13 +31,13 @@ void add_square(SceneCloud& scene, const Vector3d& middle, const Vector3d& norma
   }
 }
 
-SurfaceRay ray_from(const Vector3d& from, const Vector3d& direction, std::uint32_t surfel = SurfaceHit::none - 1) {
+SurfaceRay ray_from(const Vector3d& from, const Vector3d& direction, std::uint32_t surfel = SurfaceRayEnd::none - 1) {
   return {surfel, from.cast<float>(), direction.normalized().cast<float>()};
 }
 
 /// The nearest disc in front of a ray, found among all.
-SurfaceHit nearest_of_all(const SceneCloud& scene, const SurfaceRay& ray) {
-  SurfaceHit hit{SurfaceHit::none, std::numeric_limits<float>::infinity(), 0};
+SurfaceRayEnd nearest_of_all(const SceneCloud& scene, const SurfaceRay& ray) {
+  SurfaceRayEnd hit{SurfaceRayEnd::none, std::numeric_limits<float>::infinity(), 0};
   for (std::uint32_t j = 0; j < scene.size(); ++j) {
     const float facing = scene.normal[j].dot(ray.direction);
     const float t = scene.normal[j].dot(scene.point[j] - ray.from) / facing;
@@ -45,7 +45,7 @@ SurfaceHit nearest_of_all(const SceneCloud& scene, const SurfaceRay& ray) {
     if (j != ray.surfel && t > 0 && t < hit.distance && off <= footprint * std::sqrt(scene.area[j]))
       hit = {j, t, facing};
   }
-  if (hit.density >= 0) hit.surfel = SurfaceHit::none;  // none, or a back
+  if (hit.density >= 0) hit.surfel = SurfaceRayEnd::none;  // none, or a back
   return hit;
 }
 
@@ -67,11 +67,11 @@ TEST_F(SurfaceRaysTest, meet_what_a_search_over_all_surfels_finds) {
     const Vector3d direction(std::cos(2 * pi * u[0]), std::sin(2 * pi * u[0]), 2 * u[1] - 1);
     const Vector3f start = scene.point[static_cast<std::size_t>(u[2] * 4000)] + Vector3f(0, 0, 1.5f);
     const SurfaceRay ray = ray_from(start.cast<double>(), direction);
-    const SurfaceHit expected = nearest_of_all(scene, ray), found = rays.first_hit(ray);
+    const SurfaceRayEnd expected = nearest_of_all(scene, ray), found = rays.first_hit(ray);
     // A start within three radii behind a disc passes it: such starts are not compared.
-    if (expected.surfel == SurfaceHit::none && found.surfel != SurfaceHit::none) continue;
-    ASSERT_EQ(expected.surfel == SurfaceHit::none, found.surfel == SurfaceHit::none) << k;
-    if (found.surfel == SurfaceHit::none) continue;
+    if (expected.surfel == SurfaceRayEnd::none && found.surfel != SurfaceRayEnd::none) continue;
+    ASSERT_EQ(expected.surfel == SurfaceRayEnd::none, found.surfel == SurfaceRayEnd::none) << k;
+    if (found.surfel == SurfaceRayEnd::none) continue;
     EXPECT_NEAR(found.distance, expected.distance, 1e-4f * expected.distance + 1e-5f) << k;
     const Vector3f at = ray.from + found.distance * ray.direction;
     EXPECT_LE((scene.point[found.surfel] - at).norm(), (scene.point[expected.surfel] - at).norm() + 1e-5f);
@@ -89,8 +89,8 @@ TEST_F(SurfaceRaysTest, density_integrates_to_the_area_of_a_plate) {
   constexpr int n = 400;
   for (int i = 0; i < n * n; ++i) {
     const double x = 1.5 * ((i % n + 0.5) / n - 0.5), y = 1.5 * ((i / n + 0.5) / n - 0.5);
-    const SurfaceHit hit = rays.first_hit(ray_from({x - 1, y, 1}, {1, 0, -1}));
-    if (hit.surfel == SurfaceHit::none) continue;
+    const SurfaceRayEnd hit = rays.first_hit(ray_from({x - 1, y, 1}, {1, 0, -1}));
+    if (hit.surfel == SurfaceRayEnd::none) continue;
     area += hit.density * 2.25 / (n * n);
     if (std::abs(x) < 0.4 && std::abs(y) < 0.4) middle += hit.density * 2.25 / (n * n) / 0.64;
   }
@@ -104,9 +104,9 @@ TEST_F(SurfaceRaysTest, do_not_pass_backs_nor_meet_their_own_surface) {
   add_square(scene, {0, 0, 1}, {0, 0, 1}, 10);  // its back is turned to the first
   add_square(scene, {0, 0, 2}, {0, 0, -1}, 10);
   const SurfaceRays rays(scene, footprint);
-  EXPECT_EQ(rays.first_hit(ray_from({0, 0, 0}, {0, 0, 1}, 55)).surfel, SurfaceHit::none);
-  const SurfaceHit above = rays.first_hit(ray_from({0, 0, 1}, {0.1, 0, 1}, 155));
-  ASSERT_NE(above.surfel, SurfaceHit::none);
+  EXPECT_EQ(rays.first_hit(ray_from({0, 0, 0}, {0, 0, 1}, 55)).surfel, SurfaceRayEnd::none);
+  const SurfaceRayEnd above = rays.first_hit(ray_from({0, 0, 1}, {0.1, 0, 1}, 155));
+  ASSERT_NE(above.surfel, SurfaceRayEnd::none);
   EXPECT_GE(above.surfel, 200u);
   EXPECT_NEAR(above.distance, std::sqrt(1.01), 1e-4);
 
@@ -126,8 +126,8 @@ TEST_F(SurfaceRaysTest, do_not_pass_backs_nor_meet_their_own_surface) {
   for (std::uint32_t i = 0; i < 900; ++i) {
     if (noisy.point[i].x() > 0) continue;
     const SurfaceRay ray = ray_from(noisy.point[i].cast<double>(), {1, 0, 0.01}, i);
-    ++sent, met += with.first_hit(ray).surfel != SurfaceHit::none;
-    met_as_exact += without.first_hit(ray).surfel != SurfaceHit::none;
+    ++sent, met += with.first_hit(ray).surfel != SurfaceRayEnd::none;
+    met_as_exact += without.first_hit(ray).surfel != SurfaceRayEnd::none;
   }
   EXPECT_GT(met, 0.95 * sent);
   EXPECT_LT(met_as_exact, 0.6 * sent);
@@ -135,7 +135,7 @@ TEST_F(SurfaceRaysTest, do_not_pass_backs_nor_meet_their_own_surface) {
 
 TEST_F(SurfaceRaysTest, of_no_surfels_and_of_one_meet_none) {
   SceneCloud scene;
-  EXPECT_EQ(SurfaceRays(scene, footprint).first_hit(ray_from({0, 0, 0}, {0, 0, 1})).surfel, SurfaceHit::none);
+  EXPECT_EQ(SurfaceRays(scene, footprint).first_hit(ray_from({0, 0, 0}, {0, 0, 1})).surfel, SurfaceRayEnd::none);
   add_surfel(scene, {0, 0, 0}, {0, 0, 1}, 1);
-  EXPECT_EQ(SurfaceRays(scene, footprint).first_hit(ray_from({0, 0, 0}, {1, 0, 1}, 0)).surfel, SurfaceHit::none);
+  EXPECT_EQ(SurfaceRays(scene, footprint).first_hit(ray_from({0, 0, 0}, {1, 0, 1}, 0)).surfel, SurfaceRayEnd::none);
 }
