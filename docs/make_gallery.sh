@@ -73,6 +73,12 @@ steps "awk 'BEGIN { for (c = 0; c < 2; ++c) for (k = 0; k < 48; ++k) for (z = -6
 picture ghost "Pilings at 20 m to starboard and 16 m to port, and behind the wall at 25 m their ghosts: a spot at 30 m mirrors the one at 20 m. The wall itself is the head's own image, heard through side lobes all around." \
   "insonify image ghost --annotate 1 --size 900x700 -o ghost.png"
 
+steps "insonify make-scene sphere --points 20000 --radius 0.15 -o sphere.ply" \
+  "printf '[tank]\nsize_m = [6, 4, 3]\ncorner_m = [1, -1.8, -1.4]\nreflection = 0.7\n' > tank.toml" \
+  "insonify ping sphere.ply --sonar m900-2250-130 --pose=1.5,0.3,0.1,0,0,0 --range 0.5:8 --environment tank.toml -o tank"
+picture tank "A sphere of 30 cm at 3.5 m in a tank of 6 x 4 x 3 m: its ghosts in walls, floor and surface, and the glints of walls and corners with their side lobes, over 70 dB." \
+  "insonify image tank --size 800x600 --window 70 -o tank.png"
+
 chapter "Many pings" "A head moves towards the quay; its pings are merged into one run."
 steps "printf 'time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,-4,-3,0,10,0\n24,12,4,-3,20,10,0\n' > track.csv" \
   "for t in \$(seq 0 1 23); do insonify ping harbour.ply --sonar p900-45 --set sonar.beams=64 --trajectory track.csv --time \$t --range 2:20 --no-picture -o track-\$(printf %02d \$t); done" \

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/info/material_list.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -45,12 +46,18 @@ ordered_json materials_json(const std::vector<SourcedMaterial>& materials) {
 }
 
 void print_materials(const std::vector<SourcedMaterial>& materials) {
+  std::vector<MaterialNumber> shown;  // what some material says
+  for (const MaterialNumber& number : material_numbers)
+    if (number.required || std::any_of(materials.begin(), materials.end(), [&](const SourcedMaterial& m) {
+          return m.material.*number.member != Material{}.*number.member;
+        }))
+      shown.push_back(number);
   fmt::print("{:<16} {:>5}", "name", "label");
-  for (const MaterialNumber& number : material_numbers) fmt::print("  {:>17}", number.key);
+  for (const MaterialNumber& number : shown) fmt::print("  {:>17}", number.key);
   fmt::print("  {:<8} {}\n", "status", "source");
   for (const SourcedMaterial& m : materials) {
     fmt::print("{:<16} {:>5}", m.material.name, m.label);
-    for (const MaterialNumber& number : material_numbers)
+    for (const MaterialNumber& number : shown)
       fmt::print("  {:>17}", counts(m.material, number) ? fmt::format("{:.4g}", in_file(m.material, number)) : "-");
     fmt::print("  {:<8} {}\n", m.status, m.source);
   }
