@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "scene_io/material_numbers_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
 
@@ -70,7 +71,7 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
     std::string_view word = take_word(rest);
     for (const MaterialNumber& n : surface_numbers) {
       if (&n > &surface_numbers.front() && word.empty()) break;  // written before there was this number
-      if (!to_number(word, tags.materials[index].*n.member)) bad();
+      if (!to_number(word, tags.materials[index].*n.member) || tags.materials[index].*n.member > n.most) bad();
       word = take_word(rest);
     }
     if (!word.empty()) bad();
@@ -92,7 +93,7 @@ std::vector<std::string> tag_lines(const SceneCloud& scene) {
     lines.push_back("insonify material " + index + " " + exact(material.*material_numbers[0].member) + " " + name);
     std::string surface = "insonify surface " + index;
     bool plain = true;
-    for (const MaterialNumber& n : surface_numbers) {
+    for (const MaterialNumber& n : surface_numbers.first(numbers_said({&material, 1}) - 1)) {
       surface += " " + exact(material.*n.member);
       plain = plain && material.*n.member == Material{}.*n.member;
     }

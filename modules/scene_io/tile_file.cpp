@@ -48,8 +48,9 @@ std::uint64_t checksum(std::span<const char> bytes) {
 
 std::string pack_materials(const std::vector<Material>& materials) {
   std::string bytes;
+  const std::size_t numbers = numbers_said(materials);
   for (const Material& m : materials) {
-    for (const MaterialNumber& n : material_numbers) append(bytes, m.*n.member);
+    for (std::size_t k = 0; k < numbers; ++k) append(bytes, m.*material_numbers[k].member);
     append(bytes, static_cast<std::uint32_t>(m.name.size()));
     bytes += m.name;
   }

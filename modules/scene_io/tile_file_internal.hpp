@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/material.hpp"
+#include "scene_io/material_numbers_internal.hpp"
 
 // Private to scene_io: a .tiles file as it lies on the disk (docs/scene-files.md).
 namespace insonify {
@@ -52,9 +52,6 @@ constexpr std::size_t normals_at = 12, areas_at = 24, ids_at = 28, materials_at 
 /// FNV's start, then for each 8 bytes w (the last ones filled up with zeros): h = (h xor w) * 0x9e3779b97f4a7c15,
 /// h = h xor (h >> 32). Finds what was damaged, not what was forged.
 std::uint64_t checksum(std::span<const char> bytes);
-
-/// Numbers that a material had when the format was made; all since are announced as added_numbers.
-constexpr std::size_t first_material_numbers = 3;
 
 /// Numbers and names, and if any has a law other than Lambert's (has_laws, flag_laws) the laws of all as text.
 std::string pack_materials(const std::vector<Material>& materials);

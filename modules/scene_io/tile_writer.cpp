@@ -216,7 +216,7 @@ void TileWriter::State::write_tail(BinaryFile& file) {
   h.mean_spacing = empty ? 0 : std::sqrt(total_area / static_cast<double>(report.surfels));
   for (const TileEntry& tile : tiles) h.largest_area = std::max(h.largest_area, tile.largest_area);
   h.materials = static_cast<std::uint32_t>(options.materials.size());
-  h.added_numbers = std::size(material_numbers) - first_material_numbers;
+  h.added_numbers = static_cast<std::uint32_t>(numbers_said(options.materials) - first_material_numbers);
   h.header_checksum = checksum(bytes_in(h).first(offsetof(TileHeader, header_checksum)));
   file.write(0, bytes_in(h));
 }
