@@ -30,8 +30,8 @@ using complex = std::complex<double>;
 constexpr double nearest = 1e-3;  // [m]: spreading has no bound nearer to the head
 constexpr std::size_t surfels_per_block = 2048;
 constexpr std::size_t surfels_per_piece = 1024;  // neighbours, whose rays meet surfaces about as often
-constexpr std::uint64_t trials = 32;             // of each piece, to find out how often
-constexpr std::uint64_t first_trials = 4;        // of these
+constexpr std::size_t least_trials = 2048;       // rays of all pieces that find out how often, or
+constexpr std::size_t trials_of_piece = 32;      // so many of each if that is more; an eighth of them first
 constexpr double least_share = 0.01;             // of rays that meet one, where no trial does
 
 /// The leg between the head and a place on a surface.
@@ -97,9 +97,12 @@ class PairBuilder {
       std::vector<std::uint32_t> seen;
       double cells = 0;
       std::uint64_t met = 0;
-      double share() const { return std::max(least_share, static_cast<double>(met) / trials); }
+      double share(std::uint64_t trials) const {
+        return std::max(least_share, static_cast<double>(met) / static_cast<double>(trials));
+      }
     };
     std::vector<Piece> pieces((order.size() + surfels_per_piece - 1) / surfels_per_piece);
+    const std::uint64_t trials = std::max(trials_of_piece, least_trials / pieces.size()), first_trials = trials / 8;
     std::atomic<std::uint64_t> met{0};
     const auto meet = [&](Piece& piece, std::uint64_t first, std::uint64_t end) {
       for (std::uint64_t k = first; k < end && !piece.seen.empty(); ++k)
@@ -115,9 +118,9 @@ class PairBuilder {
     if (met == 0) return;
     parallel_for(pieces.size(), options_.threads, [&](std::size_t p) { meet(pieces[p], first_trials, trials); });
     double all = 0, shared = 0;
-    for (const Piece& piece : pieces) all += piece.cells, shared += piece.cells * piece.share();
+    for (const Piece& piece : pieces) all += piece.cells, shared += piece.cells * piece.share(trials);
     for (const Piece& piece : pieces)
-      for (const std::uint32_t i : piece.seen) number_[i] = cells_of(i) * piece.share() * all / shared;
+      for (const std::uint32_t i : piece.seen) number_[i] = cells_of(i) * piece.share(trials) * all / shared;
   }
 
   Vector3d normal_of(std::uint32_t i, const Vector3d& towards) const {

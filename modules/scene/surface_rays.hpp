@@ -36,8 +36,8 @@ class SurfaceRays {
   /// Whether this build of insonify has Embree. Without it the constructor throws.
   static bool available();
 
-  /// Builds the tree over the surfels of a scene, which must outlive it, in some 1 us and 150 bytes per surfel. A surfel
-  /// is a disc of radius `footprint` sqrt(area). Throws Error(runtime) without Embree, or if memory is short.
+  /// Builds the tree over the surfels of a scene, which must outlive it, in some 0.5 us per surfel. A surfel is a
+  /// disc of radius `footprint` sqrt(area). Throws Error(runtime) without Embree, or if memory is short.
   SurfaceRays(const SceneCloud& scene, double footprint);
 
   /// Returns where a ray first meets the front of a surface. It meets none if a back side is in the way. Surfels that

@@ -118,6 +118,32 @@ TEST_F(DoubleEchoesTest, of_a_corner_have_the_level_of_its_form_factor) {
   }
 }
 
+// A bed and a wall of different mu near the head: the sum of all pairs of patches, by the definition.
+TEST_F(DoubleEchoesTest, are_those_of_the_sum_over_all_pairs) {
+  constexpr int per_side = 40;
+  const double of_bed = 0.1, of_wall = 0.02;
+  SceneCloud cloud = corner_of(of_bed, per_side);
+  cloud.materials.push_back({"wall", of_wall});
+  std::fill(cloud.material.begin() + per_side * per_side, cloud.material.end(), std::uint16_t{1});
+  const Vector3d head(1.6, 0.3, 0.7);
+  double sum = 0;
+  for (int i = 0; i < per_side * per_side; ++i)
+    for (int j = per_side * per_side; j < 2 * per_side * per_side; ++j) {
+      const Vector3d bed = cloud.point[static_cast<std::size_t>(i)].cast<double>(),
+                     wall = cloud.point[static_cast<std::size_t>(j)].cast<double>();
+      const double ri = (head - bed).norm(), rj = (head - wall).norm(), rij = (wall - bed).norm(),
+                   area = 1.0 / (per_side * per_side);
+      const double sigmas =
+          of_bed * (head - bed).z() / ri * wall.z() / rij * of_wall * (head - wall).x() / rj * bed.x() / rij;
+      sum += 2 * sigmas * area * area / (ri * ri * rj * rj * (rij * rij + area / pi));  // both senses
+    }
+  const Room room(std::move(cloud), head, 400000);
+  double power = 0;
+  for (const std::complex<double>& a : room.doubles().echoes.amplitude) power += std::norm(a);
+  const double source = source_pressure(room.sent.pulse);
+  EXPECT_NEAR(db_from_power(power / (source * source * sum)), 0, 0.1);
+}
+
 // Half paths lie at the corner's edge or behind it: shares within 1, 2.5, 5, 10 cm, of the integral over both plates.
 TEST_F(DoubleEchoesTest, of_a_corner_lie_behind_its_edge) {
   const Room room(corner_of(0.1, 80), Vector3d(3000, 0.5, 3000), 400000);
@@ -143,7 +169,7 @@ TEST_F(DoubleEchoesTest, of_both_senses_add_coherently) {
   Room room(corner_of(0.1, 10), Vector3d(300, 0.5, 300), 300);
   room.sent.echo_options.amplitude = SurfaceAmplitude::complex_normal;
   double together = 0, resolved = 0, apart = 0;
-  constexpr int draws = 6000;
+  constexpr int draws = 2000;
   for (int seed = 1; seed <= draws; ++seed) {
     const DoubleEchoes doubles = room.doubles(static_cast<std::uint64_t>(seed));
     const Echoes& e = doubles.echoes;
@@ -155,8 +181,8 @@ TEST_F(DoubleEchoesTest, of_both_senses_add_coherently) {
     }
     together += std::norm(sum), resolved += std::norm(bed) + std::norm(wall);
   }
-  EXPECT_NEAR(together / apart, 2, 0.1);
-  EXPECT_NEAR(resolved / apart, 1, 0.05);
+  EXPECT_NEAR(together / apart, 2, 0.15);
+  EXPECT_NEAR(resolved / apart, 1, 0.06);
 }
 
 // Inside a sphere of Lambert's law, at its centre: double over single 2 pi mu; shares 2 (x - R) / R^2 of half paths x
@@ -267,6 +293,7 @@ TEST_F(DoubleEchoesTest, have_the_patterns_of_both_legs) {
   room.sent.echo_options.elevation_width = radians(20), room.sent.echo_options.elevation_centre = radians(8);
   const Echoes formed = room.doubles().echoes;
   ASSERT_EQ(formed.size(), plain.size());
+  ASSERT_GT(plain.size(), 100u);
   for (std::size_t i = 0; i + 1 < plain.size(); i += 2) {
     const auto one_way = [&](double v) { return std::sqrt(elevation_pattern(room.sent.echo_options, std::asin(v))); };
     const double expected = one_way(plain.v[i]) * one_way(plain.v[i + 1]);

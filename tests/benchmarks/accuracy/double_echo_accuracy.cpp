@@ -14,7 +14,6 @@
 
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
-#include "files/peak_memory.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "sonar/sonar_spec.hpp"
@@ -106,10 +105,8 @@ int main(int argc, char** argv) {
   const std::size_t surfels = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000;
   const PreparedScene scene(make_built_in_scene("harbour", {.points = surfels}));
   StopWatch watch;
-  const double before = peak_memory_mib();
   scene.rays(SamplingOptions{}.footprint);
-  std::printf("Tree of rays over %zu surfels: %.2f s, %.0f bytes per surfel at the peak.\n\n", scene.scene().size(),
-              watch.lap(), (peak_memory_mib() - before) * (1 << 20) / static_cast<double>(scene.scene().size()));
+  std::printf("Tree of rays over %zu surfels: %.2f s.\n\n", scene.scene().size(), watch.lap());
   const Levels exact = levels_of(scene, options_with(reference_rays, 7));
   const Grid<double> exact_means = mean_of(exact.doubles, 8, 8), direct_means = mean_of(exact.direct, 8, 8);
   const PingCost alone = cost_of(scene, {});
