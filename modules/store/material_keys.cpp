@@ -71,7 +71,7 @@ std::vector<Key> material_keys(MaterialEntry& entry) {
   Material& material = entry.sourced.material;
   std::vector<Key> keys = {
       {"material", "name", "", text(material.name), "", true},
-      {"material", "law", "", word(entry.law, {"lambert", "seabed", "small_slope", "rough", "table"}),
+      {"material", "law", "", word(entry.law, {std::begin(surface_law_names), std::end(surface_law_names)}),
        "by which it scatters; default: lambert"},
       {"material", "like", "", text(entry.like), "a material by name, whose numbers are the defaults of this one"}};
   for (const MaterialNumber& n : material_numbers)

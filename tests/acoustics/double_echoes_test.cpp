@@ -175,6 +175,7 @@ TEST_F(DoubleEchoesTest, of_both_senses_add_coherently) {
     const Echoes& e = doubles.echoes;
     std::complex<double> sum = 0, bed = 0, wall = 0;
     for (std::size_t i = 0; i < e.size(); ++i) {
+      ASSERT_NEAR(std::abs(e.amplitude[i] / e.amplitude[i ^ 1] - 1.0), 0, 1e-9) << "both senses of a pair";
       sum += e.amplitude[i];
       (doubles.last[i] < 100 ? bed : wall) += e.amplitude[i];
       apart += std::norm(e.amplitude[i]);
@@ -269,6 +270,30 @@ TEST_F(DoubleEchoesTest, of_a_plane_and_of_surfels_in_one_place_are_none) {
     add_surfel(heap, Vector3d::Zero(), Vector3d(std::cos(i), std::sin(i), 0.5).normalized(), 1e-4);
   const Room beside(std::move(heap), Vector3d(2, 0, 1), 10000);
   for (const std::complex<double>& a : beside.doubles().echoes.amplitude) EXPECT_TRUE(std::isfinite(std::abs(a)));
+}
+
+// Speckle stands still: as the head moves by a millimetre, nearly all pairs keep their surfels, and their amplitudes turn
+// by the phase of the longer path alone.
+TEST_F(DoubleEchoesTest, of_one_pair_stay_as_the_head_moves) {
+  Room room(corner_of(0.1, 40), Vector3d(20, 0.5, 20), 20000);
+  room.sent.echo_options.amplitude = SurfaceAmplitude::complex_normal;
+  const DoubleEchoes before = room.doubles();
+  room.view.world_from_head.translation().x() += 1e-3;
+  const DoubleEchoes after = room.doubles();
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::complex<double>> amplitude;
+  for (std::size_t i = 0; i < after.echoes.size(); ++i)
+    amplitude[{after.first[i], after.last[i]}] =
+        after.echoes.amplitude[i] * std::polar(1.0, -2 * pi * pulse_900k.centre_frequency * after.echoes.delay[i]);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < before.echoes.size(); ++i) {
+    const auto found = amplitude.find({before.first[i], before.last[i]});
+    if (found == amplitude.end()) continue;
+    const std::complex<double> was =
+        before.echoes.amplitude[i] * std::polar(1.0, -2 * pi * pulse_900k.centre_frequency * before.echoes.delay[i]);
+    kept += std::abs(found->second / was - 1.0) < 0.01;
+  }
+  ASSERT_GT(before.echoes.size(), 1000u);
+  EXPECT_GT(kept, 0.95 * static_cast<double>(before.echoes.size()));
 }
 
 TEST_F(DoubleEchoesTest, do_not_depend_on_threads_and_name_their_surfels) {
