@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "../wide_head.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/ping_simulator.hpp"
-#include "sonar/sonar_spec.hpp"
 
 namespace {
 
@@ -24,28 +24,14 @@ using namespace insonify;
 
 constexpr double widths[] = {0, 0.125, 0.25, 0.5, 1, 2};  // [beam widths]
 
-/// 512 beams over 130 x 20 degrees that resolve 12 cm, from 0.5 to 30 m.
-SonarHead wide_head() {
-  SonarSpec spec;
-  spec.name = "wide";
-  spec.centre_frequency = 750e3, spec.bandwidth = 6250, spec.beams = 512;
-  spec.field_of_view = radians(130), spec.beam_width = radians(1), spec.elevation_width = radians(20);
-  spec.min_range = 0.5, spec.max_range = 30;
-  return make_head(spec, sound_speed(Water{}));
-}
+/// Resolves 12 cm, up to 30 m.
+SonarHead head_of_12_cm() { return wide_head(6250, 30); }
 
-const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+const Pose pose = harbour_pose();
 
 SimulatedPing expected_level(const PreparedScene& scene, const SonarHead& head, const SamplingSettings& sampling) {
   const SimulationOptions options{.sampling = sampling, .synthesis = {.method = SynthesisMethod::incoherent}};
   return PingSimulator(head, {}, options).ping(scene, {pose});
-}
-
-Grid<double> mean_of(const Grid<double>& level, Eigen::Index beams, Eigen::Index bins) {
-  Grid<double> mean(level.rows() / beams, level.cols() / bins);
-  for (Eigen::Index b = 0; b < mean.rows(); ++b)
-    for (Eigen::Index n = 0; n < mean.cols(); ++n) mean(b, n) = level.block(b * beams, n * bins, beams, bins).mean();
-  return mean;
 }
 
 /// Root mean square of the differences [dB] of what lies within 40 dB of the strongest, none counted as more than 30;
@@ -78,7 +64,7 @@ std::pair<double, double> time_of(const PreparedScene& scene, const SonarHead& h
 
 void print_rows(std::size_t surfels, const Grid<double>& exact) {
   const PreparedScene scene(make_built_in_scene("harbour", {.points = surfels}));
-  const SonarHead head = wide_head();
+  const SonarHead head = head_of_12_cm();
   for (const double width : widths) {
     const SamplingSettings sampling{.detail_width = width};
     const SimulatedPing ping = expected_level(scene, head, sampling);
@@ -104,7 +90,7 @@ int main(int argc, char** argv) {
       "|---|---|---|---|---|---|---|---|---|---|\n");
   const PreparedScene reference(make_built_in_scene("harbour", {.points = 4000000}));
   const Grid<double> exact =
-      expected_level(reference, wide_head(), {.scatterers_per_cell = 10}).ping.pressure.abs2().cast<double>();
+      expected_level(reference, head_of_12_cm(), {.scatterers_per_cell = 10}).ping.pressure.abs2().cast<double>();
   if (argc < 2) print_rows(1000000, exact);
   for (int k = 1; k < argc; ++k) print_rows(std::strtoull(argv[k], nullptr, 10), exact);
 }

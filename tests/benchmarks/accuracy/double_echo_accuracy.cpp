@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "../wide_head.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/ping_simulator.hpp"
-#include "sonar/sonar_spec.hpp"
 
 namespace {
 
@@ -25,17 +25,10 @@ using namespace insonify;
 constexpr double rays_per_cell[] = {0.0625, 0.25, 1, 4, 16};
 constexpr double reference_rays = 64;
 
-/// 512 beams over 130 x 20 degrees that resolve 12 cm, from 0.5 to 30 m.
-SonarHead wide_head() {
-  SonarSpec spec;
-  spec.name = "wide";
-  spec.centre_frequency = 750e3, spec.bandwidth = 6250, spec.beams = 512;
-  spec.field_of_view = radians(130), spec.beam_width = radians(1), spec.elevation_width = radians(20);
-  spec.min_range = 0.5, spec.max_range = 30;
-  return make_head(spec, sound_speed(Water{}));
-}
+/// Resolves 12 cm, up to 30 m.
+SonarHead head_of_12_cm() { return wide_head(6250, 30); }
 
-const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+const Pose pose = harbour_pose();
 
 SimulationOptions options_with(double rays, std::uint64_t seed = 1) {
   SimulationOptions options;
@@ -52,16 +45,9 @@ struct Levels {
 Levels levels_of(const PreparedScene& scene, SimulationOptions options) {
   options.synthesis.method = SynthesisMethod::incoherent;
   options.outputs.layers = true;
-  const Ping ping = PingSimulator(wide_head(), {}, options).ping(scene, {pose}).ping;
+  const Ping ping = PingSimulator(head_of_12_cm(), {}, options).ping(scene, {pose}).ping;
   const auto level = [&](std::size_t k) -> Grid<double> { return ping.layers.at(k).pressure.abs2().cast<double>(); };
   return {level(0), level(1)};
-}
-
-Grid<double> mean_of(const Grid<double>& level, Eigen::Index beams, Eigen::Index bins) {
-  Grid<double> mean(level.rows() / beams, level.cols() / bins);
-  for (Eigen::Index b = 0; b < mean.rows(); ++b)
-    for (Eigen::Index n = 0; n < mean.cols(); ++n) mean(b, n) = level.block(b * beams, n * bins, beams, bins).mean();
-  return mean;
 }
 
 /// Root mean square [dB] of how far the whole image is off, in cells where the double echoes are above the direct ones
@@ -83,7 +69,7 @@ struct PingCost {
 };
 
 PingCost cost_of(const PreparedScene& scene, const SimulationOptions& options) {
-  const PingSimulator simulator(wide_head(), {}, options);
+  const PingSimulator simulator(head_of_12_cm(), {}, options);
   std::vector<double> wall, cpu;
   std::size_t echoes = 0;
   for (int k = 0; k < 8; ++k) {

@@ -13,6 +13,7 @@
 
 #include <sys/resource.h>
 
+#include "../wide_head.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "files/peak_memory.hpp"
@@ -75,17 +76,6 @@ SonarHead preset(const std::string& name, double min_range, double max_range) {
   return make_head(spec, sound_speed(fresh_water.water));
 }
 
-/// 512 beams x 130 x 20 degrees at 750 kHz.
-SonarHead wide_head(double bandwidth, double max_range) {
-  SonarSpec spec;
-  spec.name = "wide";
-  spec.centre_frequency = 750e3, spec.bandwidth = bandwidth;
-  spec.beams = 512;
-  spec.field_of_view = radians(130), spec.beam_width = radians(1), spec.elevation_width = radians(20);
-  spec.min_range = 0.5, spec.max_range = max_range;
-  return make_head(spec, sound_speed(fresh_water.water));
-}
-
 void print_work(const std::string& name, const PingTime& t) {
   const double n = static_cast<double>(t.scatterers);
   std::printf("| %s | %zu | %zu | %.0f | %.0f | %.0f | %ld | %.0f / %.0f / %.0f |\n", name.c_str(), t.scatterers,
@@ -98,7 +88,7 @@ void print_work(const std::string& name, const PingTime& t) {
 void time_work(const std::string& part) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 1000000});
   const PreparedScene harbour(scene);
-  const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+  const Pose pose = harbour_pose();
   const SimulationOptions unsplit{.sampling = {.scatterers_per_cell = 0}},
       merged{.sampling = {.detail_width = usual_detail_width}};
   std::printf(
