@@ -171,6 +171,7 @@ void choose_start(const ViewerCommand& command, LoadedView& view) {
     start.selected = loudest_of(view.data, start.ping, static_cast<std::size_t>(beam));
   }
   if (view.data.scene.materials.size() > 1) start.scene_colour = SceneColour::material;
+  if (view.data.scene.parts.size() > 1) start.scene_colour = SceneColour::part;
 }
 
 // The channel that --head names, of a side-scan, whose beams are its channels.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "acoustics/moving_parts.hpp"
+
 namespace insonify {
 namespace {
 
@@ -30,26 +32,34 @@ void keep_wanted(const EchoSink& sink, const VisibleSurfels& visible, std::span<
 
 }  // namespace
 
-Echoes echoes_in_motion(const SceneCloud& scene, const Scatterers& patches, const Pose& world_from_head,
-                        const Motion& motion, const Transmission& sent) {
+Echoes echoes_in_motion(const SceneCloud& scene, Scatterers& patches, const Pose& world_from_head,
+                        const MovingScene& moving, const Transmission& sent) {
+  const double frequency = sent.pulse.centre_frequency, c = sent.medium.sound_speed;
+  std::vector<Eigen::Vector3d> velocity;
+  if (moving.parts) velocity = meet_moving_parts(scene, world_from_head, c, patches);
   Echoes echoes = direct_echoes(patches, scene.materials, sent);
-  if (!motion.none())
-    move_echoes(motion, world_from_head, patches, sent.pulse.centre_frequency, sent.medium.sound_speed, echoes);
+  if (!moving.head.none()) move_echoes(moving.head, world_from_head, patches, frequency, c, echoes);
+  shift_by_parts(velocity, moving.head, world_from_head, patches, frequency, c, echoes);
   return echoes;
 }
 
-void widen_bounds(const Motion& motion, double c, VisibleSurfels& visible) {
-  if (motion.none()) return;
-  const double part = most_displacement(motion, c);
-  for (SurfelBounds& s : visible.bounds) {
-    s.reach += part * (s.range + s.reach);
-    s.reach_u += 3 * part + motion.turn_rate.norm() * 2 * (s.range + s.reach) / c;
+void widen_bounds(const SceneCloud& scene, const MovingScene& moving, double fastest_part, double c,
+                  VisibleSurfels& visible) {
+  if (!moving.any()) return;
+  const double by_head = most_displacement(moving.head, c), turn = moving.head.turn_rate.norm();
+  const double by_parts = moving.parts ? most_displacement(Motion{{fastest_part, 0, 0}, {}}, c) : 0;
+  for (std::size_t k = 0; k < visible.bounds.size(); ++k) {
+    SurfelBounds& s = visible.bounds[k];
+    const ScenePart* part = scene.part_of_surfel(visible.surfel[k]);
+    const double displaced = by_head + (part && part->moves() ? by_parts : 0);
+    s.reach += displaced * (s.range + s.reach);
+    s.reach_u += 3 * displaced + turn * 2 * (s.range + s.reach) / c;
   }
 }
 
 DirectStream::DirectStream(const SceneCloud& scene, const VisibleSurfels& visible, const Pose& world_from_head,
-                           const Motion& motion, const Transmission& sent)
-    : scene_(scene), visible_(visible), world_from_head_(world_from_head), motion_(motion), sent_(sent) {
+                           const MovingScene& moving, const Transmission& sent)
+    : scene_(scene), visible_(visible), world_from_head_(world_from_head), moving_(moving), sent_(sent) {
   sent_.echo_options.threads = 1;
   sent_.surfaces = surfaces_of(sent, scene.materials);
   for (std::uint32_t k = 0; k < visible.surfel.size(); ++k) {
@@ -70,7 +80,8 @@ void DirectStream::visit(std::size_t chunk, EchoSink& sink) const {
   if (which.empty()) return;
   Scatterers patches = make_parts(scene_, world_from_head_, visible_, which, 1);
   if (sink.chooses_patches()) keep_wanted(sink, visible_, which, patches);
-  sink.take(patches, echoes_in_motion(scene_, patches, world_from_head_, motion_, sent_));
+  const Echoes echoes = echoes_in_motion(scene_, patches, world_from_head_, moving_, sent_);
+  sink.take(patches, echoes);
 }
 
 }  // namespace insonify

@@ -12,13 +12,24 @@
 
 namespace insonify {
 
-/// Returns the direct echoes of patches (E7) as a head in motion receives them (E44). Errors as direct_echoes and
-/// move_echoes.
-Echoes echoes_in_motion(const SceneCloud& scene, const Scatterers& patches, const Pose& world_from_head,
-                        const Motion& motion, const Transmission& sent);
+/// What moves during a ping: the head, and the parts of the scene if they are to.
+struct MovingScene {
+  Motion head{};
+  bool parts = false;
+  /// Whether anything moves.
+  bool any() const { return parts || !head.none(); }
+};
 
-/// Widens the bounds of visible surfels so that they hold where their echoes appear to a moving head (E44).
-void widen_bounds(const Motion& motion, double sound_speed, VisibleSurfels& visible);
+/// Returns the direct echoes of patches (E7) as a head in motion receives them (E44) from parts in motion (E145, E146);
+/// patches of moving parts are moved to where sound meets them. Errors as direct_echoes, move_echoes and
+/// meet_moving_parts.
+Echoes echoes_in_motion(const SceneCloud& scene, Scatterers& patches, const Pose& world_from_head,
+                        const MovingScene& moving, const Transmission& sent);
+
+/// Widens the bounds of visible surfels so that they hold where their echoes appear to a moving head (E44) and from
+/// moving parts (E145), the fastest surfel of which has this speed [m/s].
+void widen_bounds(const SceneCloud& scene, const MovingScene& moving, double fastest_part, double sound_speed,
+                  VisibleSurfels& visible);
 
 /// The direct echoes of visible surfels: chunks of neighbouring surfels, whose patches and echoes are made when they
 /// are visited.
@@ -26,11 +37,11 @@ class DirectStream final : public EchoStream {
  public:
   /// Refers to scene and surfels, whose bounds must hold the motion (widen_bounds).
   DirectStream(const SceneCloud& scene, const VisibleSurfels& visible, const Pose& world_from_head,
-               const Motion& motion, const Transmission& sent);
+               const MovingScene& moving, const Transmission& sent);
   /// The bounds of all chunks, some 2048 patches each.
   std::span<const ChunkBounds> chunks() const override { return chunks_; }
-  /// Whether the head moves.
-  bool moving() const override { return !motion_.none(); }
+  /// Whether head or parts move.
+  bool moving() const override { return moving_.any(); }
   /// Makes a chunk's patches and echoes on the calling thread.
   void visit(std::size_t chunk, EchoSink& sink) const override;
 
@@ -38,7 +49,7 @@ class DirectStream final : public EchoStream {
   const SceneCloud& scene_;
   const VisibleSurfels& visible_;
   Pose world_from_head_;
-  Motion motion_;
+  MovingScene moving_;
   Transmission sent_;
   std::vector<ChunkBounds> chunks_;
   std::vector<std::uint32_t> first_surfel_{0};  // of each chunk

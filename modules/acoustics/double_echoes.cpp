@@ -82,7 +82,7 @@ class PairBuilder {
 
   /// Adds the echoes of the rays from surfel i; returns how many it sent.
   std::size_t add(std::uint32_t i, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
-    const double part = random_uniform(options_.seed, RandomStage::surface_ray, {scene_.id[i], 0, 1})[0];
+    const double part = random_uniform(options_.seed, RandomStage::surface_ray, {scene_.random_id(i), 0, 1})[0];
     const auto count = static_cast<std::size_t>(number_[i] + part);
     for (std::size_t k = 0; k < count; ++k)
       if (const std::optional<Pair> pair = find_pair(i, k, 0)) add_pair(*pair, k, echoes, ends);
@@ -125,7 +125,7 @@ class PairBuilder {
 
   Vector3d normal_of(std::uint32_t i, const Vector3d& towards) const {
     const Vector3d normal = scene_.normal[i].cast<double>();
-    return !scene_.normals_oriented && normal.dot(towards) < 0 ? -normal : normal;
+    return !scene_.oriented(i) && normal.dot(towards) < 0 ? -normal : normal;
   }
 
   HeadLeg leg_to(const Vector3d& place) const {
@@ -149,7 +149,7 @@ class PairBuilder {
   DrawnRay draw_ray(std::uint32_t i, std::uint64_t k, std::uint64_t series, const Vector3d& normal,
                     double slope) const {
     const auto [radius, turn, number, angle] =
-        random_uniform(options_.seed, RandomStage::surface_ray, {scene_.id[i], k, series});
+        random_uniform(options_.seed, RandomStage::surface_ray, {scene_.random_id(i), k, series});
     Eigen::Matrix3d from_surface;  // along, across and off the surface
     from_surface.col(0) = normal.unitOrthogonal(), from_surface.col(2) = normal;
     from_surface.col(1) = normal.cross(from_surface.col(0));
@@ -215,7 +215,7 @@ class PairBuilder {
   complex xi(std::uint32_t i, std::size_t k) const {
     if (options_.amplitude == SurfaceAmplitude::coherent || options_.amplitude == SurfaceAmplitude::mean_power)
       return 1;
-    const complex z = random_complex_normal(options_.seed, RandomStage::double_echo, {scene_.id[i], k, 0});
+    const complex z = random_complex_normal(options_.seed, RandomStage::double_echo, {scene_.random_id(i), k, 0});
     return options_.amplitude == SurfaceAmplitude::random_phase ? z / std::abs(z) : z;
   }
 
@@ -271,7 +271,7 @@ Scatterers apparent_places(const DoubleEchoes& doubles, const SceneCloud& scene,
     places.azimuth.push_back(std::atan2(place.y(), place.x()));
     places.elevation.push_back(std::asin(std::clamp(place.z() / place.norm(), -1.0, 1.0)));
     places.material.push_back(scene.material[last]);
-    places.id.push_back(std::uint64_t{scene.id[last]} << 32);
+    places.id.push_back(scene.piece_id(last, 0));
   }
   places.surfel = doubles.last;
   return places;

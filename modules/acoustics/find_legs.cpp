@@ -28,6 +28,7 @@ void append(const SceneCloud& from, std::size_t i, SceneCloud& to) {
   if (!from.noise.empty()) to.noise.push_back(from.noise[i]);
   if (!from.unevenness.empty()) to.unevenness.push_back(from.unevenness[i]);
   if (!from.facet.empty()) to.facet.push_back(Facet(from.facet[i]));
+  if (!from.part.empty()) to.part.push_back(from.part[i]);
 }
 
 bool out_of_water(const std::vector<Boundary>& boundaries, const Eigen::Vector3d& world) {
@@ -49,6 +50,8 @@ MirroredScene mirrored_scene(const SceneCloud& scene, const View& view, const Bo
   cloud.origin = scene.origin;
   cloud.materials = scene.materials;
   cloud.normals_oriented = scene.normals_oriented;
+  cloud.parts = scene.parts;
+  for (ScenePart& part : cloud.parts) part.own.reset();  // images stand elsewhere than their parts
   const Eigen::Vector3d& normal = boundary.plane.normal();
   const MirrorPlane plane(normal, boundary.plane.offset() + normal.dot(scene.origin));  // from the origin
   for (std::size_t i = 0; i < scene.size(); ++i) {

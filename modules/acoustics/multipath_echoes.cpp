@@ -116,7 +116,7 @@ class PathBuilder {
     LegsToPatch legs;
     if (open & direct_leg) {
       Leg& leg = legs.leg[legs.count];
-      leg = leg_to(place, normal, 1);
+      leg = leg_to(surfel, place, normal, 1);
       leg.by = 0;
       if (cosines) leg.cosine = patches.cos_incidence[i];
       legs.count += leg.cosine > 0;
@@ -127,7 +127,7 @@ class PathBuilder {
       const Vector3d image = boundary.mirrored(place);
       const double sine = std::min(1.0, std::abs(boundary.normal.dot(image)) / image.norm());
       Leg& leg = legs.leg[legs.count];
-      leg = leg_to(image, boundary.mirrored_direction(normal),
+      leg = leg_to(surfel, image, boundary.mirrored_direction(normal),
                    boundary.reflection(std::asin(sine)) * boundary.edges(image));
       leg.towards = boundary.mirrored_direction(leg.towards);
       leg.by = static_cast<std::uint8_t>(b + 1);
@@ -136,14 +136,14 @@ class PathBuilder {
     return legs;
   }
 
-  Leg leg_to(const Vector3d& place, const Vector3d& normal, complex reflection) const {
+  Leg leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal, complex reflection) const {
     Leg leg{};
     leg.range = place.norm();
     leg.u = place.y() / leg.range;
     leg.v = place.z() / leg.range;
     leg.towards = -place / leg.range;
     const double cosine = -normal.dot(place) / leg.range;
-    leg.cosine = std::min(1.0, scene_.normals_oriented ? cosine : std::abs(cosine));
+    leg.cosine = std::min(1.0, scene_.oriented(surfel) ? cosine : std::abs(cosine));
     leg.gain = reflection * one_way_pattern(echo_options_, leg.v);
     leg.sent = leg.gain * transmit_pattern(echo_options_, std::atan2(place.y(), place.x()));
     return leg;

@@ -55,7 +55,8 @@ void put_labels(PixelLabels part, std::size_t first_beam, std::size_t beams, Pix
   put(part.material, all.material);
   put(part.id, all.id);
   put(part.share, all.share);
-  all.names = part.names;
+  if (part.part.size() > 0) put(part.part, all.part);
+  all.names = part.names, all.part_names = part.part_names, all.part_labels = part.part_labels;
 }
 
 }  // namespace insonify

@@ -179,8 +179,8 @@ Soundings detect_soundings(const Ping& ping, const EchoStream& direct, const Ech
   std::vector<Pixel> pixels;
   for (std::size_t b = 0; b < of_beam.size(); ++b)
     for (const Cell cell : of_beam[b]) pixels.push_back({static_cast<std::uint32_t>(b), cell.bin});
-  const auto by_one = strongest_contributors(pixels, direct, ping.fan, ping.gate, options.threads);
-  const auto by_two = strongest_contributors(pixels, doubles, ping.fan, ping.gate, options.threads);
+  const auto by_one = strongest_contributors(pixels, direct, ping.fan, ping.gate, options);
+  const auto by_two = strongest_contributors(pixels, doubles, ping.fan, ping.gate, options);
   Soundings all;
   std::size_t pixel = 0;
   for (std::size_t b = 0; b < of_beam.size(); ++b)

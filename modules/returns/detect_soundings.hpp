@@ -10,6 +10,7 @@
 namespace insonify {
 
 class EchoStream;
+struct SceneCloud;
 
 /// Thresholds of detect_soundings.
 struct DetectionOptions {
@@ -26,6 +27,8 @@ struct DetectionOptions {
   bool all_bins = false;        ///< detect every bin above `above_db`, not only local maxima
   double above_db = -std::numeric_limits<double>::infinity();  ///< [dB re 1 uPa], with all_bins
   int threads = 0;                                             ///< 0: all cores
+  /// Of which the patches are: soundings name surfels by its ids. Null: by the upper halves of Scatterers::id.
+  const SceneCloud* scene = nullptr;
 };
 
 /// Factor above the mean of `cells` independent cells of exponential intensity that another such cell exceeds with

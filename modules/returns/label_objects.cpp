@@ -67,11 +67,20 @@ Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<s
   return (connected > 0).select(connected + named, objects);
 }
 
+ObjectKeys object_keys(const PixelLabels& labels, const SceneInstances& of_scene, double least_share) {
+  if (labels.part.size() == 0) return {id_image(labels, least_share), of_scene};
+  ObjectKeys keys{part_image(labels, least_share).cast<std::uint32_t>(), {}};
+  for (std::uint32_t p = 0; p < labels.part_labels.size(); ++p)
+    if (!labels.part_labels[p].empty()) keys.instances[p] = p;
+  return keys;
+}
+
 Grid<std::uint32_t> instance_image(const PixelLabels& labels, const SceneInstances& instances, double least_share) {
   const Grid<std::uint32_t> kind = material_image(labels, least_share).unaryExpr([](std::uint16_t material) {
     return material < PixelLabels::shadow ? std::uint32_t{material} + 1 : 0;
   });
-  return number_objects(kind, labels.id, instances);
+  const ObjectKeys keys = object_keys(labels, instances, 0);
+  return number_objects(kind, keys.id, keys.instances);
 }
 
 }  // namespace insonify

@@ -25,7 +25,16 @@ Grid<std::uint32_t> numbered_keys(const Grid<std::uint32_t>& key, std::size_t le
 Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<std::uint32_t>& id,
                                    const SceneInstances& instances, std::size_t least_pixels = 1);
 
-/// The objects of a ping, beams x bins, where kinds are the materials of material_image (E125).
+/// What the objects of a ping differ by: the ids of surfels, or of a scene of parts the numbers of the parts; and
+/// the instances among them: of parts all that have a label, else `of_scene`.
+struct ObjectKeys {
+  Grid<std::uint32_t> id;
+  SceneInstances instances;
+};
+ObjectKeys object_keys(const PixelLabels& labels, const SceneInstances& of_scene, double least_share);
+
+/// The objects of a ping, beams x bins, where kinds are the materials of material_image (E125), and instances those of
+/// object_keys.
 Grid<std::uint32_t> instance_image(const PixelLabels& labels, const SceneInstances& instances = {},
                                    double least_share = 0.5);
 

@@ -10,6 +10,7 @@
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "returns/label_kinds_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
 #include "sonar/pulse.hpp"
 #include "sonar/response_table.hpp"
@@ -17,8 +18,8 @@
 // Labels pixels by what lies in their cells (E125):
 //   1. order the visible parts by direction cosine, with the energy of their pulses in the bins around;
 //   2. mark as shadow the cells that hold surfels that are hidden or face away;
-//   3. for each beam, add the energies of the parts within its main lobe by bin and material, and those in the cell alone;
-//      cells with visible surface are no shadow.
+//   3. for each beam, add the energies of the parts in its main lobe by bin and label, and those in the cell alone; cells
+//      with visible surface are no shadow.
 // Cost: parts x beams of a main lobe x bins of a pulse, some 2 ns each; parallel over beams.
 namespace insonify {
 namespace {
@@ -148,7 +149,8 @@ class Labelling {
                Grid<std::uint32_t>::Constant(beams, bins, PixelLabels::no_id),
                Grid<float>::Zero(beams, bins),
                {}};
-    for (const Material& material : scene.materials) labels_.names.push_back(material.name);
+    kinds_ = name_kinds(scene, labels_);
+    if (!scene.part.empty()) labels_.part = Grid<std::uint16_t>::Constant(beams, bins, PixelLabels::no_part);
   }
 
   PixelLabels run() {
@@ -169,7 +171,7 @@ class Labelling {
  private:
   // Energies of the visible parts in the main lobe of a beam, by bin and material.
   void label_beam(const BeamRow& row, std::pair<double, std::size_t> beam) {
-    const std::size_t kinds = scene_.materials.size();
+    const std::size_t kinds = labels_.names.size();
     const auto bins = static_cast<std::int64_t>(head_.gate.bins());
     std::vector<MaterialHere> here(static_cast<std::size_t>(bins) * kinds);
     const bool weighted = rows_.size() > 1 || head_.column;
@@ -188,7 +190,7 @@ class Labelling {
         return up <= row.cell.up + radius / range && off <= row.cell.u + radius / range;
       };
       const bool of_cell = lies_within(part), of_near = of_cell || lies_within(surfel);
-      const std::size_t material = scene_.material[parts_.surfel[k]];
+      const std::size_t material = kinds_.of(scene_, parts_.surfel[k]);
       for (std::size_t n = 0; n < parts_.length; ++n) {
         const std::int64_t bin = parts_.first[k] + static_cast<std::int64_t>(n);
         if (bin < 0 || bin >= bins) continue;
@@ -209,7 +211,7 @@ class Labelling {
 
   // The material with most energy in the cell of a pixel; near it, if there is neither visible nor hidden surface.
   void label_pixel(std::size_t beam, Eigen::Index bin, const MaterialHere* here) {
-    const MaterialHere* end = here + scene_.materials.size();
+    const MaterialHere* end = here + labels_.names.size();
     const auto row = static_cast<Eigen::Index>(beam);
     const MaterialHere* most = std::max_element(here, end, [](auto& a, auto& b) { return a.cell < b.cell; });
     const bool visible = most->cell > 0;
@@ -218,7 +220,9 @@ class Labelling {
     if (!(most->near > 0)) return;
     const auto total = static_cast<double>(seen_.all.total[beam * seen_.all.bins + static_cast<std::size_t>(bin)]);
     labels_.material(row, bin) = static_cast<std::uint16_t>(most - here);
-    labels_.id(row, bin) = scene_.id[visible ? most->of_cell : most->of_near];
+    const std::uint32_t strongest = visible ? most->of_cell : most->of_near;
+    labels_.id(row, bin) = scene_.id[strongest];
+    if (!scene_.part.empty()) labels_.part(row, bin) = scene_.part[strongest];
     labels_.share(row, bin) = total > 0 ? static_cast<float>(std::min(1.0, most->lobe / total)) : 0.0F;  // (E125)
   }
 
@@ -252,6 +256,7 @@ class Labelling {
   std::vector<BeamRow> rows_;
   VisibleParts parts_;
   int threads_;
+  LabelKinds kinds_;
   PixelLabels labels_;
 };
 
@@ -271,21 +276,6 @@ void require_seen(const SceneCloud& scene, const SeenSurface& seen, const SonarH
 }
 
 }  // namespace
-
-Grid<std::uint16_t> material_image(const PixelLabels& labels, double least_share) {
-  Grid<std::uint16_t> image = labels.material;
-  for (Eigen::Index i = 0; i < image.size(); ++i)
-    if (image(i) != PixelLabels::shadow && static_cast<double>(labels.share(i)) < least_share)
-      image(i) = PixelLabels::nothing;
-  return image;
-}
-
-Grid<std::uint32_t> id_image(const PixelLabels& labels, double least_share) {
-  Grid<std::uint32_t> image = labels.id;
-  for (Eigen::Index i = 0; i < image.size(); ++i)
-    if (static_cast<double>(labels.share(i)) < least_share) image(i) = PixelLabels::no_id;
-  return image;
-}
 
 PixelLabels label_pixels(const SceneCloud& scene, const SeenSurface& seen, const SonarHead& head,
                          const Pose& world_from_head, const Medium& medium, int threads) {

@@ -24,7 +24,8 @@ struct SeenSurface {
 
 /// Labels the pixels of a ping (E125). The cell of a pixel is as wide as the half-power widths of pulse and beam (in
 /// direction cosine; of planar arrays that of a row, too), and at least as a bin and the way to the next beams. Of the
-/// materials with visible surface in the cell a pixel has the one with most energy there. Share: the energy of that
+/// materials with visible surface in the cell a pixel has the one with most energy there; of surfels of a part with a
+/// label, that label stands for the material. Share: the energy of that
 /// material within a whole width to either side, the main lobe, over the energy of all contributors. A cell without
 /// visible surface is shadow if hidden surface or such that faces away lies in it. One with neither has the material of
 /// the visible surfels within whose radius and main lobe it is, so that gaps between surfels have no label of their

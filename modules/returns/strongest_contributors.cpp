@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "returns/strongest_contributors_internal.hpp"
+#include "scene/scene_cloud.hpp"
 
 namespace insonify {
 namespace {
@@ -96,12 +97,13 @@ class SlabSearch final : public EchoSink {
  public:
   SlabSearch(const std::vector<Pixel>& pixels, const std::vector<std::size_t>& beam_begin,
              const std::vector<BeamRegion>& regions, const RangeGate& gate, std::size_t first, std::size_t end,
-             std::vector<StrongestContributor>& found)
+             const SceneCloud* scene, std::vector<StrongestContributor>& found)
       : regions_(regions),
         gate_(gate),
         bins_(static_cast<double>(gate.bins())),
         first_(first),
         end_(std::min(end, gate.bins())),
+        scene_(scene),
         found_(found),
         begin_(end_ - first + 1, 0) {
     for (const BeamRegion& region : regions) widest_ = std::max(widest_, region.width.u);
@@ -178,7 +180,7 @@ class SlabSearch final : public EchoSink {
       const StrongestContributor offered{std::norm(echoes.amplitude[i]),
                                          own,
                                          {s.azimuth[i], s.elevation[i]},
-                                         static_cast<std::uint32_t>(s.id[i] >> 32),
+                                         scene_ ? scene_->id[s.surfel[i]] : static_cast<std::uint32_t>(s.id[i] >> 32),
                                          s.material[i]};
       if (StrongestContributor& best = found_[at->pixel]; is_stronger(offered, best)) best = offered;
     }
@@ -189,6 +191,7 @@ class SlabSearch final : public EchoSink {
   double bins_;
   std::size_t first_, end_;
   double widest_ = 0;
+  const SceneCloud* scene_;
   std::vector<StrongestContributor>& found_;
   std::vector<std::size_t> begin_;  // of the pixels of each bin, in wanted_
   std::vector<Wanted> wanted_;      // by bin, then direction cosine of the beam
@@ -198,7 +201,8 @@ class SlabSearch final : public EchoSink {
 }  // namespace
 
 std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel>& pixels, const EchoStream& stream,
-                                                         const BeamFan& fan, const RangeGate& gate, int threads) {
+                                                         const BeamFan& fan, const RangeGate& gate,
+                                                         const DetectionOptions& options) {
   const std::vector<BeamRegion> regions = beam_regions(fan);
   std::vector<std::size_t> beam_begin(fan.beams() + 1, 0);
   for (const Pixel& p : pixels) ++beam_begin[p.beam + 1];
@@ -206,8 +210,8 @@ std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel
   std::vector<StrongestContributor> found(pixels.size());
   const std::span<const ChunkBounds> chunks = stream.chunks();
   // Each slab of bins is searched by one thread, which visits the chunks that reach into it, in order.
-  parallel_blocks(gate.bins(), slab_bins(gate), threads, [&](std::size_t first, std::size_t end) {
-    SlabSearch search(pixels, beam_begin, regions, gate, first, end, found);
+  parallel_blocks(gate.bins(), slab_bins(gate), options.threads, [&](std::size_t first, std::size_t end) {
+    SlabSearch search(pixels, beam_begin, regions, gate, first, end, options.scene, found);
     if (search.empty()) return;
     for (std::size_t c = 0; c < chunks.size(); ++c)
       if (search.overlaps(chunks[c])) stream.visit(c, search);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "acoustics/echo_stream.hpp"
+#include "returns/detect_soundings.hpp"
 #include "returns/ping.hpp"
 
 namespace insonify {
@@ -31,10 +32,12 @@ inline bool is_stronger(const StrongestContributor& a, const StrongestContributo
 /// Returns the strongest contributor of each pixel within one bin length: searched in the beam's own share of the fan,
 /// so that neighbouring beams do not report the same scatterer, else in its -3 dB width (in azimuth, and in elevation
 /// for a fan of several rows or a planar array). Only parts near the pixels are visited. The result does not depend on
-/// `threads`.
+/// options.threads.
 ///
-/// pixels   ordered by beam, and within a beam by bin
+/// pixels    ordered by beam, and within a beam by bin
+/// options   scene and threads
 std::vector<StrongestContributor> strongest_contributors(const std::vector<Pixel>& pixels, const EchoStream& stream,
-                                                         const BeamFan& fan, const RangeGate& gate, int threads);
+                                                         const BeamFan& fan, const RangeGate& gate,
+                                                         const DetectionOptions& options);
 
 }  // namespace insonify

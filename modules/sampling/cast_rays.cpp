@@ -97,7 +97,7 @@ CastResult cast_rays(const SceneCloud& scene, const GatedSurfels& surfels, Proje
     out.cos_incidence.push_back(std::clamp(s.away.dot(rays[r].along), 0.0f, 1.0f));
     out.projected_area.push_back(static_cast<float>(range * range * rays[r].solid_angle));
     out.material.push_back(scene.material[s.surfel]);
-    out.id.push_back(std::uint64_t{scene.id[s.surfel]} << 32 | r);
+    out.id.push_back(scene.piece_id(s.surfel, r));
     out.surfel.push_back(s.surfel);
   }
   if (result.missed > 0) result.unknown = count_holes(surfels, rays, cast, options.threads);

@@ -31,10 +31,10 @@ struct Seen {
   double range, area, cosine, radius;
 
   Seen(const SceneCloud& scene, const HeadFrame& head, std::uint32_t surfel)
-      : position(head.position(scene.point[surfel])),
+      : position(head.position_of(surfel)),
         range(std::max(position.norm(), least_range)),
         area(scene.area[surfel]),
-        cosine(std::min(1.0, std::abs(head.direction(scene.normal[surfel].cast<double>()).dot(position)) / range)),
+        cosine(std::min(1.0, std::abs(head.normal_of(surfel).dot(position)) / range)),
         radius(std::sqrt(area / pi)) {}
 
   ReceivedSurfel received(double energy, std::uint8_t beyond) const {

@@ -175,7 +175,7 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
   UninitializedVector<std::uint32_t> band(surfels.size());
   parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      const Eigen::Vector3d p = view.head.position(scene.point[surfels[s]]);
+      const Eigen::Vector3d p = view.head.position_of(surfels[s]);
       const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
       band[s] = static_cast<std::uint32_t>(
           std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands));

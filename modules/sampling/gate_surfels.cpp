@@ -22,7 +22,7 @@ struct Gate {
   double footprint;
 
   void add_if_inside(std::size_t i, GatedSurfels& inside) const {
-    const Vector3d p = head.position(scene.point[i]);
+    const Vector3d p = head.position_of(i);
     const double r2 = p.squaredNorm();
     if (!(r2 <= range.max_range * range.max_range) || r2 < min_distance * min_distance) return;
     const double spacing = std::sqrt(static_cast<double>(scene.area[i]));
@@ -30,7 +30,7 @@ struct Gate {
     if (!sector.holds(p, hiding_reach * radius)) return;
 
     const double r = std::sqrt(r2);
-    const Vector3d normal = head.direction(scene.normal[i].cast<double>());
+    const Vector3d normal = head.normal_of(i);
     const double along = normal.dot(p);  // negative: the normal points towards the head
     GatedSurfel s{};
     s.position = p.cast<float>();
@@ -43,7 +43,7 @@ struct Gate {
     s.noise = scene.noise.empty() ? 0 : scene.noise[i];
     s.surfel = static_cast<std::uint32_t>(i);
     s.in_gate = r >= range.min_range && sector.holds(p);
-    s.facing = scene.normals_oriented ? along < 0 : along != 0;
+    s.facing = scene.oriented(i) ? along < 0 : along != 0;
     inside.push_back(s);
     if (!scene.facet.empty()) inside.facet.push_back(gated(scene.facet[i], spacing));
   }
@@ -100,6 +100,18 @@ GatedSurfels join(const std::vector<GatedSurfels>& parts, int threads) {
 constexpr std::size_t gate_block = 1 << 15;
 
 }  // namespace
+
+HeadFrame::HeadFrame(const SceneCloud& scene, const Pose& world_from_head)
+    : scene_(scene),
+      world_{world_from_head.linear().transpose(), scene.origin - world_from_head.translation(), &scene, false} {
+  for (const ScenePart& part : scene.parts) {
+    parts_.push_back(world_);
+    if (!part.own) continue;
+    const Eigen::Matrix3d turn = part.world_from_part.linear();
+    const Vector3d away = part.world_from_part.translation() - world_from_head.translation();
+    parts_.back() = {world_.to_head * turn, part.own->origin + turn.transpose() * away, part.own.get(), true};
+  }
+}
 
 InsonifiedRegion region_around(const Vector3d& centre, double radius) {
   InsonifiedRegion all;

@@ -48,17 +48,48 @@ struct GatedSurfels : UninitializedVector<GatedSurfel> {
 /// Distance from a surfel's centre within which it helps to occlude others, in radii of its disc.
 inline constexpr float hiding_reach = 1.5f;
 
-/// Transforms scene points to head axes in double: subtracts the large world coordinates first.
+/// Transforms places of a scene to head axes in double: subtracts the large world coordinates first. Surfels of a part
+/// with axes of its own are transformed from there, so that what moves together with the head stays as it is. Refers to
+/// the scene.
 class HeadFrame {
  public:
-  HeadFrame(const SceneCloud& scene, const Pose& world_from_head)
-      : to_head_(world_from_head.linear().transpose()), shift_(scene.origin - world_from_head.translation()) {}
-  Eigen::Vector3d position(const Eigen::Vector3f& point) const { return to_head_ * (shift_ + point.cast<double>()); }
-  Eigen::Vector3d direction(const Eigen::Vector3d& scene_vector) const { return to_head_ * scene_vector; }
+  HeadFrame(const SceneCloud& scene, const Pose& world_from_head);
+
+  /// A place relative to the origin of the scene, and a vector in the axes of the world.
+  Eigen::Vector3d position(const Eigen::Vector3f& point) const {
+    return world_.to_head * (world_.shift + point.cast<double>());
+  }
+  Eigen::Vector3d direction(const Eigen::Vector3d& scene_vector) const { return world_.to_head * scene_vector; }
+
+  /// The axes that surfels are given in: to_head (shift + point) is in head axes.
+  struct Axes {
+    Eigen::Matrix3d to_head;
+    Eigen::Vector3d shift;
+    const SceneCloud* cloud;
+    bool own;  ///< surfel `id` of the scene is number `id` in the cloud
+  };
+  const Axes& axes_of(std::size_t surfel) const { return parts_.empty() ? world_ : parts_[scene_.part[surfel]]; }
+  /// Place and normal of a surfel in such axes.
+  const Eigen::Vector3f& point_in(const Axes& axes, std::size_t surfel) const {
+    return axes.cloud->point[axes.own ? scene_.id[surfel] : surfel];
+  }
+  const Eigen::Vector3f& normal_in(const Axes& axes, std::size_t surfel) const {
+    return axes.cloud->normal[axes.own ? scene_.id[surfel] : surfel];
+  }
+  /// Place and normal of a surfel in head axes.
+  Eigen::Vector3d position_of(std::size_t surfel) const {
+    const Axes& axes = axes_of(surfel);
+    return axes.to_head * (axes.shift + point_in(axes, surfel).cast<double>());
+  }
+  Eigen::Vector3d normal_of(std::size_t surfel) const {
+    const Axes& axes = axes_of(surfel);
+    return axes.to_head * normal_in(axes, surfel).cast<double>();
+  }
 
  private:
-  Eigen::Matrix3d to_head_;
-  Eigen::Vector3d shift_;
+  const SceneCloud& scene_;
+  Axes world_;
+  std::vector<Axes> parts_{};  // of a scene that is made of parts
 };
 
 /// Returns the surfels whose disc overlaps `sector` and whose centre is within the far end of `gate`, in scene order.

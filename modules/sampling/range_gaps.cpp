@@ -31,11 +31,16 @@ RangeGaps gaps_within(Cell first, Cell end, const std::vector<Cell>& occupied, d
   return gaps;
 }
 
-/// Indices of the scatterers in the order of their rays, whose numbers are the lower half of their ids.
-std::vector<std::size_t> by_ray(const Scatterers& scatterers) {
+/// The ray of a scatterer.
+std::uint32_t ray_of(const SceneCloud& scene, const Scatterers& s, std::size_t i) {
+  return scene.piece_of(s.surfel[i], s.id[i]);
+}
+
+/// Indices of the scatterers in the order of their rays.
+std::vector<std::size_t> by_ray(const SceneCloud& scene, const Scatterers& scatterers) {
   std::vector<std::size_t> order(scatterers.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto ray = [&](std::size_t i) { return static_cast<std::uint32_t>(scatterers.id[i]); };
+  const auto ray = [&](std::size_t i) { return ray_of(scene, scatterers, i); };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ray(a) < ray(b); });
   return order;
 }
@@ -44,7 +49,7 @@ SurfaceHit hit_of(const SceneCloud& scene, const Pose& world_from_head, const Sc
   const Eigen::Vector3d along = unit_vector({s.azimuth[i], s.elevation[i]});
   Eigen::Vector3d normal = world_from_head.linear().transpose() * scene.normal[s.surfel[i]].cast<double>();
   if (normal.dot(along) < 0) normal = -normal;
-  return {static_cast<std::uint32_t>(s.id[i]), s.range[i], (s.range[i] * along).cast<float>(), normal.cast<float>(),
+  return {ray_of(scene, s, i), s.range[i], (s.range[i] * along).cast<float>(), normal.cast<float>(),
           std::sqrt(scene.area[s.surfel[i]])};
 }
 
@@ -93,7 +98,7 @@ RangeGaps count_range_gaps(const SceneCloud& scene, const Pose& world_from_head,
   RangeGaps gaps;
   std::vector<SurfaceHit> beam;  // hits of the current beam
   const auto beam_of = [&](const SurfaceHit& hit) { return hit.ray / static_cast<std::uint32_t>(rays_per_beam); };
-  for (const std::size_t i : by_ray(scatterers)) {
+  for (const std::size_t i : by_ray(scene, scatterers)) {
     const SurfaceHit hit = hit_of(scene, world_from_head, scatterers, i);
     if (!beam.empty() && beam_of(hit) != beam_of(beam.back())) {
       gaps.add(count_range_gaps(beam, cell));

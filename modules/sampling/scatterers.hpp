@@ -15,7 +15,7 @@ struct Scatterers {
   std::vector<float> projected_area;    ///< area projected towards the head [m^2]: cos_incidence x surface area, or
                                         ///< range^2 x solid angle of a ray; never divided by the cosine
   std::vector<std::uint16_t> material;  ///< index into the scene's materials
-  std::vector<std::uint64_t> id;        ///< surfel id x 2^32 + part; fixed to the scene, and so is the speckle
+  std::vector<std::uint64_t> id;        ///< SceneCloud::piece_id of surfel and part; fixed to it, and so is the speckle
   std::vector<std::uint32_t> surfel;    ///< index of the surfel in the SceneCloud
 
   /// Returns the number of scatterers.

@@ -55,7 +55,7 @@ class Splitter {
     out.projected_area[first] = static_cast<float>(scene_.area[surfel] * centre.cosine);
     for (std::size_t k = 0; k < parts; ++k) {
       out.material[first + k] = scene_.material[surfel];
-      out.id[first + k] = std::uint64_t{scene_.id[surfel]} << 32 | k;
+      out.id[first + k] = scene_.piece_id(surfel, k);
       out.surfel[first + k] = surfel;
     }
     if (parts > 1) place(out, first, parts, surfel, centre);
@@ -63,7 +63,8 @@ class Splitter {
 
  private:
   struct Centre {
-    Vector3d world_normal, normal, position;
+    const HeadFrame::Axes& axes;
+    Vector3d own_normal, normal, position;  // own: in these axes
     Direction direction;
     double range, cosine;
   };
@@ -71,23 +72,28 @@ class Splitter {
     return {std::atan2(p.y(), p.x()), std::asin(std::clamp(p.z() / range, -1.0, 1.0))};
   }
   Centre centre_of(std::uint32_t surfel) const {
-    const Vector3d world_normal = scene_.normal[surfel].cast<double>().normalized();
-    const Vector3d normal = head_.direction(world_normal), position = head_.position(scene_.point[surfel]);
+    const HeadFrame::Axes& axes = head_.axes_of(surfel);
+    const Vector3d own_normal = head_.normal_in(axes, surfel).cast<double>().normalized();
+    const Vector3d normal = axes.to_head * own_normal, position = head_.position_of(surfel);
     const double range = std::max(position.norm(), min_range);
-    return {world_normal, normal,
-            position,     direction_of(position, range),
-            range,        cos_incidence_of(normal, position, range, scene_.normals_oriented)};
+    return {axes,
+            own_normal,
+            normal,
+            position,
+            direction_of(position, range),
+            range,
+            cos_incidence_of(normal, position, range, scene_.oriented(surfel))};
   }
 
   /// Places the parts beside the centre, of a low-discrepancy sequence over the disc (E17), and shares the surface.
   void place(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel, const Centre& c) {
     static const Turns turns;
-    const Vector3d tangent = c.world_normal.unitOrthogonal();
-    const Vector3d t1 = head_.direction(tangent), t2 = head_.direction(c.world_normal.cross(tangent));
+    const Vector3d tangent = c.own_normal.unitOrthogonal();
+    const Vector3d t1 = c.axes.to_head * tangent, t2 = c.axes.to_head * c.own_normal.cross(tangent);
     kernels::PartFrame frame{};
     const auto copy = [](const Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); };
     copy(c.position, frame.centre), copy(t1, frame.t1), copy(t2, frame.t2), copy(c.normal, frame.normal);
-    const auto drawn = random_uniform(seed_, RandomStage::surfel_split, {scene_.id[surfel], 0, 0});
+    const auto drawn = random_uniform(seed_, RandomStage::surfel_split, {scene_.random_id(surfel), 0, 0});
     const std::complex<double> turn = std::polar(1.0, 2 * pi * drawn[1]);
     frame.radius = std::sqrt(scene_.area[surfel] / pi);
     frame.shift = drawn[0], frame.turn_re = turn.real(), frame.turn_im = turn.imag();
@@ -95,7 +101,7 @@ class Splitter {
     const double sine = std::sqrt(away[0] * away[0] + away[1] * away[1]);
     frame.away[0] = sine > 0 ? away[0] / sine : 0, frame.away[1] = sine > 0 ? away[1] / sine : 0;
     frame.azimuth = c.direction.azimuth, frame.elevation = c.direction.elevation;
-    frame.oriented = scene_.normals_oriented;
+    frame.oriented = scene_.oriented(surfel);
     const double across = c.position.head<2>().norm();
     frame.ahead[0] = c.position.x() / across, frame.ahead[1] = c.position.y() / across;
     frame.level[0] = across / c.range, frame.level[1] = c.position.z() / c.range;

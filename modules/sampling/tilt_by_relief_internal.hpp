@@ -13,7 +13,7 @@ namespace insonify {
 /// the new angle, and surfels and rays have the same mean level. Facets do not shadow each other.
 ///
 /// scatterers   in the axes of a head at `world_from_head`; those on smooth materials are unchanged
-void tilt_by_relief(const SceneCloud& scene, const Pose& world_from_head, const ReliefField& relief, int threads,
+void tilt_by_relief(const SceneCloud& scene, const Pose& world_from_head, const SceneRelief& relief, int threads,
                     Scatterers& scatterers);
 
 }  // namespace insonify

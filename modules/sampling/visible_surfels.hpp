@@ -17,7 +17,7 @@ struct VisibleSurfels {
   std::vector<SurfelBounds> bounds;   ///< of each
   SamplingReport report;
   SamplingOptions options;  ///< with the outer scale of the relief that was left open
-  std::optional<ReliefField> relief;
+  std::optional<SceneRelief> relief;
 };
 
 /// Returns the visible surfels of a view. make_parts makes the scatterers of find_scatterers from them, in another

@@ -14,9 +14,9 @@ namespace insonify {
 
 /// A rigid part of a scene at the time of a ping: surfels in axes of their own, where they stand, and how they move.
 struct PlacedPart {
-  std::string name;   ///< unique in the scene; random numbers of its surface follow from it
-  std::string label;  ///< class of its pixels in data sets; empty: its materials are the classes
-  std::shared_ptr<const SceneCloud> cloud;  ///< in the part's own axes; surfel i has the id i unless `captured`
+  std::string name{};   ///< unique in the scene; random numbers of its surface follow from it
+  std::string label{};  ///< class of its pixels in data sets; empty: its materials are the classes
+  std::shared_ptr<const SceneCloud> cloud{};  ///< in the part's own axes; surfel i has the id i unless `captured`
   /// The part's own axes are those of the world, and it rests there: the ground that all else stands on.
   bool captured = false;
   Pose world_from_part = Pose::Identity();              ///< at the time of transmission

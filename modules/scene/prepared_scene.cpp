@@ -121,6 +121,26 @@ PreparedScene::PreparedScene(std::shared_ptr<const SceneCloud> shared, int threa
   });
 }
 
+void PreparedScene::replace_others(std::size_t surfels, std::size_t blocks, const WholeScene& resting,
+                                   std::span<const PosedBlocks> others) {
+  constexpr float of_coordinate = 4e-7F;  // rounding of a float
+  order_.resize(surfels);
+  blocks_.resize(blocks);
+  whole_ = resting;
+  for (const auto& [part, scene_from_part] : others) {
+    const auto first = static_cast<std::uint32_t>(order_.size());
+    for (const std::uint32_t i : part->order_) order_.push_back(first + i);
+    for (SurfelBlock block : part->blocks_) {
+      block.centre = (scene_from_part * block.centre.cast<double>()).cast<float>();
+      block.radius = block.radius * rounding + of_coordinate * (block.centre.norm() + block.radius);
+      block.begin += first, block.end += first;
+      blocks_.push_back(block);
+    }
+    whole_ = together(whole_, part->whole_);
+  }
+  later_ = std::make_shared<MadeLater>();
+}
+
 SurfelMarks PreparedScene::marks_of(const std::function<bool(const SurfelBlock&)>& wanted, int threads) const {
   std::vector<std::uint8_t> is_wanted(blocks_.size(), 0);
   parallel_blocks(blocks_.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {

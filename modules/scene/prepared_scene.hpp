@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "scene/scene_cloud.hpp"
 
@@ -46,6 +46,12 @@ struct SurfelMarks {
   }
 };
 
+/// Blocks of a part in its own axes, and where the part stands.
+struct PosedBlocks {
+  std::shared_ptr<const class PreparedScene> part;
+  Eigen::Isometry3d scene_from_part;  ///< relative to the origins of scene and part
+};
+
 /// A scene that is validated and divided into blocks once, for many pings: each ping then only visits the blocks within
 /// its insonified region. Construction takes O(n) time and 4 bytes per surfel.
 class PreparedScene {
@@ -78,7 +84,12 @@ class PreparedScene {
   const SurfaceRays& rays(double footprint) const;
 
  private:
+  friend class PosedScene;
   struct MadeLater;
+  /// Leaves the first surfels and blocks, whose statistics are `resting`, and adds those of others, which the scene has
+  /// in this order behind them.
+  void replace_others(std::size_t surfels, std::size_t blocks, const WholeScene& resting,
+                      std::span<const PosedBlocks> others);
   std::shared_ptr<const SceneCloud> scene_;
   std::vector<SurfelBlock> blocks_;
   std::vector<std::uint32_t> order_;

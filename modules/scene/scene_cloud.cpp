@@ -36,9 +36,30 @@ void require_valid_surfel(const SceneCloud& scene, std::size_t i, const char* wh
     for (const Eigen::Vector3f& corner : scene.facet[i])
       if (!corner.allFinite())
         fail(ErrorKind::content, who, ": scene.facet[", i, "] has a corner ", at(corner), " m, must be finite");
+  if (!scene.part.empty()) {
+    if (scene.part[i] >= scene.parts.size())
+      fail(ErrorKind::content, who, ": scene.part[", i, "] = ", scene.part[i], ", must be below the number of parts, ",
+           scene.parts.size());
+    if (const auto& own = scene.parts[scene.part[i]].own; own && scene.id[i] >= own->size())
+      fail(ErrorKind::content, who, ": scene.id[", i, "] = ", scene.id[i], ", must be below the ", own->size(),
+           " surfels of its part");
+  }
   if (scene.material[i] >= scene.materials.size())
     fail(ErrorKind::content, who, ": scene.material[", i, "] = ", scene.material[i],
          ", must be below the number of materials, ", scene.materials.size());
+}
+
+/// Speed of the fastest surfel [m/s].
+double fastest_surfel(const SceneCloud& scene) {
+  double fastest = 0;
+  if (!moves(scene)) return fastest;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const ScenePart& part = *scene.part_of_surfel(i);
+    if (!part.moves()) continue;
+    const Eigen::Vector3d arm = scene.origin + scene.point[i].cast<double>() - part.world_from_part.translation();
+    fastest = std::max(fastest, (part.velocity + part.turn_rate.cross(arm)).norm());
+  }
+  return fastest;
 }
 
 }  // namespace
@@ -48,6 +69,7 @@ void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const 
   if (material >= scene.materials.size())
     fail(ErrorKind::argument, "add_surfel: material = ", material, ", must be below the number of materials, ",
          scene.materials.size());
+  if (!scene.part.empty()) fail(ErrorKind::argument, "add_surfel: the scene is made of parts; add it to one of them");
   scene.point.push_back((world_position - scene.origin).cast<float>());
   scene.normal.push_back(normal.cast<float>());
   scene.area.push_back(static_cast<float>(area));
@@ -66,6 +88,7 @@ void require_valid(const SceneCloud& scene, const char* who) {
   if (!scene.noise.empty()) require_length(scene.noise.size(), scene.size(), "noise", who);
   if (!scene.unevenness.empty()) require_length(scene.unevenness.size(), scene.size(), "unevenness", who);
   if (!scene.facet.empty()) require_length(scene.facet.size(), scene.size(), "facet", who);
+  if (!scene.part.empty()) require_length(scene.part.size(), scene.size(), "part", who);
   if (!scene.origin.allFinite()) fail(ErrorKind::content, who, ": scene.origin must be finite");
   for (const Material& material : scene.materials) require_valid(material, who, ErrorKind::content);
   for (std::size_t i = 0; i < scene.size(); ++i) require_valid_surfel(scene, i, who);
@@ -77,7 +100,20 @@ WholeScene whole_of(const SceneCloud& scene) {
   const double area = std::accumulate(scene.area.begin(), scene.area.end(), 0.0);
   return {scene.size(), std::sqrt(area / static_cast<double>(scene.size())),
           *std::max_element(scene.area.begin(), scene.area.end()),
-          std::any_of(scene.materials.begin(), scene.materials.end(), is_smooth)};
+          std::any_of(scene.materials.begin(), scene.materials.end(), is_smooth), fastest_surfel(scene)};
+}
+
+WholeScene together(const WholeScene& a, const WholeScene& b) {
+  if (a.surfels == 0) return b;
+  if (b.surfels == 0) return a;
+  const auto of_a = static_cast<double>(a.surfels), of_b = static_cast<double>(b.surfels);
+  const double area = a.mean_spacing * a.mean_spacing * of_a + b.mean_spacing * b.mean_spacing * of_b;
+  return {a.surfels + b.surfels, std::sqrt(area / (of_a + of_b)), std::max(a.largest_area, b.largest_area),
+          a.smooth || b.smooth, std::max(a.fastest, b.fastest)};
+}
+
+bool moves(const SceneCloud& scene) {
+  return std::any_of(scene.parts.begin(), scene.parts.end(), [](const ScenePart& part) { return part.moves(); });
 }
 
 SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& keep) {
@@ -101,6 +137,8 @@ SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& kee
   if (!scene.noise.empty()) gather(scene.noise, part.noise);
   if (!scene.unevenness.empty()) gather(scene.unevenness, part.unevenness);
   if (!scene.facet.empty()) gather(scene.facet, part.facet);
+  if (!scene.part.empty()) gather(scene.part, part.part);
+  part.parts = scene.parts;
   return part;
 }
 

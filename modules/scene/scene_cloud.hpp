@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "scene/material.hpp"
+#include "scene/scene_part.hpp"
 
 namespace insonify {
 
@@ -19,47 +20,75 @@ struct WholeScene {
   double mean_spacing = 0;  ///< root of the mean surfel area [m]
   float largest_area = 0;   ///< area of the largest surfel [m^2]
   bool smooth = false;      ///< parts of a material reflect as wholes (is_smooth)
+  double fastest = 0;       ///< speed of the fastest surfel of a moving part [m/s]
 };
 
 /// Corners of a triangle [m], relative to the origin of its scene.
 using Facet = std::array<Eigen::Vector3f, 3>;
 
 /// The captured scene: surfels (small oriented patches) as a structure of arrays, one entry per surfel in each array
-/// but
-/// `noise`, `unevenness` and `facet`, which may be empty. World frame; coordinates are stored in single precision relative to `origin`, which is
-/// subtracted in double.
+/// but `noise`, `unevenness`, `facet` and `part`, which may be empty. World frame; coordinates are stored in single
+/// precision relative to `origin`, which is subtracted in double.
 struct SceneCloud {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; world position = origin + point
   std::vector<Eigen::Vector3f> point;                ///< [m], relative to origin
   std::vector<Eigen::Vector3f> normal;               ///< unit vectors
   std::vector<float> area;                           ///< true surface area [m^2]
   std::vector<std::uint16_t> material;               ///< index into `materials`
-  std::vector<std::uint32_t> id;                     ///< unique; speckle is bound to it
+  std::vector<std::uint32_t> id;                     ///< unique in its part; speckle is bound to it
   std::vector<float> noise;                          ///< standard deviation across the surface [m]; empty: 0 everywhere
   /// How far below a surfel's plane its own surface may lie [m]; empty: as far as its spacing sqrt(area).
   std::vector<float> unevenness{};
   /// The triangle of a surface that each surfel stands for, anywhere in it: what it hides is hidden by the triangle.
   /// Empty: surfels hide as discs.
   std::vector<Facet> facet{};
+  std::vector<std::uint16_t> part{};  ///< of each surfel, index into `parts`; empty: the scene is one part
+  std::vector<ScenePart> parts{};     ///< of a scene that is made of several (merge_parts)
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;         ///< false: the sign of a normal has no meaning and both sides reflect
   std::optional<WholeScene> part_of{};  ///< set if this cloud is part of a larger scene
 
   /// Returns the number of surfels.
   std::size_t size() const { return point.size(); }
+  /// Returns the part of a surfel; null if the scene is one part.
+  const ScenePart* part_of_surfel(std::size_t surfel) const { return part.empty() ? nullptr : &parts[part[surfel]]; }
+  /// Returns whether the normal of a surfel has a sign.
+  bool oriented(std::size_t surfel) const {
+    return part.empty() ? normals_oriented : parts[part[surfel]].normals_oriented;
+  }
+  /// Returns what the random numbers of a surfel are counted by: its id, and in its part the part's key.
+  std::uint64_t random_id(std::size_t surfel) const {
+    return part.empty() ? std::uint64_t{id[surfel]} : id[surfel] ^ parts[part[surfel]].key;
+  }
+  /// Returns the number of piece `k` of a surfel (Scatterers::id): id x 2^32 + k, and in its part the part's key.
+  std::uint64_t piece_id(std::size_t surfel, std::uint64_t k) const {
+    const std::uint64_t piece = std::uint64_t{id[surfel]} << 32 | k;
+    return part.empty() ? piece : piece ^ parts[part[surfel]].key;
+  }
+  /// Returns the k of such a number.
+  std::uint32_t piece_of(std::size_t surfel, std::uint64_t piece_id) const {
+    return static_cast<std::uint32_t>(part.empty() ? piece_id : piece_id ^ parts[part[surfel]].key);
+  }
 };
 
+/// Returns whether some part of the scene moves.
+bool moves(const SceneCloud& scene);
+
 /// Appends one surfel with the id of the last one plus 1, which is unique as long as ids ascend; beside facets it gets
-/// one without area, which hides nothing. Throws Error if `material` is not an index into scene.materials.
+/// one without area, which hides nothing. Throws Error if `material` is not an index into scene.materials, and for a scene of
+/// parts.
 void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const Eigen::Vector3d& normal, double area,
                 std::uint16_t material = 0);
 
 /// Throws Error unless all arrays have the same length, points are finite, normals have unit length within 1e-3, areas
-/// and noise are finite and >= 0, and materials exist and are valid. `who` names the caller in the message.
+/// and noise are finite and >= 0, and materials and parts exist and are valid. `who` names the caller in the message.
 void require_valid(const SceneCloud& scene, const char* who);
 
 /// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.
 WholeScene whole_of(const SceneCloud& scene);
+
+/// Returns the statistics of two scenes as one.
+WholeScene together(const WholeScene& a, const WholeScene& b);
 
 /// Returns the surfels listed in `keep`, in that order, with their ids.
 SceneCloud subset(const SceneCloud& scene, const std::vector<std::uint32_t>& keep);

@@ -13,8 +13,9 @@ namespace insonify {
 namespace {
 
 /// The motion that echoes are computed with.
-Motion motion_of(const ResolvedPing& ping) {
-  return ping.options.effects.moving == Choice::always ? ping.event.motion : Motion{};
+MovingScene motion_of(const SceneCloud& scene, const ResolvedPing& ping) {
+  if (ping.options.effects.moving != Choice::always) return {};
+  return {ping.event.motion, moves(scene)};
 }
 
 /// Bends the rays to the patches if the options say so, and returns how many fall silent.
@@ -63,15 +64,16 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
   if (parts.stored)
     report.refraction = refract(ping, parts.sampling.scatterers);
   else
-    widen_bounds(motion_of(ping), ping.sent.medium.sound_speed, parts.visible);
+    widen_bounds(prepared.scene(), motion_of(prepared.scene(), ping), prepared.whole().fastest,
+                 ping.sent.medium.sound_speed, parts.visible);
   return parts;
 }
 
 std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts) {
-  const Motion motion = motion_of(ping);
+  const MovingScene moving = motion_of(scene, ping);
   const Pose& pose = ping.view.world_from_head;
-  if (!parts.stored) return std::make_unique<DirectStream>(scene, parts.visible, pose, motion, ping.sent);
-  parts.direct = echoes_in_motion(scene, parts.sampling.scatterers, pose, motion, ping.sent);
+  if (!parts.stored) return std::make_unique<DirectStream>(scene, parts.visible, pose, moving, ping.sent);
+  parts.direct = echoes_in_motion(scene, parts.sampling.scatterers, pose, moving, ping.sent);
   return std::make_unique<StoredEchoes>(parts.sampling.scatterers, parts.direct, "PingSimulator");
 }
 
@@ -115,10 +117,12 @@ void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, 
 
 Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,
                  const Ping& image) {
-  if (!(ping.options.effects.double_echoes > 0)) return detect_soundings(image, direct, ping.detection);
+  DetectionOptions detection = ping.detection;
+  detection.scene = &scene;
+  if (!(ping.options.effects.double_echoes > 0)) return detect_soundings(image, direct, detection);
   const Scatterers places =
       apparent_places(parts.doubles, scene, ping.view.world_from_head, ping.sent.medium.sound_speed);
-  return detect_soundings(image, direct, StoredEchoes(places, parts.doubles.echoes, "PingSimulator"), ping.detection);
+  return detect_soundings(image, direct, StoredEchoes(places, parts.doubles.echoes, "PingSimulator"), detection);
 }
 
 }  // namespace insonify

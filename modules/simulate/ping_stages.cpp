@@ -13,6 +13,7 @@
 #include "sampling/find_holes.hpp"
 #include "sampling/range_gaps.hpp"
 #include "sampling/seen_surfels.hpp"
+#include "simulate/part_views_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "sonar/pulse_spectrum.hpp"
 
@@ -68,6 +69,11 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
     else
       result.outputs.contributors = std::move(found);
   }
+  if (scene.parts.empty()) return;
+  std::vector<std::uint8_t> seen(scene.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = others[i] == Visibility::seen;
+  for (const std::uint32_t i : surfel) seen[i] = 1;
+  result.ping.labels.views = part_views(scene, seen, ping);
 }
 
 SoundPaths paths_of(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,

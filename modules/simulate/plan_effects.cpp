@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "acoustics/bend_paths.hpp"
+#include "acoustics/direct_stream.hpp"
 #include "acoustics/glints.hpp"
-#include "acoustics/motion.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "beamforming/received_energy.hpp"
 #include "core/units.hpp"
@@ -90,9 +90,11 @@ double bent_rays_bound(const PlanFacts& facts) {
 double motion_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   const Echoes still = echoes_of(facts, facts.sample.places);
-  Echoes moved = still;
-  move_echoes(ping.event.motion, ping.view.world_from_head, facts.sample.places, ping.head.pulse.centre_frequency,
-              ping.sent.medium.sound_speed, moved);
+  Scatterers met = facts.sample.places;
+  Transmission mean_power = ping.sent;
+  mean_power.echo_options.amplitude = SurfaceAmplitude::mean_power;
+  const Echoes moved = echoes_in_motion(facts.sample.scene, met, ping.view.world_from_head,
+                                        {ping.event.motion, moves(facts.scene)}, mean_power);
   return difference_bound(facts, still, moved);
 }
 
@@ -168,8 +170,8 @@ constexpr PlanStage effects[] = {
     {"refraction", DecidedBy::budget, [](const PlanCause& of) { return of.environment.profile.has_value(); },
      "rays are bent: echoes arrive at other times and angles", "there is no sound-speed profile", bent_rays_bound,
      [](bool in, E&, O& o) { o.effects.refraction = chosen(in); }, [](const O& o) { return o.effects.refraction; }},
-    {"motion", DecidedBy::budget, [](const PlanCause& of) { return !of.event.motion.none(); },
-     "the head moves while sound is under way", "the head is at rest", motion_bound,
+    {"motion", DecidedBy::budget, [](const PlanCause& of) { return !of.event.motion.none() || moves(of.scene); },
+     "head or parts of the scene move while sound is under way", "the head is at rest", motion_bound,
      [](bool in, E&, O& o) { o.effects.moving = chosen(in); }, [](const O& o) { return o.effects.moving; }},
     {"multipath", DecidedBy::budget, [](const PlanCause& of) { return has_boundary(of.environment); },
      "sound also comes by way of surface or bottom", "there is neither surface nor bottom", multipath_bound,

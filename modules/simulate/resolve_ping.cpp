@@ -38,13 +38,15 @@ double most_turned(const SoundSpeedProfile& profile, double range) {
 
 /// How far beside their main lobes beams may receive echoes as loud as inside, in u and v: by what profile and motion
 /// do, whether their stages are in or out, so that the scatterers are the same.
-double lobe_margin(const SonarHead& head, const Medium& medium, const Environment& environment, const Motion& motion) {
+double lobe_margin(const SonarHead& head, const Medium& medium, const Environment& environment, const Motion& motion,
+                   double fastest_part) {
   if (has_further_lobes(head, medium.sound_speed / head.pulse.centre_frequency)) return lobes_everywhere;
   double margin = environment.profile ? most_turned(*environment.profile, head.gate.max_range) : 0;
   // A moving head has turned when it receives.
   if (!motion.none())
     margin += 3 * most_displacement(motion, medium.sound_speed) +
               motion.turn_rate.norm() * 2 * head.gate.max_range / medium.sound_speed;
+  if (fastest_part > 0) margin += 3 * most_displacement(Motion{{fastest_part, 0, 0}, {}}, medium.sound_speed);
   return std::min(margin, lobes_everywhere);
 }
 
@@ -60,7 +62,7 @@ SamplingOptions sampling_of(const WholeScene& scene, const ResolvedPing& ping) {
   const bool all_elevations = o.sampling.outer_elevations == Choice::always;
   s.elevation_half_extent = sampled_half_extent(head, all_elevations ? nothing_db : o.sampling.elevation_floor_db);
   s.azimuth_margin = o.sampling.outer_azimuths == Choice::always ? pi : o.sampling.azimuth_margin;
-  s.lobe_margin = lobe_margin(head, medium, ping.environment, ping.event.motion);
+  s.lobe_margin = lobe_margin(head, medium, ping.environment, ping.event.motion, scene.fastest);
   s.occlusion = o.sampling.occlusion;
   s.relief_outer_scale = scene.mean_spacing;
   s.seed = o.seed;
@@ -129,8 +131,8 @@ SamplingOptions sampling_in_view(const ResolvedPing& ping) {
 }
 
 bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options) {
-  return options.sampling.detail_width > 0 && scene.facet.empty() && !options.outputs.scatterers &&
-         !options.outputs.mask;
+  return options.sampling.detail_width > 0 && scene.facet.empty() && scene.parts.empty() &&
+         !options.outputs.scatterers && !options.outputs.mask;
 }
 
 bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }

@@ -34,7 +34,6 @@ struct Track {
   hid_t type(bool in_file) const { return whole_numbers ? type_of<std::int64_t>(in_file) : type_of<double>(in_file); }
 };
 
-/// A part and the pings in it.
 struct Part {
   std::string path;
   hsize_t pings;
@@ -53,6 +52,7 @@ struct JoinedCube {
                                {absorption_name, false, Track::Without::attribute},
                                {velocity_name, false, Track::Without::rest},
                                {turn_rate_name, false, Track::Without::rest},
+                               {part_views_name, false},
                                {scan_angle_name, false},
                                {sweep_name, true},
                                {beam_time_name, false},
@@ -63,8 +63,8 @@ std::vector<std::string> images_of(const FileContext& place, hid_t file) {
   std::vector<std::string> images{pressure_name.path};
   for (const std::string& layer : names_in(place, file, layers_group))
     images.push_back(std::string(layers_group) + "/" + layer);
-  for (const DatasetName& map :
-       {intensity_name, unknown_name, split_phase_name, label_material_name, label_id_name, label_share_name})
+  for (const DatasetName& map : {intensity_name, unknown_name, split_phase_name, label_material_name, label_id_name,
+                                 label_share_name, label_part_name})
     if (H5Lexists(file, map.path, H5P_DEFAULT) > 0) images.emplace_back(map.path);
   return images;
 }

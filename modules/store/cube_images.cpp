@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "store/cube_arrays_internal.hpp"
 #include "store/cube_layout_internal.hpp"
+#include "store/cube_parts_internal.hpp"
 #include "store/hdf5_internal.hpp"
 
 // Images of a cube, between the child that reads them and its parent.
@@ -163,6 +164,10 @@ void send_labels(const FileContext& place, hid_t file, const Extent& extent, Pin
   std::vector<std::string> names;
   for (std::string name; std::getline(lines, name);) names.push_back(name);
   to(names);
+  send_map(place, file, label_part_name, H5T_NATIVE_UINT16, extent, pings, to);
+  const bool parts = has_parts(file);
+  to(parts);
+  if (parts) send_parts(place, file, extent, pings, to);
 }
 
 void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings) {
@@ -178,6 +183,11 @@ void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Pi
   std::vector<std::string> names;
   sent(names);
   for (Ping& ping : pings) ping.labels.names = names;
+  receive_map(
+      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.part; });
+  bool parts = false;
+  sent(parts);
+  if (parts) receive_parts(sent, pings);
 }
 
 }  // namespace

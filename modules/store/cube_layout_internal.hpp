@@ -35,6 +35,14 @@ constexpr DatasetName label_id_name{"/label_id", "", "id of the strongest surfel
 constexpr DatasetName label_share_name{"/label_share", "", "share of the energy that is of the material, 0 to 1"};
 /// Root attribute: names of the materials of /label_material, one a line.
 constexpr const char* label_names_attribute = "label_names";
+/// Of scenes of parts: the part of the strongest surfel, and how the head sees each part.
+constexpr DatasetName label_part_name{"/label_part", "", "part of the scene, index into part_names; 65535: none"};
+constexpr DatasetName part_views_name{
+    "/part_views", "",
+    "of each part in each ping: world_from_part (three rows of four, row-major, place in m), share of it that the head "
+    "sees, least and most azimuth [rad], elevation [rad] and range [m] of all of it; NaN: not in view"};
+/// Root attributes: names of the parts, and their labels, which may be empty, one a line.
+constexpr const char *part_names_attribute = "part_names", *part_labels_attribute = "part_labels";
 /// Root attribute: significant bits of the pressures, if they are rounded.
 constexpr const char* keep_bits_attribute = "keep_bits";
 /// Root attribute that marks a cube whose pressures are roots of expected intensities.
@@ -83,6 +91,8 @@ constexpr CubeDataset cube_datasets[] = {{pressure_name, {"ping", "beam", "bin"}
                                          {label_material_name, {"ping", "beam", "bin"}},
                                          {label_id_name, {"ping", "beam", "bin"}},
                                          {label_share_name, {"ping", "beam", "bin"}},
+                                         {label_part_name, {"ping", "beam", "bin"}},
+                                         {part_views_name, {"ping"}},
                                          {range_name, {"bin"}},
                                          {azimuth_name, {"beam"}},
                                          {elevation_name, {"beam"}},

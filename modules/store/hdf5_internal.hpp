@@ -161,4 +161,22 @@ std::int64_t read_integer(const FileContext& place, hid_t where, const char* nam
 std::uint64_t read_unsigned(const FileContext& place, hid_t where, const char* name);
 std::string read_text(const FileContext& place, hid_t where, const char* name);
 
+/// Reads a whole dataset, which must have the expected extent.
+template <typename T>
+std::vector<T> read_all(const FileContext& place, hid_t file, const DatasetName& name, const Extent& expected,
+                        hid_t type) {
+  const Handle dataset = open_dataset(place, file, name);
+  const Extent extent = extent_of(place, dataset, name.path, expected.size());
+  std::size_t values = 1;
+  for (std::size_t d = 0; d < extent.size(); ++d) {
+    if (extent[d] != expected[d])
+      fail(place.kind, place.path, ": ", name.path, " has ", extent[d], " entries, ", expected[d],
+           " expected from /pressure");
+    values *= extent[d];
+  }
+  std::vector<T> result(values);
+  read_values(place, dataset, {type}, result.data(), name.path);
+  return result;
+}
+
 }  // namespace insonify::hdf5

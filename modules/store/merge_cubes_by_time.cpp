@@ -59,9 +59,13 @@ void drop_unlike_parts(std::vector<Ping>& pings) {
   drop_map(&Ping::intensity);
   drop_map(&Ping::unknown);
   drop_map(&Ping::split_phase);
-  // Numbers of materials mean the same in all pings only if their names do.
-  drop_unless([](const Ping& ping) { return ping.labels.empty() ? std::vector<std::string>{} : ping.labels.names; },
-              [](Ping& ping) { ping.labels = {}; });
+  // Numbers of materials and parts mean the same in all pings only if their names do.
+  drop_unless(
+      [](const Ping& ping) {
+        const PixelLabels& l = ping.labels;
+        return l.empty() ? std::vector<std::vector<std::string>>{} : std::vector{l.names, l.part_names, l.part_labels};
+      },
+      [](Ping& ping) { ping.labels = {}; });
 }
 
 }  // namespace

@@ -23,24 +23,6 @@ void require_schema(const FileContext& place, hid_t file) {
     fail(place.kind, place.path, ": has cube schema ", schema, ", this version reads schema ", cube_schema);
 }
 
-// Reads a whole dataset, which must have the expected extent.
-template <typename T>
-std::vector<T> read_all(const FileContext& place, hid_t file, const DatasetName& name, const Extent& expected,
-                        hid_t type) {
-  const Handle dataset = open_dataset(place, file, name);
-  const Extent extent = extent_of(place, dataset, name.path, expected.size());
-  std::size_t values = 1;
-  for (std::size_t d = 0; d < extent.size(); ++d) {
-    if (extent[d] != expected[d])
-      fail(place.kind, place.path, ": ", name.path, " has ", extent[d], " entries, ", expected[d],
-           " expected from /pressure");
-    values *= extent[d];
-  }
-  std::vector<T> result(values);
-  read_values(place, dataset, {type}, result.data(), name.path);
-  return result;
-}
-
 // Reads fan and gate, common to all pings; invalid values are errors of the file.
 void read_axes(const FileContext& place, hid_t file, CubeTable& table) {
   const Extent& extent = table.extent;

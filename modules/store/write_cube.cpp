@@ -10,6 +10,7 @@
 #include "store/cube.hpp"
 #include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
+#include "store/cube_parts_internal.hpp"
 #include "store/hdf5_internal.hpp"
 
 namespace insonify {
@@ -45,6 +46,8 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
   require(ping.labels.material, first.labels.material, "labels");
   require(ping.labels.id, first.labels.material, "label ids");
   require(ping.labels.share, first.labels.material, "label shares");
+  require(ping.labels.part, first.labels.part, "label parts");
+  require_same_parts(ping, first, path);
   if (ping.scan.has_value() != first.scan.has_value())
     fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
          " is of a scanning head; write it to a cube of its own");
@@ -168,6 +171,8 @@ void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& p
   write_label(label_material_name, &PixelLabels::material);
   write_label(label_id_name, &PixelLabels::id);
   write_label(label_share_name, &PixelLabels::share);
+  if (first.part.size() > 0) write_label(label_part_name, &PixelLabels::part);
+  write_parts(place, file, pings);
   write_attribute(place, file, label_names_attribute, joined(first.names, "\n"));
 }
 

@@ -75,24 +75,39 @@ SceneColours by_height(const SceneCloud& scene) {
           {scale, "Height z [m]", {}}};
 }
 
-SceneColours by_material(const SceneCloud& scene) {
-  std::vector<std::uint8_t> used(scene.materials.size());
-  for (const std::uint16_t material : scene.material)
-    if (material < used.size()) used[material] = 1;
+/// One colour for each of the names that surfels have; number_of(i) is the name's number of surfel i.
+template <typename Number>
+SceneColours by_name(const SceneCloud& scene, const std::vector<std::string>& names, const Number& number_of) {
+  std::vector<std::uint8_t> used(names.size());
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    if (number_of(i) < used.size()) used[number_of(i)] = 1;
   SceneColours result;
   std::size_t more = 0;
   for (std::size_t m = 0; m < used.size(); ++m) {
     if (!used[m]) continue;
     if (result.key.legend.size() < most_entries)
-      result.key.legend.push_back({scene.materials[m].name, material_colours[m % std::size(material_colours)]});
+      result.key.legend.push_back({names[m], material_colours[m % std::size(material_colours)]});
     else
       ++more;
   }
   if (more > 0) result.key.legend.push_back({"and " + std::to_string(more) + " more", unknown_grey});
   result.colour = per_surfel(scene, [&](std::size_t i) {
-    return shaded(material_colours[scene.material[i] % std::size(material_colours)], light_on(scene, i));
+    return shaded(material_colours[number_of(i) % std::size(material_colours)], light_on(scene, i));
   });
   return result;
+}
+
+SceneColours by_material(const SceneCloud& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  return by_name(scene, names, [&](std::size_t i) -> std::size_t { return scene.material[i]; });
+}
+
+SceneColours by_part(const SceneCloud& scene) {
+  if (scene.part.empty()) return by_material(scene);
+  std::vector<std::string> names;
+  for (const ScenePart& part : scene.parts) names.push_back(part.name);
+  return by_name(scene, names, [&](std::size_t i) -> std::size_t { return scene.part[i]; });
 }
 
 // Colours with reduced shading, since those of shadows are dark already.
@@ -156,6 +171,7 @@ SceneColours colour_surfels(const SceneCloud& scene, const SceneLook& look, cons
                             const char* who) {
   if (look.colour == SceneColour::height) return by_height(scene);
   if (look.colour == SceneColour::material) return by_material(scene);
+  if (look.colour == SceneColour::part) return by_part(scene);
   if (look.colour == SceneColour::visibility) return by_visibility(scene, look, who);
   if (look.colour == SceneColour::level) return by_level(scene, look, options, who);
   return by_angle(scene, look, look.colour == SceneColour::grazing, who);

@@ -21,6 +21,7 @@ namespace insonify {
 enum class SceneColour {
   height,      ///< world z [m]
   material,    ///< one colour per material, with a legend
+  part,        ///< one colour per part of a scene of parts, with a legend; else by material
   visibility,  ///< visible, hidden, turned away or outside the fan
   level,       ///< [dB]
   grazing,     ///< angle between the surface and the ray from the head [deg]

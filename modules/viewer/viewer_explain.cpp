@@ -88,6 +88,12 @@ std::string material_name(const ViewerData& data, std::uint16_t material) {
   return "material " + std::to_string(material);
 }
 
+/// The part that a surfel is of; empty for a scene that is one part.
+std::string part_name(const SceneCloud& scene, std::uint32_t surfel) {
+  const ScenePart* part = surfel < scene.size() ? scene.part_of_surfel(surfel) : nullptr;
+  return part ? part->name : "";
+}
+
 std::string most_common_material(const ViewerData& data, const std::vector<std::uint32_t>& surfels) {
   if (surfels.empty()) return {};
   std::vector<std::size_t> count(data.scene.materials.size(), 0);
@@ -102,7 +108,8 @@ std::vector<Contribution> contributions_of(const Contributors& list, PixelPlace 
     const std::size_t at = list.at(place.beam, place.bin, k);
     if (list.surfel[at] == Contributors::none) break;
     found.push_back({list.surfel[at], list.id[at], material_name(data, list.material[at]),
-                     static_cast<double>(list.share[at]), static_cast<double>(list.elevation[at]), list.path[at]});
+                     static_cast<double>(list.share[at]), static_cast<double>(list.elevation[at]), list.path[at],
+                     part_name(data.scene, list.surfel[at])});
   }
   return found;
 }
@@ -120,7 +127,8 @@ std::string contributor_lines(const PixelFacts& facts) {
   if (facts.contributions.empty()) return "No surfel contributes: side lobes or noise\n";
   std::string text = "Strongest contributor:\n";
   for (const Contribution& c : facts.contributions)
-    text += "  " + c.material + printed(", surfel %u (id %u)\n", c.surfel, c.id) +
+    text += "  " + (c.part.empty() ? "" : c.part + ": ") + c.material +
+            printed(", surfel %u (id %u)\n", c.surfel, c.id) +
             printed("  %.0f %% of the energy, %s, elevation %+.2f°\n", 100 * c.share,
                     path_texts[static_cast<std::size_t>(c.path)], degrees(c.elevation));
   return text;

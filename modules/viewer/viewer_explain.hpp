@@ -20,6 +20,7 @@ struct Contribution {
   double share = 0;      ///< of the energies of all contributors
   double elevation = 0;  ///< [rad], head axes
   PathKind path = PathKind::direct;
+  std::string part{};  ///< of a scene of parts: its name
 };
 
 /// Visibility from the head of the surfels at a sample's place: within its beam's share of the fan, and within half a

@@ -69,12 +69,13 @@ std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const 
   if (surfel >= scene.size())
     fail(ErrorKind::argument, "explain_surfel: surfel = ", surfel, ", must be below ", scene.size());
   const HeadFrame head(scene, pose_of(place));
-  const Eigen::Vector3d p = head.position(scene.point[surfel]);
+  const Eigen::Vector3d p = head.position_of(surfel);
   const Eigen::Vector3d world = scene.origin + scene.point[surfel].cast<double>();
   const Direction direction = direction_of(p);
-  const double cosine = -head.direction(scene.normal[surfel].cast<double>()).dot(p) / std::max(p.norm(), 1e-12);
-  const double incidence = std::acos(std::clamp(scene.normals_oriented ? cosine : std::abs(cosine), -1.0, 1.0));
+  const double cosine = -head.normal_of(surfel).dot(p) / std::max(p.norm(), 1e-12);
+  const double incidence = std::acos(std::clamp(scene.oriented(surfel) ? cosine : std::abs(cosine), -1.0, 1.0));
   std::string text = printed("Surfel %u (id %u)\n", surfel, scene.id[surfel]);
+  if (const ScenePart* part = scene.part_of_surfel(surfel)) text += "Part " + part->name + "\n";
   text += "Material " + scene.materials[scene.material[surfel]].name + "\n";
   text += printed("At %.3f, %.3f, %.3f m\n", world.x(), world.y(), world.z());
   text += printed("Area %.3g m²\n", static_cast<double>(scene.area[surfel]));

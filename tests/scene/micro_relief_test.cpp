@@ -139,10 +139,13 @@ TEST(MicroRelief, leaves_a_smooth_normal_and_gives_unit_length) {
 TEST(MicroRelief, is_absent_from_smooth_scenes_and_scales_with_the_surfel_spacing) {
   EXPECT_FALSE(relief_of(rough_scene(0), {}).has_value());
   EXPECT_FALSE(relief_of(SceneCloud{}, {}).has_value());
-  const auto by_spacing = relief_of(rough_scene(0.1), {});
+  const SceneCloud scene = rough_scene(0.1);
+  const auto by_spacing = relief_of(scene, {});
   ASSERT_TRUE(by_spacing.has_value());
   const ReliefField expected({1, std::sqrt((0.04f + 0.12f) / 2.0)});
-  EXPECT_LT((by_spacing->gradient({1, 2, 3}) - expected.gradient({1, 2, 3})).norm(), 1e-5);
+  const Vector3d normal = scene.normal[0].cast<double>().normalized();
+  EXPECT_LT((by_spacing->facet_of(scene, 0, 0.1, {1, 2, 3}) - tilted_normal(expected, 0.1, {1, 2, 3}, normal)).norm(),
+            1e-6);
 }
 
 TEST(MicroRelief, refuses_invalid_scales_and_octaves) {

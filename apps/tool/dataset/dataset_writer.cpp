@@ -33,7 +33,8 @@ Grid<std::uint16_t> objects_of(const DatasetSource& source, const PixelLabels& l
                                std::size_t least_pixels) {
   const Grid<std::uint32_t> kind = category.unaryExpr(
       [&](std::uint8_t value) { return value != 0 && !stuff.contains(value) ? std::uint32_t{value} : 0; });
-  const Grid<std::uint32_t> objects = number_objects(kind, id_image(labels, share), source.instances, least_pixels);
+  const ObjectKeys keys = object_keys(labels, source.instances, share);
+  const Grid<std::uint32_t> objects = number_objects(kind, keys.id, keys.instances, least_pixels);
   if (objects.size() > 0 && objects.maxCoeff() > 65535)
     fail(ErrorKind::content, "an image has more than 65535 objects; ask for more with --least-pixels");
   return objects.cast<std::uint16_t>();
@@ -104,13 +105,18 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
   const LabelMap polar{polar_picture(category, ping.fan), polar_picture(object, ping.fan)};
   const LabelMap fan{fan_picture(category, raster, std::uint8_t{0}), fan_picture(object, raster, std::uint16_t{0})};
   ++images_;
-  add_form(polar_, image, polar);
-  add_form(fan_, image, fan);
-  add_meta(source, cube, ping, image, polar);
+  const FormOf of_polar{{ping}, parts_of_objects(ping.labels, options_.share, object)};
+  const FormOf of_fan{{ping, &raster}, of_polar.parts};
+  add_form(polar_, image, polar, of_polar);
+  add_form(fan_, image, fan, of_fan);
+  ordered_json meta = meta_of(source, cube, ping, image, polar);
+  if (!ping.labels.views.empty())
+    meta["objects"] = part_objects_json(ping.labels, of_polar.parts, of_polar.picture, of_fan.picture);
+  meta_ += meta.dump() + "\n";
   tally_.add(image.split, source.scene_digest, ping.world_from_head.translation(), ping.gate.max_range);
 }
 
-void DatasetWriter::add_form(Form& form, const DatasetImage& image, const LabelMap& map) {
+void DatasetWriter::add_form(Form& form, const DatasetImage& image, const LabelMap& map, const FormOf& of) {
   const auto path = [&](const char* folder, const char* ending) {
     return directory_.file(form.name + "/" + folder + "/" + image.name + ending);
   };
@@ -124,21 +130,28 @@ void DatasetWriter::add_form(Form& form, const DatasetImage& image, const LabelM
   coco["images"].push_back({{"id", images_}, {"file_name", image.name + ".png"}, {"width", columns}, {"height", rows}});
   for (const Annotation& a : annotations_of(map)) {
     ++annotations_, ++form.boxes;
-    coco["annotations"].push_back({{"id", annotations_},
-                                   {"image_id", images_},
-                                   {"category_id", a.category},
-                                   {"instance", a.instance},
-                                   {"bbox", {a.left, a.top, a.width, a.height}},
-                                   {"area", a.area},
-                                   {"iscrowd", 0},
-                                   {"segmentation", {{"size", {rows, columns}}, {"counts", a.counts}}}});
+    ordered_json annotation = {{"id", annotations_},
+                               {"image_id", images_},
+                               {"category_id", a.category},
+                               {"instance", a.instance},
+                               {"bbox", {a.left, a.top, a.width, a.height}},
+                               {"area", a.area},
+                               {"iscrowd", 0},
+                               {"segmentation", {{"size", {rows, columns}}, {"counts", a.counts}}}};
+    if (const auto part = of.parts.find(a.instance); part != of.parts.end()) {
+      const PartView& view = of.picture.ping.labels.views.at(part->second);
+      annotation["part"] = of.picture.ping.labels.part_names[part->second];
+      annotation["visible_share"] = view.visible_share;
+      if (const auto box = whole_box(view, of.picture)) annotation["bbox_whole"] = *box;
+    }
+    coco["annotations"].push_back(std::move(annotation));
     if (options_.polygons) form.outlines[image.split].push_back(outlines_of(map.instance, a.instance));
   }
   form.lists[image.split] += "./images/" + image.name + ".png\n";
 }
 
-void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image,
-                             const LabelMap& map) {
+ordered_json DatasetWriter::meta_of(const DatasetSource& source, const Cube& cube, const Ping& ping,
+                                    const DatasetImage& image, const LabelMap& map) {
   std::vector<std::size_t> pixels(classes_.size());
   for (const std::uint8_t category : map.category.reshaped()) ++pixels[category];
   ordered_json meta = {{"name", image.name},
@@ -168,10 +181,10 @@ void DatasetWriter::add_meta(const DatasetSource& source, const Cube& cube, cons
   if (source.randomisation && source.randomisation->spread.any())
     meta["randomised"] = randomised_json(randomised(source.randomisation->spread, source.randomisation->seed,
                                                     {.head = source.head_index, .number = ping.number}));
-  meta_ += meta.dump() + "\n";
   const std::string line = fmt::format("- {}: {} beams, {:g} to {:g} m\n", cube.sonar, ping.fan.beams(),
                                        ping.gate.min_range, ping.gate.max_range);
   if (sonars_.find(line) == sonars_.npos) sonars_ += line;
+  return meta;
 }
 
 ordered_json DatasetWriter::empty_coco() const {

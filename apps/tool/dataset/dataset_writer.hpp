@@ -15,6 +15,7 @@
 #include "tool/dataset/dataset_runs.hpp"
 #include "tool/dataset/dataset_split.hpp"
 #include "tool/dataset/label_pictures.hpp"
+#include "tool/dataset/part_objects.hpp"
 
 namespace insonify::tool {
 
@@ -70,9 +71,14 @@ class DatasetWriter {
     std::size_t boxes = 0;
     std::map<std::string, nlohmann::ordered_json> outlines{};  ///< of each split: polygons of its annotations, in order
   };
-  void add_form(Form& form, const DatasetImage& image, const LabelMap& map);
-  void add_meta(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image,
-                const LabelMap& map);
+  /// How a form shows a ping, and the parts of its objects.
+  struct FormOf {
+    PictureOf picture;
+    std::map<std::uint16_t, std::size_t> parts;
+  };
+  void add_form(Form& form, const DatasetImage& image, const LabelMap& map, const FormOf& of);
+  nlohmann::ordered_json meta_of(const DatasetSource& source, const Cube& cube, const Ping& ping,
+                                 const DatasetImage& image, const LabelMap& map);
   nlohmann::ordered_json empty_coco() const;
   std::vector<std::size_t> boxed_classes() const;
   void write_lists(Form& form, const std::vector<std::size_t>& boxed) const;

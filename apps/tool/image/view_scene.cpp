@@ -26,8 +26,9 @@ namespace fs = std::filesystem;
 
 /// Words of --colour and --camera.
 constexpr Named<SceneColour> colour_words[] = {
-    {"height", SceneColour::height}, {"material", SceneColour::material}, {"visibility", SceneColour::visibility},
-    {"level", SceneColour::level},   {"grazing", SceneColour::grazing},   {"incidence", SceneColour::incidence}};
+    {"height", SceneColour::height},         {"material", SceneColour::material}, {"part", SceneColour::part},
+    {"visibility", SceneColour::visibility}, {"level", SceneColour::level},       {"grazing", SceneColour::grazing},
+    {"incidence", SceneColour::incidence}};
 constexpr Named<ScenePreset> camera_words[] = {{"auto", ScenePreset::automatic},
                                                {"behind", ScenePreset::behind},
                                                {"top", ScenePreset::top},
@@ -165,7 +166,7 @@ ViewSpec scene_view() {
                       {"--normals", &ImageOptions::normals, "draw some 4000 normals as lines"},
                       {"--colour",
                        &ImageOptions::colour,
-                       "height, material, visibility, level, grazing or incidence; default: what suits",
+                       "height, material, part, visibility, level, grazing or incidence; default: what suits",
                        {.words = words_of(colour_words)}}},
           .draw_alone = draw_scene};
 }

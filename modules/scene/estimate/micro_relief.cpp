@@ -86,12 +86,31 @@ Vector3d tilted_normal(const ReliefField& field, double rms_slope, const Vector3
   return (normal - rms_slope * (gradient - normal * normal.dot(gradient))).normalized();  // (E52)
 }
 
-std::optional<ReliefField> relief_of(const SceneCloud& scene, MicroRelief relief) {
+SceneRelief::SceneRelief(const SceneCloud& scene, const MicroRelief& relief) {
+  if (scene.parts.empty()) fields_.emplace_back(relief);
+  for (const ScenePart& part : scene.parts) {
+    const double scale = part.spacing > 0 ? part.spacing : relief.outer_scale;
+    fields_.emplace_back(MicroRelief{relief.seed ^ part.key, scale, relief.octaves});
+  }
+}
+
+Vector3d SceneRelief::facet_of(const SceneCloud& scene, std::size_t surfel, double rms_slope,
+                               const Vector3d& world_position) const {
+  const ReliefField& field = scene.part.empty() ? fields_.front() : fields_[scene.part[surfel]];
+  const ScenePart* part = scene.part_of_surfel(surfel);
+  if (!part || !part->own)
+    return tilted_normal(field, rms_slope, world_position, scene.normal[surfel].cast<double>().normalized());
+  const Vector3d own_normal = part->own->normal[scene.id[surfel]].cast<double>().normalized();
+  return part->world_from_part.linear() *
+         tilted_normal(field, rms_slope, part->world_from_part.inverse() * world_position, own_normal);
+}
+
+std::optional<SceneRelief> relief_of(const SceneCloud& scene, MicroRelief relief) {
   const auto rough = [](const Material& material) { return material.relief_slope > 0; };
   if (scene.size() == 0 || std::none_of(scene.materials.begin(), scene.materials.end(), rough)) return std::nullopt;
   if (relief.outer_scale == 0) relief.outer_scale = whole_of(scene).mean_spacing;
   if (relief.outer_scale == 0) return std::nullopt;
-  return ReliefField(relief);
+  return SceneRelief(scene, relief);
 }
 
 }  // namespace insonify

@@ -49,7 +49,22 @@ class ReliefField {
 Eigen::Vector3d tilted_normal(const ReliefField& field, double rms_slope, const Eigen::Vector3d& world_position,
                               const Eigen::Vector3d& normal);
 
-/// Returns the relief field of a scene, or nothing if all of its materials are smooth (relief_slope = 0).
-std::optional<ReliefField> relief_of(const SceneCloud& scene, MicroRelief relief);
+/// The relief of the surfaces of a scene: a field for the scene, or one for each of its parts, in the part's own axes, so
+/// that it moves with the part.
+class SceneRelief {
+ public:
+  /// The fields of parts have their own spacings as outer scale. Throws as ReliefField.
+  SceneRelief(const SceneCloud& scene, const MicroRelief& relief);
+
+  /// Returns the normal of a surfel, tilted by tilted_normal at `world_position` [m].
+  Eigen::Vector3d facet_of(const SceneCloud& scene, std::size_t surfel, double rms_slope,
+                           const Eigen::Vector3d& world_position) const;
+
+ private:
+  std::vector<ReliefField> fields_;
+};
+
+/// Returns the relief of a scene, or nothing if all of its materials are smooth (relief_slope = 0).
+std::optional<SceneRelief> relief_of(const SceneCloud& scene, MicroRelief relief);
 
 }  // namespace insonify

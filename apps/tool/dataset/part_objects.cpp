@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/dataset/part_objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace insonify::tool {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Marks the samples within the extents of a part: at least one in either direction.
+Grid<std::uint8_t> samples_within(const PartView& view, const Ping& ping) {
+  const auto bins = static_cast<double>(ping.gate.bins());
+  const auto bin_of = [&](double range) {
+    return static_cast<Eigen::Index>(
+        std::clamp(std::floor((range - ping.gate.min_range) / ping.gate.bin_size), 0.0, bins - 1));
+  };
+  const std::vector<double>& azimuth = ping.fan.azimuth;
+  const auto off = [&](std::size_t beam) {
+    return std::max({0.0, view.azimuth.least - azimuth[beam], azimuth[beam] - view.azimuth.most});
+  };
+  double nearest = off(0);
+  for (std::size_t b = 1; b < azimuth.size(); ++b) nearest = std::min(nearest, off(b));
+  const Eigen::Index first = bin_of(view.range.least), count = bin_of(view.range.most) - first + 1;
+  Grid<std::uint8_t> within =
+      Grid<std::uint8_t>::Zero(static_cast<Eigen::Index>(azimuth.size()), static_cast<Eigen::Index>(ping.gate.bins()));
+  for (std::size_t b = 0; b < azimuth.size(); ++b)
+    if (off(b) <= nearest) within.row(static_cast<Eigen::Index>(b)).segment(first, count).setOnes();
+  return within;
+}
+
+ordered_json box_json(const std::optional<PixelBox>& box) {
+  if (!box) return nullptr;
+  return *box;
+}
+
+}  // namespace
+
+std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture) {
+  if (!(view.visible_share >= 0)) return std::nullopt;
+  const Grid<std::uint8_t> shown = picture(samples_within(view, picture.ping));
+  int left = static_cast<int>(shown.cols()), top = static_cast<int>(shown.rows()), right = -1, bottom = -1;
+  for (int row = 0; row < shown.rows(); ++row)
+    for (int column = 0; column < shown.cols(); ++column)
+      if (shown(row, column)) {
+        left = std::min(left, column), right = std::max(right, column);
+        top = std::min(top, row), bottom = std::max(bottom, row);
+      }
+  if (right < 0) return std::nullopt;
+  return PixelBox{left, top, right - left + 1, bottom - top + 1};
+}
+
+std::map<std::uint16_t, std::size_t> parts_of_objects(const PixelLabels& labels, double least_share,
+                                                      const Grid<std::uint16_t>& instance) {
+  std::map<std::uint16_t, std::size_t> parts;
+  if (labels.part.size() == 0) return parts;
+  const Grid<std::uint16_t> part = part_image(labels, least_share);
+  for (Eigen::Index i = 0; i < instance.size(); ++i)
+    if (instance(i) != 0 && part(i) != PixelLabels::no_part && !labels.part_labels[part(i)].empty())
+      parts.emplace(instance(i), part(i));
+  return parts;
+}
+
+ordered_json part_objects_json(const PixelLabels& labels, const std::map<std::uint16_t, std::size_t>& parts,
+                               const PictureOf& polar, const PictureOf& fan) {
+  ordered_json objects = ordered_json::array();
+  for (std::size_t p = 0; p < labels.views.size(); ++p) {
+    const PartView& view = labels.views[p];
+    if (labels.part_labels[p].empty() || !(view.visible_share >= 0)) continue;
+    const auto object = std::find_if(parts.begin(), parts.end(), [p](const auto& entry) { return entry.second == p; });
+    ordered_json pose = ordered_json::array();
+    for (int row = 0; row < 4; ++row) {
+      const Eigen::RowVector4d of_row = view.world_from_part.matrix().row(row);
+      pose.push_back(std::vector<double>(of_row.data(), of_row.data() + 4));
+    }
+    objects.push_back({{"part", labels.part_names[p]},
+                       {"class", labels.part_labels[p]},
+                       {"instance", object == parts.end() ? ordered_json() : ordered_json(object->first)},
+                       {"world_from_part", pose},
+                       {"visible_share", view.visible_share},
+                       {"azimuth_rad", {view.azimuth.least, view.azimuth.most}},
+                       {"range_m", {view.range.least, view.range.most}},
+                       {"polar_bbox_whole", box_json(whole_box(view, polar))},
+                       {"fan_bbox_whole", box_json(whole_box(view, fan))}});
+  }
+  return objects;
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "core/grid.hpp"
+#include "returns/picture_grid.hpp"
+#include "returns/ping.hpp"
+
+/// Parts of a scene as objects of a data set.
+namespace insonify::tool {
+
+/// Samples of a ping (beams x bins) as a picture: polar, or by a raster of the fan.
+struct PictureOf {
+  const Ping& ping;
+  const FanRaster* fan = nullptr;  ///< null: polar
+
+  /// The values of samples as rows and columns of the picture; 0 beside the fan.
+  template <typename Value>
+  Grid<Value> operator()(const Grid<Value>& samples) const {
+    return fan ? fan_picture(samples, *fan, Value{0}) : polar_picture(samples, ping.fan);
+  }
+};
+
+/// Left, top, width and height [pixels].
+using PixelBox = std::array<int, 4>;
+
+/// The box about all that the head would see of a part alone, by its extents in azimuth and range; empty if it would
+/// see nothing.
+std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture);
+
+/// The part of each object of a picture, by the numbers of the objects; objects that are not of a labelled part are not
+/// in it.
+///
+/// instance   numbers of objects, beams x bins
+std::map<std::uint16_t, std::size_t> parts_of_objects(const PixelLabels& labels, double least_share,
+                                                      const Grid<std::uint16_t>& instance);
+
+/// All labelled parts that the head would see if they were alone: name, class, pose, share that is seen, boxes in both
+/// forms, and the number of the object, null where it has no pixels.
+nlohmann::ordered_json part_objects_json(const PixelLabels& labels, const std::map<std::uint16_t, std::size_t>& parts,
+                                         const PictureOf& polar, const PictureOf& fan);
+
+}  // namespace insonify::tool

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "core/pose.hpp"
+
+namespace insonify {
+
+struct SceneCloud;
+
+/// A rigid part of a scene at the time of a ping. Its surface has random numbers of its own, so that speckle and
+/// micro-relief move with it and do not depend on what else is in the scene.
+struct ScenePart {
+  std::string name{};                                   ///< unique in the scene
+  std::string label{};                                  ///< class of its pixels in data sets; empty: its materials
+  std::uint64_t key = 0;                                ///< of its random numbers: part_key(name)
+  double spacing = 0;                                   ///< root of its mean surfel area [m]: scale of its micro-relief
+  bool normals_oriented = true;                         ///< false: both sides of its surfels reflect
+  Pose world_from_part = Pose::Identity();              ///< at the time of transmission
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< of the origin of its axes, in the world [m/s]
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< rotation vector per second, in the world [rad/s]
+  /// The part in its own axes; surfel `id` of the scene is number `id` in it. Null: its own axes are the world's.
+  std::shared_ptr<const SceneCloud> own{};
+
+  /// Whether the part moves.
+  bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }
+};
+
+/// Returns 64 bits that stand for a name: FNV-1a, well mixed. Equal on all machines.
+std::uint64_t part_key(const std::string& name);
+
+}  // namespace insonify

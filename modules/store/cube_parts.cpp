@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sstream>
+#include <string>
+
+#include "core/error.hpp"
+#include "store/cube_axes_internal.hpp"
+#include "store/cube_layout_internal.hpp"
+#include "store/cube_parts_internal.hpp"
+
+namespace insonify {
+
+using namespace hdf5;
+
+namespace {
+
+constexpr std::size_t numbers_per_view = 19;  // three rows of a pose, the share, and three extents
+
+void put_view(const PartView& view, std::vector<double>& numbers) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) numbers.push_back(view.world_from_part.matrix()(row, column));
+  numbers.push_back(view.visible_share);
+  for (const PartView::Extent& extent : {view.azimuth, view.elevation, view.range})
+    numbers.push_back(extent.least), numbers.push_back(extent.most);
+}
+
+PartView view_of(const double* numbers) {
+  PartView view;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) view.world_from_part.matrix()(row, column) = *numbers++;
+  view.visible_share = *numbers++;
+  for (PartView::Extent* extent : {&view.azimuth, &view.elevation, &view.range})
+    extent->least = *numbers++, extent->most = *numbers++;
+  return view;
+}
+
+/// One text a line, each with its end: the last may be empty.
+std::string as_lines(const std::vector<std::string>& texts) {
+  std::string lines;
+  for (const std::string& text : texts) lines += text + "\n";
+  return lines;
+}
+
+std::vector<std::string> from_lines(const std::string& lines) {
+  std::istringstream in(lines);
+  std::vector<std::string> texts;
+  for (std::string text; std::getline(in, text);) texts.push_back(text);
+  return texts;
+}
+
+}  // namespace
+
+void require_same_parts(const Ping& ping, const Ping& first, const std::string& path) {
+  if (ping.labels.part_names != first.labels.part_names || ping.labels.part_labels != first.labels.part_labels)
+    fail(ErrorKind::argument, "write_cube: ", path, ": ping ", ping.number, " is of a scene of other parts than ping ",
+         first.number, "; write it to a cube of its own");
+}
+
+void write_parts(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
+  const PixelLabels& first = pings.front().labels;
+  if (first.part_names.empty()) return;
+  std::vector<double> numbers;
+  for (const Ping& ping : pings) {
+    if (ping.labels.views.size() != first.part_names.size())
+      fail(ErrorKind::argument, "write_cube: ", place.path, ": ping ", ping.number, " has views of ",
+           ping.labels.views.size(), " parts, must have ", first.part_names.size());
+    for (const PartView& view : ping.labels.views) put_view(view, numbers);
+  }
+  write_numbers(place, file, part_views_name, {pings.size(), first.part_names.size(), numbers_per_view},
+                numbers.data());
+  write_attribute(place, file, part_names_attribute, as_lines(first.part_names));
+  write_attribute(place, file, part_labels_attribute, as_lines(first.part_labels));
+}
+
+bool has_parts(hid_t file) { return H5Lexists(file, part_views_name.path, H5P_DEFAULT) > 0; }
+
+void send_parts(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+  const std::vector<std::string> names = from_lines(read_text(place, file, part_names_attribute));
+  const std::vector<std::string> labels = from_lines(read_text(place, file, part_labels_attribute));
+  if (labels.size() != names.size())
+    fail(place.kind, place.path, ": ", part_labels_attribute, " has ", labels.size(), " lines, but ",
+         part_names_attribute, " has ", names.size());
+  const auto numbers =
+      read_all<double>(place, file, part_views_name, {extent[0], names.size(), numbers_per_view}, H5T_NATIVE_DOUBLE);
+  const std::size_t per_ping = names.size() * numbers_per_view;
+  to(names, labels,
+     std::vector<double>(numbers.begin() + static_cast<std::ptrdiff_t>(pings.begin * per_ping),
+                         numbers.begin() + static_cast<std::ptrdiff_t>(pings.end * per_ping)));
+}
+
+void receive_parts(ArrayReceiver& sent, std::vector<Ping>& pings) {
+  std::vector<std::string> names, labels;
+  std::vector<double> numbers;
+  sent(names, labels, numbers);
+  const double* at = numbers.data();
+  for (Ping& ping : pings) {
+    ping.labels.part_names = names, ping.labels.part_labels = labels;
+    for (std::size_t p = 0; p < names.size(); ++p, at += numbers_per_view) ping.labels.views.push_back(view_of(at));
+  }
+}
+
+}  // namespace insonify

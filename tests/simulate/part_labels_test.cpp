@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What pixels show of a scene of parts, and how the head sees each part.
+#include <cmath>
+
+#include "core/units.hpp"
+#include "returns/label_objects.hpp"
+#include "scene/posed_scene.hpp"
+#include "support/heads.hpp"
+#include "support/scenes.hpp"
+#include "support/simulate_event.hpp"
+#include "support/test.hpp"
+
+namespace insonify::part_labels_tests {
+
+using Eigen::Vector3d;
+
+PlacedPart placed(const std::string& name, const std::string& label, const SceneCloud& cloud, const Vector3d& at) {
+  PlacedPart part{.name = name, .label = label, .cloud = std::make_shared<const SceneCloud>(cloud)};
+  part.world_from_part.translation() = at;
+  return part;
+}
+
+SceneCloud ball(double radius) {
+  SceneCloud cloud;
+  cloud.materials = {{.name = "steel", .lambert_mu = 0.05}};
+  add_sphere(cloud, {0, 0, 0}, radius, 4000);
+  return cloud;
+}
+
+/// An upright plate that faces the head, its middle at the origin.
+SceneCloud board(double width, double height) {
+  SceneCloud cloud;
+  cloud.materials = {{.name = "wood", .lambert_mu = 0.05}};
+  add_rectangle(cloud, {0, -width / 2, -height / 2}, {0, width, 0}, {0, 0, height}, {-1, 0, 0}, 0.01);
+  return cloud;
+}
+
+PlacedPart bed() {
+  SceneCloud floor;
+  floor.materials = {{.name = "sand"}};
+  add_floor(floor, {2, -4, -2}, 160, 0.05);
+  return {.name = "bed", .cloud = std::make_shared<const SceneCloud>(floor), .captured = true};
+}
+
+PixelLabels labels_of(const std::vector<PlacedPart>& parts) {
+  SimulationOptions o;
+  o.outputs.contributors = 1;
+  const SonarHead head = small_head({.beams = 64, .field_of_view_deg = 60, .beam_width_deg = 1, .max_range = 10});
+  return simulate_event(merge_parts(parts), head, {}, Environment{}, o).ping.labels;
+}
+
+std::size_t index_of(const PixelLabels& labels, const std::string& part) {
+  const auto at = std::find(labels.part_names.begin(), labels.part_names.end(), part);
+  return static_cast<std::size_t>(at - labels.part_names.begin());
+}
+
+TEST(PartLabels, name_class_and_part_of_every_pixel) {
+  const PixelLabels labels =
+      labels_of({bed(), placed("pot-1", "pot", ball(0.3), {5, 1, 0}), placed("pot-2", "pot", ball(0.3), {6, -1.5, 0}),
+                 placed("a", "", ball(0.2), {4, 0, 0})});
+  EXPECT_EQ(labels.part_names, (std::vector<std::string>{"a", "bed", "pot-1", "pot-2"}));
+  EXPECT_EQ(labels.part_labels, (std::vector<std::string>{"", "", "pot", "pot"}));
+  std::map<std::string, std::map<std::string, int>> classes;  // of each part
+  const auto material = material_image(labels);
+  const auto part = part_image(labels);
+  for (Eigen::Index i = 0; i < material.size(); ++i)
+    if (material(i) < labels.names.size()) ++classes[labels.part_names.at(part(i))][labels.names[material(i)]];
+  EXPECT_EQ(classes["bed"].size(), 1U);
+  EXPECT_GT(classes["bed"]["sand"], 500);
+  EXPECT_GT(classes["a"]["steel"], 3);
+  for (const char* pot : {"pot-1", "pot-2"}) {
+    EXPECT_EQ(classes[pot].size(), 1U);
+    EXPECT_GT(classes[pot]["pot"], 3) << pot;
+  }
+  // Objects: the two pots by their parts, all else by what touches.
+  const ObjectKeys keys = object_keys(labels, {{7, 7}}, 0.5);
+  EXPECT_EQ(keys.instances, (SceneInstances{{2, 2}, {3, 3}}));
+}
+
+TEST(PartLabels, have_the_extents_of_a_sphere_and_all_of_its_share) {
+  const PixelLabels labels = labels_of({bed(), placed("ball", "ball", ball(0.3), {6, 0, 0})});
+  const PartView& view = labels.views.at(index_of(labels, "ball"));
+  EXPECT_EQ(view.visible_share, 1);
+  EXPECT_NEAR(view.azimuth.most, std::asin(0.3 / 6), 0.002);
+  EXPECT_NEAR(view.azimuth.least, -std::asin(0.3 / 6), 0.002);
+  EXPECT_NEAR(view.elevation.most, std::asin(0.3 / 6), 0.002);
+  EXPECT_NEAR(view.range.least, 5.7, 0.002);
+  EXPECT_NEAR(view.range.most, std::sqrt(36 - 0.09), 0.02);
+  EXPECT_EQ(view.world_from_part.translation(), Vector3d(6, 0, 0));
+  EXPECT_TRUE(std::isnan(labels.views.at(index_of(labels, "bed")).visible_share));
+}
+
+TEST(PartLabels, know_the_share_that_another_part_hides) {
+  // The screen hides the lower third of a board twice as far away.
+  const PlacedPart far = placed("far", "far", board(0.9, 0.9), {8, 0, 0});
+  const PixelLabels labels = labels_of({far, placed("screen", "screen", board(2, 0.3), {4, 0, -0.225})});
+  EXPECT_NEAR(labels.views.at(index_of(labels, "far")).visible_share, 2.0 / 3, 0.02);
+  EXPECT_EQ(labels.views.at(index_of(labels, "screen")).visible_share, 1);
+}
+
+TEST(PartLabels, do_not_see_a_part_behind_the_head) {
+  const PixelLabels labels = labels_of({bed(), placed("aft", "aft", ball(0.3), {-6, 0, 0})});
+  EXPECT_TRUE(std::isnan(labels.views.at(index_of(labels, "aft")).visible_share));
+  EXPECT_EQ((labels.part == static_cast<std::uint16_t>(index_of(labels, "aft"))).count(), 0);
+}
+
+}  // namespace insonify::part_labels_tests
