@@ -31,6 +31,7 @@ struct ObjectKeys {
   Grid<std::uint32_t> id;
   SceneInstances instances;
 };
+/// Returns them for the pixels that have at least this share of their energy from one label.
 ObjectKeys object_keys(const PixelLabels& labels, const SceneInstances& of_scene, double least_share);
 
 /// The objects of a ping, beams x bins, where kinds are the materials of material_image (E125), and instances those of

@@ -42,7 +42,7 @@ class PartViewer {
       widen(view.elevation, surfel.direction.elevation);
       widen(view.range, surfel.range);
     }
-    if (all > 0) view.visible_share = shown / all;
+    if (all > 0) view.visible_share = shown / all;  // (E147)
     return view;
   }
 
