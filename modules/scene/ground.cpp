@@ -18,7 +18,7 @@ using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
 
 namespace {
 
-constexpr double hole_spacings = 3, reach_spacings = 1.25, weight_spacings = 0.7;
+constexpr double hole_spacings = 3, reach_spacings = 1.25, weight_of_reach = 0.6;
 constexpr double sheet_noises = 4;     // below the top of a sheet by a spacing and so many deviations: another sheet
 constexpr double least_rise = 0.17;    // of a normal: steeper surfels than 80 degrees have no height beside themselves
 constexpr double touching = 1e-5;      // below the ground by so much is on it [m]
@@ -81,12 +81,13 @@ struct Ground::Sheet {
     const double spacing_here =
         std::clamp(static_cast<double>(spacing[found.front().index]), mean_spacing / 4, mean_spacing * 4);
     if (!(nearest <= hole_spacings * spacing_here)) return std::nullopt;
-    const double reach = std::max(reach_spacings * spacing_here, 1.01 * nearest);
+    const double off = noise.empty() ? 0 : static_cast<double>(noise[found.front().index]);
+    const double reach = std::max(reach_spacings * spacing_here + 2 * off, 1.01 * nearest);
     index.find_within(query, static_cast<float>(reach), found);
-    return topmost(query, spacing_here, found);
+    return topmost(query, spacing_here, reach, found);
   }
 
-  std::optional<GroundPlace> topmost(const Vector3f& query, double spacing_here,
+  std::optional<GroundPlace> topmost(const Vector3f& query, double spacing_here, double reach,
                                      const std::vector<Neighbour>& found) const {
     thread_local std::vector<HeightHint> hints;
     hints.clear();
@@ -110,7 +111,7 @@ struct Ground::Sheet {
     double sum = 0, height = 0;
     Vector3d mean = Vector3d::Zero();
     for (std::size_t h = begin; h < end; ++h) {
-      const double far = hints[h].distance / (weight_spacings * spacing_here), weight = std::exp(-far * far);
+      const double far = hints[h].distance / (weight_of_reach * reach), weight = std::exp(-far * far);
       sum += weight, height += weight * hints[h].height, mean += weight * hints[h].normal;
     }
     if (!(sum > 0)) return std::nullopt;

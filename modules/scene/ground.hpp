@@ -31,7 +31,7 @@ class Ground {
   /// Returns the box of the captured parts [m, world]; min > max if there are none.
   const Bounds& captured_box() const { return captured_box_; }
   /// Returns the topmost surface at a place [m, world]: the mean of the tangent planes of the surfels of the topmost
-  /// sheet within 1.25 spacings, weighted by distance; surfels that lie more than a spacing and four times their noise
+  /// sheet within 1.25 spacings and twice their noise, weighted by distance; surfels that lie more than a spacing and four times their noise
   /// below are another sheet. Nothing where no surfel lies within three spacings: a hole of the scan.
   std::optional<GroundPlace> at(const Eigen::Vector2d& place) const;
 
