@@ -19,10 +19,12 @@ using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
 namespace {
 
 constexpr double hole_spacings = 3, reach_spacings = 1.25, weight_of_reach = 0.6;
+constexpr double most_of_mean = 4;     // a surfel's spacing counts as within a factor of the mean one
 constexpr double sheet_noises = 4;     // below the top of a sheet by a spacing and so many deviations: another sheet
 constexpr double least_rise = 0.17;    // of a normal: steeper surfels than 80 degrees have no height beside themselves
 constexpr double touching = 1e-5;      // below the ground by so much is on it [m]
 constexpr double least_support = 0.5;  // part of the footprint that must have ground
+constexpr double free_spacings = 3;    // above the ground beneath a part by so much: nothing touches
 constexpr int cells_across = 100;      // of a footprint, of which the lowest surfels are looked at
 
 /// Calls use(i, position in the world) for the surfels of a part that are there.
@@ -63,6 +65,7 @@ struct Ground::Sheet {
       const Vector3f p = (world - origin).cast<float>();
       place.push_back(p);
       flat.emplace_back(p.x(), p.y(), 0.0f);
+      low = low.cwiseMin(world.head<2>()), high = high.cwiseMax(world.head<2>());
       const Vector3f n = part.world_from_part.linear().cast<float>() * cloud.normal[i];
       normal.push_back(n.z() < 0 ? Vector3f(-n) : n);
       spacing.push_back(std::sqrt(cloud.area[i]));
@@ -74,12 +77,16 @@ struct Ground::Sheet {
   }
 
   std::optional<GroundPlace> at(const Vector2d& world) const {
+    // A search from far away would visit most of the tree.
+    const double beyond = hole_spacings * most_of_mean * mean_spacing;
+    if ((world.array() < low.array() - beyond).any() || (world.array() > high.array() + beyond).any())
+      return std::nullopt;
     thread_local std::vector<Neighbour> found;
     const Vector3f query(static_cast<float>(world.x() - origin.x()), static_cast<float>(world.y() - origin.y()), 0.0f);
     index.find_nearest(query, 1, found);
     const double nearest = std::sqrt(static_cast<double>(found.front().squared_distance));
-    const double spacing_here =
-        std::clamp(static_cast<double>(spacing[found.front().index]), mean_spacing / 4, mean_spacing * 4);
+    const double spacing_here = std::clamp(static_cast<double>(spacing[found.front().index]),
+                                           mean_spacing / most_of_mean, mean_spacing * most_of_mean);
     if (!(nearest <= hole_spacings * spacing_here)) return std::nullopt;
     const double off = noise.empty() ? 0 : static_cast<double>(noise[found.front().index]);
     const double reach = std::max(reach_spacings * spacing_here + 2 * off, 1.01 * nearest);
@@ -119,6 +126,7 @@ struct Ground::Sheet {
   }
 
   Vector3d origin = Vector3d::Zero();
+  Vector2d low = Vector2d::Constant(1e300), high = -low;
   std::vector<Vector3f> place, normal;
   std::vector<float> spacing, noise;
   double mean_spacing = 0;
@@ -133,6 +141,12 @@ void Ground::add(const PlacedPart& part) {
   captured_box_ = {captured_box_.min.cwiseMin(box.min), captured_box_.max.cwiseMax(box.max)};
 }
 
+double Ground::spacing() const {
+  double largest = 0;
+  for (const auto& sheet : sheets_) largest = std::max(largest, sheet->mean_spacing);
+  return largest;
+}
+
 std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
   std::optional<GroundPlace> top;
   for (const auto& sheet : sheets_)
@@ -142,11 +156,17 @@ std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
 
 namespace {
 
-/// The lowest surfels of a part, one of each cell of its footprint.
-std::vector<Vector3d> underside(const PlacedPart& part) {
+/// How far a surfel is above the ground [m].
+struct Meeting {
+  std::uint32_t surfel;
+  double height;
+};
+
+/// The lowest surfels of a part, one of each cell of its footprint: cells of two spacings of the ground.
+std::vector<Vector3d> underside(const PlacedPart& part, double spacing) {
   Bounds box;
   for_each_surfel(part, [&](std::size_t, const Vector3d& p) { box = {box.min.cwiseMin(p), box.max.cwiseMax(p)}; });
-  const double cell = std::max((box.max - box.min).head<2>().maxCoeff() / cells_across, 1e-6);
+  const double cell = std::max({(box.max - box.min).head<2>().maxCoeff() / cells_across, 2 * spacing, 1e-6});
   std::map<std::pair<int, int>, Vector3d> lowest;
   for_each_surfel(part, [&](std::size_t, const Vector3d& p) {
     const std::pair key(static_cast<int>((p.x() - box.min.x()) / cell), static_cast<int>((p.y() - box.min.y()) / cell));
@@ -200,28 +220,33 @@ std::optional<PlacedPart> place_on_ground(PlacedPart part, const Ground& ground,
   if (!std::isfinite(bury)) fail(ErrorKind::argument, "place_on_ground: bury = ", bury, " m, must be finite");
   if (rest == PartRest::none) return part;
   if (rest == PartRest::bed) {
-    const std::vector<Vector3d> places = underside(part);
+    const std::vector<Vector3d> places = underside(part, ground.spacing());
     const Vector3d own = part.world_from_part.translation();
     const Vector3d up = normal_under(ground, own, places, ground_under(part, ground, places));
     part.world_from_part.linear() =
         Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up) * part.world_from_part.linear();
   }
-  // Lowered, or raised, until the first of its surfels touches; then as deep as it is buried.
-  const std::vector<Vector3d> places = underside(part);
+  // Heights are looked up where the part may touch or be buried: near what a coarse look at its underside says.
+  const std::vector<Vector3d> places = underside(part, ground.spacing());
   const auto under = ground_under(part, ground, places);
-  double shift = -std::numeric_limits<double>::infinity();
+  double least = -std::numeric_limits<double>::infinity(), top = least;
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (under[i]) shift = std::max(shift, under[i]->height - places[i].z());
-  part.world_from_part.translation().z() += shift - bury;
-  // What is below the ground is not there.
-  std::vector<std::uint32_t> above;
+    if (under[i]) least = std::max(least, under[i]->height - places[i].z()), top = std::max(top, under[i]->height);
+  const double free = top + free_spacings * ground.spacing() + std::max(bury, 0.0) - least;
+  std::vector<Meeting> meetings;
+  double shift = least;
   for_each_surfel(part, [&](std::size_t i, const Vector3d& p) {
-    const auto here = ground.at(p.head<2>());
-    if (!here || p.z() >= here->height - touching) above.push_back(static_cast<std::uint32_t>(i));
+    const auto here = p.z() < free ? ground.at(p.head<2>()) : std::nullopt;
+    meetings.push_back({static_cast<std::uint32_t>(i), here ? p.z() - here->height : free});
+    if (here) shift = std::max(shift, here->height - p.z());
   });
+  // Lowered, or raised, until the first surfel touches; then as deep as it is buried. What is below is not there.
+  part.world_from_part.translation().z() += shift - bury;
+  std::vector<std::uint32_t> above;
+  for (const Meeting& m : meetings)
+    if (m.height == free || m.height + shift - bury >= -touching) above.push_back(m.surfel);
   if (above.empty()) return std::nullopt;
-  const std::size_t all = part.surfels.empty() ? part.cloud->size() : part.surfels.size();
-  if (above.size() < all) part.surfels = std::move(above);
+  if (above.size() < meetings.size()) part.surfels = std::move(above);
   return part;
 }
 

@@ -28,6 +28,8 @@ class Ground {
   void add(const PlacedPart& part);
   /// True if there is no surfel.
   bool empty() const { return sheets_.empty(); }
+  /// Returns the mean spacing of its surfels [m], of the part where they are widest; 0 if it is empty.
+  double spacing() const;
   /// Returns the box of the captured parts [m, world]; min > max if there are none.
   const Bounds& captured_box() const { return captured_box_; }
   /// Returns the topmost surface at a place [m, world]: the mean of the tangent planes of the surfels of the topmost

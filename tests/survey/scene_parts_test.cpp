@@ -3,10 +3,13 @@
 #include "survey/scene_parts.hpp"
 
 #include <set>
+#include <thread>
 
+#include "support/heads.hpp"
 #include "support/rough_field.hpp"
 #include "support/scenes.hpp"
 #include "support/test.hpp"
+#include "survey/parts_source.hpp"
 
 namespace {
 
@@ -217,4 +220,56 @@ TEST(SceneParts, names_of_scatters_go_on_counting) {
       1);
   EXPECT_EQ(parts.names(), (std::vector<std::string>{"bed", "pot-1", "pot-2", "pot-3", "net-1"}));
   EXPECT_EQ(parts.resting().size(), 4U);
+}
+
+TEST(PartsSource, poses_each_ping_by_its_time_and_number) {
+  PartPlacement falls = placed_where({0, 0, 0});
+  falls.velocity = {0, 0, -1};
+  ScatterRule rule = strewn(3, 3);
+  const auto parts =
+      std::make_shared<const SceneParts>(std::vector<PartDefinition>{level_bed(), {ball_named("stone", 0.2), falls}},
+                                         std::vector<SceneScatter>{{{ball_named("pot", 0.05)}, rule}}, 1, true);
+  const PartsSource source(parts, 10);
+  const PingSimulator simulator(small_head({}), {}, {});
+  EXPECT_EQ(source.draw_of({.number = 9}), 0U);
+  EXPECT_EQ(source.draw_of({.number = 10}), 1U);
+  EXPECT_EQ(source.draw_of({.number = (std::int64_t{3} << 40) + 25}), 2U) << "of each head its own number";
+  EXPECT_EQ(PartsSource(parts).draw_of({.number = 25}), 0U);
+
+  const auto low_of = [](const SceneCloud& scene) {
+    double low = 9;
+    for (std::size_t i = 0; i < scene.size(); ++i) low = std::min(low, world(scene, i).z());
+    return low;
+  };
+  const PingEvent early{.time = 0, .number = 3}, late{.time = 5, .number = 33};
+  const auto first = source.scene_for(simulator, early), second = source.scene_for(simulator, late);
+  EXPECT_NEAR(low_of(second->scene()), -5.2, 1e-3);
+  EXPECT_NEAR(low_of(first->scene()), -2, 1e-3) << "of two pings under way each has its own scene";
+  EXPECT_EQ(first->scene().size(), second->scene().size());
+  EXPECT_NE(first->scene().point, second->scene().point);
+}
+
+TEST(PartsSource, gives_several_threads_the_scenes_of_one) {
+  PartPlacement drifts = placed_where({0, 0, 0});
+  drifts.velocity = {0.1, 0, 0.2};
+  const auto parts =
+      std::make_shared<const SceneParts>(std::vector<PartDefinition>{level_bed(), {ball_named("buoy", 0.2), drifts}},
+                                         std::vector<SceneScatter>{{{ball_named("pot", 0.05)}, strewn(1, 4)}}, 1, true);
+  const PingSimulator simulator(small_head({}), {}, {});
+  constexpr int pings = 40;
+  const auto points_of = [&](const PartsSource& source, int ping) {
+    const auto scene = source.scene_for(simulator, {.time = 0.5 * ping, .number = ping});
+    std::this_thread::yield();
+    return scene->scene().point;
+  };
+  const PartsSource alone(parts, 2), shared(parts, 2);
+  std::vector<std::vector<Eigen::Vector3f>> made(pings);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (int ping = t; ping < pings; ping += 4) made[static_cast<std::size_t>(ping)] = points_of(shared, ping);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (int ping = pings - 1; ping >= 0; --ping)
+    EXPECT_EQ(made[static_cast<std::size_t>(ping)], points_of(alone, ping)) << ping;
 }
