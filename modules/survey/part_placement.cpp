@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/require.hpp"
@@ -39,6 +40,21 @@ bool is_within(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2
       inside = !inside;
   }
   return inside;
+}
+
+std::shared_ptr<const SceneCloud> scaled(const std::shared_ptr<const SceneCloud>& cloud, double scale) {
+  if (scale == 1) return cloud;
+  SceneCloud by = *cloud;
+  const auto s = static_cast<float>(scale);
+  by.origin *= scale;
+  for (Eigen::Vector3f& p : by.point) p *= s;
+  for (float& a : by.area) a *= s * s;
+  for (auto* lengths : {&by.noise, &by.unevenness})
+    for (float& x : *lengths) x *= s;
+  for (Facet& facet : by.facet)
+    for (Eigen::Vector3f& corner : facet) corner *= s;
+  if (by.part_of) by.part_of->mean_spacing *= scale, by.part_of->largest_area *= s * s;
+  return std::make_shared<const SceneCloud>(std::move(by));
 }
 
 void require_valid(const ScatterRule& rule, const char* who) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +43,9 @@ struct ScatterRule {
 /// Throws Error(argument) unless counts and intervals ascend, the area is one, and the most bodies fit into it at their
 /// least distance: strewn one by one, discs cover at most 0.45 of it.
 void require_valid(const ScatterRule& rule, const char* who);
+
+/// Returns a cloud of which all lengths are `scale` times as long, itself for 1.
+std::shared_ptr<const SceneCloud> scaled(const std::shared_ptr<const SceneCloud>& cloud, double scale);
 
 /// Returns the area of a polygon [m^2], 0 for fewer than three corners.
 double area_of_polygon(const std::vector<Eigen::Vector2d>& corners);

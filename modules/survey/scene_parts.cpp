@@ -20,22 +20,6 @@ using Eigen::Vector2d, Eigen::Vector3d;
 constexpr std::uint64_t most_tries = 4000;  // of places for one body
 constexpr std::size_t kept_draws = 8;
 
-/// A cloud of which all lengths are `scale` times as long.
-std::shared_ptr<const SceneCloud> scaled(const std::shared_ptr<const SceneCloud>& cloud, double scale) {
-  if (scale == 1) return cloud;
-  SceneCloud by = *cloud;
-  const auto s = static_cast<float>(scale);
-  by.origin *= scale;
-  for (Eigen::Vector3f& p : by.point) p *= s;
-  for (float& a : by.area) a *= s * s;
-  for (auto* lengths : {&by.noise, &by.unevenness})
-    for (float& x : *lengths) x *= s;
-  for (Facet& facet : by.facet)
-    for (Eigen::Vector3f& corner : facet) corner *= s;
-  if (by.part_of) by.part_of->mean_spacing *= scale, by.part_of->largest_area *= s * s;
-  return std::make_shared<const SceneCloud>(std::move(by));
-}
-
 void require_area(const SceneBody& body) {
   double area = 0;
   if (body.cloud)
@@ -55,7 +39,7 @@ MovingAxes axes_at(const PartPlacement& p, const std::string& name, double time)
     const double first = p.trajectory->time.front(), last = p.trajectory->time.back();
     if (!(time >= first && time <= last))
       fail(ErrorKind::content, "part '", name, "': its trajectory is from ", first, " to ", last,
-           " s, but a ping is sent at ", time, " s; make the trajectory longer");
+           " s, but is asked for at ", time, " s; make the trajectory longer, or ping within it");
     return {pose_at(*p.trajectory, time) * turned, motion_at(*p.trajectory, time)};
   }
   MovingAxes axes{turned, {p.velocity, p.turn_rate}};
@@ -180,6 +164,9 @@ void SceneParts::prepare_scatter(const SceneScatter& scatter) {
   require_valid(scatter.rule, "scatter");
   if (scatter.bodies.empty()) fail(ErrorKind::argument, "scatter: has no bodies, must have one at least");
   const Bounds& bed = ground_.captured_box();
+  if (!(bed.min.x() <= bed.max.x()))
+    fail(ErrorKind::content, "scatter of '", scatter.bodies.front().name,
+         "': there is nothing to rest on: the scene has no captured part, a [[part]] without position_m");
   for (const Vector2d& corner : scatter.rule.area)
     if (!((corner.array() >= bed.min.head<2>().array()).all() && (corner.array() <= bed.max.head<2>().array()).all()))
       fail(ErrorKind::content, "scatter of '", scatter.bodies.front().name, "': corner (", corner.x(), ", ", corner.y(),
@@ -271,6 +258,14 @@ std::vector<PlacedPart> SceneParts::others_at(double time, std::uint64_t draw) c
   }
   others.insert(others.end(), kept->begin(), kept->end());
   return others;
+}
+
+double SceneParts::begin() const {
+  double begin = 0;
+  for (const auto& [part, at_begin] : moving_)
+    if (const auto& t = part.placement.trajectory; t && !(t->time.front() <= 0 && t->time.back() >= 0))
+      begin = std::max(begin, t->time.front());
+  return begin;
 }
 
 void SceneParts::require_times(double first, double last) const {

@@ -53,6 +53,8 @@ class SceneParts {
   std::vector<PlacedPart> others_at(double time, std::uint64_t draw) const;
   /// Returns true if nothing moves or is drawn anew.
   bool still() const { return moving_.empty() && !drawn_anew_; }
+  /// Returns time 0, or if a trajectory begins later the time at which all have begun [s].
+  double begin() const;
   /// Throws Error(content) naming the part unless all trajectories cover the times from `first` to `last` [s].
   void require_times(double first, double last) const;
 

@@ -169,9 +169,11 @@ TEST(SceneParts, move_along_trajectories_and_with_constant_velocity) {
     const Vector3d by = after[i].world_from_part.translation() - before[i].world_from_part.translation();
     EXPECT_LT((by / 2e-4 - at_3[i].velocity).norm(), 1e-6);
   }
+  EXPECT_EQ(parts.begin(), 2);
   EXPECT_NO_THROW(parts.require_times(2, 4));
-  expect_error(ErrorKind::content, {"part 'diver'", "from 2 to 4 s", "sent at 5 s"}, [&] { parts.others_at(5, 0); });
-  expect_error(ErrorKind::content, {"part 'diver'", "sent at 1 s"}, [&] { parts.require_times(1, 3); });
+  expect_error(ErrorKind::content, {"part 'diver'", "from 2 to 4 s", "asked for at 5 s"},
+               [&] { parts.others_at(5, 0); });
+  expect_error(ErrorKind::content, {"part 'diver'", "asked for at 1 s"}, [&] { parts.require_times(1, 3); });
 }
 
 TEST(SceneParts, that_move_from_where_they_rest_do_so_as_rigid_bodies) {
@@ -208,6 +210,7 @@ TEST(SceneParts, refuse_what_cannot_be) {
   ScatterRule outside = strewn(1, 1);
   outside.area[2].x() = 3.5;
   refused({level_bed()}, {{{ball_named("pot", 0.1)}, outside}}, {"corner (3.5, 0) of area_m is outside the bed"});
+  refused({ball}, {{{ball_named("pot", 0.1)}, strewn(1, 1)}}, {"scatter of 'pot'", "no captured part"});
   refused({level_bed()}, {{{ball_named("rock", 0.9)}, strewn(9, 9)}}, {"no place for body", "of 9"});
   refused({level_bed(), {ball_named("pot-2", 0.1), placed_where({0, 0, 0})}},
           {{{ball_named("pot", 0.1)}, strewn(1, 2)}}, {"two parts are called 'pot-2'"});

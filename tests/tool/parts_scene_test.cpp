@@ -198,13 +198,16 @@ TEST_F(PartsOfTool, what_cannot_be_is_refused_with_file_line_and_remedy) {
   refused("file = \"box.obj\"\nmaterial = \"rock\"", "file = \"flat.ply\"", 3,
           {"bad.toml", "part 'diver' has no area"});
   expect_refused("ping scene.toml -o out --time 7" + parts_head, 3,
-                 {"scene.toml", "part 'diver'", "from 0 to 6 s", "sent at 7 s"});
+                 {"scene.toml", "part 'diver'", "from 0 to 6 s", "asked for at 7 s"});
   expect_refused("ping scene.toml -o out --material sand" + parts_head, 2, {"--material", "says itself"});
   expect_refused("ping lost.toml -o out" + parts_head, 4, {"lost.toml"});
   mission_over("scene.toml", "[randomise]\nscene = \"ping\"\n");
   expect_refused("survey m.toml -o out", 3, {"m.toml", "[[scatter]]"});
   mission_over("harbour.ply", "[randomise]\nscene = \"ping\"\n");
   expect_refused("survey m.toml -o out", 3, {"m.toml", "harbour.ply is not"});
+  mission_over("scene.toml");
+  write("m.toml", replaced(read("m.toml"), "seed = 7", "seed = 7\ncoverage = true"));
+  expect_refused("survey m.toml -o out", 3, {"m.toml", "coverage", "scene of parts"});
   write("short.toml", replaced(harbour_with_parts, "swim.csv", "short.csv"));
   write("short.csv", replaced(swim, "\n6,6,3", "\n2,6,3"));
   mission_over("short.toml");

@@ -17,13 +17,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The digest of a scene, or of its file alone where files that it names are gone.
+std::string digest_of_what_is_there(const std::string& scene) {
+  try {
+    return digest_of_scene(scene);
+  } catch (const Error&) {
+    return sha256_of_file(scene);
+  }
+}
+
 /// Notes the scene of a run, and the instances of its points if its cloud has them.
 void find_scene(DatasetSource& source, const std::string& settings_folder) {
   source.scene = scene_of_run(settings_folder).path;
   std::error_code error;
   const bool there = !source.scene.empty() && fs::is_regular_file(source.scene, error);
   source.scene_digest =
-      there ? digest_of_scene(source.scene) : sha256_of(source.scene.empty() ? source.run : source.scene);
+      there ? digest_of_what_is_there(source.scene) : sha256_of(source.scene.empty() ? source.run : source.scene);
   if (there) source.instances = instances_of_scene(source.scene);
 }
 

@@ -109,9 +109,10 @@ ordered_json parts_info(const std::string& path) {
   ordered_json scatters = ordered_json::array();
   for (const SceneScatterEntry& s : scene.file().scatters)
     scatters.push_back({{"bodies", joined(s.names)}, {"least", s.rule.least}, {"most", s.rule.most}});
-  const Bounds box = scene.box_at(0);
+  const double begin = scene.parts()->begin();
+  const Bounds box = scene.box_at(begin);
   const auto point = [](const Eigen::Vector3d& p) { return ordered_json{p.x(), p.y(), p.z()}; };
-  ordered_json json = {{"path", path}, {"format", scene.report().format}, {"parts", scene.parts_json(0)}};
+  ordered_json json = {{"path", path}, {"format", scene.report().format}, {"parts", scene.parts_json(begin)}};
   if (!scatters.empty()) json["scatters"] = scatters;
   json["bounds"] = {{"min", point(box.min)}, {"max", point(box.max)}};
   if (!scene.report().notes.empty()) json["notes"] = scene.report().notes;

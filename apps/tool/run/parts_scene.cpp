@@ -85,7 +85,7 @@ Bounds box_of(const PlacedPart& part) {
   return box;
 }
 
-ordered_json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json vector_json(const Vector3d& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }  // no -0
 
 /// The file of a name: that of a part, or of the bodies NAME-1, NAME-2, ...
 std::string file_of_name(const std::map<std::string, std::string>& files, const std::string& name) {
@@ -258,7 +258,7 @@ ordered_json PartsScene::parts_json(double time, std::uint64_t draw) const {
     } else {
       const HeadPlace at = head_place(part.world_from_part);
       json["position_m"] = vector_json(at.position);
-      json["yaw_pitch_roll_deg"] = vector_json(degrees(1) * Vector3d(at.yaw, at.pitch, at.roll));
+      json["yaw_pitch_roll_deg"] = vector_json(Vector3d(degrees(1) * Vector3d(at.yaw, at.pitch, at.roll)));
     }
     if (part.moves()) {
       json["velocity_mps"] = vector_json(part.velocity);

@@ -123,7 +123,8 @@ std::string range_over(const std::string& scene, const SonarSpec& sonar, const s
   if (is_tiles(scene)) {
     box = TiledScene(scene).info().box;
   } else if (is_scene_file(scene)) {
-    box = PartsScene(scene).box_at(0);
+    const PartsScene parts(scene);
+    box = parts.box_at(parts.parts()->begin());
   } else {
     const FileDescription file = describe_file(scene);
     box = {file.min, file.max};
