@@ -14,10 +14,12 @@
 #include "simulate/resolve_ping.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
+#include "store/scene_file.hpp"
 #include "store/survey_run.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
+#include "tool/run/any_scene.hpp"
 #include "tool/run/ping_setup.hpp"
 #include "tool/run/record_file.hpp"
 #include "tool/run/run_checks.hpp"
@@ -43,7 +45,7 @@ std::string footer() {
 void add_options(tool::OptionList list, ViewerCommand& c) {
   list.add("TARGET", &c.target,
            "run directory, survey, cube.h5, a recording (" + tool::record_extensions() +
-               "), or a scene to inspect: " + scene_extensions(),
+               "), or a scene to inspect: " + scene_extensions() + " .toml",
            {.required = true});
   list.add("--head", &c.head,
            "of a survey: the head to show; of the recording of a side-scan: the channel; default: the first");
@@ -133,7 +135,15 @@ void load_scene_of_run(const ViewerCommand& command, const std::string& run_fold
                              : options.path + ": the scene of the run is missing: give it with --scene");
     return;
   }
-  LoadedScene loaded = load_scene(options.path, tool::load_options(command.common, options));
+  // Parts are where they were when a single ping was sent, those of a survey where they are at time 0.
+  tool::CommonOptions common = command.common;
+  double time = 0;
+  const fs::path settings = fs::path(run_folder) / "run.toml";
+  if (is_scene_file(options.path) && fs::exists(settings)) {
+    const tool::PingOptions sent = tool::load_ping_settings(settings.string());
+    common.seed = sent.common.seed, time = sent.time;
+  }
+  LoadedScene loaded = tool::load_any_scene(common, options, time);
   for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
   if (loaded.mesh && !view.data.contributors.empty()) {
     const tool::PingOptions run = tool::load_ping_settings((fs::path(run_folder) / "run.toml").string());
@@ -270,7 +280,7 @@ LoadedView load_inspection(const ViewerCommand& command) {
   view.data.fan = setup.head.fan;
   tool::SceneOptions options = command.scene;
   options.path = command.target;
-  LoadedScene loaded = load_scene(options.path, tool::load_options(command.common, options));
+  LoadedScene loaded = tool::load_any_scene(command.common, options);
   for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
   view.data.title = setup.head.name + " before " + fs::path(command.target).filename().string();
   view.data.scene = std::move(loaded.scene);

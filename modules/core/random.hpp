@@ -24,7 +24,8 @@ enum class RandomStage : std::uint64_t {
   comparison = 12,        ///< draws of a perfect simulator, counted by (pixel, draw, look), or by (point, 0, 1)
   randomise = 13,         ///< what varies from ping to ping of a survey, counted by (head, ping, group)
   surface_ray = 14,       ///< rays from surface to surface, counted by (surfel id, ray), or by (surfel id, 0, 1)
-  double_echo = 15        ///< amplitudes of their echoes, counted by (surfel id, ray)
+  double_echo = 15,       ///< amplitudes of their echoes, counted by (surfel id, ray)
+  scene_draw = 16         ///< where bodies are strewn, counted by (scatter, draw, body and try)
 };
 
 /// Position of a random number in the stream of its stage.

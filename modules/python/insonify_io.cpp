@@ -20,7 +20,7 @@ std::shared_ptr<Scene> load(const Path& path, const py::kwargs& keys) {
   how.path = path.string();
   set_keywords(keywords(how), keys, "load_scene");
   const py::gil_scoped_release release;
-  LoadedScene loaded = load_scene(how.path, tool::load_options({}, how));
+  LoadedScene loaded = tool::load_any_scene({}, how);
   return std::make_shared<Scene>(std::move(loaded), how, tool::instances_of_scene(how.path));
 }
 

@@ -227,6 +227,10 @@ std::shared_ptr<const PreparedScene> PosedScene::pose(std::span<const PlacedPart
     if (placed->moves())
       fastest = std::max(fastest, fastest_of(*placed, of_body.data(), of_body.data() + of_body.size()));
   }
+  // Bodies that are drawn anew, each of a size of its own, would fill the memory.
+  std::erase_if(state.bodies, [&](const auto& body) {
+    return std::ranges::none_of(list, [&](const PlacedPart* placed) { return placed->cloud == body.first; });
+  });
   require_distinct(state.scene->parts, who);
   state.prepared.replace_others(state.surfels, state.blocks, state.resting, blocks);
   state.prepared.whole_.fastest = fastest;

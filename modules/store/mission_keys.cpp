@@ -47,11 +47,29 @@ KeyValue given(KeyValue value, const std::string& text) {
   return omitted_if(std::move(value), [&text] { return text.empty(); });
 }
 
+/// How many pings have the same draw of a scene's bodies.
+KeyValue pings_of_draw(std::int64_t& pings) {
+  const auto set = [&pings](const TomlValue& value, const std::string&) {
+    if (value.kind == TomlValue::Kind::text && (value.text == "ping" || value.text == "survey")) {
+      pings = value.text == "ping" ? 1 : 0;
+      return true;
+    }
+    const bool whole = value.kind == TomlValue::Kind::integer && value.number >= 1 && value.number < 0x1p40;
+    if (whole) pings = static_cast<std::int64_t>(value.number);
+    return whole;
+  };
+  const auto text = [&pings] {
+    return pings == 0 ? as_toml("survey") : pings == 1 ? as_toml("ping") : std::to_string(pings);
+  };
+  return {"\"ping\", \"survey\" or a whole number of pings", set, text};
+}
+
 /// Rows of [survey].
 std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
   const NumberRule latitude{.least = -90, .most = 90}, longitude{.least = -360, .most = 360};
   return {
-      {"survey", "scene", "", path(m.scene), "cloud, mesh or `.tiles`", true},
+      {"survey", "scene", "", path(m.scene), "cloud, mesh, `.tiles` or a scene of parts ([scenes.md](scenes.md))",
+       true},
       {"survey", "seed", "", seed(m.seed),
        "of all random numbers. Speckle belongs to the scene; noise and reverberation of ping i of a head depend on "
        "seed, "
@@ -153,6 +171,10 @@ std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
        "of the head's coordinates. Poses are stored as they were; `insonify dataset` notes the draws"},
       {"randomise", "heading_deg", "deg", number(at(r.heading), not_negative, in_degrees), "of its yaw"},
       {"randomise", "attitude_deg", "deg", number(at(r.attitude), not_negative, in_degrees), "of its pitch and roll"},
+      {"randomise", "scene", "", pings_of_draw(r.scene_pings),
+       "how often the bodies of a scene's `[[scatter]]` are drawn anew ([scenes.md](scenes.md)): for each ping, once "
+       "for "
+       "the survey, or for every so many pings of a head; a function of seed and number of the ping"},
       {"water", "level_m", "m", number(at(water.level)),
        "height of the water level in the world, for [GSF](gsf.md); default: `surface.height_m` of the "
        "environment, from which it must not differ, else 0"},

@@ -18,8 +18,9 @@ struct Randomisation {
   double noise_db = 0;                             ///< of the sonar's own noise and of the ambient level
   double temperature_c = 0, salinity_psu = 0;      ///< of the water
   double position = 0, heading = 0, attitude = 0;  ///< of the head: each coordinate [m]; yaw; pitch and roll each [rad]
+  std::int64_t scene_pings = 0;  ///< scattered bodies of a scene are drawn anew every so many pings; 0: once
 
-  /// Whether pings differ at all.
+  /// Whether pings differ by sonar, water or pose.
   bool any() const {
     return source_level_db > 0 || noise_db > 0 || temperature_c > 0 || salinity_psu > 0 || position > 0 ||
            heading > 0 || attitude > 0;

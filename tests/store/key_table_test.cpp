@@ -6,6 +6,7 @@
 #include "store/environment_keys_internal.hpp"
 #include "store/material_keys_internal.hpp"
 #include "store/mission_keys_internal.hpp"
+#include "store/scene_file_keys_internal.hpp"
 #include "store/sonar_keys_internal.hpp"
 #include "support/test.hpp"
 
@@ -36,6 +37,9 @@ TEST(KeyTables, of_the_docs_are_those_of_the_code) {
   MissionTables tables;
   MissionFile mission;
   key_tables::expect_on("survey.md", mission_keys(tables, mission));
+  SceneTables scene;
+  key_tables::expect_on("scenes.md", scene_part_keys(scene));
+  key_tables::expect_on("scenes.md", scene_scatter_keys(scene));
 }
 
 TEST(KeyTables, read_what_they_write_and_name_what_breaks_a_rule) {

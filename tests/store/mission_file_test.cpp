@@ -228,3 +228,15 @@ TEST(MissionFile, reads_the_water_level_and_the_datum_of_soundings) {
   EXPECT_THAT(refusal("[ping]", "[water]\nlevel_m = inf\n[ping]"),
               HasSubstr("water.level_m = inf m, must be a number"));
 }
+
+TEST(MissionFile, says_how_often_bodies_are_drawn) {
+  const auto pings_of = [](const std::string& value) {
+    return load_mission(own_file("m.toml", whole + "[randomise]\nscene = " + value + "\n")).randomise.scene_pings;
+  };
+  EXPECT_EQ(load_mission(own_file("m.toml", whole)).randomise.scene_pings, 0);
+  EXPECT_EQ(pings_of("\"survey\""), 0);
+  EXPECT_EQ(pings_of("\"ping\""), 1);
+  EXPECT_EQ(pings_of("25"), 25);
+  for (const char* bad : {"0", "1.5", "\"pings\"", "-3", "true"})
+    EXPECT_THAT(error_with_kind([&] { pings_of(bad); }), HasSubstr("must be \"ping\", \"survey\" or a whole number"));
+}

@@ -14,6 +14,7 @@
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
+#include "tool/run/any_scene.hpp"
 #include "tool/run/ping_setup.hpp"
 #include "tool/run/run_checks.hpp"
 #include "tool/run/run_files.hpp"
@@ -87,9 +88,8 @@ std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions&
   setup.event.world_from_head = setup.event.world_from_head * setup.head.mount;
   setup.simulation.seed = o.common.seed;
   setup.simulation.threads = o.common.threads;
-  const LoadOptions loading = load_options(o.common, o.scene);
   progress.step("loading " + o.scene.path);
-  LoadedScene loaded = load_scene(o.scene.path, loading);
+  LoadedScene loaded = load_any_scene(o.common, o.scene);
   sample_for_ping({}, setup, loaded);
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
   return accuracy_sweep_of(

@@ -38,7 +38,7 @@ std::vector<RunSetting> under_titles(std::vector<RunSetting> settings,
 
 std::vector<RunSetting> scene_settings(SceneOptions& o) {
   std::vector<RunSetting> settings{
-      {"scene", "path", "SCENE", &o.path, "cloud or mesh", scene, true},
+      {"scene", "path", "SCENE", &o.path, "cloud, mesh or scene of parts", scene, true},
       {"scene", "viewpoint", "--viewpoint", &o.viewpoint,
        "x,y,z [m] where the capture stood; orients estimated normals; default: the file's, else 0,0,0 of an organised "
        "scan that fans out from there, and from above of a raster of heights"},

@@ -32,7 +32,7 @@ void add_settings(OptionList list, const std::vector<RunSetting>& settings) {
 
 void add_scene(OptionList list, SceneOptions& o) {
   std::vector<RunSetting> settings = scene_settings(o);
-  settings.front().help += ": " + scene_extensions();
+  settings.front().help += ": " + scene_extensions() + " .toml";
   add_settings(list, settings);
 }
 

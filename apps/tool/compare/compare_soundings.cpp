@@ -15,6 +15,7 @@
 #include "scene_io/load_scene.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/export/sounding_map.hpp"
+#include "tool/run/any_scene.hpp"
 #include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
@@ -70,7 +71,9 @@ double quantile(std::vector<double> values, double share) {
 ordered_json compare_soundings(const CompareOptions& o) {
   if (!(o.cell > 0)) fail(ErrorKind::argument, "--cell = ", o.cell, " m, must be > 0");
   const std::vector<Eigen::Vector3d> soundings = load_positions(o.a);
-  const SceneCloud scene = load_scene(o.b, load_options(o.common, {})).scene;
+  SceneOptions of_scene;
+  of_scene.path = o.b;
+  const SceneCloud scene = load_any_scene(o.common, of_scene).scene;
   HeightCells found(o.cell), given(o.cell);
   for (const Eigen::Vector3d& at : soundings) found.add(at);
   for (const Eigen::Vector3f& at : scene.point) given.add(scene.origin + at.cast<double>());

@@ -23,7 +23,7 @@ void find_scene(DatasetSource& source, const std::string& settings_folder) {
   std::error_code error;
   const bool there = !source.scene.empty() && fs::is_regular_file(source.scene, error);
   source.scene_digest =
-      there ? sha256_of_file(source.scene) : sha256_of(source.scene.empty() ? source.run : source.scene);
+      there ? digest_of_scene(source.scene) : sha256_of(source.scene.empty() ? source.run : source.scene);
   if (there) source.instances = instances_of_scene(source.scene);
 }
 

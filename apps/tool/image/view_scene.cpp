@@ -8,11 +8,13 @@
 
 #include "core/error.hpp"
 #include "sampling/find_holes.hpp"
-#include "scene_io/load_scene.hpp"
 #include "simulate/resolve_ping.hpp"
+#include "store/scene_file.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
+#include "tool/command/run_settings.hpp"
 #include "tool/image/image.hpp"
+#include "tool/run/any_scene.hpp"
 #include "tool/run/ping_setup.hpp"
 #include "tool/run/run_files.hpp"
 #include "tool/run/run_pings.hpp"
@@ -43,8 +45,8 @@ struct Drawing {
   std::optional<View> view;  // of the head, if its sonar is known
 };
 
-SceneCloud load(const CommonOptions& common, const SceneOptions& options, Progress& progress) {
-  LoadedScene loaded = load_scene(options.path, load_options(common, options));
+SceneCloud load(const CommonOptions& common, const SceneOptions& options, double time, Progress& progress) {
+  LoadedScene loaded = load_any_scene(common, options, time);
   for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
   return std::move(loaded.scene);
 }
@@ -64,7 +66,10 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   if (options.path.empty()) fail(ErrorKind::content, o.run, ": does not say what its scene was; give it with --scene");
 
   Drawing drawing;
-  drawing.scene = load(o.common, options, progress);
+  CommonOptions of_run = o.common;
+  if (is_scene_file(options.path))
+    of_run.seed = load_ping_settings((fs::path(o.run) / "run.toml").string()).common.seed;
+  drawing.scene = load(of_run, options, ping.time, progress);
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
   for (const Ping& sent : cube.pings) drawing.look.track.emplace_back(sent.world_from_head.translation());
   drawing.look.colour = o.colour.empty() ? SceneColour::level : *find_named(colour_words, o.colour);
@@ -118,7 +123,7 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   if (!o.colour.empty()) drawing.look.colour = *find_named(colour_words, o.colour);
   if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
-  drawing.scene = load(o.common, options, progress);
+  drawing.scene = load(o.common, options, 0, progress);
   if (setup) {
     end_range_with_scene(*setup, bounds(drawing.scene), drawing.look.head->world_from_head);
     drawing.look.head->gate = setup->head.gate;

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "scene/scene_cloud.hpp"
 #include "tool/command/options.hpp"
 
 /// What `info` says of a file or folder: facts by name, and under `next` the commands that go on from there.
@@ -17,12 +18,16 @@ nlohmann::ordered_json info_of_cube(const std::string& path);
 /// another folder.
 nlohmann::ordered_json info_of_folder(const std::string& path);
 
-/// Of a TOML file: a mission, a table of materials, settings of a run, an environment or a sonar, by its keys.
+/// Of a TOML file: a scene of parts, a mission, a table of materials, settings of a run, an environment or a sonar, by its keys.
 /// Throws as the reader of each.
 nlohmann::ordered_json info_of_toml(const std::string& path);
 
 /// Of a cloud, mesh, raster or tiles.
 nlohmann::ordered_json info_of_scene(const std::string& path);
+
+/// Commands that go on from a scene with this box: a ping from before and above it that looks at its middle, and a
+/// mission of two lines or more over it.
+std::vector<std::string> next_of_scene(const std::string& path, const Bounds& box);
 
 /// Of a recording of a real sonar, by its first ping.
 nlohmann::ordered_json info_of_record(const std::string& path);

@@ -28,7 +28,8 @@ double about(double length) {
   return std::round(length / step) * step;
 }
 
-/// A pose before and above a scene that looks at its middle, and a mission of two lines or more over it.
+}  // namespace
+
 std::vector<std::string> next_of_scene(const std::string& path, const Bounds& box) {
   const Eigen::Vector3d size = box.max - box.min, middle = (box.min + box.max) / 2;
   const double across = std::max(size.x(), size.y());
@@ -50,6 +51,8 @@ std::vector<std::string> next_of_scene(const std::string& path, const Bounds& bo
         spacing * std::floor(0.9 * size.y() / spacing), spacing));
   return next;
 }
+
+namespace {
 
 ordered_json cloud_info(const std::string& path) {
   const FileDescription d = describe_file(path);

@@ -5,12 +5,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "store/environment_file.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree_internal.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
 #include "tool/info/material_list.hpp"
+#include "tool/run/parts_scene.hpp"
 #include "tool/run/scene_reach.hpp"
 #include "tool/survey/survey_setup.hpp"
 
@@ -102,6 +104,23 @@ ordered_json sonar_info(const std::string& path) {
             "insonify ping SCENE --sonar " + word + " --pose=x,y,z,0,0,0 -o out"}}};
 }
 
+ordered_json parts_info(const std::string& path) {
+  const PartsScene scene(path);
+  ordered_json scatters = ordered_json::array();
+  for (const SceneScatterEntry& s : scene.file().scatters)
+    scatters.push_back({{"bodies", joined(s.names)}, {"least", s.rule.least}, {"most", s.rule.most}});
+  const Bounds box = scene.box_at(0);
+  const auto point = [](const Eigen::Vector3d& p) { return ordered_json{p.x(), p.y(), p.z()}; };
+  ordered_json json = {{"path", path}, {"format", scene.report().format}, {"parts", scene.parts_json(0)}};
+  if (!scatters.empty()) json["scatters"] = scatters;
+  json["bounds"] = {{"min", point(box.min)}, {"max", point(box.max)}};
+  if (!scene.report().notes.empty()) json["notes"] = scene.report().notes;
+  json["next"] = next_of_scene(path, box);
+  json["next"].push_back("insonify prepare " + shell_word(path) +
+                         " -o merged.ply  # one cloud, with the part of each surfel");
+  return json;
+}
+
 ordered_json of_survey_mark(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   return info_of_folder(folder.string());
@@ -114,6 +133,7 @@ struct TomlKind {
 };
 constexpr TomlKind toml_kinds[] = {{"insonify_version", settings_info},
                                    {"mission_sha256", of_survey_mark},
+                                   {"part", parts_info},
                                    {"head", mission_info},
                                    {"survey", mission_info},
                                    {"material", materials_info},

@@ -24,12 +24,12 @@ struct InfoOptions {
 };
 
 void add_options(OptionList list, InfoOptions& o) {
-  list.add(
-      "FILE", &o.files,
-      "cloud, mesh, tiles, run, survey, head of a survey, cube.h5, or a .toml: mission, materials, sonar, environment, "
-      "run.toml; or a recording: " +
-          record_extensions(),
-      {.required = true});
+  list.add("FILE", &o.files,
+           "cloud, mesh, tiles, run, survey, head of a survey, cube.h5, or a .toml: scene of parts, mission, "
+           "materials, sonar, environment, "
+           "run.toml; or a recording: " +
+               record_extensions(),
+           {.required = true});
   list.add("--verify", &o.verify, "compare the files of runs and surveys with the SHA-256 of when they were made");
   add_common(list, o.common);
 }

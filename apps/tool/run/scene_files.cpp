@@ -2,7 +2,6 @@
 #include "tool/run/scene_files.hpp"
 
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,33 +9,16 @@
 #include "core/error.hpp"
 #include "scene_io/cloud_field.hpp"
 #include "simulate/resolve_ping.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/ping/ping_report.hpp"
+#include "tool/run/parts_scene.hpp"
 #include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
 
 using nlohmann::ordered_json;
 
-namespace {
-
-/// A .tiles scene is complete: options that say how to complete a cloud would have no effect.
-void require_no_loading_options(const SceneOptions& o) {
-  SceneOptions given = o, none;
-  none.path = o.path;
-  const auto settings = scene_settings(given), defaults = scene_settings(none);
-  for (std::size_t i = 0; i < settings.size(); ++i)
-    if (settings_as_toml({settings[i]}) != settings_as_toml({defaults[i]}))
-      fail(ErrorKind::argument, settings[i].option, ": ", o.path,
-           " is prepared already; give it to insonify prepare instead");
-}
-
-}  // namespace
-
-bool is_tiles(const std::string& path) { return std::filesystem::path(path).extension() == ".tiles"; }
-
 SceneInstances instances_of_scene(const std::string& path) {
-  if (is_tiles(path) || !has_cloud_field(path, "instance")) return {};
+  if (is_tiles(path) || is_scene_file(path) || !has_cloud_field(path, "instance")) return {};
   const CloudField field = load_cloud_field(path, "instance");
   SceneInstances instances;
   for (std::size_t i = 0; i < field.value.size(); ++i)
@@ -47,7 +29,7 @@ SceneInstances instances_of_scene(const std::string& path) {
 
 PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, const PingEvent& event,
                           const TiledScene& tiled) {
-  require_no_loading_options(o.scene);
+  require_no_loading_options(o.scene, "is prepared already; give it to insonify prepare instead");
   const TiledSceneInfo& info = tiled.info();
   const TileSelection near = tiled.select(simulator.reach(info.whole, event));
   const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
@@ -72,7 +54,29 @@ PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, 
   return result;
 }
 
+namespace {
+
+/// Loads a scene of parts as it is when the ping is sent.
+PingScene load_parts(const PingOptions& o, PingSetup& setup) {
+  require_no_loading_options(o.scene, "says itself how each part is read; give it there");
+  const PartsScene parts(o.scene.path, {.seed = o.common.seed, .threads = o.common.threads});
+  const Bounds box = parts.box_at(setup.event.time);
+  end_range_with_scene(setup.head, box, setup.event.world_from_head);
+  const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
+  PingScene result{parts.scene_of(setup.simulator(), setup.event, 0, memory), {}, {}};
+  const SceneCloud& scene = result.loaded.scene;
+  for (std::string& note : fit_notes(scene, box, setup)) setup.head.notes.push_back(std::move(note));
+  result.places = sampled_places(scene, setup.event.world_from_head);
+  if (!parts.has_tiles()) require_in_reach(result.places, setup.head.head.gate, o.scene.path);
+  result.json = scene_json(result.loaded.report, scene);
+  result.json["parts"] = parts.parts_json(setup.event.time);
+  return result;
+}
+
+}  // namespace
+
 PingScene load_ping_scene(const PingOptions& o, PingSetup& setup) {
+  if (is_scene_file(o.scene.path)) return load_parts(o, setup);
   const auto add_notes = [&](const SceneCloud& scene, const Bounds& box) {
     for (std::string& note : fit_notes(scene, box, setup)) setup.head.notes.push_back(std::move(note));
   };

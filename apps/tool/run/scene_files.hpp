@@ -10,17 +10,15 @@
 #include "scene_io/load_scene.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "tool/command/options.hpp"
+#include "tool/run/any_scene.hpp"
 #include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
 
-/// True for a .tiles file: a scene on disk of which a ping reads only what its fan reaches.
-bool is_tiles(const std::string& path);
-
 /// The instances of a scene's surfels, where its file is a cloud with a field `instance`: whole numbers from 0.
 SceneInstances instances_of_scene(const std::string& path);
 
-/// The scene of a ping: a whole cloud or mesh, or the tiles of a .tiles file within the region of the ping.
+/// The scene of a ping: a whole cloud or mesh, a scene of parts as it is at the time of the ping, or the tiles of a .tiles file within the region of the ping.
 struct PingScene {
   LoadedScene loaded;
   std::vector<Eigen::Vector3d> places;  ///< of some surfels, or centres of tiles, in head axes [m]

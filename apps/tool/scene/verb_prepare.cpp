@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "scene/thin_scene.hpp"
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "store/output_rules.hpp"
+#include "store/scene_file.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
@@ -26,6 +28,7 @@ struct PrepareOptions {
   CommonOptions common;
   SceneOptions scene;
   std::string output;
+  double time = 0;  ///< of a scene of parts [s]
   double thin = 0;  ///< [m] between the surfels that stay; 0: all stay
   bool force = false;
   bool normals = false;  ///< without effect: missing normals are always estimated
@@ -37,10 +40,23 @@ void add_options(OptionList list, PrepareOptions& o) {
            {.required = true});
   list.add("--thin", &o.thin, "[m] between surfels: denser parts are thinned, area and materials kept",
            {.positive = true});
+  list.add("--time", &o.time, "[s] of a scene of parts: where its parts are then");
   list.add("--force", &o.force, "replace an existing file");
   list.add("--normals", &o.normals, "accepted for clarity: missing normals are always estimated");
   add_common(list, o.common);
   add_work(list, o.common);
+}
+
+/// One cloud of a scene of parts, its surfels numbered through, with a column for the part of each.
+LoadedScene parts_as_cloud(LoadedScene loaded) {
+  SceneCloud& scene = loaded.scene;
+  SceneColumn instance{"instance", "uint16"};
+  const char* const bytes = reinterpret_cast<const char*>(scene.part.data());
+  instance.bytes.assign(bytes, bytes + scene.part.size() * sizeof(scene.part[0]));
+  loaded.columns.others.push_back(std::move(instance));
+  scene.part.clear(), scene.parts.clear();
+  std::iota(scene.id.begin(), scene.id.end(), 0u);
+  return loaded;
 }
 
 void prepare_as_tiles(const PrepareOptions& o) {
@@ -70,14 +86,21 @@ void prepare_as_tiles(const PrepareOptions& o) {
                             prepared.normals_oriented ? "oriented" : "two-sided"));
 }
 
-void prepare(const PrepareOptions& o) {
-  require_free_file(o.output, o.force, {o.scene.path, o.scene.materials_file});
-  if (is_tiles(o.output) && o.thin == 0) return prepare_as_tiles(o);
-  Progress progress(o.common, o.thin > 0 ? 3 : 2);
-  progress.step("reading and completing " + o.scene.path);
+LoadedScene load_to_prepare(const PrepareOptions& o) {
+  if (is_scene_file(o.scene.path)) return parts_as_cloud(load_any_scene(o.common, o.scene, o.time));
   LoadOptions loading = load_options(o.common, o.scene);
   loading.keep_columns = !is_tiles(o.output);
-  LoadedScene loaded = load_scene(o.scene.path, loading);
+  return load_scene(o.scene.path, loading);
+}
+
+void prepare(const PrepareOptions& o) {
+  if (o.time != 0 && !is_scene_file(o.scene.path))
+    fail(ErrorKind::argument, "--time: ", o.scene.path, " is no scene of parts, so nothing in it moves; leave it out");
+  require_free_file(o.output, o.force, {o.scene.path, o.scene.materials_file});
+  if (is_tiles(o.output) && o.thin == 0 && !is_scene_file(o.scene.path)) return prepare_as_tiles(o);
+  Progress progress(o.common, o.thin > 0 ? 3 : 2);
+  progress.step("reading and completing " + o.scene.path);
+  LoadedScene loaded = load_to_prepare(o);
   auto notes = loading_notes(loaded.report);
   if (o.thin > 0) {
     const std::size_t all = loaded.scene.size();

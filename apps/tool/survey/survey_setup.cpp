@@ -2,7 +2,6 @@
 #include "tool/survey/survey_setup.hpp"
 
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -60,6 +59,16 @@ template <typename... Parts>
        " at ", ping.time, " s: ", parts...);
 }
 
+/// Adds the scene file to what `body` refuses.
+template <typename Body>
+void at_scene_file(const std::string& path, const Body& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    fail(error.kind(), path, ": ", error.what());
+  }
+}
+
 void require_in_water(const SurveySetup& s) {
   for (const SurveyPing& ping : s.survey->pings()) {
     const Environment& environment = s.heads[ping.head].setup.head.environment;
@@ -77,21 +86,11 @@ void require_in_water(const SurveySetup& s) {
   }
 }
 
-/// Digest of a scene: of tiles that of the header, which holds a checksum over those of all tiles.
-std::string scene_digest(const std::string& path) {
-  if (!is_tiles(path)) return sha256_of_file(path);
-  std::ifstream file(path, std::ios::binary);
-  std::string header(256, '\0');
-  if (!file.read(header.data(), static_cast<std::streamsize>(header.size())))
-    fail(ErrorKind::file, path, ": cannot be read");
-  return sha256_of(header);
-}
-
 /// Digest of the mission and of all files that its result depends on.
 std::string digest_of(const SurveySetup& s) {
   Sha256 sha;
   const auto add = [&](const std::string& part) { sha.add(std::to_string(part.size()) + ":" + part); };
-  for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, scene_digest(s.file.scene)}) add(part);
+  for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, digest_of_scene(s.file.scene)}) add(part);
   for (const std::string& path : {s.file.trajectory, s.heads.front().options.scene.materials_file})
     if (!path.empty()) add(sha256_of_file(path_of_materials(path)));
   for (const MissionHead& head : s.file.mission.heads)  // the mounting may be that of the sonar file
@@ -140,12 +139,39 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   return s;
 }
 
+Bounds SurveyScene::load_parts(const SurveySetup& setup, const CommonOptions& common, Progress& progress) {
+  const MissionFile& file = setup.file;
+  require_no_loading_options(options_.scene, "says itself how each part is read; give it there");
+  if (file.coverage)
+    fail(ErrorKind::content, file.path, ": coverage counts the pings of each surfel of one cloud, but ", file.scene,
+         " is a scene of parts; leave coverage out");
+  const std::int64_t per_draw = file.randomise.scene_pings;
+  parts_.emplace(file.scene, PartsOptions{file.seed, common.threads, per_draw > 0, kept_tile_bytes});
+  if (per_draw > 0 && parts_->file().scatters.empty())
+    fail(ErrorKind::content, file.path, ": [randomise] scene draws the bodies of [[scatter]] anew, but ", file.scene,
+         " has none; leave it out");
+  for (const std::string& note : loading_notes(parts_->report())) progress.note(note);
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const SurveyPing& ping : setup.survey->pings())
+    first = std::min(first, ping.time), last = std::max(last, ping.time);
+  at_scene_file(file.scene, [&] { parts_->parts()->require_times(first, last); });
+  source_.emplace(parts_->parts(), per_draw, common.threads, !parts_->has_tiles());
+  if (!parts_->has_tiles() && parts_->parts()->still())
+    prepared_ = source_->scene_for(setup.heads.front().setup.simulator(), {});
+  return parts_->box_at(first);
+}
+
 SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress)
     : options_(setup.heads.front().options) {
   options_.common.threads = 1;
   const SurveyHead& first = setup.heads.front();
   Bounds box;
-  if (is_tiles(setup.file.scene)) {
+  if (!is_scene_file(setup.file.scene) && setup.file.randomise.scene_pings > 0)
+    fail(ErrorKind::content, setup.file.path, ": [randomise] scene draws bodies of a scene of parts, which ",
+         setup.file.scene, " is not; leave it out");
+  if (is_scene_file(setup.file.scene)) {
+    box = load_parts(setup, common, progress);
+  } else if (is_tiles(setup.file.scene)) {
     box = tiles_.emplace(setup.file.scene, kept_tile_bytes).info().box;
   } else {
     loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
@@ -181,6 +207,12 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
 std::shared_ptr<const PreparedScene> SurveyScene::scene_for(const PingSimulator& simulator,
                                                             const PingEvent& event) const {
   if (prepared_) return prepared_;
+  if (parts_ && !parts_->has_tiles()) return source_->scene_for(simulator, event);
+  if (parts_) {
+    const double memory = options_.memory_limit > 0 ? options_.memory_limit * (1 << 30) : available_memory();
+    LoadedScene near = parts_->scene_of(simulator, event, source_->draw_of(event), memory);
+    return std::make_shared<PreparedScene>(std::move(near.scene), 1);
+  }
   if (tiles_) {
     PingScene part = load_ping_scene(options_, simulator, event, *tiles_);
     return std::make_shared<PreparedScene>(std::move(part.loaded.scene), 1);

@@ -10,8 +10,10 @@
 #include "scene_io/tiled_scene.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
+#include "survey/parts_source.hpp"
 #include "survey/simulate_survey.hpp"
 #include "tool/command/progress.hpp"
+#include "tool/run/parts_scene.hpp"
 #include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
@@ -47,7 +49,7 @@ SurveySetup set_up_survey(const SurveyOptions& options);
 /// Bytes of a ping's pressure in the cube.
 std::size_t pressure_bytes(const SonarHead& head);
 
-/// The scene of a survey: loaded and prepared once. Of a mesh or tiles every ping takes what it needs; tiles are kept
+/// The scene of a survey: loaded and prepared once. Parts of a scene that move or are drawn are placed for every ping. Of a mesh or tiles every ping takes what it needs; tiles are kept
 /// for the pings after, 256 MiB of them at most.
 class SurveyScene : public SceneSource {
  public:
@@ -61,7 +63,12 @@ class SurveyScene : public SceneSource {
   bool is_shared() const { return prepared_ != nullptr; }
 
  private:
+  /// Loads a scene of parts; returns its box at the first ping.
+  Bounds load_parts(const SurveySetup& setup, const CommonOptions& common, Progress& progress);
+
   PingOptions options_;  // of a ping
+  std::optional<PartsScene> parts_;
+  std::optional<PartsSource> source_;
   LoadedScene loaded_;
   std::optional<TiledScene> tiles_;
   std::shared_ptr<const PreparedScene> prepared_;  // absent: every ping has a scene of its own

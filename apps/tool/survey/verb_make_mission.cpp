@@ -18,6 +18,7 @@
 #include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
+#include "tool/run/parts_scene.hpp"
 #include "tool/run/scene_files.hpp"
 #include "tool/run/scene_reach.hpp"
 
@@ -121,6 +122,8 @@ std::string range_over(const std::string& scene, const SonarSpec& sonar, const s
   Bounds box;
   if (is_tiles(scene)) {
     box = TiledScene(scene).info().box;
+  } else if (is_scene_file(scene)) {
+    box = PartsScene(scene).box_at(0);
   } else {
     const FileDescription file = describe_file(scene);
     box = {file.min, file.max};

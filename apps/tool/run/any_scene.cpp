@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/run/any_scene.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "files/sha256.hpp"
+#include "store/scene_file.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/run/parts_scene.hpp"
+#include "tool/run/ping_setup.hpp"
+
+namespace insonify::tool {
+
+namespace fs = std::filesystem;
+
+bool is_tiles(const std::string& path) { return fs::path(path).extension() == ".tiles"; }
+
+LoadedScene load_any_scene(const CommonOptions& common, const SceneOptions& scene, double time) {
+  if (!is_scene_file(scene.path)) return load_scene(scene.path, load_options(common, scene));
+  require_no_loading_options(scene, "says itself how each part is read; give it there");
+  return PartsScene(scene.path, {.seed = common.seed, .threads = common.threads}).whole_at(time);
+}
+
+std::string digest_of_scene(const std::string& path) {
+  if (is_scene_file(path)) {
+    Sha256 sha;
+    for (const std::string& file : files_of(load_scene_file(path)))
+      sha.add(fs::path(file).filename().string() + ":" +
+              (is_scene_file(file) ? sha256_of_file(file) : digest_of_scene(file)) + "\n");
+    return sha.digest();
+  }
+  if (!is_tiles(path)) return sha256_of_file(path);
+  std::ifstream file(path, std::ios::binary);
+  std::string header(256, '\0');
+  if (!file.read(header.data(), static_cast<std::streamsize>(header.size())))
+    fail(ErrorKind::file, path, ": cannot be read");
+  return sha256_of(header);
+}
+
+void require_no_loading_options(const SceneOptions& o, const std::string& why) {
+  SceneOptions given = o, none;
+  none.path = o.path;
+  const auto settings = scene_settings(given), defaults = scene_settings(none);
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    if (settings_as_toml({settings[i]}) != settings_as_toml({defaults[i]}))
+      fail(ErrorKind::argument, settings[i].option, ": ", o.path, " ", why);
+}
+
+}  // namespace insonify::tool

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/run/parts_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/units.hpp"
+#include "sampling/mesh_surfels.hpp"
+#include "scene/posed_scene.hpp"
+#include "scene/thin_scene.hpp"
+#include "tool/run/any_scene.hpp"
+#include "tool/run/ping_setup.hpp"
+
+namespace insonify::tool {
+namespace {
+
+using Eigen::Vector3d;
+using nlohmann::ordered_json;
+
+constexpr double least_spacing = 0.002, most_spacing = 0.05, spacings_of_diagonal = 50;
+
+/// Adds file and line of the scene to what `body` refuses; what was wrong with an argument is wrong with the file.
+template <typename Body>
+auto at_line_of_scene(const std::string& path, int line, const Body& body) {
+  try {
+    return body();
+  } catch (const Error& error) {
+    const ErrorKind kind = error.kind() == ErrorKind::argument ? ErrorKind::content : error.kind();
+    fail(kind, path, ":", line, ": ", error.what());
+  }
+}
+
+SceneOptions options_of(const PartFile& file) {
+  SceneOptions o;
+  o.path = file.path, o.unit = file.unit;
+  o.material = file.material, o.materials_file = file.materials, o.material_field = file.material_field;
+  if (const auto& v = file.viewpoint) o.viewpoint = fmt::format("{:.17g},{:.17g},{:.17g}", v->x(), v->y(), v->z());
+  return o;
+}
+
+double diagonal_of(const SceneCloud& cloud) {
+  const Bounds box = bounds(cloud);
+  return (box.max - box.min).norm();
+}
+
+/// The surfels of a file: of a mesh evenly spaced ones; all hide as discs.
+SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, const PartsOptions& o) {
+  SceneCloud cloud = std::move(loaded.scene);
+  if (loaded.mesh && !loaded.columns.heights && !(captured && file.spacing == 0)) {
+    const double by_size = std::clamp(diagonal_of(cloud) / spacings_of_diagonal, least_spacing, most_spacing);
+    cloud = even_surfels(*loaded.mesh, file.spacing > 0 ? file.spacing : by_size, o.seed, o.threads).scene;
+  }
+  cloud.facet.clear();
+  cloud.part_of.reset();
+  return file.thin > 0 ? thin_scene(cloud, file.thin) : cloud;
+}
+
+void add_report(const LoadReport& of, LoadReport& all) {
+  all.points_read += of.points_read, all.triangles_read += of.triangles_read;
+  all.dropped_not_finite += of.dropped_not_finite, all.dropped_withheld += of.dropped_withheld;
+  all.dropped_duplicates += of.dropped_duplicates, all.dropped_degenerate += of.dropped_degenerate;
+  all.repaired_normals += of.repaired_normals, all.dropped_without_normal += of.dropped_without_normal;
+  all.normals_estimated |= of.normals_estimated, all.areas_estimated |= of.areas_estimated;
+  all.noise_estimated |= of.noise_estimated, all.materials_found |= of.materials_found;
+  all.outside_intervals += of.outside_intervals;
+  LoadReport said = of;
+  for (std::string& note : loading_notes(said)) all.notes.push_back(std::move(note));
+}
+
+Bounds box_of(const PlacedPart& part) {
+  const Bounds own = bounds(*part.cloud);
+  if (part.captured) return own;
+  Bounds box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d at((corner & 1 ? own.max : own.min).x(), (corner & 2 ? own.max : own.min).y(),
+                      (corner & 4 ? own.max : own.min).z());
+    const Vector3d there = part.world_from_part * at;
+    box = {box.min.cwiseMin(there), box.max.cwiseMax(there)};
+  }
+  return box;
+}
+
+ordered_json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// The file of a name: that of a part, or of the bodies NAME-1, NAME-2, ...
+std::string file_of_name(const std::map<std::string, std::string>& files, const std::string& name) {
+  if (const auto found = files.find(name); found != files.end()) return found->second;
+  const auto body = files.find(name.substr(0, name.rfind('-')));
+  return body == files.end() ? "" : body->second;
+}
+
+}  // namespace
+
+SceneBody PartsScene::load_body(const PartFile& file, const std::string& name, bool captured) {
+  file_of_[name] = file.path;
+  SceneCloud cloud;
+  if (file.scene) {
+    const PartsScene inner(file.path, options_);
+    LoadedScene whole = inner.whole_at(0);
+    add_report(whole.report, report_);
+    cloud = std::move(whole.scene);
+    std::iota(cloud.id.begin(), cloud.id.end(), 0u);
+  } else if (is_tiles(file.path) && captured) {
+    return read_ground(file, name);
+  } else {
+    if (is_tiles(file.path)) require_no_loading_options(options_of(file), "is prepared already");
+    CommonOptions common;
+    common.seed = options_.seed, common.threads = options_.threads;
+    LoadOptions loading = load_options(common, options_of(file));
+    if (captured) loading.mesh_spacing = file.spacing;
+    LoadedScene loaded = load_scene(file.path, loading);
+    add_report(loaded.report, report_);
+    cloud = surfels_of(loaded, file, captured, options_);
+  }
+  SceneBody body;
+  body.name = name;
+  if (!captured) {
+    // In axes of its own, near its coordinates, with numbers of its own.
+    body.centre = cloud.origin;
+    cloud.origin.setZero();
+    std::iota(cloud.id.begin(), cloud.id.end(), 0u);
+  }
+  body.cloud = std::make_shared<const SceneCloud>(std::move(cloud));
+  return body;
+}
+
+/// Of captured tiles the ground beneath what is to rest: a ball that holds all of it.
+SceneBody PartsScene::read_ground(const PartFile& file, const std::string& name) {
+  require_no_loading_options(options_of(file), "is prepared already");
+  const TiledScene& tiled = tiles_.try_emplace(name, file.path, options_.kept_tile_bytes).first->second;
+  const Bounds& bed = tiled.info().box;
+  report_.points_read += tiled.info().surfels;
+  Bounds rests;
+  const auto add = [&](const Eigen::Vector2d& p) {
+    for (const double z : {bed.min.z(), bed.max.z()}) {
+      rests.min = rests.min.cwiseMin(Vector3d(p.x(), p.y(), z));
+      rests.max = rests.max.cwiseMax(Vector3d(p.x(), p.y(), z));
+    }
+  };
+  for (const ScenePartEntry& part : file_.parts)
+    if (!part.placement.captured && part.placement.rest != PartRest::none) add(part.placement.position.head<2>());
+  for (const SceneScatterEntry& scatter : file_.scatters)
+    for (const Eigen::Vector2d& corner : scatter.rule.area) add(corner);
+  constexpr double beyond = 10;  // [m] that a part may be wide
+  const bool any = rests.min.x() <= rests.max.x();
+  const Vector3d middle = any ? Vector3d((rests.min + rests.max) / 2) : Vector3d((bed.min + bed.max) / 2);
+  const double radius = any ? (rests.max - rests.min).norm() / 2 + beyond : 0;
+  TileSelection near = tiled.select(region_around(middle, radius));
+  if (near.tiles.empty()) near = tiled.select(region_around(middle, radius + (bed.max - bed.min).norm()));
+  SceneCloud cloud = tiled.load(near, 0, options_.threads);
+  return {name, "", std::make_shared<const SceneCloud>(std::move(cloud))};
+}
+
+PartsScene::PartsScene(const std::string& path, const PartsOptions& options)
+    : file_(load_scene_file(path)), options_(options) {
+  report_.path = path, report_.format = "insonify scene of parts";
+  std::vector<PartDefinition> parts;
+  for (const ScenePartEntry& entry : file_.parts)
+    at_line_of_scene(path, entry.file.line, [&] {
+      SceneBody body = load_body(entry.file, entry.name, entry.placement.captured);
+      body.label = entry.label;
+      parts.push_back({std::move(body), entry.placement});
+    });
+  std::vector<SceneScatter> scatters;
+  for (const SceneScatterEntry& entry : file_.scatters) {
+    SceneScatter& scatter = scatters.emplace_back();
+    scatter.rule = entry.rule;
+    for (std::size_t f = 0; f < entry.files.size(); ++f)
+      at_line_of_scene(path, entry.line, [&] {
+        SceneBody body = load_body(entry.files[f], entry.names[f], false);
+        body.label = entry.labels[f];
+        scatter.bodies.push_back(std::move(body));
+      });
+  }
+  try {
+    parts_ =
+        std::make_shared<const SceneParts>(std::move(parts), std::move(scatters), options_.seed, options_.drawn_anew);
+  } catch (const Error& error) {
+    fail(error.kind() == ErrorKind::argument ? ErrorKind::content : error.kind(), path, ": ", error.what());
+  }
+}
+
+std::vector<PlacedPart> PartsScene::placed_at(double time, std::uint64_t draw) const {
+  std::vector<PlacedPart> all;
+  for (const PlacedPart& part : parts_->resting())
+    if (!tiles_.contains(part.name)) all.push_back(part);
+  try {
+    for (PlacedPart& part : parts_->others_at(time, draw)) all.push_back(std::move(part));
+  } catch (const Error& error) {
+    fail(error.kind(), file_.path, ": ", error.what());
+  }
+  return all;
+}
+
+Bounds PartsScene::box_at(double time, std::uint64_t draw) const {
+  Bounds box;
+  const auto add = [&](const Bounds& of) { box = {box.min.cwiseMin(of.min), box.max.cwiseMax(of.max)}; };
+  for (const PlacedPart& part : placed_at(time, draw)) add(box_of(part));
+  for (const auto& [name, tiled] : tiles_) add(tiled.info().box);
+  return box;
+}
+
+LoadedScene PartsScene::merged(std::vector<PlacedPart> parts) const {
+  LoadedScene loaded;
+  loaded.scene = merge_parts(parts);
+  loaded.report = report_;
+  return loaded;
+}
+
+LoadedScene PartsScene::whole_at(double time, std::uint64_t draw) const {
+  std::vector<PlacedPart> all = placed_at(time, draw);
+  for (const auto& [name, tiled] : tiles_) {
+    SceneCloud cloud = tiled.load(tiled.select_all(), 0, options_.threads);
+    cloud.part_of.reset();
+    all.push_back({name, "", std::make_shared<const SceneCloud>(std::move(cloud)), true});
+  }
+  return merged(std::move(all));
+}
+
+LoadedScene PartsScene::scene_of(const PingSimulator& simulator, const PingEvent& event, std::uint64_t draw,
+                                 double memory) const {
+  std::vector<PlacedPart> all = placed_at(event.time, draw);
+  // The reach of a ping is that of its largest surfels, wherever they are.
+  WholeScene whole = all.empty() ? WholeScene{} : whole_of(merge_parts(all));
+  for (const auto& [name, tiled] : tiles_) whole = together(whole, tiled.info().whole);
+  std::vector<std::string> notes;
+  for (const auto& [name, tiled] : tiles_) {
+    const TileSelection near = tiled.select(simulator.reach(whole, event));
+    require_memory(near, bytes_to_ping, memory, tiled.info().path);
+    notes.push_back(fmt::format("{}: {} of {} surfels read, in {} of {} tiles", tiled.info().path, near.surfels,
+                                tiled.info().surfels, near.tiles.size(), tiled.info().tiles));
+    SceneCloud cloud = tiled.load(near, memory, options_.threads);
+    if (cloud.size() > 0) all.push_back({name, "", std::make_shared<const SceneCloud>(std::move(cloud)), true});
+  }
+  LoadedScene loaded = merged(std::move(all));
+  if (has_tiles()) loaded.scene.part_of = whole;
+  loaded.report.notes.insert(loaded.report.notes.end(), notes.begin(), notes.end());
+  return loaded;
+}
+
+ordered_json PartsScene::parts_json(double time, std::uint64_t draw) const {
+  ordered_json list = ordered_json::array();
+  for (const auto& [name, tiled] : tiles_)
+    list.push_back(
+        {{"name", name}, {"file", tiled.info().path}, {"surfels", tiled.info().surfels}, {"placed", "captured"}});
+  for (const PlacedPart& part : placed_at(time, draw)) {
+    const std::size_t there = part.surfels.empty() ? part.cloud->size() : part.surfels.size();
+    ordered_json json = {{"name", part.name}, {"file", file_of_name(file_of_, part.name)}};
+    if (!part.label.empty()) json["label"] = part.label;
+    json["surfels"] = there;
+    if (part.captured) {
+      json["placed"] = "captured";
+    } else {
+      const HeadPlace at = head_place(part.world_from_part);
+      json["position_m"] = vector_json(at.position);
+      json["yaw_pitch_roll_deg"] = vector_json(degrees(1) * Vector3d(at.yaw, at.pitch, at.roll));
+    }
+    if (part.moves()) {
+      json["velocity_mps"] = vector_json(part.velocity);
+      json["turn_deg_per_s"] = vector_json(degrees(1) * part.turn_rate);
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+}  // namespace insonify::tool

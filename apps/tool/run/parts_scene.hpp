@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene_io/load_scene.hpp"
+#include "scene_io/tiled_scene.hpp"
+#include "simulate/ping_simulator.hpp"
+#include "store/scene_file.hpp"
+#include "survey/scene_parts.hpp"
+
+namespace insonify::tool {
+
+/// How a scene of parts is loaded.
+struct PartsOptions {
+  std::uint64_t seed = 1;           ///< of draws, and of samples of meshes
+  int threads = 0;                  ///< 0: all cores
+  bool drawn_anew = false;          ///< scatters are drawn for every ping, not once
+  std::size_t kept_tile_bytes = 0;  ///< of tiles that were read
+};
+
+/// A scene of parts with all its files. Captured .tiles stay on disk: of them the ground beneath the parts is read, then
+/// what each ping reaches.
+class PartsScene {
+ public:
+  /// Throws Error(content) with scene file and line for whatever its files or places lack.
+  explicit PartsScene(const std::string& path, const PartsOptions& options = {});
+  PartsScene(const PartsScene&) = delete;
+  PartsScene& operator=(const PartsScene&) = delete;
+
+  const SceneFile& file() const { return file_; }
+  const std::shared_ptr<const SceneParts>& parts() const { return parts_; }
+  /// Returns what was read of all files, and the notes on each.
+  const LoadReport& report() const { return report_; }
+  /// Returns whether a captured part is on disk, so that each ping has a scene of its own.
+  bool has_tiles() const { return !tiles_.empty(); }
+
+  /// Returns all parts at `time` [s], tiles without surfels.
+  std::vector<PlacedPart> placed_at(double time, std::uint64_t draw = 0) const;
+  /// Returns the box of all parts at `time`, that of whole tiles included.
+  Bounds box_at(double time, std::uint64_t draw = 0) const;
+  /// Returns one cloud of all parts at `time`, with all tiles. Throws as TiledScene::load.
+  LoadedScene whole_at(double time, std::uint64_t draw = 0) const;
+  /// The same for one ping: of tiles what it reaches. `memory` [bytes]: limit for tiles. Throws Error(runtime) before
+  /// reading if they need more.
+  LoadedScene scene_of(const PingSimulator& simulator, const PingEvent& event, std::uint64_t draw, double memory) const;
+  /// Returns a list of the parts at `time`: name, label, file, surfels, pose, how they move.
+  nlohmann::ordered_json parts_json(double time, std::uint64_t draw = 0) const;
+
+ private:
+  LoadedScene merged(std::vector<PlacedPart> parts) const;
+  SceneBody load_body(const PartFile& file, const std::string& name, bool captured);
+  SceneBody read_ground(const PartFile& file, const std::string& name);
+
+  SceneFile file_;
+  PartsOptions options_;
+  LoadReport report_;
+  std::map<std::string, TiledScene> tiles_;     ///< of captured parts, by name
+  std::map<std::string, std::string> file_of_;  ///< by the name of a part, or of a body that is strewn
+  std::shared_ptr<const SceneParts> parts_;
+};
+
+}  // namespace insonify::tool

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "core/error.hpp"
+#include "scene/scene_index.hpp"
+
+namespace insonify {
+
+using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
+
+namespace {
+
+constexpr double hole_spacings = 3, reach_spacings = 1.25, weight_of_reach = 0.6;
+constexpr double most_of_mean = 4;     // a surfel's spacing counts as within a factor of the mean one
+constexpr double sheet_noises = 4;     // below the top of a sheet by a spacing and so many deviations: another sheet
+constexpr double least_rise = 0.17;    // of a normal: steeper surfels than 80 degrees have no height beside themselves
+constexpr double touching = 1e-5;      // below the ground by so much is on it [m]
+constexpr double least_support = 0.5;  // part of the footprint that must have ground
+constexpr double free_spacings = 3;    // above the ground beneath a part by so much: nothing touches
+constexpr int cells_across = 100;      // of a footprint, of which the lowest surfels are looked at
+
+/// Calls use(i, position in the world) for the surfels of a part that are there.
+template <typename Use>
+void for_each_surfel(const PlacedPart& part, const Use& use) {
+  const SceneCloud& cloud = *part.cloud;
+  const auto place = [&](std::size_t i) {
+    return Vector3d(part.world_from_part * (cloud.origin + cloud.point[i].cast<double>()));
+  };
+  if (part.surfels.empty())
+    for (std::size_t i = 0; i < cloud.size(); ++i) use(i, place(i));
+  else
+    for (const std::uint32_t i : part.surfels) use(i, place(i));
+}
+
+void require_surfels(const PlacedPart& part, const char* who) {
+  if (!part.cloud || part.cloud->size() == 0) fail(ErrorKind::argument, who, ": part '", part.name, "' has no surfels");
+  if (!part.world_from_part.matrix().allFinite())
+    fail(ErrorKind::argument, who, ": the pose of part '", part.name, "' must be finite");
+}
+
+/// What a surfel says of the height at a place beside it.
+struct HeightHint {
+  double height, distance, noise;
+  Vector3d normal;
+};
+
+}  // namespace
+
+/// The surfels of one part, found by x and y.
+struct Ground::Sheet {
+  explicit Sheet(const PlacedPart& part) {
+    std::vector<Vector3f> flat;
+    const SceneCloud& cloud = *part.cloud;
+    double area = 0;
+    for_each_surfel(part, [&](std::size_t i, const Vector3d& world) {
+      if (place.empty()) origin = world.array().round();
+      const Vector3f p = (world - origin).cast<float>();
+      place.push_back(p);
+      flat.emplace_back(p.x(), p.y(), 0.0f);
+      low = low.cwiseMin(world.head<2>()), high = high.cwiseMax(world.head<2>());
+      const Vector3f n = part.world_from_part.linear().cast<float>() * cloud.normal[i];
+      normal.push_back(n.z() < 0 ? Vector3f(-n) : n);
+      spacing.push_back(std::sqrt(cloud.area[i]));
+      if (!cloud.noise.empty()) noise.push_back(cloud.noise[i]);
+      area += cloud.area[i];
+    });
+    mean_spacing = std::sqrt(area / static_cast<double>(place.size()));
+    index = SceneIndex(flat);
+  }
+
+  std::optional<GroundPlace> at(const Vector2d& world) const {
+    // A search from far away would visit most of the tree.
+    const double beyond = hole_spacings * most_of_mean * mean_spacing;
+    if ((world.array() < low.array() - beyond).any() || (world.array() > high.array() + beyond).any())
+      return std::nullopt;
+    thread_local std::vector<Neighbour> found;
+    const Vector3f query(static_cast<float>(world.x() - origin.x()), static_cast<float>(world.y() - origin.y()), 0.0f);
+    index.find_nearest(query, 1, found);
+    const double nearest = std::sqrt(static_cast<double>(found.front().squared_distance));
+    const double spacing_here = std::clamp(static_cast<double>(spacing[found.front().index]),
+                                           mean_spacing / most_of_mean, mean_spacing * most_of_mean);
+    if (!(nearest <= hole_spacings * spacing_here)) return std::nullopt;
+    const double off = noise.empty() ? 0 : static_cast<double>(noise[found.front().index]);
+    const double reach = std::max(reach_spacings * spacing_here + 2 * off, 1.01 * nearest);
+    index.find_within(query, static_cast<float>(reach), found);
+    return topmost(query, spacing_here, reach, found);
+  }
+
+  std::optional<GroundPlace> topmost(const Vector3f& query, double spacing_here, double reach,
+                                     const std::vector<Neighbour>& found) const {
+    thread_local std::vector<HeightHint> hints;
+    hints.clear();
+    for (const Neighbour& neighbour : found) {
+      const Vector3d d = (query - place[neighbour.index]).cast<double>();
+      const Vector3d n = normal[neighbour.index].cast<double>();
+      const double fall = n.z() > least_rise ? (n.x() * d.x() + n.y() * d.y()) / n.z() : 0;
+      hints.push_back({static_cast<double>(place[neighbour.index].z()) - fall,
+                       std::sqrt(static_cast<double>(neighbour.squared_distance)),
+                       noise.empty() ? 0.0 : static_cast<double>(noise[neighbour.index]), n});
+    }
+    std::sort(hints.begin(), hints.end(), [](const HeightHint& a, const HeightHint& b) { return a.height > b.height; });
+    // A single surfel above all others is a stray: the sheet below it counts.
+    const std::size_t least = std::min<std::size_t>(3, (hints.size() + 2) / 3);
+    std::size_t begin = 0, end = 0;
+    for (; begin < hints.size(); ++begin) {
+      const double lowest = hints[begin].height - spacing_here - sheet_noises * hints[begin].noise;
+      for (end = begin; end < hints.size() && hints[end].height >= lowest;) ++end;
+      if (end - begin >= least) break;
+    }
+    double sum = 0, height = 0;
+    Vector3d mean = Vector3d::Zero();
+    for (std::size_t h = begin; h < end; ++h) {
+      const double far = hints[h].distance / (weight_of_reach * reach), weight = std::exp(-far * far);
+      sum += weight, height += weight * hints[h].height, mean += weight * hints[h].normal;
+    }
+    if (!(sum > 0)) return std::nullopt;
+    return GroundPlace{origin.z() + height / sum, mean.norm() > 0 ? Vector3d(mean.normalized()) : Vector3d::UnitZ()};
+  }
+
+  Vector3d origin = Vector3d::Zero();
+  Vector2d low = Vector2d::Constant(1e300), high = -low;
+  std::vector<Vector3f> place, normal;
+  std::vector<float> spacing, noise;
+  double mean_spacing = 0;
+  SceneIndex index{std::span<const Vector3f>{}};
+};
+
+void Ground::add(const PlacedPart& part) {
+  require_surfels(part, "Ground");
+  sheets_.push_back(std::make_shared<const Sheet>(part));
+  if (!part.captured) return;
+  const Bounds box = bounds(*part.cloud);
+  captured_box_ = {captured_box_.min.cwiseMin(box.min), captured_box_.max.cwiseMax(box.max)};
+}
+
+double Ground::spacing() const {
+  double largest = 0;
+  for (const auto& sheet : sheets_) largest = std::max(largest, sheet->mean_spacing);
+  return largest;
+}
+
+std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
+  std::optional<GroundPlace> top;
+  for (const auto& sheet : sheets_)
+    if (const auto here = sheet->at(place); here && !(top && top->height >= here->height)) top = here;
+  return top;
+}
+
+namespace {
+
+/// How far a surfel is above the ground [m].
+struct Meeting {
+  std::uint32_t surfel;
+  double height;
+};
+
+/// The lowest surfels of a part, one of each cell of its footprint: cells of two spacings of the ground.
+std::vector<Vector3d> underside(const PlacedPart& part, double spacing) {
+  Bounds box;
+  for_each_surfel(part, [&](std::size_t, const Vector3d& p) { box = {box.min.cwiseMin(p), box.max.cwiseMax(p)}; });
+  const double cell = std::max({(box.max - box.min).head<2>().maxCoeff() / cells_across, 2 * spacing, 1e-6});
+  std::map<std::pair<int, int>, Vector3d> lowest;
+  for_each_surfel(part, [&](std::size_t, const Vector3d& p) {
+    const std::pair key(static_cast<int>((p.x() - box.min.x()) / cell), static_cast<int>((p.y() - box.min.y()) / cell));
+    const auto [at, is_new] = lowest.try_emplace(key, p);
+    if (!is_new && p.z() < at->second.z()) at->second = p;
+  });
+  std::vector<Vector3d> places;
+  for (const auto& [key, p] : lowest) places.push_back(p);
+  return places;
+}
+
+[[noreturn]] void refuse_hole(const PlacedPart& part, const Vector3d& at, const char* what) {
+  fail(ErrorKind::content, "part '", part.name, "' at x = ", at.x(), ", y = ", at.y(), " m: ", what,
+       " (a hole of the scan, or beyond its end); move it, or give its height: position_m = [x, y, z]");
+}
+
+/// The ground at each of the places, which must be there at the part's own place and under half of its footprint.
+std::vector<std::optional<GroundPlace>> ground_under(const PlacedPart& part, const Ground& ground,
+                                                     const std::vector<Vector3d>& places) {
+  const Vector3d own = part.world_from_part.translation();
+  if (!ground.at(own.head<2>())) refuse_hole(part, own, "no ground beneath it");
+  std::vector<std::optional<GroundPlace>> under;
+  std::size_t there = 0;
+  for (const Vector3d& p : places) there += under.emplace_back(ground.at(p.head<2>())).has_value();
+  if (static_cast<double>(there) < least_support * static_cast<double>(places.size()))
+    refuse_hole(part, own, "no ground beneath more than half of it");
+  return under;
+}
+
+/// The upward normal of the plane z = a x + b y + c that fits the ground under a footprint best.
+Vector3d normal_under(const Ground& ground, const Vector3d& own, const std::vector<Vector3d>& places,
+                      const std::vector<std::optional<GroundPlace>>& under) {
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Vector3d products = Vector3d::Zero();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!under[i]) continue;
+    const Vector3d row(places[i].x() - own.x(), places[i].y() - own.y(), 1);
+    squares += row * row.transpose();
+    products += row * (under[i]->height - own.z());
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::Matrix3d> solver(squares);
+  if (solver.rank() < 3) return ground.at(own.head<2>())->normal;
+  const Vector3d plane = solver.solve(products);
+  return Vector3d(-plane.x(), -plane.y(), 1).normalized();
+}
+
+}  // namespace
+
+std::optional<PlacedPart> place_on_ground(PlacedPart part, const Ground& ground, PartRest rest, double bury) {
+  require_surfels(part, "place_on_ground");
+  if (!std::isfinite(bury)) fail(ErrorKind::argument, "place_on_ground: bury = ", bury, " m, must be finite");
+  if (rest == PartRest::none) return part;
+  if (rest == PartRest::bed) {
+    const std::vector<Vector3d> places = underside(part, ground.spacing());
+    const Vector3d own = part.world_from_part.translation();
+    const Vector3d up = normal_under(ground, own, places, ground_under(part, ground, places));
+    part.world_from_part.linear() =
+        Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up) * part.world_from_part.linear();
+  }
+  // Heights are looked up where the part may touch or be buried: near what a coarse look at its underside says.
+  const std::vector<Vector3d> places = underside(part, ground.spacing());
+  const auto under = ground_under(part, ground, places);
+  double least = -std::numeric_limits<double>::infinity(), top = least;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (under[i]) least = std::max(least, under[i]->height - places[i].z()), top = std::max(top, under[i]->height);
+  const double free = top + free_spacings * ground.spacing() + std::max(bury, 0.0) - least;
+  std::vector<Meeting> meetings;
+  double shift = least;
+  for_each_surfel(part, [&](std::size_t i, const Vector3d& p) {
+    const auto here = p.z() < free ? ground.at(p.head<2>()) : std::nullopt;
+    meetings.push_back({static_cast<std::uint32_t>(i), here ? p.z() - here->height : free});
+    if (here) shift = std::max(shift, here->height - p.z());
+  });
+  // Lowered, or raised, until the first surfel touches; then as deep as it is buried. What is below is not there.
+  part.world_from_part.translation().z() += shift - bury;
+  std::vector<std::uint32_t> above;
+  for (const Meeting& m : meetings)
+    if (m.height == free || m.height + shift - bury >= -touching) above.push_back(m.surfel);
+  if (above.empty()) return std::nullopt;
+  if (above.size() < meetings.size()) part.surfels = std::move(above);
+  return part;
+}
+
+double height_of(const PlacedPart& part) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for_each_surfel(part,
+                  [&](std::size_t, const Vector3d& p) { low = std::min(low, p.z()), high = std::max(high, p.z()); });
+  return high - low;
+}
+
+double footprint_radius(const PlacedPart& part) {
+  double farthest = 0;
+  const Vector3d own = part.world_from_part.translation();
+  for_each_surfel(part,
+                  [&](std::size_t, const Vector3d& p) { farthest = std::max(farthest, (p - own).head<2>().norm()); });
+  return farthest;
+}
+
+}  // namespace insonify

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "survey/part_placement.hpp"
+
+namespace insonify {
+
+/// True for the path of a scene of parts: a .toml file.
+bool is_scene_file(const std::string& path);
+
+struct SceneFile;
+
+/// A file of surfels or triangles that a scene names, and how it is read.
+struct PartFile {
+  std::string path;
+  std::shared_ptr<const SceneFile> scene{};    ///< of a file that is a scene of parts itself
+  std::string unit = "m";                      ///< "mm", or metres per unit as text
+  std::string material, materials;             ///< a name for every surfel; a table; or empty
+  std::string material_field;                  ///< field of the cloud whose numbers mean materials, or empty
+  std::optional<Eigen::Vector3d> viewpoint{};  ///< of the capture [m, in the axes of the file]
+  double thin = 0;                             ///< [m] between surfels that stay; 0: all stay
+  double spacing = 0;                          ///< [m] between surfels of a mesh; 0: by its size
+  int line = 0;                                ///< of the scene file
+};
+
+/// A [[part]].
+struct ScenePartEntry {
+  std::string name, label;  ///< label: as given, or the name of a part that is placed; empty for a captured one
+  PartFile file;
+  PartPlacement placement;
+};
+
+/// A [[scatter]].
+struct SceneScatterEntry {
+  std::vector<PartFile> files;
+  std::vector<std::string> names, labels;  ///< one for each file
+  ScatterRule rule;
+  int line = 0;
+};
+
+/// A scene of parts as its file describes it.
+struct SceneFile {
+  std::string path, text;  ///< text: the whole file
+  std::vector<ScenePartEntry> parts;
+  std::vector<SceneScatterEntry> scatters;
+  std::vector<std::string> trajectories;  ///< paths of the files of trajectories
+};
+
+/// Reads a scene of parts from TOML (docs/scenes.md lists the keys), with the trajectories and the scenes of parts that
+/// it names. Paths are relative to the file. Throws Error(file) if it is missing; Error(content) with file, line and key
+/// for unknown keys, wrong types, a file that is missing, a scene that holds itself, two parts of one name, more than
+/// 65 000 parts, and bodies that do not fit into their area.
+SceneFile load_scene_file(const std::string& path);
+
+/// Returns the paths of all files that the scene is made of, itself first, those of scenes in it included.
+std::vector<std::string> files_of(const SceneFile& scene);
+
+}  // namespace insonify

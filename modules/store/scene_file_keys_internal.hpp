@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "store/key_table_internal.hpp"
+#include "store/scene_file.hpp"
+
+namespace insonify {
+
+/// Values of a scene file that its parts hold in another form.
+struct SceneTables {
+  ScenePartEntry part{};
+  std::vector<double> position{}, turn{};  ///< as given
+  std::string rest;                        ///< "": not given
+  std::string trajectory;                  ///< path
+  SceneScatterEntry scatter{};
+  std::vector<std::string> files{};  ///< of the scatter, as given
+  PartFile scatter_file{};           ///< how its files are read
+  std::vector<double> count{}, bury{}, scale{};
+  double min_distance = 0;  ///< 0: not given
+};
+
+/// The keys of a [[part]] and of a [[scatter]], bound to the tables.
+std::vector<Key> scene_part_keys(SceneTables& tables);
+std::vector<Key> scene_scatter_keys(SceneTables& tables);
+
+}  // namespace insonify

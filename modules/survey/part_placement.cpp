@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "survey/part_placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/require.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+/// Of the area that discs about the centres take, when they are strewn one by one: 0.547 is the limit.
+constexpr double most_cover = 0.45;
+
+double perimeter_of(const std::vector<Eigen::Vector2d>& corners) {
+  double length = 0;
+  for (std::size_t a = 0, b = corners.size() - 1; a < corners.size(); b = a++)
+    length += (corners[a] - corners[b]).norm();
+  return length;
+}
+
+}  // namespace
+
+double area_of_polygon(const std::vector<Eigen::Vector2d>& corners) {
+  double twice = 0;
+  for (std::size_t a = 0, b = corners.size() - 1; a < corners.size(); b = a++)
+    twice += corners[b].x() * corners[a].y() - corners[b].y() * corners[a].x();
+  return std::abs(twice) / 2;
+}
+
+bool is_within(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& place) {
+  bool inside = false;
+  for (std::size_t a = 0, b = corners.size() - 1; a < corners.size(); b = a++) {
+    const Eigen::Vector2d &p = corners[a], &q = corners[b];
+    if ((p.y() > place.y()) != (q.y() > place.y()) &&
+        place.x() < p.x() + (q.x() - p.x()) * (place.y() - p.y()) / (q.y() - p.y()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+void require_valid(const ScatterRule& rule, const char* who) {
+  require(rule.least >= 0, who, "count", rule.least, "", "at least 0");
+  require(rule.most >= rule.least, who, "count", rule.most, "", "at least the other number of count");
+  if (rule.area.size() < 3)
+    fail(ErrorKind::argument, who, ": area_m has ", rule.area.size(), " corners, must have three at least");
+  const double area = area_of_polygon(rule.area);
+  require(area > 0 && std::isfinite(area), who, "area_m", area, "m^2", "a polygon with an area > 0");
+  require(rule.yaw >= 0 && std::isfinite(rule.yaw), who, "yaw", rule.yaw, "rad", "at least 0");
+  require(rule.tilt >= 0 && std::isfinite(rule.tilt), who, "tilt", rule.tilt, "rad", "at least 0");
+  require(rule.least_bury >= 0 && rule.most_bury <= 1 && rule.least_bury <= rule.most_bury, who, "bury", rule.most_bury,
+          "", "within 0 and 1, the least first");
+  require(rule.least_scale > 0 && rule.least_scale <= rule.most_scale && std::isfinite(rule.most_scale), who, "scale",
+          rule.least_scale, "", "> 0, the least first");
+  if (rule.rest == PartRest::none) fail(ErrorKind::argument, who, ": rest must be ground or bed");
+  if (!rule.min_distance) return;
+  const double d = *rule.min_distance;
+  require(d > 0 && std::isfinite(d), who, "min_distance_m", d, "m", "> 0");
+  // Discs of this diameter about centres in the area lie within the area widened by their radius.
+  const double disc = pi * d * d / 4, room = area + perimeter_of(rule.area) * d / 2 + disc;
+  const double most = std::max(1.0, std::floor(most_cover * room / disc));
+  if (rule.most > most)
+    fail(ErrorKind::argument, who, ": count = ", rule.most, " does not fit: about ", most, " bodies ", d,
+         " m apart (min_distance_m) find a place in area_m of ", area, " m^2; ask for fewer, or a smaller distance");
+}
+
+}  // namespace insonify

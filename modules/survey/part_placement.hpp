@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "acoustics/motion.hpp"
+#include "scene/ground.hpp"
+
+namespace insonify {
+
+/// Where a part of a scene stands, how it comes to rest, and how it moves.
+struct PartPlacement {
+  bool captured = true;                                 ///< as its file has it; none of what follows is used
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< of the origin of its file's axes at time 0 [m, world]
+  PartRest rest = PartRest::none;                       ///< at time 0
+  double bury = 0;                                      ///< [m] below the ground
+  double yaw = 0, pitch = 0, roll = 0;                  ///< as pose_from_yaw_pitch_roll [rad]
+  double scale = 1;                                     ///< of its lengths
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< [m/s]
+  Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< rotation vector per second, world axes [rad/s]
+  /// Poses in place of position, velocity and turn rate; yaw, pitch and roll turn the part in axes of these poses.
+  std::optional<Trajectory> trajectory{};
+
+  /// Whether it is elsewhere at another time.
+  bool moves() const { return trajectory || !velocity.isZero(0) || !turn_rate.isZero(0); }
+};
+
+/// Bodies strewn over an area: how many, where, and how each may stand.
+struct ScatterRule {
+  int least = 0, most = 0;                 ///< number of bodies, uniform between both
+  std::vector<Eigen::Vector2d> area;       ///< corners of a polygon [m, world]
+  std::optional<double> min_distance{};    ///< between centres [m]; absent: footprints do not overlap
+  double yaw = 0, tilt = 0;                ///< half widths of uniform draws [rad]; tilt: of pitch and roll each
+  double least_bury = 0, most_bury = 0;    ///< of the height of the body
+  double least_scale = 1, most_scale = 1;  ///< of its lengths
+  PartRest rest = PartRest::ground;
+};
+
+/// Throws Error(argument) unless counts and intervals ascend, the area is one, and the most bodies fit into it at their
+/// least distance: strewn one by one, discs cover at most 0.45 of it.
+void require_valid(const ScatterRule& rule, const char* who);
+
+/// Returns the area of a polygon [m^2], 0 for fewer than three corners.
+double area_of_polygon(const std::vector<Eigen::Vector2d>& corners);
+/// Returns whether a place lies within a polygon.
+bool is_within(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& place);
+
+}  // namespace insonify

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Heights of the ground and parts that rest on it, against closed forms.
+#include "scene/ground.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "core/units.hpp"
+#include "support/rough_field.hpp"
+#include "support/scenes.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+using Eigen::Vector2d, Eigen::Vector3d;
+
+PlacedPart captured_part(SceneCloud cloud) {
+  return {"bed", "", std::make_shared<const SceneCloud>(std::move(cloud)), true};
+}
+
+PlacedPart body_at(SceneCloud cloud, const Pose& pose) {
+  return {"body", "body", std::make_shared<const SceneCloud>(std::move(cloud)), false, pose};
+}
+
+Pose pose_above(double x, double y, double z = 50) {
+  Pose pose = Pose::Identity();
+  pose.translation() << x, y, z;
+  return pose;
+}
+
+SceneCloud ball_of(double radius) {
+  SceneCloud cloud;
+  add_sphere(cloud, Vector3d::Zero(), radius, 4000);
+  return cloud;
+}
+
+/// A plane z = x tan(slope) over 10 m x 10 m about the origin; points off it by `noise`, standard deviation.
+SceneCloud sloped_bed(double slope, double spacing, double noise = 0) {
+  SceneCloud cloud;
+  std::mt19937 generator(3);
+  std::normal_distribution<double> off(0, noise > 0 ? noise : 1);
+  const Vector3d normal(-std::sin(slope), 0, std::cos(slope));
+  for (double u = -5; u < 5; u += spacing)
+    for (double y = -5; y < 5; y += spacing)
+      add_surfel(cloud,
+                 Vector3d(u * std::cos(slope), y, u * std::sin(slope)) + (noise > 0 ? off(generator) : 0) * normal,
+                 normal, spacing * spacing);
+  if (noise > 0) cloud.noise.assign(cloud.size(), static_cast<float>(noise));
+  return cloud;
+}
+
+Vector3d surfel_at(const PlacedPart& part, std::size_t i) { return part.world_from_part * world(*part.cloud, i); }
+
+/// Points of a field with normals by differences.
+SceneCloud bed_of(const HeightField& field, double spacing, double noise) {
+  SceneCloud cloud;
+  for (const Vector3d& p : draw_points(field, {.spacing = spacing, .jitter = 0.3, .noise = noise})) {
+    const double h = spacing / 2;
+    const auto z = [&](double x, double y) { return field.at({x, y}); };
+    const Vector3d normal =
+        Vector3d(z(p.x() - h, p.y()) - z(p.x() + h, p.y()), z(p.x(), p.y() - h) - z(p.x(), p.y() + h), 2 * h);
+    if (normal.allFinite()) add_surfel(cloud, p, normal.normalized(), spacing * spacing * normal.norm() / normal.z());
+  }
+  return cloud;
+}
+
+}  // namespace
+
+TEST(Ground, is_the_plane_of_a_level_and_of_a_sloping_bed) {
+  for (const double slope : {0.0, radians(30)}) {
+    Ground ground;
+    ground.add(captured_part(sloped_bed(slope, 0.1)));
+    for (const Vector2d& p : {Vector2d(0, 0), Vector2d(1.234, -2.345), Vector2d(-3.03, 4.01)}) {
+      const auto here = ground.at(p);
+      ASSERT_TRUE(here);
+      EXPECT_NEAR(here->height, p.x() * std::tan(slope), 1e-5);
+      EXPECT_TRUE(here->normal.isApprox(Vector3d(-std::sin(slope), 0, std::cos(slope)), 1e-5));
+    }
+    EXPECT_FALSE(ground.at({0, 5.3})) << "three spacings beyond its end";
+    EXPECT_TRUE(ground.at({0, 5.1}));
+  }
+}
+
+TEST(Ground, averages_the_noise_of_a_scan) {
+  Ground ground;
+  ground.add(captured_part(sloped_bed(radians(20), 0.02, 0.01)));
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> along(-4, 4);
+  double worst = 0, squares = 0;
+  constexpr int places = 500;
+  for (int k = 0; k < places; ++k) {
+    const Vector2d p(along(generator), along(generator));
+    const double off = ground.at(p).value().height - p.x() * std::tan(radians(20));
+    worst = std::max(worst, std::abs(off)), squares += off * off;
+  }
+  EXPECT_LT(worst, 0.02) << "a spacing, or two deviations of the noise";
+  EXPECT_LT(std::sqrt(squares / places), 0.006) << "it is a mean of several surfels";
+}
+
+TEST(Ground, is_the_topmost_sheet_and_passes_over_strays_and_holes) {
+  SceneCloud cloud;
+  add_floor(cloud, {-2, -2, -1}, 80, 0.05);  // the bed
+  for (double x = 0; x < 1; x += 0.05)       // a slab above a part of it, seen from both sides
+    for (double y = -0.5; y < 0.5; y += 0.05) {
+      add_surfel(cloud, {x, y, 0.2}, Vector3d::UnitZ(), 0.0025);
+      add_surfel(cloud, {x, y, 0.1}, -Vector3d::UnitZ(), 0.0025);
+    }
+  add_surfel(cloud, {-1, 0, 3}, Vector3d::UnitZ(), 0.0025);  // a fish
+  Ground ground;
+  ground.add(captured_part(cloud));
+  EXPECT_NEAR(ground.at({0.5, 0.01}).value().height, 0.2, 1e-6);
+  EXPECT_NEAR(ground.at({-0.5, 0.01}).value().height, -1, 1e-6);
+  EXPECT_NEAR(ground.at({-1, 0}).value().height, -1, 1e-6);
+  EXPECT_FALSE(ground.at({3, 0}));
+}
+
+TEST(Ground, of_a_rough_bed_is_true_to_its_spacing) {
+  constexpr double spacing = 0.04;
+  const HeightField field = rough_field({.half = 1.5, .spacing = 0.03});
+  Ground ground;
+  ground.add(captured_part(bed_of(field, spacing, 0.2)));
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> along(-1.3, 1.3);
+  for (int k = 0; k < 2000; ++k) {
+    const Vector2d p(along(generator), along(generator));
+    // Where the bed is a step, any height of it within reach will do.
+    double low = field.at(p), high = low;
+    for (double x = -1.5; x <= 1.5; x += 0.25)
+      for (double y = -1.5; y <= 1.5; y += 0.25) {
+        const double z = field.at(p + spacing * Vector2d(x, y));
+        low = std::min(low, z), high = std::max(high, z);
+      }
+    const auto here = ground.at(p);
+    ASSERT_TRUE(here);
+    EXPECT_GT(here->height, low - spacing) << p.transpose();
+    EXPECT_LT(here->height, high + spacing) << p.transpose();
+  }
+}
+
+TEST(PlaceOnGround, lets_a_ball_touch_a_plane_at_one_point) {
+  constexpr double radius = 0.5;
+  for (const double slope : {0.0, radians(30)}) {
+    Ground ground;
+    ground.add(captured_part(sloped_bed(slope, 0.1)));
+    const PlacedPart ball =
+        place_on_ground(body_at(ball_of(radius), pose_above(1, 2)), ground, PartRest::ground).value();
+    const Vector3d centre = ball.world_from_part.translation();
+    EXPECT_EQ(centre.head<2>(), Vector2d(1, 2)) << "it goes straight down";
+    // The distance of the centre from the plane is the radius; surfels stand 2 degrees apart.
+    EXPECT_NEAR(centre.z(), 1 * std::tan(slope) + radius / std::cos(slope), 0.002);
+    EXPECT_TRUE(ball.surfels.empty()) << "all of it is there";
+    EXPECT_TRUE(ball.world_from_part.linear().isIdentity());
+  }
+}
+
+TEST(PlaceOnGround, tilts_what_rests_on_the_bed) {
+  const double slope = radians(30);
+  Ground ground;
+  ground.add(captured_part(sloped_bed(slope, 0.1)));
+  SceneCloud slab;
+  add_rectangle(slab, {-0.5, -0.3, 0}, {1, 0, 0}, {0, 0.6, 0}, {0, 0, 1}, 0.05);
+  Pose pose = pose_from_yaw_pitch_roll({-1, 0.5, 9}, radians(40), 0, 0);
+  const PlacedPart flat = place_on_ground(body_at(slab, pose), ground, PartRest::bed).value();
+  for (std::size_t i = 0; i < slab.size(); ++i) {
+    const Vector3d p = surfel_at(flat, i);
+    EXPECT_NEAR(p.z(), p.x() * std::tan(slope), 1e-4);
+  }
+  EXPECT_TRUE(flat.world_from_part.linear().col(2).isApprox(Vector3d(-std::sin(slope), 0, std::cos(slope)), 1e-4));
+  // Upright it stands with its lower edge on the slope: none of it is below.
+  const PlacedPart upright = place_on_ground(body_at(slab, pose), ground, PartRest::ground).value();
+  double gap = 1e9;
+  for (std::size_t i = 0; i < slab.size(); ++i) {
+    const Vector3d p = surfel_at(upright, i);
+    gap = std::min(gap, p.z() - p.x() * std::tan(slope));
+  }
+  EXPECT_NEAR(gap, 0, 1e-4);
+}
+
+TEST(PlaceOnGround, leaves_out_what_is_buried) {
+  Ground ground;
+  ground.add(captured_part(sloped_bed(0, 0.1)));
+  const double radius = 0.2, bury = 0.05;
+  const PlacedPart ball =
+      place_on_ground(body_at(ball_of(radius), pose_above(0.03, 0.07)), ground, PartRest::ground, bury).value();
+  EXPECT_NEAR(ball.world_from_part.translation().z(), radius - bury, 1e-3);
+  // By Archimedes, the part of a sphere's area below a level is that of its height.
+  EXPECT_NEAR(static_cast<double>(ball.surfels.size()) / 4000, 1 - bury / (2 * radius), 0.002);
+  for (const std::uint32_t i : ball.surfels) EXPECT_GE(surfel_at(ball, i).z(), -1e-5);
+  EXPECT_FALSE(place_on_ground(body_at(ball_of(radius), pose_above(0, 0)), ground, PartRest::ground, 0.5))
+      << "wholly below the ground";
+  const PlacedPart free =
+      place_on_ground(body_at(ball_of(radius), pose_above(0, 0, -7)), ground, PartRest::none).value();
+  EXPECT_EQ(free.world_from_part.translation().z(), -7);
+}
+
+TEST(PlaceOnGround, stands_on_parts_that_stand_there_and_refuses_holes) {
+  Ground ground;
+  ground.add(captured_part(sloped_bed(0, 0.1)));
+  SceneCloud table;
+  add_rectangle(table, {-0.5, -0.5, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.05);
+  ground.add(body_at(table, pose_above(2, 2, 0.8)));
+  const PlacedPart ball = place_on_ground(body_at(ball_of(0.3), pose_above(2, 2)), ground, PartRest::ground).value();
+  EXPECT_NEAR(ball.world_from_part.translation().z(), 0.8 + 0.3, 1e-3);
+  expect_error(ErrorKind::content, {"part 'body' at x = 7, y = 0 m: no ground beneath it", "position_m = [x, y, z]"},
+               [&] { place_on_ground(body_at(ball_of(0.3), pose_above(7, 0)), ground, PartRest::ground); });
+  SceneCloud bar;
+  add_rectangle(bar, {-0.1, -0.1, 0}, {4, 0, 0}, {0, 0.2, 0}, {0, 0, 1}, 0.05);
+  expect_error(ErrorKind::content, {"part 'body'", "no ground beneath more than half of it"},
+               [&] { place_on_ground(body_at(bar, pose_above(4.8, 0)), ground, PartRest::ground); });
+  EXPECT_EQ(ground.captured_box().max.z(), 0);
+}
