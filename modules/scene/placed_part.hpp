@@ -25,12 +25,16 @@ struct PlacedPart {
   /// The surfels that are there, ascending: what lies in the ground is left out. Empty: all.
   std::vector<std::uint32_t> surfels{};
 
+  /// The part is not there, but it is listed: where bodies are drawn, the parts of all pings have the same numbers. It
+  /// needs only a name and a label.
+  bool absent = false;
+
   /// Whether the part moves.
   bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }
 };
 
-/// Throws Error(argument) naming `who` and the part unless the part has a name and surfels, a finite pose that is a
-/// rotation and a translation, and a finite motion; a captured part must not be moved, turned or moving.
+/// Throws Error(argument) naming `who` and the part unless the part has a name, and if it is there surfels, a finite pose
+/// that is a rotation and a translation, and a finite motion; a captured part must not be moved, turned or moving.
 void require_valid(const PlacedPart& part, const char* who);
 
 }  // namespace insonify

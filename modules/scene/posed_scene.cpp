@@ -53,7 +53,7 @@ std::uint16_t index_of(const Material& material, std::vector<Material>& table, c
 /// Where the coordinates of a scene of these parts begin: as of the first captured part, else near the first part.
 Vector3d origin_of(const PartList& parts) {
   for (const PlacedPart* part : parts)
-    if (part->captured) return part->cloud->origin;
+    if (part->captured && !part->absent) return part->cloud->origin;
   return parts.empty() ? Vector3d(Vector3d::Zero())
                        : Vector3d(parts.front()->world_from_part.translation().array().round());
 }
@@ -61,6 +61,7 @@ Vector3d origin_of(const PartList& parts) {
 double mean_spacing_of(const SceneCloud& cloud) { return whole_of(cloud).mean_spacing; }
 
 ScenePart scene_part(const PlacedPart& placed) {
+  if (placed.absent) return {.name = placed.name, .label = placed.label, .key = part_key(placed.name)};
   return {.name = placed.name,
           .label = placed.label,
           .key = part_key(placed.name),
@@ -81,11 +82,12 @@ Eigen::Isometry3d scene_from_cloud(const SceneCloud& scene, const PlacedPart& pl
 
 /// Appends the surfels of a part.
 void append(const PlacedPart& placed, SceneCloud& scene, const char* who) {
+  const auto number = static_cast<std::uint16_t>(scene.parts.size());
+  scene.parts.push_back(scene_part(placed));
+  if (placed.absent) return;
   const SceneCloud& cloud = *placed.cloud;
   std::vector<std::uint16_t> material;
   for (const Material& m : cloud.materials) material.push_back(index_of(m, scene.materials, who));
-  const auto number = static_cast<std::uint16_t>(scene.parts.size());
-  scene.parts.push_back(scene_part(placed));
   const Eigen::Isometry3d to_scene = scene_from_cloud(scene, placed);
   const bool as_it_is = placed.captured && cloud.origin == scene.origin;
   const std::size_t before = scene.size(), count = placed.surfels.empty() ? cloud.size() : placed.surfels.size();
@@ -127,6 +129,7 @@ double fastest_of(const PlacedPart& placed, const SurfelBlock* begin, const Surf
 void require_valid(const PlacedPart& part, const char* who) {
   const auto refuse = [&](const auto&... why) { fail(ErrorKind::argument, who, ": part '", part.name, "': ", why...); };
   if (part.name.empty()) fail(ErrorKind::argument, who, ": a part has no name");
+  if (part.absent) return;
   if (!part.cloud || part.cloud->size() == 0) refuse("it has no surfels");
   const Eigen::Matrix3d r = part.world_from_part.linear();
   if (!part.world_from_part.matrix().allFinite() || !(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0)
@@ -147,6 +150,7 @@ SceneCloud merge_parts(std::span<const PlacedPart> parts) {
   bool is_part = false;
   for (const PlacedPart* part : list) {
     append(*part, scene, who);
+    if (part->absent) continue;
     whole = together(whole, whole_of(*part->cloud));
     is_part = is_part || part->cloud->part_of;
   }
@@ -216,6 +220,7 @@ std::shared_ptr<const PreparedScene> PosedScene::pose(std::span<const PlacedPart
   double fastest = state.resting.fastest;
   for (const PlacedPart* placed : list) {
     append(*placed, *state.scene, who);
+    if (placed->absent) continue;
     const std::shared_ptr<const PreparedScene> body = state.body_of(*placed);
     blocks.push_back({body, scene_from_cloud(*state.scene, *placed)});
     const auto of_body = body->blocks();

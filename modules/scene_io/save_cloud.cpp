@@ -68,6 +68,15 @@ void save_scene(const std::string& path, const LoadedScene& loaded) {
   write_cloud(path, format, rows);
 }
 
+void save_mesh(const std::string& path, const SceneMesh& mesh) {
+  if (extension_of(path) != ".ply")
+    fail(ErrorKind::argument, "save_mesh: ", path, " has extension '", extension_of(path),
+         "', must be .ply, which holds triangles and materials");
+  require_valid(mesh, "save_mesh");
+  if (mesh.triangle.empty()) fail(ErrorKind::content, "save_mesh: ", path, ": the mesh has no triangle");
+  write_cloud(path, CloudFormat::ply, rows_of(mesh, SceneColumns{}));
+}
+
 void save_bare_points(const std::string& path, const SceneCloud& scene) {
   const CloudFormat format = format_for(path, scene);
   write_cloud(path, format, bare_rows_of(scene, format));

@@ -26,6 +26,11 @@ void save_scene(const std::string& path, const SceneCloud& scene, const SceneCol
 /// a mesh as .pcd, which has no place for them, as the surfels of its overview. Otherwise as above.
 void save_scene(const std::string& path, const LoadedScene& loaded);
 
+/// Writes a mesh as .ply: corners with their materials and normals, if it has any, triangles, and the same comment lines;
+/// load_scene reads them back bit for bit. Throws as require_valid; Error(argument) for another extension,
+/// Error(content) if it has no triangle, Error(file) if it cannot write.
+void save_mesh(const std::string& path, const SceneMesh& mesh);
+
 /// Writes the points of a scene alone, as a scanner gives them: x y z, as save_scene in all else.
 void save_bare_points(const std::string& path, const SceneCloud& scene);
 

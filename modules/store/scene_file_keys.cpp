@@ -141,6 +141,8 @@ std::vector<Key> scene_scatter_keys(SceneTables& t) {
        "how deep they lie in the ground, in parts of their height; default: 0"},
       {"scatter", "scale", "", interval(t.scale, "a number > 0, or two: least and most", positive),
        "of their lengths; default: 1"},
+      {"scatter", "empty_share", "", number(at(s.rule.empty_share), {.least = 0, .most = 1}),
+       "of the draws, which have no body at all"},
       {"scatter", "rest", "", word(s.rule.rest, std::span(rest_words).first(2)), "as of a part: ground or bed"},
   };
   for (Key& key : reading_keys("scatter", t.scatter_file)) keys.push_back(std::move(key));

@@ -70,6 +70,7 @@ void require_valid(const ScatterRule& rule, const char* who) {
           "", "within 0 and 1, the least first");
   require(rule.least_scale > 0 && rule.least_scale <= rule.most_scale && std::isfinite(rule.most_scale), who, "scale",
           rule.least_scale, "", "> 0, the least first");
+  require(rule.empty_share >= 0 && rule.empty_share <= 1, who, "empty_share", rule.empty_share, "", "within 0 and 1");
   if (rule.rest == PartRest::none) fail(ErrorKind::argument, who, ": rest must be ground or bed");
   if (!rule.min_distance) return;
   const double d = *rule.min_distance;

@@ -37,6 +37,7 @@ struct ScatterRule {
   double yaw = 0, tilt = 0;                ///< half widths of uniform draws [rad]; tilt: of pitch and roll each
   double least_bury = 0, most_bury = 0;    ///< of the height of the body
   double least_scale = 1, most_scale = 1;  ///< of its lengths
+  double empty_share = 0;                  ///< of the draws, which have no body at all
   PartRest rest = PartRest::ground;
 };
 

@@ -131,7 +131,8 @@ SceneParts::SceneParts(std::vector<PartDefinition> parts, std::vector<SceneScatt
     if (!unique.insert(name).second)
       fail(ErrorKind::content, "two parts are called '", name, "'; give one of them another name");
   if (!drawn_anew_)
-    for (PlacedPart& part : drawn(0)) resting_.push_back(std::move(part));
+    for (PlacedPart& part : drawn(0))
+      if (!part.absent) resting_.push_back(std::move(part));
   if (!drawn_anew_) ground_ = {};
 }
 
@@ -194,8 +195,10 @@ void SceneParts::prepare_scatter(const SceneScatter& scatter) {
 std::vector<PlacedPart> SceneParts::drawn_of(std::size_t scatter, std::uint64_t draw) const {
   const auto& [bodies, rule] = strewn_[scatter];
   const Draws draws{seed_, scatter, draw};
-  const std::size_t count = static_cast<std::size_t>(rule.least) +
-                            whole(draws.of(0, 0)[0], static_cast<std::size_t>(rule.most - rule.least) + 1);
+  const auto how_many = draws.of(0, 0);
+  const std::size_t drawn_count =
+      static_cast<std::size_t>(rule.least) + whole(how_many[0], static_cast<std::size_t>(rule.most - rule.least) + 1);
+  const std::size_t count = how_many[1] < rule.empty_share ? 0 : drawn_count;
   std::vector<Taken> taken;
   for (const PlacedPart& part : resting_)
     if (!part.captured) taken.push_back({part.world_from_part.translation().head<2>(), footprint_radius(part)});
@@ -218,7 +221,20 @@ std::vector<PlacedPart> SceneParts::drawn_of(std::size_t scatter, std::uint64_t 
            " tries; ask for fewer (count), a smaller min_distance_m, or a larger area_m without holes of the scan");
     if (setting.part) parts.push_back(*setting.part);
   }
+  add_absent(strewn_[scatter], parts);
   return parts;
+}
+
+void SceneParts::add_absent(const Strewn& strewn, std::vector<PlacedPart>& parts) {
+  std::set<std::string> there, listed;
+  for (const PlacedPart& part : parts) there.insert(part.name);
+  for (const Drawable& body : strewn.bodies)
+    for (int k = 1; k <= strewn.rule.most; ++k) {
+      const std::string name = body.body.name + "-" + std::to_string(body.numbers_from + k);
+      if (there.contains(name) || !listed.insert(name).second) continue;
+      PlacedPart& absent = parts.emplace_back();
+      absent.name = name, absent.label = body.body.label, absent.absent = true;
+    }
 }
 
 std::vector<PlacedPart> SceneParts::drawn(std::uint64_t draw) const {

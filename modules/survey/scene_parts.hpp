@@ -48,7 +48,8 @@ class SceneParts {
 
   /// Returns what rests, in the order of the parts. A part that is wholly below the ground is not among them.
   const std::vector<PlacedPart>& resting() const { return resting_; }
-  /// Returns what moves, at `time` [s], and what is drawn, a function of seed and `draw` alone. Throws
+  /// Returns what moves, at `time` [s], and what is drawn, a function of seed and `draw` alone; bodies that a
+  /// draw does not have are absent (PlacedPart), so that the parts of all draws have the same names. Throws
   /// Error(content) for a time outside a trajectory, naming the part, and where bodies do not fit.
   std::vector<PlacedPart> others_at(double time, std::uint64_t draw) const;
   /// Returns true if nothing moves or is drawn anew.
@@ -76,6 +77,8 @@ class SceneParts {
   };
   void place(const PartDefinition& part);
   void prepare_scatter(const SceneScatter& scatter);
+  /// Lists the bodies of a scatter that are not among the parts of a draw.
+  static void add_absent(const Strewn& strewn, std::vector<PlacedPart>& parts);
   std::vector<PlacedPart> drawn(std::uint64_t draw) const;
   std::vector<PlacedPart> drawn_of(std::size_t scatter, std::uint64_t draw) const;
 

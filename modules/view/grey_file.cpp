@@ -116,6 +116,14 @@ std::array<std::uint8_t, 3> label_colour(std::uint8_t category) {
   return category == 1 ? Rgb{42, 66, 138} : material_colours[(category - 2U) % std::size(material_colours)];
 }
 
+void save_rgb_png(const std::string& path, const Grid<std::uint32_t>& rgb) {
+  save_pixels<std::uint8_t>(path, rgb.rows(), rgb.cols(), 3, "save_rgb_png",
+                            [&](Eigen::Index row, Eigen::Index column, std::uint8_t* pixel) {
+                              for (int k = 0; k < 3; ++k)
+                                pixel[k] = static_cast<std::uint8_t>(rgb(row, column) >> (16 - 8 * k));
+                            });
+}
+
 void save_label_png(const std::string& path, const Grid<std::uint8_t>& category) {
   save_pixels<std::uint8_t>(path, category.rows(), category.cols(), 3, "save_label_png",
                             [&](Eigen::Index row, Eigen::Index column, std::uint8_t* pixel) {

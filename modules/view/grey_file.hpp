@@ -23,4 +23,7 @@ void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey);
 /// The same with 16 bits.
 void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey);
 
+/// The same in colours: red x 65536 + green x 256 + blue, each from 0 to 255.
+void save_rgb_png(const std::string& path, const Grid<std::uint32_t>& rgb);
+
 }  // namespace insonify

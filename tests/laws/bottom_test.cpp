@@ -126,9 +126,10 @@ TEST(BottomLaws, shipped_hard_materials_are_their_normal_reflectivity_over_pi) {
   const struct {
     const char* name;
     double reflection;
-  } hard[] = {{"steel", 0.936},   {"titanium", 0.893},     {"aluminium", 0.835}, {"granite", 0.809},
-              {"glass", 0.803},   {"concrete", 0.705},     {"ice", 0.392},       {"pvc", 0.362},
-              {"acrylic", 0.357}, {"polyethylene", 0.194}, {"wood", 0.07},       {"rubber", 0.02}};
+  } hard[] = {{"steel", 0.936},     {"titanium", 0.893},     {"aluminium", 0.835}, {"granite", 0.809},
+              {"glass", 0.803},     {"concrete", 0.705},     {"ice", 0.392},       {"pvc", 0.362},
+              {"acrylic", 0.357},   {"polyethylene", 0.194}, {"wood", 0.07},       {"rubber", 0.02},
+              {"fibreglass", 0.519}};
   for (const auto& h : hard)
     EXPECT_NEAR(db_from_power(shipped(table, h.name).lambert_mu), db_from_power(h.reflection * h.reflection / pi), 0.03)
         << h.name;

@@ -91,6 +91,17 @@ TEST(MergeParts, leaves_out_the_surfels_that_are_not_there) {
   EXPECT_EQ(scene.id, (std::vector<std::uint32_t>{0, 7, 499}));
 }
 
+TEST(MergeParts, lists_parts_that_are_not_there) {
+  const PlacedPart absent{.name = "anchor", .label = "anchor", .absent = true};
+  const SceneCloud scene = merge_parts(std::vector{bed_part(), ball_part("pot", {1, 0, -4}), absent});
+  ASSERT_EQ(scene.parts.size(), 3U);
+  EXPECT_EQ(scene.parts[0].name, "anchor");
+  EXPECT_EQ(std::count(scene.part.begin(), scene.part.end(), 0), 0);
+  PosedScene posed(std::vector{bed_part()}, ball_cloud()->materials);
+  EXPECT_EQ(posed.pose(std::vector{absent})->scene().size(), floor_cloud()->size());
+  EXPECT_EQ(posed.pose(std::vector{absent})->scene().parts.size(), 2U);
+}
+
 TEST(MergeParts, refuses_what_cannot_be_a_scene) {
   const auto refusal = [](std::vector<PlacedPart> parts) { return error_of([&] { merge_parts(parts); }); };
   PlacedPart moved = bed_part(), empty{.name = "nothing"}, bent = ball_part("bent", {0, 0, 0}), lost = bent;

@@ -34,6 +34,8 @@ Cube full_cube() {
     ping.labels.id = Grid<std::uint32_t>::Zero(rows, columns);
     ping.labels.share = Grid<float>::Ones(rows, columns);
     ping.labels.names = {"sand"};
+    ping.labels.part = Grid<std::uint16_t>::Zero(rows, columns);
+    ping.labels.part_names = {"bed"}, ping.labels.part_labels = {""}, ping.labels.views.resize(1);
     ping.scan = ScanPlace{0, 0.5};
     ping.expected_level = true;
     ping.fan.row_width = 0.02;

@@ -58,6 +58,12 @@ PartPlacement placed_where(const Vector3d& position, PartRest rest = PartRest::n
   return p;
 }
 
+/// The parts that are there.
+std::vector<PlacedPart> present(std::vector<PlacedPart> parts) {
+  std::erase_if(parts, [](const PlacedPart& part) { return part.absent; });
+  return parts;
+}
+
 bool same(const std::vector<PlacedPart>& a, const std::vector<PlacedPart>& b) {
   const auto alike = [](const PlacedPart& p, const PlacedPart& q) {
     return p.name == q.name && p.world_from_part.matrix() == q.world_from_part.matrix() && p.surfels == q.surfels;
@@ -79,7 +85,7 @@ TEST(SceneParts, draws_a_thousand_bodies_that_rest_in_their_area_apart) {
   std::set<std::size_t> counts;
   const std::set<std::string> names(parts.names().begin(), parts.names().end());
   for (std::uint64_t draw = 0; drawn < 1000; ++draw) {
-    const std::vector<PlacedPart> others = parts.others_at(0, draw);
+    const std::vector<PlacedPart> others = present(parts.others_at(0, draw));
     counts.insert(others.size());
     for (const PlacedPart& part : others) {
       ++drawn, pots += part.label == "pot";
@@ -118,7 +124,25 @@ TEST(SceneParts, draws_are_of_seed_and_number_alone) {
   const SceneParts once({level_bed()}, scatters, 7);
   EXPECT_TRUE(once.still());
   const std::vector<PlacedPart> resting(once.resting().begin() + 1, once.resting().end());
-  EXPECT_TRUE(same(resting, parts.others_at(0, 0)));
+  EXPECT_TRUE(same(resting, present(parts.others_at(0, 0))));
+}
+
+TEST(SceneParts, list_what_a_draw_does_not_have) {
+  ScatterRule rule = strewn(1, 3);
+  rule.empty_share = 0.4;
+  const SceneParts parts({level_bed()}, {{{ball_named("pot", 0.05), ball_named("net", 0.05)}, rule}}, 1, true);
+  std::set<std::string> all(parts.names().begin(), parts.names().end());
+  all.erase("bed");
+  std::size_t empty = 0;
+  for (std::uint64_t draw = 0; draw < 200; ++draw) {
+    const std::vector<PlacedPart> others = parts.others_at(0, draw);
+    std::set<std::string> names;
+    for (const PlacedPart& part : others) names.insert(part.name);
+    EXPECT_EQ(names, all);
+    EXPECT_EQ(others.size(), 6U);
+    empty += present(others).empty();
+  }
+  EXPECT_NEAR(static_cast<double>(empty) / 200, 0.4, 0.1);  // three standard deviations
 }
 
 TEST(SceneParts, buries_and_scales_as_asked) {
@@ -127,7 +151,7 @@ TEST(SceneParts, buries_and_scales_as_asked) {
   const SceneParts parts({level_bed()}, {{{ball_named("pot", 0.1)}, rule}}, 3, true);
   double least = 1, most = 0, small = 9, large = 0;
   for (std::uint64_t draw = 0; draw < 10; ++draw)
-    for (const PlacedPart& part : parts.others_at(0, draw)) {
+    for (const PlacedPart& part : present(parts.others_at(0, draw))) {
       const double radius = part.cloud->point.front().norm();
       const double depth = (-2 - (part.world_from_part.translation().z() - height_of({part.name, "", part.cloud}) / 2));
       const double buried = depth / (2 * radius);

@@ -100,5 +100,5 @@ TEST_F(FirstHour, materials_lists_names_numbers_and_the_law) {
   write("own.toml", "schema = 1\n[[material]]\nname = \"kelp\"\nlambert_mu_db = -21\n");
   EXPECT_THAT(succeed("materials own.toml"), HasSubstr("kelp"));
   expect_refused("materials sandd", 2, {"'sandd' is unknown; did you mean 'sand'?"});
-  EXPECT_EQ(json_of("materials").size(), 23U + 2 * 11 + 13);
+  EXPECT_EQ(json_of("materials").size(), 25U + 2 * 11 + 13);
 }

@@ -14,6 +14,7 @@ struct MakingCommand {
 };
 constexpr MakingCommand making_commands[] = {
     {"make-scene", "plane --points 500 --size 6,4 -o OUT.ply", "surfels"},
+    {"make-object", "tyre -o OUT.ply", "triangles"},
     {"make-mission", "lawnmower --scene plane.ply -o OUT.toml", "output"},
     {"prepare", "plane.ply -o OUT.ply", "surfels"},
     {"prepare", "plane.ply -o OUT.tiles", "tiles"},
@@ -26,9 +27,11 @@ constexpr MakingCommand making_commands[] = {
     {"merge", "run -o OUT", "pings"}};
 
 /// Verbs whose result is what they print.
-constexpr const char* saying_commands[] = {"info plane.ply", "sonars", "sonars p900-45",
-                                           "plan plane.ply --sonar p900-45 --pose=0,0,2,0,30,0 --range 2:5",
-                                           "beampattern p900-45"};
+constexpr const char* saying_commands[] = {
+    "info plane.ply",          "make-object",
+    "make-object tyre --list", "sonars",
+    "sonars p900-45",          "plan plane.ply --sonar p900-45 --pose=0,0,2,0,30,0 --range 2:5",
+    "beampattern p900-45"};
 
 class EveryVerb : public ToolTest {
  protected:
@@ -70,8 +73,9 @@ TEST_F(EveryVerb, is_quiet_when_asked) {
 }
 
 TEST_F(EveryVerb, takes_json_and_quiet) {
-  for (const char* verb : {"info", "prepare", "make-scene", "make-mission", "sonars", "plan", "ping", "survey",
-                           "synthesize", "image", "export", "compare", "dataset", "merge", "beampattern", "accuracy"}) {
+  for (const char* verb :
+       {"info", "prepare", "make-scene", "make-object", "make-mission", "sonars", "plan", "ping", "survey",
+        "synthesize", "image", "export", "compare", "dataset", "merge", "beampattern", "accuracy"}) {
     const std::string help = succeed(std::string(verb) + " --help");
     EXPECT_THAT(help, HasSubstr("--json")) << verb;
     EXPECT_THAT(help, HasSubstr("--quiet")) << verb;

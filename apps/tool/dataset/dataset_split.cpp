@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "files/sha256.hpp"
 #include "store/mission_file.hpp"
@@ -89,6 +90,17 @@ void split_by_region(std::vector<DatasetSource>& sources, const std::vector<doub
     for (const TrackPoint& ping : source.track) source.split.push_back(part_at[source.run_index].at(ping.time));
 }
 
+/// Draws of a scene's bodies in a random order, the same one each time.
+void split_by_draw(std::vector<DatasetSource>& sources, const std::vector<double>& shares) {
+  for (const DatasetSource& source : sources)
+    if (!source.randomisation || source.randomisation->spread.scene_pings == 0)
+      fail(ErrorKind::argument, "--split-by draw: ", source.run,
+           " is no survey that draws its scene anew; give [randomise] scene in its mission, or split by another unit");
+  split_by(sources, shares, [](const DatasetSource& source, const TrackPoint& ping) {
+    return sha256_of(run_key(source) + fmt::format("{}", ping.number / source.randomisation->spread.scene_pings));
+  });
+}
+
 using Cell = std::array<std::int64_t, 3>;
 Cell split_cell_of(const Eigen::Vector3d& place, double size) {
   Cell cell{};
@@ -106,6 +118,7 @@ const std::vector<SplitUnit>& split_units() {
        "a leg of a mission, or a run without a mission, is in one part; neighbouring legs see the same bed"},
       {"region", "stretches of track",
        "each run's track is cut into one stretch for each part; images near a cut see the same bed"},
+      {"draw", "draws", "scenes are drawn anew ([randomise] scene); what one draw shows is in one part"},
       {"ping", "pings", "pings are drawn; an image and the one after it show nearly the same"}};
   return all;
 }
@@ -117,6 +130,7 @@ void split_pings(std::vector<DatasetSource>& sources, const std::string& unit, c
   const auto drawn = [](const DatasetSource& source, const TrackPoint& ping) {
     return sha256_of(run_key(source) + source.head + fmt::format(" {} {:a}", ping.number, ping.time));
   };
+  if (unit == "draw") return split_by_draw(sources, shares);
   unit == "ping" ? split_by(sources, shares, drawn) : split_by(sources, shares, scene);
 }
 

@@ -100,8 +100,8 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
   const FanRaster& raster = raster_of(ping);
   save_grey_png(directory_.file("polar/images/" + image.name + ".png"),
                 polar_picture(quantise_16(level, window_), ping.fan));
-  save_grey_png(directory_.file("fan/images/" + image.name + ".png"),
-                fan_picture(quantise_8(level, window_), raster, std::uint8_t{0}));
+  const Grid<std::uint8_t> shown = fan_picture(quantise_8(level, window_), raster, std::uint8_t{0});
+  save_grey_png(directory_.file("fan/images/" + image.name + ".png"), shown);
   const LabelMap polar{polar_picture(category, ping.fan), polar_picture(object, ping.fan)};
   const LabelMap fan{fan_picture(category, raster, std::uint8_t{0}), fan_picture(object, raster, std::uint16_t{0})};
   ++images_;
@@ -109,6 +109,7 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
   const FormOf of_fan{{ping, &raster}, of_polar.parts};
   add_form(polar_, image, polar, of_polar);
   add_form(fan_, image, fan, of_fan);
+  sheet_.add(shown, annotations_of(fan));
   ordered_json meta = meta_of(source, cube, ping, image, polar);
   if (!ping.labels.views.empty())
     meta["objects"] = part_objects_json(ping.labels, of_polar.parts, of_polar.picture, of_fan.picture);
@@ -301,6 +302,7 @@ void DatasetWriter::finish() {
   for (const std::size_t k : boxed) boxed_names.push_back(classes_[k]);
   for (Form* form : {&polar_, &fan_}) write_lists(*form, boxed);
   write_file(directory_.file("meta.jsonl"), meta_);
+  sheet_.save(directory_.file("sheet.png"));
   write_file(directory_.file("palette.json"), palette_json(classes_).dump(2) + "\n");
   ordered_json mappings = ordered_json::array();
   for (const auto& [key, r] : rasters_)

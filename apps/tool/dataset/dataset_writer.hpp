@@ -12,6 +12,7 @@
 #include "returns/quantise.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/options.hpp"
+#include "tool/dataset/contact_sheet.hpp"
 #include "tool/dataset/dataset_runs.hpp"
 #include "tool/dataset/dataset_split.hpp"
 #include "tool/dataset/label_pictures.hpp"
@@ -93,6 +94,7 @@ class DatasetWriter {
   std::size_t images_ = 0, annotations_ = 0;
   Form polar_{"polar"}, fan_{"fan"};
   std::string meta_, sonars_;
+  ContactSheet sheet_;  ///< of fan images
   std::map<std::string, FanRaster> rasters_;
   SplitTally tally_;
 };

@@ -200,7 +200,8 @@ std::vector<PlacedPart> PartsScene::placed_at(double time, std::uint64_t draw) c
 Bounds PartsScene::box_at(double time, std::uint64_t draw) const {
   Bounds box;
   const auto add = [&](const Bounds& of) { box = {box.min.cwiseMin(of.min), box.max.cwiseMax(of.max)}; };
-  for (const PlacedPart& part : placed_at(time, draw)) add(box_of(part));
+  for (const PlacedPart& part : placed_at(time, draw))
+    if (!part.absent) add(box_of(part));
   for (const auto& [name, tiled] : tiles_) add(tiled.info().box);
   return box;
 }
@@ -235,7 +236,9 @@ LoadedScene PartsScene::scene_of(const PingSimulator& simulator, const PingEvent
     notes.push_back(fmt::format("{}: {} of {} surfels read, in {} of {} tiles", tiled.info().path, near.surfels,
                                 tiled.info().surfels, near.tiles.size(), tiled.info().tiles));
     SceneCloud cloud = tiled.load(near, memory, options_.threads);
-    if (cloud.size() > 0) all.push_back({name, "", std::make_shared<const SceneCloud>(std::move(cloud)), true});
+    const bool none = cloud.size() == 0;
+    all.push_back({name, "", std::make_shared<const SceneCloud>(std::move(cloud)), true});
+    all.back().absent = none;
   }
   LoadedScene loaded = merged(std::move(all));
   if (has_tiles()) loaded.scene.part_of = whole;
@@ -249,6 +252,7 @@ ordered_json PartsScene::parts_json(double time, std::uint64_t draw) const {
     list.push_back(
         {{"name", name}, {"file", tiled.info().path}, {"surfels", tiled.info().surfels}, {"placed", "captured"}});
   for (const PlacedPart& part : placed_at(time, draw)) {
+    if (part.absent) continue;
     const std::size_t there = part.surfels.empty() ? part.cloud->size() : part.surfels.size();
     ordered_json json = {{"name", part.name}, {"file", file_of_name(file_of_, part.name)}};
     if (!part.label.empty()) json["label"] = part.label;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+#include <Eigen/Core>
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene/objects.hpp"
+
+/// The objects of make-object as lists, made from their table.
+namespace insonify::tool {
+
+/// Length, width and height of a mesh [m].
+Eigen::Vector3d size_of(const SceneMesh& mesh);
+/// The same as text: "2 x 0.533 x 0.533".
+std::string size_text(const SceneMesh& mesh);
+
+/// Name, description, source, size, materials and options of an object.
+nlohmann::ordered_json object_json(const ObjectKind& kind);
+
+/// Prints one line for each object.
+void print_objects();
+/// Prints an object with its options.
+void print_object(const ObjectKind& kind);
+
+/// The rows of the tables in docs/objects.md: of the object, and of its own options.
+std::string object_as_markdown(const ObjectKind& kind);
+std::string object_options_as_markdown(const ObjectKind& kind);
+
+}  // namespace insonify::tool

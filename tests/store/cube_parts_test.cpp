@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of a scene in cubes.
+#include <cmath>
+
+#include "store/concatenate_cube_files.hpp"
+#include "store/merge_cubes_by_time.hpp"
+#include "store/random_cube.hpp"
+
+namespace insonify::cube_parts_tests {
+
+/// Labels of a scene of three parts, one of which is not in view.
+PixelLabels labels_like(const Ping& ping) {
+  const Eigen::Index beams = ping.pressure.rows(), bins = ping.pressure.cols();
+  PixelLabels labels{Grid<std::uint16_t>::Zero(beams, bins),
+                     Grid<std::uint32_t>::Constant(beams, bins, 7),
+                     Grid<float>::Ones(beams, bins),
+                     {"sand", "tyre"}};
+  labels.part = Grid<std::uint16_t>::Constant(beams, bins, PixelLabels::no_part);
+  labels.part(3, 1) = static_cast<std::uint16_t>(ping.number % 3);
+  labels.part_names = {"bed", "pot-1", "tyre"}, labels.part_labels = {"", "", "tyre"};
+  labels.views.resize(3);
+  PartView& tyre = labels.views[2];
+  tyre.world_from_part = pose_from_yaw_pitch_roll({1, 2, static_cast<double>(ping.number)}, 0.1, 0.2, 0.3);
+  tyre.visible_share = 0.25, tyre.azimuth = {-0.1, 0.2}, tyre.elevation = {0.3, 0.4}, tyre.range = {5, 6};
+  return labels;
+}
+
+Cube cube_of_parts(std::size_t pings = 3) {
+  Cube cube = random_cube(pings, 5);
+  for (Ping& ping : cube.pings) ping.labels = labels_like(ping);
+  return cube;
+}
+
+void expect_parts(const Ping& ping) {
+  const PixelLabels expected = labels_like(ping);
+  const PixelLabels& back = ping.labels;
+  EXPECT_TRUE((back.part == expected.part).all());
+  EXPECT_EQ(back.names, expected.names);
+  EXPECT_EQ(back.part_names, expected.part_names);
+  EXPECT_EQ(back.part_labels, expected.part_labels);
+  ASSERT_EQ(back.views.size(), 3U);
+  EXPECT_TRUE(std::isnan(back.views[0].visible_share));
+  EXPECT_TRUE(std::isnan(back.views[1].range.most));
+  const PartView &a = back.views[2], &b = expected.views[2];
+  EXPECT_EQ(a.world_from_part.matrix(), b.world_from_part.matrix());
+  EXPECT_EQ(a.visible_share, b.visible_share);
+  EXPECT_EQ(std::tie(a.azimuth, a.elevation, a.range), std::tie(b.azimuth, b.elevation, b.range));
+}
+
+TEST(CubeOfParts, comes_back_bit_for_bit) {
+  const Cube back = read_cube(write(cube_of_parts()));
+  ASSERT_EQ(back.pings.size(), 3U);
+  for (const Ping& ping : back.pings) expect_parts(ping);
+  const Cube last = read_cube(own_path("cube.h5"), 2, 1);
+  ASSERT_EQ(last.pings.size(), 1U);
+  expect_parts(last.pings[0]);
+}
+
+TEST(CubeOfParts, is_joined_with_the_next_one) {
+  for (const bool copy : {false, true}) {
+    const std::string path = own_path(copy ? "copied.h5" : "joined.h5");
+    concatenate_cube_files(path, {write(cube_of_parts(3), "a.h5"), write(cube_of_parts(2), "b.h5")}, copy);
+    const Cube back = read_cube(path);
+    ASSERT_EQ(back.pings.size(), 5U);
+    for (const Ping& ping : back.pings) expect_parts(ping);
+  }
+}
+
+TEST(CubeOfParts, loses_its_labels_beside_pings_of_other_parts) {
+  Cube other = cube_of_parts();
+  for (Ping& ping : other.pings) ping.labels.part_names[1] = "pot-2";
+  const MergedCube merged = merge_cubes_by_time({{"a", cube_of_parts()}, {"b", other}});
+  for (const Ping& ping : merged.cube.pings) EXPECT_TRUE(ping.labels.empty());
+}
+
+TEST(CubeOfParts, refuses_pings_of_other_parts) {
+  Cube cube = cube_of_parts();
+  cube.pings[1].labels.part_labels[1] = "pot";
+  EXPECT_THAT(error_with_kind([&] { write_cube(own_path("bad.h5"), cube); }),
+              testing::HasSubstr("ping 41 is of a scene of other parts than ping 40"));
+  cube = cube_of_parts();
+  cube.pings[2].labels.views.pop_back();
+  EXPECT_THAT(error_with_kind([&] { write_cube(own_path("bad.h5"), cube); }),
+              testing::HasSubstr("ping 42 has views of 2 parts, must have 3"));
+}
+
+}  // namespace insonify::cube_parts_tests

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Data sets of scenes of parts: objects are the parts, drawn anew for every ping or every few.
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "tool/dataset_fixture.hpp"
+
+namespace {
+
+/// Lines of JSON.
+std::vector<nlohmann::json> json_lines(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<nlohmann::json> all;
+  for (std::string line; std::getline(in, line);) all.push_back(nlohmann::json::parse(line));
+  return all;
+}
+
+/// Pots and drums strewn over a plane, seen by eight pings of a head that stands still.
+class DatasetOfParts : public DatasetRun {
+ protected:
+  void SetUp() override {
+    have("plane.ply", "make-scene plane --size 24,24 --points 60000");
+    have("pot.ply", "make-object drum --set upright=1");
+    have("ball.ply", "make-object sphere --set diameter_m=0.8");
+  }
+  void survey_of(const std::string& scatter_more, const std::string& randomise) const {
+    write("scene.toml",
+          "schema = 1\n[[part]]\nfile = \"plane.ply\"\n[[scatter]]\nfiles = [\"pot.ply\", \"ball.ply\"]\n"
+          "count = [1, 3]\narea_m = [[5, -3], [11, -3], [11, 3], [5, 3]]\nmin_distance_m = 1.5\nyaw_deg = 180\n" +
+              scatter_more);
+    write("mission.toml",
+          "schema = 1\n[survey]\nscene = \"scene.toml\"\nseed = 4\n[trajectory]\nwaypoints_m = [[0, 0, 4], [0.008, 0, "
+          "4]]\n"
+          "speed_m_s = 0.001\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=96\"]\nrange = "
+          "\"2:14\"\nangles_deg = [0, 25, 0]\nrate_hz = 1\n[randomise]\n" +
+              randomise + "[ping]\nkeep = [\"contributors\"]\n");
+    succeed("survey mission.toml -q -o survey --force");
+  }
+  std::vector<nlohmann::json> meta() const { return json_lines(read("set/meta.jsonl")); }
+};
+
+/// Whether a box lies in another one that is `more` pixels wider on each side.
+bool lies_in(const nlohmann::json& box, const nlohmann::json& whole, int more) {
+  for (std::size_t k : {0U, 1U}) {
+    const int low = box[k], high = low + box[k + 2].get<int>(), first = whole[k],
+              last = first + whole[k + 2].get<int>();
+    if (low < first - more || high > last + more) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST_F(DatasetOfParts, has_each_part_as_an_object_with_its_class_pose_and_boxes) {
+  survey_of("", "scene = \"ping\"\n");
+  succeed("dataset survey -o set --split 100:0:0 --least-pixels 4");
+  std::map<std::string, nlohmann::json> meta_of;
+  std::set<std::string> layouts;
+  for (const nlohmann::json& image : meta()) {
+    meta_of[image["name"]] = image;
+    layouts.insert(image["objects"].dump());
+  }
+  EXPECT_EQ(meta_of.size(), 9U);
+  EXPECT_EQ(layouts.size(), meta_of.size());  // drawn anew for every ping
+  std::size_t seen = 0;
+  for (const char* form : {"polar", "fan"}) {
+    const nlohmann::json all = coco(form);
+    std::map<int, std::string> class_of, image_of;
+    for (const auto& c : all["categories"]) class_of[c["id"]] = c["name"];
+    for (const auto& i : all["images"]) image_of[i["id"]] = i["file_name"];
+    for (const auto& a : all["annotations"]) {
+      if (!a.contains("part")) continue;
+      ++seen;
+      const std::string file = image_of[a["image_id"]];
+      const nlohmann::json& objects = meta_of.at(file.substr(0, file.size() - 4))["objects"];
+      const auto object = std::find_if(objects.begin(), objects.end(), [&](auto& o) { return o["part"] == a["part"]; });
+      ASSERT_NE(object, objects.end());
+      const std::string part = a["part"];
+      EXPECT_EQ(part.substr(0, part.rfind('-')), class_of[a["category_id"]]);
+      EXPECT_EQ((*object)["class"], class_of[a["category_id"]]);
+      EXPECT_EQ((*object)["instance"], a["instance"]);
+      EXPECT_EQ((*object)["visible_share"], a["visible_share"]);
+      EXPECT_EQ((*object)[std::string(form) + "_bbox_whole"], a["bbox_whole"]);
+      EXPECT_GT(a["visible_share"].get<double>(), 0);
+      EXPECT_LE(a["visible_share"].get<double>(), 1);
+      EXPECT_TRUE(lies_in(a["bbox"], a["bbox_whole"], 6)) << file << " " << part << a["bbox"] << a["bbox_whole"];
+      const GreyPicture instances = png(std::string(form) + "/instances/" + file);
+      EXPECT_EQ((instances.value == a["instance"].get<std::uint16_t>()).count(), a["area"].get<std::ptrdiff_t>());
+    }
+  }
+  EXPECT_GT(seen, 20U);
+  EXPECT_GT(read("set/sheet.png").size(), 1000U);
+}
+
+TEST_F(DatasetOfParts, has_the_extents_that_the_pose_of_a_ball_has) {
+  survey_of("", "scene = \"ping\"\n");
+  succeed("dataset survey -o set --split 100:0:0");
+  std::size_t balls = 0;
+  for (const nlohmann::json& image : meta())
+    for (const nlohmann::json& object : image["objects"]) {
+      if (object["class"] != "ball") continue;
+      ++balls;
+      Eigen::Matrix4d head, part;
+      for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c)
+          head(r, c) = image["world_from_head"][r][c], part(r, c) = object["world_from_part"][r][c];
+      // A ball of 0.4 m about a point 0.4 m above the origin of its axes.
+      const Eigen::Vector3d middle = (head.inverse() * part * Eigen::Vector4d(0, 0, 0.4, 1)).head<3>();
+      const double range = middle.norm(), azimuth = std::atan2(middle.y(), middle.x());
+      const double half = std::asin(0.4 / middle.head<2>().norm());
+      EXPECT_NEAR(object["range_m"][0].get<double>(), range - 0.4, 0.02);
+      EXPECT_NEAR(object["azimuth_rad"][0].get<double>(), azimuth - half, 0.01);
+      EXPECT_NEAR(object["azimuth_rad"][1].get<double>(), azimuth + half, 0.01);
+    }
+  EXPECT_GT(balls, 3U);
+}
+
+TEST_F(DatasetOfParts, has_empty_images_and_splits_by_draws) {
+  survey_of("empty_share = 0.5\n", "scene = 2\n");
+  succeed("dataset survey -o set --split 50:25:25 --split-by draw");
+  std::map<std::int64_t, std::set<std::string>> splits_of_draw;
+  std::size_t empty = 0;
+  for (const nlohmann::json& image : meta()) {
+    splits_of_draw[image["ping"].get<std::int64_t>() / 2].insert(image["split"].get<std::string>());
+    empty += image["objects"].empty();
+  }
+  EXPECT_EQ(splits_of_draw.size(), 5U);
+  std::set<std::string> used;
+  for (const auto& [draw, splits] : splits_of_draw) {
+    EXPECT_EQ(splits.size(), 1U) << draw;
+    used.insert(*splits.begin());
+  }
+  EXPECT_EQ(used, (std::set<std::string>{"test", "train", "val"}));
+  EXPECT_GE(empty, 1U);
+  EXPECT_LE(empty, 8U);
+}
