@@ -35,7 +35,7 @@ class DatasetOfParts : public DatasetRun {
           "speed_m_s = 0.001\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=96\"]\nrange = "
           "\"2:14\"\nangles_deg = [0, 25, 0]\nrate_hz = 1\n[randomise]\n" +
               randomise + "[ping]\nkeep = [\"contributors\"]\n");
-    succeed("survey mission.toml -q -o survey --force");
+    succeed("survey mission.toml -q -o survey");
   }
   std::vector<nlohmann::json> meta() const { return json_lines(read("set/meta.jsonl")); }
 };
