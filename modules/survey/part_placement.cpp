@@ -42,6 +42,22 @@ bool is_within(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2
   return inside;
 }
 
+MovingAxes axes_at(const PartPlacement& p, const std::string& name, double time) {
+  const Pose turned = pose_from_yaw_pitch_roll(Eigen::Vector3d::Zero(), p.yaw, p.pitch, p.roll);
+  if (p.trajectory) {
+    const double first = p.trajectory->time.front(), last = p.trajectory->time.back();
+    if (!(time >= first && time <= last))
+      fail(ErrorKind::content, "part '", name, "': its trajectory is from ", first, " to ", last,
+           " s, but is asked for at ", time, " s; make the trajectory longer, or ping within it");
+    return {pose_at(*p.trajectory, time) * turned, motion_at(*p.trajectory, time)};
+  }
+  MovingAxes axes{turned, {p.velocity, p.turn_rate}};
+  const double angle = p.turn_rate.norm() * time;
+  if (angle != 0) axes.pose.linear() = Eigen::AngleAxisd(angle, p.turn_rate.normalized()) * axes.pose.linear();
+  axes.pose.translation() = p.position + time * p.velocity;
+  return axes;
+}
+
 std::shared_ptr<const SceneCloud> scaled(const std::shared_ptr<const SceneCloud>& cloud, double scale) {
   if (scale == 1) return cloud;
   SceneCloud by = *cloud;

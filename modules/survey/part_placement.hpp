@@ -45,6 +45,14 @@ struct ScatterRule {
 /// least distance: strewn one by one, discs cover at most 0.45 of it.
 void require_valid(const ScatterRule& rule, const char* who);
 
+/// The axes of a part's file in the world, and how they move.
+struct MovingAxes {
+  Pose pose = Pose::Identity();
+  Motion motion;
+};
+/// Returns the axes at `time` [s] of a part called `name`. Throws Error(content) outside the times of its trajectory.
+MovingAxes axes_at(const PartPlacement& placement, const std::string& name, double time);
+
 /// Returns a cloud of which all lengths are `scale` times as long, itself for 1.
 std::shared_ptr<const SceneCloud> scaled(const std::shared_ptr<const SceneCloud>& cloud, double scale);
 

@@ -27,28 +27,6 @@ void require_area(const SceneBody& body) {
   if (!(area > 0)) fail(ErrorKind::content, "part '", body.name, "' has no area: its surfels hear nothing");
 }
 
-/// The axes of a part's file in the world at `time`, and how they move.
-struct MovingAxes {
-  Pose pose = Pose::Identity();
-  Motion motion;
-};
-
-MovingAxes axes_at(const PartPlacement& p, const std::string& name, double time) {
-  const Pose turned = pose_from_yaw_pitch_roll(Vector3d::Zero(), p.yaw, p.pitch, p.roll);
-  if (p.trajectory) {
-    const double first = p.trajectory->time.front(), last = p.trajectory->time.back();
-    if (!(time >= first && time <= last))
-      fail(ErrorKind::content, "part '", name, "': its trajectory is from ", first, " to ", last,
-           " s, but is asked for at ", time, " s; make the trajectory longer, or ping within it");
-    return {pose_at(*p.trajectory, time) * turned, motion_at(*p.trajectory, time)};
-  }
-  MovingAxes axes{turned, {p.velocity, p.turn_rate}};
-  const double angle = p.turn_rate.norm() * time;
-  if (angle != 0) axes.pose.linear() = Eigen::AngleAxisd(angle, p.turn_rate.normalized()) * axes.pose.linear();
-  axes.pose.translation() = p.position + time * p.velocity;
-  return axes;
-}
-
 /// A body whose file's axes are these: its own axes are elsewhere, and move as the body turns.
 PlacedPart placed_at(const SceneBody& body, const MovingAxes& axes, double scale,
                      std::shared_ptr<const SceneCloud> cloud) {

@@ -48,6 +48,21 @@ double diagonal_of(const SceneCloud& cloud) {
   return (box.max - box.min).norm();
 }
 
+/// Leaves the materials that surfels have: a name of the library comes with its whole table.
+void drop_unused_materials(SceneCloud& cloud) {
+  constexpr std::uint16_t unused = 0xffff;
+  std::vector<std::uint16_t> renumbered(cloud.materials.size(), unused);
+  std::vector<Material> used;
+  for (std::uint16_t& m : cloud.material) {
+    if (renumbered[m] == unused) {
+      renumbered[m] = static_cast<std::uint16_t>(used.size());
+      used.push_back(cloud.materials[m]);
+    }
+    m = renumbered[m];
+  }
+  if (!used.empty()) cloud.materials = std::move(used);
+}
+
 /// The surfels of a file: of a mesh evenly spaced ones; all hide as discs.
 SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, const PartsOptions& o) {
   SceneCloud cloud = std::move(loaded.scene);
@@ -57,6 +72,7 @@ SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, 
   }
   cloud.facet.clear();
   cloud.part_of.reset();
+  if (!captured || !file.material.empty()) drop_unused_materials(cloud);
   return file.thin > 0 ? thin_scene(cloud, file.thin) : cloud;
 }
 
