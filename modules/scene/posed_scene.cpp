@@ -80,6 +80,36 @@ Eigen::Isometry3d scene_from_cloud(const SceneCloud& scene, const PlacedPart& pl
   return turn;
 }
 
+/// Appends noise and unevenness of the surfels of a part, if it or those before have them.
+void add_heights(const PlacedPart& placed, std::size_t before, SceneCloud& scene) {
+  const SceneCloud& cloud = *placed.cloud;
+  const auto spacing = [&](std::size_t i) { return std::sqrt(static_cast<double>(scene.area[i])); };
+  const auto number = [&](std::size_t i) { return placed.surfels.empty() ? i - before : placed.surfels[i - before]; };
+  if (!scene.noise.empty() || !cloud.noise.empty()) {
+    scene.noise.resize(scene.size(), 0);
+    for (std::size_t i = before; i < scene.size() && !cloud.noise.empty(); ++i) scene.noise[i] = cloud.noise[number(i)];
+  }
+  if (scene.unevenness.empty() && cloud.unevenness.empty()) return;
+  for (std::size_t i = scene.unevenness.size(); i < scene.size(); ++i)
+    scene.unevenness.push_back(i >= before && !cloud.unevenness.empty() ? cloud.unevenness[number(i)]
+                                                                        : static_cast<float>(spacing(i)));
+}
+
+/// Makes room for so many surfels more.
+void reserve(std::size_t more, SceneCloud& scene) {
+  const std::size_t all = scene.size() + more;
+  scene.point.reserve(all), scene.normal.reserve(all), scene.area.reserve(all), scene.material.reserve(all);
+  scene.id.reserve(all), scene.part.reserve(all);
+}
+
+/// How many surfels parts have.
+std::size_t surfels_of(const PartList& list) {
+  std::size_t sum = 0;
+  for (const PlacedPart* part : list)
+    if (!part->absent) sum += part->surfels.empty() ? part->cloud->size() : part->surfels.size();
+  return sum;
+}
+
 /// Appends the surfels of a part.
 void append(const PlacedPart& placed, SceneCloud& scene, const char* who) {
   const auto number = static_cast<std::uint16_t>(scene.parts.size());
@@ -99,11 +129,8 @@ void append(const PlacedPart& placed, SceneCloud& scene, const char* who) {
     scene.area.push_back(cloud.area[i]);
     scene.material.push_back(material[cloud.material[i]]);
     scene.id.push_back(placed.captured ? cloud.id[i] : static_cast<std::uint32_t>(i));
-    scene.unevenness.push_back(cloud.unevenness.empty()
-                                   ? static_cast<float>(std::sqrt(static_cast<double>(cloud.area[i])))
-                                   : cloud.unevenness[i]);
-    scene.noise.push_back(cloud.noise.empty() ? 0 : cloud.noise[i]);
   }
+  add_heights(placed, before, scene);
   scene.part.resize(before + count, number);
   scene.normals_oriented = scene.normals_oriented && cloud.normals_oriented;
 }
@@ -146,6 +173,7 @@ SceneCloud merge_parts(std::span<const PlacedPart> parts) {
   constexpr const char* who = "merge_parts";
   const PartList list = by_name(parts, who);
   SceneCloud scene = empty_scene(origin_of(list));
+  reserve(surfels_of(list), scene);
   WholeScene whole;
   bool is_part = false;
   for (const PlacedPart* part : list) {
@@ -165,7 +193,7 @@ struct PosedScene::State {
   PreparedScene prepared;
   std::size_t surfels, blocks, materials, parts;  // of what rests
   WholeScene resting;
-  bool oriented;
+  bool oriented, noisy, uneven;
   std::map<std::shared_ptr<const SceneCloud>, std::shared_ptr<const PreparedScene>> bodies{};
 
   State(std::shared_ptr<SceneCloud> of, int threads)
@@ -176,13 +204,15 @@ struct PosedScene::State {
         materials(scene->materials.size()),
         parts(scene->parts.size()),
         resting(prepared.whole()),
-        oriented(scene->normals_oriented) {}
+        oriented(scene->normals_oriented),
+        noisy(!scene->noise.empty()),
+        uneven(!scene->unevenness.empty()) {}
 
   /// Leaves what rests.
   void forget_others() {
     SceneCloud& s = *scene;
     for (auto* array : {&s.point, &s.normal}) array->resize(surfels);
-    for (auto* array : {&s.area, &s.noise, &s.unevenness}) array->resize(surfels);
+    s.area.resize(surfels), s.noise.resize(noisy ? surfels : 0), s.unevenness.resize(uneven ? surfels : 0);
     for (auto* array : {&s.material, &s.part}) array->resize(surfels);
     s.id.resize(surfels);
     s.parts.resize(parts), s.materials.resize(materials);
@@ -215,6 +245,7 @@ std::shared_ptr<const PreparedScene> PosedScene::pose(std::span<const PlacedPart
   State& state = *state_;
   const PartList list = by_name(others, who);
   state.forget_others();
+  reserve(surfels_of(list), *state.scene);
   if (state.surfels == 0) state.scene->origin = origin_of(list);
   std::vector<PosedBlocks> blocks;
   double fastest = state.resting.fastest;
