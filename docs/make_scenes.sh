@@ -68,13 +68,13 @@ file = "reef.ply"
 [[part]]
 name = "diver"
 file = "diver.ply"
-position_m = [4.5, 2.4, -3.4]
+position_m = [3.4, 2.4, -3.0]
 yaw_deg = -90
 velocity_mps = [0, -0.8, 0]
 SCENE
 for time in 0 2 4 6; do
   picture "dive-$time" "After $time s." \
-    "insonify ping dive.toml --time $time --sonar oculus-m750d --pose=-0.5,0,-2.4,0,10,0 --range 1:8 -o dive-$time && insonify image dive-$time --size 600x450 -o dive-$time.png"
+    "insonify ping dive.toml --time $time --sonar oculus-m750d --pose=-0.5,0,-2.4,0,10,0 --range 1:7 -o dive-$time && insonify image dive-$time --size 600x450 -o dive-$time.png"
 done
 
 printf '\n## A data set, drawn anew for each ping\n' >>"$page"
@@ -103,7 +103,8 @@ speed_m_s = 0.1
 [[head]]
 name = "fls"
 sonar = "oculus-m750d"
-range = "1:9"
+set = ["sonar.beams=256"]
+range = "1:8"
 angles_deg = [0, 18, 0]
 rate_hz = 1
 [randomise]
@@ -111,6 +112,7 @@ scene = "ping"
 position_m = 0.3
 heading_deg = 8
 [ping]
+scatterers_per_cell = 2
 keep = ["contributors"]
 SCENE
 steps "insonify survey mission.toml -o survey" \
