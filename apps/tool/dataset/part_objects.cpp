@@ -67,8 +67,10 @@ ordered_json part_objects_json(const PixelLabels& labels, const std::map<std::ui
   ordered_json objects = ordered_json::array();
   for (std::size_t p = 0; p < labels.views.size(); ++p) {
     const PartView& view = labels.views[p];
-    if (labels.part_labels[p].empty() || !(view.visible_share >= 0)) continue;
+    if (labels.part_labels[p].empty()) continue;
     const auto object = std::find_if(parts.begin(), parts.end(), [p](const auto& entry) { return entry.second == p; });
+    // A part that lies just beyond the fan may still have pixels: its numbers are null.
+    if (!(view.visible_share >= 0) && object == parts.end()) continue;
     ordered_json pose = ordered_json::array();
     for (int row = 0; row < 4; ++row) {
       const Eigen::RowVector4d of_row = view.world_from_part.matrix().row(row);

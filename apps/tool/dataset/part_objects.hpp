@@ -40,7 +40,7 @@ std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture
 std::map<std::uint16_t, std::size_t> parts_of_objects(const PixelLabels& labels, double least_share,
                                                       const Grid<std::uint16_t>& instance);
 
-/// All labelled parts that the head would see if they were alone: name, class, pose, share that is seen, boxes in both
+/// All labelled parts that the head would see if they were alone, or that have pixels at the edge of the fan: name, class, pose, share that is seen, boxes in both
 /// forms, and the number of the object, null where it has no pixels.
 nlohmann::ordered_json part_objects_json(const PixelLabels& labels, const std::map<std::uint16_t, std::size_t>& parts,
                                          const PictureOf& polar, const PictureOf& fan);
