@@ -9,15 +9,6 @@ begin_page gallery "${1:-build/release/bin/insonify}"
 
 # chapter TITLE TEXT
 chapter() { printf '\n## %s\n\n%s\n' "$1" "$2" >>"$page"; }
-# steps COMMAND...: runs and lists the commands that the next pictures need.
-steps() {
-  printf '\n```\n' >>"$page"
-  for command in "$@"; do
-    printf '%s\n' "$command" >>"$page"
-    eval "$command"
-  done
-  printf '```\n' >>"$page"
-}
 # picture NAME CAPTION COMMAND: runs the command, which writes NAME.png.
 picture() {
   eval "$3"

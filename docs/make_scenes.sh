@@ -7,15 +7,6 @@ cd "$(dirname "$0")/.."
 . docs/picture_page.sh
 begin_page scenes "${1:-build/release/bin/insonify}"
 
-# steps COMMAND...: runs and lists the commands that the next pictures need.
-steps() {
-  printf '\n```\n' >>"$page"
-  for command in "$@"; do
-    printf '%s\n' "$command" >>"$page"
-    eval "$command"
-  done
-  printf '```\n' >>"$page"
-}
 # file NAME: writes what is on standard input to a file, and lists it.
 file() {
   cat >"$1"

@@ -23,3 +23,13 @@ keep_picture() {
   [[ $(stat -c %s "$1.png") -lt $most_bytes ]] || { echo "$0: $1.png is larger than $most_bytes bytes" >&2; exit 1; }
   mv "$1.png" "$pictures/"
 }
+
+# steps COMMAND...: runs and lists the commands that the next pictures need.
+steps() {
+  printf '\n```\n' >>"$page"
+  for command in "$@"; do
+    printf '%s\n' "$command" >>"$page"
+    eval "$command"
+  done
+  printf '```\n' >>"$page"
+}

@@ -242,6 +242,7 @@ LoadedScene PartsScene::whole_at(double time, std::uint64_t draw) const {
 LoadedScene PartsScene::scene_of(const PingSimulator& simulator, const PingEvent& event, std::uint64_t draw,
                                  double memory) const {
   std::vector<PlacedPart> all = placed_at(event.time, draw);
+  if (!has_tiles()) return merged(std::move(all));
   // The reach of a ping is that of its largest surfels, wherever they are.
   WholeScene whole = all.empty() ? WholeScene{} : whole_of(merge_parts(all));
   for (const auto& [name, tiled] : tiles_) whole = together(whole, tiled.info().whole);
@@ -257,7 +258,7 @@ LoadedScene PartsScene::scene_of(const PingSimulator& simulator, const PingEvent
     all.back().absent = none;
   }
   LoadedScene loaded = merged(std::move(all));
-  if (has_tiles()) loaded.scene.part_of = whole;
+  loaded.scene.part_of = whole;
   loaded.report.notes.insert(loaded.report.notes.end(), notes.begin(), notes.end());
   return loaded;
 }
