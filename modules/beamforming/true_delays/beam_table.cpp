@@ -10,7 +10,6 @@
 namespace insonify {
 namespace {
 
-using kernels::range_taps;
 using kernels::taps_before;
 using kernels::time_taps;
 
@@ -33,38 +32,40 @@ std::size_t filled_up(std::size_t bins) {
 
 }  // namespace
 
-double BeamTable::guard(const BeamTableSizes& sizes, double first_bin, double last_bin) {
-  return std::ceil(sizes.half_length(sizes.range_of(first_bin), sizes.range_of(last_bin)) / sizes.axis.step) + 1;
+double BeamTable::guard(const BeamTableSizes& sizes, const BeamTableSizes::Span& span) {
+  return std::ceil(sizes.half_length(sizes.range_of(span.first), sizes.range_of(span.last)) / sizes.axis.step) + 1;
 }
 
-double BeamTable::work(const BeamTableSizes& sizes, double last_bin) {
-  const double samples = 2 * sizes.reach.at(2 * sizes.range_of(last_bin) / sizes.medium.sound_speed) *
+double BeamTable::work(const BeamTableSizes& sizes, const BeamTableSizes::Span& span) {
+  const double samples = 2 * sizes.reach.at(2 * sizes.range_of(span.last) / sizes.medium.sound_speed) *
                          static_cast<double>(sizes.per_bin) / sizes.axis.step;
-  return static_cast<double>(range_taps * sizes.directions * sizes.part.y.size()) * samples;
+  return static_cast<double>(span.nodes * sizes.directions * sizes.part.y.size()) * samples;
 }
 
-double BeamTable::bytes(const BeamTableSizes& sizes, double first_bin, double last_bin) {
-  const auto width = filled_up(static_cast<std::size_t>(2 * guard(sizes, first_bin, last_bin)));
-  return static_cast<double>(range_taps * sizes.directions * (sizes.per_bin + time_taps) * 2 * width * sizeof(float));
+double BeamTable::bytes(const BeamTableSizes& sizes, const BeamTableSizes::Span& span) {
+  const auto width = filled_up(static_cast<std::size_t>(2 * guard(sizes, span)));
+  return static_cast<double>(span.nodes * sizes.directions * (sizes.per_bin + time_taps) * 2 * width * sizeof(float));
 }
 
-BeamTable::BeamTable(const BeamTableSizes& sizes, double first_bin, double last_bin, double doppler)
+BeamTable::BeamTable(const BeamTableSizes& sizes, const BeamTableSizes::Span& span, double doppler)
     : sizes_(sizes),
       stretch_(1 + doppler),
       // A bin more at either end: delays are rounded.
-      half_(sizes.half_length(sizes.range_of(first_bin - 1), sizes.range_of(last_bin + 1))),
+      half_(sizes.half_length(sizes.range_of(span.first - 1), sizes.range_of(span.last + 1))),
       width_(filled_up(static_cast<std::size_t>(2 * half_ / sizes.axis.step) + 1)),
       times_(sizes.per_bin + time_taps - 1),
-      values_(range_taps * sizes.directions * times_ * 2 * width_) {
-  const double near = 1 / sizes.range_of(first_bin - 1), far = 1 / sizes.range_of(last_bin + 1);
-  for (std::size_t c = 0; c < range_taps; ++c)
-    node_.push_back(0.5 * (near + far) + 0.5 * (near - far) * chebyshev_node(c, range_taps));
-  for (std::size_t c = 0; c < range_taps; ++c) fill(c);
+      span_(span),
+      values_(span.nodes * sizes.directions * times_ * 2 * width_) {
+  const double near = span.place(sizes.range_of(span.first - 1)), far = span.place(sizes.range_of(span.last + 1));
+  for (std::size_t c = 0; c < span.nodes; ++c)
+    node_.push_back(0.5 * (near + far) + 0.5 * (near - far) * chebyshev_node(c, span.nodes));
+  for (std::size_t c = 0; c < span.nodes; ++c) fill(c);
+  find_bins();
 }
 
 void BeamTable::fill(std::size_t node) {
   const BeamTableSizes& of = sizes_;
-  const double c = of.medium.sound_speed, range = 1 / node_[node],
+  const double c = of.medium.sound_speed, range = span_.range_at(node_[node]),
                step = of.axis.step / static_cast<double>(of.per_bin);
   const double start = -half_ - taps_before * step, reach = of.reach.at(2 * range / c);
   const EchoEnvelope envelope = of.shapes.of(2 * range / c);
@@ -101,6 +102,29 @@ void BeamTable::write(std::size_t node, std::size_t direction, const double* re,
     }
 }
 
+void BeamTable::find_bins() {
+  constexpr std::size_t at_once = kernels::numbers_at_once / 2;
+  std::vector<Bins> of_direction(sizes_.directions, {width_, 0});
+  for (std::size_t c = 0; c < node_.size(); ++c)
+    for (std::size_t g = 0; g < sizes_.directions; ++g)
+      for (std::size_t q = 0; q < times_; ++q) {
+        const float* row = values_.data() + ((c * sizes_.directions + g) * times_ + q) * 2 * width_;
+        for (std::size_t n = 0; n < width_; ++n)
+          if (row[2 * n] != 0 || row[2 * n + 1] != 0) {
+            of_direction[g].first = std::min(of_direction[g].first, n / at_once * at_once);
+            of_direction[g].last = std::max(of_direction[g].last, (n / at_once + 1) * at_once);
+          }
+      }
+  for (std::size_t g = 0; g + kernels::direction_taps <= sizes_.directions; ++g) {
+    Bins all{width_, 0};
+    for (std::size_t k = g; k < g + kernels::direction_taps; ++k) {
+      all.first = std::min(all.first, of_direction[k].first);
+      all.last = std::max(all.last, of_direction[k].last);
+    }
+    bins_.push_back({std::min(all.first, all.last), all.last});
+  }
+}
+
 void BeamTable::add(double delay, double u, std::complex<double> amplitude, double doppler, const BeamTable* shifted,
                     std::ptrdiff_t first, std::ptrdiff_t bins, std::complex<double>* image) const {
   const BeamTableSizes& of = sizes_;
@@ -108,10 +132,11 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   kernels::ResponseTaps taps;
   taps.row = 2 * width_, taps.line = times_ * taps.row, taps.plane = of.directions * taps.line;
   // Between ranges.
-  const double x = 2 / (of.medium.sound_speed * delay);
-  for (std::size_t c = 0; c < range_taps; ++c) {
+  const double range = 0.5 * of.medium.sound_speed * delay, x = span_.place(range);
+  taps.ranges = node_.size();
+  for (std::size_t c = 0; c < node_.size(); ++c) {
     double weight = 1;
-    for (std::size_t k = 0; k < range_taps; ++k)
+    for (std::size_t k = 0; k < node_.size(); ++k)
       if (k != c) weight *= (x - node_[k]) / (node_[c] - node_[k]);
     taps.range[c] = static_cast<float>(weight);
   }
@@ -121,7 +146,7 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   const auto direction = static_cast<std::size_t>(place) - taps_before;
   eight_weights(place - static_cast<double>(direction), taps.direction);
   // Between times: the first bin that the response reaches, and where in a bin the echo lies.
-  const double late = of.part.fade > 0 ? of.lateness(1 / x, u) : 0, half_bins = half_ / of.axis.step;
+  const double late = of.part.fade > 0 ? of.lateness(range, u) : 0, half_bins = half_ / of.axis.step;
   const double bin = (delay + late - of.axis.start) / of.axis.step, from = std::ceil(bin - half_bins);
   const double time = std::clamp(from - bin + half_bins, 0.0, 1 - 1e-12) * static_cast<double>(of.per_bin);
   const auto within = static_cast<std::size_t>(time);
@@ -129,15 +154,20 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
 
   // Bins of the response and of the image.
   const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(from) - first;
-  const auto begin = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -at)),
-             end = static_cast<std::size_t>(
-                 std::clamp<std::ptrdiff_t>(bins - at, 0, static_cast<std::ptrdiff_t>(width_)));
+  Bins some = bins_[direction];
+  if (shifted) {
+    some.first = std::min(some.first, shifted->bins_[direction].first);
+    some.last = std::max(some.last, shifted->bins_[direction].last);
+  }
+  const auto begin = std::max(some.first, static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -at))),
+             end = std::min(some.last, static_cast<std::size_t>(std::max<std::ptrdiff_t>(bins - at, 0)));
+  taps.eights = (some.last - some.first) * 2 / kernels::numbers_at_once;
   amplitude *= of.shapes.of(delay).gain;
   if (late != 0) amplitude *= std::polar(1.0, 2 * pi * reduced_cycles(stretch * carrier * late));
   thread_local std::vector<float> response, other;
   response.resize(taps.row);
-  const std::size_t origin = direction * taps.line + within * taps.row;
-  kernels::sum_response(values_.data() + origin, taps, response.data());
+  const std::size_t origin = direction * taps.line + within * taps.row + 2 * some.first;
+  kernels::sum_response(values_.data() + origin, taps, response.data() + 2 * some.first);
   if (!shifted) {
     for (std::size_t n = begin; n < end; ++n)
       image[at + static_cast<std::ptrdiff_t>(n)] +=
@@ -146,7 +176,7 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   }
   // A line through both tables, and the shift itself since the echo's delay.
   other.resize(taps.row);
-  kernels::sum_response(shifted->values_.data() + origin, taps, other.data());
+  kernels::sum_response(shifted->values_.data() + origin, taps, other.data() + 2 * some.first);
   const double part = doppler / (BeamTableSizes::shifted * carrier);
   const auto between = [&](std::size_t k) { return response[k] + part * (other[k] - response[k]); };
   const double since = (from + static_cast<double>(begin)) * of.axis.step + of.axis.start - delay;

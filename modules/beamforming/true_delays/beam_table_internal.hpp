@@ -59,13 +59,24 @@ struct BeamTableSizes {
   double lateness(double range, double u) const;
   /// Half length of a response to an echo from `near` to `far` [s]: the pulse, and what the part's delays add.
   double half_length(double near, double far) const;
-  /// The last bin of a table that begins at bin `first`: between its ranges phases turn by as much as four of them
-  /// allow.
-  double last_bin(double first) const;
+  /// The bins of a table, and the variable and number of nodes by which it is interpolated between ranges.
+  struct Span {
+    double first, last;
+    std::size_t nodes;
+    bool by_inverse;  ///< 1 / range, with which wavefronts bend; else range, with which pulses change
+
+    double place(double range) const { return by_inverse ? 1 / range : range; }
+    double range_at(double place) const { return by_inverse ? 1 / place : place; }
+  };
+  /// The span of a table that begins at bin `first`, as long as polynomials through its nodes keep the tolerance: two or
+  /// three nodes if it is long enough, else four.
+  Span span_from(double first) const;
 
  private:
   double path(double range, double u, double time, double y) const;
-  double phase_between(double near, double far) const;
+  /// What polynomials through the nodes of a span leave of responses, relative to the largest.
+  double left_of(const Span& span) const;
+  Span longest_span(double first, std::size_t nodes, bool by_inverse) const;
 };
 
 /// The responses of one focused beam, or of a part of its array, to echoes of unit amplitude from some bins of the
@@ -75,7 +86,7 @@ class BeamTable {
  public:
   /// Sums over all elements for every entry. `doppler`: shift over the carrier. Directions count from the beam, times
   /// (1 + doppler), so that responses hardly depend on it.
-  BeamTable(const BeamTableSizes& sizes, double first_bin, double last_bin, double doppler);
+  BeamTable(const BeamTableSizes& sizes, const BeamTableSizes::Span& span, double doppler);
 
   /// Adds an echo to an image of `bins` bins, the first of which is bin `first` of the gate. `shifted`: the same table
   /// for BeamTableSizes::shifted, or nullptr for an echo at rest; doppler [Hz].
@@ -83,23 +94,30 @@ class BeamTable {
            std::ptrdiff_t first, std::ptrdiff_t bins, std::complex<double>* image) const;
 
   /// Bins that a response reaches beyond its echo, to either side.
-  static double guard(const BeamTableSizes& sizes, double first_bin, double last_bin);
-  /// Samples of pulses that a table sums that ends at this bin.
-  static double work(const BeamTableSizes& sizes, double last_bin);
+  static double guard(const BeamTableSizes& sizes, const BeamTableSizes::Span& span);
+  /// Samples of pulses that a table sums.
+  static double work(const BeamTableSizes& sizes, const BeamTableSizes::Span& span);
   /// Size of a table [bytes].
-  static double bytes(const BeamTableSizes& sizes, double first_bin, double last_bin);
+  static double bytes(const BeamTableSizes& sizes, const BeamTableSizes::Span& span);
 
  private:
   void fill(std::size_t node);
   void write(std::size_t node, std::size_t direction, const double* re, const double* im);
+  void find_bins();
 
   const BeamTableSizes& sizes_;
-  double stretch_;            ///< 1 + doppler
-  double half_;               ///< length of a response [s]
-  std::size_t width_;         ///< bins of a response, filled up
-  std::size_t times_;         ///< rows of one direction: time within a bin, and taps
-  std::vector<double> node_;  ///< of 1 / range [1/m]
-  AlignedFloats values_;      ///< by range, direction, time within a bin, bin, and real or imaginary part
+  double stretch_;     ///< 1 + doppler
+  double half_;        ///< length of a response [s]
+  std::size_t width_;  ///< bins of a response, filled up
+  std::size_t times_;  ///< rows of one direction: time within a bin, and taps
+  BeamTableSizes::Span span_;
+  std::vector<double> node_;  ///< places of ranges
+  /// Bins of a response that are not 0 at any node, time within a bin, or of direction_taps directions from one on.
+  struct Bins {
+    std::size_t first, last;  ///< multiples of four; one after the last
+  };
+  std::vector<Bins> bins_;
+  AlignedFloats values_;  ///< by range, direction, time within a bin, bin, and real or imaginary part
 };
 
 }  // namespace insonify

@@ -10,19 +10,22 @@ namespace {
 
 using Eight = float __attribute__((vector_size(32)));
 
-/// Sums `eights` times eight numbers of all rows, which stay in registers.
+/// Sums `eights` times eight numbers of all rows, which stay in registers. Rows of one direction are summed first, so
+/// that additions need not wait for those of other directions.
 template <std::size_t eights>
 [[gnu::always_inline]] inline void sum_eights(const float* first, const ResponseTaps& taps, float* response) {
   Eight sum[eights] = {}, row;
-  for (std::size_t c = 0; c < range_taps; ++c)
+  for (std::size_t c = 0; c < taps.ranges; ++c)
     for (std::size_t g = 0; g < direction_taps; ++g) {
       const float* at = first + c * taps.plane + g * taps.line;
       const float here = taps.range[c] * taps.direction[g];
+      Eight of_direction[eights] = {};
       for (std::size_t q = 0; q < time_taps; ++q, at += taps.row)
         for (std::size_t k = 0; k < eights; ++k) {
           __builtin_memcpy(&row, at + 8 * k, sizeof row);
-          sum[k] += here * taps.time[q] * row;
+          of_direction[k] += taps.time[q] * row;
         }
+      for (std::size_t k = 0; k < eights; ++k) sum[k] += here * of_direction[k];
     }
   __builtin_memcpy(response, sum, sizeof sum);
 }
@@ -60,9 +63,11 @@ void add_element(const ElementPulse& pulse, const double* focus, double path, do
 
 INSONIFY_CLONES
 void sum_response(const float* first, const ResponseTaps& taps, float* response) {
-  std::size_t left = taps.row / numbers_at_once;
+  std::size_t left = taps.eights;
   for (; left > 4; left -= 4, first += 32, response += 32) sum_eights<4>(first, taps, response);
   switch (left) {
+    case 0:
+      return;
     case 1:
       return sum_eights<1>(first, taps, response);
     case 2:

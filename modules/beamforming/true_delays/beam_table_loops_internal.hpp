@@ -30,17 +30,20 @@ struct ElementPulse {
 void add_element(const ElementPulse& pulse, const double* focus, double path, double weight, std::size_t begin,
                  std::size_t end, double* re, double* im);
 
-constexpr std::size_t range_taps = 4, direction_taps = 8, time_taps = 8;  ///< of an interpolation in a BeamTable
-constexpr std::size_t taps_before = 3;      ///< the interval that is interpolated, of direction and time
-constexpr std::size_t numbers_at_once = 8;  ///< a row of the table holds a multiple of so many numbers
+constexpr std::size_t most_ranges = 4;                    ///< that a BeamTable is interpolated between
+constexpr std::size_t direction_taps = 8, time_taps = 8;  ///< of an interpolation in a BeamTable
+constexpr std::size_t taps_before = 3;                    ///< the interval that is interpolated, of direction and time
+constexpr std::size_t numbers_at_once = 8;                ///< a row of the table holds a multiple of so many numbers
 
 /// The rows of a table that give one response, and their weights: row (c, g, q) begins at c plane + g line + q row.
 struct ResponseTaps {
-  float range[range_taps], direction[direction_taps], time[time_taps];
+  std::size_t ranges;  ///< at most most_ranges
+  float range[most_ranges], direction[direction_taps], time[time_taps];
   std::size_t plane, line, row;  ///< numbers from one range, direction, and time to the next
+  std::size_t eights;            ///< of a row that are summed
 };
 
-/// Writes the sum of the rows times their weights, taps.row numbers.
+/// Writes the sum of the rows times their weights, 8 taps.eights numbers of each.
 void sum_response(const float* first, const ResponseTaps& taps, float* response);
 
 }  // namespace insonify::kernels

@@ -8,6 +8,7 @@
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/true_delays/beam_table_internal.hpp"
 #include "beamforming/true_delays/beam_table_loops_internal.hpp"
+#include "beamforming/true_delays/node_functions_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -17,10 +18,11 @@ using kernels::taps_before;
 
 // Of the ranges of a table: losses and pulses change with range, not with its inverse.
 constexpr double farthest_ratio = 1.4;
+// Tables of few ranges must be as long as this, so that they are few.
+constexpr double enough_ratio = 1.2;
 // What polynomials through eight steps leave at the middle of the inner one, of a wave that turns by one radian per
 // step.
 constexpr double eight_left = 1.07e-3;
-constexpr double four_left = 1.0 / 3072;  // the same of a cubic through Chebyshev nodes, by the phase over all of them
 
 /// Steps of the table per step of the sampling theorem, for the highest frequency of a Gaussian pulse's band: errors
 /// count by its spectrum, which has fallen to the tolerance there.
@@ -134,26 +136,57 @@ double BeamTableSizes::half_length(double near, double far) const {
   return half;
 }
 
-double BeamTableSizes::phase_between(double near, double far) const {
-  double most = 0;
+double BeamTableSizes::left_of(const Span& span) const {
+  constexpr double weight = 0.02;  // of the outermost elements, at the ends of the pulse
+  const double first = range_of(span.first), last = range_of(span.last);
+  const double near = span.place(first), far = span.place(last);
+  // Errors are largest where a Chebyshev polynomial is.
+  const auto count = static_cast<Eigen::Index>(span.nodes);
+  const Eigen::VectorXd checks =
+      (Eigen::VectorXd::LinSpaced(count + 1, 0, static_cast<double>(count)) * pi / static_cast<double>(count))
+          .array()
+          .cos();
+  const Eigen::VectorXd nodes = chebyshev_points(span.nodes);
+  const Eigen::MatrixXd between = from_nodes(checks, span.nodes);
+  const auto left = [&](const auto& response) {
+    const auto at = [&](double x) -> std::complex<double> {
+      return response(span.range_at(0.5 * (near + far) + 0.5 * (near - far) * x));
+    };
+    return (checks.unaryExpr(at) - between * nodes.unaryExpr(at)).cwiseAbs().maxCoeff();
+  };
+  double phases = 0, pulses = 0;
   for (const double y : {part.fade > 0 ? part.centre - 0.1 * part.fade : part.y.front(), part.y.back()})
     for (const double u : {-widest, -0.5 * widest, 0.0, 0.5 * widest, widest})
       for (const double late : {-reach.half, reach.half})
-        most = std::max(
-            most, std::abs(path(near, u, late + lateness(near, u), y) - path(far, u, late + lateness(far, u), y)));
-  return 2 * pi * highest / medium.sound_speed * most;
+        phases = std::max(phases, left([&](double range) {
+                            const double detour = path(range, u, late + lateness(range, u), y);
+                            return std::polar(1.0, 2 * pi * highest / medium.sound_speed * detour);
+                          }));
+  const double width = std::sqrt(shapes.of(2 * last / medium.sound_speed).a) / pi;  // to where a pulse falls by e
+  for (const double t : {-1.5 * width, -0.7 * width, 0.7 * width, 1.5 * width})
+    pulses = std::max(pulses, left([&](double range) {
+                        const EchoEnvelope envelope = shapes.of(2 * range / medium.sound_speed);
+                        return envelope.at(t) / envelope.gain;
+                      }));
+  return weight * phases + pulses;
 }
 
-double BeamTableSizes::last_bin(double first) const {
-  constexpr double weight = 0.02;  // of the outermost elements, at the ends of the pulse
-  const double allowed = std::pow(0.2 * tolerance / (four_left * weight), 0.25), near = range_of(first);
-  double length = 8;
-  const auto fits = [&](double bins) {
-    const double far = range_of(first + bins);
-    return far <= farthest_ratio * near && phase_between(near, far) <= allowed;
-  };
-  while (fits(1.25 * length)) length *= 1.25;
-  return first + std::floor(length);
+BeamTableSizes::Span BeamTableSizes::longest_span(double first, std::size_t nodes, bool by_inverse) const {
+  Span span{first, first + 8, nodes, by_inverse};
+  for (double length = 8;; span.last = first + std::floor(length)) {
+    length *= 1.25;
+    const Span longer{first, first + length, nodes, by_inverse};
+    if (range_of(longer.last) > farthest_ratio * range_of(first) || left_of(longer) > 0.2 * tolerance) return span;
+  }
+}
+
+BeamTableSizes::Span BeamTableSizes::span_from(double first) const {
+  for (std::size_t nodes = 2; nodes < kernels::most_ranges; ++nodes)
+    for (const bool by_inverse : {true, false})
+      if (const Span span = longest_span(first, nodes, by_inverse);
+          range_of(span.last) >= enough_ratio * range_of(first))
+        return span;
+  return longest_span(first, kernels::most_ranges, true);
 }
 
 }  // namespace insonify

@@ -51,12 +51,13 @@ BeamTables::BeamTables(BeamTableSizes sizes, double nearest) : sizes_(std::move(
   edge_ = {nearest};
   // A response from beyond the gate may reach back into it.
   while (edge_.back() < bins + guard_ || edge_.size() == 1) {
-    const double first = edge_.back(), last = sizes_.last_bin(first);
-    const double range = sizes_.range_of(first);
+    const BeamTableSizes::Span span = sizes_.span_from(edge_.back());
+    const double range = sizes_.range_of(span.first);
     const double late =
         std::max(std::abs(sizes_.lateness(range, sizes_.widest)), std::abs(sizes_.lateness(range, -sizes_.widest)));
-    guard_ = std::max(guard_, BeamTable::guard(sizes_, first, last) + std::ceil(late / sizes_.axis.step));
-    edge_.push_back(last);
+    guard_ = std::max(guard_, BeamTable::guard(sizes_, span) + std::ceil(late / sizes_.axis.step));
+    edge_.push_back(span.last);
+    span_.push_back(span);
     table_.emplace_back(), shifted_.emplace_back();
   }
 }
@@ -64,20 +65,19 @@ BeamTables::BeamTables(BeamTableSizes sizes, double nearest) : sizes_(std::move(
 const BeamTable& BeamTables::at(double bin, bool shifted) const {
   const auto after = std::upper_bound(edge_.begin(), edge_.end() - 1, bin);
   const auto number = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, after - edge_.begin()) - 1);
-  return (shifted ? shifted_ : table_)[number].get([&] {
-    return std::make_unique<BeamTable>(sizes_, edge_[number], edge_[number + 1], shifted ? BeamTableSizes::shifted : 0);
-  });
+  return (shifted ? shifted_ : table_)[number].get(
+      [&] { return std::make_unique<BeamTable>(sizes_, span_[number], shifted ? BeamTableSizes::shifted : 0); });
 }
 
 double BeamTables::work() const {
   double sum = 0;
-  for (std::size_t k = 1; k < edge_.size(); ++k) sum += BeamTable::work(sizes_, edge_[k]);
+  for (const BeamTableSizes::Span& span : span_) sum += BeamTable::work(sizes_, span);
   return sum;
 }
 
 double BeamTables::bytes() const {
   double sum = 0;
-  for (std::size_t k = 1; k < edge_.size(); ++k) sum += BeamTable::bytes(sizes_, edge_[k - 1], edge_[k]);
+  for (const BeamTableSizes::Span& span : span_) sum += BeamTable::bytes(sizes_, span);
   return sum;
 }
 

@@ -30,6 +30,7 @@ class BeamTables {
  private:
   BeamTableSizes sizes_;
   std::vector<double> edge_;
+  std::vector<BeamTableSizes::Span> span_;
   std::deque<Lazy<BeamTable>> table_, shifted_;
   double guard_ = 0;
 };
