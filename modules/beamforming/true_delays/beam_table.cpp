@@ -17,12 +17,12 @@ using kernels::time_taps;
 void eight_weights(double at, float* weight) {
   static constexpr double per[8] = {-1.0 / 5040, 1.0 / 720, -1.0 / 240, 1.0 / 144,
                                     -1.0 / 144,  1.0 / 240, -1.0 / 720, 1.0 / 5040};
-  for (std::size_t k = 0; k < 8; ++k) {
-    double product = per[k];
-    for (std::size_t j = 0; j < 8; ++j)
-      if (j != k) product *= at - static_cast<double>(j);
-    weight[k] = static_cast<float>(product);
-  }
+  // Products of the distances to all steps before each, then of those after it.
+  double before[8], product = 1;
+  for (std::size_t k = 0; k < 8; product *= at - static_cast<double>(k++)) before[k] = product;
+  product = 1;
+  for (std::size_t k = 8; k-- > 0; product *= at - static_cast<double>(k))
+    weight[k] = static_cast<float>(per[k] * before[k] * product);
 }
 
 std::size_t filled_up(std::size_t bins) {
@@ -59,7 +59,12 @@ BeamTable::BeamTable(const BeamTableSizes& sizes, const BeamTableSizes::Span& sp
   const double near = span.place(sizes.range_of(span.first - 1)), far = span.place(sizes.range_of(span.last + 1));
   for (std::size_t c = 0; c < span.nodes; ++c)
     node_.push_back(0.5 * (near + far) + 0.5 * (near - far) * chebyshev_node(c, span.nodes));
-  for (std::size_t c = 0; c < span.nodes; ++c) fill(c);
+  for (std::size_t c = 0; c < span.nodes; ++c) {
+    node_weight_.push_back(1);
+    for (std::size_t k = 0; k < span.nodes; ++k)
+      if (k != c) node_weight_[c] /= node_[c] - node_[k];
+    fill(c);
+  }
   find_bins();
 }
 
@@ -135,9 +140,9 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   const double range = 0.5 * of.medium.sound_speed * delay, x = span_.place(range);
   taps.ranges = node_.size();
   for (std::size_t c = 0; c < node_.size(); ++c) {
-    double weight = 1;
+    double weight = node_weight_[c];
     for (std::size_t k = 0; k < node_.size(); ++k)
-      if (k != c) weight *= (x - node_[k]) / (node_[c] - node_[k]);
+      if (k != c) weight *= x - node_[k];
     taps.range[c] = static_cast<float>(weight);
   }
   // Between directions.

@@ -111,7 +111,7 @@ class BeamTable {
   std::size_t width_;  ///< bins of a response, filled up
   std::size_t times_;  ///< rows of one direction: time within a bin, and taps
   BeamTableSizes::Span span_;
-  std::vector<double> node_;  ///< places of ranges
+  std::vector<double> node_, node_weight_;  ///< places of ranges, and what Lagrange's polynomials divide by, inverted
   /// Bins of a response that are not 0 at any node, time within a bin, or of direction_taps directions from one on.
   struct Bins {
     std::size_t first, last;  ///< multiples of four; one after the last
