@@ -39,12 +39,13 @@ double BeamTable::guard(const BeamTableSizes& sizes, const BeamTableSizes::Span&
 double BeamTable::work(const BeamTableSizes& sizes, const BeamTableSizes::Span& span) {
   const double samples = 2 * sizes.reach.at(2 * sizes.range_of(span.last) / sizes.medium.sound_speed) *
                          static_cast<double>(sizes.per_bin) / sizes.axis.step;
-  return static_cast<double>(span.nodes * sizes.directions * sizes.part.y.size()) * samples;
+  return static_cast<double>(span.nodes * sizes.directions_of(span).count * sizes.part.y.size()) * samples;
 }
 
 double BeamTable::bytes(const BeamTableSizes& sizes, const BeamTableSizes::Span& span) {
   const auto width = filled_up(static_cast<std::size_t>(2 * guard(sizes, span)));
-  return static_cast<double>(span.nodes * sizes.directions * (sizes.per_bin + time_taps) * 2 * width * sizeof(float));
+  return static_cast<double>(span.nodes * sizes.directions_of(span).count * (sizes.per_bin + time_taps) * 2 * width *
+                             sizeof(float));
 }
 
 BeamTable::BeamTable(const BeamTableSizes& sizes, const BeamTableSizes::Span& span, double doppler)
@@ -55,7 +56,8 @@ BeamTable::BeamTable(const BeamTableSizes& sizes, const BeamTableSizes::Span& sp
       width_(filled_up(static_cast<std::size_t>(2 * half_ / sizes.axis.step) + 1)),
       times_(sizes.per_bin + time_taps - 1),
       span_(span),
-      values_(span.nodes * sizes.directions * times_ * 2 * width_) {
+      directions_(sizes.directions_of(span)),
+      values_(span.nodes * directions_.count * times_ * 2 * width_) {
   const double near = span.place(sizes.range_of(span.first - 1)), far = span.place(sizes.range_of(span.last + 1));
   for (std::size_t c = 0; c < span.nodes; ++c)
     node_.push_back(0.5 * (near + far) + 0.5 * (near - far) * chebyshev_node(c, span.nodes));
@@ -75,11 +77,11 @@ void BeamTable::fill(std::size_t node) {
   const double start = -half_ - taps_before * step, reach = of.reach.at(2 * range / c);
   const EchoEnvelope envelope = of.shapes.of(2 * range / c);
   const std::size_t samples = width_ * of.per_bin + time_taps - 1;
-  std::vector<double> focus(samples), re(of.directions * samples), im(of.directions * samples);
+  std::vector<double> focus(samples), re(directions_.count * samples), im(directions_.count * samples);
   for (std::size_t m = 0; m < of.part.y.size(); ++m)
-    for (std::size_t g = 0; g < of.directions; ++g) {
-      const double asked = of.first_u + static_cast<double>(g) * of.u_step,
-                   u = std::clamp(of.u_beam + (asked - of.u_beam) / stretch_, -1.0, 1.0);
+    for (std::size_t g = 0; g < directions_.count; ++g) {
+      const double asked = directions_.first + static_cast<double>(g) * of.u_step;
+      const double u = of.u_seen(range, asked / stretch_);
       const double late = of.lateness(range, u), path = path_difference(range, u, of.part.y[m]);
       if (g == 0 || of.part.fade > 0)
         kernels::focus_at({range + 0.5 * c * (start + late), 0.5 * c * step, of.u_beam, of.part.y[m]}, samples,
@@ -95,11 +97,11 @@ void BeamTable::fill(std::size_t node) {
                              static_cast<std::size_t>(end), re.data() + g * samples,
                              im.data() + g * samples);  // (E134)
     }
-  for (std::size_t g = 0; g < of.directions; ++g) write(node, g, re.data() + g * samples, im.data() + g * samples);
+  for (std::size_t g = 0; g < directions_.count; ++g) write(node, g, re.data() + g * samples, im.data() + g * samples);
 }
 
 void BeamTable::write(std::size_t node, std::size_t direction, const double* re, const double* im) {
-  float* row = values_.data() + (node * sizes_.directions + direction) * times_ * 2 * width_;
+  float* row = values_.data() + (node * directions_.count + direction) * times_ * 2 * width_;
   for (std::size_t q = 0; q < times_; ++q, row += 2 * width_)
     for (std::size_t n = 0; n < width_; ++n) {
       row[2 * n] = static_cast<float>(re[q + n * sizes_.per_bin]);
@@ -109,18 +111,18 @@ void BeamTable::write(std::size_t node, std::size_t direction, const double* re,
 
 void BeamTable::find_bins() {
   constexpr std::size_t at_once = kernels::numbers_at_once / 2;
-  std::vector<Bins> of_direction(sizes_.directions, {width_, 0});
+  std::vector<Bins> of_direction(directions_.count, {width_, 0});
   for (std::size_t c = 0; c < node_.size(); ++c)
-    for (std::size_t g = 0; g < sizes_.directions; ++g)
+    for (std::size_t g = 0; g < directions_.count; ++g)
       for (std::size_t q = 0; q < times_; ++q) {
-        const float* row = values_.data() + ((c * sizes_.directions + g) * times_ + q) * 2 * width_;
+        const float* row = values_.data() + ((c * directions_.count + g) * times_ + q) * 2 * width_;
         for (std::size_t n = 0; n < width_; ++n)
           if (row[2 * n] != 0 || row[2 * n + 1] != 0) {
             of_direction[g].first = std::min(of_direction[g].first, n / at_once * at_once);
             of_direction[g].last = std::max(of_direction[g].last, (n / at_once + 1) * at_once);
           }
       }
-  for (std::size_t g = 0; g + kernels::direction_taps <= sizes_.directions; ++g) {
+  for (std::size_t g = 0; g + kernels::direction_taps <= directions_.count; ++g) {
     Bins all{width_, 0};
     for (std::size_t k = g; k < g + kernels::direction_taps; ++k) {
       all.first = std::min(all.first, of_direction[k].first);
@@ -135,7 +137,7 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   const BeamTableSizes& of = sizes_;
   const double carrier = of.head.pulse.centre_frequency, stretch = 1 + doppler / carrier;
   kernels::ResponseTaps taps;
-  taps.row = 2 * width_, taps.line = times_ * taps.row, taps.plane = of.directions * taps.line;
+  taps.row = 2 * width_, taps.line = times_ * taps.row, taps.plane = directions_.count * taps.line;
   // Between ranges.
   const double range = 0.5 * of.medium.sound_speed * delay, x = span_.place(range);
   taps.ranges = node_.size();
@@ -146,8 +148,8 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
     taps.range[c] = static_cast<float>(weight);
   }
   // Between directions.
-  const double asked = of.u_beam + stretch * ((of.mirrored ? std::abs(u) : u) - of.u_beam);
-  const double place = (asked - of.first_u) / of.u_step;
+  const double asked = stretch * of.seen(range, of.mirrored ? std::abs(u) : u);
+  const double place = (asked - directions_.first) / of.u_step;
   const auto direction = static_cast<std::size_t>(place) - taps_before;
   eight_weights(place - static_cast<double>(direction), taps.direction);
   // Between times: the first bin that the response reaches, and where in a bin the echo lies.

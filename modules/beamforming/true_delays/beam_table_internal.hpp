@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <vector>
@@ -39,26 +40,11 @@ struct BeamTableSizes {
   PulseReach reach;  ///< half length of an echo's pulse
   EchoShapes shapes;
   double u_beam;
-  bool mirrored;               ///< the part receives alike from u and -u: tables hold one side
-  double highest;              ///< frequency that counts [Hz]
-  double first_u, u_step;      ///< directions of a table
-  std::size_t directions = 0;  ///< so many
-  std::size_t per_bin = 0;     ///< samples of a table per bin of the gate
+  bool mirrored;            ///< the part receives alike from u and -u: tables hold one side
+  double highest;           ///< frequency that counts [Hz]
+  double u_step;            ///< between directions of a table
+  std::size_t per_bin = 0;  ///< samples of a table per bin of the gate
 
-  /// Doppler shifts over the carrier: of the tables of moving echoes, and the largest that they are good for. Between,
-  /// and as far beyond, responses change linearly with the shift.
-  static constexpr double shifted = 5e-3, most_shifted = 0.025;
-
-  /// For a head with one beam and a Gaussian pulse, and echoes within `widest` of u = 0.
-  BeamTableSizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, ArrayPart part);
-
-  /// Range of a bin of the gate [m].
-  double range_of(double bin) const { return 0.5 * medium.sound_speed * (axis.start + bin * axis.step); }
-  /// By how much later than at the middle of the array an echo counts at the part [s]: its way to the centre of the
-  /// part, less that of a wave from the beam's focus.
-  double lateness(double range, double u) const;
-  /// Half length of a response to an echo from `near` to `far` [s]: the pulse, and what the part's delays add.
-  double half_length(double near, double far) const;
   /// The bins of a table, and the variable and number of nodes by which it is interpolated between ranges.
   struct Span {
     double first, last;
@@ -68,12 +54,41 @@ struct BeamTableSizes {
     double place(double range) const { return by_inverse ? 1 / range : range; }
     double range_at(double place) const { return by_inverse ? 1 / place : place; }
   };
+
+  /// Doppler shifts over the carrier: of the tables of moving echoes, and the largest that they are good for. Between,
+  /// and as far beyond, responses change linearly with the shift.
+  static constexpr double shifted = 5e-3, most_shifted = 0.025;
+
+  /// For a head with one beam and a Gaussian pulse, and echoes within `widest` of u = 0.
+  BeamTableSizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, ArrayPart part);
+
+  /// The direction of an echo as the centre of the part sees it, less that of the beam's focus at the echo's range.
+  /// Responses change with range little where these are equal. Its inverse gives u.
+  double seen(double range, double u) const;
+  double u_seen(double range, double w) const;
+  /// The directions of a table, u_step apart, as `seen` gives them.
+  struct Directions {
+    double first;
+    std::size_t count;
+  };
+  Directions directions_of(const Span& span) const;
+
+  /// Range of a bin of the gate [m].
+  double range_of(double bin) const { return 0.5 * medium.sound_speed * (axis.start + bin * axis.step); }
+  /// By how much later than at the middle of the array an echo counts at the part [s]: its way to the centre of the
+  /// part, less that of a wave from the beam's focus.
+  double lateness(double range, double u) const;
+  /// Half length of a response to an echo from `near` to `far` [s]: the pulse, and what the part's delays add.
+  double half_length(double near, double far) const;
   /// The span of a table that begins at bin `first`, as long as polynomials through its nodes keep the tolerance: two or
   /// three nodes if it is long enough, else four.
   Span span_from(double first) const;
 
  private:
   double path(double range, double u, double time, double y) const;
+  double local(double range, double u) const;
+  /// The least and the largest direction seen of echoes.
+  std::array<double, 2> extent(double near, double far) const;
   /// What polynomials through the nodes of a span leave of responses, relative to the largest.
   double left_of(const Span& span) const;
   Span longest_span(double first, std::size_t nodes, bool by_inverse) const;
@@ -111,6 +126,7 @@ class BeamTable {
   std::size_t width_;  ///< bins of a response, filled up
   std::size_t times_;  ///< rows of one direction: time within a bin, and taps
   BeamTableSizes::Span span_;
+  BeamTableSizes::Directions directions_;
   std::vector<double> node_, node_weight_;  ///< places of ranges, and what Lagrange's polynomials divide by, inverted
   /// Bins of a response that are not 0 at any node, time within a bin, or of direction_taps directions from one on.
   struct Bins {

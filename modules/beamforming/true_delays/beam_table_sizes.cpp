@@ -104,11 +104,37 @@ BeamTableSizes::BeamTableSizes(const SonarHead& head_in, const Medium& medium_in
   const double per_u =
       highest / medium.sound_speed * (part.fade > 0 ? 0.65 * part.fade : part.y.back() - part.y.front());
   u_step = std::min(0.25 * widest, 1 / (per_u * finer_in_direction(tolerance)));
-  const double farthest = (1 + 2 * most_shifted) * widest;
-  first_u = -(mirrored ? 0 : farthest) - taps_before * u_step;
-  directions = static_cast<std::size_t>(std::ceil((farthest - first_u) / u_step)) + direction_taps;
   // Focusing at every range moves the frequencies of the outermost elements.
   per_bin = static_cast<std::size_t>(std::ceil(axis.step * 2 * 1.3 * half_band * finer_in_time(tolerance)));
+}
+
+double BeamTableSizes::local(double range, double u) const {
+  const double y = part.centre;
+  return y == 0 ? u : (range * u - y) / (range + path_difference(range, u, y));
+}
+
+double BeamTableSizes::seen(double range, double u) const { return local(range, u) - local(range, u_beam); }
+
+double BeamTableSizes::u_seen(double range, double w) const {
+  const double here = w + local(range, u_beam), y = part.centre, across = y * (1 - here * here);
+  return (across + here * std::sqrt(std::max(0.0, range * range - y * across))) / range;
+}
+
+std::array<double, 2> BeamTableSizes::extent(double near, double far) const {
+  std::array<double, 2> all = {0, 0};
+  for (const double range : {near, far})
+    for (const double u : {-widest, widest}) {
+      all[0] = std::min(all[0], seen(range, u));
+      all[1] = std::max(all[1], seen(range, u));
+    }
+  return all;
+}
+
+BeamTableSizes::Directions BeamTableSizes::directions_of(const Span& span) const {
+  const auto [least, most] = extent(range_of(span.first - 1), range_of(span.last + 1));
+  const double moved = 2 * most_shifted * std::max(-least, most);
+  const double first = (mirrored ? 0 : least - moved) - static_cast<double>(taps_before) * u_step;
+  return {first, static_cast<std::size_t>(std::ceil((most + moved - first) / u_step)) + direction_taps};
 }
 
 double BeamTableSizes::lateness(double range, double u) const {
@@ -154,11 +180,13 @@ double BeamTableSizes::left_of(const Span& span) const {
     };
     return (checks.unaryExpr(at) - between * nodes.unaryExpr(at)).cwiseAbs().maxCoeff();
   };
+  const auto [least, most] = extent(first, last);
   double phases = 0, pulses = 0;
-  for (const double y : {part.fade > 0 ? part.centre - 0.1 * part.fade : part.y.front(), part.y.back()})
-    for (const double u : {-widest, -0.5 * widest, 0.0, 0.5 * widest, widest})
+  for (const double y : {part.fade > 0 ? part.centre - 0.15 * part.fade : part.y.front(), part.y.back()})
+    for (const double w : {least, 0.5 * least, 0.0, 0.5 * most, most})
       for (const double late : {-reach.half, reach.half})
         phases = std::max(phases, left([&](double range) {
+                            const double u = u_seen(range, w);
                             const double detour = path(range, u, late + lateness(range, u), y);
                             return std::polar(1.0, 2 * pi * highest / medium.sound_speed * detour);
                           }));
@@ -176,7 +204,7 @@ BeamTableSizes::Span BeamTableSizes::longest_span(double first, std::size_t node
   for (double length = 8;; span.last = first + std::floor(length)) {
     length *= 1.25;
     const Span longer{first, first + length, nodes, by_inverse};
-    if (range_of(longer.last) > farthest_ratio * range_of(first) || left_of(longer) > 0.2 * tolerance) return span;
+    if (range_of(longer.last) > farthest_ratio * range_of(first) || left_of(longer) > 0.5 * tolerance) return span;
   }
 }
 
