@@ -14,7 +14,6 @@
 #include "simulate/resolve_ping.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
-#include "store/scene_file.hpp"
 #include "store/survey_run.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/run_settings.hpp"
@@ -24,6 +23,7 @@
 #include "tool/run/record_file.hpp"
 #include "tool/run/run_checks.hpp"
 #include "tool/run/scene_reach.hpp"
+#include "viewer/scene_of_run.hpp"
 #include "viewer/survey_pings.hpp"
 #include "viewer/viewer_state.hpp"
 
@@ -90,16 +90,6 @@ void open_cubes(const std::vector<CubeOfPings>& cubes, LoadedView& view) {
   view.data.pings = lazy_pings_of(cubes);
 }
 
-// True if the ids of the contributors match the scene.
-bool belong_together(const Contributors& list, const SceneCloud& scene) {
-  const std::size_t step = 1 + list.surfel.size() / 10000;
-  for (std::size_t i = 0; i < list.surfel.size(); i += step)
-    if (list.surfel[i] != Contributors::none &&
-        (list.surfel[i] >= scene.size() || scene.id[list.surfel[i]] != list.id[i]))
-      return false;
-  return true;
-}
-
 // The contributors of all pings, where the run has them and they fit into memory.
 void load_contributors(const fs::path& run, LoadedView& view) {
   constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
@@ -120,42 +110,6 @@ void load_contributors(const fs::path& run, LoadedView& view) {
     view.data.contributors.push_back(std::move(named.contributors));
     view.data.material_names = std::move(named.materials);
   }
-}
-
-void load_scene_of_run(const ViewerCommand& command, const std::string& run_folder, LoadedView& view) {
-  if (command.no_scene) return;
-  tool::SceneOptions options = tool::scene_of_run(run_folder);
-  if (!command.scene.path.empty()) {
-    const std::string path = command.scene.path;
-    options = command.scene;
-    options.path = path;
-  } else if (options.path.empty() || !fs::exists(options.path)) {
-    view.notes.push_back(options.path.empty()
-                             ? "the run does not say what its scene was: give it with --scene for the 3-D panel"
-                             : options.path + ": the scene of the run is missing: give it with --scene");
-    return;
-  }
-  // Parts are where they were when a single ping was sent, those of a survey where they are at time 0.
-  tool::CommonOptions common = command.common;
-  double time = 0;
-  const fs::path settings = fs::path(run_folder) / "run.toml";
-  if (is_scene_file(options.path) && fs::exists(settings)) {
-    const tool::PingOptions sent = tool::load_ping_settings(settings.string());
-    common.seed = sent.common.seed, time = sent.time;
-  }
-  LoadedScene loaded = tool::load_any_scene(common, options, time);
-  for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
-  if (loaded.mesh && !view.data.contributors.empty()) {
-    const tool::PingOptions run = tool::load_ping_settings((fs::path(run_folder) / "run.toml").string());
-    tool::sample_for_ping(run, tool::set_up_ping(run), loaded);
-  }
-  for (const Contributors& list : view.data.contributors)
-    if (!belong_together(list, loaded.scene)) {
-      view.notes.push_back(options.path + ": is not the scene of the run's contributors, so it is not shown");
-      return;
-    }
-  view.data.scene = std::move(loaded.scene);
-  view.data.view = tool::view_of_run(run_folder, whole_of(view.data.scene), command.common.threads);
 }
 
 // The strongest sample of a beam, range compensated (E20), which is the most prominent in the picture.
@@ -180,8 +134,9 @@ void choose_start(const ViewerCommand& command, LoadedView& view) {
            ", the number of beams");
     start.selected = loudest_of(view.data, start.ping, static_cast<std::size_t>(beam));
   }
-  if (view.data.scene.materials.size() > 1) start.scene_colour = SceneColour::material;
-  if (view.data.scene.parts.size() > 1) start.scene_colour = SceneColour::part;
+  const std::shared_ptr<const SceneCloud> scene = scene_at(view.data, start.ping);
+  if (scene->materials.size() > 1) start.scene_colour = SceneColour::material;
+  if (scene->parts.size() > 1) start.scene_colour = SceneColour::part;
 }
 
 // The channel that --head names, of a side-scan, whose beams are its channels.
@@ -247,7 +202,7 @@ LoadedView load_run(const ViewerCommand& command) {
                                        head->blocks - head->done, head->blocks, head->name));
     if (!head->others.empty() && command.head.empty() && is_survey_run(command.target))
       view.notes.push_back("the survey has other heads too: --head " + joined(head->others, ", --head "));
-    load_scene_of_run(command, head->folder, view);
+    show_scene_of_run(command, head->folder, view);
     choose_start(command, view);
     return view;
   }
@@ -260,7 +215,7 @@ LoadedView load_run(const ViewerCommand& command) {
   const fs::path run(command.target), returns = run / "returns.ply";
   load_contributors(run, view);
   if (fs::is_directory(run) && fs::exists(returns)) view.data.returns = load_soundings(returns.string());
-  load_scene_of_run(command, command.target, view);
+  show_scene_of_run(command, command.target, view);
   choose_start(command, view);
   return view;
 }

@@ -7,12 +7,24 @@
 
 namespace insonify {
 
-PartsSource::PartsSource(std::shared_ptr<const SceneParts> parts, std::int64_t pings_per_draw, int threads,
-                         bool prepare)
-    : parts_(std::move(parts)), pings_per_draw_(pings_per_draw), threads_(threads), pool_(std::make_shared<Pool>()) {
+SceneMoment moment_of(const DrawRule& rule, double time, std::int64_t number) {
+  if (rule.pings_per_draw < 0)
+    fail(ErrorKind::argument, "moment_of: pings_per_draw = ", rule.pings_per_draw, ", must be at least 0");
+  if (rule.pings_per_draw == 0) return {time, rule.draw};
+  // The number of a ping among those of its head is in the lower 40 bits.
+  const std::int64_t own = number & ((std::int64_t{1} << 40) - 1);
+  return {time, static_cast<std::uint64_t>(own / rule.pings_per_draw)};
+}
+
+PartsSource::PartsSource(std::shared_ptr<const SceneParts> parts, const DrawRule& rule, int threads, bool prepare,
+                         std::optional<std::vector<PlacedPart>> resting)
+    : parts_(std::move(parts)),
+      resting_(std::move(resting)),
+      rule_(rule),
+      threads_(threads),
+      pool_(std::make_shared<Pool>()) {
   if (!parts_) fail(ErrorKind::argument, "PartsSource: no parts");
-  if (pings_per_draw < 0)
-    fail(ErrorKind::argument, "PartsSource: pings_per_draw = ", pings_per_draw, ", must be at least 0");
+  moment_of(rule, 0, 0);
   if (prepare) pool_->idle.push_back(take());
 }
 
@@ -25,13 +37,14 @@ std::unique_ptr<PosedScene> PartsSource::take() const {
       return scene;
     }
   }
-  return std::make_unique<PosedScene>(parts_->resting(), parts_->others_materials(), threads_);
+  return std::make_unique<PosedScene>(resting_ ? *resting_ : parts_->resting(), parts_->others_materials(), threads_);
 }
 
-std::uint64_t PartsSource::draw_of(const PingEvent& event) const {
-  // The number of a ping among those of its head is in the lower 40 bits.
-  const std::int64_t number = event.number & ((std::int64_t{1} << 40) - 1);
-  return pings_per_draw_ == 0 ? 0 : static_cast<std::uint64_t>(number / pings_per_draw_);
+std::vector<PlacedPart> PartsSource::others_at(const SceneMoment& moment) const {
+  std::vector<PlacedPart> others = parts_->others_at(moment.time, moment.draw);
+  // Only where pings differ by their draws it matters that the parts of all have the same numbers.
+  if (rule_.pings_per_draw == 0) std::erase_if(others, [](const PlacedPart& part) { return part.absent; });
+  return others;
 }
 
 /// A scene that is out; it goes back to the pool with the last of its owners.
@@ -48,10 +61,25 @@ struct PartsSource::Loan {
 };
 
 std::shared_ptr<const PreparedScene> PartsSource::scene_for(const PingSimulator&, const PingEvent& event) const {
-  const std::vector<PlacedPart> others = others_of(event);
+  return scene_at(moment_for(event));
+}
+
+std::shared_ptr<const PreparedScene> PartsSource::scene_at(const SceneMoment& moment) const {
+  const SceneMoment differs{parts_->moves() ? moment.time : 0, parts_->drawn_anew() ? moment.draw : 0};
+  {
+    const std::scoped_lock lock(pool_->guard);
+    for (const auto& [of, scene] : pool_->in_use)
+      if (of == differs)
+        if (std::shared_ptr<const PreparedScene> there = scene.lock()) return there;
+  }
+  const std::vector<PlacedPart> others = others_at(moment);
   const auto loan = std::make_shared<Loan>(pool_, take());
   loan->scene = loan->posed->pose(others);
-  return {loan, loan->scene.get()};
+  std::shared_ptr<const PreparedScene> scene(loan, loan->scene.get());
+  const std::scoped_lock lock(pool_->guard);
+  std::erase_if(pool_->in_use, [](const auto& use) { return use.second.expired(); });
+  pool_->in_use.emplace_back(differs, scene);
+  return scene;
 }
 
 }  // namespace insonify

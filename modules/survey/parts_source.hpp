@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "scene/posed_scene.hpp"
@@ -11,35 +13,51 @@
 
 namespace insonify {
 
-/// A scene of parts for the pings of a survey: what rests is prepared once for each ping that is under way at a time,
-/// what moves is placed by the time of the ping, what is drawn by its number.
+/// All that the places of the parts of a scene follow from.
+struct SceneMoment {
+  double time = 0;         ///< [s]
+  std::uint64_t draw = 0;  ///< number of the draw of its scatters
+  bool operator==(const SceneMoment&) const = default;
+};
+
+/// Which draw each ping has.
+struct DrawRule {
+  std::int64_t pings_per_draw = 0;  ///< bodies are drawn anew every so many pings of a head; 0: all pings have `draw`
+  std::uint64_t draw = 0;
+};
+/// Returns the moment of a ping: its time, and its draw by its number among those of its head.
+SceneMoment moment_of(const DrawRule& rule, double time, std::int64_t number);
+
+/// A scene of parts for many pings: what rests is prepared once for each scene that is in use at a time, what moves is
+/// placed by the time of the ping, what is drawn by its draw. Several threads may ask at once.
 class PartsSource : public SceneSource {
  public:
-  /// `pings_per_draw`: bodies are drawn anew every so many pings of a head; 0: once. threads: of preparing, 0: all
-  /// cores. Throws as PosedScene.
-  /// `prepare`: one at once, so that what is wrong is known; else each when it is needed.
-  explicit PartsSource(std::shared_ptr<const SceneParts> parts, std::int64_t pings_per_draw = 0, int threads = 0,
-                       bool prepare = true);
+  /// threads: of preparing, 0: all cores. `prepare`: one at once, so that what is wrong is known; else each when it is
+  /// needed. `resting`: in place of parts->resting(). Throws as PosedScene.
+  explicit PartsSource(std::shared_ptr<const SceneParts> parts, const DrawRule& rule = {}, int threads = 0,
+                       bool prepare = true, std::optional<std::vector<PlacedPart>> resting = {});
 
-  /// Returns the scene at the time of the event; it may be given back by any thread. Throws as SceneParts::others_at.
+  /// Returns the scene at the moment of the event, as scene_at.
   std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator, const PingEvent& event) const override;
-  /// Returns the number of the draw for a ping.
-  std::uint64_t draw_of(const PingEvent& event) const;
-  /// Returns the parts that move or are drawn, at the time of the event.
-  std::vector<PlacedPart> others_of(const PingEvent& event) const {
-    return parts_->others_at(event.time, draw_of(event));
-  }
+  /// Returns the scene at a moment: one that is in use already, if its parts stand alike. It may be given back by any
+  /// thread. Throws as SceneParts::others_at.
+  std::shared_ptr<const PreparedScene> scene_at(const SceneMoment& moment) const;
+  /// Returns the moment of a ping.
+  SceneMoment moment_for(const PingEvent& event) const { return moment_of(rule_, event.time, event.number); }
 
  private:
   struct Pool {
     std::mutex guard;
     std::vector<std::unique_ptr<PosedScene>> idle;
+    std::vector<std::pair<SceneMoment, std::weak_ptr<const PreparedScene>>> in_use;
   };
   struct Loan;
   std::unique_ptr<PosedScene> take() const;
+  std::vector<PlacedPart> others_at(const SceneMoment& moment) const;
 
   std::shared_ptr<const SceneParts> parts_;
-  std::int64_t pings_per_draw_;
+  std::optional<std::vector<PlacedPart>> resting_;
+  DrawRule rule_;
   int threads_;
   std::shared_ptr<Pool> pool_;  ///< shared with the scenes that are out
 };

@@ -53,7 +53,11 @@ class SceneParts {
   /// Error(content) for a time outside a trajectory, naming the part, and where bodies do not fit.
   std::vector<PlacedPart> others_at(double time, std::uint64_t draw) const;
   /// Returns true if nothing moves or is drawn anew.
-  bool still() const { return moving_.empty() && !drawn_anew_; }
+  bool still() const { return !moves() && !drawn_anew(); }
+  /// Returns true if a part moves.
+  bool moves() const { return !moving_.empty(); }
+  /// Returns true if bodies are drawn anew.
+  bool drawn_anew() const { return drawn_anew_; }
   /// Returns time 0, or if a trajectory begins later the time at which all have begun [s].
   double begin() const;
   /// Throws Error(content) naming the part unless all trajectories cover the times from `first` to `last` [s].

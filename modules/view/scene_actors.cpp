@@ -136,6 +136,12 @@ void SceneActors::add_to(vtkRenderer* renderer) {
   for (vtkActor* actor : actors()) renderer->AddActor(actor);
 }
 
+void SceneActors::remove_from(vtkRenderer* renderer) {
+  for (vtkActor* actor : actors()) renderer->RemoveActor(actor);
+  for (const auto& label : labels_) renderer->RemoveActor2D(label);
+  labels_.clear();
+}
+
 void SceneActors::set_colour(SceneColour colour) {
   const SceneColour before = std::exchange(look_.colour, colour);
   try {

@@ -40,8 +40,9 @@ class SceneActors {
   SceneActors(const SceneActors&) = delete;
   SceneActors& operator=(const SceneActors&) = delete;
 
-  /// Adds all actors to a renderer.
+  /// Adds all actors to a renderer, or removes them.
   void add_to(vtkRenderer* renderer);
+  void remove_from(vtkRenderer* renderer);
 
   /// Recolours the surfels. Throws as show_scene if the data of that colour are missing.
   void set_colour(SceneColour colour);

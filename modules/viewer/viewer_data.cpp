@@ -38,6 +38,13 @@ void require_viewable(const ViewerData& data, ViewerMode mode) {
   require_valid(data.gate, viewer_caller);
 }
 
+bool has_scene(const ViewerData& data) { return data.scene_of_ping || data.scene.size() > 0; }
+
+std::shared_ptr<const SceneCloud> scene_at(const ViewerData& data, std::size_t ping) {
+  if (data.scene_of_ping) return data.scene_of_ping(ping);
+  return {std::shared_ptr<const void>(), &data.scene};
+}
+
 View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate) {
   if (!data.view) return {pose, fan, gate, {}};
   return {pose, fan, data.view->gate, data.view->sampling};

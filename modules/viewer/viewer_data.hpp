@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,9 +28,12 @@ struct ViewerData {
   std::vector<Contributors> contributors;   ///< one per ping, empty if unknown; or no elements
   std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
   Soundings returns;                        ///< of all pings; unused if `pings` has returns of its own
-  SceneCloud scene;                         ///< may be empty
-  BeamFan fan;                              ///< to inspect
-  RangeGate gate;                           ///< to inspect
+  SceneCloud scene;                         ///< of all pings; may be empty
+  /// Of a scene whose parts stand elsewhere from ping to ping: that of a ping, the same object where it is the same, in
+  /// place of `scene`; else empty. Surfels are numbered within it.
+  std::function<std::shared_ptr<const SceneCloud>(std::size_t ping)> scene_of_ping{};
+  BeamFan fan;               ///< to inspect
+  RangeGate gate;            ///< to inspect
   std::optional<View> view;  ///< how a ping samples the scene (resolve_ping), wherever the head stands; or
                              ///< none: by fan and gate alone
 };
@@ -41,6 +46,11 @@ enum class ViewerPicture {
 };
 /// The picture that suits the head of a run.
 ViewerPicture picture_of(const ViewerData& data);
+
+/// Whether there is a scene.
+bool has_scene(const ViewerData& data);
+/// Returns the scene as it was when a ping was sent; of a scene of all pings, which must outlive it, without a copy.
+std::shared_ptr<const SceneCloud> scene_at(const ViewerData& data, std::size_t ping);
 
 /// Throws Error(content) unless there are pings, the first is valid, per-ping lists have one element per ping, and a
 /// scene to inspect has surfels.

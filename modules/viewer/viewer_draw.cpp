@@ -54,9 +54,9 @@ void ViewerWindow::update_data() {
   const bool new_ping = !drawn_ || drawn_->ping != state_.ping;
   if (!image_ || new_ping || drawn_->tvg != state_.tvg) image_ = levels_of(data_, state_.ping, state_.tvg);
   if (new_ping) head_view_.reset();
-  if (state_.scene_colour == SceneColour::visibility && !head_view_ && data_.scene.size() > 0)
-    head_view_ = look_from(data_.scene, view_at(data_, data_.pings.place(state_.ping).world_from_head,
-                                                data_.pings.fan(), data_.pings.gate()));
+  if (state_.scene_colour == SceneColour::visibility && !head_view_ && has_scene(data_))
+    head_view_ = look_from(*scene_at(data_, state_.ping), view_at(data_, data_.pings.place(state_.ping).world_from_head,
+                                                                  data_.pings.fan(), data_.pings.gate()));
   if (!new_ping && drawn_->selected == state_.selected) return;
   facts_.reset();
   explanation_.clear();

@@ -82,8 +82,8 @@ void find_occluder(const SceneCloud& scene, const View& view, PixelVisibility& v
     }
 }
 
-std::string material_name(const ViewerData& data, std::uint16_t material) {
-  if (data.scene.size() > 0 && material < data.scene.materials.size()) return data.scene.materials[material].name;
+std::string material_name(const ViewerData& data, const SceneCloud& scene, std::uint16_t material) {
+  if (scene.size() > 0 && material < scene.materials.size()) return scene.materials[material].name;
   if (material < data.material_names.size()) return data.material_names[material];
   return "material " + std::to_string(material);
 }
@@ -94,22 +94,42 @@ std::string part_name(const SceneCloud& scene, std::uint32_t surfel) {
   return part ? part->name : "";
 }
 
-std::string most_common_material(const ViewerData& data, const std::vector<std::uint32_t>& surfels) {
-  if (surfels.empty()) return {};
-  std::vector<std::size_t> count(data.scene.materials.size(), 0);
-  for (const std::uint32_t i : surfels) ++count[data.scene.material[i]];
-  const auto most = std::max_element(count.begin(), count.end()) - count.begin();
-  return material_name(data, static_cast<std::uint16_t>(most));
+/// The commonest of the numbers of surfels below `count`; number_of(i) is that of surfel i.
+template <typename Number>
+std::size_t commonest(const std::vector<std::uint32_t>& surfels, std::size_t count, const Number& number_of) {
+  std::vector<std::size_t> times(count, 0);
+  for (const std::uint32_t i : surfels) ++times[number_of(i)];
+  return static_cast<std::size_t>(std::max_element(times.begin(), times.end()) - times.begin());
 }
 
-std::vector<Contribution> contributions_of(const Contributors& list, PixelPlace place, const ViewerData& data) {
+std::string most_common_material(const ViewerData& data, const SceneCloud& scene,
+                                 const std::vector<std::uint32_t>& surfels) {
+  if (surfels.empty()) return {};
+  const std::size_t most =
+      commonest(surfels, scene.materials.size(), [&](std::uint32_t i) { return scene.material[i]; });
+  return material_name(data, scene, static_cast<std::uint16_t>(most));
+}
+
+/// The part that a sample shows: as the ping has labelled it, else that of most surfels seen here; empty: none.
+std::string part_at(const Ping& ping, PixelPlace place, const SceneCloud& scene,
+                    const std::vector<std::uint32_t>& seen) {
+  if (const Grid<std::uint16_t> parts = part_image(ping.labels); parts.size() > 0) {
+    const std::uint16_t part = parts(static_cast<Eigen::Index>(place.beam), static_cast<Eigen::Index>(place.bin));
+    return part < ping.labels.part_names.size() ? ping.labels.part_names[part] : "";
+  }
+  if (seen.empty() || scene.part.empty()) return {};
+  return scene.parts[commonest(seen, scene.parts.size(), [&](std::uint32_t i) { return scene.part[i]; })].name;
+}
+
+std::vector<Contribution> contributions_of(const Contributors& list, PixelPlace place, const ViewerData& data,
+                                           const SceneCloud& scene) {
   std::vector<Contribution> found;
   for (std::size_t k = 0; k < list.per_pixel; ++k) {
     const std::size_t at = list.at(place.beam, place.bin, k);
     if (list.surfel[at] == Contributors::none) break;
-    found.push_back({list.surfel[at], list.id[at], material_name(data, list.material[at]),
+    found.push_back({list.surfel[at], list.id[at], material_name(data, scene, list.material[at]),
                      static_cast<double>(list.share[at]), static_cast<double>(list.elevation[at]), list.path[at],
-                     part_name(data.scene, list.surfel[at])});
+                     part_name(scene, list.surfel[at])});
   }
   return found;
 }
@@ -146,8 +166,7 @@ std::string visibility_lines(const PixelVisibility& visibility, const std::strin
 
 }  // namespace
 
-PixelVisibility look_at_pixel(const ViewerData& data, const Ping& ping, PixelPlace place) {
-  const SceneCloud& scene = data.scene;
+PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, const Ping& ping, PixelPlace place) {
   PixelVisibility visibility;
   const std::vector<std::uint32_t> here = surfels_at(scene, ping, place);
   if (here.empty()) return visibility;
@@ -172,6 +191,8 @@ PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, Pixe
          ", must be below ", extent.pings, ", ", extent.beams, ", ", extent.bins);
   const auto shown = data.pings.ping(ping_index);
   const Ping& ping = *shown;
+  const std::shared_ptr<const SceneCloud> of_ping = scene_at(data, ping_index);
+  const SceneCloud& scene = *of_ping;
   PixelFacts facts;
   facts.place = place;
   facts.ping_number = ping.number;
@@ -186,13 +207,14 @@ PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, Pixe
       facts.level_db + 40 * std::log10(facts.range) + 2 * ping.absorption_db_per_m * facts.range;  // (E20)
   if (!data.contributors.empty() && !data.contributors[ping_index].empty()) {
     facts.contributions_known = true;
-    facts.contributions = contributions_of(data.contributors[ping_index], place, data);
+    facts.contributions = contributions_of(data.contributors[ping_index], place, data, scene);
   }
   if (ping.unknown.size() > 0) facts.unknown = ping.unknown(row, column) != 0;
-  if (data.scene.size() > 0) {
-    facts.visibility = look_at_pixel(data, ping, place);
-    facts.seen_material = most_common_material(data, facts.visibility->seen);
+  if (scene.size() > 0) {
+    facts.visibility = look_at_pixel(data, scene, ping, place);
+    facts.seen_material = most_common_material(data, scene, facts.visibility->seen);
   }
+  facts.part = part_at(ping, place, scene, facts.visibility ? facts.visibility->seen : std::vector<std::uint32_t>{});
   return facts;
 }
 
@@ -210,6 +232,7 @@ std::string explain_pixel(const PixelFacts& facts) {
   } else {
     text += "Level: no sound at all\n";
   }
+  if (!facts.part.empty()) text += "Part " + facts.part + "\n";
   text += contributor_lines(facts);
   if (facts.visibility) text += visibility_lines(*facts.visibility, facts.seen_material);
   if (facts.unknown) text += "Hole: surface may be missing here,\n  unknown, not empty\n";

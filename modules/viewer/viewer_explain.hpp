@@ -14,7 +14,7 @@ namespace insonify {
 
 /// One surfel that contributes energy to a sample.
 struct Contribution {
-  std::uint32_t surfel = 0;  ///< index in the scene
+  std::uint32_t surfel = 0;  ///< index in the scene of the ping
   std::uint32_t id = 0;
   std::string material;  ///< its name, or its number if the scene is missing
   double share = 0;      ///< of the energies of all contributors
@@ -31,8 +31,8 @@ struct PixelVisibility {
   std::optional<double> occluder_range;          ///< range of the nearest surfel that hides one of `hidden` [m]
   std::optional<std::uint32_t> occluder_surfel;  ///< its index
 };
-/// Returns the visibility at a sample; empty without a scene.
-PixelVisibility look_at_pixel(const ViewerData& data, const Ping& ping, PixelPlace place);
+/// Returns the visibility at a sample of a ping in `scene`, that of the ping; empty for an empty scene.
+PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, const Ping& ping, PixelPlace place);
 
 /// Facts about one sample.
 struct PixelFacts {
@@ -49,6 +49,7 @@ struct PixelFacts {
   bool contributions_known = false;
   bool unknown = false;                       ///< hole of the scan: surface may be missing here
   std::optional<PixelVisibility> visibility;  ///< if there is a scene
+  std::string part;                           ///< of a scene of parts: the one that is shown; empty: none
   std::string seen_material;                  ///< the commonest one of the visible surfels; empty: none visible
 };
 /// Throws Error(argument) if ping, beam or bin is not in the data.

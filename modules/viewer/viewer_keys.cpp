@@ -124,7 +124,7 @@ const std::vector<ViewerKey> keys_of_both = {
      {{"1", [](S& s, E&) { s.scene_colour = SceneColour::height; }},
       {"2", [](S& s, E&) { s.scene_colour = SceneColour::material; }},
       {"3", [](S& s, E&) { s.scene_colour = SceneColour::visibility; }}}},
-    {"colour: angle of grazing, incidence, part of the scene",
+    {"colour: grazing, incidence, part",
      {{"4", [](S& s, E&) { s.scene_colour = SceneColour::grazing; }},
       {"5", [](S& s, E&) { s.scene_colour = SceneColour::incidence; }},
       {"6", [](S& s, E&) { s.scene_colour = SceneColour::part; }}}},

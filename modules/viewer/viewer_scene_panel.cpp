@@ -32,8 +32,9 @@ Soundings returns_of(const ViewerData& data, std::size_t ping) {
 }
 
 // By SceneColour.
-constexpr const char* colour_texts[] = {"height", "material",      "visibility",
-                                        "level",  "grazing angle", "angle of incidence"};
+constexpr const char* colour_texts[] = {"height",        "material",          "part", "visibility", "level",
+                                        "grazing angle", "angle of incidence"};
+static_assert(std::size(colour_texts) == static_cast<std::size_t>(SceneColour::incidence) + 1);
 
 // Draws a square of each colour and its name from the top left corner downwards; returns where they end.
 double draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, double left, double right, double top,
@@ -52,8 +53,8 @@ double draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, doubl
 
 ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const ViewerState& state,
                          const PictureOptions& options)
-    : data_(data), panel_(panel), drawn_(state) {
-  if (data.scene.size() == 0) own_ = scene_of_returns(data.returns);
+    : data_(data), panel_(panel), own_(!has_scene(data)), options_(options), drawn_(state) {
+  scene_ = own_ ? std::make_shared<const SceneCloud>(scene_of_returns(data.returns)) : scene_at(data, state.ping);
   SceneLook look;
   look.colour = SceneColour::height;
   look.axes = state.show_grid;
@@ -62,13 +63,38 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
   look.level_unit = level_unit(Tvg{});
   for (const TrackPoint& place : data.pings.places()) look.track.emplace_back(place.world_from_head.translation());
   if (!data.pings.empty()) look.soundings = returns_of(data, state.ping);
-  PictureOptions coloured = options;
-  coloured.colour_map = state.colour_map;
-  actors_ = std::make_unique<SceneActors>(shown(), look, coloured, viewer_caller);
+  options_.colour_map = state.colour_map;
+  actors_ = std::make_unique<SceneActors>(shown(), look, options_, viewer_caller);
   drawn_.scene_colour = look.colour;
   panel.content->SetBackground(theme(options.dark).background.data());
   actors_->add_to(panel.content);
   reset_camera();
+}
+
+// Draws the scene of another ping, if its parts stand elsewhere, in the same look and from the same place.
+void ViewerScene::change_scene(const ViewerState& state) {
+  std::shared_ptr<const SceneCloud> next = scene_at(data_, state.ping);
+  if (own_ || next == scene_) return;
+  SceneLook look = actors_->look();
+  look.highlighted.clear(), look.visibility.clear(), look.holes.clear();
+  if (look.colour == SceneColour::visibility) look.colour = SceneColour::height;
+  look.point_size = state.point_size, look.axes = state.show_grid;
+  options_.colour_map = state.colour_map;
+  actors_->remove_from(panel_.content);
+  const Eigen::Vector3d by = scene_->origin - next->origin;
+  actors_.reset();
+  scene_ = std::move(next);
+  actors_ = std::make_unique<SceneActors>(shown(), look, options_, viewer_caller);
+  actors_->add_to(panel_.content);
+  move_camera(by);
+}
+
+void ViewerScene::move_camera(const Eigen::Vector3d& by) {
+  vtkCamera* camera = panel_.content->GetActiveCamera();
+  Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(camera->GetPosition()) + by;
+  Eigen::Vector3d focus = Eigen::Map<const Eigen::Vector3d>(camera->GetFocalPoint()) + by;
+  camera->SetPosition(position.data());
+  camera->SetFocalPoint(focus.data());
 }
 
 SceneHead ViewerScene::head_of(const ViewerState& state) const {
@@ -78,18 +104,13 @@ SceneHead ViewerScene::head_of(const ViewerState& state) const {
 
 // Moves the camera as the head has moved.
 void ViewerScene::follow_head(const ViewerState& state) {
-  const Eigen::Vector3d by =
-      head_of(state).world_from_head.translation() - head_of(drawn_).world_from_head.translation();
-  vtkCamera* camera = panel_.content->GetActiveCamera();
-  Eigen::Vector3d position = Eigen::Map<const Eigen::Vector3d>(camera->GetPosition()) + by;
-  Eigen::Vector3d focus = Eigen::Map<const Eigen::Vector3d>(camera->GetFocalPoint()) + by;
-  camera->SetPosition(position.data());
-  camera->SetFocalPoint(focus.data());
+  move_camera(head_of(state).world_from_head.translation() - head_of(drawn_).world_from_head.translation());
 }
 
 void ViewerScene::update(const ViewerState& state, const HeadView* view, double max_db) {
   const SceneHead head = head_of(state);
   if (state.follow && state.ping != drawn_.ping) follow_head(state);
+  if (state.mode == ViewerMode::run && state.ping != drawn_.ping) change_scene(state);
   if (state.mode == ViewerMode::inspect || state.ping != drawn_.ping) {
     actors_->show_head(head.world_from_head, head.fan, head.gate);
     has_visibility_ = false;
@@ -115,7 +136,7 @@ void ViewerScene::highlight(const std::vector<std::uint32_t>& surfels) {
   std::vector<std::uint32_t> known;
   if (!own_)
     std::copy_if(surfels.begin(), surfels.end(), std::back_inserter(known),
-                 [&](std::uint32_t i) { return i < data_.scene.size(); });
+                 [&](std::uint32_t i) { return i < shown().size(); });
   actors_->highlight(known);
 }
 

@@ -28,24 +28,28 @@ class ViewerScene {
   void reset_camera();
   void set_moving(bool moving);
   void follow_camera();  ///< call before drawing if the camera has moved
-  /// The surfel of data.scene, or the world position, at a place in the window.
+  /// The surfel of the scene of the ping, or the world position, at a place in the window.
   std::optional<std::uint32_t> surfel_at(Point2 place) const;
   std::optional<Eigen::Vector3d> world_at(Point2 place) const;
 
   /// Place in the window where a point of the world is drawn [pixels].
   Point2 pixel_of(const Eigen::Vector3d& world) const;
 
-  static bool has_content(const ViewerData& data) { return data.scene.size() > 0 || data.returns.size() > 0; }
+  static bool has_content(const ViewerData& data) { return has_scene(data) || data.returns.size() > 0; }
 
  private:
-  const SceneCloud& shown() const { return own_ ? *own_ : data_.scene; }
+  const SceneCloud& shown() const { return *scene_; }
+  void change_scene(const ViewerState& state);
+  void move_camera(const Eigen::Vector3d& by);
   SceneHead head_of(const ViewerState& state) const;
   void follow_head(const ViewerState& state);
 
   const ViewerData& data_;
   ViewerPanel& panel_;
-  std::optional<SceneCloud> own_;  ///< made from the returns
+  bool own_ = false;                         ///< what is shown is made from the returns
+  std::shared_ptr<const SceneCloud> scene_;  ///< that is shown; the actors refer to it
   std::unique_ptr<SceneActors> actors_;
+  PictureOptions options_;
   ViewerState drawn_;
   bool has_visibility_ = false;
 };

@@ -256,12 +256,12 @@ TEST(PartsSource, poses_each_ping_by_its_time_and_number) {
   const auto parts =
       std::make_shared<const SceneParts>(std::vector<PartDefinition>{level_bed(), {ball_named("stone", 0.2), falls}},
                                          std::vector<SceneScatter>{{{ball_named("pot", 0.05)}, rule}}, 1, true);
-  const PartsSource source(parts, 10);
+  const PartsSource source(parts, {10});
   const PingSimulator simulator(small_head({}), {}, {});
-  EXPECT_EQ(source.draw_of({.number = 9}), 0U);
-  EXPECT_EQ(source.draw_of({.number = 10}), 1U);
-  EXPECT_EQ(source.draw_of({.number = (std::int64_t{3} << 40) + 25}), 2U) << "of each head its own number";
-  EXPECT_EQ(PartsSource(parts).draw_of({.number = 25}), 0U);
+  EXPECT_EQ(source.moment_for({.number = 9}).draw, 0U);
+  EXPECT_EQ(source.moment_for({.number = 10}).draw, 1U);
+  EXPECT_EQ(source.moment_for({.number = (std::int64_t{3} << 40) + 25}).draw, 2U) << "of each head its own number";
+  EXPECT_EQ(PartsSource(parts).moment_for({.number = 25}).draw, 0U);
 
   const auto low_of = [](const SceneCloud& scene) {
     double low = 9;
@@ -289,7 +289,7 @@ TEST(PartsSource, gives_several_threads_the_scenes_of_one) {
     std::this_thread::yield();
     return scene->scene().point;
   };
-  const PartsSource alone(parts, 2), shared(parts, 2);
+  const PartsSource alone(parts, {2}), shared(parts, {2});
   std::vector<std::vector<Eigen::Vector3f>> made(pings);
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t)

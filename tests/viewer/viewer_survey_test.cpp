@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A survey in the viewer: pings read one at a time, sweeps, waterfalls, seeking; and the program on a survey's folder.
 #include "core/units.hpp"
+#include "store/cube.hpp"
 #include "support/test.hpp"
 #include "tool/survey_fixture.hpp"
 #include "view/test_pictures.hpp"
 #include "viewer/three_targets.hpp"
+#include "viewer/viewer_explain.hpp"
 #include "viewer/viewer_records_internal.hpp"
 #include "viewer/viewer_window_internal.hpp"
 
@@ -239,4 +241,32 @@ TEST_F(ViewSurvey, says_what_is_missing) {
   expect_refused("view run --head sonar --screenshot b.png", 2,
                  {"--head = 'sonar' is not in run; it has fls, turning"});
   expect_refused("view harbour.ply --head fls --sonar p900-45 --pose=0,0,0,0,0,0 --screenshot b.png", 2, {"--head"});
+}
+
+// A ball that moves across is explained where it is at the time of each ping, without labels in the cube.
+TEST_F(ViewSurvey, has_moving_parts_where_they_are_at_each_ping) {
+  have("ball.ply", "make-object sphere --set diameter_m=0.8");
+  write("scene.toml",
+        "schema = 1\n[[part]]\nfile = \"harbour.ply\"\n[[part]]\nfile = \"ball.ply\"\nposition_m = [3.5, 1, -3]\n"
+        "velocity_mps = [0, -2, 0]\n");
+  write("m.toml",
+        "schema = 1\n[survey]\nscene = \"scene.toml\"\n[trajectory]\nwaypoints_m = [[0, 0, -3], [0.0025, 0, -3]]\n"
+        "speed_m_s = 0.001\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nrange = \"1:6\"\n"
+        "set = [\"sonar.beams=33\"]\nrate_hz = 1\n");
+  survey("run");
+  succeed("merge run -q");
+  const Cube cube = read_cube(path("run/fls/cube.h5"));
+  ASSERT_GE(cube.pings.size(), 2U);
+  for (const std::size_t ping : {0U, 1U})
+    for (const std::size_t at : {0U, 1U}) {
+      // The face of the ball towards the head.
+      const Eigen::Vector3d centre(3.5, 1 - 2.0 * static_cast<double>(at), -3), head(0, 0, -3);
+      const auto place = place_of(cube.pings[ping], centre - 0.38 * (centre - head).normalized());
+      ASSERT_TRUE(place);
+      const std::string said = shown("run --ping " + std::to_string(ping) + " --events 'select " +
+                                     std::to_string(place->beam) + " " + std::to_string(place->bin) + "'");
+      EXPECT_THAT(said, ping == at ? testing::Matcher<std::string>(HasSubstr("Part ball"))
+                                   : testing::Not(HasSubstr("Part ball")))
+          << ping << " at " << at;
+    }
 }

@@ -253,3 +253,43 @@ TEST_F(WindowFixture, refuses_what_cannot_be_shown) {
   uneven.pings = reel_in_memory(made_.pings);
   EXPECT_THAT(refuses(uneven, {}, ErrorKind::content), HasSubstr("3 x 3 samples"));
 }
+
+// Of a scene whose parts stand elsewhere at each ping: drawn, clicked, explained and coloured as of the ping.
+TEST_F(WindowFixture, a_scene_that_moves_is_that_of_the_ping) {
+  made_ = three_targets(3);
+  SceneCloud& scene = made_.data.scene;
+  scene.parts = {{.name = "plates"}, {.name = "swimmer"}};
+  scene.part.assign(scene.size(), 0);
+  std::fill_n(scene.part.begin(), 25, 1);  // the port target
+  const auto first = std::make_shared<const SceneCloud>(scene);
+  SceneCloud moved = scene;
+  const Eigen::Vector3d by =
+      made_.starboard.position + (made_.far.position - made_.starboard.position) / 2 - made_.port.position;
+  for (std::size_t i = 0; i < 25; ++i) moved.point[i] += by.cast<float>();
+  const auto second = std::make_shared<const SceneCloud>(std::move(moved));
+  scene = {};
+  made_.data.scene_of_ping = [&](std::size_t ping) { return ping == 1 ? second : first; };
+  const Eigen::Vector3d now = made_.port.position + by;
+  const auto there = place_of(made_.pings[1], now);
+  ASSERT_TRUE(there);
+
+  open();
+  window_->press_key("6");
+  const ReadPicture before = picture("before.png");
+  EXPECT_THAT(surfels_behind(find_pixel_facts(made_.data, 1, *there)), testing::Contains(12U));
+  EXPECT_TRUE(surfels_behind(find_pixel_facts(made_.data, 0, *there)).empty());
+  const auto click_world = [&](const Eigen::Vector3d& world) {
+    window_->press_key("Escape");
+    window_->play(click_at(*window_->pixel_of_point(world), ViewerPanelName::scene));
+    return window_->state().selected;
+  };
+  EXPECT_FALSE(click_world(now)) << "not there yet";
+  window_->press_key("Right");
+  EXPECT_FALSE(click_world(made_.port.position)) << "there no more";
+  ASSERT_TRUE(click_world(now));
+  EXPECT_EQ(window_->state().selected, there);
+  EXPECT_THAT(window_->explanation(), HasSubstr("Part swimmer"));
+  window_->press_key("Escape");
+  window_->press_key("Right");
+  EXPECT_EQ(differences(before, picture("after.png"), window_->layout().scene_view), 0) << "back at its place";
+}

@@ -74,6 +74,7 @@ struct PingOptions {
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
   double time = 0;         ///< of transmission [s]
   int ping = -1;           ///< number of the ping; -1: time in milliseconds
+  int draw = 0;            ///< of the scatters of a scene of parts
   std::string velocity;    ///< "vx,vy,vz" [m/s], or empty: at rest
   std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
   double threshold_db = library_options.detection.threshold_db;

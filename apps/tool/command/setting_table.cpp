@@ -19,6 +19,7 @@ const OptionRules outputs{.words = {"elements", "mask", "contributors", "insonif
                           .comma_separated = true};
 const OptionRules contributor_numbers{.within = std::pair(1, 255), .shown_as = "INT"};
 const OptionRules ping_numbers{.within = std::pair(-1, 1000000000), .shown_as = "INT"};
+const OptionRules draw_numbers{.within = std::pair(0, 1000000000), .shown_as = "INT"};
 const OptionRules bits{.within = std::pair(1, 24), .shown_as = "INT"};
 const OptionRules looks{.within = std::pair(1, 1024), .shown_as = "INT"};
 const OptionRules absorption_orders{.within = std::pair(-1, 2), .shown_as = "INT"};
@@ -106,6 +107,9 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
       {"ping", "ping", "--ping", &o.ping,
        "number of the ping: noise, waves and water are drawn anew for each; -1: the time in milliseconds",
        ping_numbers},
+      {"ping", "draw", "--draw", &o.draw,
+       "of a scene of parts: number of the draw of its [[scatter]]s, as [randomise] scene of a mission counts them",
+       draw_numbers},
       {"ping", "world", "--world", &o.world, "z-up, or ned: z down, pitch positive nose up", worlds},
       accuracy_setting(o.accuracy_db),
       {"ping", "sampling", "--sampling", &o.sampling, "surfels or rays", samplings},
@@ -185,8 +189,8 @@ namespace {
 
 /// Whether a setting says what is pinged, from where and when.
 bool is_of_one_ping(const RunSetting& setting) {
-  const std::vector<std::string> keys = {"path", "pose",  "mount",    "trajectory", "time",
-                                         "ping", "world", "velocity", "turn_rate"};
+  const std::vector<std::string> keys = {"path", "pose", "mount", "trajectory", "time",
+                                         "ping", "draw", "world", "velocity",   "turn_rate"};
   return std::find(keys.begin(), keys.end(), setting.key) != keys.end();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -12,9 +13,9 @@
 #include "store/scene_file.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/image/image.hpp"
 #include "tool/run/any_scene.hpp"
+#include "tool/run/parts_of_pings.hpp"
 #include "tool/run/ping_setup.hpp"
 #include "tool/run/run_files.hpp"
 #include "tool/run/run_pings.hpp"
@@ -39,16 +40,29 @@ constexpr Named<ScenePreset> camera_words[] = {{"auto", ScenePreset::automatic},
 
 /// A scene, how it is drawn, and its title.
 struct Drawing {
-  SceneCloud scene;
+  std::shared_ptr<const SceneCloud> scene;
   SceneLook look;
   std::string title;
   std::optional<View> view;  // of the head, if its sonar is known
 };
 
-SceneCloud load(const CommonOptions& common, const SceneOptions& options, double time, Progress& progress) {
-  LoadedScene loaded = load_any_scene(common, options, time);
-  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
-  return std::move(loaded.scene);
+void add_notes(const LoadReport& report, Progress& progress) {
+  for (const std::string& note : loading_notes(report)) progress.note(note);
+}
+
+std::shared_ptr<const SceneCloud> load(const CommonOptions& common, const SceneOptions& options, Progress& progress) {
+  LoadedScene loaded = load_any_scene(common, options);
+  add_notes(loaded.report, progress);
+  return std::make_shared<const SceneCloud>(std::move(loaded.scene));
+}
+
+/// The scene of a run as it was when a ping was sent.
+std::shared_ptr<const SceneCloud> load_of_ping(const ImageOptions& o, const SceneOptions& options, const Ping& ping,
+                                               Progress& progress) {
+  if (!is_scene_file(options.path)) return load(o.common, options, progress);
+  const auto parts = parts_of_run(options, o.run, o.common.threads);
+  add_notes(parts->scene().report(), progress);
+  return parts->cloud_at(parts->moment_of(ping.time, ping.number));
 }
 
 /// Draws returns in the colour of their level over the grey scene, unless --colour says otherwise.
@@ -66,15 +80,12 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   if (options.path.empty()) fail(ErrorKind::content, o.run, ": does not say what its scene was; give it with --scene");
 
   Drawing drawing;
-  CommonOptions of_run = o.common;
-  if (is_scene_file(options.path))
-    of_run.seed = load_ping_settings((fs::path(o.run) / "run.toml").string()).common.seed;
-  drawing.scene = load(of_run, options, ping.time, progress);
+  drawing.scene = load_of_ping(o, options, ping, progress);
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
   for (const Ping& sent : cube.pings) drawing.look.track.emplace_back(sent.world_from_head.translation());
   drawing.look.colour = o.colour.empty() ? SceneColour::level : *find_named(colour_words, o.colour);
   if (drawing.look.colour == SceneColour::visibility)
-    drawing.view = view_of_run(o.run, whole_of(drawing.scene), o.common.threads);
+    drawing.view = view_of_run(o.run, whole_of(*drawing.scene), o.common.threads);
   const fs::path returns = fs::path(o.run) / "returns.ply";
   const bool covered = drawing.look.colour == SceneColour::visibility || drawing.look.colour == SceneColour::grazing ||
                        drawing.look.colour == SceneColour::incidence;
@@ -123,12 +134,12 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   if (!o.colour.empty()) drawing.look.colour = *find_named(colour_words, o.colour);
   if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
-  drawing.scene = load(o.common, options, 0, progress);
+  drawing.scene = load(o.common, options, progress);
   if (setup) {
-    end_range_with_scene(*setup, bounds(drawing.scene), drawing.look.head->world_from_head);
+    end_range_with_scene(*setup, bounds(*drawing.scene), drawing.look.head->world_from_head);
     drawing.look.head->gate = setup->head.gate;
     drawing.view =
-        resolve_ping(whole_of(drawing.scene), setup->head, {drawing.look.head->world_from_head}, setup->environment)
+        resolve_ping(whole_of(*drawing.scene), setup->head, {drawing.look.head->world_from_head}, setup->environment)
             .view;
   }
   return drawing;
@@ -144,12 +155,12 @@ void draw_scene(const ImageOptions& o) {
   SceneLook& look = drawing.look;
   look.camera = *find_named(camera_words, o.camera);
   look.normals = o.normals;
-  if (look.colour == SceneColour::visibility) look_from_head(drawing.scene, drawing.view, o.common.threads, look);
+  if (look.colour == SceneColour::visibility) look_from_head(*drawing.scene, drawing.view, o.common.threads, look);
 
   progress.step("drawing " + o.output);
   PictureOptions picture = o.picture;
   if (picture.title.empty()) picture.title = drawing.title;
-  show_scene(drawing.scene, look, picture, o.output);
+  show_scene(*drawing.scene, look, picture, o.output);
   print_summary(o.common, {{"output", o.output}, {"view", o.view}}, o.output);
 }
 

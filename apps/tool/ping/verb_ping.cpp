@@ -41,18 +41,18 @@ void ping(const PingCommand& command) {
   progress.step("loading " + o.scene.path);
   StopWatch watch;
   const PingScene in_reach = load_ping_scene(o, ready);
-  PingRun run{o, ready, in_reach.loaded.scene, in_reach.json, in_reach.places};
+  PingRun run{o, ready, in_reach.cloud(), in_reach.json, in_reach.places};
   run.load_seconds = watch.lap();
   run.notes = setup.notes;
   for (std::string& note : loading_notes(in_reach.loaded.report)) run.notes.push_back(std::move(note));
   for (const std::string& note : run.notes) progress.note(note);
-  const PreparedScene scene(in_reach.loaded.scene, ready.simulation.threads);
-  run.plan = ready.simulator().plan(scene, ready.event);
+  const std::shared_ptr<const PreparedScene> scene = in_reach.prepared(ready.simulation.threads);
+  run.plan = ready.simulator().plan(*scene, ready.event);
   if (run.plan.options.outputs.contributors > 0) run.instances = instances_of_scene(o.scene.path);
 
   progress.step("pinging");
   ContributorWriter contributors(directory, run.scene, setup.head, run.plan.options);
-  SimulatedPing result = PingSimulator(setup.head, setup.environment, run.plan.options).ping(scene, ready.event);
+  SimulatedPing result = PingSimulator(setup.head, setup.environment, run.plan.options).ping(*scene, ready.event);
   const ordered_json manifest = write_ping_run(directory, run, std::move(result), contributors, progress);
   progress.step("done");
   directory.commit();

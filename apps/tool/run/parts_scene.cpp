@@ -117,6 +117,7 @@ SceneBody PartsScene::load_body(const PartFile& file, const std::string& name, b
   SceneCloud cloud;
   if (file.scene) {
     const PartsScene inner(file.path, options_);
+    random_ |= inner.is_random();
     LoadedScene whole = inner.whole_at(0);
     add_report(whole.report, report_);
     cloud = std::move(whole.scene);
@@ -133,8 +134,7 @@ SceneBody PartsScene::load_body(const PartFile& file, const std::string& name, b
     add_report(loaded.report, report_);
     cloud = surfels_of(loaded, file, captured, options_);
   }
-  SceneBody body;
-  body.name = name;
+  SceneBody body{name, "", nullptr};
   if (!captured) {
     // In axes of its own, near its coordinates, with numbers of its own.
     body.centre = cloud.origin;
@@ -202,47 +202,54 @@ PartsScene::PartsScene(const std::string& path, const PartsOptions& options)
 }
 
 std::vector<PlacedPart> PartsScene::placed_at(double time, std::uint64_t draw) const {
-  std::vector<PlacedPart> all;
-  for (const PlacedPart& part : parts_->resting())
-    if (!tiles_.contains(part.name)) all.push_back(part);
+  std::vector<PlacedPart> all = resting();
+  for (PlacedPart& part : others_at(time, draw)) all.push_back(std::move(part));
+  return all;
+}
+
+std::vector<PlacedPart> PartsScene::others_at(double time, std::uint64_t draw) const {
   try {
-    for (PlacedPart& part : parts_->others_at(time, draw)) all.push_back(std::move(part));
+    return parts_->others_at(time, draw);
   } catch (const Error& error) {
     fail(error.kind(), file_.path, ": ", error.what());
   }
-  return all;
 }
 
 Bounds PartsScene::box_at(double time, std::uint64_t draw) const {
   Bounds box;
   const auto add = [&](const Bounds& of) { box = {box.min.cwiseMin(of.min), box.max.cwiseMax(of.max)}; };
-  for (const PlacedPart& part : placed_at(time, draw))
-    if (!part.absent) add(box_of(part));
+  for (const PlacedPart& part : placed_at(time, draw)) add(part.absent ? Bounds{} : box_of(part));
   for (const auto& [name, tiled] : tiles_) add(tiled.info().box);
   return box;
 }
 
-LoadedScene PartsScene::merged(std::vector<PlacedPart> parts) const {
-  LoadedScene loaded;
-  loaded.scene = merge_parts(parts);
-  loaded.report = report_;
-  return loaded;
+std::vector<PlacedPart> PartsScene::resting() const {
+  std::vector<PlacedPart> all;
+  for (const PlacedPart& part : parts_->resting())
+    if (!tiles_.contains(part.name)) all.push_back(part);
+  return all;
 }
 
-LoadedScene PartsScene::whole_at(double time, std::uint64_t draw) const {
-  std::vector<PlacedPart> all = placed_at(time, draw);
+std::vector<PlacedPart> PartsScene::resting_with_tiles() const {
+  std::vector<PlacedPart> all = resting();
   for (const auto& [name, tiled] : tiles_) {
     SceneCloud cloud = tiled.load(tiled.select_all(), 0, options_.threads);
     cloud.part_of.reset();
     all.push_back({name, "", std::make_shared<const SceneCloud>(std::move(cloud)), true});
   }
-  return merged(std::move(all));
+  return all;
+}
+
+LoadedScene PartsScene::whole_at(double time, std::uint64_t draw) const {
+  std::vector<PlacedPart> all = resting_with_tiles();
+  for (PlacedPart& part : others_at(time, draw)) all.push_back(std::move(part));
+  return {merge_parts(all), report_};
 }
 
 LoadedScene PartsScene::scene_of(const PingSimulator& simulator, const PingEvent& event, std::uint64_t draw,
                                  double memory) const {
   std::vector<PlacedPart> all = placed_at(event.time, draw);
-  if (!has_tiles()) return merged(std::move(all));
+  if (!has_tiles()) return {merge_parts(all), report_};
   // The reach of a ping is that of its largest surfels, wherever they are.
   WholeScene whole = all.empty() ? WholeScene{} : whole_of(merge_parts(all));
   for (const auto& [name, tiled] : tiles_) whole = together(whole, tiled.info().whole);
@@ -257,7 +264,7 @@ LoadedScene PartsScene::scene_of(const PingSimulator& simulator, const PingEvent
     all.push_back({name, "", std::make_shared<const SceneCloud>(std::move(cloud)), true});
     all.back().absent = none;
   }
-  LoadedScene loaded = merged(std::move(all));
+  LoadedScene loaded{merge_parts(all), report_};
   loaded.scene.part_of = whole;
   loaded.report.notes.insert(loaded.report.notes.end(), notes.begin(), notes.end());
   return loaded;

@@ -38,11 +38,15 @@ class PartsScene {
   const std::shared_ptr<const SceneParts>& parts() const { return parts_; }
   /// Returns what was read of all files, and the notes on each.
   const LoadReport& report() const { return report_; }
+  /// Returns whether surfels or places follow from the seed: of meshes, and of bodies that are drawn.
+  bool is_random() const { return random_ || report_.triangles_read > 0 || !file_.scatters.empty(); }
   /// Returns whether a captured part is on disk, so that each ping has a scene of its own.
   bool has_tiles() const { return !tiles_.empty(); }
 
   /// Returns all parts at `time` [s], tiles without surfels.
   std::vector<PlacedPart> placed_at(double time, std::uint64_t draw = 0) const;
+  /// Returns the parts that rest, whatever the time, with all surfels of tiles. Throws as TiledScene::load.
+  std::vector<PlacedPart> resting_with_tiles() const;
   /// Returns the box of all parts at `time`, that of whole tiles included.
   Bounds box_at(double time, std::uint64_t draw = 0) const;
   /// Returns one cloud of all parts at `time`, with all tiles. Throws as TiledScene::load.
@@ -54,13 +58,15 @@ class PartsScene {
   nlohmann::ordered_json parts_json(double time, std::uint64_t draw = 0) const;
 
  private:
-  LoadedScene merged(std::vector<PlacedPart> parts) const;
+  std::vector<PlacedPart> resting() const;
+  std::vector<PlacedPart> others_at(double time, std::uint64_t draw) const;
   SceneBody load_body(const PartFile& file, const std::string& name, bool captured);
   SceneBody read_ground(const PartFile& file, const std::string& name);
 
   SceneFile file_;
   PartsOptions options_;
   LoadReport report_;
+  bool random_ = false;                         ///< a part is a scene that follows from the seed
   std::map<std::string, TiledScene> tiles_;     ///< of captured parts, by name
   std::map<std::string, std::string> file_of_;  ///< by the name of a part, or of a body that is strewn
   std::shared_ptr<const SceneParts> parts_;

@@ -10,7 +10,7 @@
 #include "scene_io/cloud_field.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "tool/ping/ping_report.hpp"
-#include "tool/run/parts_scene.hpp"
+#include "tool/run/parts_of_pings.hpp"
 #include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
@@ -59,17 +59,27 @@ namespace {
 /// Loads a scene of parts as it is when the ping is sent.
 PingScene load_parts(const PingOptions& o, PingSetup& setup) {
   require_no_loading_options(o.scene, "says itself how each part is read; give it there");
-  const PartsScene parts(o.scene.path, {.seed = o.common.seed, .threads = o.common.threads});
-  const Bounds box = parts.box_at(setup.event.time);
+  const RunDraws draws{o.common.seed, {0, static_cast<std::uint64_t>(o.draw)}};
+  const PartsOfPings all(o.scene.path, {draws, o.common.threads, 0, o.memory_limit});
+  const PartsScene& parts = all.scene();
+  if (o.draw > 0 && parts.file().scatters.empty())
+    fail(ErrorKind::argument, "--draw = ", o.draw, ": ", o.scene.path, " has no [[scatter]] to draw; leave it out");
+  const SceneMoment moment = all.moment_of(setup.event.time, setup.event.number);
+  const Bounds box = parts.box_at(moment.time, moment.draw);
   end_range_with_scene(setup.head, box, setup.event.world_from_head);
-  const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
-  PingScene result{parts.scene_of(setup.simulator(), setup.event, 0, memory), {}, {}};
-  const SceneCloud& scene = result.loaded.scene;
+  PingScene result{{{}, parts.report()}, {}, {}, {}};
+  if (parts.has_tiles()) {
+    const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
+    result.loaded = parts.scene_of(setup.simulator(), setup.event, moment.draw, memory);
+  } else {
+    result.posed = all.whole_at(moment);
+  }
+  const SceneCloud& scene = result.cloud();
   for (std::string& note : fit_notes(scene, box, setup)) setup.head.notes.push_back(std::move(note));
   result.places = sampled_places(scene, setup.event.world_from_head);
   if (!parts.has_tiles()) require_in_reach(result.places, setup.head.head.gate, o.scene.path);
   result.json = scene_json(result.loaded.report, scene);
-  result.json["parts"] = parts.parts_json(setup.event.time);
+  result.json["parts"] = parts.parts_json(moment.time, moment.draw);
   return result;
 }
 
@@ -77,6 +87,8 @@ PingScene load_parts(const PingOptions& o, PingSetup& setup) {
 
 PingScene load_ping_scene(const PingOptions& o, PingSetup& setup) {
   if (is_scene_file(o.scene.path)) return load_parts(o, setup);
+  if (o.draw > 0)
+    fail(ErrorKind::argument, "--draw = ", o.draw, ": ", o.scene.path, " is no scene of parts; leave it out");
   const auto add_notes = [&](const SceneCloud& scene, const Bounds& box) {
     for (std::string& note : fit_notes(scene, box, setup)) setup.head.notes.push_back(std::move(note));
   };
@@ -87,7 +99,7 @@ PingScene load_ping_scene(const PingOptions& o, PingSetup& setup) {
     add_notes(result.loaded.scene, tiled.info().box);
     return result;
   }
-  PingScene result{load_scene(o.scene.path, load_options(o.common, o.scene)), {}, {}};
+  PingScene result{load_scene(o.scene.path, load_options(o.common, o.scene)), {}, {}, {}};
   const Bounds box = bounds(result.loaded.scene);
   end_range_with_scene(setup.head, box, setup.event.world_from_head);
   add_notes(result.loaded.scene, box);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "returns/label_objects.hpp"
+#include "scene/prepared_scene.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "tool/command/options.hpp"
@@ -20,9 +22,17 @@ SceneInstances instances_of_scene(const std::string& path);
 
 /// The scene of a ping: a whole cloud or mesh, a scene of parts as it is at the time of the ping, or the tiles of a .tiles file within the region of the ping.
 struct PingScene {
-  LoadedScene loaded;
-  std::vector<Eigen::Vector3d> places;  ///< of some surfels, or centres of tiles, in head axes [m]
-  nlohmann::ordered_json json;          ///< for the manifest
+  LoadedScene loaded;                            ///< of parts in memory the report alone
+  std::shared_ptr<const PreparedScene> posed{};  ///< these parts; else absent
+  std::vector<Eigen::Vector3d> places;           ///< of some surfels, or centres of tiles, in head axes [m]
+  nlohmann::ordered_json json;                   ///< for the manifest
+
+  /// Returns what is pinged.
+  const SceneCloud& cloud() const { return posed ? posed->scene() : loaded.scene; }
+  /// Returns the same, prepared; what is loaded must outlive it.
+  std::shared_ptr<const PreparedScene> prepared(int threads) const {
+    return posed ? posed : std::make_shared<const PreparedScene>(loaded.scene, threads);
+  }
 };
 /// Ends a range that is the sonar's own where the scene ends, and adds to the notes of the head what fits the scene
 /// badly. Throws Error(runtime) before reading if the part of a .tiles file would not fit into memory (--memory-limit).

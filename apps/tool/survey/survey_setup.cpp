@@ -146,19 +146,20 @@ Bounds SurveyScene::load_parts(const SurveySetup& setup, const CommonOptions& co
     fail(ErrorKind::content, file.path, ": coverage counts the pings of each surfel of one cloud, but ", file.scene,
          " is a scene of parts; leave coverage out");
   const std::int64_t per_draw = file.randomise.scene_pings;
-  parts_.emplace(file.scene, PartsOptions{file.seed, common.threads, per_draw > 0, kept_tile_bytes});
-  if (per_draw > 0 && parts_->file().scatters.empty())
+  parts_.emplace(
+      file.scene,
+      PartsOfPingsOptions{{file.seed, {per_draw, 0}}, common.threads, kept_tile_bytes, options_.memory_limit, false});
+  const PartsScene& parts = parts_->scene();
+  if (per_draw > 0 && parts.file().scatters.empty())
     fail(ErrorKind::content, file.path, ": [randomise] scene draws the bodies of [[scatter]] anew, but ", file.scene,
          " has none; leave it out");
-  for (const std::string& note : loading_notes(parts_->report())) progress.note(note);
+  for (const std::string& note : loading_notes(parts.report())) progress.note(note);
   double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const SurveyPing& ping : setup.survey->pings())
     first = std::min(first, ping.time), last = std::max(last, ping.time);
-  at_scene_file(file.scene, [&] { parts_->parts()->require_times(first, last); });
-  source_.emplace(parts_->parts(), per_draw, common.threads, !parts_->has_tiles());
-  if (!parts_->has_tiles() && parts_->parts()->still())
-    prepared_ = source_->scene_for(setup.heads.front().setup.simulator(), {});
-  return parts_->box_at(first);
+  at_scene_file(file.scene, [&] { parts.parts()->require_times(first, last); });
+  if (!parts.has_tiles() && parts.parts()->still()) prepared_ = parts_->whole_at({});
+  return parts.box_at(first);
 }
 
 SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress)
@@ -207,12 +208,7 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
 std::shared_ptr<const PreparedScene> SurveyScene::scene_for(const PingSimulator& simulator,
                                                             const PingEvent& event) const {
   if (prepared_) return prepared_;
-  if (parts_ && !parts_->has_tiles()) return source_->scene_for(simulator, event);
-  if (parts_) {
-    const double memory = options_.memory_limit > 0 ? options_.memory_limit * (1 << 30) : available_memory();
-    LoadedScene near = parts_->scene_of(simulator, event, source_->draw_of(event), memory);
-    return std::make_shared<PreparedScene>(std::move(near.scene), 1);
-  }
+  if (parts_) return parts_->scene_for(simulator, event);
   if (tiles_) {
     PingScene part = load_ping_scene(options_, simulator, event, *tiles_);
     return std::make_shared<PreparedScene>(std::move(part.loaded.scene), 1);

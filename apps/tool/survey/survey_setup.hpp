@@ -10,10 +10,9 @@
 #include "scene_io/tiled_scene.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
-#include "survey/parts_source.hpp"
 #include "survey/simulate_survey.hpp"
 #include "tool/command/progress.hpp"
-#include "tool/run/parts_scene.hpp"
+#include "tool/run/parts_of_pings.hpp"
 #include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
@@ -67,8 +66,7 @@ class SurveyScene : public SceneSource {
   Bounds load_parts(const SurveySetup& setup, const CommonOptions& common, Progress& progress);
 
   PingOptions options_;  // of a ping
-  std::optional<PartsScene> parts_;
-  std::optional<PartsSource> source_;
+  std::optional<PartsOfPings> parts_;
   LoadedScene loaded_;
   std::optional<TiledScene> tiles_;
   std::shared_ptr<const PreparedScene> prepared_;  // absent: every ping has a scene of its own

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/run/parts_of_pings.hpp"
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "store/mission_file.hpp"
+#include "store/survey_run.hpp"
+#include "tool/command/run_settings.hpp"
+#include "tool/run/any_scene.hpp"
+#include "tool/run/run_checks.hpp"
+
+namespace insonify::tool {
+
+namespace fs = std::filesystem;
+
+RunDraws draws_of_run(const std::string& run) {
+  const fs::path folder = fs::exists(run) ? fs::canonical(run) : fs::path(run);
+  const fs::path mission = folder.parent_path() / "mission.toml", settings = folder / "run.toml";
+  if (is_survey_run(folder.parent_path().string()) && fs::exists(mission)) {
+    const SurveyRandomisation differs = load_survey_randomisation(mission.string());
+    return {differs.seed, {differs.spread.scene_pings, 0}};
+  }
+  if (!fs::exists(settings)) return {};
+  const PingOptions sent = load_ping_settings(settings.string());
+  return {sent.common.seed, {0, static_cast<std::uint64_t>(sent.draw)}};
+}
+
+namespace {
+
+PartsOptions loading_of(const PartsOfPingsOptions& o) {
+  return {.seed = o.draws.seed,
+          .threads = o.threads,
+          .drawn_anew = o.drawn_at_will || o.draws.rule.pings_per_draw > 0,
+          .kept_tile_bytes = o.kept_tile_bytes};
+}
+
+/// Adds the scene file to what `body` refuses.
+template <typename Body>
+auto with_file(const PartsScene& scene, const Body& body) {
+  try {
+    return body();
+  } catch (const Error& error) {
+    fail(error.kind(), scene.file().path, ": ", error.what());
+  }
+}
+
+}  // namespace
+
+PartsOfPings::PartsOfPings(const std::string& path, const PartsOfPingsOptions& options)
+    : options_(options), scene_(path, loading_of(options)) {
+  if (!scene_.has_tiles()) source_.emplace(scene_.parts(), options.draws.rule, options.threads);
+}
+
+std::shared_ptr<const PreparedScene> PartsOfPings::scene_for(const PingSimulator& simulator,
+                                                             const PingEvent& event) const {
+  const SceneMoment moment = moment_of(event.time, event.number);
+  if (source_) return with_file(scene_, [&] { return source_->scene_at(moment); });
+  const double memory = options_.memory_limit > 0 ? options_.memory_limit * (1 << 30) : available_memory();
+  LoadedScene near = scene_.scene_of(simulator, event, moment.draw, memory);
+  return std::make_shared<PreparedScene>(std::move(near.scene), 1);
+}
+
+std::shared_ptr<const PreparedScene> PartsOfPings::whole_at(const SceneMoment& moment) const {
+  if (source_) return with_file(scene_, [&] { return source_->scene_at(moment); });
+  {
+    const std::scoped_lock lock(guard_);
+    if (!whole_)
+      whole_.emplace(scene_.parts(), options_.draws.rule, options_.threads, true, scene_.resting_with_tiles());
+  }
+  return with_file(scene_, [&] { return whole_->scene_at(moment); });
+}
+
+std::shared_ptr<const SceneCloud> PartsOfPings::cloud_at(const SceneMoment& moment) const {
+  const std::shared_ptr<const PreparedScene> whole = whole_at(moment);
+  return {whole, &whole->scene()};
+}
+
+std::shared_ptr<const PartsOfPings> parts_of_run(const SceneOptions& scene, const std::string& run, int threads) {
+  require_no_loading_options(scene, "says itself how each part is read; give it there");
+  return std::make_shared<const PartsOfPings>(scene.path, PartsOfPingsOptions{draws_of_run(run), threads});
+}
+
+}  // namespace insonify::tool
