@@ -205,31 +205,32 @@ ScattererTable load_scatterer_table(const std::string& path) {
   return table;
 }
 
-std::vector<Eigen::Vector3d> load_positions(const std::string& path) {
-  const std::array<std::string, 3> names = {"x_m", "y_m", "z_m"};
+SoundingTable load_sounding_table(const std::string& path) {
+  const std::array<std::string, 5> names = {"x_m", "y_m", "z_m", "ping", "time_s"};
+  constexpr std::size_t required = 3;
   std::vector<std::string_view> fields;
-  std::array<std::size_t, 3> column{};
+  std::array<std::size_t, names.size()> column{};
   std::size_t columns = 0;
-  std::vector<Eigen::Vector3d> positions;
+  SoundingTable table;
   read_lines(path, [&](std::string_view line, const FilePlace& place) {
     cut_fields(line, fields);
     if (columns == 0) {
       columns = fields.size();
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < names.size(); ++k) {
         column[k] = static_cast<std::size_t>(std::find(fields.begin(), fields.end(), names[k]) - fields.begin());
-        if (column[k] == columns) place.fail_here("has no column ", names[k], "; export --to csv writes it");
+        if (k < required && column[k] == columns)
+          place.fail_here("has no column ", names[k], "; export --to csv writes it");
       }
       return;
     }
     if (fields.size() != columns) place.fail_here("has ", fields.size(), " fields, the header has ", columns);
-    Eigen::Vector3d& at = positions.emplace_back();
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const auto of = static_cast<std::size_t>(k);
-      at[k] = read_number(fields[column[of]], names[of], place);
-    }
+    const auto number = [&](std::size_t k) { return read_number(fields[column[k]], names[k], place); };
+    table.position.emplace_back(number(0), number(1), number(2));
+    if (column[3] < columns) table.ping.push_back(std::llround(number(3)));
+    if (column[4] < columns) table.time.push_back(number(4));
   });
-  if (positions.empty()) fail(ErrorKind::content, path, ": has no rows, must have at least one");
-  return positions;
+  if (table.position.empty()) fail(ErrorKind::content, path, ": has no rows, must have at least one");
+  return table;
 }
 
 std::vector<Label> load_labels(const std::string& path) {

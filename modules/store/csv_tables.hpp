@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <complex>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,15 @@ struct ScattererTable {
 /// Reads scatterers with the header range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im.
 ScattererTable load_scatterer_table(const std::string& path);
 
-/// Reads positions [m] from the columns x_m, y_m and z_m of a table such as `insonify export --to csv` writes; what
-/// other columns hold does not matter, but fields have no quotes. Rules: at least one row.
-std::vector<Eigen::Vector3d> load_positions(const std::string& path);
+/// Soundings of a table, row by row.
+struct SoundingTable {
+  std::vector<Eigen::Vector3d> position;  ///< [m]
+  std::vector<std::int64_t> ping;         ///< number of the ping; empty: the table has no column `ping`
+  std::vector<double> time;               ///< of the ping [s]; empty: it has no column `time_s`
+};
+/// Reads positions from the columns x_m, y_m and z_m of a table such as `insonify export --to csv` writes, with ping and
+/// time_s if it has them; what other columns hold does not matter, but fields have no quotes. Rules: at least one row.
+SoundingTable load_sounding_table(const std::string& path);
 
 /// A user-defined label of a place in a picture.
 struct Label {

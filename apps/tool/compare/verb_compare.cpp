@@ -26,7 +26,8 @@ void add_options(OptionList list, CompareOptions& o) {
   list.add("B", &o.b,
            "the reference: a run, a recording (" + record_extensions() +
                "), .npy (dB, complex Pa, or grey), .png (grey, "
-               "as view grey makes it), or with --strength a cloud; of soundings their scene",
+               "as view grey makes it), or with --strength a cloud; of soundings their scene, or "
+               "their run, whose parts stood elsewhere at each ping",
            {.required = true});
   list.add("-o,--output", &o.output, "folder to make: compare.json and a page of pictures, index.html");
   list.add("--window", &o.window, "MIN:MAX [dB] in which images are compared; default: 60 dB below the top of B");
