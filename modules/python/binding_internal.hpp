@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,12 @@
 #include "core/ordered_work.hpp"
 #include "returns/label_objects.hpp"
 #include "store/key_table_internal.hpp"
+#include "survey/parts_source.hpp"
 #include "tool/run/ping_setup.hpp"
+
+namespace insonify::tool {
+class PartsOfPings;
+}
 
 // Private to python: what its classes hold, and how arguments become that. Errors name the argument.
 namespace insonify::python {
@@ -57,11 +64,21 @@ struct PointArrays {
 
 using By = std::shared_ptr<const struct Simulator>;
 using Of = std::shared_ptr<const struct Scene>;
+/// A scene of parts, which another extension has loaded, at moments.
+struct MovingScene {
+  std::shared_ptr<const tool::PartsOfPings> parts;
+  std::function<std::shared_ptr<const PreparedScene>(const SceneMoment&)> at;
+  double begin = 0;  ///< time at which all parts are there [s]
+  std::uint64_t seed = 1;
+};
+
 /// A scene that is prepared once for many pings.
 struct Scene {
   Scene(LoadedScene loaded, tool::SceneOptions how = {}, SceneInstances of = {});
-  std::shared_ptr<const LoadedScene> loaded;
-  std::shared_ptr<const PreparedScene> prepared;
+  Scene(MovingScene of, LoadReport report, tool::SceneOptions how);
+  std::shared_ptr<const LoadedScene> loaded;      ///< of a scene of parts the report alone
+  std::shared_ptr<const PreparedScene> prepared;  ///< of a scene of parts as it is when all are there
+  std::optional<MovingScene> moving;
   tool::SceneOptions options;  ///< how it was completed, for run.toml
   SceneInstances instances;
 };
@@ -86,7 +103,7 @@ struct MadePing {
   SimulatedPing made{};
 };
 using Pings = OrderedWork<std::shared_ptr<MadePing>>;
-/// The surfels that a ping takes: all of a cloud, those of a mesh that its beams resolve.
+/// The surfels that a ping takes: all of a cloud, those of a mesh that its beams resolve, parts where they are then.
 std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator);
 
 /// A function of the second extension, which loads PCL and VTK.
@@ -99,7 +116,7 @@ std::shared_ptr<MadePing> ping(const By& by, const Of& scene, const py::object& 
                                double roll, const py::kwargs& keys);
 py::list plan(const By& by, const Of& scene, const py::object& position, double yaw, double pitch, double roll,
               const py::kwargs& keys);
-/// Pings at rows of position and angles.
+/// Pings at rows of position and angles; time and draw may be given for each.
 std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& poses, int threads,
                              const py::kwargs& keys);
 /// The next ping, without the GIL but for a look at signals; nullptr after the last.

@@ -98,7 +98,9 @@ void add_scene(py::module_& m) {
       [](const Scene& s) { return tool::loading_notes(s.loaded->report); });
   const auto load = [](const Path& path, const py::kwargs& keys) { return io("load_scene")(path, **keys); };
   m.def("load_scene", load, "path"_a,
-        with_docs("A cloud, mesh or raster from a file, completed with what it lacks.", keywords(any)));
+        with_docs("A cloud, mesh, raster or scene of parts from a file, completed with what it lacks.\n\n"
+                  "seed: int, of samples of meshes and of the scatters of a scene of parts",
+                  keywords(any)));
   const auto built_in = [](const std::string& name, std::size_t points, std::uint64_t seed) {
     return std::make_shared<Scene>(LoadedScene{make_built_in_scene(name, {.points = points, .seed = seed}), {}});
   };
@@ -121,6 +123,7 @@ void add_simulator(py::module_& m) {
       with_docs("An iterator over pings in the order of their poses: one on each core at a time, without the GIL,\n"
                 "and at most two for each core in memory. Ctrl-C ends it within a second.\n\n"
                 "poses: float (n, 6): x, y, z [m], yaw, pitch, roll [deg], as for ping(); the i-th has number i\n"
+                "time: float (n,) [s], draw: int (n,), by which parts of the scene stand; or one for all\n"
                 "threads: int; 0: all cores. The pings do not depend on it",
                 keywords(any, true)));
   type.def("plan", &plan, "scene"_a, "position"_a, "yaw"_a = 0, "pitch"_a = 0, "roll"_a = 0,

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // insonify._insonify_io: what needs PCL, VTK and the files of runs.
+#include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "core/error.hpp"
 #include "python/binding_internal.hpp"
 #include "scene_io/pcl_bridge.hpp"
+#include "store/scene_file.hpp"
+#include "tool/command/run_settings.hpp"
 #include "tool/ping/ping_run.hpp"
+#include "tool/run/parts_of_pings.hpp"
 #include "tool/run/scene_files.hpp"
 #include "view/ping_record.hpp"
 
@@ -15,12 +20,25 @@ namespace {
 using namespace py::literals;
 using Path = std::filesystem::path;
 
+std::shared_ptr<Scene> load_parts(const tool::SceneOptions& how, std::uint64_t seed) {
+  tool::require_no_loading_options(how, "says itself how each part is read; give it there");
+  const auto parts = std::make_shared<const tool::PartsOfPings>(how.path, tool::PartsOfPingsOptions{{seed, {}}});
+  MovingScene moving{parts, [parts](const SceneMoment& moment) { return parts->whole_at(moment); },
+                     parts->scene().parts()->begin(), seed};
+  return std::make_shared<Scene>(std::move(moving), parts->scene().report(), how);
+}
+
 std::shared_ptr<Scene> load(const Path& path, const py::kwargs& keys) {
   tool::SceneOptions how;
   how.path = path.string();
-  set_keywords(keywords(how), keys, "load_scene");
+  tool::CommonOptions common;
+  Keywords all = keywords(how);
+  const tool::RunSetting seed = tool::seed_setting(common);
+  all.keys.push_back(tool::keys_of({seed}).front());
+  set_keywords(all, keys, "load_scene");
   const py::gil_scoped_release release;
-  LoadedScene loaded = tool::load_any_scene({}, how);
+  if (is_scene_file(how.path)) return load_parts(how, common.seed);
+  LoadedScene loaded = tool::load_any_scene(common, how);
   return std::make_shared<Scene>(std::move(loaded), how, tool::instances_of_scene(how.path));
 }
 
@@ -77,8 +95,17 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   const auto head = tool::set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
   const PingSimulator simulator = by.simulator->with(ping.simulation);
   const auto pinged = surfels_of(ping, simulator);
-  tool::save_ping_run(o, {ping.event, head, ping.simulation},
-                      {ping.made, simulator, *pinged, scene.loaded->scene, scene.loaded->report, scene.instances});
+  const SceneCloud& whole = scene.moving ? pinged->scene() : scene.loaded->scene;
+  tool::PingInMemory made{ping.made, simulator, *pinged, whole, scene.loaded->report, scene.instances};
+  if (scene.moving) {
+    const tool::PartsScene& parts = scene.moving->parts->scene();
+    if (parts.is_random() && scene.moving->seed != o.common.seed)
+      fail(ErrorKind::argument, "save: seed = ", o.common.seed, ", but the scene is drawn with seed ",
+           scene.moving->seed, ", and a run has one seed; load it by load_scene(path, seed=", o.common.seed, ")");
+    const auto draw = static_cast<std::uint64_t>(o.draw);
+    made.box = parts.box_at(ping.event.time, draw), made.parts = parts.parts_json(ping.event.time, draw);
+  }
+  tool::save_ping_run(o, {ping.event, head, ping.simulation}, made);
 }
 
 void draw(const MadePing& ping, const Path& path, int width, int height, const std::optional<std::string>& title,

@@ -83,7 +83,7 @@ Keywords keywords(tool::SceneOptions& options) {
 Keywords keywords(tool::PingOptions& options, bool of_ping) {
   if (!of_ping) return {tool::keys_of(tool::simulator_settings(options)), "ping"};
   Keywords of{tool::keys_of(tool::all_settings(options)), "ping"};
-  const std::vector<std::string> names{"seed", "keep", "contributors", "time", "ping", "velocity", "turn_rate"};
+  const std::vector<std::string> names{"seed", "keep", "contributors", "time", "ping", "draw", "velocity", "turn_rate"};
   std::erase_if(of.keys, [&](const Key& key) { return std::ranges::find(names, key.name) == names.end(); });
   return of;
 }

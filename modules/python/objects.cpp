@@ -68,6 +68,17 @@ MadePing asked_at(MadePing ping, const py::object& position, double yaw, double 
   return ping;
 }
 
+/// Takes a keyword out that has a value for each pose; null if it has one for all.
+py::object for_each_pose(const py::dict& keys, const char* name) {
+  if (!keys.contains(name)) return {};
+  const py::object value = keys[name];
+  const auto array = py::array::ensure(value);
+  PyErr_Clear();
+  if (!array || array.ndim() == 0) return {};
+  keys.attr("pop")(name);
+  return value;
+}
+
 /// Settles event and options of a ping; returns its simulator.
 PingSimulator settle(MadePing& ping, int threads) {
   ping.event = tool::asked_event(ping.options);
@@ -92,7 +103,15 @@ Scene::Scene(LoadedScene given, tool::SceneOptions how, SceneInstances of)
       options(std::move(how)),
       instances(std::move(of)) {}
 
+Scene::Scene(MovingScene of, LoadReport report, tool::SceneOptions how)
+    : loaded(std::make_shared<const LoadedScene>(LoadedScene{{}, std::move(report)})),
+      prepared(of.at({of.begin, 0})),
+      moving(std::move(of)),
+      options(std::move(how)) {}
+
 std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator) {
+  const auto draw = static_cast<std::uint64_t>(ping.options.draw);
+  if (ping.scene->moving) return ping.scene->moving->at({ping.event.time, draw});
   if (!ping.scene->loaded->mesh) return ping.scene->prepared;
   tool::MeshSample sample = tool::mesh_sample_for(ping.options, simulator, ping.event, *ping.scene->loaded);
   if (!sample.scene) return ping.scene->prepared;
@@ -182,11 +201,21 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
   if (threads < 0 || threads > 1024) fail(ErrorKind::argument, "pings: threads = ", threads, ", must be 0 to 1024");
   const Numbers numbers = numbers_of(poses, "pings: poses", 6);
   const std::vector<double> pose(numbers.data(), numbers.data() + numbers.size());
+  std::vector<double> time;
+  std::vector<int> draw;
+  if (const py::object given = for_each_pose(keys, "time")) {
+    const Numbers times = numbers_of(given, "pings: time", 0, numbers.shape(0));
+    time.assign(times.data(), times.data() + times.size());
+  }
+  if (const py::object given = for_each_pose(keys, "draw"))
+    draw = whole_numbers<int>(given, "pings: draw", numbers.shape(0), 1e9);
   const MadePing each = asked(by, scene, keys, "pings");
-  return std::make_unique<Pings>(pose.size() / 6, thread_count(threads), [each, pose](std::size_t i) {
+  return std::make_unique<Pings>(pose.size() / 6, thread_count(threads), [each, pose, time, draw](std::size_t i) {
     MadePing ping = each;
     ping.options.pose = pose_text(&pose[6 * i]);
     ping.options.ping = static_cast<int>(i);
+    if (!time.empty()) ping.options.time = time[i];
+    if (!draw.empty()) ping.options.draw = draw[i];
     return make(std::move(ping), 1);
   });
 }

@@ -95,9 +95,11 @@ ordered_json write_ping_run(RunDirectory& directory, const PingRun& run, Simulat
 void save_ping_run(const PingOptions& o, PingSetup setup, const PingInMemory& of) {
   RunDirectory directory(o.run.output, o.run.force, {o.scene.path, o.run.sonar});
   std::vector<std::string>& notes = setup.head.notes;
-  for (std::string& note : fit_notes(of.whole, bounds(of.whole), setup)) notes.push_back(std::move(note));
+  for (std::string& note : fit_notes(of.whole, of.box ? *of.box : bounds(of.whole), setup))
+    notes.push_back(std::move(note));
   const SceneCloud& scene = of.pinged.scene();
   PingRun run{o, setup, scene, scene_json(of.report, scene), sampled_places(of.whole, setup.event.world_from_head)};
+  if (!of.parts.is_null()) run.scene_json["parts"] = of.parts;
   run.plan = of.simulator.plan(of.pinged, setup.event);
   run.instances = of.instances;
   run.notes = notes;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,8 @@ struct PingInMemory {
   const SceneCloud& whole;  ///< of which `pinged` may be a finer sample
   const LoadReport& report;
   const SceneInstances& instances;
+  std::optional<Bounds> box{};     ///< of a scene of parts; absent: of `whole`
+  nlohmann::ordered_json parts{};  ///< as PartsScene::parts_json; null: none
 };
 /// Writes the whole run folder of such a ping, options.run.output. Throws Error(file).
 void save_ping_run(const PingOptions& options, PingSetup setup, const PingInMemory& of);
