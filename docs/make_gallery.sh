@@ -20,6 +20,7 @@ cat >"$page" <<'PAGE'
 # Gallery
 
 Every view of the built-in harbour, with its command; all run in the folder `out` that `apps/demo.sh` makes. `docs/make_gallery.sh` generates this page and its pictures.
+Other pages show [scenes of parts](scenes.md) (a tyre and a pot on a reef, a diver in four pings, sixteen drawn images with boxes) and [one picture of every sonar](sonars.md).
 PAGE
 
 chapter "One ping" "The harbour has a quay to port, pilings to starboard, a wreck and a pipe ahead. A 256-beam head of 900 kHz, at a depth of three metres and pitched ten degrees down, looks at the sea bed in front of the wreck."
