@@ -162,6 +162,21 @@ SceneMesh usable_mesh(const RawCloud& raw, const LoadOptions& options, LoadRepor
   return mesh;
 }
 
+/// Whether the normals of the points are less steep than the triangles round them, by the mean square of the sine: then
+/// they are those of smoothed heights (E153).
+bool smoother_than_facets(const SceneMesh& mesh) {
+  double points = 0, facets = 0;
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
+    const auto [a, b, c] = corners_of(mesh, t);
+    const Vector3d cross = (b - a).cross(c - a);
+    const double area = cross.norm();
+    facets += cross.head<2>().squaredNorm() / area;
+    for (const std::uint32_t corner : mesh.triangle[t])
+      points += area / 3 * static_cast<double>(mesh.normal[corner].head<2>().squaredNorm());
+  }
+  return points < facets;
+}
+
 }  // namespace
 
 void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
@@ -176,7 +191,7 @@ void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
     return area_of({at(0), at(1), at(2)}) == 0;
   });
   if (raw.surface.empty()) return;
-  const bool own_normals = raw.surface_normals || raw.tags.own_normals;
+  bool own_normals = raw.surface_normals || raw.tags.own_normals;
   SceneMesh mesh{.origin = scene.origin,
                  .point = scene.point,
                  .normal = own_normals ? scene.normal : std::vector<Vector3f>(),
@@ -186,6 +201,13 @@ void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
                  .normals_oriented = scene.normals_oriented,
                  .whole = whole_of(scene)};
   for (std::size_t i = 0; i < raw.surface_height.size(); ++i) mesh.point[i].z() = raw.surface_height[i];
+  if (raw.surface_normals && smoother_than_facets(mesh)) {
+    own_normals = false;
+    mesh.normal.clear();
+    result.report.notes.push_back(
+        "the normals are smoother than the surface between the points, as those of planes through neighbours are: its "
+        "triangles scatter with their own");
+  }
   // A height field looks to one side, to which the triangles of a file are turned.
   double up = 0;
   for (std::size_t i = 0; i < scene.size(); ++i) up += double{scene.area[i]} * double{scene.normal[i].z()};
