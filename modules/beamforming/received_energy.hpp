@@ -6,20 +6,21 @@
 
 namespace insonify {
 
-/// What all beams of a head receive of a plane wave: the sum of the squared responses over beams (E10, E56), side lobes
-/// included, from a table over u (within 1 % where a main lobe is, 5 % where side lobes alone are).
+/// Table of the energy that all beams of a head together receive from a plane wave: the sum over beams of the squared
+/// response, side lobes included (E10, E56). Interpolation over u is accurate to 1 % within a main lobe and to 5 %
+/// where only side lobes receive.
 class ReceivedEnergy {
  public:
-  /// With `half_width` > 0, means over u +- half_width instead; `over_band`: beams formed by true delays, whose
-  /// response is that of each frequency of the pulse.
+  /// Tabulates the sum at `wavelength` [m]. If `half_width` > 0, each entry is the mean over u +- half_width. If
+  /// `over_band`, each entry is the mean over the frequencies of the pulse, as for beams formed with true delays.
   ReceivedEnergy(const SonarHead& head, double wavelength, double half_width = 0, bool over_band = false);
   /// Returns the sum at direction cosines u along the array and v upwards.
   double at(double u, double v);
-  /// Returns that of the array alone.
+  /// Returns the sum for the array alone, without elevation patterns.
   double along_array(double u) const;
 
  private:
-  /// Adds `part` of the response at elements `step` [rad] apart.
+  /// Adds the squared response of elements `step` [rad] apart in phase, times `part`.
   void add_frequency(const SonarHead& head, double step, double half_width, double part);
 
   std::vector<double> table_;  // over u from -1 to 1

@@ -10,7 +10,8 @@ namespace insonify {
 /// Echoes weighted by the elevation response of each row of a head with several rows or a column (E14, E56).
 class RowEchoes {
  public:
-  /// Omits an echo from a row whose response is below `cutoff` times that of the row nearest to it; 0: omits none.
+  /// Omits an echo from a row if the response of the row is below `cutoff` times the response of the row nearest to the
+  /// echo. A `cutoff` of 0 omits no echo.
   RowEchoes(const Echoes& echoes, const SonarHead& head, double wavelength, const std::vector<FanRow>& rows,
             double cutoff, int threads);
   Echoes of(const FanRow& row) const;
@@ -27,14 +28,15 @@ class RowEchoes {
 /// Returns the head with the beams of one row only, as a line array.
 SonarHead line_head(const SonarHead& head, const FanRow& row);
 
-/// Returns the cutoff for `rows` rows: over all rows together, omitted responses amount to a tenth of the tolerance.
+/// Returns the cutoff for `rows` rows. With this cutoff the omitted responses of all rows together change the image by
+/// at most a tenth of the tolerance.
 double row_cutoff(double tolerance, std::size_t rows);
 
 /// Throws Error unless every echo has a value of v.
 void require_elevations(const Echoes& echoes);
 
-/// Computes an image, beams x bins, row by row: line(echoes, head) returns that of a line array, beams of the row x
-/// bins. A head with one row and no column is a line array itself. `cutoff` as for RowEchoes.
+/// Returns an image, beams x bins, computed row by row: line(echoes, head) returns the image of a line array, beams of
+/// the row x bins. A head with one row and no column is passed to `line` unchanged. `cutoff` is that of RowEchoes.
 template <typename Image, typename Line>
 Image image_by_rows(const Echoes& echoes, const SonarHead& head, const Medium& medium, double cutoff, int threads,
                     const Line& line) {

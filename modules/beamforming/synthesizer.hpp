@@ -6,10 +6,10 @@
 
 namespace insonify {
 
-/// Forms the beams of one head in one medium by one method, image after image: plans, tables, transforms and buffers
-/// are made for the first image and used again by all others. Methods and errors are those of `synthesize`, which makes
-/// one for a single image; images have the same bytes. A copy shares what is made. `pressure` may be called from
-/// several threads. With true delays it holds 10 to 100 MB, and for each thread at work the blocks of one image more.
+/// Forms the beams of one head in one medium by one method for many images. The first image makes plans, tables,
+/// transforms and buffers; later images reuse them. Methods, errors and bytes of an image are those of `synthesize`.
+/// Copies share what has been made. Several threads may call `pressure` at once. With true delays the object holds 10
+/// to 100 MB, and each working thread holds the blocks of one more image.
 class Synthesizer {
  public:
   /// Throws Error for an invalid head, medium or tolerance.
@@ -18,8 +18,8 @@ class Synthesizer {
 
   /// Returns the complex baseband pressure of the echoes, beams x bins [Pa]. Throws Error as `synthesize` does.
   ComplexGrid pressure(const Echoes& echoes) const;
-  /// Returns the same of echoes that are made chunk by chunk; of a head and method that are not `streamed`, all are
-  /// made first.
+  /// Returns the same for echoes that `stream` makes chunk by chunk. If head and method are not `streamed`, the call
+  /// makes and stores all echoes first.
   ComplexGrid pressure(const EchoStream& stream) const;
 
  private:

@@ -22,8 +22,9 @@ class BeamTransform {
   /// Keeps a reference to `plan`.
   explicit BeamTransform(const GriddingPlan<Real>& plan);
 
-  /// Writes bins [first, last) of some beams (indices in the head's fan), times `unit`, and returns their energy
-  /// [unit^2 bins]. Uses up the planes of plan.tile_bins rows; `grid` is room for plan.grid x plan.grid_row numbers.
+  /// Writes bins [first, last) of `beams` (indices in the head's fan), times `unit`, and returns their energy [unit^2
+  /// bins]. Overwrites the planes of plan.tile_bins rows. `grid` is working memory for plan.grid x plan.grid_row
+  /// numbers.
   double run(GridPlanes<Real> planes, std::complex<Real>* grid, std::span<const std::size_t> beams, double unit,
              std::size_t first, std::size_t last, ComplexGrid& pressure) const;
 

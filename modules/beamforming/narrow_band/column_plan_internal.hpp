@@ -16,13 +16,14 @@ struct KernelTolerance {
   double u, v;
 };
 
-/// The grid over v of a planar array (E13, E56), upwards: `cycle` lines to one cycle of the phase between neighbours of
-/// the column, each a grid over u. Each row of beams is a weighted sum of all lines, then the image of a line array.
+/// The grid over v of a planar array (E13, E56), upwards. `cycle` lines cover one cycle of the phase between neighbours
+/// of the column, and each line is a grid over u. A weighted sum of all lines gives a row of beams, which is then the
+/// image of a line array.
 template <typename Real>
 struct ColumnPlan {
   GriddingKernel kernel;
   PolynomialPieces<Real> pieces;
-  std::size_t cycle, lines;  ///< line grid_pad + j is step j of the cycle, with grid_pad more on either side
+  std::size_t cycle, lines;  ///< line grid_pad + j is step j of the cycle; grid_pad lines pad either side
   double cycles_per_v, element_offset;
   std::vector<Real> weight;  ///< rows x lines
 

@@ -13,22 +13,24 @@ struct BeamEcho {
   double near_off, far_off;  ///< frequencies off the carrier, over it
 };
 
-/// What is turned by the difference of the ways that echo and focus have to an element (E61, E62).
+/// Phasors of the difference between the paths from echo and focus to each element (E61, E62), one row per use.
 struct EchoPhasors {
   enum Row { narrow, carrier, before, behind, near_off, far_off, rows };
   double* cosine[rows];
   double* sine[rows];
 };
 
-/// Phasors of the elements at y [m, along the array]: of the narrow-band, far-field pattern (E10), of the carrier with
-/// the focus at the echo, before and behind it, and of what the frequencies off the carrier add to the carrier's.
+/// Computes the phasors of `count` elements at y [m, along the array]. The rows are: the narrow-band, far-field pattern
+/// (E10); the carrier with the focus at the echo, before it and behind it; and the phase that each frequency off the
+/// carrier adds to the phase of the carrier.
 void echo_phasors(const double* y, std::size_t count, const BeamEcho& echo, EchoPhasors phasors);
 
-/// Elements are summed so many at a time.
+/// Number of elements that are summed at a time.
 inline constexpr std::size_t phasor_lanes = 8;
 
-/// Sums over elements: real and imaginary part of the first four rows; of the carrier times cosine and times i sine of
-/// a frequency off it, of which those of a frequency above and below the carrier are sum and difference.
+/// Sums over elements. `row` holds the real and imaginary parts of the first four rows. `by_cosine` and `by_sine` hold
+/// the sums of the carrier times the cosine and times i sine of a frequency off it; their sum and difference are the
+/// responses above and below the carrier.
 struct PhasorSums {
   double row[4][2];
   double by_cosine[2][2], by_sine[2][2];  ///< near_off, far_off

@@ -11,9 +11,9 @@
 
 namespace insonify {
 
-/// The grid over bins, u and v of one tile of bins. It consists of bricks, each all bins of some columns of one line,
-/// which are there where echoes are: surfaces fill few of those of a planar array. A line array has one line and one
-/// brick.
+/// The grid over bins, u and v of one tile of bins. The grid consists of bricks; a brick holds all bins of some columns
+/// of one line. Only bricks that contain echoes exist, because surfaces fill few bricks of a planar array. A line array
+/// has one line and one brick.
 template <typename Real>
 class GridTile {
  public:
@@ -22,10 +22,11 @@ class GridTile {
   /// Keeps a reference to `plan`.
   explicit GridTile(const GriddingPlan<Real>& plan);
 
-  /// Grids the listed echoes (E13), in order, on the tile that begins with bin `first_bin`. Calls may follow one
-  /// another, with the same bits as one of all echoes.
+  /// Grids the listed echoes (E13), in order, on the tile that begins with bin `first_bin`. Several calls give the same
+  /// bits as one call with all echoes.
   void add(const Echoes& echoes, const PulseReach& reach, List list, std::size_t first_bin);
-  /// Forms bins [first, last) of all beams; then the tile is empty. Adds the energies of echoes and beams [Pa^2 bins].
+  /// Forms bins [first, last) of all beams, then empties the tile. Adds the energy of the echoes to `gridded` and the
+  /// energy of the beams to `received` [Pa^2 bins].
   void form_beams(const BeamTransform<Real>& transform, std::size_t first, std::size_t last, ComplexGrid& pressure,
                   double& gridded, double& received);
 
@@ -38,16 +39,17 @@ class GridTile {
     std::size_t since_flush = 0, line = 0;  // echoes added since sums were flushed
   };
 
-  /// Sets the unit of the first echoes, or of others that are so loud that those do not count; false: all are silent.
+  /// Sets the unit from the first echoes, or from later echoes that are so loud that the earlier ones do not count.
+  /// Returns false if all echoes are silent.
   bool set_unit(const Echoes& echoes, List list);
   Brick& brick_at(std::size_t line, std::size_t block);
-  /// The brick, ready for an echo more: single precision accumulates a bounded number of terms.
+  /// Flushes the sums of a brick if single precision could not take another echo; returns the brick.
   Brick& flushed(Brick& brick);
   void add_gaussians(const Echoes& echoes, List list, std::size_t first_bin);
   /// Adds the sampled pulses to the one brick of a line array, or to those of a planar array.
   void add_to_line(std::size_t count);
   void add_to_lines(const Echoes& echoes, List list);
-  // Sweeps, of each only the samples on this tile: those whose shape absorption keeps, and others, sample by sample.
+  // Sweeps, only their samples on this tile. Planned sweeps keep their shape under absorption; others are sampled.
   void add_planned_sweeps(const Echoes& echoes, List list, std::size_t first_bin);
   void add_sampled_sweeps(const Echoes& echoes, const PulseReach& reach, List list, std::size_t first_bin);
   /// Sets the rows of beams [first, first + rows_at_a_time) on the grid of a line array.

@@ -12,9 +12,8 @@ namespace insonify {
 /// An image, and the fraction of the gridded energy that it contains.
 struct GriddedImage {
   ComplexGrid pressure;  ///< beams x bins [Pa]
-  /// Root of the mean energy per beam over that of all gridded pulses: 0.1 for a fan of 500 beams of which 5 receive an
-  /// echo. Kernel errors are distributed evenly over all beams, so the smaller this fraction, the larger the relative
-  /// error. 1 if there are no echoes.
+  /// sqrt(mean energy per beam / energy of all gridded pulses): 0.1 if 5 of 500 beams receive an echo. Kernel errors
+  /// are distributed evenly over all beams, so a smaller value means a larger relative error. 1 if there are no echoes.
   double share = 0;
 };
 
@@ -24,10 +23,10 @@ class GriddedSynthesis {
  public:
   GriddedSynthesis(const SonarHead& head, const Medium& medium, const SynthesisOptions& options,
                    KernelTolerance kernels);
-  /// Each tile of bins is computed by one thread, which grids its echoes in their order and forms its beams.
+  /// Returns the image. One thread computes each tile of bins: it grids the echoes in their order and forms the beams.
   GriddedImage image(const Echoes& echoes) const;
-  /// The same of echoes that are not stored: each thread forms the beams of one slab of neighbouring tiles after
-  /// another, and visits the chunks that reach into it, in order.
+  /// Returns the same for echoes that are not stored. Each thread takes one slab of neighbouring tiles after another,
+  /// visits the chunks that reach into the slab in order, and forms the beams.
   GriddedImage image(const EchoStream& stream) const;
   const SynthesisChoice& choice() const { return plan_.choice; }
 

@@ -9,22 +9,24 @@
 
 namespace insonify {
 
-/// The expected error of the narrow-band, far-field image (E10) against what elements receive: at frequency f off the
-/// carrier the phase of element y is k (1 + f / f_c) times the difference of the ways to it that echo and focus have
-/// (E61, E62); the narrow band takes -k y (u - u_b). The focus stands where the bin is: the pulse's length before and
-/// behind the echo. A planar array counts as its middle row.
+/// Expected error of the narrow-band, far-field image (E10), compared with the pressure that elements receive. The
+/// paths from echo and focus to an element at y differ. At frequency f off the carrier, the true phase of the element
+/// is k (1 + f / f_c) times this difference (E61, E62); the narrow-band image uses -k y (u - u_b). The focus is at the
+/// range of the bin; the error is evaluated with the focus one pulse length before and behind the echo. A planar array
+/// is represented by its middle row.
 class NarrowBandError {
  public:
-  /// Refers to the head.
+  /// Keeps a reference to `head`, which must outlive the object; sound_speed [m/s].
   NarrowBandError(const SonarHead& head, double sound_speed);
 
-  /// Sums over beams [Pa^2]: of the squared error, and of the squared image.
+  /// Sums over beams [Pa^2] of the squared error and of the squared image.
   struct Sums {
     double error = 0, image = 0;
   };
 
-  /// Returns the expected sums of echoes from `places` with these powers at an element [Pa^2], none if `power` is
-  /// empty. Some 32 to 48 of the places each stand for the same power, in the nearest 16 beams and 8 of the others.
+  /// Returns the expected sums for echoes from `places` whose power at an element is `power` [Pa^2]; zero sums if
+  /// `power` is empty. The sums are estimated from 32 to 48 places that each represent the same power, in the nearest
+  /// 16 beams and in 8 of the other beams.
   Sums of(const Scatterers& places, const std::vector<double>& power, int threads = 0) const;
 
  private:

@@ -6,8 +6,9 @@
 
 namespace insonify::kernels {
 
-/// A register, or as many narrower ones as the instruction set needs. Compilers turn loops over eight numbers that stay
-/// the same from row to row into single ones; of these types they cannot.
+/// A vector of `bytes` bytes; the compiler maps it to one register, or to several narrower ones. Compilers break loops
+/// over plain arrays of eight numbers into single numbers if the numbers stay the same from row to row; this type
+/// prevents that.
 template <typename Real, std::size_t bytes = 32>
 struct Register {
   typedef Real Type __attribute__((vector_size(bytes)));

@@ -5,11 +5,11 @@
 
 namespace insonify {
 
-/// A thing that is made when it is first used, by one of the threads that ask for it.
+/// An object that is made at its first use, by one of the threads that ask for it.
 template <typename Thing>
 class Lazy {
  public:
-  /// Returns the thing; make() returns a std::unique_ptr to a new one.
+  /// Returns the object. The first call makes it: make() returns a std::unique_ptr to a new object.
   template <typename Make>
   const Thing& get(const Make& make) const {
     std::call_once(made_, [&] { thing_ = make(); });

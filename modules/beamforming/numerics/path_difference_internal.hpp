@@ -5,8 +5,9 @@
 
 namespace insonify {
 
-/// Returns by how much an element at `y` [m] on the array is farther from a source than the centre of the array is [m].
-/// The source is at `range` [m] and direction cosine `u` along the array (E61). No digits cancel.
+/// Returns the distance from a source to the element at `y` [m], less the distance from the source to the centre of the
+/// array [m]. The source is at `range` [m] and direction cosine `u` along the array (E61). The formula avoids
+/// cancellation.
 inline double path_difference(double range, double u, double y) {
   const double squared = y * y - 2 * range * y * u;
   return squared / (std::sqrt(std::max(0.0, range * range + squared)) + range);

@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// Working memory that is used again: making it costs more than clearing it. May be shared by threads.
+/// A pool of working memory for reuse, because allocating it costs more than clearing it. Threads may share a pool.
 template <typename Tile>
 class TilePool {
  public:
@@ -20,7 +20,7 @@ class TilePool {
 
   explicit TilePool(std::function<std::unique_ptr<Tile>()> make) : make_(std::move(make)) {}
 
-  /// Returns a tile that is not in use, as it was left, or a new one; it comes back when the handle ends.
+  /// Returns an idle tile with its last contents, or a new tile. The tile returns to the pool when the handle ends.
   Handle take() {
     {
       const std::scoped_lock lock(guard_);

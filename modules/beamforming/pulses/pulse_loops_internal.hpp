@@ -9,12 +9,12 @@
 // on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
-/// Echoes: delay, direction cosine, amplitude over the unit of gridding, Doppler shift.
+/// Columns of echoes: delay, direction cosine, amplitude in units of the gridding, Doppler shift.
 struct EchoArrays {
   const double *delay, *u, *re, *im, *doppler;
 };
 
-/// A grid of samples by direction, and what absorption does to pulses there. Directions are counted from first_u.
+/// A grid of samples by direction, with the absorption of pulses on it. Directions are counted from first_u.
 struct GaussianGrid {
   double start, step, half, first_row;  ///< time axis [s], half length of pulses [s], first row
   double first_u, cycles_per_u;         ///< cycles of the grid
@@ -24,7 +24,7 @@ struct GaussianGrid {
   double a0, a1, a2;                    ///< absorption
 };
 
-/// Working numbers of `count` echoes, an array each; power: of the peak after absorption at the carrier.
+/// Working arrays with one number per echo. `power` is that of the peak after absorption at the carrier.
 struct GaussianState {
   double *re, *im, *turn_re, *turn_im, *ratio, *change, *power;
 };
@@ -45,14 +45,14 @@ void place_gaussians(const EchoArrays& echoes, std::size_t count, const Gaussian
 void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, float* pulse_re, float* pulse_im);
 void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, double* pulse_re, double* pulse_im);
 
-/// Adds pulses so sampled, times the kernel of their columns, to the planes (rows x stride).
+/// Adds the pulses that sample_gaussians sampled, times the kernel of their columns, to the planes (rows x stride).
 void grid_samples(GaussianPlaces<float> places, std::size_t count, const float* pulse_re, const float* pulse_im,
                   std::size_t rows, Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride);
 void grid_samples(GaussianPlaces<double> places, std::size_t count, const double* pulse_re, const double* pulse_im,
                   std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride);
 
-/// Samples of a time axis that pulses reach: those within half sqrt(max(1, 1 + growth delay)) of the delay, clipped to
-/// [first, last); begin >= end: none.
+/// A time axis, and the half length of pulses on it: half sqrt(max(1, 1 + growth delay)). reached_bins writes the
+/// samples [begin, end) within the half length of each delay, clipped to [first, last); begin >= end if there are none.
 struct PulseAxis {
   double start, step, half, growth, first, last;
 };

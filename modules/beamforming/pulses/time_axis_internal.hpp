@@ -18,7 +18,7 @@ struct TimeAxis {
   TimeAxis(const RangeGate& gate, double sound_speed)
       : start(2 * gate.centre(0) / sound_speed), step(2 * gate.bin_size / sound_speed), bins(gate.bins()) {}
 
-  /// When bin `bin` is [s].
+  /// Returns the time of bin `bin` [s].
   double time_of(std::size_t bin) const { return start + static_cast<double>(bin) * step; }
 
   /// Returns the samples [first, last) within `half` seconds of `delay`, clipped to the axis; empty if outside.
@@ -30,8 +30,8 @@ struct TimeAxis {
   }
 };
 
-/// Returns the fraction of its peak at which a pulse is cut for an image with relative error `tolerance`; the error due
-/// to cutting stays below a tenth of it.
+/// Returns the fraction of its peak at which a pulse is cut for an image with relative error `tolerance`. The error due
+/// to cutting stays below a tenth of the tolerance.
 inline double pulse_cut(double tolerance) { return tolerance / 4; }
 
 /// Half length of an echo's pulse [s]: the distance from its delay at which it falls below the tolerance. The curvature
@@ -48,8 +48,9 @@ struct PulseReach {
     growth = absorption.a2 * sound_speed / echo_envelope(pulse, {}, 0).a;
   }
 
-  /// The side lobes of a sweep decay slowly: all that are cut together stay below the tolerance. Echoes with a Doppler
-  /// shift, or with frequency-dependent absorption, are not cut.
+  /// Returns the half length of a sweep. The side lobes of a sweep decay slowly, so the cut is such that all omitted
+  /// side lobes together stay below the tolerance. Echoes with a Doppler shift or with frequency-dependent absorption
+  /// are not cut.
   static double sweep_reach(const Pulse& pulse, const Absorption& a, bool doppler, double tolerance) {
     if (a.a1 != 0 || a.a2 != 0 || doppler) return pulse.duration;
     return pulse_half_length(pulse, 0.5 * tolerance / std::sqrt(3 * pulse.bandwidth * pulse.duration));

@@ -12,7 +12,7 @@ enum class Wavefront {
   plane       ///< from infinite range
 };
 
-/// The tolerances that series and beams of elements can keep.
+/// Range of tolerances that element_series and beam_from_elements accept.
 constexpr double min_element_tolerance = 1e-12, max_element_tolerance = 0.1;
 
 /// Options of element_series and beam_from_elements.
@@ -37,20 +37,21 @@ struct ElementSeries {
 ///   x_m(t) = sum_i A_i exp(2 pi i f_c d_im / c) G_i(t - delay_i - d_im / c)
 ///   d_im   = sqrt(r_i^2 - 2 r_i y_m u_i + y_m^2) - r_i (spherical) or -y_m u_i (plane)
 ///
-/// The sampling rate (about four times the pulse's band) permits interpolation, and the series extends beyond the gate
-/// by the length of the array. Intended for external beamformers; beam_from_elements is the built-in one. Cost: echoes
-/// x elements x pulse samples. Throws Error as synthesize_direct does, or for a tolerance out of range.
+/// The sampling rate is about four times the band of the pulse, so that beams can interpolate between samples. The
+/// series extends beyond the gate by the length of the array. External beamformers can use the series;
+/// beam_from_elements is the built-in beamformer. The cost is echoes x elements x pulse samples. Throws Error as
+/// synthesize_direct does, and for a tolerance out of range.
 ElementSeries element_series(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                              const ElementOptions& options = {});
 
-/// Returns delay-and-sum beams of `series`, beams x bins [Pa] (E62): each sample of a beam sums the elements at the
-/// times at which a wavefront from the beam's direction (spherical: from direction and range, i.e. dynamically focused)
-/// reaches them:
+/// Returns delay-and-sum beams of `series`, beams x bins [Pa] (E62). A sample of a beam sums the elements at the times
+/// at which a wavefront from the beam's direction reaches them. A spherical wavefront also has the range of the sample,
+/// so the beam is dynamically focused:
 ///
 ///   p_b(t) = (1/N) sum_m w_m exp(-2 pi i f_c d_mb / c) x_m(t + d_mb / c)
 ///
-/// Interpolates between samples with a Kaiser-windowed sinc, accurate to the tolerance. Throws Error if the series does
-/// not match the head.
+/// A Kaiser-windowed sinc interpolates between samples, accurate to the tolerance. Throws Error if the series does not
+/// match the head.
 ComplexGrid beam_from_elements(const ElementSeries& series, const SonarHead& head, const Medium& medium,
                                const ElementOptions& options = {});
 

@@ -10,12 +10,12 @@
 
 namespace insonify {
 
-/// Which bend: what echoes or beams of a block need.
+/// The part of the wavefront curvature that echoes or beams of a block need.
 struct BendSpan {
   bool echoes;
   double first_time, last_time;  ///< [s]
   double widest;                 ///< |u|
-  double mean_range, mean_u;     ///< of the part b0 that is left out
+  double mean_range, mean_u;     ///< range and direction of b0, which is subtracted
 };
 
 /// exp(2 pi i F (b - b0) / c), as rows of harmonics need it, at Chebyshev nodes of direction, range, place on the array
@@ -39,15 +39,15 @@ struct BendSamples {
   void place_nodes(const WidebandPlan& plan, const BendSpan& span);
   void sample(const WidebandPlan& plan, const BendSpan& span);
   void undo_rows(const WidebandPlan& plan);
-  /// The other directions: at (-u, -y) the bend is that at (u, y).
+  /// Fills the other half of the directions: the curvature at (-u, -y) equals that at (u, y).
   void mirror();
   std::size_t half_of_u() const { return (u.size() + 1) / 2; }
 };
 
-/// Where rows of harmonics lie on the array at a frequency `off` below the carrier.
+/// Positions of the rows of harmonics on the array at a frequency `off` below the carrier.
 struct RowPlaces {
-  double row;    ///< from one to the next [m]
-  double reach;  ///< to so far off the middle nodes reach: as far as rows that give elements [m]
+  double row;    ///< distance between rows [m]
+  double reach;  ///< distance of the outermost nodes from the middle: that of the outermost row that elements use [m]
 
   RowPlaces(const WidebandPlan& plan, double off);
 };

@@ -17,11 +17,12 @@ class BeamTables {
   /// `nearest` [bins of the gate].
   BeamTables(BeamTableSizes sizes, double nearest);
 
-  /// First bins of the tables, and the end of the last.
+  /// Returns the first bin of each table, then the end of the last table.
   const std::vector<double>& edges() const { return edge_; }
-  /// The table that begins at or before a bin; `shifted`: that for BeamTableSizes::shifted.
+  /// Returns the table that covers a bin: the last one that begins at or before it. `shifted` selects the table for the
+  /// Doppler shift BeamTableSizes::shifted.
   const BeamTable& at(double bin, bool shifted) const;
-  /// Bins that responses reach beyond their echoes, to either side.
+  /// Returns the number of bins by which responses extend beyond their echoes on either side.
   double guard() const { return guard_; }
   /// Samples of pulses that all tables sum, and their size [bytes].
   double work() const;
@@ -35,9 +36,10 @@ class BeamTables {
   double guard_ = 0;
 };
 
-/// The image of one beam with true delays, focused at every range (E61, E62), as a sum of responses read from tables
-/// (E134). Of an echo far beyond the main lobe, all that lies between the ends of the array cancels: two tables of the
-/// ends give its response. The cost of an echo depends on neither elements nor directions.
+/// Image of one beam with true delays, focused at every range (E61, E62): a sum of responses read from tables (E134).
+/// For an echo far beyond the main lobe, the contributions between the ends of the array cancel, so two tables of the
+/// ends give the response. The cost of an echo depends neither on the number of elements nor on the number of
+/// directions.
 class OneBeam {
  public:
   /// Returns nullptr if the head has several beams or a sweep, or if its tables cost more than they are worth.
@@ -45,7 +47,7 @@ class OneBeam {
   static std::unique_ptr<const OneBeam> make(const SonarHead& head, const Medium& medium, double tolerance,
                                              double widest);
 
-  /// What is nearer than tables reach, then stretches of at most 256 bins.
+  /// Returns the stretches of time: first the ranges that are too near for tables, then stretches of at most 256 bins.
   const WidebandStretches& stretches() const { return stretches_; }
   /// Adds the echoes of all stretches but the first to the image of 1 x bins [Pa]. The bits do not depend on `threads`.
   /// Doppler shifts must be within most_shifted of the carrier.
@@ -54,9 +56,9 @@ class OneBeam {
  private:
   OneBeam(const SonarHead& head, const Medium& medium, double tolerance, double widest, double split);
 
-  double split_;                     ///< |u| from which on the ends count alone
-  BeamTables whole_;                 ///< up to there
-  std::unique_ptr<BeamTables> end_;  ///< from there on; nullptr: there is nothing
+  double split_;                     ///< |u| beyond which the ends of the array suffice
+  BeamTables whole_;                 ///< for smaller |u|
+  std::unique_ptr<BeamTables> end_;  ///< for larger |u|; nullptr: no such echoes
   double guard_;                     ///< bins that responses reach
   WidebandStretches stretches_;
 };

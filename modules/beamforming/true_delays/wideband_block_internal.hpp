@@ -43,9 +43,9 @@ class WidebandRoom {
 
   /// Begins a block without echoes.
   void begin(const WidebandBlock& block);
-  /// Adds echoes of the block, those of `list`; calls may follow one another, with the same bits as one of all echoes.
+  /// Adds the echoes of `list`, which lie in the block. Several calls give the same bits as one call with all echoes.
   void add(const Echoes& echoes, List list);
-  /// Adds the beams of the block to `pressure`, within a guard of it.
+  /// Adds the beams of the block to `pressure`, in the bins of the block and of a guard on either side.
   void add_image(const WidebandBlock& block, ComplexGrid& pressure);
 
  private:
@@ -55,18 +55,19 @@ class WidebandRoom {
   // At most GaussianBatch::most Gaussian pulses, and sweeps, sample by sample.
   void grid_gaussians(const Echoes& echoes, List list);
   void grid_sweeps(const Echoes& echoes, List list);
-  /// Fine samples that hold something.
+  /// Marks the tiles of fine samples that hold a pulse from `row` on.
   void touch(std::size_t row, std::size_t rows);
-  /// What harmonics receive, by power of frequency and fine sample.
+  /// Turns the gridded echoes into harmonics, by power of frequency and fine sample.
   void receive(const BendSeries& bend);
-  /// The same by chunk of frequencies.
+  /// Transforms the harmonics over time into chunks of frequencies.
   void to_chunks(const BendSeries& bend);
-  /// What elements make of chunks, by harmonic.
+  /// Interpolates the elements from the harmonics of each chunk and adds them to the harmonics of the beams.
   void through_elements();
-  /// The same by power of frequency and bin.
+  /// Transforms the chunks back to time, by power of frequency and bin.
   void to_bins(const BendSeries& bend);
   void add_beams(const WidebandBlock& block, ComplexGrid& pressure);
-  /// The grid of directions at the bins from n0 on, the bend undone, in across_; `first` is the bin of n0.
+  /// Forms the grid of directions at the bins from n0 on in across_, with the curvature undone; `first` is the bin of
+  /// n0.
   void form_directions(const BendSeries& bend, std::size_t n0, double first);
   /// A tile by direction or harmonic, and rows of harmonics from time `n0` on.
   kernels::TimePlanes planes_of(Numbers& numbers) const;

@@ -19,31 +19,31 @@ struct WidebandStretches {
 
   std::size_t size() const { return edge.size() - 1; }
   double time_of(double bin) const { return axis.start + bin * axis.step; }
-  /// The stretch that holds a delay; size(): none.
+  /// Returns the number of the stretch that holds a delay, or size() if none does.
   std::size_t of(double delay) const;
 };
 
-/// What is nearer than blocks reach, then the blocks.
+/// Returns the stretches of a layout: first the ranges that are too near for blocks, then the blocks.
 WidebandStretches stretches_of(const WidebandLayout& layout, const SonarHead& head, const Medium& medium);
 
-/// Of the tolerance that a WidebandSynthesizer is asked for, what its bounds aim at.
+/// Fraction of the requested tolerance that the bounds of a WidebandSynthesizer aim at.
 constexpr double wideband_share = 0.7;
 
-/// The echoes of an image, stretch by stretch. visit(k, add) calls add(echoes, which) as often as need be for what
-/// stretch k holds, in the order of the echoes; it may be called concurrently.
+/// The echoes of an image, stretch by stretch. visit(k, add) calls add(echoes, which) one or more times with the echoes
+/// of stretch k, in the order of the echoes. Several threads may call visit at once.
 struct WidebandFeed {
   using Add = std::function<void(const Echoes&, std::span<const std::uint32_t>)>;
   std::function<void(std::size_t stretch, const Add& add)> visit;
 };
 
-/// Of stored echoes, which must outlive it.
+/// Returns the feed of stored echoes, which must outlive it.
 WidebandFeed feed_of(const Echoes& echoes, const WidebandStretches& stretches);
 
-/// Of a stream, which must outlive it, of a head and a scene at rest: delay = 2 range / c. Chunks are made again for
-/// each stretch that they reach into. Calls throw Error for an echo that is not finite.
+/// Returns the feed of a stream, which must outlive it. Head and scene must be at rest: delay = 2 range / c. A chunk is
+/// made again for each stretch that it reaches into. Calls of visit throw Error for an echo that is not finite.
 WidebandFeed feed_of(const EchoStream& stream, const WidebandStretches& stretches, double sound_speed);
 
-/// The largest |u| of a stream's echoes, or `least` if that is more.
+/// Returns the larger of `least` and the largest |u| of a stream's echoes.
 double widest_of(const EchoStream& stream, double least);
 
 }  // namespace insonify

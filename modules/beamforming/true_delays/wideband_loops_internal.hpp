@@ -10,8 +10,8 @@ namespace insonify::kernels {
 constexpr std::size_t lines_at_once = 8;   ///< neighbouring frequencies of a chunk
 constexpr std::size_t times_at_once = 16;  ///< rows of a tile
 
-/// Complex factors along a row of places that depend on time: polynomials of it, highest power first, each a plane of
-/// real and one of imaginary parts, `stride` numbers long.
+/// Complex factors along a row of places, as polynomials of time. The highest power comes first; each power has a plane
+/// of real and a plane of imaginary parts, `stride` numbers long.
 struct TimeFactor {
   const float* power;
   std::size_t powers, stride;
@@ -22,13 +22,14 @@ struct TimeFactor {
 void weigh(TimeFactor factor, const float* time, const float* re, const float* im, std::size_t count,
            std::size_t stride, float* line);
 
-/// Sums over `terms`, whose lines lie `plane` numbers apart, of factor(g, time[n]) line(n, g): of each place g the
-/// times one after another, real and imaginary in turn. The factors of terms follow one another.
+/// Writes sum over `terms` of factor(g, time[n]) line(n, g), the inverse step of weigh. The lines of the terms lie
+/// `plane` numbers apart, and the factors of the terms follow one another. The result holds the times of each place g
+/// one after another, real and imaginary in turn.
 void weigh_back(TimeFactor factor, const float* time, const float* line, std::size_t terms, std::size_t plane,
                 std::size_t count, std::size_t stride, float* across);
 
-/// Sums of complex rows, eight numbers at a time: out o = sum over i < ins[o] of factor(o, i) in i. `factor` has, by
-/// eight numbers, out and in (of which there are `stride`), eight real parts and eight imaginary ones.
+/// Sums of complex rows, eight numbers at a time: out o = sum over i < ins[o] of factor(o, i) in i. `factor` is ordered
+/// by group of eight numbers, out, and in (`stride` of them); each entry holds eight real and eight imaginary parts.
 struct RowMix {
   const float* factor;
   std::size_t outs;
@@ -48,11 +49,11 @@ struct PlaceRows {
   std::uint32_t none;
   std::size_t length, plane;  ///< numbers from row to row, and from plane to plane
 };
-/// Mixes a tile into rows, or rows into a tile; `room` for 2 * times_at_once * 8 numbers of each in.
+/// Mixes a tile into rows, or rows into a tile. `room` holds 2 * times_at_once * 8 numbers for each `in`.
 void mix_to_rows(RowMix mix, TimePlanes from, PlaceRows to, float* room);
 void mix_from_rows(RowMix mix, PlaceRows from, TimePlanes to, float* room);
 
-/// How a chunk of frequencies is interpolated between harmonics to elements: `taps` rows from row[m] on, by line.
+/// Interpolation of a chunk of frequencies from harmonics to elements: element m takes `taps` rows from row[m] on.
 struct ElementTaps {
   std::size_t elements, taps;
   const std::uint32_t* row;  ///< by element
@@ -61,25 +62,26 @@ struct ElementTaps {
 
 /// Powers of frequency at the lines of chunks.
 struct LinePowers {
-  std::size_t powers, stride;  ///< how many, and of how many by chunk
+  std::size_t powers, stride;  ///< number of powers in use, and of powers stored per chunk
   const float* power;          ///< by chunk, power and line
 };
 
-/// Sums lines of complex numbers `plane` numbers apart, one for each power of frequency, times those powers, in the
-/// chunks of `chunk`: of each lines_at_once real parts and as many imaginary ones, `stride` numbers apart.
+/// Sums lines of complex numbers, one line per power of frequency, times those powers, for the chunks listed in
+/// `chunk`. The lines lie `plane` numbers apart. Each chunk of the result holds lines_at_once real parts, then as many
+/// imaginary ones; chunks are `stride` numbers apart.
 void sum_powers(LinePowers powers, const float* line, std::size_t plane, const std::size_t* chunk, std::size_t count,
                 float* to, std::size_t stride);
 
-/// Adds to the rows `to` of a chunk, each lines_at_once real parts and as many imaginary ones, what elements give that
-/// take it from `rows`, times `factor` by element and line.
+/// Passes a chunk through the elements: interpolates each element from `rows`, multiplies it by `factor` (by element
+/// and line), and adds it to the rows `to`. A row holds lines_at_once real parts, then as many imaginary ones.
 void through_elements(ElementTaps taps, const float* factor, const float* rows, float* to);
 
-/// Adds lines of complex numbers, as sum_powers makes them, times one power of frequency, to a line, each chunk from
-/// number place[i] on.
+/// Adds one power of frequency of the chunks, laid out as by sum_powers, to a line of complex numbers. Chunk i begins
+/// at number place[i] of the line.
 void add_power(const float* line, std::size_t count, const float* power, std::size_t stride, const std::uint32_t* place,
                float* to);
 
-/// A beam at `count` numbers, a multiple of 8: rows of a grid, `stride` apart, interpolated by weights.
+/// Writes `count` numbers of a beam, a multiple of 8: the weighted sum of rows of a grid, `stride` numbers apart.
 void take_beam(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid, std::size_t stride,
                std::size_t count, float* beam);
 

@@ -15,10 +15,10 @@
 
 namespace insonify {
 
-/// Sizes of the synthesis with true delays for blocks of time of one length. The pulses of a block and all that the
-/// array's delays make of them fit into one cycle of a transform. Directions lie on a grid over one period; its
-/// harmonics k / period, |k| <= most, are places on the array in wavelengths, between which the elements are
-/// interpolated, frequency by frequency.
+/// Sizes of the synthesis with true delays for blocks of time of one length. One cycle of a transform holds the pulses
+/// of a block with all delays across the array. Directions lie on a grid over one period. Its harmonics k / period, |k|
+/// <= most, are positions on the array in wavelengths; the elements are interpolated between these positions, frequency
+/// by frequency.
 struct WidebandSizes {
   static constexpr std::size_t kernel_width = 8;
 
@@ -28,9 +28,9 @@ struct WidebandSizes {
   double cut;       ///< pulses are cut where they fall below this
   double aperture;  ///< length of the array [m]
 
-  double half_band = 0;                         ///< frequencies off the carrier that count [Hz]
-  std::size_t block = 0, guard = 0, cycle = 0;  ///< bins of a block at most, to either side of it, of a cycle
-  std::size_t fine = 0, fine_row = 0;           ///< samples of a cycle before the beams; room for them
+  double half_band = 0;                         ///< largest frequency off the carrier that contributes [Hz]
+  std::size_t block = 0, guard = 0, cycle = 0;  ///< bins: of the longest block, of its guard on either side, of a cycle
+  std::size_t fine = 0, fine_row = 0;           ///< samples of a cycle before the beams are formed; allocated samples
   double fine_step = 0;                         ///< [s]
   double reach = 0;                             ///< half length of a pulse at the end of the gate [s]
 
@@ -43,9 +43,9 @@ struct WidebandSizes {
   WidebandSizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, std::size_t block_bins);
 
   std::size_t rows() const { return 2 * most + 1; }
-  /// When bin `bin` of the gate is [s].
+  /// Returns the time of bin `bin` of the gate [s].
   double time_of(double bin) const { return axis.start + bin * axis.step; }
-  /// Where a direction lies on the grid.
+  /// Returns the position of a direction on the grid [steps].
   double column_of(double u) const { return (u / period + 0.5) * static_cast<double>(grid); }
   /// The frequency off the carrier of a line of the cycle, counted from 0 to fine [lines].
   double line_of(std::size_t line) const {
@@ -55,11 +55,11 @@ struct WidebandSizes {
   std::size_t top_line() const { return static_cast<std::size_t>(half_band * seconds()); }
 };
 
-/// What the synthesis with true delays has in common for all blocks of time of one length.
+/// Constants of the synthesis with true delays for all blocks of time of one length.
 struct WidebandPlan : WidebandSizes {
   static constexpr std::size_t moments = 12;
-  static constexpr std::size_t fit_nodes = 32;    ///< frequencies at which functions of it are fitted by powers,
-  static constexpr std::size_t most_powers = 12;  ///< at most so many
+  static constexpr std::size_t fit_nodes = 32;    ///< frequencies at which functions are fitted by powers of frequency
+  static constexpr std::size_t most_powers = 12;  ///< powers at most
 
   SonarHead head;
   Medium medium;
@@ -70,15 +70,15 @@ struct WidebandPlan : WidebandSizes {
 
   GriddingKernel kernel;             ///< of directions on the grid, and of places between harmonics
   PolynomialPieces<float> columns;   ///< of the kernel
-  std::vector<double> place_factor;  ///< undoes it between harmonics, by step of the grid
+  std::vector<double> place_factor;  ///< undoes the kernel between harmonics, by step of the grid
   std::vector<float> beam_weight;    ///< of each beam, kernel.width() grid steps
   std::vector<std::uint32_t> beam_row;
 
-  std::vector<std::size_t> chunks;                ///< those of lines_at_once frequencies that count
+  std::vector<std::size_t> chunks;                ///< chunks of lines_at_once frequencies that contribute
   std::vector<std::uint32_t> tap_row;             ///< the first of the taps, by chunk and element
   AlignedFloats tap_weight;                       ///< by chunk, element, tap and line
   AlignedFloats element_weight;                   ///< by chunk, element and line: shading, and undoes gridding
-  double digits = 0;                              ///< of the tolerance
+  double digits = 0;                              ///< decimal digits of the tolerance
   std::vector<double> node_frequency;             ///< off the carrier, against the sign of lines [Hz]
   std::vector<double> node_weight;                ///< of the spectrum there, and of the node
   std::vector<double> fit_frequency, fit_weight;  ///< as these, where functions are fitted
@@ -101,23 +101,23 @@ struct WidebandPlan : WidebandSizes {
   std::vector<double> node_, node_weight_;  ///< for integrals of the kernel over positive x
 };
 
-/// Phase of the bend at the ends of the array from broadside, at the highest frequency, and how much of it comes and
-/// goes between two ranges, to either side [rad].
+/// Phase of the wavefront curvature at the ends of the array from broadside, at the highest frequency [rad]: `all` is
+/// the whole phase; `over_range` is its change between two ranges, to either side of the mean.
 struct BendPhase {
   double all, over_range;
 
   BendPhase(const SonarHead& head, const Medium& medium, double near, double far);
 };
 
-/// How time is divided: blocks without gaps, from where they keep the tolerance or the gate begins until after its end.
-/// Longer blocks spend less on their ends, but their wavefronts differ more.
+/// Division of time into blocks without gaps. The blocks begin where blocks keep the tolerance, or with the gate, and
+/// end after the end of the gate. Longer blocks spend less on their ends, but the curvature changes more within them.
 struct WidebandLayout {
   struct Block {
     double first, last;  ///< first and one after the last bin
     std::size_t level;   ///< of its length
   };
-  double guard;    ///< bins that a block reaches beyond its ends: the array's delays, and the pulse
-  double nearest;  ///< range from which on blocks keep the tolerance [m]
+  double guard;    ///< bins by which a block extends beyond its ends, for the array's delays and the pulse
+  double nearest;  ///< blocks keep the tolerance beyond this range [m]
   std::vector<WidebandSizes> levels;
   std::vector<Block> blocks;
 
