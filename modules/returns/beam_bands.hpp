@@ -12,8 +12,9 @@ namespace insonify {
 /// Bands of beams, [first, end) each.
 using BeamBands = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Returns bands of whole rows of beams, of which the contributors (`per_pixel` of each pixel) fit into `mib` [MiB]
-/// together or are of two rows, since labels know the step between rows; one band if the rows do not follow each other.
+/// Returns bands of whole rows of beams. The contributors of a band (`per_pixel` of each pixel) fit into `mib` [MiB]
+/// together. A band has at least two rows, because labels need the step between rows. Returns one band if the rows do
+/// not follow each other.
 BeamBands beam_bands(const SonarHead& head, int per_pixel, double mib);
 
 /// Returns the head with the beams [first, end) alone.

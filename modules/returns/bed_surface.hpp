@@ -15,22 +15,24 @@ struct BedSurface {
   double cell = 1;      ///< size [m]
   Grid<float> height;   ///< z at the middles of the cells [m]
 
-  /// Between the middles of cells bilinear, beyond the outermost ones as at them.
+  /// Returns z at (px, py) [m]: bilinear between the middles of cells, and constant beyond the outermost middles.
   double at(double px, double py) const;
 };
 
-/// A level bed at this height.
+/// Returns a level bed at z = `height` [m].
 BedSurface flat_bed(double height);
 
-/// Sums points on a grid, to make a bed of them.
+/// Makes a bed from points, as means over the cells of a grid.
 class BedPoints {
  public:
-  /// A grid of cells that holds `low` to `high`. Throws Error(argument) unless cell > 0 and at most 2^26 cells do.
+  /// Sets up a grid of cells of size `cell` from `low` to `high` [m]. Throws Error(argument) unless cell > 0 and the
+  /// grid has at most 2^26 cells.
   BedPoints(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double cell);
-  /// Adds a point of the world [m]; one outside the grid counts in the nearest cell.
+  /// Adds a point [m, world]. A point outside the grid is added to the nearest cell.
   void add(const Eigen::Vector3d& point);
-  /// The mean height of the points of each cell; of a cell without points that of the cells about it, which grow by
-  /// factors of two until they hold some, bilinear between them. Throws Error(content) if no point was added.
+  /// Returns the mean height of the points in each cell [m]. For a cell without points, larger cells around it are
+  /// used: their size doubles until they contain points, and the heights are interpolated bilinearly between them.
+  /// Throws Error(content) if no point was added.
   BedSurface surface() const;
 
  private:

@@ -22,7 +22,7 @@ class BottomPing {
   std::vector<BottomFind> find(std::size_t beam) const;
   /// dr/du about a beam from the first echoes of its neighbours [m].
   double slope_at(std::size_t beam, const std::vector<std::vector<BottomFind>>& found) const;
-  /// What the echo of a plane of this slope is like.
+  /// Returns the predicted echo of a plane of this slope.
   BottomEcho echo_at(std::size_t beam, double range, double slope, double turn) const;
   /// Phase between the halves per direction cosine [rad], by the median of all beams.
   double phase_per_cosine(const std::vector<std::vector<BottomFind>>& found, const std::vector<double>& slopes) const;
@@ -31,12 +31,12 @@ class BottomPing {
   void judge(const std::vector<BottomEcho>& echoes, BottomSoundings& soundings) const;
 
  private:
-  /// Half the footprint on a level bottom [bins], at least a pulse, of beams so far from the vertical.
+  /// Returns half the footprint on a level bottom [bins], at least a pulse, for beams at this angle from the vertical.
   std::size_t reach_of(double tangent, double cosine, double range) const;
-  /// Intensity at each range below which a sample is a side lobe, from that of the strongest beam.
+  /// Returns for each range the intensity up to which a sample is a side lobe, from that of the strongest beam.
   Eigen::Array<double, 1, Eigen::Dynamic> side_lobe_floor(
       const Eigen::Array<double, 1, Eigen::Dynamic>& strongest) const;
-  /// How far in range side lobes stand from their echo [m].
+  /// Returns the largest distance in range between side lobes and their echo [m].
   double side_lobe_reach() const;
 
   const Ping& ping_;

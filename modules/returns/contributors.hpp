@@ -24,8 +24,8 @@ struct Contributors {
   std::vector<float> elevation;         ///< direction of arrival [rad], head axes; 0 if unused
   std::vector<std::uint16_t> material;  ///< index into the scene's materials; `no_material` if unused
   std::vector<PathKind> path;
-  /// Of an echo by way of two surfaces the surfel that sound met before, index in the scene; else `none`. Empty if there
-  /// were no such echoes.
+  /// For a double echo, the surfel that the sound met first, index in the scene; otherwise `none`. Empty if no double
+  /// echoes were computed.
   std::vector<std::uint32_t> surfel_before{};
   std::vector<float> total{};  ///< energy of all contributors of each pixel [Pa^2]; empty if read from a file
 

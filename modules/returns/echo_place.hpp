@@ -6,9 +6,10 @@
 
 namespace insonify {
 
-/// Returns the way from the place where the head transmitted to what it hears at `range` from `direction`, in world
-/// axes [m]. A head at rest has range times direction. A head that moves by v and turns by w hears the echo at T = 2
-/// range / c, where it is then and with the axes it has then (E44 solved for the place, exact):
+/// Returns the vector from the head at transmission to the scatterer whose echo the head receives at `range` from
+/// `direction` [m, world axes]. For a head at rest this is range times direction. A head that moves by v and turns by w
+/// receives the echo at T = 2 range / c, at the position and with the axes of that time (E44 solved for the scatterer,
+/// exact):
 ///
 ///   e1 = exp(w T) world_from_head direction,  r1 = (c^2 - v^2) T / (2 (c + v e1)),  way = v T + r1 e1
 ///
@@ -19,9 +20,9 @@ namespace insonify {
 /// Throws Error(argument) for a sound speed that is not > 0.
 Eigen::Vector3d way_of_echo(const Ping& ping, const Eigen::Vector3d& direction, double range, double sound_speed);
 
-/// Returns how far a scatterer was from the head at transmission [m], if it lay in `direction` (unit vector in head
-/// axes at transmission) and is heard at `range`: T (c^2 - v^2) / (2 (c - v e0)), with the names of way_of_echo. Errors
-/// as way_of_echo.
+/// Returns the distance from the head at transmission to a scatterer [m]. The scatterer lies in `direction` (unit
+/// vector in head axes at transmission), and its echo arrives at `range`. The distance is T (c^2 - v^2) / (2 (c - v
+/// e0)), with the names of way_of_echo. Throws Error as way_of_echo does.
 double distance_of_echo(const Ping& ping, const Eigen::Vector3d& direction, double range, double sound_speed);
 
 }  // namespace insonify

@@ -12,12 +12,13 @@ struct Bins {
 /// The bins of a ping within `reach` of a range [m], at least one.
 Bins bins_about(const Ping& ping, double range, double reach);
 
-/// Whether an echo within `reach` of a range is turned against its pulse and coherent for longer than that: as sound
-/// from beyond the fan is, of which a beam hears in a grating lobe only the frequencies whose lobe lies there. (E133)
+/// Returns whether an echo within `reach` of a range comes from a grating lobe (E133). Such an echo is shifted in phase
+/// along the pulse and coherent for longer than the pulse: it comes from beyond the fan, and the beam receives only the
+/// frequencies whose grating lobe lies there.
 bool is_of_grating_lobe(const Ping& ping, std::size_t beam, double range, double reach, double pulse_deviation);
 
-/// How far the relief along the way may move the mean range of an echo of a beam that is wide along it, as a standard
-/// deviation from the echo's own width and skewness [m]; 0 of a narrow beam. (E131)
+/// Returns the standard deviation by which relief along the track may move the mean range of an echo [m], for a beam
+/// that is wide along the track (E131). It follows from the echo's own width and skewness; 0 for a narrow beam.
 double deviation_along(const JudgedPing& judged, std::size_t beam, double range, const BottomEcho& echo);
 
 }  // namespace insonify

@@ -7,18 +7,19 @@
 
 namespace insonify {
 
-/// What counts as the first return of a bottom.
+/// Definition of the first return of a bottom.
 struct FirstReturnOptions {
-  double blanking = 1;  ///< [m] from the head on that do not count: the transmission and its ringing
-  double window = 0.5;  ///< [m] over which intensities are averaged, before and behind a place
-  double step_db = 10;  ///< by which the level behind must exceed that before
+  double blanking = 1;  ///< [m] ranges up to this are ignored: the transmission and its ringing
+  double window = 0.5;  ///< [m] length of the windows before and behind a range, over which intensities are averaged
+  double step_db = 10;  ///< the level behind must exceed the level before by this [dB]
 };
 
-/// Returns the range [m] at which the bottom begins in a row of levels [dB] of one beam (E135): the first place where the
-/// mean intensity over a window behind it exceeds that before it by the step, and within a window of it the bin at which
-/// speckle of two means changes most likely. A mean counts as 50 dB below the row's strongest at least, so that side
-/// lobes in silent water are no bottom. Nothing if there is none. Throws Error(argument) unless the row has as many
-/// levels as the gate has bins.
+/// Returns the range [m] at which the bottom begins in a row of levels [dB] of one beam (E135). The first step finds
+/// the first range at which the mean intensity over a window behind it exceeds the mean before it by step_db. The
+/// second step searches a window around that range for the bin at which speckle most likely changes from one mean to
+/// another. Means count as at least 50 dB below the row's strongest level, so that side lobes in silent water are not a
+/// bottom. Returns nothing if there is no bottom. Throws Error(argument) unless the row has one level per bin of the
+/// gate.
 std::optional<double> first_return(const Grid<float>& row_db, const RangeGate& gate,
                                    const FirstReturnOptions& options = {});
 

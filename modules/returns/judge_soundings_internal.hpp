@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// What judge_soundings needs of the ping that soundings were found in.
+/// Data that judge_soundings needs of the ping in which the soundings were found.
 struct JudgedPing {
   const Ping& ping;
   const Grid<double>& intensity;                       ///< beams x bins [Pa^2]
@@ -17,12 +17,12 @@ struct JudgedPing {
   const std::vector<double>& noise;                    ///< of each beam [Pa^2]
   std::span<const BottomEcho> echoes;                  ///< of each sounding
   double absorption_db_per_m = 0;
-  double side_lobe_reach = 0;  ///< how far side lobes stand from the range of their echo [m]
+  double side_lobe_reach = 0;  ///< largest distance in range between side lobes and their echo [m]
   int threads = 0;
 };
 
-/// Sets `reject`, and adds to `deviation` and `quality` what the neighbours and the echo say of the bottom's relief
-/// within the footprint.
+/// Sets `reject`. Also adds to `deviation` and `quality` the effect of the bottom's relief within the footprint, as
+/// estimated from the neighbours and the echo.
 void judge_soundings(const JudgedPing& judged, BottomSoundings& soundings);
 
 }  // namespace insonify

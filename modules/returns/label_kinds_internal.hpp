@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// The label of each surfel, as a number: that of its part, or of its material if the part has none.
+/// Number of the label of each surfel: the label of its part, or its material if the part has no label.
 struct LabelKinds {
   static constexpr std::size_t of_material = ~std::size_t{0};
   std::vector<std::size_t> of_part{};  ///< of each part; of_material: its materials are the labels
@@ -21,8 +21,8 @@ struct LabelKinds {
   }
 };
 
-/// Names the labels of a scene: its materials, then the labels of parts that are not called as a material. Lists the
-/// parts, too.
+/// Lists the labels of a scene in `labels`: the materials, then the labels of parts that differ from all materials.
+/// Also lists the parts.
 inline LabelKinds name_kinds(const SceneCloud& scene, PixelLabels& labels) {
   LabelKinds kinds;
   for (const Material& material : scene.materials) labels.names.push_back(material.name);

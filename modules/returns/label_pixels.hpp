@@ -13,7 +13,7 @@
 
 namespace insonify {
 
-/// What a head sees of a scene, and what it does not see.
+/// The surface of a scene that a head sees, and the surface that it does not see.
 struct SeenSurface {
   const SurfelEchoes& direct;  ///< direct echoes of all visible parts
   const std::vector<Visibility>&
@@ -22,16 +22,21 @@ struct SeenSurface {
   const Contributors& all;  ///< of this ping, with their total energy
 };
 
-/// Labels the pixels of a ping (E125). The cell of a pixel is as wide as the half-power widths of pulse and beam (in
-/// direction cosine; of planar arrays that of a row, too), and at least as a bin and the way to the next beams. Of the
-/// materials with visible surface in the cell a pixel has the one with most energy there; of surfels of a part with a
-/// label, that label stands for the material. Share: the energy of that
-/// material within a whole width to either side, the main lobe, over the energy of all contributors. A cell without
-/// visible surface is shadow if hidden surface or such that faces away lies in it. One with neither has the material of
-/// the visible surfels within whose radius and main lobe it is, so that gaps between surfels have no label of their
-/// own; else nothing. A part or an surfel without parts reaches by the radius of its area beyond its centre. Energies
-/// are those of E63, without phases. Throws Error(argument) for contributors of another extent or without total, for
-/// entries of another number than the scene's surfels, and as find_contributors.
+/// Returns the labels of the pixels of a ping (E125).
+///
+/// The cell of a pixel is as wide as the half-power widths of pulse and beam (in direction cosine; for planar arrays
+/// also across rows). It is at least as wide as a bin and the distance to the next beams. A pixel gets the visible
+/// material with the most energy in its cell. The label of a part, if it has one, replaces the materials of its
+/// surfels. The share is the energy of that material within a whole width to either side, i.e. the main lobe, over the
+/// energy of all contributors.
+///
+/// A cell with only hidden or back-facing surface is shadow. A cell without surface takes the material of a visible
+/// surfel whose radius and main lobe cover it, so that gaps between surfels get no label of their own; otherwise it is
+/// nothing. The radius of a part, or of a surfel without parts, is that of its area. Energies are those of E63, without
+/// phases.
+///
+/// Throws Error(argument) for contributors of another extent or without total, for `others` of another length than the
+/// scene, and as find_contributors does.
 PixelLabels label_pixels(const SceneCloud& scene, const SeenSurface& seen, const SonarHead& head,
                          const Pose& world_from_head, const Medium& medium, int threads = 0);
 

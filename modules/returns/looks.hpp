@@ -4,12 +4,13 @@
 
 namespace insonify {
 
-/// Returns the running mean of an intensity over `bins` bins, centred (with an even number half a bin farther), fewer
-/// at the ends of the gate (E71). Throws Error(argument) unless bins >= 1.
+/// Returns the running mean of an intensity over `bins` bins (E71). The window is centred; an even number of bins
+/// extends it half a bin farther. At the ends of the gate fewer bins are averaged. Throws Error(argument) unless bins
+/// >= 1.
 Grid<float> mean_over_bins(const Grid<double>& intensity, int bins);
 
-/// Returns the level that a display shows of every sample, beams x bins [dB re 1 uPa rms]: that of Ping::intensity, or
-/// level_db of a ping without looks; at least `floor_db`.
+/// Returns the level that a display shows for every sample, beams x bins [dB re 1 uPa rms]: the level of
+/// Ping::intensity, or level_db if the ping has no looks. The level is at least `floor_db`.
 Grid<float> shown_level_db(const Ping& ping, double floor_db = silence_db);
 
 }  // namespace insonify

@@ -13,8 +13,8 @@ namespace insonify {
 /// The beams from port to starboard: the columns of a picture of beams x range. Beams of equal azimuth stay in order.
 std::vector<Eigen::Index> columns_from_port(const BeamFan& fan);
 
-/// Values of samples (beams x bins) as rows and columns of a picture: a column per beam from port to starboard, the
-/// first row is the farthest bin, as show_grey draws them.
+/// Returns the samples (beams x bins) as a picture in the layout of show_grey: one column per beam from port to
+/// starboard, the farthest bin in the first row.
 template <typename Value>
 Grid<Value> polar_picture(const Grid<Value>& samples, const BeamFan& fan) {
   const std::vector<Eigen::Index> columns = columns_from_port(fan);
@@ -25,23 +25,24 @@ Grid<Value> polar_picture(const Grid<Value>& samples, const BeamFan& fan) {
   return picture;
 }
 
-/// Which sample every pixel of a picture in true geometry shows: forward up, starboard right.
+/// The sample that each pixel of a picture in true geometry shows. Forward is up, starboard right.
 struct FanRaster {
   Grid<std::int32_t> beam, bin;  ///< rows from the top; -1 outside the fan
   double metres_per_pixel = 0;
   double head_column = 0, head_row = 0;  ///< where the head is [pixels], from the corner of the first pixel
 };
 
-/// The sample nearest to each pixel's centre, in a picture of so many columns that holds the fan; rows follow. Throws
-/// Error(argument) for a fan of several elevations, one that looks astern, or columns not within 16 and 8192.
+/// Returns the sample nearest to the centre of each pixel, for a picture of `columns` columns that holds the fan; the
+/// number of rows follows. Throws Error(argument) for a fan of several elevations, a fan that looks astern, or columns
+/// outside 16 to 8192.
 FanRaster fan_raster(const BeamFan& fan, const RangeGate& gate, int columns);
 
-/// The same in a picture of so many rows that reaches from the head to the far end of the gate, with the head below the
-/// middle of the last row; outermost beams show half a beam width beyond their axes. Throws Error(argument) for a fan
-/// of several elevations, or without rows.
+/// Returns the same for a picture of `rows` rows that reaches from the head to the far end of the gate. The head is
+/// below the middle of the last row. The outermost beams extend half a beam width beyond their axes. Throws
+/// Error(argument) for a fan of several elevations, or without rows.
 FanRaster fan_raster_from_head(const BeamFan& fan, const RangeGate& gate, int rows);
 
-/// Values of samples at the pixels of a raster, `outside` beside the fan.
+/// Returns the samples at the pixels of a raster, and `outside` for pixels beside the fan.
 template <typename Value>
 Grid<Value> fan_picture(const Grid<Value>& samples, const FanRaster& raster, Value outside) {
   Grid<Value> picture(raster.beam.rows(), raster.beam.cols());

@@ -21,7 +21,7 @@ struct Layer {
   ComplexGridF pressure;  ///< beams x bins [Pa]
 };
 
-/// Where a scanning head looked: the part of its pose that is its own turn.
+/// Direction of a scanning head: the turn of the head itself, which is part of the ping's pose.
 struct ScanPlace {
   std::int64_t sweep = 0;  ///< number of the sweep, from 0
   double angle = 0;        ///< about the head's z axis [rad], positive to port
@@ -43,13 +43,13 @@ struct Ping {
   Grid<float>
       split_phase{};     ///< between the halves of the array [rad], beams x bins, positive towards port (E92); or empty
   PixelLabels labels{};  ///< surface of every pixel, if contributors were kept; or empty
-  std::optional<ScanPlace> scan{};  ///< of a scanning head; its turn is part of world_from_head
-  double sound_speed = 0;           ///< of the water at the head [m/s], by which delays are ranges; 0: not known
+  std::optional<ScanPlace> scan{};  ///< for a scanning head; its turn is included in world_from_head
+  double sound_speed = 0;           ///< in the water at the head [m/s]; it converts delays to ranges; 0: not known
   double absorption_db_per_m = 0;   ///< of the water at the head, at the centre frequency
-  Motion motion{};                  ///< of the head from transmission on, as its echoes have it
+  Motion motion{};                  ///< of the head from transmission on, as simulated in its echoes
 };
 
-/// Notes the water that a ping was made in.
+/// Sets sound speed and absorption of `ping` to those of the water at the head.
 void note_water(const Medium& at_head, Ping& ping);
 
 /// Returns the pressure in single precision, as a ping stores it. Throws Error(content) naming `who` if a sample

@@ -18,20 +18,20 @@ struct Tvg {
 /// Returns the gain of a TVG [dB] at `range` [m].
 double gain_db(const Tvg& tvg, double range);
 
-/// Returns levels with a TVG applied, beams x bins; levels at or below `floor_db` are unchanged. With spreading 40
-/// equal to range_compensated_level_db. The ping itself stays linear. Throws Error(argument) if the number of bins is
-/// not that of the gate, or the TVG is not finite.
+/// Returns levels with a TVG applied, beams x bins. Levels at or below `floor_db` are unchanged. A spreading of 40
+/// gives range_compensated_level_db. The ping itself stays linear. Throws Error(argument) if the number of bins is not
+/// that of the gate, or the TVG is not finite.
 Grid<float> apply_tvg(Grid<float> level_db, const RangeGate& gate, const Tvg& tvg, double floor_db = silence_db);
 
 /// Range of levels of a display, from black to white.
 struct GreyWindow {
-  double min_db = 0;  ///< level of grey value 0, to which lower ones map too
-  double max_db = 0;  ///< level of the largest value, 255 or 65535, to which higher ones map too
+  double min_db = 0;  ///< level of grey value 0; lower levels also map to 0
+  double max_db = 0;  ///< level of the largest value, 255 or 65535; higher levels also map to it
 };
 
-/// Returns the grey values that are nearest to levels (E58), linear in dB by steps of (max_db - min_db)/255 or /65535,
-/// 0 and the largest value beyond the window. Throws Error(argument) unless the window is finite with min_db < max_db,
-/// Error(content) for a level that is not a number.
+/// Returns the nearest grey value of each level (E58). The scale is linear in dB with steps of (max_db - min_db)/255 or
+/// /65535; levels beyond the window give 0 or the largest value. Throws Error(argument) unless the window is finite
+/// with min_db < max_db, and Error(content) for a level that is not a number.
 Grid<std::uint8_t> quantise_8(const Grid<float>& level_db, const GreyWindow& window);
 /// The same in 65535 steps.
 Grid<std::uint16_t> quantise_16(const Grid<float>& level_db, const GreyWindow& window);

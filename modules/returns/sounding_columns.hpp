@@ -11,15 +11,15 @@ struct SoundingColumn {
   const char *name, *unit;
 };
 
-/// The unit of a column in files whose whole numbers are signed: -1 in place of 4294967295.
+/// Returns the unit of a column for files with signed whole numbers: it says -1 in place of 4294967295.
 inline std::string signed_unit(const SoundingColumn& column) {
   const std::string unit = column.unit, none = std::to_string(Soundings::none);
   const std::size_t at = unit.find(none);
   return at == unit.npos ? unit : std::string(unit).replace(at, none.size(), "-1");
 }
 
-/// Calls use(SoundingColumn, column ...) for every column that all soundings have beside position, in the order of
-/// files, with the columns of one or more soundings.
+/// Calls use(SoundingColumn, column ...) for every column but position that all soundings have, in the order of files.
+/// The arguments are the columns of all given soundings.
 template <typename Use, typename... Some>
 void each_common_column(const Use& use, Some&... soundings) {
   use(SoundingColumn{"level_db", "dB re 1 uPa"}, soundings.level_db...);
@@ -34,10 +34,10 @@ void each_common_column(const Use& use, Some&... soundings) {
   use(SoundingColumn{"true_material", "number in the scene; 4294967295: none"}, soundings.true_material...);
 }
 
-/// The column that soundings may have beside these, last in files.
+/// Optional column of soundings, last in files.
 inline constexpr SoundingColumn order_column = {"true_order", "surfaces met: 1 or 2"};
 
-/// The same for every column that these soundings have.
+/// Calls use(SoundingColumn, column) for every column but position that these soundings have.
 template <typename Use, typename Those>
 void each_column(const Use& use, Those& soundings) {
   each_common_column(use, soundings);

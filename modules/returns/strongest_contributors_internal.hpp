@@ -15,24 +15,25 @@ struct Pixel {
   std::uint32_t beam, bin;
 };
 
-/// The strongest echo that contributes to a sample, and where it came from.
+/// The strongest echo that contributes to a sample, and its origin.
 struct StrongestContributor {
   double power = 0;        ///< [Pa^2]; 0: there is none
-  bool own_share = false;  ///< stands in the beam's own share of the fan
+  bool own_share = false;  ///< lies in the beam's own cell of the fan
   Direction direction{};
   std::uint32_t surfel = 0;  ///< id in the scene
   std::uint16_t material = 0;
 };
 
-/// Whether `a` contributes more than `b`: what stands in the beam's own share of the fan before what does not.
+/// Returns whether `a` ranks before `b`: contributors in the beam's own cell of the fan come first, then the stronger
+/// one.
 inline bool is_stronger(const StrongestContributor& a, const StrongestContributor& b) {
   return a.own_share == b.own_share ? a.power > b.power : a.own_share && a.power > 0;
 }
 
-/// Returns the strongest contributor of each pixel within one bin length: searched in the beam's own share of the fan,
-/// so that neighbouring beams do not report the same scatterer, else in its -3 dB width (in azimuth, and in elevation
-/// for a fan of several rows or a planar array). Only parts near the pixels are visited. The result does not depend on
-/// options.threads.
+/// Returns the strongest contributor of each pixel within one bin length. The search covers the beam's own cell of the
+/// fan first, so that neighbouring beams do not report the same scatterer. Without a contributor there it covers the
+/// beam's -3 dB width (in azimuth, and in elevation for a fan of several rows or a planar array). Only parts near the
+/// pixels are visited. The result does not depend on options.threads.
 ///
 /// pixels    ordered by beam, and within a beam by bin
 /// options   scene and threads

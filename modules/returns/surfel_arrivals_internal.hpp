@@ -14,8 +14,8 @@
 // Echoes sorted by their origin, for find_contributors.
 namespace insonify {
 
-/// The range axis as delays [s], with the half length of pulses: to where they fall below floor_db, for Doppler shifts
-/// up to `doppler` [Hz].
+/// The range axis as delays [s], and the half length of pulses. A pulse ends where it falls below floor_db, for Doppler
+/// shifts up to `doppler` [Hz].
 struct DelayBins {
   double start, step, half;
   std::size_t bins, length;  ///< length: largest number of bins that one pulse overlaps
