@@ -24,8 +24,8 @@ struct BuiltInSceneOptions {
 /// Returns the names accepted by make_built_in_scene: harbour, reef, river, plane, sphere, wall, poles.
 std::vector<std::string> built_in_scene_names();
 
-/// Returns a reproducible scene with outward normals, exact areas and materials, by stratified, area-preserving
-/// sampling:
+/// Returns a reproducible scene with outward normals, exact areas and materials. The sampling is stratified and
+/// preserves areas:
 ///   harbour  quay wall, pilings, rippled sea bed, wreck, pipe, calibration sphere; x 0..60, y -30..30, water
 ///            surface z = 0, sea bed near z = -8; a good pose is 0,0,-3, pitch 10 deg
 ///   reef     spurs of rough rock over sand, with massive, branching and table corals; x 0..12, y -6..6, z -5..-3; a
@@ -40,11 +40,11 @@ std::vector<std::string> built_in_scene_names();
 /// Throws Error for an unknown name (listing the known ones), points = 0, or a size that is not positive.
 SceneCloud make_built_in_scene(const std::string& name, const BuiltInSceneOptions& options = {});
 
-/// Passes the same surfels in the same order to `consume`, in scenes of about `batch` surfels each, for scenes that do
-/// not fit into memory. Exceptions thrown by `consume` propagate.
+/// Makes the same surfels in the same order and passes them to `consume` in scenes of about `batch` surfels each. Use
+/// it for scenes that do not fit into memory. Exceptions thrown by `consume` propagate.
 void make_built_in_scene_in_batches(const std::string& name, const BuiltInSceneOptions& options, std::size_t batch,
                                     const std::function<void(const SceneCloud&)>& consume);
-/// Returns a scene without surfels that has the materials of the built-in scene.
+/// Returns the built-in scene without surfels, with its materials.
 SceneCloud empty_built_in_scene(const std::string& name, const BuiltInSceneOptions& options = {});
 
 }  // namespace insonify

@@ -19,8 +19,8 @@ struct DetailNode {
   float area = 0;                                    ///< sum of their areas [m^2]
   float noise = 0;                                   ///< root of their area-weighted mean square [m]
   float extent = 0;                                  ///< radius about `point` of a ball that holds the surfels [m]
-  float thickness = 0;            ///< most of how far a child's middle lies from the plane, and its own thickness [m]
-  float spread = 0;               ///< mean square sine of the angle between their normals and `normal`
+  float thickness = 0;            ///< largest distance of a child's centre from the plane, plus its thickness [m]
+  float spread = 0;               ///< mean square sine of the angle between the surfels' normals and `normal`
   std::uint32_t nearest = 0;      ///< surfel for which the child nearest to `point` stands; the node has its id
   std::uint32_t first_child = 0;  ///< in DetailLevels::child
   std::uint16_t children = 0;     ///< number of them
@@ -36,25 +36,26 @@ struct DetailBlock {
   std::uint32_t begin = 0, end = 0;  ///< range of DetailLevels::root
 };
 
-/// Levels of detail of a scene: a forest over its surfels, in which a node stands for its children where they are not
-/// resolved. Cells are cubes with an edge of a power of two metres, aligned with the scene's own origin, so that the
-/// surfels of a cell alone give the nodes within it.
+/// Levels of detail of a scene: a forest over its surfels. A node replaces its children where a sonar does not resolve
+/// them. Cells are cubes with an edge of a power of two metres, aligned with the scene's own origin, so the nodes
+/// within a cell depend only on the surfels in it.
 ///
 /// Within a cell, children of one material whose normals lie within 30 degrees of each other are merged if together
-/// they are one compact, flat piece: no thicker than a tenth of its extent, and neither sparse nor in several sheets
-/// (its area is 1.2 to 3.5 times its extent squared; 2 for a square). What does not merge, such as rods, nets and rough
-/// ground, may do so in a larger cell, else its surfels stay as they are (rows of single surfels merge in pairs).
+/// they are one compact, flat piece. Such a piece is no thicker than a tenth of its extent, and neither sparse nor in
+/// several sheets: its area is 1.2 to 3.5 times its extent squared (2 for a square). Rods, nets and rough ground may
+/// fail this test in one cell and merge in a larger one; otherwise their surfels stay single (rows of single surfels
+/// merge in pairs).
 struct DetailLevels {
   std::size_t surfels = 0;           ///< of the scene
   std::vector<DetailNode> node;      ///< each stands for at least two children
   std::vector<std::uint32_t> child;  ///< of all nodes: below `surfels`, a surfel; else `surfels` + the index of a node
-  std::vector<std::uint32_t> root;   ///< what is no child of a node, along a Morton curve; numbers as of `child`
+  std::vector<std::uint32_t> root;   ///< nodes and surfels without a parent, along a Morton curve; numbered as `child`
   std::vector<DetailBlock> block;    ///< of roots
 };
 
-/// Returns the levels of a scene, from cells of an eighth of `spacing` [m] on, in ten doublings; without a spacing no
-/// surfels merge. O(n) time and memory; the result does not depend on `threads` (0: all cores). Throws Error(argument)
-/// for surfels with facets and for more than 2^30.
+/// Returns the levels of a scene. The smallest cells have an edge of an eighth of `spacing` [m]; ten doublings follow.
+/// With a spacing of 0 no surfels merge. Takes O(n) time and memory; the result does not depend on `threads` (0: all
+/// cores). Throws Error(argument) for surfels with facets and for more than 2^30 surfels.
 DetailLevels detail_levels(const SceneCloud& scene, double spacing, int threads = 0);
 
 }  // namespace insonify

@@ -9,40 +9,39 @@
 
 namespace insonify {
 
-/// What a surface does to sound.
+/// Acoustic properties of a surface.
 struct Material {
   std::string name = "default";
   double lambert_mu = 0.001995262314968880;  ///< [1/sr], cross-section per area and solid angle at normal incidence;
-                                             ///< -27 dB: Mackenzie (1961), the usual default for a sea bed. Lambert's
-                                             ///< law alone uses it
-  double coherent_fraction = 0;  ///< part of the mean intensity, in [0, 1], whose amplitude is 1, not random (E53)
+                                             ///< -27 dB: Mackenzie (1961), the usual default for a sea bed. Used by
+                                             ///< Lambert's law only
+  double coherent_fraction = 0;  ///< fraction of the mean intensity, in [0, 1], that does not fluctuate (E53)
   double relief_slope = 0;       ///< rms slope [rise over run] of relief finer than the surfels (E52); 0: smooth
   double mirror = 0;             ///< 1: its flat parts are mirrors; 0: they are not
-  double coherent = 0;           ///< 1: its parts are plates, spheres and cylinders that reflect as wholes; 0: not
-  double reflection = 1;         ///< of pressure, of such mirrors and shapes
-  double rms_height = 0;         ///< of their roughness [m]
+  double coherent = 0;           ///< 1: its plates, spheres and cylinders each reflect as one body; 0: they do not
+  double reflection = 1;         ///< reflection coefficient of pressure of such mirrors and shapes
+  double rms_height = 0;         ///< rms height of their roughness [m]
   SurfaceLaw law{};
 
   bool operator==(const Material&) const = default;
 };
 
-/// One number of a Material, >= 0: what checks, material files, comment lines of clouds and tiles know of it.
+/// Description of one number of a Material, >= 0, for checks, material files, comment lines of clouds, and tiles.
 struct MaterialNumber {
   double Material::*member;
-  const char* name;      ///< of the member, for messages
-  const char* unit;      ///< "": none
-  double most;           ///< [unit] largest that is computed; infinity: any finite number
-  const char* key;       ///< in material files
-  bool in_decibels;      ///< the key holds 10 log10 of it
-  bool required;         ///< material files must give it
-  double most_in_files;  ///< [unit] largest that material files may give
-  const char* note;      ///< why, for messages; "": none
-  const char* help;      ///< what it is, for the docs
-  const char* word =
-      "";  ///< what files say instead of 1, and nothing instead of 0: "true", "fit"; "": they give a number
+  const char* name;       ///< of the member, for messages
+  const char* unit;       ///< "": none
+  double most;            ///< [unit] largest that is computed; infinity: any finite number
+  const char* key;        ///< in material files
+  bool in_decibels;       ///< the key holds 10 log10 of it
+  bool required;          ///< material files must give it
+  double most_in_files;   ///< [unit] largest that material files may give
+  const char* note;       ///< why, for messages; "": none
+  const char* help;       ///< what it is, for the docs
+  const char* word = "";  ///< word in files for 1 (0: the key is absent), e.g. "true", "fit"; "": files give a number
 };
 
-/// All numbers of a Material. A new one goes last: files written before have its default.
+/// All numbers of a Material. A new number goes last, so that older files give it its default.
 inline constexpr MaterialNumber material_numbers[] = {
     {&Material::lambert_mu, "lambert_mu", "1/sr", std::numeric_limits<double>::infinity(), "lambert_mu_db", true, true,
      1 / pi, "1/pi: no surface sends back more than it receives",
@@ -61,11 +60,11 @@ inline constexpr MaterialNumber material_numbers[] = {
      "", "rms height of the roughness of such mirrors and targets"},
 };
 
-/// Whether parts of a material reflect as wholes.
+/// Returns whether parts of a material reflect as one body each: mirrors, plates, spheres, cylinders.
 inline bool is_smooth(const Material& material) { return material.mirror > 0 || material.coherent > 0; }
 
-/// Throws Error of `kind` unless every number is finite, >= 0 and at most its `most`, its law valid (problem_of), and
-/// relief_slope 0 where the law has slopes of its own.
+/// Throws Error of `kind` unless every number is finite, >= 0 and at most its `most`, and the law is valid
+/// (problem_of). If the law has slopes of its own, relief_slope must be 0.
 void require_valid(const Material& material, const char* who, ErrorKind kind = ErrorKind::argument);
 
 }  // namespace insonify

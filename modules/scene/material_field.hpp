@@ -7,17 +7,17 @@
 
 namespace insonify {
 
-/// Numbers from `from` up to, but not including, `to` mean this material.
+/// Interval of numbers that mean one material: `from` is included, `to` is not.
 struct MaterialInterval {
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
   std::uint16_t material = 0;  ///< index into the materials
 };
 
-/// Which number of a cloud's point says what material it is of.
+/// The field of a cloud that gives the material of each point.
 struct MaterialField {
-  std::string name;  ///< of the scalar field, whatever its case and CloudCompare's prefix "scalar_"; empty: the first
-                     ///< of label, material, class, classification
+  std::string name;  ///< of the scalar field; case and CloudCompare's prefix "scalar_" do not matter. Empty: the first
+                     ///< of label, material, class, classification that exists
   std::vector<MaterialInterval> intervals;  ///< empty: the number itself is the index
 };
 

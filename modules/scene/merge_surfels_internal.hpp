@@ -13,10 +13,10 @@ namespace insonify {
 /// Merges surfels and nodes that lie in one cell into nodes (DetailLevels).
 class MergedPieces {
  public:
-  /// Most surfels and nodes of one cell that are looked at.
+  /// Largest number of surfels and nodes of one cell that are considered.
   static constexpr std::size_t most = 64;
 
-  /// Refers to both arguments.
+  /// Keeps references to both arguments.
   MergedPieces(const SceneCloud& scene, std::span<const DetailNode> nodes) : scene_(scene), nodes_(nodes) {}
 
   /// A group of a cell's members, by their places in the cell.
@@ -34,11 +34,11 @@ class MergedPieces {
     std::size_t count = 0;
   };
 
-  /// Returns the members [numbers as of DetailLevels::child] of a cell by material and direction of the normal;
-  /// no groups if there would be more than most_groups.
+  /// Returns the members of a cell [numbered as in DetailLevels::child], grouped by material and direction of the
+  /// normal; no groups if there would be more than most_groups.
   Groups grouped(std::span<const std::uint32_t> cell) const;
 
-  /// Returns the node that stands for a group, without its children; nothing if the group is no compact, flat piece.
+  /// Returns the node for a group, without its children; nothing if the group is not a compact, flat piece.
   std::optional<DetailNode> merged(const Group& group, std::span<const std::uint32_t> cell, float edge) const;
 
  private:

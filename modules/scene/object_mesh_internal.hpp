@@ -22,7 +22,7 @@ class ObjectSizes {
 
   /// The value of an option, in its own unit.
   double operator()(const char* key) const;
-  /// How far triangles may lie from the true surface [m].
+  /// Returns the largest distance of triangles from the true surface [m].
   double tolerance() const { return 1e-3 * (*this)("tolerance_mm"); }
   /// Throws Error(argument) unless the option is below `limit`, which `what` describes.
   void require_below(const char* key, double limit, const char* what) const;
@@ -45,21 +45,22 @@ using OutlinePiece = std::vector<OutlinePoint>;
 
 /// A straight piece of an outline.
 OutlinePiece straight(double along, double radius, double to_along, double to_radius);
-/// A piece of an ellipse around a centre with these half axes: the angle [rad] is 0 at the low end of `along`, pi / 2 at
-/// the largest radius, pi at the high end. From low angles to high ones it bounds a solid ellipse, else a hollow one.
+/// A piece of an ellipse around a centre with these half axes: the angle [rad] is 0 at the low end of `along`, pi / 2
+/// at the largest radius, pi at the high end. From low angles to high ones it bounds a solid ellipse, else a hollow
+/// one.
 OutlinePiece elliptic(const Eigen::Vector2d& centre, const Eigen::Vector2d& half, double from, double to,
                       double tolerance);
 
 /// The number of chords of a circle, a multiple of 4 and at least 12, that stay within `tolerance` of it [m].
 int chords_of(double radius, double tolerance);
 
-/// A place of a bar's axis, and where the bar goes from there.
+/// A point of a bar's axis, and the direction of the axis there.
 struct BarPlace {
   Eigen::Vector3d at, along;
   double radius;  ///< of the round bar there [m]
 };
 
-/// Solids that become one mesh. Each is placed by the pose and has the material that were set before.
+/// Builds one mesh from solids. A solid gets the pose and the material that were set last.
 class ObjectMesh {
  public:
   explicit ObjectMesh(double tolerance) : tolerance_(tolerance) {}
@@ -70,12 +71,12 @@ class ObjectMesh {
   /// The corners so far, in the axes of the object.
   const std::vector<Eigen::Vector3d>& corners() const { return point_; }
 
-  /// The solid whose outline turns about the x axis. Pieces that join have the same ends.
+  /// Adds the solid of an outline that turns about the x axis. Neighbouring pieces share their ends.
   void revolve(const std::vector<OutlinePiece>& outline);
   /// An ellipsoid around the origin with these half axes.
   void add_ellipsoid(const Eigen::Vector3d& half);
-  /// A bar of a polygon with the perimeter of the true circle, along places whose bends all turn about `axis`; closed:
-  /// a ring, without ends.
+  /// Adds a bar along `places`, whose bends all turn about `axis`. Its cross-section is a polygon with the perimeter of
+  /// the true circle. If `closed`, the bar is a ring without ends.
   void add_bar(std::span<const BarPlace> places, const Eigen::Vector3d& axis, bool closed = false);
   /// A straight bar.
   void add_bar(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
@@ -96,7 +97,7 @@ class ObjectMesh {
   SceneMesh finish() const;
 
  private:
-  /// Throws Error(argument) if so many more corners are too many.
+  /// Throws Error(argument) if the mesh cannot take `corners` more corners.
   void require_room(std::size_t corners) const;
   std::uint32_t add_corner(const Eigen::Vector3d& point, const Eigen::Vector3d& normal);
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);

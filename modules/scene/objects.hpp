@@ -22,7 +22,7 @@ struct ObjectOption {
   bool whole = false;  ///< must be a whole number
 };
 
-/// An object that make_object builds: what it is, where its outline is known from, what may be changed.
+/// An object that make_object builds: its description, the source of its outline, and its options.
 struct ObjectKind {
   const char* name;
   const char* description;
@@ -34,26 +34,26 @@ struct ObjectKind {
   void (*build)(const ObjectSizes& sizes, ObjectMesh& mesh);
 };
 
-/// The objects, in the order of lists.
+/// Returns all objects, in the order of lists.
 std::span<const ObjectKind> object_kinds();
 
-/// The object of this name; null if there is none.
+/// Returns the object of this name; null if there is none.
 const ObjectKind* find_object(const std::string& name);
 
-/// All options of an object: its own, and those that every object has.
+/// Returns all options of an object: its own, and those that every object has.
 std::vector<ObjectOption> options_of(const ObjectKind& kind);
 
-/// What a value of the option must be, as text: "0.001 to 100".
+/// Returns the rule for values of the option as text: "0.001 to 100".
 std::string rule_of(const ObjectOption& option);
 
 /// Options that are set: key and value.
 using ObjectSettings = std::vector<std::pair<std::string, double>>;
 
-/// Returns the object in axes of its own: x forward, z up, the lowest point at z = 0, the origin in the centre of its
-/// box as seen from above [m]. All triangles are counter-clockwise seen from outside, solids are closed, and a curved
-/// surface is within tolerance_mm of the true one; corners have its normals. Materials are the default one under the
-/// names of the object's. Throws Error(argument) for an object or key that does not exist, a value that breaks its
-/// rule, sizes that do not fit each other, or more than three million corners.
+/// Returns the object as a mesh in its own axes [m]: x forward, z up, the lowest point at z = 0, the origin in the
+/// centre of its box as seen from above. All triangles are counter-clockwise seen from outside, and solids are closed.
+/// A curved surface is within tolerance_mm of the true one, and its corners have the true normals. The materials carry
+/// the names of the object's materials with default numbers. Throws Error(argument) for an object or key that does not
+/// exist, a value that breaks its rule, sizes that do not fit each other, or more than three million corners.
 SceneMesh make_object(const std::string& name, const ObjectSettings& settings = {});
 
 }  // namespace insonify

@@ -12,29 +12,30 @@
 
 namespace insonify {
 
-/// A rigid part of a scene at the time of a ping: surfels in axes of their own, where they stand, and how they move.
+/// A rigid part of a scene at the time of a ping: surfels in the part's own axes, their pose, and their motion.
 struct PlacedPart {
-  std::string name{};   ///< unique in the scene; random numbers of its surface follow from it
+  std::string name{};   ///< unique in the scene; determines the random numbers of its surface
   std::string label{};  ///< class of its pixels in data sets; empty: its materials are the classes
   std::shared_ptr<const SceneCloud> cloud{};  ///< in the part's own axes; surfel i has the id i unless `captured`
-  /// The part's own axes are those of the world, and it rests there: the ground that all else stands on.
+  /// True: the part's own axes are those of the world, and it rests there. Other parts stand on it as the ground.
   bool captured = false;
   Pose world_from_part = Pose::Identity();              ///< at the time of transmission
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< of the origin of its axes, in the world [m/s]
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< rotation vector per second, in the world [rad/s]
-  /// The surfels that are there, ascending: what lies in the ground is left out. Empty: all.
+  /// Surfels of the part that are in the scene, ascending; those below the ground are left out. Empty: all.
   std::vector<std::uint32_t> surfels{};
 
-  /// The part is not there, but it is listed: where bodies are drawn, the parts of all pings have the same numbers. It
-  /// needs only a name and a label.
+  /// True: the part is listed, but not in the scene. In scenes with randomly drawn bodies this gives the parts of all
+  /// pings the same numbers. An absent part needs only a name and a label.
   bool absent = false;
 
-  /// Whether the part moves.
+  /// Returns whether the part moves.
   bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }
 };
 
-/// Throws Error(argument) naming `who` and the part unless the part has a name, and if it is there surfels, a finite pose
-/// that is a rotation and a translation, and a finite motion; a captured part must not be moved, turned or moving.
+/// Throws Error(argument) naming `who` and the part unless the part is valid. A part needs a name. Unless absent, it
+/// also needs surfels, a finite pose that is a rotation and a translation, and a finite motion. A captured part must
+/// not be moved, turned or moving.
 void require_valid(const PlacedPart& part, const char* who);
 
 }  // namespace insonify

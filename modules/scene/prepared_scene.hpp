@@ -27,7 +27,7 @@ struct SurfelBlock {
 };
 
 /// A set of surfels of a scene: surfel i is bit i % 64 of word i / 64. Surfels are visited in the order of the scene,
-/// not of the blocks.
+/// not in that of the blocks.
 struct SurfelMarks {
   std::vector<std::uint64_t> words;
 
@@ -46,22 +46,22 @@ struct SurfelMarks {
   }
 };
 
-/// Blocks of a part in its own axes, and where the part stands.
+/// Blocks of a part in its own axes, and the pose of the part.
 struct PosedBlocks {
   std::shared_ptr<const class PreparedScene> part;
   Eigen::Isometry3d scene_from_part;  ///< relative to the origins of scene and part
 };
 
-/// A scene that is validated and divided into blocks once, for many pings: each ping then only visits the blocks within
+/// A scene that is validated and divided into blocks once, for many pings. Each ping then visits only the blocks within
 /// its insonified region. Construction takes O(n) time and 4 bytes per surfel.
 class PreparedScene {
  public:
-  /// Throws Error for an invalid scene or one of 2^32 surfels or more. The blocks do not depend on `threads` (0: all
-  /// cores).
+  /// Prepares a scene. The blocks do not depend on `threads` (0: all cores). Throws Error for an invalid scene or one
+  /// of 2^32 surfels or more.
   explicit PreparedScene(std::shared_ptr<const SceneCloud> scene, int threads = 0);
-  /// The same of a scene that must outlive it unchanged.
+  /// Prepares a scene that must outlive the object unchanged. Throws as above.
   explicit PreparedScene(const SceneCloud& scene, int threads = 0);
-  /// The same of a scene that is moved into it.
+  /// Prepares a scene that is moved into the object. Throws as above.
   explicit PreparedScene(SceneCloud&& scene, int threads = 0)
       : PreparedScene(std::make_shared<const SceneCloud>(std::move(scene)), threads) {}
 
@@ -71,23 +71,23 @@ class PreparedScene {
   std::span<const SurfelBlock> blocks() const { return blocks_; }
   /// Returns the indices of all surfels, block by block along a Morton curve, ascending inside each block.
   std::span<const std::uint32_t> order() const { return order_; }
-  /// Marks the surfels of those blocks for which `wanted` is true; it is called from up to `threads` threads (0: all
-  /// cores).
+  /// Returns the surfels of those blocks for which `wanted` is true. Up to `threads` threads (0: all cores) call
+  /// `wanted` at once.
   SurfelMarks marks_of(const std::function<bool(const SurfelBlock&)>& wanted, int threads = 0) const;
-  /// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.
+  /// Returns the statistics of the scene, or those of the whole scene if it is a part; zeros for an empty scene.
   const WholeScene& whole() const { return whole_; }
-  /// Returns the levels of detail of the scene, from its mean spacing on. They are made by the first call; several
-  /// threads may call at once. Copies share them. Errors as detail_levels.
+  /// Returns the levels of detail of the scene for its mean spacing (detail_levels). The first call makes them; several
+  /// threads may call at once. Copies of the object share them. Throws as detail_levels.
   const DetailLevels& levels(int threads = 0) const;
-  /// Returns the rays between surfaces of discs of this footprint. Their tree is made by the first call, which settles
-  /// the footprint; several threads may call at once. Copies share it. Errors as SurfaceRays.
+  /// Returns the rays between surfaces, with surfels as discs of this footprint. The first call makes the tree and
+  /// fixes the footprint; several threads may call at once. Copies of the object share the tree. Throws as SurfaceRays.
   const SurfaceRays& rays(double footprint) const;
 
  private:
   friend class PosedScene;
   struct MadeLater;
-  /// Leaves the first surfels and blocks, whose statistics are `resting`, and adds those of others, which the scene has
-  /// in this order behind them.
+  /// Keeps the first `surfels` surfels and `blocks` blocks, whose statistics are `resting`, and appends the blocks of
+  /// `others`. The scene holds the surfels of `others` in this order behind the first ones.
   void replace_others(std::size_t surfels, std::size_t blocks, const WholeScene& resting,
                       std::span<const PosedBlocks> others);
   std::shared_ptr<const SceneCloud> scene_;

@@ -13,13 +13,13 @@
 
 namespace insonify {
 
-/// Statistics of a whole scene, kept with a cloud that holds only the part near a head, so that a ping of the part
-/// equals the ping of the whole.
+/// Statistics of a whole scene. A cloud that holds only the part of a scene near a head keeps them, so that a ping of
+/// the part equals a ping of the whole scene.
 struct WholeScene {
   std::size_t surfels = 0;
   double mean_spacing = 0;  ///< root of the mean surfel area [m]
   float largest_area = 0;   ///< area of the largest surfel [m^2]
-  bool smooth = false;      ///< parts of a material reflect as wholes (is_smooth)
+  bool smooth = false;      ///< a material is smooth (is_smooth): its mirrors or targets reflect as one body
   double fastest = 0;       ///< speed of the fastest surfel of a moving part [m/s]
 };
 
@@ -37,13 +37,13 @@ struct SceneCloud {
   std::vector<std::uint16_t> material;               ///< index into `materials`
   std::vector<std::uint32_t> id;                     ///< unique in its part; speckle is bound to it
   std::vector<float> noise;                          ///< standard deviation across the surface [m]; empty: 0 everywhere
-  /// How far below a surfel's plane its own surface may lie [m]; empty: as far as its spacing sqrt(area).
+  /// Largest depth of a surfel's own surface below its plane [m]; empty: its spacing sqrt(area).
   std::vector<float> unevenness{};
-  /// The triangle of a surface that each surfel stands for, anywhere in it: what it hides is hidden by the triangle.
+  /// Triangle of a surface for each surfel; the surfel lies anywhere in its triangle and hides what the triangle hides.
   /// Empty: surfels hide as discs.
   std::vector<Facet> facet{};
   std::vector<std::uint16_t> part{};  ///< of each surfel, index into `parts`; empty: the scene is one part
-  std::vector<ScenePart> parts{};     ///< of a scene that is made of several (merge_parts)
+  std::vector<ScenePart> parts{};     ///< parts of a merged scene (merge_parts); empty: the scene is one part
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;         ///< false: the sign of a normal has no meaning and both sides reflect
   std::optional<WholeScene> part_of{};  ///< set if this cloud is part of a larger scene
@@ -56,16 +56,18 @@ struct SceneCloud {
   bool oriented(std::size_t surfel) const {
     return part.empty() ? normals_oriented : parts[part[surfel]].normals_oriented;
   }
-  /// Returns what the random numbers of a surfel are counted by: its id, and in its part the part's key.
+  /// Returns the counter of the random numbers of a surfel: its id, combined with the key of its part if the scene has
+  /// parts.
   std::uint64_t random_id(std::size_t surfel) const {
     return part.empty() ? std::uint64_t{id[surfel]} : id[surfel] ^ parts[part[surfel]].key;
   }
-  /// Returns the number of piece `k` of a surfel (Scatterers::id): id x 2^32 + k, and in its part the part's key.
+  /// Returns the id of piece `k` of a surfel (Scatterers::id): id x 2^32 + k, combined with the key of its part if the
+  /// scene has parts.
   std::uint64_t piece_id(std::size_t surfel, std::uint64_t k) const {
     const std::uint64_t piece = std::uint64_t{id[surfel]} << 32 | k;
     return part.empty() ? piece : piece ^ parts[part[surfel]].key;
   }
-  /// Returns the k of such a number.
+  /// Returns the number k of a piece from its id, the inverse of piece_id.
   std::uint32_t piece_of(std::size_t surfel, std::uint64_t piece_id) const {
     return static_cast<std::uint32_t>(part.empty() ? piece_id : piece_id ^ parts[part[surfel]].key);
   }
@@ -74,9 +76,9 @@ struct SceneCloud {
 /// Returns whether some part of the scene moves.
 bool moves(const SceneCloud& scene);
 
-/// Appends one surfel with the id of the last one plus 1, which is unique as long as ids ascend; beside facets it gets
-/// one without area, which hides nothing. Throws Error if `material` is not an index into scene.materials, and for a scene of
-/// parts.
+/// Appends one surfel at world_position [m] with an area [m^2]. Its id is the id of the last surfel plus 1, which is
+/// unique if ids ascend. In a scene with facets the surfel gets a facet without area, which hides nothing. Throws Error
+/// if `material` is not an index into scene.materials, and for a scene of parts.
 void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const Eigen::Vector3d& normal, double area,
                 std::uint16_t material = 0);
 
@@ -84,10 +86,10 @@ void add_surfel(SceneCloud& scene, const Eigen::Vector3d& world_position, const 
 /// and noise are finite and >= 0, and materials and parts exist and are valid. `who` names the caller in the message.
 void require_valid(const SceneCloud& scene, const char* who);
 
-/// Returns the statistics of the scene, or of the whole scene of which it is a part; 0 for an empty scene.
+/// Returns the statistics of the scene, or those of the whole scene if `scene` is a part; zeros for an empty scene.
 WholeScene whole_of(const SceneCloud& scene);
 
-/// Returns the statistics of two scenes as one.
+/// Returns the statistics of the union of two scenes.
 WholeScene together(const WholeScene& a, const WholeScene& b);
 
 /// Returns the surfels listed in `keep`, in that order, with their ids.

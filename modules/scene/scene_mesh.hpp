@@ -11,7 +11,7 @@
 
 namespace insonify {
 
-/// A surface of triangles, from which surfels are sampled as finely as a ping needs them (mesh_surfels). World frame;
+/// A surface of triangles. A ping samples surfels from it as finely as it needs them (mesh_surfels). World frame;
 /// coordinates in single precision relative to `origin`.
 struct SceneMesh {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< [m]; world position = origin + point
@@ -21,7 +21,7 @@ struct SceneMesh {
   std::vector<std::array<std::uint32_t, 3>> triangle;  ///< corners, counter-clockwise seen from outside; none is flat
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;  ///< false: the winding has no meaning and both sides reflect
-  WholeScene whole{};            ///< given to every sample as SceneCloud::part_of
+  WholeScene whole{};            ///< SceneCloud::part_of of every sample of the mesh
 };
 
 /// Throws Error unless triangles have corners that exist, corners are finite and have materials that exist, no triangle
@@ -33,7 +33,8 @@ using Corners = std::array<Eigen::Vector3d, 3>;
 /// Returns the corners of a triangle of the mesh, by its number.
 Corners corners_of(const SceneMesh& mesh, std::size_t triangle);
 
-/// Area [m^2]; 0 if a corner is not finite, or the triangle is thinner than 1e-6 of its length.
+/// Returns the area of a triangle [m^2]; 0 if a corner is not finite, or the triangle is thinner than 1e-6 of its
+/// length.
 double area_of(const Corners& corners);
 
 /// A place on a mesh.
@@ -44,8 +45,9 @@ struct MeshPlace {
   std::uint32_t corner;      ///< the nearest one
 };
 
-/// Returns the place with these barycentric weights in a triangle. Its normal interpolates the corners' normals if all
-/// three are on one side of the face; otherwise it is the normal of the face, on the side of their sum.
+/// Returns the place with these barycentric weights in a triangle. If the normals of all three corners are on one side
+/// of the face, they are interpolated. Otherwise the normal is that of the face, on the side of the sum of the corner
+/// normals.
 MeshPlace place_on(const SceneMesh& mesh, std::size_t triangle, const Eigen::Vector3d& weights);
 
 /// Returns barycentric weights that are uniform over the triangle if `along` and `across` are uniform in [0, 1).

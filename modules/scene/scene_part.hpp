@@ -17,7 +17,7 @@ struct SceneCloud;
 struct ScenePart {
   std::string name{};                                   ///< unique in the scene
   std::string label{};                                  ///< class of its pixels in data sets; empty: its materials
-  std::uint64_t key = 0;                                ///< of its random numbers: part_key(name)
+  std::uint64_t key = 0;                                ///< key of its random numbers: part_key(name)
   double spacing = 0;                                   ///< root of its mean surfel area [m]: scale of its micro-relief
   bool normals_oriented = true;                         ///< false: both sides of its surfels reflect
   Pose world_from_part = Pose::Identity();              ///< at the time of transmission
@@ -26,11 +26,11 @@ struct ScenePart {
   /// The part in its own axes; surfel `id` of the scene is number `id` in it. Null: its own axes are the world's.
   std::shared_ptr<const SceneCloud> own{};
 
-  /// Whether the part moves.
+  /// Returns whether the part moves.
   bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }
 };
 
-/// Returns 64 bits that stand for a name: FNV-1a, well mixed. Equal on all machines.
+/// Returns a 64-bit hash of a name: FNV-1a with further mixing. Equal on all machines.
 std::uint64_t part_key(const std::string& name);
 
 }  // namespace insonify

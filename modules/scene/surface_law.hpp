@@ -38,12 +38,12 @@ struct SmallSlopeLaw : Sediment {
   bool operator==(const SmallSlopeLaw&) const = default;
 };
 
-/// Facets of a solid or fluid, with finer roughness on them (E142, E143): metal, concrete, rock.
+/// Facets of a solid or fluid with finer roughness on them, for metal, concrete and rock (E142, E143).
 struct RoughLaw {
   double slope = 0.2;            ///< rms slope of the facets over both axes
   double micro_roughness = 0;    ///< rms height on a facet [m]
-  double diffuse_mu = 0;         ///< [1/sr], Lambert's law that adds to it
-  double reflection = 1;         ///< of pressure, at all angles, unless there is a density
+  double diffuse_mu = 0;         ///< [1/sr], coefficient of Lambert's law, which is added
+  double reflection = 1;         ///< reflection coefficient of pressure at all angles; unused if density is given
   double density = 0;            ///< [kg/m^3]; 0: see reflection
   double compression_speed = 0;  ///< of sound [m/s]
   double shear_speed = 0;        ///< [m/s]; 0: a fluid
@@ -53,9 +53,9 @@ struct RoughLaw {
 /// A measured backscattering strength (E144).
 struct TableLaw {
   std::vector<double> incidence;  ///< [rad], ascending from 0 to 75 degrees or more, below 90
-  std::vector<double> frequency;  ///< [Hz], ascending; empty: the same at all
+  std::vector<double> frequency;  ///< [Hz], ascending; empty: the strength does not depend on frequency
   std::vector<double> sigma_db;   ///< [dB re 1/sr] = 10 log10 of the cross-section per area, frequency by frequency
-  bool half_vector = false;  ///< in two directions that of their half vector (lobes), instead of the geometric mean
+  bool half_vector = false;  ///< bistatic strength: true: that at the half vector (lobes); false: the geometric mean
   bool operator==(const TableLaw&) const = default;
 };
 
@@ -65,14 +65,14 @@ using SurfaceLaw = std::variant<LambertLaw, SeabedLaw, SmallSlopeLaw, RoughLaw, 
 /// Names of the laws in files, in the order of SurfaceLaw.
 inline constexpr const char* surface_law_names[] = {"lambert", "seabed", "small_slope", "rough", "table"};
 
-/// The name of a law.
+/// Returns the name of a law.
 const char* name_of(const SurfaceLaw& law);
-/// A law of that name with its defaults, if there is one.
+/// Returns the law of this name with its default numbers; nothing for an unknown name.
 std::optional<SurfaceLaw> law_named(std::string_view name);
 
-/// One number of laws: what checks, material files, comment lines of clouds and tiles know of it.
+/// Description of one number of laws, for checks, material files, comment lines of clouds, and tiles.
 struct LawNumber {
-  double* (*in)(SurfaceLaw&);  ///< the number in a law, nullptr if it has none such
+  double* (*in)(SurfaceLaw&);  ///< returns the number in a law, nullptr if the law does not have it
   const char* name;            ///< of the member, and in comment lines
   const char* unit;            ///< "": none
   double least, most;          ///< [unit]
@@ -86,7 +86,7 @@ struct LawNumber {
 };
 
 namespace law_members {
-/// The number `member` of a law that has one.
+/// Returns the number `member` of a law; nullptr if the law does not have it.
 template <typename Law, double Law::*member>
 double* of(SurfaceLaw& law) {
   return std::visit(
@@ -132,15 +132,15 @@ inline constexpr LawNumber law_numbers[] = {
      false, false, "rough: of shear waves in it; 0: a fluid"},
 };
 
-/// Whether facets of the law have slopes of their own, so that relief beside it would count twice.
+/// Returns whether the law includes the slopes of facets; micro-relief would then count them twice.
 bool has_own_slopes(const SurfaceLaw& law);
 
-/// What is wrong with a law: "slope = 0.01, must be within 0.02 and 2"; empty: nothing.
+/// Returns the defect of an invalid law, e.g. "slope = 0.01, must be within 0.02 and 2"; empty for a valid law.
 std::string problem_of(const SurfaceLaw& law);
 
-/// The law in one line of text, "rough slope=0.2 ...", which law_from_text reads back to the same bits.
+/// Returns the law as one line of text, "rough slope=0.2 ..."; law_from_text reads it back to the same bits.
 std::string law_to_text(const SurfaceLaw& law);
-/// Nothing if the text is no law with known numbers.
+/// Returns the law that a text of law_to_text describes; nothing if the text is not a law with known numbers.
 std::optional<SurfaceLaw> law_from_text(std::string_view text);
 
 }  // namespace insonify

@@ -20,12 +20,12 @@ struct SurfaceRay {
 /// Where a ray first meets a surface.
 struct SurfaceRayEnd {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t surfel = none;  ///< of the surfels met there, the one whose centre is nearest; none: the ray meets none
+  std::uint32_t surfel = none;  ///< met surfel with the nearest centre; none: the ray meets no surface
   float distance = 0;           ///< from the start of the ray [m]
-  /// Area of surface per area: kernels of radius 0.6 sqrt(area) about the surfels, each of which holds the area of its
-  /// surfel. Its mean over a surface is 1, and its integral over all places where rays can meet a piece of surface is the
-  /// area of that piece, at free edges too. Where two surfaces meet in a corner, some 0.13 sqrt(area) of each is lost
-  /// behind the other.
+  /// Area of surface per area: a sum of kernels of radius 0.6 sqrt(area) about the surfels, where each kernel holds the
+  /// area of its surfel. The mean over a surface is 1. The integral over all places where rays can meet a piece of
+  /// surface is the area of that piece, also at free edges. Where two surfaces meet in a corner, each loses about 0.13
+  /// sqrt(area) behind the other.
   float density = 0;
 };
 
@@ -33,16 +33,16 @@ struct SurfaceRayEnd {
 /// concurrently, and do not depend on the number of threads.
 class SurfaceRays {
  public:
-  /// Whether this build of insonify has Embree. Without it the constructor throws.
+  /// Returns whether this build of insonify has Embree. Without it the constructor throws.
   static bool available();
 
-  /// Builds the tree over the surfels of a scene, which must outlive it, in some 0.5 us per surfel. A surfel is a
-  /// disc of radius `footprint` sqrt(area). Throws Error(runtime) without Embree, or if memory is short.
+  /// Builds the tree over the surfels of a scene, which must outlive it. A surfel is a disc of radius `footprint`
+  /// sqrt(area). Takes about 0.5 us per surfel. Throws Error(runtime) without Embree, or if memory is short.
   SurfaceRays(const SceneCloud& scene, double footprint);
 
-  /// Returns where a ray first meets the front of a surface. It meets none if a back side is in the way. Surfels that
-  /// belong to the surface it leaves are passed: those whose planes hold its start within three standard deviations of
-  /// noise, and those nearer than three radii whose back it would meet.
+  /// Returns the first front of a surface that a ray meets. A back side in the way stops the ray without a result. The
+  /// ray passes surfels of the surface that it leaves: those whose planes hold its start within three standard
+  /// deviations of noise, and those nearer than three radii that it would meet from the back.
   SurfaceRayEnd first_hit(const SurfaceRay& ray) const;
 
  private:

@@ -10,13 +10,13 @@ struct ThinningOptions {
   double normal_angle = radians(30);  ///< largest angle between the normals of a surfel and its representative [rad]
 };
 
-/// Returns a sparser cloud of the same surfaces: a subset of the surfels with position, normal, material and id, each
-/// of which takes over the area of the removed surfels it represents.
+/// Returns a sparser cloud of the same surfaces: a subset of the surfels with position, normal, material and id. Each
+/// remaining surfel takes over the area of the removed surfels that it represents.
 ///
-/// The subset is a Poisson disc sample: no two kept surfels of the same material with similar normals are closer than
-/// 0.8 spacing, every removed surfel has a kept one of its material and orientation within that distance, and its area
-/// goes to the nearest. The mean area is 1 to 1.2 spacing^2 where the cloud was denser; sparser regions are unchanged.
-/// The selection depends on the ids alone, not on the order of the surfels.
+/// The subset is a Poisson disc sample: no two remaining surfels of one material with similar normals are closer than
+/// 0.8 spacing. Every removed surfel has a remaining one of its material and orientation within that distance; its area
+/// goes to the nearest of them. The mean area is 1 to 1.2 spacing^2 where the cloud was denser; sparser regions are
+/// unchanged. The selection depends only on the ids, not on the order of the surfels.
 ///
 /// spacing   target distance between surfels [m]; a few of them should fit into a resolution cell of the sonar
 /// returns   surfels in scene order; the area of each material is kept to rounding. Levels are kept within 0.1 dB as

@@ -11,7 +11,7 @@
 namespace insonify {
 
 /// Parameters of the relief below the spacing of the cloud: a fractal random height field fixed in world coordinates
-/// (E52), so a position has the same slope in every ping and for every way of splitting surfels.
+/// (E52). A position therefore has the same slope in every ping and for every division of surfels.
 struct MicroRelief {
   std::uint64_t seed = 1;
   double outer_scale = 0;  ///< longest wavelength [m]; 0: the scene's mean surfel spacing, sqrt(area)
@@ -49,11 +49,11 @@ class ReliefField {
 Eigen::Vector3d tilted_normal(const ReliefField& field, double rms_slope, const Eigen::Vector3d& world_position,
                               const Eigen::Vector3d& normal);
 
-/// The relief of the surfaces of a scene: a field for the scene, or one for each of its parts, in the part's own axes, so
-/// that it moves with the part.
+/// The relief of the surfaces of a scene: one field for the scene, or one for each of its parts. The field of a part is
+/// fixed in the part's own axes and moves with the part.
 class SceneRelief {
  public:
-  /// The fields of parts have their own spacings as outer scale. Throws as ReliefField.
+  /// Sets up the fields. The outer scale of a part's field is the spacing of the part. Throws as ReliefField.
   SceneRelief(const SceneCloud& scene, const MicroRelief& relief);
 
   /// Returns the normal of a surfel, tilted by tilted_normal at `world_position` [m].

@@ -8,10 +8,10 @@
 
 namespace insonify {
 
-/// Heights of the points of a height field, those marked in `noisy` (one entry a point) moved onto the surface through
-/// their neighbours on the plan: a cubic through as many of them, 16 to 400, as best foretell points there that are
-/// left out. So waves stay that rise out of the noise, and no others. The same for any number of `threads` (0: all
-/// cores).
+/// Returns the heights of the points of a height field [m]. Points marked in `noisy` (one entry per point) are moved
+/// onto the surface through their neighbours on the plan. This surface is a cubic through 16 to 400 neighbours; the
+/// number is the one that best predicts points left out there. Waves that rise above the noise remain; others do not.
+/// The result does not depend on `threads` (0: all cores).
 std::vector<float> smoothed_heights(std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> noisy,
                                     int threads = 0);
 

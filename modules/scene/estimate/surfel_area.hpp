@@ -26,14 +26,14 @@ std::vector<float> estimate_surfel_areas(std::span<const Eigen::Vector3f> points
 /// Options of estimate_surfel_shapes.
 struct ShapeOptions {
   int neighbours =
-      16;           ///< nearest points whose bisectors bound a cell seen from one place, twice as many else; at least 6
+      16;           ///< nearest points that bound a cell in a view from one place (otherwise twice as many); at least 6
   int threads = 0;  ///< 0: all cores
-  bool height_fields = true;  ///< sought; not in a view from one side, whose steps would be taken for slopes
-  std::optional<Eigen::Vector3d> viewpoint{};  ///< from which all points were seen at once [m]; empty: none such
-  bool keep_strays = false;                    ///< strays keep the areas of their cells
+  bool height_fields = true;  ///< search for height fields; not for a view from one side, whose steps look like slopes
+  std::optional<Eigen::Vector3d> viewpoint{};  ///< all points were seen from here [m]; empty: there is no such place
+  bool keep_strays = false;                    ///< points far from all others keep the areas of their cells
 };
 
-/// Normals and areas of points, and what was found on the way.
+/// Normals and areas of points, with counts of strays and of points in height fields.
 struct SurfelShapes {
   std::vector<Eigen::Vector3f> normal;  ///< unit vectors, on the side of the base normals
   std::vector<float> area;              ///< [m^2]
@@ -41,26 +41,29 @@ struct SurfelShapes {
       0;  ///< cells more than 16 times as large as those around, cut down to their median; 0 with a viewpoint
   std::size_t height_field = 0;       ///< points of height fields that show their relief, not noise
   std::size_t heights = 0;            ///< points of height fields, noisy ones among them
-  std::vector<std::uint8_t> noisy{};  ///< of each point, 1: of a height field, and shows noise; empty: with a viewpoint
+  std::vector<std::uint8_t> noisy{};  ///< 1: the point of a height field shows noise; empty: with a viewpoint
 };
 
-/// Normals and areas of points that have none, fitting each other. `base_normals`, unit vectors, are those of planes
-/// through wide neighbourhoods.
+/// Returns normals and areas for points without either, consistent with each other. `base_normals` are the unit normals
+/// of planes through wide neighbourhoods.
 ///
-/// A height field, rough or smooth, is covered by the Voronoi cells of its plan; the normal is that of a cubic through
-/// 16 neighbours, and the area that of the cell over the cosine between normal and vertical (E69). Where the points
-/// leave a plane by noise, which a cubic does not explain, the normal is that of the planes around. Points elsewhere,
-/// of walls, bodies and surfaces one above the other, have cells on the base planes and, on relief, normals of the
-/// facets round them. So the sum of area x abs(nz) of a height field is its plan within 1 %; the area is right within 2
-/// %, and its classes of slope within 5 %, to 70 degrees for waves of eight spacings and more; shorter ones lose area,
-/// 4 % at four.
+/// Height fields, rough or smooth: the cells are the Voronoi cells of the plan. The normal is that of a cubic through
+/// 16 neighbours; the area is that of the cell over the cosine between normal and vertical (E69). Where noise moves the
+/// points off a plane and a cubic does not explain it, the normal is that of the surrounding planes.
 ///
-/// Points that were all seen from `viewpoint` keep the base normals; areas are those of their cells of solid angle
-/// over the cosine between normal and line of sight, at least 0.1 (E73): steps in range are no relief. That holds for a
-/// scanner; if the cells are more alike on the plan, the cloud is a raster of heights, and the viewpoint changes
-/// nothing.
+/// Other points (walls, bodies, surfaces above each other): the cells lie in the base planes. On relief the normals are
+/// those of the facets around the points.
 ///
-/// Lengths and degenerate input as for estimate_surfel_areas.
+/// For a height field the sum of area x abs(nz) equals the area of its plan within 1 %. The area is right within 2 %,
+/// and its classes of slope within 5 %, up to 70 degrees for waves of eight spacings and more. Shorter waves lose area:
+/// 4 % at four spacings.
+///
+/// Points that were all seen from `viewpoint` keep the base normals, because steps in range are not relief. Their area
+/// is that of their cell of solid angle, divided by the cosine between normal and line of sight, at least 0.1 (E73).
+/// This holds for a scanner. If the cells are more alike on the plan, the cloud is a raster of heights, and the
+/// viewpoint changes nothing.
+///
+/// Array lengths and degenerate input are treated as in estimate_surfel_areas.
 SurfelShapes estimate_surfel_shapes(std::span<const Eigen::Vector3f> points,
                                     std::span<const Eigen::Vector3f> base_normals, const ShapeOptions& options = {});
 
