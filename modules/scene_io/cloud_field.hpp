@@ -12,14 +12,14 @@ namespace insonify {
 struct CloudField {
   std::vector<Eigen::Vector3d> position;  ///< world [m]
   std::vector<double> value;              ///< as in the file
-  std::vector<std::uint32_t> id;          ///< of the points in the scene that load_scene makes of the file
+  std::vector<std::uint32_t> id;          ///< ids of the points in the scene that load_scene makes from the file
 };
 
-/// Reads the points of a cloud whose coordinates and whose number `field` are finite. Throws as load_scene;
-/// Error(content) with the names of the file's fields if it has none of that name, or if no point has a number.
+/// Returns the points of a cloud with finite coordinates and a finite number in `field`. Throws as load_scene, and
+/// Error(content) if no point has a number or the file has no such field; the message lists the file's fields.
 CloudField load_cloud_field(const std::string& path, const std::string& field);
 
-/// Whether the cloud has a field of this name.
+/// Returns whether the cloud has a field of this name.
 bool has_cloud_field(const std::string& path, const std::string& field);
 
 }  // namespace insonify

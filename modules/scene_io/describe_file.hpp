@@ -24,13 +24,13 @@ struct FileDescription {
   double median_spacing = 0;                                                     ///< of nearest neighbours [file units]
   bool has_normals = false, has_area = false, has_materials = false;
   std::optional<Eigen::Vector3d> viewpoint;
-  /// Of the points that load_scene keeps, of a mesh those of its corners: by the file's labels and areas, of which it
-  /// estimates none. Empty without materials.
+  /// Shares of the materials among the points that load_scene keeps, or among the corners of a mesh. The shares follow
+  /// from the file's labels and areas; no areas are estimated. Empty without materials.
   std::vector<MaterialShare> materials;
   std::vector<std::string> problems;  ///< defects and doubts, each with a remedy
 };
 
-/// Describes a file. Throws as load_scene.
+/// Returns the description of a cloud or mesh file. Throws as load_scene.
 FileDescription describe_file(const std::string& path);
 
 }  // namespace insonify

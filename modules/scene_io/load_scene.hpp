@@ -15,26 +15,27 @@
 
 namespace insonify {
 
-/// What a file does not say of itself, and how it is completed.
+/// Facts that a file does not state, and settings for its completion.
 struct LoadOptions {
-  std::optional<Eigen::Vector3d> viewpoint;  ///< where the capture stood [m, world]; orients normals without sides
+  std::optional<Eigen::Vector3d> viewpoint;  ///< position of the capture [m, world]; orients normals without sides
   int normal_neighbours = 32;                ///< for the planes of estimated normals
   double mesh_spacing = 0;                ///< [m] between surfels of a mesh or height field; 0: see LoadedScene::mesh
   double unit = 1;                        ///< metres per unit of the file, e.g. 0.001 for millimetres
-  std::vector<Material> materials;        ///< by label, or by name if the file names its own and one of these has
-                                          ///< that name; empty: those in the file, else a default one per label
+  std::vector<Material> materials;        ///< by label; by name where the file names a material of this list. Empty:
+                                          ///< the materials in the file, or a default one per label
   std::optional<std::uint16_t> material;  ///< gives every surfel this index into the materials
   std::uint64_t seed = 1;                 ///< of mesh sampling
   int threads = 0;                        ///< 0: all cores
-  /// Standard deviation of the scan across its surfaces [m], of all points of a cloud; a `noise` field of the file
-  /// wins. Empty: estimated, unless the file is a prepared one. Meshes and tiles have none.
+  /// Standard deviation of the scan across its surfaces [m], for all points of a cloud. A `noise` field of the file
+  /// takes precedence. Empty: the noise is estimated, unless the file is a prepared one. Meshes and tiles have no
+  /// noise.
   std::optional<double> scan_noise{};
-  bool keep_strays = false;        ///< points far from all others keep the areas that are estimated of them
-  bool keep_columns = false;       ///< read the columns that a scene makes no use of, too
-  MaterialField material_field{};  ///< which scalar field says the material, and how; unused with `material`
+  bool keep_strays = false;        ///< points far from all others keep their estimated areas
+  bool keep_columns = false;       ///< also read the columns that a scene does not use
+  MaterialField material_field{};  ///< the scalar field that gives the material, and its rule; unused with `material`
 };
 
-/// What was in the file and what was done to it. Everything dropped or repaired is counted here.
+/// Contents of a file and changes made to them. Counts everything that was dropped or repaired.
 struct LoadReport {
   std::string path, format;  ///< e.g. "PCD binary_compressed", "PLY binary_big_endian mesh"
   std::size_t points_read = 0;
@@ -53,7 +54,7 @@ struct LoadReport {
   std::optional<Eigen::Vector3d> viewpoint;  ///< used to orient the normals
   std::vector<std::string> notes;            ///< sentences for the user: hints, assumptions, suspicions
   std::string material_field;                ///< as the file calls it; empty: none was read
-  std::vector<std::string> other_columns{};  ///< of the file, of which the scene makes no use
+  std::vector<std::string> other_columns{};  ///< columns of the file that the scene does not use
   std::size_t outside_intervals = 0;         ///< surfels, or corners of a mesh, whose number lies in no interval
 };
 
@@ -61,48 +62,58 @@ struct LoadReport {
 struct LoadedScene {
   SceneCloud scene;
   LoadReport report;
-  /// Without mesh_spacing: of a mesh, of which `scene` is a sample of about 200 000 surfels for an overview, or the
-  /// surface of a height field, of which `scene` has the points. A ping samples it by what its head resolves
-  /// (mesh_surfels). A height field is a cloud without areas of which 98 % of the points have one height each, or whose
-  /// points stand on a grid along x and y and most show no noise (raster_triangles, height_triangles), and whose
-  /// normals look up, or down, if it has any: they are those of the mesh. Noisy points are joined at smoothed_heights.
+  /// The surface that pings sample as finely as their head resolves (mesh_surfels). Empty with mesh_spacing. For a mesh
+  /// file, this is the mesh, and `scene` is a sample of about 200 000 surfels for an overview. For a height field, this
+  /// is the surface between the points of `scene`, with noisy points at smoothed_heights.
+  ///
+  /// A cloud is a height field if it has no areas and meets one of two conditions: 98 % of its points have one height
+  /// each, or its points stand on a grid along x and y and most show no noise (raster_triangles, height_triangles). If
+  /// it has normals, they must look up, or all down; they become the normals of the mesh.
   std::optional<SceneMesh> mesh{};
   SceneColumns
       columns{};  ///< of the surfels, with options.keep_columns; of a sampled mesh those of the nearest corners
   SceneColumns corner_columns{};  ///< the same of the corners of a file's mesh
 };
 
-/// Extensions of the files that load_scene reads: ".pcd .ply .obj ...", separated by spaces, for messages and help.
+/// Returns the extensions that load_scene reads, separated by spaces, for messages and help: ".pcd .ply .obj ...".
 std::string scene_extensions();
 
-/// Reads a cloud or mesh by its extension, one of scene_extensions(), fields by name and type. Clouds without normals
-/// get estimated ones (PCL), oriented to the viewpoint given or stored in the file, else to the origin if rows and
-/// columns of an organised cloud fan out from there, else up if they are a raster of heights, else two-sided; without
-/// areas, estimated ones (E15, E69; E73 for an organised cloud with a viewpoint); without noise, estimated noise (E67),
-/// raised where a line of sight of an organised cloud with a viewpoint proves that a surfel hides nothing. Meshes are
-/// sampled, area-preserving and stratified; their normals are the file's, else follow the winding, two-sided if more
-/// than 1 % of the shared edges contradict it. Ids are the file's if unique, else row numbers (meshes: sample numbers).
-/// Materials are those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field;
-/// numbers in no interval, NaN among them, get one more material, "outside", of the default Lambert coefficient, and
-/// are counted. A surfel of a mesh takes the material of its nearest corner. Error(content) lists the file's fields if
-/// it has none of the name asked for. A .tiles file is loaded whole and as it is: options do not change it. Coordinates
-/// may be float or double; the centre of the bounding box, in whole metres, becomes the origin. Throws Error(file) if
-/// missing or unreadable; Error(content) if it is not what its name says, is cut off, or holds no usable point: always
-/// naming the file and what to do.
+/// Returns the scene in a cloud or mesh file. The extension, one of scene_extensions(), selects the reader; fields are
+/// found by name and type.
+///
+///   normals     of a cloud: those of the file, else estimates (PCL). Estimates are oriented to the viewpoint that is
+///               given or stored in the file; else to the origin if rows and columns of an organised cloud fan out from
+///               there; else up if the cloud is a raster of heights; else they are two-sided.
+///   areas       of a cloud: those of the file, else estimates (E15, E69; E73 for an organised cloud with a viewpoint)
+///   noise       of a cloud: that of the file, else estimates (E67), raised where a line of sight of an organised cloud
+///               with a viewpoint proves that a surfel hides nothing
+///   meshes      are sampled, area-preserving and stratified. Their normals are those of the file, else they follow the
+///               winding, and are two-sided if more than 1 % of the shared edges contradict it.
+///   ids         those of the file if unique, else row numbers (meshes: sample numbers)
+///   materials   those of a label field (whole numbers, as integers or floats), or of intervals of any scalar field.
+///               Numbers in no interval, including NaN, are counted and get one more material, "outside", with the
+///               default Lambert coefficient. A surfel of a mesh takes the material of its nearest corner.
+///   origin      the centre of the bounding box in whole metres; coordinates may be float or double
+///
+/// A .tiles file is loaded whole and unchanged by the options. Throws Error(file) if the file is missing or unreadable.
+/// Throws Error(content) if it is not what its name says, is cut off, holds no usable point, or lacks the field asked
+/// for; the message then lists its fields. Every message names the file and the remedy.
 LoadedScene load_scene(const std::string& path, const LoadOptions& options = {});
 
-/// Reads soundings from a .ply that save_soundings wrote: positions in double, everything else bit for bit. Throws
-/// Error(file) if it is missing or unreadable; Error(content) if it is truncated, not a binary PLY, or lacks a column,
-/// naming it.
+/// Returns the soundings in a .ply that save_soundings wrote: positions in double, everything else bit for bit. Throws
+/// Error(file) if the file is missing or unreadable; Error(content) if it is truncated, not a binary PLY, or lacks a
+/// column, naming it.
 Soundings load_soundings(const std::string& path);
 
-/// Soundings of a survey, when they were sent [s] and by which head of the mission, from 0; both empty of a single run.
+/// Soundings of a survey with the time of transmission [s] and the index of the mission's head, from 0. Both are empty
+/// for a single run.
 struct SurveyReturns {
   Soundings soundings;
   std::vector<double> time{};
   std::vector<std::uint32_t> head{};
 };
-/// Reads soundings with the columns that save_survey_returns adds, one file after the other; errors as load_soundings.
+/// Returns the soundings of several files, one after the other, with the columns that save_survey_returns adds. Errors
+/// as load_soundings.
 SurveyReturns load_survey_returns(const std::vector<std::string>& paths);
 
 }  // namespace insonify

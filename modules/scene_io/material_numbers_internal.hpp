@@ -9,11 +9,11 @@
 
 namespace insonify {
 
-/// Numbers that a material had when the formats of scenes were made: all files hold these.
+/// Numbers that every file holds: those that a material had in the first version of the formats.
 inline constexpr std::size_t first_material_numbers = 3;
 
-/// How many of material_numbers, from the first on, say all of some materials: the others have their defaults. So files
-/// of materials without newer numbers have the bytes that they always had.
+/// Returns the count of leading material_numbers that describe these materials fully; all later numbers have their
+/// defaults. Files of materials without newer numbers thus keep their bytes.
 inline std::size_t numbers_said(std::span<const Material> materials) {
   std::size_t said = first_material_numbers;
   for (const Material& m : materials)

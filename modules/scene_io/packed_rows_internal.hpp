@@ -36,7 +36,8 @@ struct PackedRows {
   }
 };
 
-/// True if two columns have one name and their numbers the same bits: a PLY calls a uint32 int, files of old uint.
+/// Returns whether two columns have the same name and their numbers the same bits. A PLY calls a uint32 int; older
+/// files call it uint.
 template <typename Column, typename Other>
 bool same_column(const Column& a, const Other& b) {
   const auto bits = [](NumberType type) { return type == NumberType::int32 ? NumberType::uint32 : type; };

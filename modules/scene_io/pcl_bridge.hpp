@@ -10,21 +10,22 @@
 
 namespace insonify {
 
-/// Scenes from PCL clouds and meshes in memory: cleaned, completed and counted like files of load_scene.
+/// Returns a scene from a PCL cloud in memory, cleaned, completed and counted as load_scene does. Throws as load_scene
+/// for unusable content.
 LoadedScene from_pcl(const pcl::PointCloud<pcl::PointNormal>& cloud, const LoadOptions& options = {});
-/// The same of points without normals, which are estimated.
+/// Returns a scene from points without normals; the normals are estimated.
 LoadedScene from_pcl(const pcl::PointCloud<pcl::PointXYZ>& cloud, const LoadOptions& options = {});
-/// The same of a cloud of any fields, taken by name and type.
+/// Returns a scene from a cloud of any fields, found by name and type.
 LoadedScene from_pcl(const pcl::PCLPointCloud2& cloud, const LoadOptions& options = {});
-/// The same of a mesh.
+/// Returns a scene from a mesh.
 LoadedScene from_pcl(const pcl::PolygonMesh& mesh, const LoadOptions& options = {});
 
-/// Soundings as a PCL cloud with fields x y z level_db range azimuth elevation (float32), ping beam bin (uint32),
-/// true_elevation (float32), true_surfel true_material (uint32). Coordinates are float in PCL: those far from zero lose
-/// precision.
+/// Returns soundings as a PCL cloud with the fields x y z level_db range azimuth elevation (float32), ping beam bin
+/// (uint32), true_elevation (float32), true_surfel true_material (uint32). Coordinates are float in PCL; those far from
+/// zero lose precision.
 pcl::PCLPointCloud2 to_pcl(const Soundings& soundings);
 
-/// Scene points and normals, world coordinates in float.
+/// Returns the points and normals of a scene in world coordinates, in float.
 pcl::PointCloud<pcl::PointNormal> to_pcl(const SceneCloud& scene);
 
 }  // namespace insonify

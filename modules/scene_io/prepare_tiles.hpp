@@ -25,13 +25,16 @@ struct PreparedTiles {
   bool streamed = false;  ///< read in batches
 };
 
-/// Prepares a cloud or mesh as a .tiles file. Files of at most `whole_points` points, and meshes, text and compressed
-/// files of any size, are loaded whole and give the surfels of load_scene. Larger binary PLY and uncompressed binary
-/// PCD files are read twice in batches of rows, with four differences: points whose normal is zero or NaN are dropped,
-/// not repaired; missing areas are estimated a few tiles at a time (all areas, if some are negative or NaN); ids that
-/// do not ascend are replaced by row numbers; the orientation of normals is not compared with a viewpoint. The report
-/// counts all changes. Throws as load_scene and TileWriter; Error(content) for a cloud without normals that must be
-/// read in batches.
+/// Writes a cloud or mesh as a .tiles file and returns a report of all changes. Meshes, text and compressed files of
+/// any size, and other files of at most `whole_points` points, are loaded whole and give the surfels of load_scene.
+/// Larger binary PLY and uncompressed binary PCD files are read twice in batches of rows, with four differences:
+///
+///   - points whose normal is zero or NaN are dropped, not repaired,
+///   - missing areas are estimated a few tiles at a time (all areas, if some are negative or NaN),
+///   - ids that do not ascend are replaced by row numbers,
+///   - the orientation of normals is not compared with a viewpoint.
+///
+/// Throws as load_scene and TileWriter; Error(content) for a cloud without normals that must be read in batches.
 PreparedTiles prepare_tiles(const std::string& path, const std::string& output,
                             const PrepareTilesOptions& options = {});
 

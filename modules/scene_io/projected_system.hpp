@@ -8,21 +8,21 @@
 
 namespace insonify {
 
-/// A projected coordinate system by its EPSG code, as GDAL and PROJ know it, and places in it.
+/// A projected coordinate system of GDAL and PROJ, selected by its EPSG code.
 class ProjectedSystem {
  public:
-  /// Throws Error(argument) naming `option` for a code that is unknown, not of a projected system alone (degrees,
-  /// heights), not within 1024 and 32766, where GeoTIFF has them, or whose axes do not count to the east and the north;
-  /// Error(runtime) in a build without GDAL, or if its library is not there.
+  /// Looks up the system. Throws Error(argument) naming `option` for an unknown code, for a system that is not purely
+  /// projected (degrees, heights), for a code outside 1024 to 32766, the range of GeoTIFF, and for axes that do not
+  /// point to the east and the north. Throws Error(runtime) in a build without GDAL, or if the GDAL library is missing.
   ProjectedSystem(int epsg, const char* option);
 
-  /// Its code.
+  /// Returns the EPSG code.
   int epsg() const;
-  /// Length of its unit [m]: 1, or that of a foot.
+  /// Returns the length of the system's unit [m]: 1, or that of a foot.
   double unit() const;
-  /// Easting and northing [m, whatever its unit] of a place on WGS 84, by the most accurate transformation that this
-  /// machine has the data for. Throws Error(argument) outside of the area that the system is for, by more than half a
-  /// degree, and Error(content) where PROJ finds no transformation.
+  /// Returns easting and northing of a place on WGS 84, in metres for any unit of the system. The transformation is the
+  /// most accurate for which this machine has the data. Throws Error(argument) more than half a degree outside the
+  /// system's area of use, and Error(content) where PROJ finds no transformation.
   Eigen::Vector2d place_of(const GeoPlace& place) const;
 
  private:

@@ -24,9 +24,9 @@ struct SceneTags {
   bool oriented = true;
   std::optional<Eigen::Vector3d> origin;
   std::vector<Material> materials;
-  std::string material_field;  ///< name of the column of materials, if it is said
+  std::string material_field;  ///< name of the column of materials; empty: not stated
   bool heights = false;        ///< points of a height field, with the surface between them
-  bool own_normals = false;    ///< whose normals are those of the points
+  bool own_normals = false;    ///< the surface has the normals of the points
 };
 
 /// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
@@ -50,29 +50,29 @@ struct RawCloud {
   std::vector<std::uint16_t> label;  ///< no_label where the number is not an index, or in no interval
   std::string label_field;           ///< name of the field of the labels in the file
   std::vector<std::uint32_t> id;
-  std::vector<double> extra;               ///< of ReadOptions::extra_field, if the file has it
-  std::vector<SceneColumn> columns;        ///< with ReadOptions::keep_columns: the others, and that of the labels
-  std::vector<std::string> other_columns;  ///< names of the others
+  std::vector<double> extra;               ///< numbers of ReadOptions::extra_field, if the file has it
+  std::vector<SceneColumn> columns;        ///< with ReadOptions::keep_columns: unused columns, and that of the labels
+  std::vector<std::string> other_columns;  ///< names of the unused columns
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<std::array<std::uint32_t, 3>> raster;   ///< triangles between the points, if they are a raster of heights
   std::vector<std::array<std::uint32_t, 3>> surface;  ///< triangles between the points of a height field
-  std::vector<float> surface_height;  ///< z on it [m], of points that stray from it by noise; empty: theirs
-  bool surface_normals = false;       ///< its normals are those of the points, and not of its triangles
-  std::string surface_name;           ///< what it is, for the report
+  std::vector<float> surface_height;  ///< z of the surface at each point [m]; empty: the points lie on the surface
+  bool surface_normals = false;       ///< the surface has the normals of the points, not of its triangles
+  std::string surface_name;           ///< description of the surface, for the report
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
   std::size_t withheld = 0;                              ///< points that their file marks as not to be used
-  std::size_t not_finite = 0;                            ///< of the others; too far ones among them
+  std::size_t not_finite = 0;                            ///< points that are not finite, including too_far
   std::size_t too_far = 0;                               ///< beyond farthest_coordinate
   bool float_coordinates = false;                        ///< stored as float32
   std::optional<Eigen::Vector3d> viewpoint;              ///< [m]
-  bool heights = false;                                  ///< points of a raster: seen from above but for a viewpoint
+  bool heights = false;  ///< points of a raster: seen from above unless a viewpoint is known
   SceneTags tags;
   std::vector<std::string> notes;
 };
 constexpr std::uint16_t no_label = 65535;
 constexpr double farthest_coordinate = 1e9;  ///< [m]; larger coordinates mean "no data"
 
-/// A bit by which a row says that it is not to be used; of a file without such a bit none has it.
+/// The bit that marks a row as not to be used. In a file without such a bit no row is marked.
 struct WithheldBit {
   std::size_t offset = 0;  ///< of its byte within a row
   std::uint8_t bit = 0;
@@ -87,7 +87,7 @@ struct RowTable {
     NumberType type = NumberType::float64;
     std::size_t offset = 0;       ///< within a row [bytes]
     double scale = 1, shift = 0;  ///< the value is scale x number + shift
-    std::uint8_t mask = 0xff;     ///< of a uint8: its bits that count
+    std::uint8_t mask = 0xff;     ///< for a uint8: the bits that are used
 
     double value(const char* row) const {
       if (mask != 0xff) return row[offset] & mask;
@@ -111,7 +111,7 @@ struct ReadOptions {
   std::string extra_field{};       ///< a column that is read as it is, or empty
   bool keep_columns = false;
   std::optional<Eigen::Vector3d>
-      origin{};  ///< [m], of the whole cloud if this is a batch, which may then hold no usable point
+      origin{};  ///< [m] of the whole cloud, if this is a batch of it; a batch may hold no usable point
 };
 
 /// ReadOptions for `options`; labels are not read if all surfels get one material.
@@ -122,7 +122,7 @@ ReadOptions read_options(const LoadOptions& options);
 /// finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
-/// Widens the box of a cloud by that of a part of it, and adds its counts of points that are not used.
+/// Extends the box of `whole` by the box of `part`, and adds the counts of unused points.
 void add_counts(RawCloud& whole, const RawCloud& part);
 
 /// Throws Error(content) if none of the file's points is usable, and says why.

@@ -9,18 +9,18 @@
 // Private to scene_io: clouds that a library reads in a child process.
 namespace insonify {
 
-/// What the child hands over of its rows; their bytes were taken of the sender first, by take_array<char>.
+/// The layout of the rows that a child sends. It has taken their bytes from the sender before, by take_array<char>.
 struct SentRows {
   std::vector<RowTable::Column> columns;
   std::size_t rows = 0, stride = 0;
 };
 
-/// Columns of doubles, one per name, and so many rows of them.
+/// Returns the layout of `rows` rows of doubles with one column per name.
 SentRows rows_of_doubles(const std::vector<std::string>& names, std::size_t rows);
 
-/// Reads a file of `bytes`, with what it refers to: read(to, raw) runs in a child process, in which it takes room for
-/// the rows from `to`, fills it, and sets members of its copy of `raw`. They become those of `raw`, and the rows its
-/// points, by fill_cloud. Throws as read_in_child and fill_cloud do.
+/// Reads a file and the files that it refers to, `bytes` in all, in a child process. There read(to, raw) takes memory
+/// for the rows from `to`, fills it, and sets members of its copy of `raw`. These members become those of `raw`, and
+/// fill_cloud makes its points from the rows. Throws as read_in_child and fill_cloud.
 void read_rows_apart(RawCloud& raw, std::size_t bytes, const ReadOptions& options,
                      const std::function<SentRows(ArraySender& to, RawCloud& raw)>& read);
 

@@ -12,55 +12,61 @@
 namespace insonify {
 
 /// Writes a prepared scene as binary .ply (x y z nx ny nz area material id) or .pcd (the same, with normals named
-/// normal_x ... as in PCL), and further columns. Comment lines hold the origin, the materials (name and numbers) and
-/// whether normals are oriented. PLY coordinates are double if the origin is not zero: load_scene restores the scene
-/// without estimating anything, coordinates within a nanometre (for an origin of 5000 km), everything else bit for bit.
-/// PCD coordinates are float32: a scene beyond 2000 m from zero, which would lose more than 0.1 mm, must be a PLY.
-/// Written to a temporary name, then renamed. Throws as require_valid; Error(argument) for another extension or a scene
-/// too far from zero for PCD, Error(content) if it is empty, Error(file) if it cannot write.
+/// normal_x ... as in PCL), followed by further columns. Comment lines hold the origin, the materials (name and
+/// numbers) and whether normals are oriented. load_scene restores the scene without estimating anything.
+///
+///   .ply   coordinates are double if the origin is not zero. They read back within a nanometre (for an origin of
+///          5000 km), everything else bit for bit.
+///   .pcd   coordinates are float32. A scene beyond 2000 m from zero would lose more than 0.1 mm and must be a PLY.
+///
+/// The file is written to a temporary name, then renamed. Throws as require_valid; Error(argument) for another
+/// extension or a scene too far from zero for PCD, Error(content) if the scene is empty, Error(file) if it cannot
+/// write.
 void save_scene(const std::string& path, const SceneCloud& scene, const SceneColumns& columns = {});
 
-/// Writes a loaded scene so that it is pinged as before: points of a height field, at their heights on its surface,
-/// with a
-/// comment line that says that they are, and in a .ply the triangles between them; a mesh as .ply, with its triangles;
-/// a mesh as .pcd, which has no place for them, as the surfels of its overview. Otherwise as above.
+/// Writes a loaded scene so that later pings of the file equal pings of `loaded`. Points of a height field are written
+/// at their heights on its surface, with a comment line that marks them, and in a .ply with the triangles between them.
+/// A mesh is written as .ply with its triangles; a .pcd cannot hold triangles and gets the surfels of the overview.
+/// Other scenes are written as by save_scene above, with the same errors.
 void save_scene(const std::string& path, const LoadedScene& loaded);
 
-/// Writes a mesh as .ply: corners with their materials and normals, if it has any, triangles, and the same comment lines;
-/// load_scene reads them back bit for bit. Throws as require_valid; Error(argument) for another extension,
-/// Error(content) if it has no triangle, Error(file) if it cannot write.
+/// Writes a mesh as .ply: corners with materials and, if present, normals, then triangles, and the comment lines of
+/// save_scene. load_scene reads the mesh back bit for bit. Throws as require_valid; Error(argument) for another
+/// extension, Error(content) if the mesh has no triangle, Error(file) if it cannot write.
 void save_mesh(const std::string& path, const SceneMesh& mesh);
 
-/// Writes the points of a scene alone, as a scanner gives them: x y z, as save_scene in all else.
+/// Writes only the points of a scene, x y z, as a scanner gives them. Formats and errors are those of save_scene.
 void save_bare_points(const std::string& path, const SceneCloud& scene);
 
-/// Writes soundings as .pcd (fields x y z level_db range azimuth elevation ping beam bin true_elevation true_surfel
-/// true_material) or .ply (the same,
-/// named scalar_level_db ..., so that CloudCompare shows them as scalar fields), with units in comment lines. x y z are
-/// world coordinates, in PLY double. A PCD is float32: of soundings beyond 2000 m from zero they count from a local
-/// origin in whole hundreds of metres, which is the translation of the VIEWPOINT (where pcl_viewer puts the cloud) and
-/// is
-/// returned [m]; zero otherwise. It also has intensity (level_db) and label (true_material). Written to a temporary
-/// name, then renamed. Empty soundings give a file without points. Throws Error(argument) for another extension or
-/// columns of different lengths, Error(file) if it cannot write.
+/// Writes soundings as .pcd or .ply, with units in comment lines, and returns the local origin [m]. The fields are x y
+/// z level_db range azimuth elevation ping beam bin true_elevation true_surfel true_material.
+///
+///   .ply   fields are named scalar_level_db ..., so that CloudCompare shows them as scalar fields. x y z are world
+///          coordinates in double; the origin is zero.
+///   .pcd   all numbers are float32. Soundings beyond 2000 m from zero are relative to a local origin in whole hundreds
+///          of metres. The VIEWPOINT of the file holds this origin as its translation, where pcl_viewer puts the cloud.
+///          Nearer soundings have the origin zero. Further fields are intensity (level_db) and label (true_material).
+///
+/// The file is written to a temporary name, then renamed. Empty soundings give a file without points. Throws
+/// Error(argument) for another extension or columns of different lengths, Error(file) if it cannot write.
 Eigen::Vector3d save_soundings(const std::string& path, const Soundings& soundings);
 
-/// Writes the soundings of one head of a survey as .ply: the columns of save_soundings, then scalar_time (double, when
-/// the ping was sent [s]) and scalar_head (its index in the mission). Throws as save_soundings.
+/// Writes the soundings of one head of a survey as .ply: the columns of save_soundings, then scalar_time (double, time
+/// of transmission [s]) and scalar_head (index of the head in the mission). Throws as save_soundings.
 void save_survey_returns(const std::string& path, const Soundings& soundings, const std::vector<double>& time,
                          std::uint32_t head);
 
-/// Makes one .ply of binary ones with the same columns, in the order given; holds a few MB of them at a time. Throws
-/// Error(argument) without parts, Error(file) for one that is missing or if it cannot write, Error(content) for one
-/// that is damaged or has other columns than the first.
+/// Joins binary .ply files with the same columns into one, in the order given. A few MB are in memory at a time. Throws
+/// Error(argument) without parts, Error(file) if a part is missing or the file cannot be written, Error(content) for a
+/// part that is damaged or has other columns than the first.
 void join_clouds(const std::string& path, const std::vector<std::string>& parts);
 
-/// Writes the scene with what pings did to its surfels, by ascending id, as .pcd (fields x y z normal_x normal_y
-/// normal_z level_db grazing_deg range hits material id) or .ply (normals nx ny nz, from level_db on named
-/// scalar_level_db ..., for CloudCompare). Levels are dB re 1 uPa, ranges metres; level_db, grazing_deg and range are
-/// NaN for surfels never insonified. x y z are world coordinates: float in PCD, double in PLY unless the scene's origin
-/// is zero. Written to a temporary name, then renamed. Throws Error(argument) for another extension or a surfel of
-/// another scene, Error(file) if it cannot write.
+/// Writes the scene with the coverage of its surfels by pings, by ascending id. The fields are those of a .pcd: x y z
+/// normal_x normal_y normal_z level_db grazing_deg range hits material id. A .ply has normals nx ny nz, and
+/// scalar_level_db ... from level_db on, for CloudCompare. Levels are dB re 1 uPa, ranges metres; level_db, grazing_deg
+/// and range are NaN for surfels that no ping insonified. x y z are world coordinates: float in PCD, double in PLY
+/// unless the scene's origin is zero. The file is written to a temporary name, then renamed. Throws Error(argument) for
+/// another extension or a surfel of another scene, Error(file) if it cannot write.
 void save_insonification(const std::string& path, const SceneCloud& scene, const std::vector<CoveredSurfel>& covered);
 
 }  // namespace insonify

@@ -7,22 +7,23 @@
 
 namespace insonify {
 
-/// A column of a cloud that a scene makes no use of, as it is in its file.
+/// A column of a cloud file that a scene does not use, unchanged.
 struct SceneColumn {
   std::string name;
-  std::string type = "float64";  ///< int8 ... float64, as FileDescription has it
+  std::string type = "float64";  ///< int8 ... float64, as in FileDescription
   std::vector<char> bytes{};     ///< one number for each surfel, in this machine's byte order
 };
 
-/// What a file of surfels holds beside a SceneCloud.
+/// Contents of a file of surfels beyond the SceneCloud.
 struct SceneColumns {
   std::string material = "material";  ///< name of the column of materials
   std::vector<SceneColumn> others{};
   bool heights = false;      ///< the points are those of a height field, with the surface between them
-  bool own_normals = false;  ///< whose normals are those of the points, and not of its triangles
+  bool own_normals = false;  ///< the surface has the normals of the points, not of its triangles
 };
 
-/// The columns of the surfels with the ids `kept`, which are some of `ids`, those of `columns`.
+/// Returns the columns of the surfels with the ids `kept`. `ids` are the ids of the rows of `columns`, and include
+/// `kept`.
 SceneColumns columns_of(const SceneColumns& columns, std::span<const std::uint32_t> ids,
                         std::span<const std::uint32_t> kept);
 

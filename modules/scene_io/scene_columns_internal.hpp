@@ -10,18 +10,18 @@ namespace insonify {
 /// A field's name in lower case without CloudCompare's prefix "scalar_", and with blanks as CloudCompare writes them.
 std::string plain_name(std::string name);
 
-/// The numbers of a column as they are; scaled ones as double.
+/// Returns a copy of the numbers of a column: unchanged, or as double if the column is scaled.
 SceneColumn copy_of(const RowTable& table, const RowTable::Column& column);
 
-/// Makes a column of the rows listed, in that order.
+/// Reduces a column to the listed rows, in that order.
 void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows);
 
-/// Takes the columns that go with the surfels. That of the labels goes on as the column of materials if its numbers are
-/// theirs.
+/// Moves the columns of the surfels into `columns`. The column of labels becomes the column of materials if its numbers
+/// are the indices of the materials.
 void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& columns);
 
-/// Adds further columns to the rows of a scene: by their names, "_in_file" behind those that the scene's own columns
-/// have, in PLY as int, uchar, float or double. Throws Error(argument) for a column of another length.
+/// Adds further columns to the rows of a scene. A column whose name the scene already uses gets the suffix "_in_file".
+/// In PLY the types are int, uchar, float or double. Throws Error(argument) for a column of another length.
 void add_columns(PackedRows& rows, const SceneColumns& columns, CloudFormat format);
 
 }  // namespace insonify

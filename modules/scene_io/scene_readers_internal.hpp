@@ -13,9 +13,9 @@ namespace insonify {
 /// One kind of file.
 struct SceneReader {
   std::vector<std::string> extensions;  ///< in lower case, with their dots; the first is the usual one
-  std::vector<std::string> magic;       ///< what such files begin with; none: no sign
+  std::vector<std::string> magic;       ///< possible first bytes of such files; empty: not known
   std::string name;                     ///< "a PLY file"
-  std::string remedy;                   ///< how to get a file that is read, of files that are not; else empty
+  std::string remedy;                   ///< for formats that are not read: how to convert them; else empty
   RawCloud (*read)(const std::string& path, const ReadOptions& options) = nullptr;
   std::optional<RowFile> (*find_rows)(const std::string& path) = nullptr;  ///< null: read as a whole only
   LoadedScene (*load)(const std::string& path,

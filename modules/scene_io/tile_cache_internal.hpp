@@ -12,7 +12,7 @@
 // Private to scene_io: tiles that were read, for the pings after.
 namespace insonify {
 
-/// Bytes of tiles, kept up to a limit; the least recently used are dropped first. May be used by several threads.
+/// Cache of the bytes of tiles, up to a limit. It drops the least recently used first. Several threads may use it.
 class TileCache {
  public:
   using Bytes = std::shared_ptr<const std::vector<char>>;
@@ -20,10 +20,10 @@ class TileCache {
   /// Keeps at most `most_bytes`; 0: nothing.
   explicit TileCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// The bytes of a tile: kept ones, or those that `read` gives, which throws if it cannot.
+  /// Returns the bytes of a tile from the cache, or else from `read`, whose errors propagate.
   Bytes get(std::uint32_t tile, const std::function<std::vector<char>()>& read);
 
-  std::uint64_t reads() const;     ///< how often `read` was called
+  std::uint64_t reads() const;     ///< number of calls of `read`
   std::size_t kept_bytes() const;  ///< at most the limit
 
  private:

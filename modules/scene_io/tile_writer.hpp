@@ -27,29 +27,29 @@ struct TileWriterOptions {
   std::function<void(double)> progress{};  ///< receives the completed fraction of finish(), 0..1; may throw to cancel
 };
 
-/// What a .tiles file holds.
+/// Counts and total area of a .tiles file.
 struct TileReport {
   std::uint64_t surfels = 0, dropped_duplicates = 0, bytes = 0;
   std::size_t tiles = 0;
   double total_area = 0;  ///< [m^2]
 };
 
-/// Writes a .tiles file from batches of surfels in bounded memory. Surfels are kept in an unnamed temporary file in the
-/// output's folder (48 bytes each, temporarily twice); finish() sorts them by position and then renames the output.
+/// Writes a .tiles file from batches of surfels in bounded memory. Surfels are stored in an unnamed temporary file in
+/// the output's folder (48 bytes each, temporarily twice). finish() sorts them by position and then renames the output.
 /// Before that, and after any failure, no file of that name exists and nothing else is left behind.
 class TileWriter {
  public:
-  /// Throws Error(argument) for an invalid option, Error(file) if the folder is not writable.
+  /// Begins a file. Throws Error(argument) for an invalid option, Error(file) if the folder is not writable.
   explicit TileWriter(const std::string& path, const TileWriterOptions& options = {});
   ~TileWriter();
 
   /// Adds a batch. Batches may differ in origin; material indices refer to the writer's materials. Throws as
   /// require_valid, and Error(content) for more than 2^32 - 1 surfels in total.
   void add(const SceneCloud& batch);
-  /// The same with positions in double [m], relative to the writer's origin, instead of batch.point.
+  /// Adds a batch whose positions are `places` instead of batch.point: double [m], relative to the writer's origin.
   void add(const SceneCloud& batch, std::span<const Eigen::Vector3d> places);
 
-  /// Completes the file; call it once. Throws Error(file) if the file cannot be written.
+  /// Completes the file and returns its counts; call it once. Throws Error(file) if the file cannot be written.
   TileReport finish();
 
  private:

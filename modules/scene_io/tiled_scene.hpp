@@ -35,12 +35,12 @@ struct TileSelection {
   double bytes_to_load() const { return 64.0 * static_cast<double>(surfels); }
 };
 
-/// A prepared scene on disk, of which only the tiles near a head are read: scenes far larger than memory can be pinged.
-/// TileWriter makes one. Steps and cost:
+/// A prepared scene on disk. Only the tiles near a head are read, so scenes far larger than memory can be pinged.
+/// TileWriter writes such a file. Steps and cost:
 ///   opening   reads the directory, 80 bytes per tile of at most 4096 surfels
 ///   select    tests the enclosing ball of every tile against the insonified region: constant cost per tile
-///   load reads the selected tiles in parallel, checks them, and sorts their surfels by id, so that the cloud is the
-///             whole scene with the others left out; tiles may be kept in memory for the next load
+///   load      reads the selected tiles in parallel, checks them, and sorts their surfels by id. The cloud is the whole
+///             scene without the surfels of other tiles. Tiles may stay in memory for the next load.
 ///
 ///   const TiledScene tiled("bay.tiles");
 ///   const InsonifiedRegion region = simulator.reach(tiled.info().whole, event);
@@ -48,33 +48,34 @@ struct TileSelection {
 ///   simulate_ping(part, head, pose, environment, options);  // the same bytes as of the whole scene
 class TiledScene {
  public:
-  /// kept_bytes   of tiles that were read stay in memory, the least recently used are dropped first; 0: none
+  /// Opens a file and reads its directory.
+  /// kept_bytes   memory for tiles that were read; the least recently used are dropped first; 0: none
   /// Throws Error(file) if the file is missing or unreadable; Error(content) if it is not a .tiles file, truncated,
   /// damaged, incomplete or of a newer version.
   explicit TiledScene(const std::string& path, std::size_t kept_bytes = 0);
   ~TiledScene();
   TiledScene(TiledScene&&) noexcept;
 
-  /// Returns what the directory of the file says of the whole scene.
+  /// Returns the contents of the file's header: facts about the whole scene.
   const TiledSceneInfo& info() const;
 
-  /// The tiles that may hold a surfel within the region.
+  /// Returns the tiles that may hold a surfel within the region.
   TileSelection select(const InsonifiedRegion& region) const;
-  /// All tiles.
+  /// Returns all tiles.
   TileSelection select_all() const;
 
-  /// The surfels of the selected tiles by ascending id, with the ids and order of the whole scene, and part_of set.
-  /// Scenes that extend less than 2000 m from their origin keep it, and every point its bits; for wider ones the
-  /// cloud's origin is a multiple of 256 m near the region, and points are accurate to 2e-4 m within 2000 m of it,
-  /// whatever the size of the scene. Does not depend on `threads`.
+  /// Returns the surfels of the selected tiles by ascending id, with the ids and order of the whole scene, and with
+  /// part_of set. A scene that extends less than 2000 m from its origin keeps its origin, and every point its bits. For
+  /// a wider scene the cloud's origin is a multiple of 256 m near the region, and points are accurate to 2e-4 m within
+  /// 2000 m of it, for any size of the scene. Does not depend on `threads`.
   /// memory   limit for loading [bytes]; 0: the available memory. Throws Error(runtime) if more is needed, before
   ///          anything is read; Error(content) if a tile is damaged.
   SceneCloud load(const TileSelection& selection, double memory = 0, int threads = 0) const;
 
-  /// How many tiles were read from the file so far: kept ones are not read again.
+  /// Returns the number of tiles read from the file so far. Tiles in memory are not read again.
   std::uint64_t tiles_read() const;
 
-  /// Centres of the tiles (world, [m]).
+  /// Returns the centres of the tiles (world, [m]).
   std::vector<Eigen::Vector3d> places() const;
 
  private:
@@ -82,7 +83,7 @@ class TiledScene {
   std::unique_ptr<State> state_;
 };
 
-/// Available memory [bytes]; infinite if unknown.
+/// Returns the available memory [bytes]; infinite if unknown.
 double available_memory();
 
 /// Throws Error(runtime) naming `path` if `selection` needs more than `memory` [bytes] at `bytes_per_surfel`.

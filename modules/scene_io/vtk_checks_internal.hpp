@@ -6,20 +6,20 @@
 
 #include <vtkXMLPolyDataReader.h>
 
-// Private to scene_io: what a VTK file announces against what it holds. VTK takes memory for whatever a file announces,
-// and reads beyond it.
+// Private to scene_io: checks that a VTK file holds what it announces. VTK allocates memory for whatever a file
+// announces, and reads beyond it.
 namespace insonify {
 
 /// Throws Error(content) unless `path` is a legacy VTK file of DATASET POLYDATA, and every array holds the numbers, and
 /// every cell the corners, that it announces.
 void check_legacy_vtk(const std::string& path);
 
-/// A reader of .vtp that refuses what a file of this size cannot hold, before memory is taken for it, and arrays that
-/// end before their announced number, which VTK leaves as the memory was.
+/// A reader of .vtp with two checks. It refuses arrays that a file of this size cannot hold before it allocates memory.
+/// It refuses arrays that end before their announced number; VTK leaves uninitialised memory there.
 class CheckedXmlReader : public vtkXMLPolyDataReader {
  public:
   static CheckedXmlReader* New();
-  /// Empty, or what is wrong with the file.
+  /// Defect of the file; empty: none.
   std::string problem;
 
  protected:
