@@ -14,25 +14,25 @@
 // line, column, value and rule.
 namespace insonify {
 
-/// Reads a sound speed profile with the header depth_m,sound_speed [m, m/s] or depth_m,temperature_c,salinity_psu.
-/// Depths ascend strictly and are positive down. Temperature and salinity are converted to sound speed by UNESCO (E1)
-/// at latitude 45 degrees. Rules: those of require_valid(profile) and, for temperature and salinity,
-/// require_valid(water).
+/// Returns a sound speed profile from a file with the header depth_m,sound_speed [m, m/s] or
+/// depth_m,temperature_c,salinity_psu. Depths ascend strictly and are positive down. Temperature and salinity are
+/// converted to sound speed by UNESCO (E1) at latitude 45 degrees. Rules: those of require_valid(profile) and, for
+/// temperature and salinity, require_valid(water).
 SoundSpeedProfile load_sound_speed_profile(const std::string& path);
 
-/// Reads a trajectory of the head with the header time_s,x_m,y_m,z_m,qx,qy,qz,qw (the unit quaternion of
+/// Returns a trajectory of the head from a file with the header time_s,x_m,y_m,z_m,qx,qy,qz,qw (the unit quaternion of
 /// world_from_head) or time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg (as pose_from_yaw_pitch_roll: world z up, pitch
 /// positive nose down). Quaternions within 1e-3 of unit length are normalised; q and -q are equivalent. Rules: times
 /// ascend strictly, angles are within -360 and 360 degrees, there are at least two entries.
 Trajectory load_trajectory(const std::string& path);
 
-/// What is doubtful in such a file: an angle that changes by half a turn or more between two entries. Attitudes take
-/// the shortest turn between them; a longer one would need entries in between. None for quaternions. Errors as
-/// load_trajectory.
+/// Returns notes on doubtful angles in a file of load_trajectory: an angle that changes by half a turn or more between
+/// two entries. Attitudes take the shortest turn between entries; a longer turn needs entries in between. Returns no
+/// notes for quaternions. Errors as load_trajectory.
 std::vector<std::string> trajectory_notes(const std::string& path);
 
-/// The same from a file in the TUM format: lines of time, x, y, z, qx, qy, qz, qw, separated by blanks, without a
-/// header.
+/// Returns a trajectory from a file in the TUM format: lines of time, x, y, z, qx, qy, qz, qw, separated by blanks,
+/// without a header. Rules as load_trajectory.
 Trajectory load_tum_trajectory(const std::string& path);
 
 /// Scatterers from another program: positions, cross-sections and complex amplitudes.
@@ -42,17 +42,17 @@ struct ScattererTable {
   std::vector<std::complex<double>> xi;  ///< random amplitude, E|xi|^2 = 1
 };
 
-/// Reads scatterers with the header range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im.
+/// Returns scatterers from a file with the header range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im.
 ScattererTable load_scatterer_table(const std::string& path);
 
 /// Soundings of a table, row by row.
 struct SoundingTable {
   std::vector<Eigen::Vector3d> position;  ///< [m]
   std::vector<std::int64_t> ping;         ///< number of the ping; empty: the table has no column `ping`
-  std::vector<double> time;               ///< of the ping [s]; empty: it has no column `time_s`
+  std::vector<double> time;               ///< time of the ping [s]; empty: the table has no column `time_s`
 };
-/// Reads positions from the columns x_m, y_m and z_m of a table such as `insonify export --to csv` writes, with ping and
-/// time_s if it has them; what other columns hold does not matter, but fields have no quotes. Rules: at least one row.
+/// Returns positions from the columns x_m, y_m and z_m of a table such as `insonify export --to csv` writes, and ping
+/// and time_s if the table has them. Other columns are ignored; fields must not have quotes. Rules: at least one row.
 SoundingTable load_sounding_table(const std::string& path);
 
 /// A user-defined label of a place in a picture.
@@ -62,8 +62,9 @@ struct Label {
   std::string text;
 };
 
-/// Reads labels with the header bearing_deg,range_m,text, in this order; the text is everything after the second comma,
-/// optionally in double quotes. Rules: bearings within -360 and 360 degrees, ranges > 0, at least one label.
+/// Returns labels from a file with the header bearing_deg,range_m,text, in this order; the text is everything after the
+/// second comma, optionally in double quotes. Rules: bearings within -360 and 360 degrees, ranges > 0, at least one
+/// label.
 std::vector<Label> load_labels(const std::string& path);
 
 }  // namespace insonify

@@ -4,7 +4,7 @@
 #include "store/cube.hpp"
 #include "store/hdf5_internal.hpp"
 
-// Private to store: what a child that reads a cube hands over.
+// Private to store: the data that a child process sends when it reads a cube.
 namespace insonify {
 
 template <typename Stream>
@@ -26,7 +26,7 @@ void pass(Stream& stream, Cube& cube) {
          cube.anchor);
 }
 
-/// What is known of the pings of a cube without their images.
+/// Facts about the pings of a cube without their images.
 struct CubeTable {
   hdf5::Extent extent{};  ///< of /pressure
   BeamFan fan{};
@@ -52,7 +52,7 @@ void require_complex(const hdf5::FileContext& place, hid_t dataset, const std::s
 void send_all_images(const hdf5::FileContext& place, hid_t file, const hdf5::Extent& extent, PingRange pings,
                      ArraySender& to);
 
-/// Fills the images of pings with what send_all_images sent of the file at `path`.
+/// Fills the images of pings with the data that send_all_images sent. `path` is the path of the file.
 void receive_all_images(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings);
 
 }  // namespace insonify

@@ -7,16 +7,17 @@
 
 namespace insonify {
 
-/// The keys of an environment, in the order of files, bound to it. Setting one of a part makes the part present.
+/// Returns the keys of an environment, in the order of files, bound to it. Setting a key of a part makes the part
+/// present.
 std::vector<Key> environment_keys(Environment& environment);
 
-/// A [[mirror]] of a file: width and height of a rectangle, that becomes its corners, stand beside it.
+/// A [[mirror]] of a file. `size` holds the width and height of a rectangle, from which the corners follow.
 struct MirrorEntry {
   Mirror mirror{};
   std::vector<double> size{};  ///< width, height [m]; empty: none
 };
 
-/// The keys of a [[mirror]], bound to it.
+/// Returns the keys of a [[mirror]], bound to `entry`.
 std::vector<Key> mirror_keys(MirrorEntry& entry);
 
 }  // namespace insonify

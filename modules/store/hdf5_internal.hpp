@@ -44,8 +44,8 @@ struct FileContext {
   }
 };
 
-/// Whether a Handle of this thread could not be closed. HDF5 writes what it has kept of a dataset when that is closed,
-/// and forgets the failure.
+/// True if a Handle of this thread could not be closed. HDF5 writes buffered data of a dataset when the dataset is
+/// closed, and does not report a failure later.
 inline thread_local bool failed_to_close = false;
 
 /// Owns an HDF5 identifier and closes it.
@@ -86,15 +86,15 @@ void write_hdf5(const std::string& path, Body&& body) {
   pending.commit();
 }
 
-/// Opens an existing file for reading, where a crash within HDF5 ends a child alone. Throws Error(file) if it is
-/// missing or a folder, Error(content) if it is not HDF5.
+/// Opens an existing file for reading. Call it in a child process (read_apart), so that a crash within HDF5 ends only
+/// the child. Throws Error(file) if the file is missing or a folder, Error(content) if it is not HDF5.
 Handle open_file(const FileContext& place);
 
 /// Returns what read(place, file, to) sent from a child process. Throws as open_file and read do, and as read_in_child.
 ArrayReceiver read_apart(const std::string& path,
                          const std::function<void(const FileContext&, hid_t, ArraySender&)>& read);
 
-/// How the chunks of a dataset are stored: as they are, or shuffled and deflated at level 1, without loss.
+/// Storage of the chunks of a dataset: unchanged, or shuffled and deflated at level 1, without loss.
 enum class Packing { none, deflate };
 
 /// Creates a dataset without timestamps, with its unit and name as attributes "units" and "long_name"; chunked if
@@ -130,7 +130,7 @@ void write_numbers(const FileContext& place, hid_t file, const DatasetName& name
 /// Opens a dataset; throws Error(content) if it is missing.
 Handle open_dataset(const FileContext& place, hid_t file, const DatasetName& name);
 
-/// Values of a dataset that are read: their type in memory, where they are put there, and which they are.
+/// A selection of values of a dataset: their type in memory, their place in memory, and their place in the dataset.
 struct Values {
   hid_t type, memory = H5S_ALL, selected = H5S_ALL;
 };

@@ -13,16 +13,17 @@
 #include "core/units.hpp"
 #include "store/toml_tree_internal.hpp"
 
-// Private to store and tool: keys of TOML files as rows, from which files are read, checked and written, --set is read,
-// and the tables of the docs are made. Rows are bound to the object that they read and write, and must not outlive it.
+// Private to store and tool: the keys of TOML files as rows. The rows serve to read, check and write files, to read
+// --set, and to make the tables of the docs. Rows are bound to the object that they read and write, and must not
+// outlive it.
 namespace insonify {
 
-/// Where the value of a key is, and what it may be.
+/// The value of a key: access and rule.
 struct KeyValue {
-  std::string rule;  ///< what it must be: "a number > 0"
-  /// Takes a value; false if it breaks the rule. `path` is that of the file, for paths named in it.
+  std::string rule;  ///< rule for values, as text: "a number > 0"
+  /// Sets the value; returns false if it breaks the rule. `path` is the path of the file, for relative paths in it.
   std::function<bool(const TomlValue& value, const std::string& path)> set;
-  /// The value as TOML that reads back to the same bits; nothing if files omit the key.
+  /// Returns the value as TOML that reads back to the same bits; nothing if files omit the key.
   std::function<std::optional<std::string>()> text;
 };
 
@@ -34,12 +35,11 @@ struct Key {
   KeyValue value;
   std::string help;
   bool required = false;
-  const char* unless = "";  ///< name of a key of the same section that takes its place; a file must not hold both
+  const char* unless = "";  ///< name of an alternative key in the same section; a file must not hold both
 };
 
-/// Reads a table of a file, its own tables included. Keys and tables called `others` are passed over. Throws
-/// Error(content) "path:line: ..." for an unknown key, with the nearest known one, a missing one, or a value that
-/// breaks its rule.
+/// Reads a table of a file, including the tables in it. Keys and tables in `others` are skipped. Throws Error(content)
+/// "path:line: ..." for an unknown key (with the nearest known one), a missing key, or a value that breaks its rule.
 void read_keys(const std::string& path, const TomlValue& table, const std::vector<Key>& keys,
                const std::string& section = "", const std::vector<std::string>& others = {});
 
@@ -50,7 +50,8 @@ void require_schema(const std::string& path, const TomlValue& document, int sche
 /// Error(argument), its text after `who`, for an unknown key or a value that breaks its rule.
 void set_key(const std::vector<Key>& keys, const std::string& name, const std::string& text, const std::string& who);
 
-/// The same from a value; of several that it may mean, as a text may mean a list, the first one that obeys the rule.
+/// Sets the key from the first of `values` that obeys the rule. Several values are possible readings of one text, which
+/// may mean a list, for example.
 void set_key(const std::vector<Key>& keys, const std::string& name, const std::vector<TomlValue>& values,
              const std::string& who);
 
@@ -68,13 +69,13 @@ struct Scale {
   double (*from_file)(double);
   double (*to_file)(double);
 };
-/// The degrees with the shortest text that read back to the same radians.
+/// Returns the degrees with the shortest text that reads back to the same radians.
 double shortest_degrees(double angle);
 inline constexpr Scale as_it_is{[](double x) { return x; }, [](double x) { return x; }};
 inline constexpr Scale in_degrees{radians, shortest_degrees};
 inline constexpr Scale in_decibels{power_from_db, db_from_power};
 
-/// What a number must be, in the unit of files.
+/// Rule for a number, in the unit of files.
 struct NumberRule {
   double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
   bool above = false;     ///< `least` itself is refused
@@ -114,7 +115,7 @@ KeyValue vector(Eigen::Vector3d& vector, const char* meaning, const Scale& scale
 KeyValue points(std::vector<Eigen::Vector3d>& points);
 KeyValue flag(bool& flag);
 KeyValue seed(std::uint64_t& seed);
-/// Text that `allowed` takes; `rule`: what it must be.
+/// Text for which `allowed` returns true; `rule` states the condition.
 KeyValue text(
     std::string& text, const char* rule = "text in quotes",
     bool (*allowed)(const std::string&) = [](const std::string&) { return true; });
@@ -126,7 +127,7 @@ KeyValue texts(std::vector<std::string>& texts, const std::vector<std::string>& 
 KeyValue list_of_tables();
 /// One of a list of words; any text if there are none.
 KeyValue word(std::string& text, const std::vector<std::string>& words);
-/// One of a table of names. `Value` is that of the table, or an optional of it.
+/// One of a table of names. `Value` is the type of the table's values, or an optional of it.
 template <typename Value, typename Table>
 KeyValue word(Value& value, const Table& table) {
   const auto set = [&](const TomlValue& from, const std::string&) {
@@ -141,7 +142,7 @@ KeyValue word(Value& value, const Table& table) {
   return {"one of " + joined(table, ", ", [](const auto& row) { return std::string(row.name); }), set, text};
 }
 
-/// The value, followed by `action` each time that it is set.
+/// The value; each time it is set, `action` is called.
 KeyValue then(KeyValue value, const std::function<void()>& action);
 /// The value, which files omit while `condition` holds.
 KeyValue omitted_if(KeyValue value, const std::function<bool()>& condition);

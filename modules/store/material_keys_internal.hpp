@@ -14,17 +14,17 @@ namespace insonify {
 struct MaterialEntry {
   SourcedMaterial sourced;
   MaterialInterval interval{};  ///< of field values, if the file has one
-  std::string law, like;        ///< "": Lambert's, or that of the material that it is like
-  std::array<std::optional<double>, std::size(law_numbers)> numbers{};  ///< those given, as law_numbers
+  std::string law, like;        ///< law "": Lambert's, or the law of the material `like`
+  std::array<std::optional<double>, std::size(law_numbers)> numbers{};  ///< given numbers, in the order of law_numbers
   TableLaw table{};
   std::string bistatic;
 };
 
-/// The keys of a [[material]], bound to it: those of material_numbers and law_numbers among them.
+/// Returns the keys of a [[material]], bound to `entry`, including those of material_numbers and law_numbers.
 std::vector<Key> material_keys(MaterialEntry& entry);
 
-/// Reads a table of keys into `entry`, which begins as the material that it is like. Throws Error(content) with path and
-/// line for what is unknown, missing, out of range or of another law.
+/// Reads a table of keys into `entry`, which starts as a copy of the material `like`, if given. Throws Error(content)
+/// with path and line for keys that are unknown, missing, out of range or of another law.
 void read_material(const std::string& path, const TomlValue& table, MaterialEntry& entry,
                    const std::vector<std::string>& others = {});
 

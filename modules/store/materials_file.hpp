@@ -21,13 +21,13 @@ struct MaterialTable {
   MaterialField field;  ///< intervals refer to materials by label, the index in materials_by_label
 };
 
-/// Reads a table of materials from TOML: [[material]] name, the keys of material_numbers, label (its
-/// position), status, source. The top-level key `field` names the scalar field that holds the labels;
-/// alternatively each material has a half-open interval of field values, `from` (included) to `to` (excluded), one of
-/// which may be omitted. Unknown keys, overlapping intervals and unphysical values are errors with file and line.
+/// Returns a table of materials from TOML. The keys of a [[material]] are name, those of material_numbers, label
+/// (default: its position), status and source. The top-level key `field` names the scalar field that holds the labels.
+/// Alternatively each material has a half-open interval of field values, `from` (included) to `to` (excluded); one of
+/// the two may be omitted. Unknown keys, overlapping intervals and unphysical values are errors with file and line.
 MaterialTable load_materials(const std::string& path);
 
-/// The materials with index = label; gaps hold a default Material named "unlabelled".
+/// Returns the materials with index = label; gaps hold a default Material named "unlabelled".
 std::vector<Material> materials_by_label(const MaterialTable& table);
 
 }  // namespace insonify

@@ -13,10 +13,10 @@ struct NamedCube {
   Cube cube;
 };
 
-/// Where a ping of a merged cube comes from.
+/// The origin of a ping of a merged cube.
 struct PingOrigin {
-  std::size_t cube;     ///< index in what was merged
-  std::int64_t number;  ///< that it had there
+  std::size_t cube;     ///< index of its cube among the merged cubes
+  std::int64_t number;  ///< number of the ping in that cube
 };
 
 /// A merged cube, and the origin of each of its pings.
@@ -25,11 +25,11 @@ struct MergedCube {
   std::vector<PingOrigin> origins;
 };
 
-/// One cube with all pings, ordered by time of transmission; pings of equal time keep the given order. Ping numbers are
-/// kept if they are unique, else replaced by 0, 1, ... Layers, maps and labels are kept if all pings have the same
-/// ones, else dropped. Seed, tolerance, version and water are those of the first cube; pings keep the water that they
-/// were made in. Throws Error(argument) if there is no cube, Error(content) naming the cube and the difference if
-/// sonar, fan, gate, centre frequency or bandwidth differ from the first.
+/// Returns one cube with all pings, ordered by time of transmission; pings of equal time keep the given order. Ping
+/// numbers are kept if they are unique, else replaced by 0, 1, ... Layers, maps and labels are kept if all pings have
+/// the same ones, else dropped. Seed, tolerance, version and water are those of the first cube; each ping keeps the
+/// water of its own cube. Throws Error(argument) if there is no cube, Error(content) naming the cube and the difference
+/// if sonar, fan, gate, centre frequency or bandwidth differ from the first.
 MergedCube merge_cubes_by_time(std::vector<NamedCube> cubes);
 
 }  // namespace insonify

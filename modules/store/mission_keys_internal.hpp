@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// Values of a mission file that a Mission holds in another form, with those of one head and of one leg.
+/// Values of a mission file that a Mission stores in another form, and the values of one head and one leg.
 struct MissionTables {
   Anchor anchor{};
   bool ned = false;  ///< frame of the trajectory's file
@@ -25,7 +25,7 @@ struct MissionTables {
   MissionLeg leg{};
 };
 
-/// The keys of a mission but for [scene] and [ping], bound to both.
+/// Returns the keys of a mission without [scene] and [ping], bound to `tables` and `mission`.
 std::vector<Key> mission_keys(MissionTables& tables, MissionFile& mission);
 
 }  // namespace insonify

@@ -5,18 +5,20 @@
 
 namespace insonify {
 
-/// Files and folders that a call reads. Names that do not exist, of presets for instance, are passed over.
+/// Files and folders that a call reads. Names that do not exist (of presets, for instance) are ignored.
 using InputPaths = std::vector<std::string>;
 
-/// Throws Error(file) unless the file `output` may be written: it must not exist, or with `force` be a file that is no
-/// input, by whatever name, and no file of a run or survey among the inputs.
+/// Throws Error(file) unless the file `output` may be written. It may if it does not exist. With `force` it may also be
+/// an existing file, except an input under any name, or a file of a run or survey among the inputs.
 void require_free_file(const std::string& output, bool force, const InputPaths& inputs);
 
-/// Throws Error(file) unless the folder `output` may be made: it must not exist, or with `force` be empty or hold
-/// nothing but what its manifest.json lists, unchanged, and neither be nor hold an input, by whatever name.
+/// Throws Error(file) unless the folder `output` may be made. It may if it does not exist. With `force` it may also be
+/// an existing folder that is empty, or that holds only files that its manifest.json lists, unchanged. The folder must
+/// neither be nor contain an input, under any name.
 void require_free_folder(const std::string& output, bool force, const InputPaths& inputs);
 
-/// Throws Error(file) naming what stands in `folder` that no run wrote. `called`: its name in the message.
+/// Throws Error(file) if `folder` holds anything that no run wrote, and names it. `called`: name of the folder in the
+/// message.
 void require_run_alone(const std::string& folder, const std::string& called);
 
 }  // namespace insonify

@@ -8,22 +8,22 @@
 
 namespace insonify {
 
-/// An output folder created atomically: files are written into a temporary folder beside it, which commit() renames.
-/// If commit() is never called (an error, Ctrl-C), the temporary folder is removed; if the process was killed, by the
-/// next RunDirectory of the same name.
+/// An output folder created atomically. Files are written into a temporary folder beside it, and commit() renames that
+/// folder. If commit() is never called (an error, Ctrl-C), the temporary folder is removed. If the process was killed,
+/// the next RunDirectory of the same name removes it.
 class RunDirectory {
  public:
-  /// `inputs`: what the run is made of. Throws Error(file) as require_free_folder (output_rules.hpp), and if the parent of
-  /// `path` is missing or not writable.
+  /// Begins a run. `inputs`: the files and folders that it reads. Throws Error(file) as require_free_folder
+  /// (output_rules.hpp), and if the parent of `path` is missing or not writable.
   RunDirectory(const std::string& path, bool force, const InputPaths& inputs = {});
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   /// Path of a file while the run is being written.
   std::string file(const std::string& name) const;
-  /// Waits until the disk holds all files, and renames the folder to its final name; with force it takes the place of
-  /// an old one in one step. Throws Error(file) if that fails, or as require_free_folder: what has come since then is
-  /// kept, too.
+  /// Waits until the disk holds all files, and renames the folder to its final name. With force it replaces an old
+  /// folder in one step. Throws Error(file) if that fails, or as require_free_folder; files that appeared in the
+  /// meantime are kept.
   void commit();
 
  private:
@@ -31,7 +31,7 @@ class RunDirectory {
   bool force_ = false, committed_ = false;
 };
 
-/// The contents of a text file. Throws Error(file) naming the path.
+/// Returns the contents of a text file. Throws Error(file) naming the path.
 std::string read_text_file(const std::string& path);
 
 }  // namespace insonify

@@ -11,27 +11,27 @@
 
 namespace insonify {
 
-/// True for the path of a scene of parts: a .toml file.
+/// Returns whether a path is that of a scene of parts: a .toml file.
 bool is_scene_file(const std::string& path);
 
 struct SceneFile;
 
-/// A file of surfels or triangles that a scene names, and how it is read.
+/// A file of surfels or triangles that a scene names, with the settings for reading it.
 struct PartFile {
   std::string path;
-  std::shared_ptr<const SceneFile> scene{};    ///< of a file that is a scene of parts itself
+  std::shared_ptr<const SceneFile> scene{};    ///< its contents, if the file itself is a scene of parts
   std::string unit = "m";                      ///< "mm", or metres per unit as text
   std::string material, materials;             ///< a name for every surfel; a table; or empty
   std::string material_field;                  ///< field of the cloud whose numbers mean materials, or empty
   std::optional<Eigen::Vector3d> viewpoint{};  ///< of the capture [m, in the axes of the file]
-  double thin = 0;                             ///< [m] between surfels that stay; 0: all stay
-  double spacing = 0;                          ///< [m] between surfels of a mesh; 0: by its size
+  double thin = 0;                             ///< [m] between remaining surfels; 0: all remain
+  double spacing = 0;                          ///< [m] between surfels of a mesh; 0: follows from its size
   int line = 0;                                ///< of the scene file
 };
 
 /// A [[part]].
 struct ScenePartEntry {
-  std::string name, label;  ///< label: as given, or the name of a part that is placed; empty for a captured one
+  std::string name, label;  ///< label: as given; default: the name of a placed part, empty for a captured part
   PartFile file;
   PartPlacement placement;
 };
@@ -52,13 +52,13 @@ struct SceneFile {
   std::vector<std::string> trajectories;  ///< paths of the files of trajectories
 };
 
-/// Reads a scene of parts from TOML (docs/scenes.md lists the keys), with the trajectories and the scenes of parts that
-/// it names. Paths are relative to the file. Throws Error(file) if it is missing; Error(content) with file, line and key
-/// for unknown keys, wrong types, a file that is missing, a scene that holds itself, two parts of one name, more than
-/// 65 000 parts, and bodies that do not fit into their area.
+/// Returns a scene of parts from TOML (docs/scenes.md lists the keys), with the trajectories and the scenes of parts
+/// that it names. Paths are relative to the file. Throws Error(file) if the file is missing. Throws Error(content) with
+/// file, line and key for unknown keys, wrong types, a named file that is missing, a scene that contains itself, two
+/// parts of one name, more than 65 000 parts, and bodies that do not fit into their area.
 SceneFile load_scene_file(const std::string& path);
 
-/// Returns the paths of all files that the scene is made of, itself first, those of scenes in it included.
+/// Returns the paths of all files of a scene: the scene file first, and also the files of scenes in it.
 std::vector<std::string> files_of(const SceneFile& scene);
 
 }  // namespace insonify

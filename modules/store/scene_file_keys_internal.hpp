@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// Values of a scene file that its parts hold in another form.
+/// Values of a scene file that the structs of parts store in another form.
 struct SceneTables {
   ScenePartEntry part{};
   std::vector<double> position{}, turn{};  ///< as given

@@ -19,37 +19,38 @@ struct SonarFile {
   std::string description;
   std::string path;
   std::vector<SonarNumber> numbers;
-  bool of_run = false;                                 ///< read from a run.toml, whose ranges are those of that run
+  bool of_run = false;                                 ///< read from a run.toml; its ranges are those of that run
   Eigen::Vector3d mounting = Eigen::Vector3d::Zero();  ///< on a vehicle: yaw to port, pitch nose down, roll [rad]
 };
 
-/// Reads a sonar from TOML, or the table [sonar] of a run.toml. Every key is a number (or string) or a table {value,
-/// status, source}; plain values have status "user". Exactly one of bandwidth_hz and range_resolution_m (B = 1500 m/s /
-/// 2 dr) is given; azimuths_deg replaces beams and field_of_view_deg, elevations_deg replaces elevation_deg: with
-/// azimuths_deg one elevation per beam, without it a row of beams at each elevation. mounting_deg is the attitude that
-/// a mission gives the head. `numbers` also lists a derived bandwidth and the defaults of omitted keys. Unknown or
-/// missing keys, wrong types and invalid values are errors with file, line and remedy. Throws Error(file) or
-/// Error(content).
+/// Returns a sonar from TOML, or from the table [sonar] of a run.toml. Every key is a number (or string) or a table
+/// {value, status, source}; plain values have status "user". Exactly one of bandwidth_hz and range_resolution_m (B =
+/// 1500 m/s / 2 dr) is given. azimuths_deg replaces beams and field_of_view_deg; elevations_deg replaces elevation_deg.
+/// With azimuths_deg, elevations_deg lists one elevation per beam; without, a row of beams for each elevation.
+/// mounting_deg is the attitude that a mission gives the head. `numbers` also lists a derived bandwidth and the
+/// defaults of omitted keys. Unknown or missing keys, wrong types and invalid values are errors with file, line and
+/// remedy. Throws Error(file) or Error(content).
 SonarFile load_sonar_file(const std::string& path);
 
-/// A preset by name ("oculus-m750d") from the sonar folder, or a file by path (ending in .toml). Throws Error(argument)
-/// with the nearest known names for unknown ones.
+/// Returns a preset by name ("oculus-m750d") from the sonar folder, or the sonar in a file (a path ending in .toml).
+/// Throws Error(argument) with the nearest known names for an unknown name.
 SonarFile find_sonar(const std::string& name_or_path);
 
-/// All presets, sorted by name.
+/// Returns all presets, sorted by name.
 std::vector<SonarFile> list_sonars();
 
-/// Folder of data files: the environment variable INSONIFY_DATA if set, else beside the program, else where installed,
-/// else the source tree. Throws Error(file) if none exists, or if INSONIFY_DATA names no such folder.
+/// Returns the folder of data files: that of the environment variable INSONIFY_DATA if set, else the one beside the
+/// program, else the installed one, else that of the source tree. Throws Error(file) if none exists, or if
+/// INSONIFY_DATA does not name a data folder.
 std::string data_folder();
 
-/// The spec as TOML text, the table [sonar] of run.toml. Reads back bit for bit if its angles came from degrees (a
-/// file, set_sonar_value); an angle computed in radians may change in its last bit.
+/// Returns the spec as TOML text, the table [sonar] of run.toml. The text reads back bit for bit if its angles came
+/// from degrees (a file, set_sonar_value); an angle computed in radians may change in its last bit.
 std::string sonar_as_toml(const SonarSpec& spec);
 
-/// Sets one key ("beams", "centre_frequency_hz", ...) of a spec from text; lists as "-10, 0, 10". Consistency is
-/// checked by make_head, so that keys may be set in any order. Throws Error(argument) naming the nearest key, or the
-/// value and its type.
+/// Sets one key ("beams", "centre_frequency_hz", ...) of a spec from text; lists as "-10, 0, 10". Keys may be set in
+/// any order, because only make_head checks consistency. Throws Error(argument) naming the nearest key, or the value
+/// and its type.
 void set_sonar_value(SonarSpec& spec, const std::string& key, const std::string& value);
 
 }  // namespace insonify

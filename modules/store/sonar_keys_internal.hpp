@@ -7,9 +7,9 @@
 
 namespace insonify {
 
-/// The keys of a sonar, in the order of files, bound to a spec. range_resolution_m sets the bandwidth; azimuths_deg
-/// sets beams and field of view; beams or field_of_view_deg restore an evenly spaced fan, elevation_deg a single row.
-/// require_valid checks what a key alone does not tell.
+/// Returns the keys of a sonar, in the order of files, bound to a spec. range_resolution_m sets the bandwidth.
+/// azimuths_deg sets beams and field of view. beams or field_of_view_deg restore an evenly spaced fan, elevation_deg a
+/// single row. require_valid checks rules that involve several keys.
 std::vector<Key> sonar_keys(SonarSpec& spec);
 
 }  // namespace insonify
