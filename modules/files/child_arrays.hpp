@@ -14,29 +14,30 @@
 namespace insonify {
 
 namespace detail {
-/// Whether a value is handed over as its bytes.
+/// Whether a value is sent as its bytes.
 template <typename Value>
 constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>;
 }  // namespace detail
 
-/// Memory of this process and of the children that it starts meanwhile. It is reserved alone: what is not written takes
-/// none.
+/// Memory that this process shares with the children that it starts during the lifetime of the object. Only addresses
+/// are reserved; pages take memory when they are written.
 class SharedMemory {
  public:
-  /// Its first bytes, which no array takes: one number of the sender's, the others of who starts the child.
+  /// Number of first bytes that no array uses: one number of the sender, the others for the process that starts the
+  /// child.
   static constexpr std::size_t head = 128, of_sender = 16;
 
-  /// As large as it can be: `most` bytes, or half of what the user's limits leave. Throws std::bad_alloc.
+  /// Reserves `most` bytes, or half of what the user's limits leave if that is less. Throws std::bad_alloc.
   explicit SharedMemory(std::size_t most = std::size_t{1} << 38);
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
 
-  /// Where it begins.
+  /// Returns the address of the memory.
   char* start() const { return start_; }
-  /// Its bytes.
+  /// Returns the size of the memory [bytes].
   std::size_t bytes() const { return bytes_; }
-  /// Gives back all but the first bytes, which are read alone from now on.
+  /// Releases all but the first bytes; only these may be read afterwards.
   void keep(std::size_t bytes);
   /// Gives back the whole pages within [begin, end).
   void give_back(std::size_t begin, std::size_t end) const;
@@ -46,8 +47,8 @@ class SharedMemory {
   char* start_ = nullptr;
 };
 
-/// Puts values into memory that a child process shares with its parent. A type of its own is handed over by
-/// `template <typename Stream> void pass(Stream&, T&)` beside it, which names its members: stream(t.a, t.b).
+/// Sends values through memory that a child process shares with its parent. To send a type of your own, define
+/// `template <typename Stream> void pass(Stream&, T&)` beside it; the function names the members: stream(t.a, t.b).
 class ArraySender {
  public:
   /// `memory` holds at most `most` bytes, which may grow meanwhile.
@@ -132,11 +133,11 @@ class ArraySender {
   std::size_t used_ = 0;  // bytes
 };
 
-/// Takes the values out again, in the same order. Large arrays are given back to the system as they are copied, or can
-/// be used where they are.
+/// Receives the values of an ArraySender in the same order. Large arrays are released to the system as they are copied,
+/// or can be used in place.
 class ArrayReceiver {
  public:
-  /// Of what a sender left; `path` begins the text of errors.
+  /// Reads the values that a sender left; error texts begin with `path`.
   ArrayReceiver(std::string path, std::shared_ptr<SharedMemory> memory);
 
   /// Where these bytes are; they live as long as `owner()`. Throws Error(content) if fewer were sent.
@@ -147,7 +148,7 @@ class ArrayReceiver {
     (*this)(count);
     return reinterpret_cast<const Number*>(take(bytes_of(count, sizeof(Number))));
   }
-  /// What keeps the bytes of take() alive.
+  /// Returns the owner of the bytes of take().
   std::shared_ptr<const void> owner() const { return memory_; }
 
   /// Sets values to what was sent.

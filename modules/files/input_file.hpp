@@ -4,8 +4,8 @@
 
 namespace insonify {
 
-/// Throws Error(file) unless `path` names a regular file: it does not exist, is a folder, or a pipe or device, which
-/// may have no end.
+/// Throws Error(file) unless `path` names a regular file. It refuses a missing file, a folder, and a pipe or device,
+/// which may have no end.
 void require_regular_file(const std::string& path);
 
 }  // namespace insonify

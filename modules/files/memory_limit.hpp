@@ -8,8 +8,7 @@ namespace insonify {
 /// Returns the address space of this process [bytes].
 std::size_t address_space();
 
-/// Returns the address space that this process may still take under its limit (ulimit -v) [bytes]; nothing without a
-/// limit.
+/// Returns the address space that the limit of this process (ulimit -v) still allows [bytes]; nothing without a limit.
 std::optional<std::size_t> memory_left();
 
 }  // namespace insonify

@@ -15,7 +15,7 @@ class Sha256 {
   Sha256();
   /// Adds bytes after those added before.
   void add(std::string_view bytes);
-  /// The digest of all that was added, in 64 hexadecimal digits. Call it once, last.
+  /// Returns the digest of all added bytes in 64 hexadecimal digits. Call it once, last.
   std::string digest();
 
  private:
@@ -28,7 +28,7 @@ class Sha256 {
 /// Returns the digest of `bytes` in 64 hexadecimal digits.
 std::string sha256_of(std::string_view bytes);
 
-/// The digest of a file's content. Throws Error(file) if it cannot be read.
+/// Returns the digest of a file's content. Throws Error(file) if it cannot be read.
 std::string sha256_of_file(const std::string& path);
 
 }  // namespace insonify

@@ -14,7 +14,7 @@ namespace insonify {
 /// Forms beams of one kind of echo after another and adds them up; for SynthesisMethod::incoherent, by their squares.
 class LayerSum {
  public:
-  /// Refers to both arguments, which must outlive it.
+  /// Keeps references to both arguments, which must outlive it.
   LayerSum(const ResolvedPing& ping, SynthesizerTable& synthesizers);
 
   /// Synthesizes `echoes` and adds the image; keeps it as a layer called `name` if the options ask for it.
@@ -30,7 +30,7 @@ class LayerSum {
 
  private:
   void add_pressure(const std::string& name, std::size_t echoes, ComplexGrid pressure);
-  /// Forms beams of all the array, or of one half of it.
+  /// Forms the beams of the whole array, or of one half of it.
   std::shared_ptr<const Synthesizer> whole() const;
   std::shared_ptr<const Synthesizer> half(ApertureSide side) const;
   SonarHead half_head(ApertureSide side) const { return half_aperture(ping_.head, side, "PingSimulator"); }

@@ -7,12 +7,12 @@
 
 namespace insonify {
 
-/// When and from where a ping is sent.
+/// Time, pose and motion of the head for one ping.
 struct PingEvent {
   Pose world_from_head = Pose::Identity();
-  Motion motion{};          ///< of the head during the ping (E44); only direct echoes are shifted by it
+  Motion motion{};          ///< motion of the head during the ping (E44); it shifts only direct echoes
   double time = 0;          ///< of transmission [s]
-  std::int64_t number = 0;  ///< selects the random streams: noise, water and waves are new in every ping
+  std::int64_t number = 0;  ///< selects the random streams: each number has its own noise, water and waves
 };
 
 /// Throws Error(argument) for a time or motion that is not finite; `who` names the caller.

@@ -8,14 +8,14 @@
 
 namespace insonify {
 
-/// Who decides whether a stage is computed.
+/// The rule that decides whether a stage is computed.
 enum class DecidedBy {
   budget,  ///< included if omitting it costs more than its share of the budget, or if the options say so
-  choice,  ///< included if user or environment ask for it: noise, reverberation, occlusion, the way of summing
+  choice,  ///< included if user or environment ask for it: noise, reverberation, occlusion, method of summation
   scene    ///< included if the scene has a cause for it; exact either way
 };
 
-/// As reports spell them: "budget", "choice", "scene".
+/// Returns the name for reports: "budget", "choice", "scene".
 const char* decided_by_name(DecidedBy by);
 
 /// An effect of the model: whether a ping of this scene computes it, and the error of omitting it.
@@ -28,11 +28,11 @@ struct PlannedStage {
   double bound_db = 0;        ///< the same as a level, 20 log10(1 + bound_relative)
 };
 
-/// What a ping will compute and omit.
+/// The effects that a ping will compute and omit.
 struct PingPlan {
   std::vector<PlannedStage> stages;
-  SimulationOptions options;  ///< the given ones with all effects decided: a ping with them is the ping of this plan
-  double share_relative = 0;  ///< share of the budget of each effect that it decides
+  SimulationOptions options;  ///< the given options with all effects decided; a ping with them follows this plan
+  double share_relative = 0;  ///< relative error that the budget allows each effect that it decides
   double share_db = 0;        ///< 20 log10(1 + share_relative)
   double left_out_db = 0;     ///< joint bound of the effects that the budget omits
   SynthesisChoice synthesis;  ///< for one row of beams

@@ -23,26 +23,28 @@ class PingSimulator {
   /// Throws Error(argument) for an invalid head or option, and for multipath without surface or bottom.
   PingSimulator(SonarHead head, Environment environment, SimulationOptions options = {});
 
-  /// The same head in the same environment with other options, sharing tables and buffers. Throws as the constructor.
+  /// Returns a simulator of the same head and environment with other options; both share tables and buffers. Throws as
+  /// the constructor.
   PingSimulator with(SimulationOptions options) const;
 
-  /// The head given to the constructor.
+  /// Returns the head given to the constructor.
   const SonarHead& head() const;
-  /// The environment given to the constructor.
+  /// Returns the environment given to the constructor.
   const Environment& environment() const;
-  /// The options given to the constructor.
+  /// Returns the options given to the constructor.
   const SimulationOptions& options() const;
 
-  /// What a ping will compute and leave out, as plan_ping; nothing is simulated.
+  /// Returns the plan of a ping: the effects that it will compute and omit (plan_ping). Nothing is simulated.
   PingPlan plan(const PreparedScene& scene, const PingEvent& event) const;
 
-  /// Counts the surfels and scatterers that a ping will sample; of rays, those that are cast. Nothing is simulated.
+  /// Returns the numbers of surfels and scatterers that a ping will sample, or of rays that it will cast. Nothing is
+  /// simulated.
   SamplingReport count(const PreparedScene& scene, const PingEvent& event) const;
 
-  /// Simulates a ping: the whole signal path, written out in ping_simulator.cpp. Effects set to as_needed are computed
-  /// if omitting them would exceed their share of options().accuracy_db. Effects without a cause in the environment are
-  /// skipped. The result does not depend on the number of threads. Throws Error for an invalid event, a head at or
-  /// above the surface, and a profile without a surface.
+  /// Simulates a ping and returns the result; ping_simulator.cpp shows the whole signal path. Effects set to as_needed
+  /// are computed if omitting them would exceed their share of options().accuracy_db. Effects without a cause in the
+  /// environment are skipped. The result does not depend on the number of threads. Throws Error for an invalid event, a
+  /// head at or above the surface, and a profile without a surface.
   SimulatedPing ping(const PreparedScene& scene, const PingEvent& event) const;
 
   /// Returns the part of a scene that a ping needs: surfels that can return an echo or hide others. They alone give the

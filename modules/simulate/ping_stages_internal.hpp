@@ -23,11 +23,11 @@ struct PingParts {
   Sampling sampling{};       ///< the report; patches if stored
   Echoes direct{};           ///< if stored
   Multipath multipath{};
-  Multipath mirrors{};  ///< without glints, which are of no surfel
+  Multipath mirrors{};  ///< without glints, which belong to no surfel
   DoubleEchoes doubles{};
 };
 
-/// The surfels that the head sees, counted; sets ping.view.sampling.energy.
+/// Returns the surfels that the head sees, with their counts; sets ping.view.sampling.energy.
 VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping);
 
 /// Samples the view, where rays are bent if the options say so; reports refraction.
@@ -39,17 +39,18 @@ std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const R
 
 /// Adds the layers of echoes by way of the boundaries and of the mirrors, if the options say so, and leaves them in
 /// parts. An echo by a boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible
-/// surfels are therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the same.
+/// surfels are therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the
+/// same.
 void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
 /// Adds the layer of echoes by way of two surfaces (E158), if the options say so, and leaves them in parts.doubles.
 void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
-/// The soundings of a ping, with the echoes by way of two surfaces among those they may come from, if there are any.
+/// Returns the soundings of a ping. Their contributors may be double echoes, if there are any.
 Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,
                  const Ping& image);
 
-/// Echoes of water and boundaries themselves, one entry for each that the environment calls for.
+/// Echoes of the water and the boundaries themselves: one entry for each kind that the environment has.
 struct Reverberation {
   const char* name;
   Echoes echoes;

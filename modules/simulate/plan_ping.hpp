@@ -13,25 +13,25 @@
 
 namespace insonify {
 
-/// The plan of simulate_ping for the same arguments, from a sample of the scene (4096 surfels of each kind of place at
-/// most), head, environment and options; the ping itself is not simulated.
+/// Returns the plan of simulate_ping for the same arguments. The plan follows from head, environment, options and a
+/// sample of the scene (at most 4096 surfels of each kind of place). The ping itself is not simulated.
 ///
-/// Errors are relative L2 norms e of the complex image, given as levels 20 log10(1 + e): the level of the whole image
+/// Errors are relative L2 norms e of the complex image, stated as levels 20 log10(1 + e); the level of the whole image
 /// cannot change by more. The budget is options.accuracy_db. Effects are independent, so their errors add as energies,
 /// and each of the n effects that the budget decides may cost e / sqrt(n). An effect is included if its bound is larger
 /// than that, unless the options say always or never.
 ///
-/// A bound is twice the amplitude of the effect expected for the sample, over all speckle; the factor covers what the
-/// sample does not show. It is 0 where an effect has no cause (no boundary, no motion, no profile). It may exceed 1:
-/// then the effect changes the image altogether. docs/results/plan.md compares bounds with effects.
+/// A bound is twice the amplitude that is expected of the effect for the sample, over all speckle. The factor of two
+/// covers what the sample misses. The bound is 0 if an effect has no cause (no boundary, no motion, no profile). A
+/// bound above 1 means that the effect changes the image completely. docs/results/plan.md compares bounds with effects.
 ///
 /// Throws Error as simulate_ping does.
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options = {});
 
-/// Returns options for synthesizing given echoes, of patches or targets at `places`: true delays and absorption over
-/// the band are decided as plan_ping decides them. Other effects are not considered. The environment's water is taken
-/// as it is, without regard to depth. Throws Error as simulate_ping does.
+/// Returns options for the synthesis of given echoes of patches or targets at `places`. True delays and absorption over
+/// the band are decided as by plan_ping; other effects are not considered. The environment's water is used unchanged,
+/// without regard to depth. Throws Error as simulate_ping does.
 SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
                                     const Environment& environment, const SimulationOptions& options = {});
 

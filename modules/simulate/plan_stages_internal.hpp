@@ -12,7 +12,7 @@
 /// (budget_share). A stage of a larger bound is in. Nowhere else is a threshold.
 namespace insonify {
 
-/// What a ping is asked for.
+/// The arguments of a planned ping.
 struct PlanCause {
   const SceneCloud& scene;
   const Environment& environment;
@@ -21,7 +21,7 @@ struct PlanCause {
   bool single_precision = false;  ///< of tiles and transforms
 };
 
-/// What stages are judged by.
+/// The data from which stages are judged.
 struct PlanFacts {
   const SceneCloud& scene;
   const ResolvedPing& ping;
@@ -50,27 +50,27 @@ double bound_of_changed_echoes(const PlanFacts& facts, const Change& change) {
   return energy > 0 ? bound_of_added_echoes(facts, energy) : 0;
 }
 
-/// Error that leaving out the echoes by way of two surfaces causes: their expected energy (E158), of all pairs of some
-/// 500 places of the sample as if nothing stood between them. A bound for Lambert's law. For laws with lobes, which the
-/// sample may miss, it is an estimate.
+/// Returns the error of omitting double echoes: their expected energy (E158) over all pairs of some 500 places of the
+/// sample, as if nothing stood between them. This is a bound for Lambert's law. For laws with lobes, which the sample
+/// may miss, it is an estimate.
 double double_echo_bound(const PlanFacts& facts);
 
 /// A row of the plan.
 struct PlanStage {
   const char* name;
   DecidedBy by;
-  /// Whether there is something to compute, or it is asked for. If not, the stage has no bound, and cannot be forced
-  /// in.
+  /// Returns whether the stage has a cause, or is asked for. Without a cause the stage has no bound and cannot be
+  /// forced in.
   bool (*cause)(const PlanCause&);
-  /// Why it is in or may be, and why not.
+  /// Texts: the reason why the stage is in, or may be, and the reason why it is not.
   const char *with, *without;
   /// Relative error of the image without it; nullptr: 0.
   double (*bound)(const PlanFacts&) = nullptr;
   /// Sets the options, or takes the cause out of the environment, so that the stage is in or out; nullptr: it cannot.
   void (*force)(bool included, Environment&, SimulationOptions&) = nullptr;
-  /// What the options say of a stage that the budget decides where they leave it open.
+  /// Returns the setting of the stage in the options. The budget decides on the stage if the setting is as_needed.
   Choice (*asked)(const SimulationOptions&) = nullptr;
-  /// What is too dear for a budget to ask for; nullptr: nothing.
+  /// Returns whether the stage is too expensive for the budget to include it; nullptr: never.
   bool (*only_if_forced)(const PlanFacts&) = nullptr;
   /// Takes a share of the budget only where there is a cause.
   bool shares_if_caused = false;
@@ -86,8 +86,8 @@ constexpr bool never(const PlanCause&) { return false; }
 
 constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
 
-/// Decides all that the options of a ping leave as needed, as plan_ping does, and derives again what follows from them.
-/// Only what is open is judged, at a cost that grows with what the head may reach.
+/// Decides all effects that the options of a ping leave as_needed, as plan_ping does, and derives all dependent values
+/// again. Only undecided effects are judged, at a cost that grows with the region within the head's reach.
 void decide_effects(const PreparedScene& prepared, ResolvedPing& ping);
 
 /// The plan of a ping.

@@ -20,56 +20,60 @@ struct ResolvedPing {
   PingEvent event;
   Environment environment;  ///< its water is that at the head's own depth (environment_at)
   SimulationOptions options;
-  Transmission sent{};          ///< pulse, medium and the patterns that echoes are weighted by; surfaces: those of the
-                                ///< scene that is pinged, once it is known
+  Transmission sent{};          ///< pulse, medium and the patterns that weight echoes; surfaces: those of the pinged
+                                ///< scene, once it is known
   View view{};                  ///< pose, fan, sampled ranges and sampling
-  InsonifiedRegion region{};    ///< all that can be received or block sound; with multipath a ball about the head. It
-                                ///< includes what effects that are still open may need
-  SmoothShapes smooth{};        ///< mirrors of the environment; once the scene is known (find_smooth) all that reflects
-                                ///< as a whole
+  InsonifiedRegion region{};    ///< of all surfels that can be received or block sound, also for effects that are not
+                                ///< yet decided; with multipath a ball about the head
+  SmoothShapes smooth{};        ///< mirrors of the environment, and, once the scene is known (find_smooth), its shapes
+                                ///< that reflect as one body
   bool smooth_scene = false;    ///< WholeScene::smooth
   double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
-  double beam_noise_db = 0;     ///< of the same in a beam: less the array's gain (E19)
-  /// Of each surfel of the scene that is pinged, its index in the scene that was given (SceneCut); empty: the same.
+  double beam_noise_db = 0;     ///< of all noise in a beam: element_noise_db less the array's gain (E19)
+  /// Index in the given scene of each surfel of the pinged scene (SceneCut); empty: both are the same.
   std::span<const std::uint32_t> stands_for{};
-  DetectionOptions detection{};  ///< with that noise floor and the pulse's resolution, if the options leave them open
+  DetectionOptions detection{};  ///< defaults: noise floor of beam_noise_db, resolution of the pulse
 };
 
-/// Whether a beam has another main lobe in a direction that there is: elements are too far apart for this wavelength
-/// [m].
+/// Returns whether a beam has a second main lobe in a real direction, because elements are too far apart for this
+/// wavelength [m].
 bool has_further_lobes(const SonarHead& head, double wavelength);
 
-/// SamplingOptions::lobe_margin that holds all directions.
+/// Value of SamplingOptions::lobe_margin that includes all directions.
 inline constexpr double lobes_everywhere = 2;
 
-/// Sampling of what counts as in view: main lobes with their margin, and elevations above the floor of the pattern.
+/// Returns the sampling of the directions in view: main lobes with their margin, and elevations above the floor of the
+/// pattern.
 SamplingOptions sampling_in_view(const ResolvedPing& ping);
 
-/// Whether a ping of a scene merges surfels: SamplingSettings::detail_width, where scene and outputs allow it.
+/// Returns whether a ping of a scene merges surfels: SamplingSettings::detail_width is set, and scene and outputs allow
+/// it.
 bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options);
 
-/// Whether sound can come by way of a surface or bottom.
+/// Returns whether the environment has a surface or bottom that can reflect sound.
 bool has_boundary(const Environment& environment);
 
-/// Whether a scene or its environment has what reflects as a whole.
+/// Returns whether a scene or its environment has mirrors or other shapes that reflect as one body.
 bool may_mirror(const Environment& environment, bool smooth_scene);
 
 /// Adds to ping.smooth the shapes of smooth materials within the ping's region, unless mirrors are off.
 void find_smooth(const SceneCloud& scene, ResolvedPing& ping);
 
-/// Range [m] within which surfels may take part in echoes by way of boundaries and mirrors; 0: there are none, or their
-/// effects are off.
+/// Returns the range [m] within which surfels may take part in echoes by way of boundaries and mirrors; 0 if there are
+/// none, or their effects are off.
 double reach_of_legs(const ResolvedPing& ping);
 
-/// Resolves a ping of a scene with the properties `scene` (whole_of, PreparedScene::whole), for plan_ping,
-/// simulate_ping and all that asks what a ping would see. The surfels inside `region` alone, in their order and with
-/// SceneCloud::part_of set, give the same ping to the byte.
+/// Resolves a ping of a scene with the properties `scene` (whole_of, PreparedScene::whole). plan_ping, simulate_ping
+/// and all other functions that need the view of a ping use it. The surfels inside `region` alone, in their order and
+/// with SceneCloud::part_of set, give the same ping to the byte.
 ///
-/// The sampled ranges go beyond the head's gate as far as pulses reach into it (down to half the tolerance) and as
-/// parts of the largest surfel stand off its middle; never below 0.1 m, or the gate's own beginning if that is nearer.
+/// The sampled ranges extend beyond the head's gate by the length of pulses that reach into it (down to half the
+/// tolerance) and by the radius of the largest surfel. They begin at 0.1 m or farther, or at the gate's own beginning
+/// if that is nearer.
 ///
-/// Throws Error for an invalid head, event, environment or option, for a head at or above the surface and what else
-/// environment_at refuses, for multipath without a boundary and for mirrors without any; `who` names the caller.
+/// Throws Error for an invalid head, event, environment or option, for a head at or above the surface and other cases
+/// that environment_at refuses, for multipath without a boundary, and for mirrors without any mirror; `who` names the
+/// caller.
 ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const PingEvent& event,
                           const Environment& environment, const SimulationOptions& options = {},
                           const char* who = "resolve_ping");

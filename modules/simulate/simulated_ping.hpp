@@ -20,26 +20,26 @@ struct StageSeconds {
   double sampling = 0, acoustics = 0, synthesis = 0, detection = 0, contributors = 0;
 };
 
-/// What refraction does to this scene.
+/// Effect of refraction on this scene.
 struct RefractionReport {
-  RefractionBound bound;     ///< what straight rays are off by, at most of some 1000 scatterers in view
-  bool bent = false;         ///< the scatterers stand where they seem to be
+  RefractionBound bound;     ///< error of straight rays, from at most some 1000 scatterers in view
+  bool bent = false;         ///< true: the scatterers are at their apparent positions
   std::size_t silenced = 0;  ///< scatterers in a shadow zone
 };
 
-/// How many echoes each layer was made of.
+/// Number of echoes in a layer.
 struct LayerReport {
   std::string name;
   std::size_t echoes = 0;
 };
 
-/// How much of the scene is not known (find_holes).
+/// Counts of directions into holes of the scan (find_holes).
 struct HoleReport {
-  std::size_t directions = 0;  ///< looked at; 0: none
-  std::size_t unknown = 0;     ///< of these, into a hole of the scan
+  std::size_t directions = 0;  ///< directions examined; 0: none
+  std::size_t unknown = 0;     ///< examined directions into a hole of the scan
 };
 
-/// What OutputSettings asks for; the rest is empty.
+/// The outputs that OutputSettings asks for; all others are empty.
 struct PingOutputs {
   Scatterers scatterers;
   ElementSeries elements;
@@ -47,9 +47,9 @@ struct PingOutputs {
   Contributors contributors;
 };
 
-/// What a ping was made of, and how.
+/// Report of a simulated ping: decisions, medium, counts, times and notes.
 struct PingReport {
-  SimulationOptions options;  ///< as they were decided: nothing is left as needed
+  SimulationOptions options;  ///< with all effects decided: none is as_needed
   Medium medium;              ///< water at the head's depth, with the absorption that was used
   SamplingReport sampling;
   RefractionReport refraction;
@@ -57,10 +57,10 @@ struct PingReport {
   std::vector<LayerReport> layers;  ///< in the order in which they were added
   double noise_floor_db = 0;        ///< of a beam, used by the detection [dB re 1 uPa]
   StageSeconds seconds;
-  std::vector<std::string> notes;  ///< what limits this ping's accuracy, one sentence each with a remedy
+  std::vector<std::string> notes;  ///< limits of this ping's accuracy, one sentence each, with a remedy
 };
 
-/// A ping: levels and phases, points, what else was asked for, and how it came about.
+/// The result of a simulation: the ping, its soundings, the outputs asked for, and the report.
 struct SimulatedPing {
   Ping ping;
   Soundings soundings;

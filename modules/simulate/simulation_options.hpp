@@ -12,34 +12,34 @@
 
 namespace insonify {
 
-/// Whether an effect is computed: if the plan of the ping finds that accuracy_db needs it, always, or never.
+/// Whether an effect is computed. as_needed: only if the plan of the ping finds that accuracy_db needs it.
 enum class Choice { as_needed, always, never };
 
-/// SamplingSettings::detail_width where it is asked for without a number.
+/// Default of SamplingSettings::detail_width if detail is requested without a number.
 inline constexpr double usual_detail_width = 0.5;
-/// EffectSettings::double_echoes where they are asked for without a number.
+/// Default of EffectSettings::double_echoes if they are requested without a number.
 inline constexpr double usual_double_echoes = 2;
 
-/// Which points stand for the scene.
+/// Selection of the scatterers that represent the scene.
 struct SamplingSettings {
   SamplingKind kind = SamplingKind::surfels;
-  /// Surfels are split until a resolution cell holds so many; 0: never split.
+  /// Surfels are split until a resolution cell holds this number of scatterers; 0: they are never split.
   double scatterers_per_cell = SamplingOptions{}.scatterers_per_cell;
   int rays_per_beam = 64;  ///< for sampling by rays, and for the mask of holes
   bool occlusion = true;
-  /// Surfels are merged to nodes up to this width, in beam widths, within 0 and 4 (E137); 0: none. Not done for surfels
-  /// with facets, nor where outputs are of each surfel: scatterers, mask.
+  /// Surfels are merged to nodes of up to this width, in beam widths, within 0 and 4 (E137); 0: they are not merged.
+  /// Surfels with facets are never merged, and no surfels are if an output lists each surfel: scatterers, mask.
   double detail_width = 0;
   double elevation_floor_db = -40;              ///< elevations where the two-way pattern is lower are not sampled; < 0
   double azimuth_margin = 0;                    ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
-  Choice outer_elevations = Choice::as_needed;  ///< always: elevations below the floor are sampled too
-  Choice outer_azimuths = Choice::as_needed;    ///< always: all that side lobes receive is sampled, whatever the margin
+  Choice outer_elevations = Choice::as_needed;  ///< always: elevations below the floor are also sampled
+  Choice outer_azimuths = Choice::as_needed;    ///< always: all azimuths are sampled for side lobes, for any margin
 };
 
 /// The smallest tolerance that method true_delays keeps.
 constexpr double min_true_delay_tolerance = 1e-5;
 
-/// How beams are formed of echoes.
+/// Settings for forming beams from echoes.
 struct SynthesisSettings {
   /// `incoherent` gives the expected level without speckle (E65): all amplitudes are of mean power, and layers and
   /// noise add up by their squares. There are no pressures at the elements then.
@@ -47,25 +47,26 @@ struct SynthesisSettings {
   /// Relative L2 error of the image, within 0 and 1; gridded: from 1e-13; element_exact and element outputs: 1e-12 to
   /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
-  /// Whether method true_delays replaces gridded. as_needed: where the error of the narrow-band image exceeds its share
-  /// of the budget, but never for a planar array, whose rows would be summed one by one. If the tolerance is finer than
-  /// that of true_delays, element_exact replaces gridded, which is slow.
+  /// Whether method true_delays replaces gridded. as_needed: it does if the error of the narrow-band image exceeds its
+  /// share of the budget, except for a planar array, whose rows would be summed one by one. If the tolerance is finer
+  /// than the least of true_delays, element_exact replaces gridded, which is slow.
   Choice true_delays = Choice::as_needed;
 };
 
-/// What is computed beside direct echoes along straight rays from a head at rest. Noise is a choice: no plan adds it.
+/// Effects in addition to direct echoes along straight rays from a head at rest. The plan never adds noise: the user
+/// decides on it.
 struct EffectSettings {
   Choice multipath = Choice::as_needed;  ///< echoes by way of the environment's surface and bottom (E48)
   /// Ghosts and glints by the environment's mirrors and tank, and by smooth materials (E48, E151, E152).
   Choice mirrors = Choice::as_needed;
   bool noise = false;  ///< thermal, wind and self noise of independent elements (E18, E25, E41)
-  /// 0: absorption of the centre frequency for the whole pulse; 1: its slope too; 2: its curvature too; empty: 0 or 2, as
-  /// needed.
+  /// Absorption over the pulse's band. 0: that of the centre frequency for the whole pulse; 1: also its slope; 2: also
+  /// its curvature; empty: 0 or 2, as needed.
   std::optional<int> absorption_order{};
   Choice refraction = Choice::as_needed;  ///< bends rays by the environment's profile (E43)
-  Choice moving = Choice::as_needed;      ///< whether the motion of the head counts (E44)
-  /// Echoes by way of two surfaces (E158): rays from each resolution cell of the surface, within 0 and 10 000; 0: no
-  /// such echoes.
+  Choice moving = Choice::as_needed;      ///< includes the motion of the head (E44)
+  /// Double echoes, by way of two surfaces (E158): the number of rays from each resolution cell of the surface, within
+  /// 0 and 10 000; 0: no double echoes.
   double double_echoes = 0;
 };
 
@@ -77,29 +78,29 @@ class ContributorSink {
   virtual void take(const Contributors& band, std::size_t first_beam) = 0;
 };
 
-/// What the result holds beside ping and soundings.
+/// Outputs in addition to ping and soundings.
 struct OutputSettings {
   bool elements = false;    ///< pressure at every element of a line array, before beams (E61), without noise
   bool layers = false;      ///< each kind of echo as a layer of its own
   bool scatterers = false;  ///< all patches of surface
   bool mask = false;        ///< cells where the scan has holes
-  int paths = 0;            ///< so many paths of sound of each kind
+  int paths = 0;            ///< number of paths of sound of each kind
   /// Numbers of range bins and of pulses over which the intensity for a display is averaged (E71), beside the
   /// single-look pressure. Bins are independent looks only if they are longer than the pulse. Speckle, noise and relief
   /// of the pulses are independent, as for a head that moves by half its aperture from pulse to pulse. (A head at rest
   /// before a rigid scene has one look, however many pulses it sends.)
   int looks_range = 1, looks_pings = 1;
   bool split_phase = false;  ///< Ping::split_phase, for bottom detection: two more images, of a line array's halves
-  int contributors = 0;      ///< so many of the strongest surfels of every pixel (E63), at most 255
+  int contributors = 0;      ///< number of strongest surfels listed for every pixel (E63), at most 255
   /// Takes the contributors in bands of beams, instead of PingOutputs::contributors. A band holds at most
   /// contributor_band_mib [MiB], or two rows. Must outlive the ping; nullptr: none.
   ContributorSink* contributor_sink = nullptr;
   double contributor_band_mib = 512;
 };
 
-/// All that can be chosen for a ping of a given head, place and environment.
+/// All options of a ping of a given head, event and environment.
 struct SimulationOptions {
-  /// Budget of all effects that are left out as not needed [dB], above 0 and at most 20: see plan_ping.
+  /// Budget for the joint error of all omitted effects [dB], above 0 and at most 20; see plan_ping.
   double accuracy_db = 0.1;
   std::uint64_t seed = 1;
   SurfaceAmplitude amplitude = SurfaceAmplitude::complex_normal;
@@ -111,8 +112,8 @@ struct SimulationOptions {
   int threads = 0;               ///< 0: all cores; the result does not depend on it
 };
 
-/// Throws Error(argument) for a value out of its range, or for two that exclude each other: `who` names the caller, and
-/// the message option, value and rule.
+/// Throws Error(argument) for a value out of its range, or for two values that exclude each other. `who` names the
+/// caller; the message states option, value and rule.
 void require_valid(const SimulationOptions& options, const char* who);
 
 }  // namespace insonify

@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// Standard deviations of what a vehicle believes of its pose.
+/// Standard deviations of the errors of a vehicle's navigation.
 struct NavigationNoise {
   double position = 0;           ///< of each coordinate [m]
   double heading = 0;            ///< [rad]
@@ -23,7 +23,7 @@ struct NavigationErrors {
   std::vector<Eigen::Vector<double, 6>> nodes;  ///< x, y, z [m], heading, pitch, roll [rad]
 };
 
-/// First-order Gauss-Markov processes along the trajectory, one for each component (E98): from node to node
+/// Returns first-order Gauss-Markov processes along the trajectory, one for each component (E98). From node to node
 ///
 ///   e' = e exp(-dt / T) + sigma sqrt(1 - exp(-2 dt / T)) n, dt = T / 10, n standard normal by seed, node and component
 ///
@@ -31,8 +31,8 @@ struct NavigationErrors {
 /// that is not finite and >= 0, a correlation time that is not > 0, or more than 10^7 nodes.
 NavigationErrors navigation_errors(const Trajectory& trajectory, const NavigationNoise& noise, std::uint64_t seed);
 
-/// The pose that a vehicle believes to have at `time`: moved by the error of position, turned by that of heading about
-/// the vertical, and by those of pitch and roll about its own y and x axes.
+/// Returns the pose that the navigation reports at `time`. The position is shifted by its error; the pose is turned by
+/// the error of heading about the vertical, and by those of pitch and roll about the vehicle's own y and x axes.
 Pose believed_pose(const NavigationErrors& errors, double time, const Pose& true_pose);
 
 }  // namespace insonify

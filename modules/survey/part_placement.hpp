@@ -12,9 +12,9 @@
 
 namespace insonify {
 
-/// Where a part of a scene stands, how it comes to rest, and how it moves.
+/// Position, rest and motion of a part of a scene.
 struct PartPlacement {
-  bool captured = true;                                 ///< as its file has it; none of what follows is used
+  bool captured = true;  ///< true: at the coordinates of its file; no other member is used
   Eigen::Vector3d position = Eigen::Vector3d::Zero();   ///< of the origin of its file's axes at time 0 [m, world]
   PartRest rest = PartRest::none;                       ///< at time 0
   double bury = 0;                                      ///< [m] below the ground
@@ -25,11 +25,11 @@ struct PartPlacement {
   /// Poses in place of position, velocity and turn rate; yaw, pitch and roll turn the part in axes of these poses.
   std::optional<Trajectory> trajectory{};
 
-  /// Whether it is elsewhere at another time.
+  /// Returns whether the pose depends on time.
   bool moves() const { return trajectory || !velocity.isZero(0) || !turn_rate.isZero(0); }
 };
 
-/// Bodies strewn over an area: how many, where, and how each may stand.
+/// Bodies strewn over an area: their number, the area, and the ranges of their poses.
 struct ScatterRule {
   int least = 0, most = 0;                 ///< number of bodies, uniform between both
   std::vector<Eigen::Vector2d> area;       ///< corners of a polygon [m, world]
@@ -41,8 +41,8 @@ struct ScatterRule {
   PartRest rest = PartRest::ground;
 };
 
-/// Throws Error(argument) unless counts and intervals ascend, the area is one, and the most bodies fit into it at their
-/// least distance: strewn one by one, discs cover at most 0.45 of it.
+/// Throws Error(argument) unless counts and intervals ascend, the area is a polygon, and the largest number of bodies
+/// fits into it at the least distance. Discs that are strewn one by one cover at most 0.45 of the area.
 void require_valid(const ScatterRule& rule, const char* who);
 
 /// The axes of a part's file in the world, and how they move.
@@ -53,7 +53,7 @@ struct MovingAxes {
 /// Returns the axes at `time` [s] of a part called `name`. Throws Error(content) outside the times of its trajectory.
 MovingAxes axes_at(const PartPlacement& placement, const std::string& name, double time);
 
-/// Returns a cloud of which all lengths are `scale` times as long, itself for 1.
+/// Returns the cloud with all lengths multiplied by `scale`; the cloud itself for 1.
 std::shared_ptr<const SceneCloud> scaled(const std::shared_ptr<const SceneCloud>& cloud, double scale);
 
 /// Returns the area of a polygon [m^2], 0 for fewer than three corners.

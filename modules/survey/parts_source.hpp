@@ -13,34 +13,35 @@
 
 namespace insonify {
 
-/// All that the places of the parts of a scene follow from.
+/// The values that determine the positions of the parts of a scene.
 struct SceneMoment {
   double time = 0;         ///< [s]
   std::uint64_t draw = 0;  ///< number of the draw of its scatters
   bool operator==(const SceneMoment&) const = default;
 };
 
-/// Which draw each ping has.
+/// The rule for the draw of each ping.
 struct DrawRule {
-  std::int64_t pings_per_draw = 0;  ///< bodies are drawn anew every so many pings of a head; 0: all pings have `draw`
+  std::int64_t pings_per_draw = 0;  ///< pings of a head between draws; 0: all pings have `draw`
   std::uint64_t draw = 0;
 };
-/// Returns the moment of a ping: its time, and its draw by its number among those of its head.
+/// Returns the moment of a ping: its time, and the draw that follows from its number among the pings of its head.
 SceneMoment moment_of(const DrawRule& rule, double time, std::int64_t number);
 
-/// A scene of parts for many pings: what rests is prepared once for each scene that is in use at a time, what moves is
-/// placed by the time of the ping, what is drawn by its draw. Several threads may ask at once.
+/// A scene of parts for many pings. Resting parts are prepared once for each scene that is in use at the same time.
+/// Moving parts are placed by the time of the ping, drawn bodies by its draw. Several threads may ask at once.
 class PartsSource : public SceneSource {
  public:
-  /// threads: of preparing, 0: all cores. `prepare`: one at once, so that what is wrong is known; else each when it is
-  /// needed. `resting`: in place of parts->resting(). Throws as PosedScene.
+  /// `threads`: for preparation, 0: all cores. `prepare`: prepares the first scene in the constructor, so that errors
+  /// appear there; otherwise each scene is prepared when it is needed. `resting`: replaces parts->resting(). Throws as
+  /// PosedScene.
   explicit PartsSource(std::shared_ptr<const SceneParts> parts, const DrawRule& rule = {}, int threads = 0,
                        bool prepare = true, std::optional<std::vector<PlacedPart>> resting = {});
 
   /// Returns the scene at the moment of the event, as scene_at.
   std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator, const PingEvent& event) const override;
-  /// Returns the scene at a moment: one that is in use already, if its parts stand alike. It may be given back by any
-  /// thread. Throws as SceneParts::others_at.
+  /// Returns the scene at a moment. If a scene in use has the same poses of parts, that scene is returned. Any thread
+  /// may release it. Throws as SceneParts::others_at.
   std::shared_ptr<const PreparedScene> scene_at(const SceneMoment& moment) const;
   /// Returns the moment of a ping.
   SceneMoment moment_for(const PingEvent& event) const { return moment_of(rule_, event.time, event.number); }

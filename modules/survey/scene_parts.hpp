@@ -15,15 +15,15 @@
 
 namespace insonify {
 
-/// Surfels that a scene places, as they lie in their file.
+/// Surfels that a scene places, in the coordinates of their file.
 struct SceneBody {
   std::string name, label;
   std::shared_ptr<const SceneCloud> cloud;
-  /// Of the axes of the cloud in those of the file, both of which are alike in direction [m].
+  /// Origin of the cloud's axes in those of the file [m]; both axes have the same directions.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
 };
 
-/// A part of a scene: a body, and where it stands.
+/// A part of a scene: a body and its placement.
 struct PartDefinition {
   SceneBody body;
   PartPlacement placement;
@@ -35,37 +35,37 @@ struct SceneScatter {
   ScatterRule rule;
 };
 
-/// The parts of a scene at any time: those that rest, which are placed once, and those that move or are drawn anew.
-/// Several threads may ask at once.
+/// The parts of a scene at any time. Resting parts are placed once; other parts move or are drawn anew. Several threads
+/// may ask at once.
 class SceneParts {
  public:
-  /// Places what rests, part by part: each on the captured parts and on those that rest before it. Bodies of scatters
-  /// rest on these too, not on one another; unless `drawn_anew` they rest as they are drawn first. Throws
-  /// Error(content) for two parts of one name, a part without area, a hole of the ground where something is to rest, an
-  /// area beyond the captured parts, and bodies for which no place is found.
+  /// Places the resting parts one by one, each on the captured parts and on the resting parts before it. Bodies of
+  /// scatters also rest on these, not on one another; unless `drawn_anew`, they rest as in the first draw. Throws
+  /// Error(content) for two parts of one name, a part without area, a hole of the ground under a resting part, an area
+  /// beyond the captured parts, and bodies for which no position is found.
   SceneParts(std::vector<PartDefinition> parts, std::vector<SceneScatter> scatters, std::uint64_t seed,
              bool drawn_anew = false);
 
-  /// Returns what rests, in the order of the parts. A part that is wholly below the ground is not among them.
+  /// Returns the resting parts in their order, without parts that are wholly below the ground.
   const std::vector<PlacedPart>& resting() const { return resting_; }
-  /// Returns what moves, at `time` [s], and what is drawn, a function of seed and `draw` alone; bodies that a
-  /// draw does not have are absent (PlacedPart), so that the parts of all draws have the same names. Throws
-  /// Error(content) for a time outside a trajectory, naming the part, and where bodies do not fit.
+  /// Returns the moving parts at `time` [s] and the drawn bodies, which are a function of seed and `draw` alone. Bodies
+  /// that a draw does not have are absent (PlacedPart), so that the parts of all draws have the same names. Throws
+  /// Error(content) for a time outside a trajectory, naming the part, and if bodies do not fit.
   std::vector<PlacedPart> others_at(double time, std::uint64_t draw) const;
-  /// Returns true if nothing moves or is drawn anew.
+  /// Returns true if no part moves and no body is drawn anew.
   bool still() const { return !moves() && !drawn_anew(); }
   /// Returns true if a part moves.
   bool moves() const { return !moving_.empty(); }
   /// Returns true if bodies are drawn anew.
   bool drawn_anew() const { return drawn_anew_; }
-  /// Returns time 0, or if a trajectory begins later the time at which all have begun [s].
+  /// Returns the earliest time >= 0 at which all trajectories have begun [s].
   double begin() const;
   /// Throws Error(content) naming the part unless all trajectories cover the times from `first` to `last` [s].
   void require_times(double first, double last) const;
 
   /// Returns the names that parts may have, in the order of parts and scatters: those of bodies are NAME-1, NAME-2, ...
   const std::vector<std::string>& names() const { return names_; }
-  /// Returns the materials of what is not among resting().
+  /// Returns the materials of the parts that are not in resting().
   std::vector<Material> others_materials() const;
 
  private:

@@ -7,23 +7,23 @@
 
 namespace insonify {
 
-/// Where pings get their scene from: one in memory, or what each ping needs of a larger one.
+/// Source of the scenes of pings: one scene in memory, or the part of a larger scene that each ping needs.
 class SceneSource {
  public:
   virtual ~SceneSource() = default;
-  /// Returns a scene that gives this ping: all of it, or at least what simulator.reach names. May be called by several
-  /// threads at once.
+  /// Returns the scene for this ping: the whole scene, or at least the part that simulator.reach names. Several threads
+  /// may call it at once.
   virtual std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator,
                                                          const PingEvent& event) const = 0;
 };
 
-/// The same scene for every ping.
+/// Source of one scene for every ping.
 class SceneInMemory : public SceneSource {
  public:
   /// Throws Error for an invalid scene. threads: 0: all cores.
   explicit SceneInMemory(SceneCloud scene, int threads = 0)
       : scene_(std::make_shared<PreparedScene>(std::move(scene), threads)) {}
-  /// Returns that scene.
+  /// Returns the scene given to the constructor.
   std::shared_ptr<const PreparedScene> scene_for(const PingSimulator&, const PingEvent&) const override {
     return scene_;
   }

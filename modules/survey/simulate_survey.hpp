@@ -9,34 +9,34 @@
 
 namespace insonify {
 
-/// What a survey does beside its mission.
+/// Options of a survey beside its mission.
 struct SurveySettings {
   Randomisation randomisation{};
-  std::uint64_t seed = 1;  ///< of the randomisation
+  std::uint64_t seed = 1;  ///< seed of the randomisation
   bool coverage = false;   ///< list the surfels that each ping insonified (PingOutcome::covered)
 };
 
 /// A mission with a simulator for each of its heads: all pings of a vehicle with sonars along a trajectory.
 class Survey {
  public:
-  /// `heads` are those of the mission, in its order; every ping runs on one thread. A head of the mission without a
-  /// listening time gets that of its range gate in its slowest water. Throws Error(argument) for an invalid mission,
-  /// pings closer than the listening time, and another number of simulators than heads.
+  /// Sets up a survey. `heads` are the simulators of the mission's heads, in its order; every ping runs on one thread.
+  /// A head without a listening time gets that of its range gate in its slowest water. Throws Error(argument) for an
+  /// invalid mission, for pings closer than the listening time, and if the numbers of simulators and heads differ.
   Survey(Mission mission, const std::vector<PingSimulator>& heads, SurveySettings settings = {});
 
-  /// The mission, with the listening times that were left out.
+  /// Returns the mission, with all listening times set.
   const Mission& mission() const { return mission_; }
-  /// All pings, as survey_pings of the mission.
+  /// Returns all pings: survey_pings of the mission.
   const std::vector<SurveyPing>& pings() const { return pings_; }
   /// Returns the pings in blocks of at most `most`, head after head.
   std::vector<SurveyBlock> blocks(std::size_t most = 64) const;
-  /// Returns the simulator of a ping: that of its head, with what the mission randomises.
+  /// Returns the simulator of a ping: that of its head, with the random differences of the mission applied.
   PingSimulator simulator_of(const SurveyPing& ping) const;
-  /// Returns time, pose and motion of a ping, with what the mission randomises.
+  /// Returns time, pose and motion of a ping, with the random differences of the mission applied.
   PingEvent event_of(const SurveyPing& ping) const;
 
-  /// Simulates a ping. With navigation errors, pose and soundings are where the vehicle believes them to be. Several
-  /// threads may call it at once. Throws Error as PingSimulator::ping.
+  /// Simulates a ping and returns its outcome. With navigation errors, pose and soundings are those that the navigation
+  /// reports. Several threads may call it at once. Throws Error as PingSimulator::ping.
   PingOutcome simulate(const SurveyPing& ping, const SceneSource& scene) const;
 
  private:
@@ -46,7 +46,7 @@ class Survey {
   std::vector<SurveyPing> pings_;
 };
 
-/// Returns what a survey stores of a simulated ping, as Survey::simulate does.
+/// Returns the outcome that a survey stores for a simulated ping, as Survey::simulate does.
 PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const SurveyPing& ping);
 
 /// Simulates the pings of some blocks, `threads` (0: all cores) at once, in the order of the blocks. Memory holds the
@@ -55,7 +55,7 @@ PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const 
 bool simulate_survey(const Survey& survey, const std::vector<SurveyBlock>& blocks, const SceneSource& scene,
                      SurveyStore& store, int threads = 0);
 
-/// Simulates all pings of a survey and returns them. For long surveys give simulate_survey a store of your own.
+/// Simulates all pings of a survey and returns them. For long surveys pass your own store to simulate_survey.
 SurveyInMemory simulate_survey(const Survey& survey, const SceneSource& scene, int threads = 0);
 
 }  // namespace insonify

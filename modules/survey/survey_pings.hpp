@@ -18,8 +18,8 @@ struct SurveyPing {
 };
 
 /// Returns all pings of a mission, head after head, and in the order of time for each head. They depend on the mission
-/// alone. Every leg begins with a ping and a new sweep. Throws Error(argument) for an invalid mission, for
-/// pings of a head closer than its listening time (naming both and the figure), or if there is no ping at all.
+/// alone. Every leg begins with a ping and a new sweep. Throws Error(argument) for an invalid mission, for pings of a
+/// head closer than its listening time (naming both and the time), and if there is no ping.
 std::vector<SurveyPing> survey_pings(const Mission& mission);
 
 /// Returns time, pose and motion of a ping: those of the vehicle (pose_at, motion_at), with mounting and scan angle of
@@ -27,7 +27,7 @@ std::vector<SurveyPing> survey_pings(const Mission& mission);
 /// trajectory of n entries. Throws as pose_at.
 PingEvent event_of(const Mission& mission, const SurveyPing& ping);
 
-/// Returns the pose of event_of with the mission's navigation errors: where the vehicle believes the head to be.
+/// Returns the pose of event_of with the mission's navigation errors: the pose of the head that the navigation reports.
 Pose believed_pose_of(const Mission& mission, const SurveyPing& ping);
 
 /// Returns PingEvent::number of a ping: different for all pings of all heads, and equal to `number` in its lower 40

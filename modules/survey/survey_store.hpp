@@ -11,9 +11,9 @@
 
 namespace insonify {
 
-/// The result of a ping of a survey, or why it failed.
+/// The result of a ping of a survey, or the reason of its failure.
 struct PingOutcome {
-  Ping ping;  ///< numbered among the pings of its head; with the scan angle of a scanning head
+  Ping ping;  ///< with its number among the pings of its head, and the scan angle of a scanning head
   Soundings soundings;
   std::string failure{};                 ///< empty: none
   std::size_t scatterers = 0;            ///< of the ping; 0: it is silent
@@ -28,13 +28,13 @@ using BlockOutcomes = std::vector<std::optional<PingOutcome>>;
 class SurveyStore {
  public:
   virtual ~SurveyStore() = default;
-  /// Takes each block once: whole, or as far as it is done when the survey stops.
+  /// Receives each block once: whole, or the finished pings of a block when the survey stops.
   virtual void keep(const SurveyBlock& block, BlockOutcomes& outcomes) = 0;
-  /// Returns what an interrupted survey left of a block; an empty list for nothing.
+  /// Returns the outcomes that an interrupted survey left of a block; an empty list if there are none.
   virtual BlockOutcomes resume(const SurveyBlock&) { return {}; }
-  /// Called after each ping: with nullptr for one that was resumed, not made.
+  /// Called after each ping; with nullptr for a ping that was resumed and not simulated.
   virtual void ping_done(const PingOutcome*) {}
-  /// True: no further ping is begun.
+  /// Returns true to stop the survey: no further ping is begun.
   virtual bool stopped() { return false; }
 };
 

@@ -6,7 +6,7 @@
 
 namespace insonify {
 
-/// A way through points at constant speed.
+/// A route through points at constant speed.
 struct Waypoints {
   std::vector<Eigen::Vector3d> points;  ///< [m]
   double speed = 0;                     ///< [m/s]
@@ -14,11 +14,12 @@ struct Waypoints {
   double start_time = 0;                ///< [s]
 };
 
-/// The trajectory of a vehicle along the waypoints: straight legs and, about every corner, an arc that touches both
-/// legs and takes at most half of each. Yaw follows the way, pitch and roll are 0; an upright leg keeps the yaw of the
-/// one before (the first: of the one after, or 0). Arcs have an entry every two degrees, so that the way leaves them by
-/// less than 2e-4 of their radius. Throws Error(argument) for fewer than two points, points that are not finite or
-/// coincide with their neighbour, a leg that goes straight back, or speed or radius that is not finite and > 0.
+/// Returns the trajectory of a vehicle along the waypoints: straight legs, and at every corner an arc that touches both
+/// legs and takes at most half of each. Yaw follows the route; pitch and roll are 0. A vertical leg keeps the yaw of
+/// the leg before it (the first: of the leg after it, or 0). Arcs have an entry every two degrees, so the trajectory
+/// deviates from them by less than 2e-4 of their radius. Throws Error(argument) for fewer than two points, points that
+/// are not finite or coincide with their neighbour, a leg that goes straight back, or speed or radius that is not
+/// finite and > 0.
 Trajectory waypoint_trajectory(const Waypoints& waypoints);
 
 }  // namespace insonify
