@@ -11,7 +11,7 @@
 
 namespace insonify {
 
-/// Levels of a grey value of 0 and of 255 in an ARIS recording, linear between: dB re an unknown reference.
+/// Levels of the grey values 0 and 255 in an ARIS recording [dB re an unknown reference]; levels between are linear.
 inline constexpr GreyWindow aris_scale{0, 80};
 
 /// One frame of an ARIS recording.
@@ -28,14 +28,14 @@ struct ArisFrame {
   std::string model;  ///< ARIS 1200, 1800 or 3000
 };
 
-/// Reads frame `number` of a recording (.aris, version DDF_05): a header of 1024 bytes, then frames, each a header of
-/// 1024 bytes and beams x samples of 8 bits, sample by sample, the starboard beam first. Layout after the public
-/// headers of SoundMetrics/aris-file-sdk. Throws Error(file) if the file cannot be read; Error(content) if it is no
-/// such recording, is of the other byte order, is truncated, lacks the geometry (sound speed, sample period), or has
-/// samples that are not in order; Error(argument) unless number < frames.
+/// Returns frame `number` of a recording (.aris, version DDF_05). The file holds a header of 1024 bytes, then frames;
+/// each has a header of 1024 bytes and beams x samples of 8 bits, sample by sample, the starboard beam first. The
+/// layout follows the public headers of SoundMetrics/aris-file-sdk. Throws Error(file) if the file cannot be read;
+/// Error(content) if it is not such a recording, is of the other byte order, is truncated, lacks the geometry (sound
+/// speed, sample period), or has samples that are not in order; Error(argument) unless number < frames.
 ArisFrame read_aris_frame(const std::string& path, std::size_t number);
 
-/// Levels of a frame [dB re unknown], beams x samples.
+/// Returns the levels of a frame [dB re unknown], beams x samples.
 Grid<float> level_db(const ArisFrame& frame);
 
 }  // namespace insonify

@@ -14,9 +14,9 @@ struct GreyFan {
   double pixel = 0;         ///< size [m]
 };
 
-/// Returns the levels of a ping, with the gain of a TVG, as grey values of pixels of max_range / rows: each is the
-/// sample of the nearest beam at its range. Throws Error(content) for a ping of several rows of beams, Error(argument)
-/// as quantise_8.
+/// Returns the fan of a ping in grey values, with the gain of a TVG. Pixels have the size max_range / rows; each shows
+/// the sample of the nearest beam at its range. Throws Error(content) for a ping of several rows of beams,
+/// Error(argument) as quantise_8.
 GreyFan grey_fan(const Ping& ping, const Tvg& tvg, const GreyWindow& window, int rows);
 
 /// Throws Error(content) naming `who` for a ping of several rows of beams.

@@ -9,7 +9,8 @@
 #include "core/units.hpp"
 #include "formats/gsf_file.hpp"
 
-// Private to formats: the fields of GSF's records, each one row of a table from which it is written and documented.
+// Private to formats: the fields of GSF's records. Each is one row of a table; the table serves to write and to
+// document them.
 namespace insonify {
 
 /// How a field is stored, highest byte first. text16 and text32 begin with their length, which counts the 0 at the end;
@@ -52,7 +53,7 @@ struct GsfProfileEntry {
   double depth = 0, sound_speed = 0;
 };
 
-/// What begins a record of attitudes: the time of the first, and their number.
+/// The beginning of a record of attitudes: the time of the first attitude, and the number of attitudes.
 struct GsfAttitudeHead {
   double time = 0;
   std::size_t count = 0;
@@ -60,7 +61,7 @@ struct GsfAttitudeHead {
 
 std::span<const GsfField<GsfPing>> gsf_ping_fields();
 std::span<const GsfArray> gsf_arrays();
-/// The array of flags, of which the first bit says that a beam is not usable.
+/// The array of flags. The first bit marks a beam that is not usable.
 extern const GsfArray gsf_beam_flags;
 std::span<const GsfField<GsfPing>> gsf_sensor_fields(GsfSensor sensor);
 std::span<const GsfField<GsfSurvey>> gsf_profile_fields();
@@ -91,7 +92,7 @@ void put_gsf_fields(std::string& bytes, std::span<const GsfField<Record>> fields
       put_gsf_text(bytes, field.type, field.steps, field.text ? field.text(record) : "");
 }
 
-/// An angle in degrees within [0, 360), also after it has been rounded to `steps` to a degree.
+/// Returns an angle in degrees within [0, 360), also after rounding to `steps` steps per degree.
 double gsf_compass(double angle, double steps);
 
 /// The two fields of a time; the nanoseconds never round up to a second.

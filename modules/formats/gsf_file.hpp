@@ -16,7 +16,7 @@ namespace insonify {
 
 class PendingFile;
 
-/// A sounding of a swath, in level axes below the head that look ahead as the ship does.
+/// A sounding of a swath, in level axes below the head; "along" is the heading of the ship.
 struct GsfBeam {
   bool detected = false;   ///< else the beam is flagged as unusable, and all others are 0
   double depth = 0;        ///< below the vertical datum [m], positive down, from -10 km on
@@ -28,22 +28,22 @@ struct GsfBeam {
   double level_db = 0;     ///< dB re 1 uPa
   double quality = 0;      ///< log10(range / its standard deviation)
   double vertical_deviation = 0, horizontal_deviation = 0;  ///< standard deviations [m]
-  bool by_phase = false;  ///< where the phase crossed zero; else the centre of gravity of the echo
+  bool by_phase = false;  ///< true: from the zero of the phase; false: from the centre of gravity of the echo
   bool rejected = false;  ///< flagged as edited by a filter
 };
 
-/// One ping of a swath, beams from port to starboard: an entry for each sounding, of which a beam may have several, and
-/// one for each beam without any.
+/// One ping of a swath, beams from port to starboard. Each sounding has an entry, and a beam may have several; a beam
+/// without soundings has one entry.
 struct GsfPing {
   double time = 0;                          ///< UTC, seconds since 1970
   GeoPlace place{};                         ///< of the head
   double heading = 0, roll = 0, pitch = 0;  ///< of the ship [rad]: clockwise from north, starboard down, bow up
   double course = 0, speed = 0;             ///< over ground [rad, m/s]
-  double heave = 0;                         ///< [m], that head_depth does not have
+  double heave = 0;                         ///< [m], not included in head_depth
   double head_depth = 0;                    ///< of the head below the water level [m]; part of the depths
   double ship_depth = 0;                    ///< of the ship's origin below the water level [m]
-  double tide = 0;        ///< what was added to depths below the water level for those below the datum [m]
-  double separation = 0;  ///< height of the datum above the ellipsoid [m]
+  double tide = 0;                          ///< depth below the datum, less depth below the water level [m]
+  double separation = 0;                    ///< height of the datum above the ellipsoid [m]
   std::uint32_t number = 0;
   double period = 0;                                   ///< since the ping before [s]; 0: unknown
   double surface_sound_speed = 0;                      ///< at the head [m/s]
@@ -56,19 +56,19 @@ struct GsfPing {
   std::vector<GsfBeam> beams{};
 };
 
-/// Sonars that GSF has a subrecord for; of all others that of a SeaBat II, which has beam widths and sound speed.
+/// Sonars with their own subrecord in GSF. All others use that of a SeaBat II, which has beam widths and sound speed.
 enum class GsfSensor : std::uint8_t { seabat_ii = 114, em2040 = 149, r2sonic_2024 = 152 };
 
 /// Returns the subrecord for a sonar of this name: em2040 and r2sonic-2024 have their own.
 GsfSensor gsf_sensor_of(const std::string& sonar);
 
-/// Where a head is on its ship.
+/// Mounting of a head on its ship.
 struct GsfMounting {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< ahead, to starboard, down from the ship's origin [m]
   double heading = 0, pitch = 0, roll = 0;  ///< from a swath straight down [rad]: clockwise, bow up, starboard down
 };
 
-/// How soundings were made, for the processing parameters of the file.
+/// Processing parameters of the file.
 struct GsfProcessing {
   double draft = 0;          ///< depth of the head below the water level at the first ping [m]
   bool submersible = false;  ///< the ship's origin is below the water level
@@ -77,15 +77,15 @@ struct GsfProcessing {
   std::optional<GsfMounting> mounting{};  ///< absent: unknown
 };
 
-/// What a file says once, before its pings.
+/// Contents of the file before its pings.
 struct GsfSurvey {
   GsfSensor sensor = GsfSensor::seabat_ii;
   SoundSpeedProfile profile{};  ///< of the first pings; depths below the water level
   GeoPlace place{};             ///< of the profile
   double time = 0;              ///< of the profile, parameters, comment and history, UTC, seconds since 1970
   GsfProcessing processing{};
-  std::string comment{};                             ///< which sonar, simulated by what
-  std::string history_command{}, history_comment{};  ///< what was done to the data
+  std::string comment{};                             ///< names the sonar and the simulator
+  std::string history_command{}, history_comment{};  ///< processing of the data
   std::optional<double> position_deviation{};        ///< standard deviation of each coordinate [m], if known
 };
 
@@ -94,7 +94,7 @@ struct GsfAttitude {
   double time = 0, pitch = 0, roll = 0, heave = 0, heading = 0;
 };
 
-/// When and where the pings of a file were.
+/// Times and places of the pings of a file.
 struct GsfSummary {
   std::size_t pings = 0, soundings = 0;
   double begin = 0, end = 0;                        ///< UTC, seconds since 1970
@@ -102,17 +102,18 @@ struct GsfSummary {
   double least_depth = 0, greatest_depth = 0;       ///< of the soundings [m]
 };
 
-/// Writes bathymetry in the Generic Sensor Format 3.11 (Leidos 2024): header, summary, comment, history, processing
-/// parameters, sound-speed profile, errors of the positions if known, pings, and after at most a minute of them their
-/// attitudes. gsf_field_rows() lists the fields. The same pings give the same bytes.
+/// Writes bathymetry in the Generic Sensor Format 3.11 (Leidos 2024). The records are header, summary, comment,
+/// history, processing parameters, sound-speed profile, errors of the positions if known, and pings. The attitudes
+/// follow after at most a minute of pings. gsf_field_rows() lists the fields. The same pings give the same bytes.
 class GsfFile {
  public:
   /// Throws Error(file) if the file cannot be made, Error(content) for a time before 1970 or after 2106.
   GsfFile(const std::string& path, const GsfSurvey& survey);
-  /// Writes a profile that holds for the pings that follow, measured and applied at `time` [s, UTC since 1970].
+  /// Writes a profile for the following pings, measured and applied at `time` [s, UTC since 1970].
   void add_profile(const SoundSpeedProfile& profile, const GeoPlace& place, double time);
-  /// Throws Error(content) for a ping without beams or of more bytes than a record may have (2^19), with a number that
-  /// its field cannot hold, or a time before 1970 or after 2106; the message names the ping and the quantity.
+  /// Writes a ping. Throws Error(content) for a ping without beams, with more bytes than a record may have (2^19), with
+  /// a number that its field cannot hold, or with a time before 1970 or after 2106; the message names the ping and the
+  /// quantity.
   void add(const GsfPing& ping);
   /// Throws Error(file) if not all could be written.
   void finish();
@@ -129,16 +130,16 @@ class GsfFile {
   std::vector<GsfAttitude> attitudes_;  ///< that no record has yet
 };
 
-/// A field that GsfFile writes, as docs/gsf.md lists it.
+/// A field that GsfFile writes, for the list in docs/gsf.md.
 struct GsfFieldRow {
   std::string record;  ///< of which record or subrecord
-  std::string name;    ///< as the specification has it
+  std::string name;    ///< as in the specification
   std::string type;    ///< "u16", "text", ...
-  std::string step;    ///< what one is, e.g. "1/100 deg"
+  std::string step;    ///< value of one count, e.g. "1/100 deg"
   std::string meaning;
 };
 
-/// All fields of all records in the order of the file, but those that are always 0.
+/// Returns all fields of all records in the order of the file, except fields that are always 0.
 std::vector<GsfFieldRow> gsf_field_rows();
 
 }  // namespace insonify

@@ -8,29 +8,29 @@
 
 namespace insonify {
 
-/// What every pixel of a picture shows: rows from the top.
+/// Category and object of every pixel of a picture, rows from the top.
 struct LabelMap {
   Grid<std::uint8_t> category;   ///< 0: nothing
-  Grid<std::uint16_t> instance;  ///< number of the object, from 1; 0: of none
+  Grid<std::uint16_t> instance;  ///< number of the object, from 1; 0: no object
 };
 
-/// An object in a picture, as COCO describes it.
+/// An object in a picture, in the terms of COCO.
 struct Annotation {
   std::uint16_t instance = 0;
   std::uint8_t category = 0;
   std::size_t area = 0;                          ///< [pixels]
   int left = 0, top = 0, width = 0, height = 0;  ///< of the box [pixels]
   std::vector<std::uint32_t>
-      counts;  ///< run lengths of the mask, column by column, beginning with pixels that are not of it
+      counts;  ///< run lengths of the mask, column by column, beginning with pixels outside the object
 };
 
-/// The objects of a picture by ascending instance: those that have a pixel in it. Throws Error(argument) if the maps
+/// Returns the objects that have a pixel in the picture, by ascending instance. Throws Error(argument) if the maps
 /// differ in size, or if an instance has pixels of two categories.
 std::vector<Annotation> annotations_of(const LabelMap& map);
 
-/// The outlines of an object in a picture, one for each of its parts that touch along sides of pixels: corners x, y, x,
-/// y, ... [pixels from the upper left corner of the picture], clockwise as it is seen, along the sides of pixels. Holes
-/// are left out: a polygon of COCO has none.
+/// Returns the outlines of an object in a picture, one for each part that is connected along sides of pixels. An
+/// outline lists corners x, y, x, y, ... [pixels from the upper left corner of the picture], clockwise as seen, along
+/// the sides of pixels. Holes are left out, because a polygon of COCO has none.
 std::vector<std::vector<int>> outlines_of(const Grid<std::uint16_t>& instance, std::uint16_t number);
 
 }  // namespace insonify

@@ -15,7 +15,7 @@ namespace insonify {
 
 class PendingFile;
 
-/// Well-known text (OGC 01-009) of a UTM zone on WGS 84, with its EPSG codes.
+/// Returns the well-known text (OGC 01-009) of a UTM zone on WGS 84, with its EPSG codes.
 std::string utm_wkt(const UtmZone& zone);
 
 /// A point of a LAS file.
@@ -26,7 +26,7 @@ struct LasPoint {
   float deviation = 0;                                 ///< of the range [m]
   std::uint32_t ping = 0;
   std::uint16_t beam = 0;
-  std::uint16_t source = 0;                     ///< number of the line of the survey, from 1; 0: of none
+  std::uint16_t source = 0;                     ///< number of the line of the survey, from 1; 0: no line
   std::uint8_t return_number = 1, returns = 1;  ///< among the soundings of its beam, nearest first
   double scan_angle = 0;                        ///< from straight down [rad], positive to starboard
   bool withheld = false;                        ///< not to be used
@@ -39,17 +39,20 @@ struct LasOptions {
   std::string remark{};  ///< of the whole file, as a text area description; empty: none
 };
 
-/// Writes points as LAS 1.4 (ASPRS 2019), point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB
-/// from 0, class 40 (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation, ping
-/// and beam as extra bytes; the zone as well-known text. LAS 1.2, for readers that know no other: point format 1, class
-/// 2 (ground, as there is no 40), at most five returns, scan angles in whole degrees, the zone as GeoTIFF keys. Points
-/// stream: only the header is written twice.
+/// Writes points as LAS. Points stream: only the header is written twice.
+///
+///   1.4 (ASPRS 2019)   point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB from 0, class 40
+///                      (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation,
+///                      ping and beam as extra bytes; the zone as well-known text
+///   1.2                for readers that know no other: point format 1, class 2 (ground, because there is no 40), at
+///   most
+///                      five returns, scan angles in whole degrees, the zone as GeoTIFF keys
 class LasFile {
  public:
-  /// Throws Error(file) if the file cannot be made, Error(argument) for another version. `offset` [m] is subtracted
-  /// from coordinates, which may be up to 214 km from it.
+  /// Begins a file. `offset` [m] is subtracted from coordinates, which may be up to 214 km from it. Throws Error(file)
+  /// if the file cannot be made, Error(argument) for another version.
   LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset, const LasOptions& options = {});
-  /// Throws Error(content) for a point that is not finite or too far from the offset.
+  /// Writes a point. Throws Error(content) for a point that is not finite or too far from the offset.
   void add(const LasPoint& point);
   /// Throws Error(file) if not all could be written.
   void finish();

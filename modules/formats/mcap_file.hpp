@@ -12,23 +12,23 @@ namespace insonify {
 
 class PendingFile;
 
-/// How chunks are compressed: as one frame of LZ4 or of Zstandard.
+/// Compression of chunks: none, or one frame of LZ4 or of Zstandard.
 enum class McapCompression : std::uint8_t { none, lz4, zstd };
 
-/// Whether this build has the library of a compression.
+/// Returns whether this build has the library of a compression.
 bool has_compression(McapCompression compression);
 
-/// Writes messages of ROS 2 as an MCAP file (mcap.dev, profile ros2): chunks of about 1 MiB, each with its
-/// CRC and an index of its messages; a summary with schemas, channels, chunk indexes and statistics, and CRCs of data
-/// and summary. Messages stream. The same messages give the same bytes.
+/// Writes messages of ROS 2 as an MCAP file (mcap.dev, profile ros2). Chunks of about 1 MiB have a CRC and an index of
+/// their messages. A summary holds schemas, channels, chunk indexes, statistics, and CRCs of data and summary. Messages
+/// stream. The same messages give the same bytes.
 class McapFile {
  public:
   /// Throws Error(file) if the file cannot be made, Error(argument) for a compression that this build lacks.
   explicit McapFile(const std::string& path, McapCompression compression = McapCompression::none);
   /// Writes a metadata record of the whole file, before the first message.
   void add_metadata(const std::string& name, const std::map<std::string, std::string>& pairs);
-  /// Adds a topic with messages of `type` (package/msg/Name) in CDR, whose definition is `text`; returns its number.
-  /// All topics come before the first message.
+  /// Adds a topic with messages of `type` (package/msg/Name) in CDR; `text` is the definition of the type. Returns the
+  /// number of the topic. All topics must be added before the first message.
   std::uint16_t add_topic(const std::string& topic, const std::string& type, const std::string& text,
                           const std::map<std::string, std::string>& metadata = {});
   /// Adds a message sent at `time` [ns since 1970].

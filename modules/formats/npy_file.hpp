@@ -13,12 +13,13 @@ struct NpyArray {
   int unsigned_bits = 0;     ///< 8 or 16 of grey values; 0 of other numbers
 };
 
-/// Reads a .npy file of numpy (format 1 to 3): little-endian float32 or float64, complex64 or complex128, uint8 or
-/// uint16, in the order of C or Fortran. Throws Error(file) if it cannot be read; Error(content) if it is no such file,
-/// is truncated, big-endian, of another type, or has not two dimensions of 1 at least: what to do is in the text.
+/// Returns the array of a .npy file of numpy (format 1 to 3): little-endian float32 or float64, complex64 or
+/// complex128, uint8 or uint16, in the order of C or Fortran. Throws Error(file) if the file cannot be read. Throws
+/// Error(content), with the remedy, if it is not such a file, is truncated, big-endian, of another type, or does not
+/// have two dimensions of at least 1.
 NpyArray read_npy(const std::string& path);
 
-/// Writes float32 in the order of C. Throws Error(file).
+/// Writes an array as float32 in the order of C. Throws Error(file).
 void write_npy(const std::string& path, const Grid<float>& array);
 
 }  // namespace insonify

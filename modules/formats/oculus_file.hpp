@@ -15,28 +15,29 @@ namespace insonify {
 struct OculusPing {
   Grid<std::uint32_t> value;  ///< beams x ranges, as stored
   int bits = 8;               ///< of a value: 8, 16 or 32
-  BeamFan fan;                ///< bearings as stored; width is the mean spacing, that of elevation by the mode
-  RangeGate gate;             ///< ranges are bins, from 0 on
-  std::size_t pings = 0;      ///< in the file
-  std::uint32_t number = 0;   ///< as the sonar counts
-  double frequency = 0;       ///< [Hz]
-  double sound_speed = 0;     ///< that the sonar used [m/s]
-  double time = 0;            ///< since the sonar was switched on [s]; 0: unknown
-  double heading = 0, pitch = 0, roll = 0;  ///< [rad], as stored; 0 where the message has none
+  BeamFan fan;     ///< bearings as stored; the width is the mean spacing, that of elevation follows from the mode
+  RangeGate gate;  ///< ranges are bins, from 0 on
+  std::size_t pings = 0;                    ///< in the file
+  std::uint32_t number = 0;                 ///< counted by the sonar
+  double frequency = 0;                     ///< [Hz]
+  double sound_speed = 0;                   ///< used by the sonar [m/s]
+  double time = 0;                          ///< since the sonar was switched on [s]; 0: unknown
+  double heading = 0, pitch = 0, roll = 0;  ///< [rad], as stored; 0 if the message has none
   double gain_percent = 0;
   double gamma = 1;            ///< value ~ amplitude^gamma
   std::vector<float> gains{};  ///< of each range, if they were sent
   bool high_frequency = false;
 };
 
-/// Reads ping `number` of a log of messages of the Oculus SDK (Blueprint Subsea): ping results of version 1 and 2, one
-/// after the other as the sonar sends them, or as uncompressed items of a log of the maker's viewer. Messages and items
-/// of other kinds are passed over. Throws Error(file) if the file cannot be read; Error(content) if it is no such log,
-/// is truncated or damaged (naming message and byte), compressed, or has no ping; Error(argument) unless number <
-/// pings.
+/// Returns ping `number` of a log of messages of the Oculus SDK (Blueprint Subsea). The log holds ping results of
+/// version 1 and 2, one after the other as the sonar sends them, or as uncompressed items of a log of the maker's
+/// viewer. Messages and items of other kinds are skipped. Throws Error(file) if the file cannot be read; Error(content)
+/// if it is not such a log, is truncated or damaged (naming message and byte), compressed, or has no ping;
+/// Error(argument) unless number < pings.
 OculusPing read_oculus_ping(const std::string& path, std::size_t number);
 
-/// Levels of a ping [dB re full scale], beams x ranges: 20 log10(value / full scale) / gamma; silence_db of 0.
+/// Returns the levels of a ping [dB re full scale], beams x ranges: 20 log10(value / full scale) / gamma; silence_db
+/// for the value 0.
 Grid<float> level_db(const OculusPing& ping);
 
 }  // namespace insonify

@@ -23,7 +23,7 @@ RosType point_cloud_type();            ///< sensor_msgs/msg/PointCloud2
 RosType transforms_type();             ///< tf2_msgs/msg/TFMessage
 RosType nav_sat_fix_type();            ///< sensor_msgs/msg/NavSatFix
 
-/// What an image means in numbers.
+/// Scale of the numbers of an image.
 struct SonarImageScale {
   bool linear = false;  ///< UINT32, 2^32 - 1 at `full_scale`; else UINT8, nearest grey of `window`: black 0, white 255
   GreyWindow window{};  ///< [dB re 1 uPa at 1 m]
@@ -31,9 +31,9 @@ struct SonarImageScale {
 };
 
 /// Returns a ProjectedSonarImage of a ping with one row of beams in the frame "head_sonar" (Z forward, X up, Y to
-/// starboard): ranges of the bins [m], directions of the beams, then range after range the samples of all beams. UINT8:
-/// levels with the TVG; UINT32: magnitudes of pressure, without. tx_beamwidths is the elevation width, rx_beamwidths
-/// the width at broadside [rad].
+/// starboard). It holds the ranges of the bins [m], the directions of the beams, then the samples of all beams for each
+/// range in turn. UINT8: levels with the TVG. UINT32: magnitudes of pressure without TVG. tx_beamwidths is the
+/// elevation width, rx_beamwidths the width at broadside [rad].
 std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double frequency, double sound_speed,
                                   const Tvg& tvg, const SonarImageScale& scale);
 
@@ -45,7 +45,7 @@ std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, cons
 struct RosPointField {
   const char *name, *type, *unit;
 };
-/// The fields in the order of the message; types as PointField has them.
+/// The fields in the order of the message; types are those of PointField.
 inline constexpr RosPointField ros_point_fields[] = {
     {"x", "float32", "m"},      {"y", "float32", "m"},
     {"z", "float32", "m"},      {"intensity", "float32", "dB re 1 uPa"},
@@ -56,9 +56,9 @@ inline constexpr RosPointField ros_point_fields[] = {
 /// Returns a PointCloud2 of soundings in the frame "world", less `origin` [m]: ros_point_fields.
 std::string point_cloud(const BottomSoundings& found, const Eigen::Vector3d& origin, std::uint64_t time);
 
-/// Returns the transform world to head (less `origin`), and that of head to head_sonar, which never changes.
+/// Returns the transform from world to head (less `origin`), and the constant transform from head to head_sonar.
 std::string head_transform(const Pose& world_from_head, const Eigen::Vector3d& origin, std::uint64_t time);
-/// The transform from head to head_sonar.
+/// Returns the transform from head to head_sonar.
 std::string sonar_transform(std::uint64_t time);
 
 /// Returns a NavSatFix of the head: latitude and longitude on WGS 84, altitude above the ellipsoid, without covariance.

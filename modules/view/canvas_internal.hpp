@@ -29,10 +29,10 @@ Theme theme(bool dark);
 constexpr Colour grid_colour = {0.8, 0.83, 0.86};
 constexpr double grid_opacity = 0.3;
 
-/// The share of red, green and blue in a colour.
+/// Red, green and blue of a colour, each in [0, 1].
 inline Colour shares_of(const Rgb& rgb) { return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0}; }
 
-/// A closed ring of so many corners.
+/// A closed ring with this number of corners.
 Path ring(Point2 centre, double radius, int corners);
 
 /// Maps bearing [rad] and range [m] to a place in the picture.
@@ -60,7 +60,7 @@ class Canvas {
   /// A filled rectangle behind everything else, in any order of drawing.
   void add_plate(const Box& box, const Colour& colour, double opacity);
   void add_text(const PlacedText& text);
-  /// A text that begins at a place, in the middle of its height, fitted into so many pixels; returns where it ends.
+  /// Draws a text from a position at the middle of its height, fitted into a width [pixels]; returns its end.
   double add_text_from(Point2 left, const std::string& text, int font_size, double width);
   void add_colour_bar(const ColourBar& bar, const ColourScale& scale, double line_width);
 

@@ -28,7 +28,7 @@ void draw_pattern(Canvas& canvas, const std::vector<double>& azimuth, const std:
                   const PictureOptions& options);
 void require_pattern(const std::vector<double>& azimuth, const std::vector<double>& level_db, const char* who);
 Axes draw_line_chart(Canvas& canvas, const LineChart& chart, const PictureOptions& options);
-/// Ends the level axis of a chart where the options say, and else leaves it; errors as above.
+/// Sets the ends of a chart's level axis that the options give, and leaves the others; errors as above.
 void limit_levels(LineChart& chart, const PictureOptions& options, const char* who);
 void draw_spectrum(Canvas& canvas, const std::vector<SpectrumLine>& lines, const PictureOptions& options);
 void draw_panels(Canvas& canvas, const Panels& panels, const PictureOptions& options);

@@ -7,23 +7,23 @@
 
 namespace insonify {
 
-/// A grey picture as it is in its file: rows from the top.
+/// A grey picture as stored in its file, rows from the top.
 struct GreyPicture {
   int bits = 8;               ///< 8 or 16
   Grid<std::uint16_t> value;  ///< rows x columns
 };
 
-/// Reads a PNG of one channel of 8 or 16 bits. Throws Error(file) if it cannot be read, Error(content) if it is no PNG,
-/// is truncated or damaged, or is in colours.
+/// Returns the picture in a PNG of one channel of 8 or 16 bits. Throws Error(file) if the file cannot be read,
+/// Error(content) if it is not a PNG, is truncated or damaged, or is in colours.
 GreyPicture load_grey_png(const std::string& path);
 
 /// Writes grey values as a PNG, rows from the top; 8 or 16 bits by their type. Written to a temporary name, then
 /// renamed. Throws Error(argument) for an empty picture, Error(file) if it cannot write.
 void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey);
-/// The same with 16 bits.
+/// Writes grey values of 16 bits in the same way.
 void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey);
 
-/// The same in colours: red x 65536 + green x 256 + blue, each from 0 to 255.
+/// Writes colours in the same way: red x 65536 + green x 256 + blue, each from 0 to 255.
 void save_rgb_png(const std::string& path, const Grid<std::uint32_t>& rgb);
 
 }  // namespace insonify

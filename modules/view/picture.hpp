@@ -20,23 +20,23 @@ struct LevelImage {
   RangeGate gate;
   Grid<float> level_db;    ///< beams x bins
   std::string unit;        ///< of the colour bar, e.g. "dB re 1 µPa" or "dB re 1 µPa, range compensated"
-  bool downwards = false;  ///< the head looks down, as that of a swath does: a fan is drawn with the head at the top
+  bool downwards = false;  ///< the head looks down, as for a swath: the fan is drawn with the head at the top
 };
 
-/// Whether a head looks down by more than 45 degrees, a scanning head where its own turn is zero.
+/// Returns whether a head looks down by more than 45 degrees; for a scanning head, at its scan angle zero.
 inline bool looks_down(const Pose& world_from_head, const std::optional<ScanPlace>& scan) {
   const double turn = scan ? scan->angle : 0;
   return (world_from_head.linear() * Eigen::Vector3d(std::cos(turn), -std::sin(turn), 0)).z() < -0.7072;
 }
 
-/// A place in a picture marked with a ring and, if there is room, its name.
+/// A position in a picture, marked with a ring and, if there is room, its name.
 struct Mark {
   double bearing = 0;  ///< [rad], positive to starboard
   double range = 0;    ///< [m]
   std::string text;
 };
 
-/// The colours of levels where nothing else is asked for.
+/// The default colour map of levels.
 inline constexpr const char* default_colour_map = "bronze";
 
 /// Size and style of a picture.
@@ -49,12 +49,12 @@ struct PictureOptions {
                                                              ///< lowest, rounded up to 5
   double window_db = 45;
   bool dark = false;          ///< dark background
-  bool trim = false;          ///< show_fan: cuts off what the fan and its labels leave free of width or height
+  bool trim = false;          ///< show_fan: cuts off the width or height that fan and labels do not need
   int font_size = 0;          ///< of ordinary text [pixels]; 0: chosen from the picture size
   std::vector<Mark> marks{};  ///< drawn by show_fan, show_rect and show_panels; those outside the image are omitted
 };
 
-/// Names accepted as colour_map.
+/// Returns the names accepted as colour_map.
 std::vector<std::string> colour_map_names();
 
 }  // namespace insonify

@@ -12,13 +12,13 @@
 
 namespace insonify {
 
-/// Levels of a ping as they are drawn; without `tvg`, as they were received.
+/// Returns the levels of a ping for drawing: with the gain of `tvg`, or, without `tvg`, as received.
 LevelImage level_image(const Ping& ping, const std::optional<Tvg>& tvg);
 
-/// The unit of levels with a TVG, or as they were received.
+/// Returns the unit of levels with a TVG, or of levels as received.
 std::string level_unit(const std::optional<Tvg>& tvg);
 
-/// The soundings of the ping with a number, with the gain of a TVG.
+/// Returns the soundings of the ping with this number, with the gain of a TVG.
 Soundings soundings_of_ping(const Soundings& all, std::int64_t number, const std::optional<Tvg>& tvg);
 
 /// Levels along one beam, ping after ping.
@@ -32,14 +32,14 @@ struct BeamRecord {
 /// Returns the record as a waterfall by slant range.
 PingHistory history_of(const BeamRecord& record);
 
-/// What the display of a scanning head of one beam shows at a ping: every bearing of the sweep as it was heard last;
-/// what was not heard yet is silent.
+/// The display of a scanning head of one beam at a ping: the latest samples of every bearing of the sweep. Bearings
+/// without samples are silent.
 struct SweepImage {
   LevelImage image;
   std::vector<std::size_t> ping;  ///< by beam of the image: place in the record of the ping that heard it, or will
 };
-/// Draws the sweep that begins at place `first` of a record and ends with it, up to place `shown`; what this sweep has
-/// not heard yet is that of the pings before. `fan` is that of the head.
+/// Returns the display of the sweep that begins at place `first` of a record and ends with the record, up to place
+/// `shown`. Bearings that this sweep has not reached yet show the pings before it. `fan` is that of the head.
 SweepImage sweep_image(const BeamRecord& record, const BeamFan& fan, std::size_t first, std::size_t shown);
 
 }  // namespace insonify

@@ -18,14 +18,14 @@ struct SampleField {
   std::string unit{};  ///< in the text array `units` of the field data, "name: unit", and as UNITS_LABEL; empty: none
 };
 
-/// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling. Each sample is a cell between the edges
-/// of its beam (halfway to its neighbours, as in show_fan) and of its bin, at the elevation of its row, with corners in
-/// the world [m, double]. Rows of beams of the same bearings are the layers of one volume, between elevations halfway
-/// from row to row; rows that differ give one file each, by ascending elevation: path.vts becomes path_row_000.vts,
-/// path_row_001.vts ... Beams of one bearing within a row share a cell, which holds the largest value of each field.
-/// Returns the names of the files, which are written under temporary names and renamed. Throws Error(argument) for an
-/// invalid fan or gate, no fields, a field that is not beams x bins, or two fields of one name; Error(file) if it
-/// cannot write.
+/// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling, and returns the names of the files.
+/// Each sample is a cell between the edges of its beam (halfway to its neighbours, as in show_fan) and of its bin, at
+/// the elevation of its row, with corners in the world [m, double]. Rows of beams with the same bearings are the layers
+/// of one volume, between elevations halfway from row to row. Rows with different bearings give one file each, by
+/// ascending elevation: path.vts becomes path_row_000.vts, path_row_001.vts ... Beams of one bearing within a row share
+/// a cell, which holds the largest value of each field. The files are written under temporary names and renamed. Throws
+/// Error(argument) for an invalid fan or gate, no fields, a field that is not beams x bins, or two fields of one name;
+/// Error(file) if it cannot write.
 std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& fan, const RangeGate& gate,
                                        const std::vector<SampleField>& fields, const Pose& world_from_head);
 
@@ -45,12 +45,13 @@ struct HorizontalMap {
 /// write.
 void save_map_image(const std::string& path, const HorizontalMap& map);
 
-/// Reads what save_map_image wrote. Throws Error(file) if it is missing, Error(content) if it is not such a map.
+/// Returns the map in a file of save_map_image. Throws Error(file) if the file is missing, Error(content) if it is not
+/// such a map.
 HorizontalMap load_map_image(const std::string& path);
 
-/// Writes the first field as a grey picture, `stem`.png, y up, with the world file `stem`.pgw that says where it is: 0
-/// is NaN, 1 to 255 are the values from `window` below the highest to it. Errors as save_map_image; Error(content) if
-/// no value is finite.
+/// Writes the first field as a grey picture `stem`.png, y up, with the world file `stem`.pgw that gives its position.
+/// The grey value 0 means NaN; 1 to 255 cover the values from `window` below the highest value up to it. Errors as
+/// save_map_image; Error(content) if no value is finite.
 void save_map_picture(const std::string& stem, const HorizontalMap& map, double window);
 
 /// A further column of points.
@@ -60,11 +61,10 @@ struct PointColumn {
   bool whole = false;  ///< whole numbers from 0
 };
 
-/// Writes soundings as VTK polydata (.vtp): a vertex each in the world [m, double], the columns as point data under
-/// their
-/// names, level_db first, then those of `more`, and their units as the text array `units` of the field data, "name:
-/// unit" each, and as UNITS_LABEL of the arrays. Written to a temporary name, then renamed. Throws Error(argument) for
-/// columns of different lengths, Error(file) if it cannot write.
+/// Writes soundings as VTK polydata (.vtp). Each sounding is a vertex in the world [m, double]. The columns are point
+/// data under their names, level_db first, then those of `more`. Their units are in the text array `units` of the field
+/// data, "name: unit" each, and in UNITS_LABEL of the arrays. The file is written to a temporary name, then renamed.
+/// Throws Error(argument) for columns of different lengths, Error(file) if it cannot write.
 void save_points(const std::string& path, const Soundings& soundings, const std::vector<PointColumn>& more = {});
 
 /// A file of a time series.

@@ -43,8 +43,8 @@ struct HeadLines {
 /// The lines of a head whose body has `size` [m]; its axes are twice as long.
 HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin, double size);
 
-/// The surfels, ascending, that the walls of the sector and the ends of the gate intersect: within 0.7 of their spacing
-/// sqrt(area), and facing the head if normals are oriented.
+/// Returns the surfels, ascending, that the walls of the sector or the ends of the gate intersect: those within 0.7 of
+/// their spacing sqrt(area), and, if normals are oriented, facing the head.
 std::vector<std::uint32_t> footprint_outline(const SceneCloud& scene, const SceneHead& head);
 
 /// A number or name beside an axis, at `place`; `outward` is a unit vector away from the box.

@@ -14,11 +14,11 @@ namespace insonify {
 /// without an X server: starboard on the right, range rings [m], colour bar with unit and reference, title. Bearings
 /// are labelled positive to starboard: only `view` makes this flip.
 ///
-/// A cell extends halfway to its neighbours in azimuth, in any order of beams; fans across the stern and full circles
-/// stay in one piece. Of beams of one azimuth and several elevations the strongest is drawn at each range, which the
-/// colour bar notes. Cells smaller than half a pixel (more than two bins per pixel of radius, or beams near the apex)
-/// are first averaged in power with their neighbours, so none is lost; a larger picture shows them individually. Two
-/// renderings of one image on one machine have the same bytes.
+/// A cell extends halfway to its neighbours in azimuth, for any order of beams. Fans across the stern and full circles
+/// stay in one piece. Beams of one azimuth and several elevations share a cell, which shows the strongest at each
+/// range; the colour bar notes this. Cells smaller than half a pixel (more than two bins per pixel of radius, or beams
+/// near the apex) are first averaged in power with their neighbours, so none is lost; a larger picture shows them
+/// individually. Two renderings of one image on one machine have the same bytes.
 ///
 /// Written to a temporary name, then renamed. Throws Error(runtime) without off-screen GL, Error(argument) for an
 /// unknown colour map, an image of inconsistent size, or a width or height not within 240 to 8192 pixels, Error(file)
@@ -29,13 +29,13 @@ void show_fan(const LevelImage& image, const PictureOptions& options, const std:
 /// axes with units, colour bar, title. Files and errors as show_fan.
 void show_rect(const LevelImage& image, const PictureOptions& options, const std::string& png_path);
 
-/// Writes grey values (beams x bins) as a picture of one pixel per sample: a column per beam ordered by bearing,
-/// starboard right, range upwards (the first row of the file is the farthest bin), as show_rect. Beams of equal azimuth
-/// are adjacent in the order of the fan. The extension selects PNG or PGM (P5), .png or .pgm; the type of the values 8
-/// or 16 bits. Throws Error(argument) for another extension, an empty picture, or a number of beams that is not the
-/// fan's; Error(file) if it cannot write.
+/// Writes grey values (beams x bins) as a picture with one pixel per sample. Beams are columns, ordered by bearing,
+/// starboard right. Range increases upwards (the first row of the file is the farthest bin), as in show_rect. Beams of
+/// equal azimuth are adjacent in the order of the fan. The extension .png or .pgm selects PNG or PGM (P5); the type of
+/// the values selects 8 or 16 bits. Throws Error(argument) for another extension, an empty picture, or a number of
+/// beams that is not the fan's; Error(file) if it cannot write.
 void show_grey(const Grid<std::uint8_t>& grey, const BeamFan& fan, const std::string& path);
-/// The same with 16 bits.
+/// Writes grey values of 16 bits in the same way.
 void show_grey(const Grid<std::uint16_t>& grey, const BeamFan& fan, const std::string& path);
 
 /// Draws the level of one beam against range as a chart with units; the title begins with beam and bearing.
@@ -93,21 +93,23 @@ struct PingHistory {
   std::string range_title = "Range [m]";
 };
 
-/// Draws pings x range as a waterfall: one row per ping, the newest on top; range to the right, of two sides away from
-/// the middle; colour bar, title. Rows have equal height whatever the time between pings and are labelled by ping
-/// number. Rows and bins smaller than half a pixel are averaged in power, as in show_fan. Files and errors as show_fan;
-/// also Error(argument) for fewer than two pings, or if numbers, times and rows are not equally many.
+/// Draws pings x range as a waterfall with colour bar and title. Each ping is a row, the newest on top. Range increases
+/// to the right; for two sides it increases from the middle outwards. Rows have equal height for any time between pings
+/// and are labelled by ping number. Rows and bins smaller than half a pixel are averaged in power, as in show_fan.
+/// Files and errors as show_fan; also Error(argument) for fewer than two pings, or if numbers, times and rows differ in
+/// count.
 void show_waterfall(const PingHistory& history, const PictureOptions& options, const std::string& png_path);
 
-/// The `count` strongest local maxima of an image, strongest first: cells no weaker than their neighbours in bearing
-/// and range, at least a twentieth of the outer range apart from each other in the plane, stronger than the weakest
-/// sample, and at most `within_db` below the strongest. Each is named by its range, bearing and level in the image:
-/// "12.4 m, +5.2°, 93.1 dB". Of beams of one bearing the strongest is used, as in show_fan. Throws Error(argument) for
-/// an invalid image or unless within_db > 0.
+/// Returns the `count` strongest local maxima of an image, strongest first. A maximum is a cell that is no weaker than
+/// its neighbours in bearing and range, stronger than the weakest sample, and at most `within_db` below the strongest
+/// cell. Maxima are at least a twentieth of the outer range apart in the plane. The name of a maximum holds its range,
+/// bearing and level in the image: "12.4 m, +5.2°, 93.1 dB". For beams of one bearing the strongest is used, as in
+/// show_fan. Throws Error(argument) for an invalid image or unless within_db > 0.
 std::vector<Mark> strongest_maxima(const LevelImage& image, std::size_t count, double within_db);
 
-/// Draws soundings of the bottom as points: across to starboard from the head, and height in the world [m], those found
-/// by amplitude, those by phase, and rejected ones apart. Files as show_fan; Error(content) without soundings.
+/// Draws soundings of the bottom as points: distance across the track to starboard from the head, and height in the
+/// world [m]. Soundings by amplitude, soundings by phase, and rejected ones have different marks. Files as show_fan;
+/// Error(content) without soundings.
 void show_soundings(const Ping& ping, const BottomSoundings& found, const PictureOptions& options,
                     const std::string& png_path);
 

@@ -21,7 +21,7 @@ namespace insonify {
 enum class SceneColour {
   height,      ///< world z [m]
   material,    ///< one colour per material, with a legend
-  part,        ///< one colour per part of a scene of parts, with a legend; else by material
+  part,        ///< one colour per part of a scene of parts, with a legend; other scenes: as material
   visibility,  ///< visible, hidden, turned away or outside the fan
   level,       ///< [dB]
   grazing,     ///< angle between the surface and the ray from the head [deg]
@@ -35,9 +35,9 @@ struct SceneHead {
   RangeGate gate;
 };
 
-/// From where a scene is looked at.
+/// Viewpoint of a picture of a scene.
 enum class ScenePreset {
-  automatic,  ///< `behind` if there is a head, looking down more steeply where that fills the picture; else `iso`
+  automatic,  ///< with a head `behind`, looking down more steeply if that fills the picture better; else `iso`
   behind,     ///< behind the head and above it, along its heading; port is on the left
   top,        ///< from above, world x to the right and y up
   side,       ///< from starboard of the head, forward to the right; without a head along world y, x to the right
@@ -67,10 +67,10 @@ struct SceneLook {
 /// or legend, axes and title. Colours of height, material and visibility are shaded by the normals; those of levels and
 /// angles are exactly the colours of the bar. World z points up in the picture (`top`: world y).
 ///
-/// options.colour_map, min_db, max_db and window_db apply to levels; heights and angles use viridis. Of scenes above
-/// look.most_surfels a subset chosen by the ids alone is drawn, with larger squares to close the gaps. Positions are
-/// drawn relative to scene.origin: a scene in UTM coordinates looks the same as at zero. Two renderings on one machine
-/// have the same bytes.
+/// options.colour_map, min_db, max_db and window_db apply to levels; heights and angles use viridis. For scenes with
+/// more than look.most_surfels surfels a subset is drawn, with larger squares to close the gaps; the ids alone select
+/// the subset. Positions are drawn relative to scene.origin, so a scene in UTM coordinates looks the same as at zero.
+/// Two renderings on one machine have the same bytes.
 ///
 /// Written to a temporary name, then renamed. Throws Error(content) for a scene without surfels; Error(argument) if
 /// level_db or visibility have another length than the scene, a highlighted surfel is not in it, the colour is grazing

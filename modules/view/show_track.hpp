@@ -12,11 +12,11 @@ namespace insonify {
 
 /// A survey from above.
 struct TrackMap {
-  /// The way of a head.
+  /// The track of a head.
   struct Way {
     std::string name;
     std::vector<Eigen::Vector2d> places;  ///< x, y of each ping [m]
-    std::vector<Eigen::Vector2d> ahead;   ///< horizontal part of where it looked, as long as it is level
+    std::vector<Eigen::Vector2d> ahead;   ///< horizontal part of its unit vector ahead, of length 1 when level
   };
   std::vector<Way> ways;
   double x = 0, y = 0, cell = 1;  ///< corner of cell (0, 0) of the levels, and size of the cells [m]
@@ -24,9 +24,9 @@ struct TrackMap {
   std::string unit;               ///< of the colour bar
 };
 
-/// Draws levels and ways to one scale, x to the right and y up, into a PNG without an X server: each way as a line with
-/// its name where it begins, a ring where it ends, and some 20 short strokes in the direction of the head. Files and
-/// errors as show_fan; also Error(argument) if there is no place at all, or a cell that is not > 0.
+/// Draws levels and tracks to one scale, x to the right and y up, into a PNG without an X server. Each track is a line
+/// with its name at the beginning, a ring at the end, and some 20 short strokes in the direction of the head. Files and
+/// errors as show_fan; also Error(argument) if there is no position at all, or a cell that is not > 0.
 void show_track(const TrackMap& map, const PictureOptions& options, const std::string& png_path);
 
 }  // namespace insonify

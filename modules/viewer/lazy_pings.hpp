@@ -20,35 +20,35 @@ struct PingSource {
   std::function<Soundings(std::size_t ping)> returns;  ///< of one ping; or empty: there are none
 };
 
-/// The pings that a viewer plays: the places of all are known, images are read one at a time, so that memory does not
-/// grow with their number. All pings have the fan and the gate of the first.
+/// The pings that a viewer plays. The positions of all pings are known; images are read one at a time, so that memory
+/// does not grow with their number. All pings have the fan and the gate of the first.
 class LazyPings {
  public:
   LazyPings() = default;
   /// `source.ping` and `source.beam` must be given.
   LazyPings(std::vector<TrackPoint> places, PingSource source);
 
-  /// Number of pings.
+  /// Returns the number of pings.
   std::size_t size() const { return places_.size(); }
-  /// Whether there is no ping.
+  /// Returns whether there is no ping.
   bool empty() const { return places_.empty(); }
-  /// When and where ping `i` was sent.
+  /// Returns time and pose of ping `i`.
   const TrackPoint& place(std::size_t i) const { return places_[i]; }
-  /// The same of all pings.
+  /// Returns time and pose of all pings.
   const std::vector<TrackPoint>& places() const { return places_; }
 
   /// Fan of every ping; read with the first one.
   const BeamFan& fan() const { return frame().fan; }
   /// Range gate of every ping; read with the first one.
   const RangeGate& gate() const { return frame().gate; }
-  /// A ping; the last one asked for is kept. Throws Error(content) for one that is invalid or differs from the first in
-  /// fan or gate, and what its source throws.
+  /// Returns a ping; the last one stays in memory. Throws Error(content) for a ping that is invalid or differs from the
+  /// first in fan or gate. Errors of the source propagate.
   std::shared_ptr<const Ping> ping(std::size_t i) const;
   /// Pressure of one beam in some pings, pings x bins [Pa].
   ComplexGridF beam(std::size_t first, std::size_t count, std::size_t beam) const;
-  /// Whether the source gives returns.
+  /// Returns whether the source gives returns.
   bool has_returns() const { return static_cast<bool>(source_.returns); }
-  /// The returns of one ping; none if has_returns is false.
+  /// Returns the returns of one ping; none if has_returns is false.
   Soundings returns(std::size_t i) const;
 
  private:

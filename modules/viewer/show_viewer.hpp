@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// How the viewer begins.
+/// Initial state of the viewer.
 struct ViewerOptions {
   int width = 1600, height = 1000;  ///< of the window [pixels]
   ViewerState start;
@@ -19,7 +19,7 @@ struct ViewerOptions {
   std::function<void(const std::string&)> say;
 };
 
-/// True if there is a display to open a window on: the X server that DISPLAY names answers.
+/// Returns whether a window can be opened: the X server that DISPLAY names answers.
 bool has_display();
 
 /// Opens the viewer on the desktop and returns when the user or an event closes it. Panels of a run: the fan in true
@@ -30,7 +30,7 @@ bool has_display();
 /// extent.
 void show_viewer(const ViewerData& data, const ViewerOptions& options);
 
-/// The same window without a display: draws off-screen, plays the events, and writes the final state as PNG. File
+/// Draws the same window off-screen, without a display, plays the events, and writes the final state as PNG. File
 /// errors as show_fan.
 void draw_viewer(const ViewerData& data, const ViewerOptions& options, const std::string& png_path);
 

@@ -17,7 +17,7 @@
 
 namespace insonify {
 
-/// The public call that errors of the viewer name.
+/// Name of the public call in errors of the viewer.
 inline constexpr const char* viewer_caller = "show_viewer";
 
 /// Data of the viewer. Of a run: pings, and the other members as far as available. To inspect: scene, fan and gate.
@@ -29,40 +29,41 @@ struct ViewerData {
   std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
   Soundings returns;                        ///< of all pings; unused if `pings` has returns of its own
   SceneCloud scene;                         ///< of all pings; may be empty
-  /// Of a scene whose parts stand elsewhere from ping to ping: that of a ping, the same object where it is the same, in
-  /// place of `scene`; else empty. Surfels are numbered within it.
+  /// For a scene whose parts differ from ping to ping: returns the scene of a ping, in place of `scene`. Equal scenes
+  /// are the same object. Surfels are numbered within the scene of the ping. Otherwise empty.
   std::function<std::shared_ptr<const SceneCloud>(std::size_t ping)> scene_of_ping{};
   BeamFan fan;               ///< to inspect
   RangeGate gate;            ///< to inspect
-  std::optional<View> view;  ///< how a ping samples the scene (resolve_ping), wherever the head stands; or
-                             ///< none: by fan and gate alone
+  std::optional<View> view;  ///< sampling of the scene by a ping (resolve_ping), at any pose of the head;
+                             ///< empty: sampling by fan and gate alone
 };
 
-/// What the first panel shows of a run.
+/// Content of the first panel for a run.
 enum class ViewerPicture {
   fan,       ///< the ping in true geometry
-  sweep,     ///< of a scanning head of one beam: what its display shows, every bearing as it was heard last
-  waterfall  ///< of another head of one beam: ping after ping
+  sweep,     ///< for a scanning head of one beam: its display, with the latest samples of every bearing
+  waterfall  ///< for another head of one beam: ping after ping
 };
-/// The picture that suits the head of a run.
+/// Returns the picture that suits the head of a run.
 ViewerPicture picture_of(const ViewerData& data);
 
-/// Whether there is a scene.
+/// Returns whether there is a scene.
 bool has_scene(const ViewerData& data);
-/// Returns the scene as it was when a ping was sent; of a scene of all pings, which must outlive it, without a copy.
+/// Returns the scene at the time of a ping. A scene that is common to all pings is not copied and must outlive the
+/// result.
 std::shared_ptr<const SceneCloud> scene_at(const ViewerData& data, std::size_t ping);
 
 /// Throws Error(content) unless there are pings, the first is valid, per-ping lists have one element per ping, and a
 /// scene to inspect has surfels.
 void require_viewable(const ViewerData& data, ViewerMode mode);
 
-/// Returns where a head at `pose` with this fan and gate looks in the scene.
+/// Returns the view of the scene for a head at `pose` with this fan and gate.
 View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate);
 
-/// The unit of levels, with the gain of range compensation or without.
+/// Returns the unit of levels, with or without range compensation.
 std::string unit_of(const ViewerData& data, bool tvg);
 
-/// Numbers of pings, beams and bins.
+/// Returns the numbers of pings, beams and bins.
 ViewerExtent extent_of(const ViewerData& data);
 
 }  // namespace insonify

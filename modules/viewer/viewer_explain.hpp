@@ -23,15 +23,15 @@ struct Contribution {
   std::string part{};  ///< of a scene of parts: its name
 };
 
-/// Visibility from the head of the surfels at a sample's place: within its beam's share of the fan, and within half a
-/// surfel of its range bin.
+/// Visibility from the head of the surfels at a sample's position: those within the beam's cell of the fan, and within
+/// half a surfel of the range bin.
 struct PixelVisibility {
   std::vector<std::uint32_t> seen, hidden;  ///< surfels, by index in the scene
   std::size_t turned_away = 0;
   std::optional<double> occluder_range;          ///< range of the nearest surfel that hides one of `hidden` [m]
   std::optional<std::uint32_t> occluder_surfel;  ///< its index
 };
-/// Returns the visibility at a sample of a ping in `scene`, that of the ping; empty for an empty scene.
+/// Returns the visibility at a sample of a ping. `scene` is the scene of the ping; empty for an empty scene.
 PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, const Ping& ping, PixelPlace place);
 
 /// Facts about one sample.
@@ -49,20 +49,21 @@ struct PixelFacts {
   bool contributions_known = false;
   bool unknown = false;                       ///< hole of the scan: surface may be missing here
   std::optional<PixelVisibility> visibility;  ///< if there is a scene
-  std::string part;                           ///< of a scene of parts: the one that is shown; empty: none
-  std::string seen_material;                  ///< the commonest one of the visible surfels; empty: none visible
+  std::string part;                           ///< in a scene of parts: the part of the pixel; empty: none
+  std::string seen_material;                  ///< most frequent material of the visible surfels; empty: none visible
 };
 /// Throws Error(argument) if ping, beam or bin is not in the data.
 PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping, PixelPlace place);
 
-/// The facts in sentences, one per line: bearings positive to starboard, angles in degrees.
+/// Returns the facts in sentences, one per line; bearings are positive to starboard, angles in degrees.
 std::string explain_pixel(const PixelFacts& facts);
 
-/// Surfels to highlight for a sample: its contributors, or, if unknown, the visible surfels at its place.
+/// Returns the surfels to highlight for a sample: its contributors, or, if unknown, the visible surfels at its
+/// position.
 std::vector<std::uint32_t> surfels_behind(const PixelFacts& facts);
 
-/// The sample that contains a point of the world: its beam (nearest in azimuth, then in elevation) and its bin. None
-/// outside fan and gate.
+/// Returns the sample that contains a point of the world: its beam (nearest in azimuth, then in elevation) and its bin.
+/// Returns nothing outside fan and gate.
 std::optional<PixelPlace> place_of(const Ping& ping, const Eigen::Vector3d& world_position);
 
 /// Visibility of a scene from a head, without simulating a ping.
@@ -76,11 +77,11 @@ struct HeadView {
 /// Returns the visibility of a scene from a head, by the sampling of `view`.
 HeadView look_from(const SceneCloud& scene, const View& view);
 
-/// The view in sentences, one per line, with the corresponding option --pose.
+/// Returns the view in sentences, one per line, with the corresponding option --pose.
 std::string explain_view(const HeadView& view, const ViewerState& state);
 
-/// Description of one surfel: material, id, position, area, range, bearing (positive to starboard), incidence,
-/// visibility. Throws Error(argument) if it is not in the scene.
+/// Returns the description of one surfel: material, id, position, area, range, bearing (positive to starboard),
+/// incidence, visibility. Throws Error(argument) if it is not in the scene.
 std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const HeadPlace& head, std::uint32_t surfel);
 
 }  // namespace insonify

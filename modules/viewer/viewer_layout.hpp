@@ -42,17 +42,17 @@ inline const Box& box_of(const ViewerLayout& layout, ViewerPanelName name) {
   return layout.*viewer_panels[static_cast<std::size_t>(name)].box;
 }
 
-/// Which panels a window has, besides those that every one of its mode has.
+/// Optional panels of a window, in addition to the panels that its mode always has.
 struct ViewerParts {
   bool scene = true, history = true, timeline = false;
   bool scene_key = true;  ///< colour bars and legend beside the scene
 };
 
-/// Layout of a window of width x height pixels. Throws Error(argument) for a window
+/// Returns the layout of a window of width x height pixels. Throws Error(argument) for a window
 /// smaller than 800 x 600 or larger than 8192 pixels in either direction.
 ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const ViewerParts& parts);
 
-/// The panel at a place in the window.
+/// Returns the panel at a position in the window.
 std::optional<ViewerPanelName> panel_at(const ViewerLayout& layout, Point2 place);
 
 }  // namespace insonify

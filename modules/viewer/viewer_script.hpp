@@ -9,7 +9,7 @@ namespace insonify {
 
 /// A user action, for pictures and tests of the viewer.
 struct ViewerEvent {
-  /// What happens.
+  /// Kind of the action.
   enum class Kind { click, drag, key, select, wait, screenshot, quit };
   Kind kind = Kind::quit;
   ViewerPanelName panel = ViewerPanelName::fan;  ///< of click and drag
@@ -19,7 +19,7 @@ struct ViewerEvent {
   std::string text;    ///< name of the key, or file of the screenshot
 };
 
-/// Parses events separated by semicolons or line ends; # starts a comment:
+/// Returns the events of a text. Semicolons or line ends separate them; # starts a comment:
 ///   click PANEL X Y; drag PANEL X Y DX DY; key NAME; select BEAM BIN; wait SECONDS; screenshot FILE.png; quit
 /// PANEL is a name of viewer_panels. Throws Error(argument) naming the event.
 std::vector<ViewerEvent> parse_viewer_script(const std::string& text);

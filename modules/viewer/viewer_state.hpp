@@ -67,47 +67,47 @@ struct ViewerState {
 /// Action of the window in addition to drawing the new state.
 enum class ViewerRequest { none, screenshot, print_pose, reset_cameras, quit };
 
-/// What a key press gives.
+/// Result of a key press.
 struct KeyAnswer {
   ViewerState state;
   ViewerRequest request = ViewerRequest::none;
 };
 
-/// A key with a button, and what it does to the state, or asks of the window.
+/// A key with a button, and its effect on the state or its request to the window.
 struct ViewerButton {
-  std::string key;                                                ///< as apply_key takes it
+  std::string key;                                                ///< name for apply_key
   void (*press)(ViewerState& state, const ViewerExtent& extent);  ///< changes the state
   std::vector<std::string> also{};                                ///< other keys that do the same
   ViewerRequest request = ViewerRequest::none;
 };
-/// A row of the table of keys, from which help, buttons and apply_key are made. A row without buttons is about the
-/// mouse.
+/// A row of the table of keys. The table is the source of help, buttons and apply_key. A row without buttons describes
+/// the mouse.
 struct ViewerKey {
   std::string action;
   std::vector<ViewerButton> buttons;
-  std::string mouse{};  ///< what the mouse does, of a row without buttons
+  std::string mouse{};  ///< action of the mouse, in a row without buttons
 };
-/// What stands on a key, e.g. "[" for "bracketleft".
+/// Returns the label of a key, e.g. "[" for "bracketleft".
 std::string key_label(const std::string& key);
-/// The table of a mode.
+/// Returns the table of a mode.
 std::vector<ViewerKey> viewer_keys(ViewerMode mode);
-/// The table as text, one row per line.
+/// Returns the table as text, one row per line.
 std::string viewer_help(ViewerMode mode);
 
-/// The state after a key press. `key` is its X name ("a", "Left", "bracketleft", "space"), preceded by "shift+" for
-/// keys other than characters. Keys of pcl_viewer have the same meaning as there. Unknown keys change nothing.
+/// Returns the state after a key press. `key` is its X name ("a", "Left", "bracketleft", "space"), preceded by "shift+"
+/// for keys other than characters. Keys of pcl_viewer have the same meaning as there. Unknown keys change nothing.
 KeyAnswer apply_key(ViewerState state, const std::string& key, const ViewerExtent& extent);
 
-/// Selects a sample, or adds a point to an active measurement, which ends with the second one: its length stays until
-/// the next measurement or Escape. Places outside `extent` change nothing. `at` is the same place on the fan [m],
-/// starboard and forward.
+/// Returns the state after a click on a sample. The click selects the sample, or adds a point to an active measurement.
+/// The second point ends the measurement; its length stays until the next measurement or Escape. Places outside
+/// `extent` change nothing. `at` is the same position on the fan [m], starboard and forward.
 ViewerState select_pixel(ViewerState state, PixelPlace place, const Eigen::Vector2d& at, const ViewerExtent& extent);
 
 /// Goes to a ping and selects its sample, as a click on a waterfall or a sweep does; playing stops. Places outside
 /// `extent` change nothing.
 ViewerState select_ping(ViewerState state, std::size_t ping, PixelPlace place, const ViewerExtent& extent);
 
-/// The state after `seconds` of playing: the ping that is due, the first one following the last.
+/// Returns the state after `seconds` of playing, with the ping that is due; the first ping follows the last.
 /// `carried` holds the remaining fraction of a ping between calls.
 ViewerState play_on(ViewerState state, double seconds, const ViewerExtent& extent, double& carried);
 
