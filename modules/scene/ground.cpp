@@ -50,6 +50,7 @@ void require_surfels(const PlacedPart& part, const char* who) {
 struct HeightHint {
   double height, distance, noise;
   Vector3d normal;
+  bool reaches;  ///< the place is within what the surfel stands for
 };
 
 }  // namespace
@@ -94,18 +95,32 @@ struct Ground::Sheet {
     return topmost(query, spacing_here, reach, found);
   }
 
+  /// The tangent plane of a surfel holds about as far as the surfel reaches in it: of a steep one not far to the side.
+  HeightHint hint_of(const Vector3f& query, const Neighbour& neighbour) const {
+    const std::uint32_t i = neighbour.index;
+    const Vector3d d = (query - place[i]).cast<double>(), n = normal[i].cast<double>();
+    const double distance = std::sqrt(static_cast<double>(neighbour.squared_distance));
+    const double off = noise.empty() ? 0 : static_cast<double>(noise[i]);
+    const double size = std::min(static_cast<double>(spacing[i]), most_of_mean * mean_spacing);
+    const double fall = (n.x() * d.x() + n.y() * d.y()) / std::max(n.z(), least_rise);
+    const bool reaches = std::hypot(distance, fall) <= reach_spacings * size + 2 * off;
+    return {static_cast<double>(place[i].z()) - fall, distance, off, n, reaches};
+  }
+
   std::optional<GroundPlace> topmost(const Vector3f& query, double spacing_here, double reach,
                                      const std::vector<Neighbour>& found) const {
     thread_local std::vector<HeightHint> hints;
     hints.clear();
-    for (const Neighbour& neighbour : found) {
-      const Vector3d d = (query - place[neighbour.index]).cast<double>();
-      const Vector3d n = normal[neighbour.index].cast<double>();
-      const double fall = n.z() > least_rise ? (n.x() * d.x() + n.y() * d.y()) / n.z() : 0;
-      hints.push_back({static_cast<double>(place[neighbour.index].z()) - fall,
-                       std::sqrt(static_cast<double>(neighbour.squared_distance)),
-                       noise.empty() ? 0.0 : static_cast<double>(noise[neighbour.index]), n});
-    }
+    for (const Neighbour& neighbour : found)
+      if (const HeightHint hint = hint_of(query, neighbour); hint.reaches) hints.push_back(hint);
+    // Between the surfels of a cliff, and at the edge of a hole: heights beside them, which rise by 45 degrees at most.
+    if (hints.empty())
+      for (const Neighbour& neighbour : found) {
+        HeightHint hint = hint_of(query, neighbour);
+        const double z = static_cast<double>(place[neighbour.index].z());
+        hint.height = std::clamp(hint.height, z - hint.distance, z + hint.distance);
+        hints.push_back(hint);
+      }
     std::sort(hints.begin(), hints.end(), [](const HeightHint& a, const HeightHint& b) { return a.height > b.height; });
     // A single surfel above all others is a stray: the sheet below it counts.
     const std::size_t least = std::min<std::size_t>(3, (hints.size() + 2) / 3);

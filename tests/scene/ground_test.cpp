@@ -137,6 +137,28 @@ TEST(Ground, of_a_rough_bed_is_true_to_its_spacing) {
   }
 }
 
+TEST(Ground, beside_a_cliff_is_no_higher_than_the_cliff) {
+  // A raster of 2 cm: a bed with a ridge of 1 m between two cliffs of 79 degrees, whose surfels are five cells large.
+  constexpr double cell = 0.02, crest = 0.6, half_width = 0.2, rise = 1;
+  const auto z = [](double x) { return rise * std::max(0.0, 1 - std::abs(x - crest) / half_width); };
+  SceneCloud cloud;
+  for (double x = 0; x < 1.2; x += cell)
+    for (double y = 0; y < 1; y += cell) {
+      const double slope = (z(x + cell / 2) - z(x - cell / 2)) / cell;
+      add_surfel(cloud, {x, y, z(x)}, Vector3d(-slope, 0, 1).normalized(), cell * cell * std::hypot(slope, 1));
+    }
+  Ground ground;
+  ground.add(captured_part(cloud));
+  for (double x = 0.1; x < 1.1; x += 0.003) {
+    const double here = ground.at({x, 0.503}).value().height;
+    double low = z(x), high = low;
+    for (double d = -2 * cell; d <= 2 * cell; d += cell / 4)
+      low = std::min(low, z(x + d)), high = std::max(high, z(x + d));
+    EXPECT_GT(here, low - cell) << x;
+    EXPECT_LT(here, high + cell) << x;
+  }
+}
+
 TEST(PlaceOnGround, lets_a_ball_touch_a_plane_at_one_point) {
   constexpr double radius = 0.5;
   for (const double slope : {0.0, radians(30)}) {

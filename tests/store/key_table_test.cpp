@@ -19,7 +19,12 @@ std::string page(const std::string& name) {
 }
 
 void expect_on(const std::string& name, const std::vector<Key>& keys) {
-  EXPECT_THAT(page(name), HasSubstr(keys_as_markdown(keys))) << "docs/" << name << " must hold this table";
+  const std::string text = page(name), table = keys_as_markdown(keys);
+  std::stringstream rows(table);
+  for (std::string row; std::getline(rows, row);)
+    if (text.find(row + "\n") == text.npos) ADD_FAILURE() << "docs/" << name << " lacks this row:\n" << row;
+  EXPECT_TRUE(text.find(table) != text.npos) << "docs/" << name << " must hold the rows in this order, and no other:\n"
+                                             << table;
 }
 
 }  // namespace key_tables

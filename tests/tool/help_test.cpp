@@ -91,6 +91,12 @@ TEST_F(Help, is_a_verb_too_and_unknown_verbs_are_corrected) {
   EXPECT_EQ(succeed("help ping"), succeed("ping --help"));
   EXPECT_EQ(succeed("help"), succeed("--help"));
   expect_refused("pnig", 2, {"unknown verb 'pnig'; did you mean 'ping'?", "insonify --help"});
+  expect_refused("info plane.ply --jsno", 2,
+                 {"unknown option '--jsno'; did you mean '--json'?", "insonify info --help"});
+  expect_refused("ping plane.ply --sonar p900-45 --pose=0,0,0,0,0,0 -o x --rnge=1:3", 2,
+                 {"unknown option '--rnge'; did you mean '--range'?"});
+  expect_refused("beampattern p900-45 reef.ply", 2,
+                 {"'reef.ply' is one argument too many; see insonify beampattern --help"});
   expect_refused("bogus --help", 2, {"unknown verb 'bogus'"});
   expect_refused("help bogus", 2, {"unknown verb 'bogus'"});
   EXPECT_THAT(run("man pnig").err, HasSubstr("unknown verb 'pnig'; did you mean 'ping'?"));

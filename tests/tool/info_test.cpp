@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `info` says of every kind of file and what comes next, and what `materials` lists.
+#include <fmt/format.h>
+
 #include "tool/first_hour_fixture.hpp"
 #include "tool/survey_fixture.hpp"
 
@@ -41,6 +43,27 @@ TEST_F(FirstHour, info_proposes_commands_that_run_as_they_stand) {
   const json mission = info("mission.toml");
   EXPECT_EQ(mission["format"], "insonify mission");
   EXPECT_GE(mission["legs"].size(), 2U);
+}
+
+TEST_F(FirstHour, info_proposes_the_place_of_the_camera_for_a_cloud_in_its_axes) {
+  // A wall 3 m ahead of a camera, and the same points below a place from which a scanner saw them.
+  const auto scan = [&](const char* name, double z) {
+    std::string text =
+        "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 40\nHEIGHT 30\n"
+        "VIEWPOINT 0 0 0 0 1 0 0\nPOINTS 1200\nDATA ascii\n";
+    for (int row = 0; row < 30; ++row)
+      for (int column = 0; column < 40; ++column)
+        text += fmt::format("{} {} {}\n", 0.05 * (column - 20), 0.05 * (row - 15), z);
+    write(name, text);
+  };
+  scan("ahead.pcd", 3);
+  scan("below.pcd", -3);
+  const std::string next = next_of(info("ahead.pcd"));
+  EXPECT_THAT(next, HasSubstr("insonify ping ahead.pcd --sonar oculus-m750d --pose=0,0,0,90,-90,0 -o first"));
+  EXPECT_THAT(next, Not(HasSubstr("make-mission"))) << "its lines would not be level";
+  EXPECT_THAT(next_of(info("below.pcd")), HasSubstr("make-mission"));
+  succeed("ping ahead.pcd --sonar oculus-m750d --pose=0,0,0,90,-90,0 --no-picture -q -o ahead");
+  EXPECT_GT(manifest_of("ahead")["sampling"]["visible"].get<int>(), 1000);
 }
 
 TEST_F(SurveyTest, info_says_how_far_a_survey_and_a_head_are_and_what_comes_next) {

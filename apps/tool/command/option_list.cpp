@@ -11,6 +11,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "store/nearest_word.hpp"
 #include "tool/command/exit_code.hpp"
 
 namespace insonify::tool {
@@ -132,12 +133,31 @@ OptionList CommandLine::add_verb(const std::string& name, const std::string& pur
   return {verb, &verb_texts_.emplace_back(CommandText{name, purpose, footer, {}})};
 }
 
+std::string CommandLine::extras_message() const {
+  const std::vector<std::string> extras = app_->remaining(true);
+  const CommandText* text = &text_;
+  for (const CommandText& of_verb : verb_texts_)
+    if (app_->got_subcommand(of_verb.name)) text = &of_verb;
+  const std::string help = (text == &text_ ? "" : text_.name + " ") + text->name + " --help";
+  const auto option = std::find_if(extras.begin(), extras.end(), [](const auto& e) { return e.starts_with("-"); });
+  if (option == extras.end()) return fmt::format("'{}' is one argument too many; see {}", extras.front(), help);
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> known;
+  for (const OptionText& of : text->options)
+    for (const std::string& of_option : of.names)
+      if (of_option.starts_with("--") && name.starts_with("--")) known.push_back(of_option);
+  return fmt::format("unknown option '{}'{}; see {}", name, did_you_mean(name, known), help);
+}
+
 std::optional<int> CommandLine::parse(int argc, char** argv) {
   const std::string program = app_->get_name();
   try {
     app_->parse(argc, argv);
   } catch (const CLI::Success& success) {  // --help and --version
     return app_->exit(success);
+  } catch (const CLI::ExtrasError&) {
+    std::fprintf(stderr, "insonify: %s\n", extras_message().c_str());
+    return exit_usage;
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "insonify: %s; see %s --help\n", error.what(), program.c_str());
     return exit_usage;

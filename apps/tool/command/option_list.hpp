@@ -74,6 +74,9 @@ class CommandLine {
   const std::deque<CommandText>& verb_texts() const { return verb_texts_; }
 
  private:
+  /// What is wrong with arguments that the parsed command line does not take.
+  std::string extras_message() const;
+
   std::unique_ptr<CLI::App> app_;
   CommandText text_;
   std::deque<CommandText> verb_texts_;  // OptionLists point to its entries

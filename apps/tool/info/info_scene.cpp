@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "tool/info/info.hpp"
@@ -54,11 +55,25 @@ std::vector<std::string> next_of_scene(const std::string& path, const Bounds& bo
 
 namespace {
 
+/// Whether an organised cloud was seen along its z axis from its viewpoint: it has the axes of a camera, z ahead.
+bool is_of_camera(const FileDescription& d) {
+  if (!d.viewpoint || d.height <= 1) return false;
+  const Eigen::Vector3d ahead = (d.min + d.max) / 2 - *d.viewpoint;
+  return d.min.z() > d.viewpoint->z() && ahead.head<2>().norm() < ahead.z();
+}
+
+/// A ping from the place of the camera.
+std::string next_of_camera(const FileDescription& d) {
+  return fmt::format("insonify ping {} --sonar oculus-m750d --pose={} -o first  # where the camera was",
+                     shell_word(d.path), pose_text(*d.viewpoint, pi / 2, -pi / 2));
+}
+
 ordered_json cloud_info(const std::string& path) {
   const FileDescription d = describe_file(path);
   ordered_json fields = ordered_json::array();
   for (const auto& f : d.fields) fields.push_back({{"name", f.name}, {"type", f.type}});
-  std::vector<std::string> next = next_of_scene(path, {d.min, d.max});
+  std::vector<std::string> next =
+      is_of_camera(d) ? std::vector{next_of_camera(d)} : next_of_scene(path, {d.min, d.max});
   if (!d.has_normals && d.triangles == 0 && !d.viewpoint)
     next.insert(next.begin(), "insonify prepare " + shell_word(path) +
                                   " --viewpoint x,y,z -o prepared.ply  # where it was captured from");
