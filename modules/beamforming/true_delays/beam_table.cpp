@@ -18,11 +18,13 @@ void eight_weights(double at, float* weight) {
   static constexpr double per[8] = {-1.0 / 5040, 1.0 / 720, -1.0 / 240, 1.0 / 144,
                                     -1.0 / 144,  1.0 / 240, -1.0 / 720, 1.0 / 5040};
   // Products of the distances to all steps before each, then of those after it.
-  double before[8], product = 1;
-  for (std::size_t k = 0; k < 8; product *= at - static_cast<double>(k++)) before[k] = product;
-  product = 1;
-  for (std::size_t k = 8; k-- > 0; product *= at - static_cast<double>(k))
-    weight[k] = static_cast<float>(per[k] * before[k] * product);
+  double before[8], after = 1;
+  before[0] = 1;
+  for (std::size_t k = 1; k < 8; ++k) before[k] = before[k - 1] * (at - static_cast<double>(k - 1));
+  for (std::size_t k = 8; k-- > 0;) {
+    weight[k] = static_cast<float>(per[k] * before[k] * after);
+    after *= at - static_cast<double>(k);
+  }
 }
 
 std::size_t filled_up(std::size_t bins) {
