@@ -89,7 +89,7 @@ schema = 1
 scene = "strewn.toml"
 seed = 5
 [trajectory]
-waypoints_m = [[-1.5, 0, -2.2], [0, 0, -2.2]]
+waypoints_m = [[-1.5, 0, -2.2], [0.1, 0, -2.2]]
 speed_m_s = 0.1
 [[head]]
 name = "fls"
