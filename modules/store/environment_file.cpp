@@ -14,27 +14,6 @@ constexpr Named<AbsorptionFormula> absorption_formulas[] = {{"francois-garrison"
                                                             {"fisher-simmons", AbsorptionFormula::fisher_simmons},
                                                             {"ainslie-mccolm", AbsorptionFormula::ainslie_mccolm}};
 
-/// A list of the profile.
-KeyValue profile_list(Environment& e, std::vector<double> SoundSpeedProfile::*member) {
-  const auto set = [&e, member](const TomlValue& value, const std::string& path) {
-    return list((e.profile ? *e.profile : e.profile.emplace()).*member).set(value, path);
-  };
-  const auto text = [&e, member]() -> std::optional<std::string> {
-    return e.profile ? std::optional(as_toml((*e.profile).*member)) : std::nullopt;
-  };
-  return {"a list of numbers", set, text};
-}
-
-/// A vector of the tank.
-KeyValue tank_vector(Environment& e, Eigen::Vector3d Tank::*member, const char* meaning) {
-  const auto set = [=, &e](const TomlValue& value, const std::string& path) {
-    return vector((e.tank ? *e.tank : e.tank.emplace()).*member, meaning).set(value, path);
-  };
-  const auto text = [=, &e]() { return e.tank ? vector((*e.tank).*member, meaning).text() : std::nullopt; };
-  Eigen::Vector3d any;
-  return {vector(any, meaning).rule, set, text};
-}
-
 /// Reads [[mirror]] tables.
 std::vector<Mirror> mirrors_in(const std::string& path, const TomlValue& tables) {
   std::vector<Mirror> mirrors;
@@ -70,55 +49,53 @@ std::vector<std::string> others_of_run(const TomlValue& document) {
 std::vector<Key> environment_keys(Environment& e) {
   Water& w = e.water;
   return {
-      {"water", "temperature_c", "deg C", number(at(w.temperature_c)), ""},
-      {"water", "salinity_psu", "psu", number(at(w.salinity_psu)), ""},
-      {"water", "depth_m", "m", number(at(w.depth)),
+      {"water", "temperature_c", "deg C", number(w.temperature_c), ""},
+      {"water", "salinity_psu", "psu", number(w.salinity_psu), ""},
+      {"water", "depth_m", "m", number(w.depth),
        "depth of the head, of scenes without a surface. With one, depth is `surface.height_m` or `water.level_m` less "
        "the "
        "z of the head, for each ping; a depth that is given too must agree to 1 cm"},
-      {"water", "level_m", "m", number(at(e.water_level)),
+      {"water", "level_m", "m", number(e.water_level),
        "world z of the surface of the water, from which depth counts; it has no echoes, as `surface.height_m` has. A "
        "mission's `[water] level_m` sets it"},
-      {"water", "ph", "", number(at(w.ph)), ""},
-      {"water", "latitude_deg", "deg", number(at(w.latitude_deg)), ""},
+      {"water", "ph", "", number(w.ph), ""},
+      {"water", "latitude_deg", "deg", number(w.latitude_deg), ""},
       {"water", "sound_speed_formula", "", word(e.sound_speed_formula, sound_speed_formulas), ""},
       {"water", "absorption_formula", "", word(e.absorption_formula, absorption_formulas), ""},
-      {"surface", "height_m", "m", number(at(e.surface, &SeaSurface::height)),
+      {"surface", "height_m", "m", number({e.surface, &SeaSurface::height}),
        "world z of the sea surface, from which depth counts: every head must be below it"},
-      {"surface", "rms_height_m", "m", number(at(e.surface, &SeaSurface::rms_height)),
+      {"surface", "rms_height_m", "m", number({e.surface, &SeaSurface::rms_height}),
        "rms height of the waves; 0: smooth; default: from the wind"},
-      {"surface", "scattering_db", "dB re 1 m^2/m^2", number(at(e.surface, &SeaSurface::scattering_strength_db)),
+      {"surface", "scattering_db", "dB re 1 m^2/m^2", number({e.surface, &SeaSurface::scattering_strength_db}),
        "reverberation of the surface"},
-      {"bottom", "height_m", "m", number(at(e.bottom, &FlatBottom::height)), "world z of a flat bed"},
-      {"bottom", "density_ratio", "", number(at(e.bottom, &FlatBottom::density_ratio)),
+      {"bottom", "height_m", "m", number({e.bottom, &FlatBottom::height}), "world z of a flat bed"},
+      {"bottom", "density_ratio", "", number({e.bottom, &FlatBottom::density_ratio}),
        "sediment to water; the default of this and the next two is medium sand (APL-UW TR 9407)"},
-      {"bottom", "sound_speed_ratio", "", number(at(e.bottom, &FlatBottom::sound_speed_ratio)), "sediment to water"},
-      {"bottom", "loss", "", number(at(e.bottom, &FlatBottom::loss)),
+      {"bottom", "sound_speed_ratio", "", number({e.bottom, &FlatBottom::sound_speed_ratio}), "sediment to water"},
+      {"bottom", "loss", "", number({e.bottom, &FlatBottom::loss}),
        "imaginary to real part of the wavenumber in the sediment"},
-      {"bottom", "rms_height_m", "m", number(at(e.bottom, &FlatBottom::rms_height)), "rms height of its relief"},
+      {"bottom", "rms_height_m", "m", number({e.bottom, &FlatBottom::rms_height}), "rms height of its relief"},
       {"bottom", "lambert_mu_db", "dB re 1/sr",
-       number(at(e.bottom, &FlatBottom::lambert_mu), {.infinite = true}, in_decibels),
+       number({e.bottom, &FlatBottom::lambert_mu}, {.infinite = true}, in_decibels),
        "reverberation of the bottom; at most -4.97"},
-      {"volume", "scattering_db", "dB re 1 m^2/m^3", number(at(e.volume_scattering_db)), "reverberation of the water"},
-      {"wind", "speed_m_s", "m/s", number(at(e.wind_speed)),
-       "at 10 m height: wave height, and with `--noise` wind noise"},
-      {"noise", "self_db", "dB re 1 uPa^2/Hz", number(at(e.self_noise_db)),
+      {"volume", "scattering_db", "dB re 1 m^2/m^3", number(e.volume_scattering_db), "reverberation of the water"},
+      {"wind", "speed_m_s", "m/s", number(e.wind_speed), "at 10 m height: wave height, and with `--noise` wind noise"},
+      {"noise", "self_db", "dB re 1 uPa^2/Hz", number(e.self_noise_db),
        "self noise of platform and electronics, with `--noise`"},
-      {"tank", "size_m", "m", tank_vector(e, &Tank::size, "length along x, y and z"),
+      {"tank", "size_m", "m", vector({e.tank, &Tank::size}, "length along x, y and z"),
        "a box of water, instead of surface and bottom, with a free surface on top ([mirrors.md](mirrors.md))"},
-      {"tank", "corner_m", "m", tank_vector(e, &Tank::corner, "x, y, z"),
+      {"tank", "corner_m", "m", vector({e.tank, &Tank::corner}, "x, y, z"),
        "its corner of least x, y and z in the world"},
-      {"tank", "reflection", "", number(at(e.tank, &Tank::reflection), {.least = -1, .most = 1}),
+      {"tank", "reflection", "", number({e.tank, &Tank::reflection}, {.least = -1, .most = 1}),
        "of pressure, of walls and floor"},
-      {"tank", "rms_height_m", "m", number(at(e.tank, &Tank::rms_height), not_negative),
-       "rms height of their roughness"},
+      {"tank", "rms_height_m", "m", number({e.tank, &Tank::rms_height}, not_negative), "rms height of their roughness"},
       {"", "mirror", "", list_of_tables(), "smooth planes, see below"},
-      {"profile", "depth_m", "m", profile_list(e, &SoundSpeedProfile::depth),
+      {"profile", "depth_m", "m", list({e.profile, &SoundSpeedProfile::depth}),
        "of the sound-speed profile; `--profile` reads it from CSV. One that changes with depth needs "
        "`surface.height_m` or "
        "`water.level_m`; `--without multipath` leaves the surface's echoes out",
        true},
-      {"profile", "sound_speed", "m/s", profile_list(e, &SoundSpeedProfile::sound_speed), "at these depths", true},
+      {"profile", "sound_speed", "m/s", list({e.profile, &SoundSpeedProfile::sound_speed}), "at these depths", true},
   };
 }
 
@@ -133,21 +110,21 @@ std::vector<Key> mirror_keys(MirrorEntry& entry) {
       {"mirror", "place_m", "m", vector_of(m.place, "x, y, z", endless),
        "a point of the plane; the middle, with `size_m`"},
       {"mirror", "normal", "", vector_of(m.normal, "x, y, z", endless), "into the water, of any length"},
-      {"mirror", "size_m", "m", list(entry.size, positive),
+      {"mirror", "size_m", "m", list(given(entry.size), positive),
        "width along the level direction in the plane (x, if the plane is level) and height of a rectangle; default: no "
        "edges"},
       {"mirror", "corners_m", "m", omitted_if(points(m.corners), [endless] { return endless; }),
        "instead of these: corners of a convex plane, counterclockwise as seen from the water"},
-      {"mirror", "reflection", "", number(at(m.reflection), {.least = -1, .most = 1}),
+      {"mirror", "reflection", "", number(m.reflection, {.least = -1, .most = 1}),
        "of pressure; 1: rigid, -1: air behind a thin skin"},
-      {"mirror", "density_kg_m3", "kg/m^3", number(at(m.solid, &ElasticSolid::density), positive),
+      {"mirror", "density_kg_m3", "kg/m^3", number({m.solid, &ElasticSolid::density}, positive),
        "of a thick solid, with its speeds instead of `reflection` (E148)"},
-      {"mirror", "pressure_speed", "m/s", number(at(m.solid, &ElasticSolid::pressure_speed), positive),
+      {"mirror", "pressure_speed", "m/s", number({m.solid, &ElasticSolid::pressure_speed}, positive),
        "of pressure waves in it"},
-      {"mirror", "shear_speed", "m/s", number(at(m.solid, &ElasticSolid::shear_speed), not_negative),
+      {"mirror", "shear_speed", "m/s", number({m.solid, &ElasticSolid::shear_speed}, not_negative),
        "of shear waves in it; 0: a fluid"},
-      {"mirror", "rms_height_m", "m", number(at(m.rms_height), not_negative), "rms height of its roughness"},
-      {"mirror", "thickness_m", "m", number(at(m.thickness), not_negative),
+      {"mirror", "rms_height_m", "m", number(m.rms_height, not_negative), "rms height of its roughness"},
+      {"mirror", "thickness_m", "m", number(m.thickness, not_negative),
        "captured surfels along the plane that are nearer are the mirror itself"},
   };
 }

@@ -30,26 +30,24 @@ bool is_section(const std::vector<Key>& keys, const std::string& name) {
   });
 }
 
-/// "unknown key ..." with the nearest name: in full, else that of another section, else all of them.
-std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& name) {
-  const std::vector<std::string> known = names_of(keys);
+/// "unknown key ...", or of a table "unknown table ...", with the nearest name, else all of them.
+std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& name, bool is_table = false) {
+  std::vector<std::string> known = names_of(keys);
+  if (is_table) {
+    std::ranges::transform(keys, known.begin(), &Key::section);
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    std::erase(known, "");
+    if (known.empty()) return refusal_of_unknown(keys, name);
+  }
   std::string near = nearest_word(name, known);
-  const std::string bare = name.substr(name.rfind('.') + 1);
+  // A key that another section has is meant more likely than one with another name.
   for (const Key& key : keys)
-    if (near.empty() && key.name == bare) near = full_name(key);
-  return "unknown key '" + name + "'" +
-         (near.empty() ? "; known are " + joined(known) : "; did you mean '" + near + "'?");
-}
-
-std::string refusal_of_unknown_table(const std::vector<Key>& keys, const std::string& name) {
-  std::vector<std::string> known;
-  for (const Key& key : keys)
-    if (const std::string section = key.section; !section.empty() && std::ranges::find(known, section) == known.end())
-      known.push_back(section);
-  if (known.empty()) return refusal_of_unknown(keys, name);
-  const std::string near = nearest_word(name, known);
-  return "unknown table [" + name + "]; " +
-         (near.empty() ? "known are [" + joined(known, "] [") + "]" : "did you mean [" + near + "]?");
+    if (near.empty() && !is_table && key.name == name.substr(name.rfind('.') + 1)) near = full_name(key);
+  const std::string open = is_table ? "[" : "'", close = is_table ? "]" : "'";
+  return (is_table ? "unknown table " : "unknown key ") + open + name + close +
+         (!near.empty() ? "; did you mean " + open + near + close + "?"
+          : is_table    ? "; known are [" + joined(known, "] [") + "]"
+                        : "; known are " + joined(known));
 }
 
 /// "key = value unit, must be ..."
@@ -77,12 +75,6 @@ std::vector<TomlValue> values_of_text(const std::string& text) {
   return {list, as_text};
 }
 
-/// A cell of a table in Markdown.
-std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
-  return text.empty() ? " |" : " " + text + " |";
-}
-
 }  // namespace
 
 void read_keys(const std::string& path, const TomlValue& table, const std::vector<Key>& keys,
@@ -96,8 +88,7 @@ void read_keys(const std::string& path, const TomlValue& table, const std::vecto
     if (is_section(keys, name))
       read_keys(path, item, keys, name);
     else if (!find_key(keys, name))
-      fail_in_file(path, item.line,
-                   item.kind == Kind::table ? refusal_of_unknown_table(keys, name) : refusal_of_unknown(keys, name));
+      fail_in_file(path, item.line, refusal_of_unknown(keys, name, item.kind == Kind::table));
   }
   for (const Key& key : keys) {
     if (key.section != section) continue;
@@ -140,17 +131,6 @@ std::string keys_as_toml(const std::vector<Key>& keys) {
     text += std::string(key.name) + " = " + *value + "\n";
   }
   return text;
-}
-
-std::string keys_as_markdown(const std::vector<Key>& keys) {
-  std::string rows = "| key | unit | default | must be | what |\n|---|---|---|---|---|\n";
-  for (const Key& key : keys) {
-    const bool in_help = key.help.find("default") != std::string::npos;
-    const std::string preset = key.required ? "required" : in_help ? "" : key.value.text().value_or("");
-    rows += "|" + cell("`" + full_name(key) + "`") + cell(key.unit) + cell(preset) + cell(key.value.rule) +
-            cell(key.help + (*key.unless ? std::string("; not beside `") + key.unless + "`" : "")) + "\n";
-  }
-  return rows;
 }
 
 std::vector<std::string> names_of(const std::vector<Key>& keys) {

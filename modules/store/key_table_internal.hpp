@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <concepts>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,19 +15,72 @@
 #include "core/units.hpp"
 #include "store/toml_tree_internal.hpp"
 
-// Private to store and tool: the keys of TOML files as rows. The rows serve to read, check and write files, to read
-// --set, and to make the tables of the docs. Rows are bound to the object that they read and write, and must not
+// Private to store, tool and Python: the keys of TOML files as rows. The rows serve to read, check and write files, to
+// read --set, and to test the tables of the docs. Rows are bound to the object that they read and write, and must not
 // outlive it.
 namespace insonify {
 
+/// Where a value is. Setting it makes a part that holds it present.
+template <typename T>
+struct Member {
+  std::function<std::optional<T>()> get;  ///< nothing: files omit the key
+  std::function<void(const T&)> set;
+
+  Member(std::function<std::optional<T>()> getter, std::function<void(const T&)> setter)
+      : get(std::move(getter)), set(std::move(setter)) {}
+  /// An object of the type, of an optional of it, or of one that it converts to: a count is a number.
+  template <typename Object>
+  requires(!std::same_as<Object, Member>) Member(Object& object)
+      : get([&object] { return std::optional<T>(object); }),
+        set([&object](const T& value) { object = static_cast<Object>(value); }) {}
+  /// A field of a part that may be absent.
+  template <typename Part, typename Field>
+  Member(std::optional<Part>& part, Field Part::*field)
+      : get([&part, field] { return part ? std::optional<T>((*part).*field) : std::nullopt; }),
+        set([&part, field](const T& value) {
+          if (!part) part.emplace();
+          (*part).*field = value;
+        }) {}
+};
+
+/// An object that files omit while it has its default: 0, or no text, or no entries.
+template <typename T>
+Member<T> given(T& object) {
+  const auto get = [&object] { return object == T{} ? std::nullopt : std::optional<T>(object); };
+  return {get, [&object](const T& value) { object = value; }};
+}
+
+/// How files write a value.
+template <typename T>
+struct Form {
+  std::string rule;                                        ///< rule for values, as text: "a number > 0"
+  std::function<std::optional<T>(const TomlValue&)> read;  ///< nothing: the value breaks the rule
+  std::function<std::string(const T&)> write;              ///< TOML that reads back to the same bits
+};
+
 /// The value of a key: access and rule.
 struct KeyValue {
-  std::string rule;  ///< rule for values, as text: "a number > 0"
+  std::string rule;
   /// Sets the value; returns false if it breaks the rule. `path` is the path of the file, for relative paths in it.
   std::function<bool(const TomlValue& value, const std::string& path)> set;
-  /// Returns the value as TOML that reads back to the same bits; nothing if files omit the key.
+  /// Returns the value as TOML; nothing if files omit the key.
   std::function<std::optional<std::string>()> text;
 };
+
+/// The value at `member`, which files write in this form.
+template <typename T>
+KeyValue value_in(const Member<T>& member, const Form<T>& form) {
+  const auto set = [=](const TomlValue& value, const std::string&) {
+    const std::optional<T> read = form.read(value);
+    if (read) member.set(*read);
+    return read.has_value();
+  };
+  const auto text = [=] {
+    const std::optional<T> value = member.get();
+    return value ? std::optional(form.write(*value)) : std::nullopt;
+  };
+  return {form.rule, set, text};
+}
 
 /// A key of a file.
 struct Key {
@@ -58,9 +113,6 @@ void set_key(const std::vector<Key>& keys, const std::string& name, const std::v
 /// The keys as TOML, each section under its title.
 std::string keys_as_toml(const std::vector<Key>& keys);
 
-/// The keys as rows of a table in Markdown: key, unit, default, rule, help.
-std::string keys_as_markdown(const std::vector<Key>& keys);
-
 /// "section.name" of all keys.
 std::vector<std::string> names_of(const std::vector<Key>& keys);
 
@@ -85,61 +137,45 @@ struct NumberRule {
 };
 inline constexpr NumberRule positive{.least = 0, .above = true}, not_negative{.least = 0};
 
-/// A number of an object.
-struct Number {
-  std::function<std::optional<double>()> get;
-  std::function<void(double)> set;
+/// Rule for a list.
+struct ListRule {
+  std::size_t least = 1, most = std::numeric_limits<std::size_t>::max();  ///< of its entries
+  bool bare = false;                                                      ///< one entry may stand by itself
+  bool ascending = false;                                                 ///< the last entry is not below the first
+  const char* text = "";                                                  ///< the rule as text; "": of each entry
 };
-template <typename T>
-Number at(T& x) {
-  return {[&x] { return static_cast<double>(x); }, [&x](double value) { x = static_cast<T>(value); }};
-}
-template <typename T>
-Number at(std::optional<T>& x) {
-  return {[&x]() -> std::optional<double> { return x; }, [&x](double value) { x = value; }};
-}
-/// A number of a part that may be absent; setting it makes the part present.
-template <typename Part, typename Field>
-Number at(std::optional<Part>& part, Field Part::*field) {
-  return {
-      [&part, field]() -> std::optional<double> { return part ? std::optional<double>((*part).*field) : std::nullopt; },
-      [&part, field](double value) {
-        if (!part) part.emplace();
-        (*part).*field = value;
-      }};
-}
 
-KeyValue number(const Number& number, const NumberRule& rule = {}, const Scale& scale = as_it_is);
-KeyValue list(std::vector<double>& numbers, const NumberRule& rule = {}, const Scale& scale = as_it_is);
-KeyValue vector(Eigen::Vector3d& vector, const char* meaning, const Scale& scale = as_it_is);
-KeyValue points(std::vector<Eigen::Vector3d>& points);
-KeyValue flag(bool& flag);
-KeyValue seed(std::uint64_t& seed);
+KeyValue number(const Member<double>& number, const NumberRule& rule = {}, const Scale& scale = as_it_is);
+KeyValue angle(const Member<double>& angle, const NumberRule& rule = {});  ///< in degrees in files
+KeyValue list(const Member<std::vector<double>>& numbers, const NumberRule& each = {}, const Scale& scale = as_it_is,
+              const ListRule& rule = {});
+KeyValue vector(const Member<Eigen::Vector3d>& vector, const char* meaning, const Scale& scale = as_it_is);
+KeyValue points(const Member<std::vector<Eigen::Vector3d>>& points);
+KeyValue polygon(const Member<std::vector<Eigen::Vector2d>>& corners);
+KeyValue flag(const Member<bool>& flag);
+KeyValue seed(const Member<std::uint64_t>& seed);
 /// Text for which `allowed` returns true; `rule` states the condition.
 KeyValue text(
-    std::string& text, const char* rule = "text in quotes",
+    const Member<std::string>& text, const char* rule = "text in quotes",
     bool (*allowed)(const std::string&) = [](const std::string&) { return true; });
 /// The path of a file (path_named_in).
-KeyValue path(std::string& path);
+KeyValue path(const Member<std::string>& path);
 /// Texts, each of them one of `words` unless there are none.
-KeyValue texts(std::vector<std::string>& texts, const std::vector<std::string>& words = {});
+KeyValue texts(const Member<std::vector<std::string>>& texts, const std::vector<std::string>& words = {});
 /// One table [[name]] or more, which read_keys reads one by one.
 KeyValue list_of_tables();
 /// One of a list of words; any text if there are none.
-KeyValue word(std::string& text, const std::vector<std::string>& words);
-/// One of a table of names. `Value` is the type of the table's values, or an optional of it.
-template <typename Value, typename Table>
-KeyValue word(Value& value, const Table& table) {
-  const auto set = [&](const TomlValue& from, const std::string&) {
-    const auto* found = from.kind == TomlValue::Kind::text ? find_named(table, from.text) : nullptr;
-    if (found) value = *found;
-    return found != nullptr;
+KeyValue word(const Member<std::string>& text, const std::vector<std::string>& words);
+/// One of a table of names.
+template <typename Table, typename Value = std::remove_cvref_t<decltype(std::declval<Table&>()[0].value)>>
+KeyValue word(const std::type_identity_t<Member<Value>>& value, const Table& table) {
+  const auto read = [table](const TomlValue& from) -> std::optional<Value> {
+    const Value* found = from.kind == TomlValue::Kind::text ? find_named(table, from.text) : nullptr;
+    return found ? std::optional(*found) : std::nullopt;
   };
-  const auto text = [&]() -> std::optional<std::string> {
-    const std::string name = name_of(table, value);
-    return name.empty() ? std::nullopt : std::optional(as_toml(name));
-  };
-  return {"one of " + joined(table, ", ", [](const auto& row) { return std::string(row.name); }), set, text};
+  const auto write = [table](const Value& of) { return as_toml(name_of(table, of)); };
+  return value_in<Value>(
+      value, {"one of " + joined(table, ", ", [](const auto& row) { return std::string(row.name); }), read, write});
 }
 
 /// The value; each time it is set, `action` is called.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "store/key_table_internal.hpp"
@@ -33,39 +31,58 @@ bool obeys(const TomlValue& value, const NumberRule& rule) {
   return !(rule.most < std::numeric_limits<double>::infinity()) || x <= rule.most;
 }
 
-bool is_list(const TomlValue& value, const std::function<bool(const TomlValue&)>& of) {
-  return value.kind == Kind::array && std::all_of(value.items.begin(), value.items.end(), of);
+Form<double> number_form(const NumberRule& rule, const Scale& scale) {
+  const auto read = [=](const TomlValue& value) {
+    return obeys(value, rule) ? std::optional(scale.from_file(value.number)) : std::nullopt;
+  };
+  return {rule_of(rule), read, [=](double x) { return rule.whole ? printed("%.0f", x) : as_toml(scale.to_file(x)); }};
 }
 
-bool is_vector(const TomlValue& value) {
-  return value.items.size() == 3 && is_list(value, [](const TomlValue& item) { return obeys(item, {}); });
+Form<std::string> word_form(const std::vector<std::string>& words) {
+  const auto read = [=](const TomlValue& value) {
+    const bool good =
+        value.kind == Kind::text && (words.empty() || std::ranges::find(words, value.text) != words.end());
+    return good ? std::optional(value.text) : std::nullopt;
+  };
+  const auto write = [](const std::string& word) { return as_toml(word); };
+  return {words.empty() ? "text in quotes" : "one of " + joined(words), read, write};
 }
 
-Eigen::Vector3d vector_of(const TomlValue& value, const Scale& scale) {
-  Eigen::Vector3d vector;
-  for (int i = 0; i < 3; ++i) vector[i] = scale.from_file(value.items[static_cast<std::size_t>(i)].number);
-  return vector;
+template <typename T>
+Form<std::vector<T>> list_form(const Form<T>& each, const ListRule& rule) {
+  const auto read = [=](const TomlValue& value) -> std::optional<std::vector<T>> {
+    const bool bare = rule.bare && value.kind != Kind::array;
+    if (!bare && value.kind != Kind::array) return std::nullopt;
+    std::vector<T> list;
+    for (const TomlValue& item : bare ? std::vector{value} : value.items) {
+      const std::optional<T> entry = each.read(item);
+      if (!entry) return std::nullopt;
+      list.push_back(*entry);
+    }
+    const bool good = list.size() >= rule.least && list.size() <= rule.most;
+    return good ? std::optional(list) : std::nullopt;
+  };
+  const auto write = [=](const std::vector<T>& list) { return "[" + joined(list, ", ", each.write) + "]"; };
+  return {*rule.text ? rule.text : "a list, each " + each.rule, read, write};
 }
 
-std::string text_of_vector(const Eigen::Vector3d& vector, const Scale& scale) {
-  return as_toml(std::vector{scale.to_file(vector[0]), scale.to_file(vector[1]), scale.to_file(vector[2])});
-}
-
-bool is_one_of(const TomlValue& value, const std::vector<std::string>& words) {
-  return value.kind == Kind::text && (words.empty() || std::ranges::find(words, value.text) != words.end());
+template <int n>
+Form<Eigen::Vector<double, n>> vector_form(const std::string& rule, const Scale& scale) {
+  const Form<std::vector<double>> numbers = list_form(number_form({}, scale), {.least = n, .most = n});
+  const auto read = [=](const TomlValue& value) -> std::optional<Eigen::Vector<double, n>> {
+    const std::optional<std::vector<double>> list = numbers.read(value);
+    return list ? std::optional<Eigen::Vector<double, n>>(list->data()) : std::nullopt;
+  };
+  return {rule, read, [=](const auto& vector) { return numbers.write({vector.begin(), vector.end()}); }};
 }
 
 }  // namespace
 
 double shortest_degrees(double angle) {
   const double straight = degrees(angle);
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::array<char, 40> text{};
-    const auto end = std::to_chars(text.begin(), text.end(), straight, std::chars_format::general, digits).ptr;
-    double rounded = 0;
-    std::from_chars(text.begin(), end, rounded);
-    if (radians(rounded) == angle) return rounded;
-  }
+  double rounded = 0;
+  for (int digits = 6; digits <= 17; ++digits)
+    if (to_number(printed("%.*g", digits, straight), rounded) && radians(rounded) == angle) return rounded;
   // An angle that was computed in radians may be off by its last bit.
   for (const double towards : {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()}) {
     double near = straight;
@@ -75,124 +92,91 @@ double shortest_degrees(double angle) {
   return straight;
 }
 
-KeyValue number(const Number& number, const NumberRule& rule, const Scale& scale) {
-  const auto set = [=](const TomlValue& value, const std::string&) {
-    if (!obeys(value, rule)) return false;
-    number.set(scale.from_file(value.number));
-    return true;
-  };
-  const auto text = [=]() -> std::optional<std::string> {
-    const std::optional<double> x = number.get();
-    if (!x) return std::nullopt;
-    return rule.whole ? printed("%.0f", *x) : as_toml(scale.to_file(*x));
-  };
-  return {rule_of(rule), set, text};
+KeyValue number(const Member<double>& number, const NumberRule& rule, const Scale& scale) {
+  return value_in(number, number_form(rule, scale));
 }
 
-KeyValue list(std::vector<double>& numbers, const NumberRule& rule, const Scale& scale) {
-  const auto set = [&numbers, rule, scale](const TomlValue& value, const std::string&) {
-    if (value.items.empty() || !is_list(value, [&](const TomlValue& item) { return obeys(item, rule); })) return false;
-    numbers.clear();
-    for (const TomlValue& item : value.items) numbers.push_back(scale.from_file(item.number));
-    return true;
-  };
-  const auto text = [&numbers, scale]() -> std::optional<std::string> {
-    std::vector<double> written;
-    for (const double x : numbers) written.push_back(scale.to_file(x));
-    return written.empty() ? std::nullopt : std::optional(as_toml(written));
-  };
-  return {"a list, each " + rule_of(rule), set, text};
+KeyValue angle(const Member<double>& angle, const NumberRule& rule) { return number(angle, rule, in_degrees); }
+
+KeyValue list(const Member<std::vector<double>>& numbers, const NumberRule& each, const Scale& scale,
+              const ListRule& rule) {
+  Form<std::vector<double>> form = list_form(number_form(each, scale), rule);
+  if (rule.ascending)
+    form.read = [read = form.read](const TomlValue& value) {
+      const std::optional<std::vector<double>> list = read(value);
+      return list && list->front() <= list->back() ? list : std::nullopt;
+    };
+  return value_in(numbers, form);
 }
 
-KeyValue vector(Eigen::Vector3d& vector, const char* meaning, const Scale& scale) {
-  const auto set = [&vector, scale](const TomlValue& value, const std::string&) {
-    if (is_vector(value)) vector = vector_of(value, scale);
-    return is_vector(value);
-  };
-  return {std::string("three numbers: ") + meaning, set, [&vector, scale] { return text_of_vector(vector, scale); }};
+KeyValue vector(const Member<Eigen::Vector3d>& vector, const char* meaning, const Scale& scale) {
+  return value_in(vector, vector_form<3>(std::string("three numbers: ") + meaning, scale));
 }
 
-KeyValue points(std::vector<Eigen::Vector3d>& points) {
-  const auto set = [&points](const TomlValue& value, const std::string&) {
-    if (!is_list(value, is_vector)) return false;
-    points.clear();
-    for (const TomlValue& item : value.items) points.push_back(vector_of(item, as_it_is));
-    return true;
-  };
-  const auto text = [&points]() -> std::optional<std::string> {
-    if (points.empty()) return std::nullopt;
-    return "[" + joined(points, ", ", [](const Eigen::Vector3d& p) { return text_of_vector(p, as_it_is); }) + "]";
-  };
-  return {"a list of points [x, y, z]", set, text};
+KeyValue points(const Member<std::vector<Eigen::Vector3d>>& points) {
+  return value_in(points, list_form(vector_form<3>("", as_it_is), {.least = 0, .text = "a list of points [x, y, z]"}));
 }
 
-KeyValue flag(bool& flag) {
-  const auto set = [&flag](const TomlValue& value, const std::string&) {
-    if (value.kind == Kind::boolean) flag = value.number != 0;
-    return value.kind == Kind::boolean;
-  };
-  return {"true or false", set, [&flag] { return flag ? "true" : "false"; }};
+KeyValue polygon(const Member<std::vector<Eigen::Vector2d>>& corners) {
+  const ListRule rule{.least = 3, .text = "a list of three or more corners [x, y]"};
+  return value_in(corners, list_form(vector_form<2>("", as_it_is), rule));
 }
 
-KeyValue seed(std::uint64_t& seed) {
-  const auto set = [&seed](const TomlValue& value, const std::string&) {
-    // TOML has no integers from 2^63 on, and its readers no exact ones from 2^53 on: those are text.
-    const bool whole = value.kind == Kind::integer && value.number >= 0 && value.number < 0x1p53;
-    if (whole) seed = static_cast<std::uint64_t>(value.number);
-    return whole || (value.kind == Kind::text && to_number(value.text, seed));
+KeyValue flag(const Member<bool>& flag) {
+  const auto read = [](const TomlValue& value) {
+    return value.kind == Kind::boolean ? std::optional(value.number != 0) : std::nullopt;
   };
-  const auto text = [&seed] {
-    const std::string digits = std::to_string(seed);
-    return seed < (std::uint64_t{1} << 53) ? digits : as_toml(digits);
-  };
-  return {"an integer from 0, in quotes from 2^53", set, text};
+  return value_in<bool>(flag, {"true or false", read, [](bool on) { return on ? "true" : "false"; }});
 }
 
-KeyValue text(std::string& text, const char* rule, bool (*allowed)(const std::string&)) {
-  const auto set = [&text, allowed](const TomlValue& value, const std::string&) {
-    if (value.kind != Kind::text || !allowed(value.text)) return false;
-    text = value.text;
-    return true;
+KeyValue seed(const Member<std::uint64_t>& seed) {
+  // TOML has no integers from 2^63 on, and its readers no exact ones from 2^53 on: those are text.
+  const auto read = [](const TomlValue& value) -> std::optional<std::uint64_t> {
+    std::uint64_t number = 0;
+    if (value.kind == Kind::text && to_number(value.text, number)) return number;
+    if (value.kind != Kind::integer || value.number < 0 || value.number >= 0x1p53) return std::nullopt;
+    return static_cast<std::uint64_t>(value.number);
   };
-  return {rule, set, [&text] { return as_toml(text); }};
+  const auto write = [](std::uint64_t number) {
+    const std::string digits = std::to_string(number);
+    return number < (std::uint64_t{1} << 53) ? digits : as_toml(digits);
+  };
+  return value_in<std::uint64_t>(seed, {"an integer from 0, in quotes from 2^53", read, write});
 }
 
-KeyValue path(std::string& path) {
+KeyValue text(const Member<std::string>& text, const char* rule, bool (*allowed)(const std::string&)) {
+  Form<std::string> form = word_form({});
+  form.rule = rule;
+  form.read = [allowed](const TomlValue& value) {
+    return value.kind == Kind::text && allowed(value.text) ? std::optional(value.text) : std::nullopt;
+  };
+  return value_in(text, form);
+}
+
+KeyValue path(const Member<std::string>& path) {
   KeyValue value = text(path);
-  value.set = [set = value.set, &path](const TomlValue& from, const std::string& file) {
-    if (!set(from, file)) return false;
-    path = path_named_in(file, path);
-    return true;
+  value.set = [path](const TomlValue& from, const std::string& file) {
+    if (from.kind == Kind::text) path.set(path_named_in(file, from.text));
+    return from.kind == Kind::text;
   };
   return value;
 }
 
-KeyValue texts(std::vector<std::string>& texts, const std::vector<std::string>& words) {
-  const auto set = [&texts, words](const TomlValue& value, const std::string&) {
-    if (!is_list(value, [&](const TomlValue& item) { return is_one_of(item, words); })) return false;
-    texts.clear();
-    for (const TomlValue& item : value.items) texts.push_back(item.text);
-    return true;
-  };
-  const auto text = [&texts] {
-    return "[" + joined(texts, ", ", [](const std::string& word) { return as_toml(word); }) + "]";
-  };
-  return {words.empty() ? "a list of texts" : "a list, each one of " + joined(words), set, text};
+KeyValue texts(const Member<std::vector<std::string>>& texts, const std::vector<std::string>& words) {
+  return value_in(texts, list_form(word_form(words), {.least = 0, .text = words.empty() ? "a list of texts" : ""}));
 }
 
 KeyValue list_of_tables() {
   const auto set = [](const TomlValue& value, const std::string&) {
-    return !value.items.empty() && is_list(value, [](const TomlValue& item) { return item.kind == Kind::table; });
+    const bool tables =
+        std::ranges::all_of(value.items, [](const TomlValue& item) { return item.kind == Kind::table; });
+    return value.kind == Kind::array && !value.items.empty() && tables;
   };
   return {"a list of tables [[...]]", set, [] { return std::nullopt; }};
 }
 
-KeyValue word(std::string& text, const std::vector<std::string>& words) {
-  const auto set = [&text, words](const TomlValue& value, const std::string&) {
-    if (is_one_of(value, words)) text = value.text;
-    return is_one_of(value, words);
-  };
-  return {words.empty() ? "text in quotes" : "one of " + joined(words), set, [&text] { return as_toml(text); }};
+KeyValue word(const Member<std::string>& text, const std::vector<std::string>& words) {
+  return value_in(text, word_form(words));
 }
 
 KeyValue then(KeyValue value, const std::function<void()>& action) {

@@ -23,8 +23,8 @@ KeyValue number_of(Material& material, const MaterialNumber& n) {
     };
     return {flag ? "true or false" : '"' + std::string(n.word) + '"', set, [] { return std::optional<std::string>(); }};
   }
-  if (!n.in_decibels) return number(at(material.*n.member), {.least = 0, .most = n.most_in_files, .note = n.note});
-  Number power = at(material.*n.member);
+  if (!n.in_decibels) return number(material.*n.member, {.least = 0, .most = n.most_in_files, .note = n.note});
+  Member<double> power = material.*n.member;
   power.set = [set = power.set, most = n.most_in_files](double x) { set(std::min(x, most)); };
   const double most = std::ceil(100 * db_from_power(n.most_in_files)) / 100;
   return number(power, {.most = most, .infinite = true, .note = n.note}, in_decibels);
@@ -32,8 +32,8 @@ KeyValue number_of(Material& material, const MaterialNumber& n) {
 
 /// A number of a law, in the unit of files.
 KeyValue number_of(std::optional<double>& x, const LawNumber& n) {
-  if (n.in_decibels) return number(at(x), {.most = db_from_power(n.most), .infinite = true}, in_decibels);
-  const auto get = [&x, n]() -> std::optional<double> { return x ? std::optional(*x * n.in_file) : std::nullopt; };
+  if (n.in_decibels) return number(x, {.most = db_from_power(n.most), .infinite = true}, in_decibels);
+  const auto get = [&x, n] { return x ? std::optional(*x * n.in_file) : std::nullopt; };
   return number({get, [&x, n](double value) { x = value / n.in_file; }},
                 {.least = n.least * n.in_file, .most = n.most * n.in_file, .above = n.above});
 }
@@ -84,20 +84,19 @@ std::vector<Key> material_keys(MaterialEntry& entry) {
   keys.insert(
       keys.end(),
       {
-          {"material", "incidence_deg", "deg", list(entry.table.incidence, {.least = 0, .most = 90}, in_degrees),
+          {"material", "incidence_deg", "deg", list(given(entry.table.incidence), {.least = 0, .most = 90}, in_degrees),
            "table: angles of incidence, from 0 to 75 or more, below 90"},
-          {"material", "frequency_khz", "kHz", list(entry.table.frequency, positive, in_kilohertz),
+          {"material", "frequency_khz", "kHz", list(given(entry.table.frequency), positive, in_kilohertz),
            "table: frequencies; default: the same at all"},
-          {"material", "sigma_db", "dB re 1/sr", list(entry.table.sigma_db),
+          {"material", "sigma_db", "dB re 1/sr", list(given(entry.table.sigma_db)),
            "table: backscattering strength at all angles, frequency by frequency"},
           {"material", "bistatic", "", word(entry.bistatic, {"separable", "half_vector"}),
            "table: in two directions the geometric mean of both, or that of the half vector, for lobes; default: "
            "separable"},
-          {"material", "label", "", number(at(entry.sourced.label), label),
+          {"material", "label", "", number(entry.sourced.label, label),
            "in the cloud; default: its position in the file"},
-          {"material", "from", "", number(at(entry.interval.from), any),
-           "or an interval of field values: from (included)"},
-          {"material", "to", "", number(at(entry.interval.to), any), "to (excluded); one of the two may be omitted"},
+          {"material", "from", "", number(entry.interval.from, any), "or an interval of field values: from (included)"},
+          {"material", "to", "", number(entry.interval.to, any), "to (excluded); one of the two may be omitted"},
           {"material", "status", "", text(entry.sourced.status), "of the values: sourced, derived, user, ..."},
           {"material", "source", "", text(entry.sourced.source), "where they come from"},
       });

@@ -45,10 +45,7 @@ void fit_fan(SonarSpec& spec) {
 }
 
 /// A width that is 0 in the spec if files omit it.
-KeyValue optional_width(double& width) {
-  const NumberRule rule{.least = 0, .above = true, .note = "omit the key if there is none"};
-  return omitted_if(number(at(width), rule, in_degrees), [&width] { return width == 0; });
-}
+constexpr NumberRule width_rule{.least = 0, .above = true, .note = "omit the key if there is none"};
 
 }  // namespace
 
@@ -56,46 +53,43 @@ std::vector<Key> sonar_keys(SonarSpec& s) {
   const auto fit = [&s] { fit_fan(s); };
   const auto even = [&s] { drop_table(s); };
   const auto has_azimuths = [&s] { return !s.azimuths.empty(); };
-  const Number resolution{[]() -> std::optional<double> { return std::nullopt; },
-                          [&s](double metres) { s.bandwidth = nominal_sound_speed / (2 * metres); }};
+  const Member<double> resolution{[] { return std::optional<double>(); },
+                                  [&s](double metres) { s.bandwidth = nominal_sound_speed / (2 * metres); }};
   return {
       {"", "name", "", text(s.name), "of the sonar", true},
-      {"", "centre_frequency_hz", "Hz", number(at(s.centre_frequency)), "of the pulse", true},
-      {"", "bandwidth_hz", "Hz", number(at(s.bandwidth)), "full -3 dB width", true, "range_resolution_m"},
+      {"", "centre_frequency_hz", "Hz", number(s.centre_frequency), "of the pulse", true},
+      {"", "bandwidth_hz", "Hz", number(s.bandwidth), "full -3 dB width", true, "range_resolution_m"},
       {"", "range_resolution_m", "m", number(resolution, positive), "c / 2B at 1500 m/s"},
-      {"", "source_level_db", "dB", number(at(s.source_level_db)), "re 1 uPa at 1 m", true},
+      {"", "source_level_db", "dB", number(s.source_level_db), "re 1 uPa at 1 m", true},
       {"", "beams", "",
-       then(omitted_if(number(at(s.beams), {.least = 1, .most = 65536, .whole = true}), has_azimuths), even),
+       then(omitted_if(number(s.beams, {.least = 1, .most = 65536, .whole = true}), has_azimuths), even),
        "number of evenly spaced beams", true, "azimuths_deg"},
-      {"", "field_of_view_deg", "deg",
-       then(omitted_if(number(at(s.field_of_view), {}, in_degrees), has_azimuths), even), "of evenly spaced beams",
-       true, "azimuths_deg"},
-      {"", "beam_width_deg", "deg", then(number(at(s.beam_width), {}, in_degrees), fit), "-3 dB, in azimuth", true},
-      {"", "azimuths_deg", "deg", then(list(s.azimuths, {.least = -180, .most = 180}, in_degrees), fit),
+      {"", "field_of_view_deg", "deg", then(omitted_if(angle(s.field_of_view), has_azimuths), even),
+       "of evenly spaced beams", true, "azimuths_deg"},
+      {"", "beam_width_deg", "deg", then(angle(s.beam_width), fit), "-3 dB, in azimuth", true},
+      {"", "azimuths_deg", "deg", then(list(given(s.azimuths), {.least = -180, .most = 180}, in_degrees), fit),
        "a list of beams"},
       {"", "elevations_deg", "deg",
-       then(list(s.elevations, {.least = -90, .most = 90}, in_degrees), [&s] { s.elevation = 0; }),
+       then(list(given(s.elevations), {.least = -90, .most = 90}, in_degrees), [&s] { s.elevation = 0; }),
        "a row of beams at each listed elevation, with `azimuths_deg` one elevation per beam"},
-      {"", "column_beam_width_deg", "deg", optional_width(s.column_beam_width),
+      {"", "column_beam_width_deg", "deg", angle(given(s.column_beam_width), width_rule),
        "beam width of a planar array in elevation; absent: a line array"},
-      {"", "side_lobe_db", "dB", number(at(s.side_lobe_db)),
-       "level of the side lobes of taylor and chebyshev; 0: uniform"},
+      {"", "side_lobe_db", "dB", number(s.side_lobe_db), "level of the side lobes of taylor and chebyshev; 0: uniform"},
       {"", "shading", "", omitted_if(word(s.shading, shadings), [&s] { return is_default_shading(s); }),
        "of the array; default: taylor, with `side_lobe_db = 0` uniform"},
-      {"", "transmit_width_deg", "deg", optional_width(s.transmit_width),
+      {"", "transmit_width_deg", "deg", angle(given(s.transmit_width), width_rule),
        "width of the transmitter's main lobe in azimuth; absent: uniform over the fan"},
-      {"", "elevation_width_deg", "deg", number(at(s.elevation_width), {}, in_degrees), "-3 dB, in elevation", true},
+      {"", "elevation_width_deg", "deg", angle(s.elevation_width), "-3 dB, in elevation", true},
       {"", "elevation_deg", "deg",
-       then(omitted_if(number(at(s.elevation), {}, in_degrees), [&s] { return !s.elevations.empty(); }),
-            [&s] { s.elevations.clear(); }),
+       then(omitted_if(angle(s.elevation), [&s] { return !s.elevations.empty(); }), [&s] { s.elevations.clear(); }),
        "of the fan's axis", false, "elevations_deg"},
       {"", "elevation_shape", "", word(s.elevation_shape, elevation_shapes), "of the pattern in elevation"},
-      {"", "min_range_m", "m", number(at(s.min_range)), "from which it listens", true},
-      {"", "max_range_m", "m", number(at(s.max_range)), "to which it listens", true},
-      {"", "bin_size_m", "m", number(at(s.bin_size)), "at most 0.44 c / 2B, the default"},
+      {"", "min_range_m", "m", number(s.min_range), "from which it listens", true},
+      {"", "max_range_m", "m", number(s.max_range), "to which it listens", true},
+      {"", "bin_size_m", "m", number(s.bin_size), "at most 0.44 c / 2B, the default"},
       {"", "pulse", "", omitted_if(word(s.pulse, pulses), [&s] { return s.pulse == PulseShape::gaussian; }),
        "shape; default: gaussian, whose length follows from the bandwidth; linear_fm is a sweep"},
-      {"", "pulse_length_s", "s", number(at(s.pulse_length)), "duration of a linear_fm sweep"},
+      {"", "pulse_length_s", "s", number(s.pulse_length), "duration of a linear_fm sweep"},
       {"", "replica_window", "", word(s.replica_window, windows),
        "of the matched filter of a linear_fm sweep; default: hamming"},
   };

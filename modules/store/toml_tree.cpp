@@ -11,7 +11,6 @@
 #include <toml++/toml.h>
 
 #include "core/text.hpp"
-#include "store/nearest_word.hpp"
 #include "store/run_directory.hpp"
 #include "store/toml_tree_internal.hpp"
 
@@ -124,14 +123,6 @@ std::string as_toml(const TomlValue& value) {
       break;
   }
   return "a date";
-}
-
-void require_known_keys(const std::string& path, const TomlValue& table, const std::vector<std::string>& known) {
-  for (std::size_t i = 0; i < table.keys.size(); ++i) {
-    const std::string& key = table.keys[i];
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    fail_in_file(path, table.items[i].line, "unknown key '", key, "'", did_you_mean(key, known));
-  }
 }
 
 std::string toml_text(const std::string& path, const TomlValue& table, const std::string& key) {

@@ -37,9 +37,6 @@ std::string as_toml(double number);
 std::string as_toml(const std::vector<double>& numbers);
 std::string as_toml(const TomlValue& value);
 
-/// Throws Error(content) at the first key of `table` that is not in `known`, with the nearest known one.
-void require_known_keys(const std::string& path, const TomlValue& table, const std::vector<std::string>& known);
-
 /// The text or number of a key; throws Error(content) with the line if it is missing or of another type.
 std::string toml_text(const std::string& path, const TomlValue& table, const std::string& key);
 double toml_number(const std::string& path, const TomlValue& table, const std::string& key);

@@ -128,7 +128,7 @@ TEST(EnvironmentFile, a_profile_reads_back_from_its_toml) {
   EXPECT_EQ(back.profile->sound_speed, e.profile->sound_speed);
   EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = [0, 5]\n"), ":1: missing key 'profile.sound_speed'"));
   EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = 0\nsound_speed = [1500]\n"),
-                    ":2: profile.depth_m = 0 m, must be a list of numbers"));
+                    ":2: profile.depth_m = 0 m, must be a list, each a number"));
   EXPECT_TRUE(holds(error_of_environment("[profile]\ndepth_m = [3, 1]\nsound_speed = [1500, 1500]\n"),
                     "must be deeper than the entry before it"));
 }

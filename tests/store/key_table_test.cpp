@@ -18,6 +18,24 @@ std::string page(const std::string& name) {
   return text.str();
 }
 
+/// A cell of a table in Markdown.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+  return text.empty() ? " |" : " " + text + " |";
+}
+
+/// The keys as rows of a table in Markdown: key, unit, default, rule, help.
+std::string keys_as_markdown(const std::vector<Key>& keys) {
+  std::string rows = "| key | unit | default | must be | what |\n|---|---|---|---|---|\n";
+  for (const Key& key : keys) {
+    const bool in_help = key.help.find("default") != std::string::npos;
+    const std::string preset = key.required ? "required" : in_help ? "" : key.value.text().value_or("");
+    rows += "|" + cell("`" + names_of({key}).front() + "`") + cell(key.unit) + cell(preset) + cell(key.value.rule) +
+            cell(key.help + (*key.unless ? std::string("; not beside `") + key.unless + "`" : "")) + "\n";
+  }
+  return rows;
+}
+
 void expect_on(const std::string& name, const std::vector<Key>& keys) {
   const std::string text = page(name), table = keys_as_markdown(keys);
   std::stringstream rows(table);
@@ -51,10 +69,9 @@ TEST(KeyTables, read_what_they_write_and_name_what_breaks_a_rule) {
   double width = radians(12.5);
   std::uint64_t many = ~std::uint64_t{0};
   std::string word_value = "b";
-  const std::vector<Key> keys = {
-      {"", "seed", "", seed(many), ""},
-      {"fan", "width_deg", "deg", number(at(width), {.least = 0, .most = 90, .above = true}, in_degrees), ""},
-      {"fan", "word", "", word(word_value, {"a", "b"}), ""}};
+  const std::vector<Key> keys = {{"", "seed", "", seed(many), ""},
+                                 {"fan", "width_deg", "deg", angle(width, {.least = 0, .most = 90, .above = true}), ""},
+                                 {"fan", "word", "", word(word_value, {"a", "b"}), ""}};
   const std::string text = keys_as_toml(keys);
   EXPECT_EQ(text, "seed = \"18446744073709551615\"\n\n[fan]\nwidth_deg = 12.5\nword = \"b\"\n");
   many = 0, width = 0, word_value = "a";

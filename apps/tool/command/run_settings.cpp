@@ -12,13 +12,13 @@ KeyValue key_value(const RunSetting& setting) {
   if (std::string* const* text = std::get_if<std::string*>(&setting.value))
     return setting.is_path ? path(**text) : word(**text, rules.words);
   if (double* const* value = std::get_if<double*>(&setting.value)) {
-    KeyValue key = number(at(**value), {.infinite = true});
+    KeyValue key = insonify::number(**value, {.infinite = true});
     key.text = [x = *value] { return fmt::format("{}", *x); };
     return key;
   }
   if (int* const* value = std::get_if<int*>(&setting.value)) {
     const auto [least, most] = rules.within.value_or(std::pair(-1000000000, 1000000000));
-    return number(at(**value), {.least = 1.0 * least, .most = 1.0 * most, .whole = true});
+    return insonify::number(**value, {.least = 1.0 * least, .most = 1.0 * most, .whole = true});
   }
   if (std::uint64_t* const* value = std::get_if<std::uint64_t*>(&setting.value)) return seed(**value);
   if (bool* const* value = std::get_if<bool*>(&setting.value)) return flag(**value);
@@ -43,7 +43,7 @@ void read_sections(const std::string& path, const TomlValue& document, const std
     // Runs of before have it, nearly all with 0.
     const TomlValue* gone = table->find("level_error_db");
     if (gone && !(gone->is_number() && gone->number == 0))
-      fail_in_file(path, gone->line, "level_error_db is no setting any more; set scatterers_per_cell or rays_per_beam");
+      fail_in_file(path, gone->line, "level_error_db is no longer a setting; set scatterers_per_cell or rays_per_beam");
     read_keys(path, *table, keys, section, {"level_error_db"});
   }
 }
