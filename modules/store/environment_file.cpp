@@ -49,53 +49,59 @@ std::vector<std::string> others_of_run(const TomlValue& document) {
 std::vector<Key> environment_keys(Environment& e) {
   Water& w = e.water;
   return {
-      {"water", "temperature_c", "deg C", number(w.temperature_c), ""},
-      {"water", "salinity_psu", "psu", number(w.salinity_psu), ""},
+      {"water", "temperature_c", "deg C", number(w.temperature_c), "temperature of the water"},
+      {"water", "salinity_psu", "psu", number(w.salinity_psu), "salinity of the water"},
       {"water", "depth_m", "m", number(w.depth),
-       "depth of the head, of scenes without a surface. With one, depth is `surface.height_m` or `water.level_m` less "
-       "the "
-       "z of the head, for each ping; a depth that is given too must agree to 1 cm"},
+       "depth of the head in a scene without a surface. With `surface.height_m` or `water.level_m`, the depth of each "
+       "ping is that height less the z of the head, and a given depth must agree to 1 cm"},
       {"water", "level_m", "m", number(e.water_level),
-       "world z of the surface of the water, from which depth counts; it has no echoes, as `surface.height_m` has. A "
-       "mission's `[water] level_m` sets it"},
-      {"water", "ph", "", number(w.ph), ""},
-      {"water", "latitude_deg", "deg", number(w.latitude_deg), ""},
-      {"water", "sound_speed_formula", "", word(e.sound_speed_formula, sound_speed_formulas), ""},
-      {"water", "absorption_formula", "", word(e.absorption_formula, absorption_formulas), ""},
+       "world z of the water's surface, from which depth counts. This surface gives no echoes; `surface.height_m` "
+       "gives one that does. `[water] level_m` of a mission sets this key"},
+      {"water", "ph", "", number(w.ph), "acidity (pH) of the water"},
+      {"water", "latitude_deg", "deg", number(w.latitude_deg), "latitude of the scene"},
+      {"water", "sound_speed_formula", "", word(e.sound_speed_formula, sound_speed_formulas),
+       "formula of the sound speed"},
+      {"water", "absorption_formula", "", word(e.absorption_formula, absorption_formulas), "formula of the absorption"},
       {"surface", "height_m", "m", number({e.surface, &SeaSurface::height}),
-       "world z of the sea surface, from which depth counts: every head must be below it"},
+       "world z of the sea surface, from which depth counts; every head must be below the surface"},
       {"surface", "rms_height_m", "m", number({e.surface, &SeaSurface::rms_height}),
-       "rms height of the waves; 0: smooth; default: from the wind"},
+       "rms height of the waves; 0: smooth; default: from the wind speed"},
       {"surface", "scattering_db", "dB re 1 m^2/m^2", number({e.surface, &SeaSurface::scattering_strength_db}),
-       "reverberation of the surface"},
-      {"bottom", "height_m", "m", number({e.bottom, &FlatBottom::height}), "world z of a flat bed"},
+       "scattering strength of the surface, for reverberation"},
+      {"bottom", "height_m", "m", number({e.bottom, &FlatBottom::height}), "world z of a flat bottom"},
       {"bottom", "density_ratio", "", number({e.bottom, &FlatBottom::density_ratio}),
-       "sediment to water; the default of this and the next two is medium sand (APL-UW TR 9407)"},
-      {"bottom", "sound_speed_ratio", "", number({e.bottom, &FlatBottom::sound_speed_ratio}), "sediment to water"},
+       "density of the sediment over that of water. The default of this key and of the next two is medium sand (APL-UW "
+       "TR 9407)"},
+      {"bottom", "sound_speed_ratio", "", number({e.bottom, &FlatBottom::sound_speed_ratio}),
+       "sound speed of the sediment over that of water"},
       {"bottom", "loss", "", number({e.bottom, &FlatBottom::loss}),
-       "imaginary to real part of the wavenumber in the sediment"},
-      {"bottom", "rms_height_m", "m", number({e.bottom, &FlatBottom::rms_height}), "rms height of its relief"},
+       "imaginary over real part of the wavenumber in the sediment"},
+      {"bottom", "rms_height_m", "m", number({e.bottom, &FlatBottom::rms_height}), "rms height of the bottom's relief"},
       {"bottom", "lambert_mu_db", "dB re 1/sr",
        number({e.bottom, &FlatBottom::lambert_mu}, {.infinite = true}, in_decibels),
-       "reverberation of the bottom; at most -4.97"},
-      {"volume", "scattering_db", "dB re 1 m^2/m^3", number(e.volume_scattering_db), "reverberation of the water"},
-      {"wind", "speed_m_s", "m/s", number(e.wind_speed), "at 10 m height: wave height, and with `--noise` wind noise"},
+       "Lambert coefficient of the bottom, for reverberation; at most -4.97"},
+      {"volume", "scattering_db", "dB re 1 m^2/m^3", number(e.volume_scattering_db),
+       "scattering strength of the water, for reverberation"},
+      {"wind", "speed_m_s", "m/s", number(e.wind_speed),
+       "wind speed at 10 m height; sets the wave height and, with `--noise`, the wind noise"},
       {"noise", "self_db", "dB re 1 uPa^2/Hz", number(e.self_noise_db),
-       "self noise of platform and electronics, with `--noise`"},
+       "noise level of platform and electronics, used with `--noise`"},
       {"tank", "size_m", "m", vector({e.tank, &Tank::size}, "length along x, y and z"),
-       "a box of water, instead of surface and bottom, with a free surface on top ([mirrors.md](mirrors.md))"},
+       "size of a box of water with a free surface on top, which replaces surface and bottom "
+       "([mirrors.md](mirrors.md))"},
       {"tank", "corner_m", "m", vector({e.tank, &Tank::corner}, "x, y, z"),
-       "its corner of least x, y and z in the world"},
+       "corner of the tank with the least x, y and z in the world"},
       {"tank", "reflection", "", number({e.tank, &Tank::reflection}, {.least = -1, .most = 1}),
-       "of pressure, of walls and floor"},
-      {"tank", "rms_height_m", "m", number({e.tank, &Tank::rms_height}, not_negative), "rms height of their roughness"},
+       "pressure reflection coefficient of walls and floor"},
+      {"tank", "rms_height_m", "m", number({e.tank, &Tank::rms_height}, not_negative),
+       "rms height of the roughness of walls and floor"},
       {"", "mirror", "", list_of_tables(), "smooth planes, see below"},
       {"profile", "depth_m", "m", list({e.profile, &SoundSpeedProfile::depth}),
-       "of the sound-speed profile; `--profile` reads it from CSV. One that changes with depth needs "
-       "`surface.height_m` or "
-       "`water.level_m`; `--without multipath` leaves the surface's echoes out",
+       "depths of the sound-speed profile; `--profile` reads a profile from CSV. A profile that changes with depth "
+       "needs `surface.height_m` or `water.level_m`; `--without multipath` omits the surface's echoes",
        true},
-      {"profile", "sound_speed", "m/s", list({e.profile, &SoundSpeedProfile::sound_speed}), "at these depths", true},
+      {"profile", "sound_speed", "m/s", list({e.profile, &SoundSpeedProfile::sound_speed}),
+       "sound speeds at these depths", true},
   };
 }
 
@@ -106,26 +112,26 @@ std::vector<Key> mirror_keys(MirrorEntry& entry) {
   };
   const bool endless = m.corners.empty();
   return {
-      {"mirror", "name", "", text(m.name), "for messages"},
+      {"mirror", "name", "", text(m.name), "name of the mirror in messages"},
       {"mirror", "place_m", "m", vector_of(m.place, "x, y, z", endless),
-       "a point of the plane; the middle, with `size_m`"},
-      {"mirror", "normal", "", vector_of(m.normal, "x, y, z", endless), "into the water, of any length"},
+       "a point of the plane; with `size_m`, the middle of the rectangle"},
+      {"mirror", "normal", "", vector_of(m.normal, "x, y, z", endless), "direction into the water, of any length"},
       {"mirror", "size_m", "m", list(given(entry.size), positive),
-       "width along the level direction in the plane (x, if the plane is level) and height of a rectangle; default: no "
-       "edges"},
+       "width and height of a rectangle. The width lies along the level direction in the plane, or along x if the "
+       "plane is level; default: an endless plane"},
       {"mirror", "corners_m", "m", omitted_if(points(m.corners), [endless] { return endless; }),
-       "instead of these: corners of a convex plane, counterclockwise as seen from the water"},
+       "corners of a convex plane, counterclockwise as seen from the water; they replace the three keys above"},
       {"mirror", "reflection", "", number(m.reflection, {.least = -1, .most = 1}),
-       "of pressure; 1: rigid, -1: air behind a thin skin"},
+       "pressure reflection coefficient; 1: rigid, -1: air behind a thin skin"},
       {"mirror", "density_kg_m3", "kg/m^3", number({m.solid, &ElasticSolid::density}, positive),
-       "of a thick solid, with its speeds instead of `reflection` (E148)"},
+       "density of a thick solid; together with both speeds it replaces `reflection` (E148)"},
       {"mirror", "pressure_speed", "m/s", number({m.solid, &ElasticSolid::pressure_speed}, positive),
-       "of pressure waves in it"},
+       "speed of pressure waves in the solid"},
       {"mirror", "shear_speed", "m/s", number({m.solid, &ElasticSolid::shear_speed}, not_negative),
-       "of shear waves in it; 0: a fluid"},
-      {"mirror", "rms_height_m", "m", number(m.rms_height, not_negative), "rms height of its roughness"},
+       "speed of shear waves in the solid; 0: a fluid"},
+      {"mirror", "rms_height_m", "m", number(m.rms_height, not_negative), "rms height of the roughness"},
       {"mirror", "thickness_m", "m", number(m.thickness, not_negative),
-       "captured surfels along the plane that are nearer are the mirror itself"},
+       "distance from the plane within which captured surfels count as the mirror itself"},
   };
 }
 

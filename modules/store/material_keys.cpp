@@ -70,10 +70,10 @@ SurfaceLaw law_of(const std::string& path, const MaterialEntry& entry, int begin
 std::vector<Key> material_keys(MaterialEntry& entry) {
   Material& material = entry.sourced.material;
   std::vector<Key> keys = {
-      {"material", "name", "", text(material.name), "", true},
+      {"material", "name", "", text(material.name), "name of the material", true},
       {"material", "law", "", word(entry.law, {std::begin(surface_law_names), std::end(surface_law_names)}),
-       "by which it scatters; default: lambert"},
-      {"material", "like", "", text(entry.like), "a material by name, whose numbers are the defaults of this one"}};
+       "scattering law; default: lambert"},
+      {"material", "like", "", text(entry.like), "name of a material whose numbers are the defaults of this one"}};
   for (const MaterialNumber& n : material_numbers)
     keys.push_back({"material", n.key, n.in_decibels ? "dB" : n.unit, number_of(material, n), n.help, n.required});
   for (std::size_t k = 0; k < std::size(law_numbers); ++k)
@@ -87,18 +87,20 @@ std::vector<Key> material_keys(MaterialEntry& entry) {
           {"material", "incidence_deg", "deg", list(given(entry.table.incidence), {.least = 0, .most = 90}, in_degrees),
            "table: angles of incidence, from 0 to 75 or more, below 90"},
           {"material", "frequency_khz", "kHz", list(given(entry.table.frequency), positive, in_kilohertz),
-           "table: frequencies; default: the same at all"},
+           "table: frequencies; default: the same strengths at all frequencies"},
           {"material", "sigma_db", "dB re 1/sr", list(given(entry.table.sigma_db)),
            "table: backscattering strength at all angles, frequency by frequency"},
           {"material", "bistatic", "", word(entry.bistatic, {"separable", "half_vector"}),
-           "table: in two directions the geometric mean of both, or that of the half vector, for lobes; default: "
-           "separable"},
+           "table: value for two directions. separable takes the geometric mean of both, half_vector the value at the "
+           "half vector, for lobes; default: separable"},
           {"material", "label", "", number(entry.sourced.label, label),
-           "in the cloud; default: its position in the file"},
-          {"material", "from", "", number(entry.interval.from, any), "or an interval of field values: from (included)"},
-          {"material", "to", "", number(entry.interval.to, any), "to (excluded); one of the two may be omitted"},
-          {"material", "status", "", text(entry.sourced.status), "of the values: sourced, derived, user, ..."},
-          {"material", "source", "", text(entry.sourced.source), "where they come from"},
+           "label of the material in the cloud; default: its position in the file"},
+          {"material", "from", "", number(entry.interval.from, any),
+           "first value of an interval of field values (included), in place of a label"},
+          {"material", "to", "", number(entry.interval.to, any),
+           "end of the interval (excluded); one of `from` and `to` may be omitted"},
+          {"material", "status", "", text(entry.sourced.status), "origin of the values: sourced, derived, user, ..."},
+          {"material", "source", "", text(entry.sourced.source), "source of the values"},
       });
   return keys;
 }

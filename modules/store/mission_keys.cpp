@@ -59,38 +59,39 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
       {"survey", "scene", "", path(m.scene), "cloud, mesh, `.tiles` or a scene of parts ([scenes.md](scenes.md))",
        true},
       {"survey", "seed", "", seed(m.seed),
-       "of all random numbers. Speckle belongs to the scene; noise and reverberation of ping i of a head depend on "
-       "seed, "
-       "head and i alone"},
-      {"survey", "environment", "", path(given(m.environment)), "file as for `ping`"},
-      {"survey", "profile", "", path(given(m.profile)), "file as for `ping`"},
+       "seed of all random numbers. Speckle belongs to the scene. Noise and reverberation of a ping depend only on the "
+       "seed, the head and the number of the ping"},
+      {"survey", "environment", "", path(given(m.environment)), "environment file, as for `ping`"},
+      {"survey", "profile", "", path(given(m.profile)), "sound-speed profile, as for `ping`"},
       {"survey", "coverage", "", flag(m.coverage),
-       "the survey keeps what its pings did to each surfel of a cloud or of tiles (see below)"},
-      {"survey", "start_utc", "", text(given(m.start_utc), utc_rule, is_utc), "time 0"},
+       "true: the survey stores what its pings did to each surfel of a cloud or of tiles (see below)"},
+      {"survey", "start_utc", "", text(given(m.start_utc), utc_rule, is_utc), "time of day at the mission's time 0"},
       {"survey.anchor", "latitude_deg", "deg", number(t.anchor.latitude_deg, latitude),
-       "of the world's origin, on the WGS 84 ellipsoid. `merge` notes anchor and time in `manifest.json` and writes "
-       "`track.geojson` (E90)"},
-      {"survey.anchor", "longitude_deg", "deg", number(t.anchor.longitude_deg, longitude), "of the world's origin"},
+       "latitude of the world's origin on the WGS 84 ellipsoid. `merge` writes anchor and time into `manifest.json`, "
+       "and the track into `track.geojson` (E90)"},
+      {"survey.anchor", "longitude_deg", "deg", number(t.anchor.longitude_deg, longitude),
+       "longitude of the world's origin"},
       {"survey.anchor", "heading_deg", "deg", number(t.anchor.heading_deg),
-       "of the world's x axis, clockwise from north"},
+       "heading of the world's x axis, clockwise from north"},
       {"trajectory", "file", "", path(given(m.trajectory)),
-       "a CSV ([formats.md](formats.md)), or with another extension than `.csv` a TUM file: poses of the vehicle"},
-      {"trajectory", "frame", "", word(t.ned, frames), "of the file"},
-      {"trajectory", "time_offset_s", "s", number(t.time_offset), "added to all times of the file"},
+       "poses of the vehicle: a CSV file ([formats.md](formats.md)), or a TUM file if the extension is not `.csv`"},
+      {"trajectory", "frame", "", word(t.ned, frames), "axes of the file"},
+      {"trajectory", "time_offset_s", "s", number(t.time_offset), "time that is added to all times of the file"},
       {"trajectory", "waypoints_m", "m", points(given(t.way.points)),
-       "in place of a file: a way at constant speed from time 0, its corners blended by arcs that take at most half of "
-       "each leg; the vehicle is level and looks ahead"},
-      {"trajectory", "speed_m_s", "m/s", number(given(t.way.speed), positive), "along the waypoints"},
-      {"trajectory", "turn_radius_m", "m", number(t.way.turn_radius, positive), "of the arcs at waypoints"},
+       "points of a way that replaces the file. The vehicle follows the way at constant speed from time 0, level and "
+       "looking ahead. Arcs blend the corners and take at most half of each leg"},
+      {"trajectory", "speed_m_s", "m/s", number(given(t.way.speed), positive), "speed along the waypoints"},
+      {"trajectory", "turn_radius_m", "m", number(t.way.turn_radius, positive), "radius of the arcs at waypoints"},
       {"trajectory.nav_noise", "position_m", "m", number(t.noise.position, not_negative),
-       "standard deviation of what the vehicle believes of each of its coordinates, a Gauss-Markov process of the seed "
-       "(E98). Pings are made where the vehicle is; poses and returns are stored where it believes to be. The same "
-       "mission without `nav_noise` is the truth"},
-      {"trajectory.nav_noise", "heading_deg", "deg", angle(t.noise.heading, not_negative), "of its heading"},
+       "standard deviation of the error in each coordinate of the estimated position. Pings are made at the true pose; "
+       "poses and returns are stored at the estimated pose. The errors are a Gauss-Markov process of the seed (E98). "
+       "The same mission without `nav_noise` gives the true poses"},
+      {"trajectory.nav_noise", "heading_deg", "deg", angle(t.noise.heading, not_negative),
+       "standard deviation of the error in the estimated heading"},
       {"trajectory.nav_noise", "attitude_deg", "deg", angle(t.noise.attitude, not_negative),
-       "of its pitch and roll, each"},
+       "standard deviation of the error in the estimated pitch and in the estimated roll"},
       {"trajectory.nav_noise", "correlation_s", "s", number(t.noise.correlation_time, positive),
-       "time in which errors change"},
+       "correlation time of the errors"},
   };
 }
 
@@ -98,37 +99,44 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
 std::vector<Key> head_keys(MissionTables& t) {
   MissionLeg& leg = t.leg;
   return {
-      {"head", "sonar", "", text(given(t.sonar.sonar)), "preset or sonar file", true},
-      {"head", "name", "", text(given(t.head.name)), "default: the sonar's; a folder of the survey"},
+      {"head", "sonar", "", text(given(t.sonar.sonar)), "preset, or path of a sonar file", true},
+      {"head", "name", "", text(given(t.head.name)),
+       "name of the head and of its folder in the survey; default: the sonar's name"},
       {"head", "range", "", text(given(t.sonar.range)),
-       "min:max in metres, default the sonar's own (`make-mission` writes one that ends with the scene, and `survey` "
-       "notes one that ends far beyond it)"},
-      {"head", "set", "", texts(t.sonar.settings), "`\"sonar.beams=128\"` and the like"},
-      {"head", "offset_m", "m", vector(t.offset, "x, y, z"), "mounting in vehicle axes (x forward, y port, z up)"},
+       "min:max in metres; default: the sonar's range. `make-mission` writes a range that ends with the scene. "
+       "`survey` prints a note if a range ends far beyond the scene"},
+      {"head", "set", "", texts(t.sonar.settings), "changes to the sonar, such as `\"sonar.beams=128\"`"},
+      {"head", "offset_m", "m", vector(t.offset, "x, y, z"),
+       "position of the head in vehicle axes (x forward, y port, z up)"},
       {"head", "angles_deg", "deg", vector(t.angles, "yaw, pitch, roll", in_degrees),
-       "yaw to port, pitch nose down, roll starboard down; default: `mounting_deg` of the sonar file"},
-      {"head", "side", "", word(t.starboard, sides),
-       "starboard: the mirror image of the angles, yaw and roll the other way"},
+       "attitude of the head on the vehicle: yaw to port, pitch nose down, roll starboard down; default: "
+       "`mounting_deg` of the sonar file"},
+      {"head", "side", "", word(t.starboard, sides), "starboard mirrors the angles: yaw and roll change their signs"},
       {"head", "rate_hz", "Hz", number(given(t.rate), positive),
-       "how often it pings: of this and the next two keys one"},
-      {"head", "every_m", "m", number(given(t.head.distance), positive), "pings each time the vehicle has gone so far"},
-      {"head", "times_s", "s", list(given(t.head.times)), "pings at these times"},
+       "pings per second; give only one of `rate_hz`, `every_m` and `times_s`"},
+      {"head", "every_m", "m", number(given(t.head.distance), positive),
+       "distance that the vehicle moves between two pings"},
+      {"head", "times_s", "s", list(given(t.head.times)), "times of the pings"},
       {"head.scan", "start_deg", "deg", angle(t.scan.start),
-       "the head turns about its own z axis, positive to port, between pings: from here"},
-      {"head.scan", "stop_deg", "deg", angle(t.scan.stop), "to here; a negative stop turns it to starboard"},
-      {"head.scan", "step_deg", "deg", angle(t.scan.step), "by so much"},
+       "first angle of a sweep. Between pings the head turns about its own z axis; angles are positive to port"},
+      {"head.scan", "stop_deg", "deg", angle(t.scan.stop),
+       "last angle of a sweep; a negative angle turns the head to starboard"},
+      {"head.scan", "step_deg", "deg", angle(t.scan.step), "angle between two pings"},
       {"head.scan", "mode", "", word(t.scan.mode, scan_modes),
-       "at the end of a sweep: continuous from the start again, sector back the same way, single no more on this leg"},
+       "what follows a sweep: continuous begins again at the start, sector sweeps back the same way, single sends no "
+       "more pings on this leg"},
       {"head.scan", "dwell_s", "s", number(given(t.dwell), positive),
-       "time between steps; default, without a rate too: 2 max_range / c"},
-      {"leg", "name", "", text(given(leg.name)), "each leg begins with a ping and a new sweep"},
+       "time between two steps; default without `rate_hz`: 2 max_range / c"},
+      {"leg", "name", "", text(given(leg.name)), "name of the leg. Each leg begins with a ping and a new sweep"},
       {"leg", "from_s", "s", number(leg.from),
-       "pings are sent from here on; default: the end of the leg before, or the begin of the trajectory"},
-      {"leg", "to_s", "s", number(leg.to), "pings are sent before; default: the end of the trajectory"},
-      {"leg", "active", "", flag(leg.active), "false: a transit without pings"},
-      {"leg", "heads", "", texts(leg.heads), "that ping on this leg; none: all"},
-      {"leg", "rate_hz", "Hz", number(rate_of(leg.interval), positive), "in place of what the heads say"},
-      {"leg", "every_m", "m", number(given(leg.distance), positive), "in place of what the heads say"},
+       "time of the first ping; default: the end of the leg before, or the begin of the trajectory"},
+      {"leg", "to_s", "s", number(leg.to), "time before which pings are sent; default: the end of the trajectory"},
+      {"leg", "active", "", flag(leg.active), "false: the heads send no pings on this leg"},
+      {"leg", "heads", "", texts(leg.heads), "names of the heads that ping on this leg; an empty list: all heads"},
+      {"leg", "rate_hz", "Hz", number(rate_of(leg.interval), positive),
+       "pings per second on this leg; replaces rate, distance and times of the heads"},
+      {"leg", "every_m", "m", number(given(leg.distance), positive),
+       "distance between two pings on this leg; replaces rate, distance and times of the heads"},
   };
 }
 
@@ -136,27 +144,32 @@ std::vector<Key> head_keys(MissionTables& t) {
 std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
   return {
       {"randomise", "source_level_db", "dB", number(r.source_level_db, not_negative),
-       "half width of the uniform distribution by which each ping differs from what the mission says (E126), a "
-       "function "
-       "of seed, head and number of the ping alone: of the sonar's source level"},
+       "half width of the uniform draw that each ping adds to the sonar's source level (E126). A draw depends only on "
+       "the seed, the head and the number of the ping"},
       {"randomise", "noise_db", "dB", number(r.noise_db, not_negative),
-       "of the noise of platform and electronics, which the environment must have"},
-      {"randomise", "temperature_c", "deg C", number(r.temperature_c, not_negative), "of the water"},
-      {"randomise", "salinity_psu", "psu", number(r.salinity_psu, not_negative), "of the water"},
+       "half width of the draw added to the noise level of platform and electronics; the environment must give that "
+       "level"},
+      {"randomise", "temperature_c", "deg C", number(r.temperature_c, not_negative),
+       "half width of the draw added to the temperature of the water"},
+      {"randomise", "salinity_psu", "psu", number(r.salinity_psu, not_negative),
+       "half width of the draw added to the salinity of the water"},
       {"randomise", "position_m", "m", number(r.position, not_negative),
-       "of the head's coordinates. Poses are stored as they were; `insonify dataset` notes the draws"},
-      {"randomise", "heading_deg", "deg", angle(r.heading, not_negative), "of its yaw"},
-      {"randomise", "attitude_deg", "deg", angle(r.attitude, not_negative), "of its pitch and roll"},
+       "half width of the draw added to each coordinate of the head. Files store the poses of the mission; `insonify "
+       "dataset` writes the draws"},
+      {"randomise", "heading_deg", "deg", angle(r.heading, not_negative),
+       "half width of the draw added to the yaw of the head"},
+      {"randomise", "attitude_deg", "deg", angle(r.attitude, not_negative),
+       "half width of the draws added to pitch and roll of the head"},
       {"randomise", "scene", "", pings_of_draw(r.scene_pings),
-       "how often the bodies of a scene's `[[scatter]]` are drawn anew ([scenes.md](scenes.md)): for each ping, once "
-       "for "
-       "the survey, or for every so many pings of a head; a function of seed and number of the ping"},
+       "how often the bodies of a scene's `[[scatter]]` are drawn again ([scenes.md](scenes.md)): for each ping, once "
+       "for the survey, or after this number of pings of a head. A draw depends only on the seed and the number of the "
+       "ping"},
       {"water", "level_m", "m", number(water.level),
-       "height of the water level in the world, for [GSF](gsf.md); default: `surface.height_m` of the "
-       "environment, from which it must not differ, else 0"},
+       "world height of the water level, for [GSF](gsf.md); default: `surface.height_m` of the environment, which must "
+       "agree with a given level, else 0"},
       {"water", "datum", "",
        text(water.datum, "1 to 32 printable characters without blanks, such as MSL or LAT", is_datum),
-       "name of the vertical datum z = 0"},
+       "name of the vertical datum at z = 0"},
   };
 }
 
