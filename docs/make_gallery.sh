@@ -9,12 +9,6 @@ begin_page gallery "${1:-build/release/bin/insonify}"
 
 # chapter TITLE TEXT
 chapter() { printf '\n## %s\n\n%s\n' "$1" "$2" >>"$page"; }
-# picture NAME CAPTION COMMAND: runs the command, which writes NAME.png.
-picture() {
-  eval "$3"
-  keep_picture "$1"
-  printf '\n%s\n\n```\n%s\n```\n\n![%s](../images/gallery/%s.png)\n' "$2" "$3" "$2" "$1" >>"$page"
-}
 
 cat >"$page" <<'PAGE'
 # Gallery

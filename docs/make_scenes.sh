@@ -14,12 +14,6 @@ file() {
   cat "$1" >>"$page"
   printf '```\n' >>"$page"
 }
-# picture NAME CAPTION COMMAND: runs the command, which writes NAME.png.
-picture() {
-  eval "$3"
-  keep_picture "$1"
-  printf '\n%s\n\n```\n%s\n```\n\n![%s](../images/scenes/%s.png)\n' "$2" "$3" "$2" "$1" >>"$page"
-}
 
 cat >"$page" <<'PAGE'
 # Scenes of parts, in pictures

@@ -24,6 +24,13 @@ keep_picture() {
   mv "$1.png" "$pictures/"
 }
 
+# picture NAME CAPTION COMMAND: runs the command, which writes NAME.png, and shows the picture under its caption.
+picture() {
+  eval "$3"
+  keep_picture "$1"
+  printf '\n%s\n\n```\n%s\n```\n\n![%s](../images/%s/%s.png)\n' "$2" "$3" "$2" "${pictures##*/}" "$1" >>"$page"
+}
+
 # steps COMMAND...: runs and lists the commands that the next pictures need.
 steps() {
   printf '\n```\n' >>"$page"
