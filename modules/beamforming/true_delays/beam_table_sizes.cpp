@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "beamforming/numerics/path_difference_internal.hpp"
@@ -9,6 +8,7 @@
 #include "beamforming/true_delays/beam_table_internal.hpp"
 #include "beamforming/true_delays/beam_table_loops_internal.hpp"
 #include "beamforming/true_delays/node_functions_internal.hpp"
+#include "beamforming/true_delays/wideband_plan_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -35,10 +35,6 @@ double finer_in_time(double tolerance) {
 double finer_in_direction(double tolerance) {
   constexpr double weight = 0.04;
   return std::max(1.5, pi * std::pow(eight_left * weight / (0.2 * tolerance), 1.0 / 8));
-}
-
-double half_band_of(const Pulse& pulse, double tolerance) {
-  return pulse.bandwidth * (0.03 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
 }
 
 bool is_symmetric(const std::vector<double>& w) {

@@ -25,13 +25,6 @@ double oversampling_for(double tolerance) {
   return 1 / (1 - root * root);
 }
 
-/// Highest frequency off the carrier that counts [Hz]: there the spectrum is down to the tolerance.
-double band_of(const Pulse& pulse, double tolerance) {
-  if (pulse.shape == PulseShape::linear_fm)
-    return pulse.bandwidth * (0.5 + 4 / std::sqrt(pulse.bandwidth * pulse.duration));
-  return pulse.bandwidth * (0.03 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
-}
-
 double length_of(const LineArray& array) { return array.spacing * static_cast<double>(array.elements() - 1); }
 
 double longest_reach(const SonarHead& head, const Medium& medium, double tolerance) {
@@ -40,6 +33,12 @@ double longest_reach(const SonarHead& head, const Medium& medium, double toleran
 }
 
 }  // namespace
+
+double half_band_of(const Pulse& pulse, double tolerance) {
+  if (pulse.shape == PulseShape::linear_fm)
+    return pulse.bandwidth * (0.5 + 4 / std::sqrt(pulse.bandwidth * pulse.duration));
+  return pulse.bandwidth * (0.03 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
+}
 
 WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double tolerance_in, double widest_in,
                              std::size_t block_bins)
@@ -52,7 +51,7 @@ WidebandSizes::WidebandSizes(const SonarHead& head, const Medium& medium, double
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
   const double across = 0.5 * aperture / medium.sound_speed * 2.1 * widest;
   guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
-  half_band = band_of(head.pulse, tolerance);
+  half_band = half_band_of(head.pulse, tolerance);
   // Of cycles that hold the block, the one with the fewest samples for its bins.
   const auto fine_of = [this](std::size_t bins) {
     const double lines = 2 * half_band * static_cast<double>(bins) * axis.step;

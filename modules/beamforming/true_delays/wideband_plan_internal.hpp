@@ -15,6 +15,9 @@
 
 namespace insonify {
 
+/// Returns the largest frequency off the carrier that contributes [Hz]: there the spectrum falls to the tolerance.
+double half_band_of(const Pulse& pulse, double tolerance);
+
 /// Sizes of the synthesis with true delays for blocks of time of one length. One cycle of a transform holds the pulses
 /// of a block with all delays across the array. Directions lie on a grid over one period. Its harmonics k / period, |k|
 /// <= most, are positions on the array in wavelengths; the elements are interpolated between these positions, frequency
