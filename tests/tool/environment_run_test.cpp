@@ -90,7 +90,7 @@ TEST_F(EnvironmentRun, rough_sea_without_multipath_is_noted) {
       run("ping harbour.ply -o out --sonar p900-45 --set sonar.beams=16 --range 2:12 --no-picture" + level_pose +
           " --multipath --set surface.height_m=0 --set wind.speed_m_s=10");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.err, HasSubstr("no echo comes by way of surface or bottom: waves of 0.56 m rms"));
+  EXPECT_THAT(result.err, HasSubstr("surface and bottom reflect no echo: waves of 0.56 m rms"));
   EXPECT_THAT(read("out/manifest.json"), HasSubstr("waves of 0.56 m rms"));
 }
 
@@ -167,14 +167,14 @@ TEST_F(EnvironmentRun, profile_bends_rays_only_where_it_matters) {
   write("even.csv", line);
   over_harbour("even", bins + " --profile even.csv");
   EXPECT_LT(difference("even", "plain"), 1e-6);
-  EXPECT_THAT(read("even/manifest.json"), HasSubstr("refraction left out"));
+  EXPECT_THAT(read("even/manifest.json"), HasSubstr("refraction is left out"));
 
   // A thermocline that has this speed at the head, 3 m deep.
   std::snprintf(line, sizeof line, "depth_m,sound_speed\n0,%.17g\n3,%.17g\n4,%.17g\n20,%.17g\n", c + 20, c, c - 20,
                 c - 20);
   write("thermocline.csv", line);
   over_harbour("bent", bins + " --profile thermocline.csv --set surface.height_m=0 --without multipath");
-  EXPECT_THAT(read("bent/manifest.json"), HasSubstr("rays bent by the sound-speed profile"));
+  EXPECT_THAT(read("bent/manifest.json"), HasSubstr("the sound-speed profile bends rays"));
   EXPECT_GT(difference("bent", "plain"), 0.1);
 }
 

@@ -42,11 +42,13 @@ TEST_F(FirstHour, notes_say_what_is_wrong_with_range_and_pose_and_what_to_do) {
   have_plane();
   EXPECT_EQ(notes("--pose=0,0,2,0,20,0 --range 2:12"), "");
   EXPECT_THAT(notes("--pose=0,0,2,0,20,0 --range 2:40"),
-              testing::AllOf(HasSubstr("ends at 40 m, the scene reaches to 9.1"), HasSubstr("range 2:9.3 holds all")));
-  EXPECT_THAT(notes("--pose=-46,0,2,0,2,0 --range 1:80"),
-              testing::AllOf(HasSubstr("ends at 80 m, beyond the 60 m of p900-45"), HasSubstr("--range 1:60 stays")));
-  EXPECT_THAT(notes("--pose=4,0,-2,0,-20,0 --range 2:9"), HasSubstr("the head is behind the nearest surface, 2 m"));
-  EXPECT_THAT(notes("--pose=4,0,0.001,0,20,0 --range 2:9"), HasSubstr("the head stands within the surface"));
+              testing::AllOf(HasSubstr("ends at 40 m, but the scene reaches only to 9.1"),
+                             HasSubstr("range 2:9.3 holds the whole")));
+  EXPECT_THAT(
+      notes("--pose=-46,0,2,0,2,0 --range 1:80"),
+      testing::AllOf(HasSubstr("ends at 80 m, but p900-45 hears only to 60 m"), HasSubstr("--range 1:60 stays")));
+  EXPECT_THAT(notes("--pose=4,0,-2,0,-20,0 --range 2:9"), HasSubstr("the head is 2 m behind the nearest surface"));
+  EXPECT_THAT(notes("--pose=4,0,0.001,0,20,0 --range 2:9"), HasSubstr("the head is within the surface"));
   // Beside the edge of the scan, and lower than it, the head is behind nothing.
   EXPECT_THAT(notes("--pose=-4,0,-0.5,0,0,0 --range 2:13"), Not(HasSubstr("behind")));
   EXPECT_EQ(manifest_of("noted")["notes"].size(), 1U);  // of the silent ping: the plane has its back to the head
@@ -64,8 +66,13 @@ TEST_F(FirstHour, a_silent_ping_says_which_pose_is_not) {
   EXPECT_GT(manifest_of("noted")["sampling"]["scatterers"].get<int>(), 0);
   // Out of range it takes another range too, and what has its back to the head is no matter of the pose's angles.
   EXPECT_THAT(notes("--pose=-16,0,2,0,0,0 --range 2:9"),
-              testing::AllOf(testing::ContainsRegex("--pose=-16,0,2,-?0[.0-9]*,5.7[0-9]*,0 looks at it"),
+              testing::AllOf(testing::ContainsRegex("--pose=-16,0,2,-?0[.0-9]*,5.7[0-9]*,0 looks at the scene"),
                              HasSubstr("with --range 2:25")));
+  // No range beyond the 60 m of the sonar is proposed.
+  EXPECT_THAT(notes("--pose=-57,0,2,0,0,0 --range 2:9"), HasSubstr("with --range 2:60"));
+  EXPECT_THAT(notes("--pose=-80,0,2,0,0,0 --range 2:9"),
+              testing::AllOf(HasSubstr("move the head nearer too"), HasSubstr("p900-45 hears to 60 m"),
+                             Not(HasSubstr("--range"))));
   EXPECT_THAT(notes("--pose=4,0,-2,0,-40,0 --range 2:9"), HasSubstr("face away from the head"));
 }
 
@@ -91,7 +98,7 @@ TEST_F(FirstHour, a_mission_to_begin_with_reaches_to_the_end_of_the_scene_and_ha
   EXPECT_THAT(read("ahead.toml"), Not(HasSubstr("[ping]")));
   succeed("make-mission orbit --scene plane.ply --labels -q -o labels.toml");
   EXPECT_THAT(read("labels.toml"), HasSubstr("[ping]\nkeep = [\"contributors\"]"));
-  EXPECT_THAT(run("make-mission lawnmower --scene later.ply -o later.toml").err, HasSubstr("is not there yet"));
+  EXPECT_THAT(run("make-mission lawnmower --scene later.ply -o later.toml").err, HasSubstr("does not exist yet"));
 }
 
 // A mission along x, 2 m above the plane.
@@ -118,8 +125,8 @@ TEST_F(FirstHour, a_survey_notes_silent_pings_and_a_range_far_beyond_the_scene) 
   write("m.toml", line_over_plane(-4, 16, 1, "set = [\"sonar.beams=8\"]\nrange = \"2:55\"\nevery_m = 4"));
   const ToolResult result = run("survey m.toml -o run");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.err, HasSubstr("head fls: the range ends at 55 m, the scene reaches to 12.8 m"));
-  EXPECT_THAT(result.err, HasSubstr("1 of 5 pings made are silent"));
+  EXPECT_THAT(result.err, HasSubstr("head fls: the range ends at 55 m, but the scene reaches only to 12.8 m"));
+  EXPECT_THAT(result.err, HasSubstr("1 of 5 pings are silent"));
 }
 
 // A ping of each head, and more only if they are a twentieth of the survey at most.

@@ -48,7 +48,7 @@ TEST_F(MeshRun, a_memory_limit_coarsens_and_is_noted) {
   succeed(swath + " --memory-limit 0.0001 -o small");  // 384 surfels
   const nlohmann::json small = manifest_of("small");
   EXPECT_LE(small["scene"]["surfels"], 384);
-  EXPECT_NE(small["notes"].dump().find("384 surfels at most are sampled from the mesh"), std::string::npos);
+  EXPECT_NE(small["notes"].dump().find("the mesh is sampled by at most 384 surfels"), std::string::npos);
 }
 
 TEST_F(MeshRun, contributors_belong_to_the_surfels_of_the_ping) {

@@ -26,11 +26,10 @@ struct InfoOptions {
 void add_options(OptionList list, InfoOptions& o) {
   list.add("FILE", &o.files,
            "cloud, mesh, tiles, run, survey, head of a survey, cube.h5, or a .toml: scene of parts, mission, "
-           "materials, sonar, environment, "
-           "run.toml; or a recording: " +
+           "materials, sonar, environment, run.toml; or a recording: " +
                record_extensions(),
            {.required = true});
-  list.add("--verify", &o.verify, "compare the files of runs and surveys with the SHA-256 of when they were made");
+  list.add("--verify", &o.verify, "compare the files of runs and surveys with the SHA-256 in their manifests");
   add_common(list, o.common);
 }
 
@@ -62,7 +61,7 @@ void verify(const InfoOptions& o) {
     const RunCheck check = check_run(run);
     for (const std::string& problem : check.problems) problems.push_back(run + ": " + problem);
     all.push_back({{"path", run}, {"files", check.files}, {"problems", check.problems}});
-    if (!o.common.json && check.problems.empty()) fmt::print("{}: {} files as they were made\n", run, check.files);
+    if (!o.common.json && check.problems.empty()) fmt::print("{}: {} files are unchanged\n", run, check.files);
   }
   if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
   if (!problems.empty()) fail(ErrorKind::content, joined(problems), "; copy the run again, or make it again");
@@ -92,7 +91,8 @@ void info(const InfoOptions& o) {
 }  // namespace
 
 Verb info_verb() {
-  return make_verb<InfoOptions>("info", "what a file or folder is, what is wrong with it, and what to do next",
+  return make_verb<InfoOptions>("info",
+                                "what a file or folder holds, which problems it has, and which commands come next",
                                 {"insonify info reef.pcd", "insonify info reef.pcd --json | jq .bounds",
                                  "insonify info mission.toml", "insonify info run", "insonify info --verify out"},
                                 add_options, info);

@@ -2,6 +2,7 @@
 #include "tool/ping/ping_report.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -19,20 +20,20 @@ namespace {
 /// States the effect of refraction, and whether it was left out.
 std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
   const auto beyond_rounding = [](double x) { return x < 1e-9 ? 0 : x; };
-  const std::string bound =
-      fmt::format("straight rays to what is in view are off by up to {:.2g} m in range and {:.2g} deg in angle",
-                  beyond_rounding(r.bound.range), degrees(beyond_rounding(r.bound.elevation)));
-  if (!r.bent) return fmt::format("refraction left out: {} (bin {:.3g} m)", bound, gate.bin_size);
-  return fmt::format("rays bent by the sound-speed profile: {}; {} scatterers in shadow zones", bound, r.silenced);
+  const std::string bound = fmt::format(
+      "straight rays to the scatterers in view are wrong by up to {:.2g} m in range and {:.2g} deg in angle",
+      beyond_rounding(r.bound.range), degrees(beyond_rounding(r.bound.elevation)));
+  if (!r.bent) return fmt::format("refraction is left out: {} (bin {:.3g} m)", bound, gate.bin_size);
+  return fmt::format("the sound-speed profile bends rays: {}; {} scatterers are in shadow zones", bound, r.silenced);
 }
 
 /// States why multipath gave no echo: most often the sea is too rough.
 std::string no_multipath_note(const Environment& environment) {
   const double waves = environment.surface ? rms_wave_height(environment) : 0;
-  const std::string sea = waves > 0
-                              ? fmt::format("waves of {:.2g} m rms scatter what a smooth surface would reflect", waves)
-                              : std::string("boundaries are out of reach, hidden or off the pattern");
-  return "no echo comes by way of surface or bottom: " + sea;
+  const std::string sea =
+      waves > 0 ? fmt::format("waves of {:.2g} m rms scatter the sound that a smooth surface would reflect", waves)
+                : std::string("both are out of reach, hidden or outside the pattern");
+  return "surface and bottom reflect no echo: " + sea;
 }
 
 /// The options with which a head that hears nothing looks at the scene.
@@ -40,15 +41,20 @@ std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const 
                               const PingSetup& setup, bool mounted) {
   const Eigen::Vector3d way = setup.event.world_from_head.linear() * centre,
                         at = setup.event.world_from_head.translation();
-  std::string remedy =
-      mounted ? "move or turn the vehicle by --pose, or the head on it by --mount"
-              : fmt::format("--pose={} looks at it", pose_text(at, std::atan2(way.y(), way.x()),
-                                                               std::atan2(-way.z(), std::hypot(way.x(), way.y()))));
-  double farthest = 0;
-  for (const auto& p : places) farthest = std::max(farthest, p.norm());
+  std::string remedy = mounted ? "move or turn the vehicle by --pose, or the head on it by --mount"
+                               : fmt::format("--pose={} looks at the scene",
+                                             pose_text(at, std::atan2(way.y(), way.x()),
+                                                       std::atan2(-way.z(), std::hypot(way.x(), way.y()))));
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+  for (const auto& p : places) nearest = std::min(nearest, p.norm()), farthest = std::max(farthest, p.norm());
   const RangeGate& gate = setup.head.head.gate;
-  if (centre.norm() > gate.max_range)
-    remedy += fmt::format(", with --range {}", range_text(gate.min_range, end_of_range(farthest)));
+  if (centre.norm() <= gate.max_range) return remedy;
+  // No range beyond that of the sonar itself is proposed.
+  const double most = setup.head.farthest, end = std::min(end_of_range(farthest), most);
+  if (nearest > most)
+    return remedy + fmt::format("; move the head nearer too: the scene begins {:.3g} m away, {} hears to {:g} m",
+                                nearest, setup.head.spec.name, most);
+  if (end > gate.max_range) remedy += fmt::format(", with --range {}", range_text(gate.min_range, end));
   return remedy;
 }
 
@@ -57,15 +63,15 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places, const Sampl
                          const PingSetup& setup, bool mounted) {
   if (sampling.in_gate > 0)
     return fmt::format(
-        "the ping is silent: of {} surfels inside fan and range gate {} face away from the head and {} are hidden; "
-        "move the head to the side to which the normals point, or orient them by --viewpoint",
+        "the ping is silent: of {} surfels inside fan and range gate, {} face away from the head and {} are hidden; "
+        "move the head to the side to which the normals point, or orient the normals by --viewpoint",
         sampling.in_gate, sampling.back_facing, sampling.hidden);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const auto& p : places) centre += p / static_cast<double>(places.size());
   const Direction d = direction_of(centre);
   return fmt::format(
-      "nothing of the scene is inside fan and range gate: the ping is silent; the scene's centre is {:.3g} m away, "
-      "{:.0f} deg to {} and {:.0f} deg {} the head's axis: {}",
+      "the ping is silent: no surfel is inside fan and range gate; the centre of the scene is {:.3g} m away, {:.0f} "
+      "deg to {} and {:.0f} deg {} the axis of the head: {}",
       centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard", std::abs(degrees(d.elevation)),
       d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup, mounted));
 }
@@ -73,8 +79,8 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places, const Sampl
 /// States that the head sees nearly only backs.
 std::string backs_note(const SamplingReport& s) {
   return fmt::format(
-      "{:.0f} % of the surfels in fan and range gate face away from the head and give no echo: is it below the ground, "
-      "or inside a body? Check the pose, or the viewpoint of the scene",
+      "{:.0f} % of the surfels in fan and range gate face away from the head and give no echo; the head may be below "
+      "the ground or inside a body: check --pose, or orient the normals by --viewpoint",
       100.0 * static_cast<double>(s.back_facing) / static_cast<double>(s.in_gate));
 }
 
@@ -121,16 +127,11 @@ ordered_json layers_json(const std::vector<LayerReport>& layers) {
 
 ordered_json sampling_json(const SimulatedPing& p) {
   const SamplingReport& s = p.report.sampling;
-  ordered_json json{{"surfels", s.surfels},
-                    {"in_fan_and_gate", s.in_gate},
-                    {"back_facing", s.back_facing},
-                    {"hidden", s.hidden},
-                    {"visible", s.visible},
-                    {"rays_missed", s.rays_missed},
-                    {"sparse_beams", s.sparse_beams},
-                    {"scatterers", s.scatterers},
-                    {"soundings", p.soundings.size()},
-                    {"noise_floor_db", p.report.noise_floor_db}};
+  ordered_json json{{"surfels", s.surfels},           {"in_fan_and_gate", s.in_gate},
+                    {"back_facing", s.back_facing},   {"hidden", s.hidden},
+                    {"visible", s.visible},           {"rays_missed", s.rays_missed},
+                    {"sparse_beams", s.sparse_beams}, {"scatterers", s.scatterers},
+                    {"returns", p.soundings.size()},  {"noise_floor_db", p.report.noise_floor_db}};
   if (s.merged_to > 0) json["merged_to"] = s.merged_to;
   return json;
 }
@@ -191,11 +192,11 @@ void print_plan(const PingPlan& plan) {
     fmt::print("{:<18} {:<4} {:<10} {:<9} {}\n", s.name, s.included ? "in" : "out", bound_text(s), share_text(s, plan),
                s.why);
   fmt::print(
-      "bound: error of the image without the stage; share: of {} dB, what a stage may cost to be left out, or who "
-      "decides instead\n",
+      "bound: largest error of the image without the stage; share: part of the {} dB of --accuracy-db that one stage "
+      "may take, or who decides about the stage\n",
       plan.options.accuracy_db);
-  fmt::print("left out: {:.2g} dB together\n", plan.left_out_db);
-  fmt::print("synthesis: {}, {} precision, kernel {} of {} grid steps, {} samples per pulse\n",
+  fmt::print("all stages left out: {:.2g} dB at most\n", plan.left_out_db);
+  fmt::print("synthesis: {}, {} precision, kernel {} on a grid of {} steps, {} samples per pulse\n",
              name_of(method_words, plan.options.synthesis.method),
              plan.synthesis.single_precision ? "single" : "double", plan.synthesis.kernel_width, plan.synthesis.grid,
              plan.synthesis.pulse_samples);

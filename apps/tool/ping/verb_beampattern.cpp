@@ -32,12 +32,13 @@ struct BeamPatternOptions {
 
 void add_options(OptionList list, BeamPatternOptions& o) {
   list.add("SONAR", &o.run.sonar, "preset (see `insonify sonars`) or a .toml file", {.required = true});
-  list.add("--steer", &o.steer, "azimuth of the beam [deg], positive to port, within -90 and 90");
-  list.add("-o,--output", &o.output, "picture to write, .png");
+  list.add("--steer", &o.steer, "[deg] azimuth of the beam, positive to port, within -90 and 90");
+  list.add("-o,--output", &o.output, "picture that is written, .png");
   list.add("--force", &o.force, "replace an existing picture");
-  list.add("--set", &o.common.settings, "sonar.KEY=VALUE or water.KEY=VALUE, any number of times", {.one_each = true});
+  list.add("--set", &o.common.settings,
+           "sonar.KEY=VALUE or water.KEY=VALUE that replaces a value; may be given several times", {.one_each = true});
   list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]");
-  list.add("--dark", &o.dark, "dark background");
+  list.add("--dark", &o.dark, "draw on a dark background");
   add_common(list, o.common);
 }
 

@@ -19,10 +19,10 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string summary(const std::string& output, const ordered_json& manifest) {
-  return fmt::format("{}: {} scatterers of {} visible surfels, {} soundings, peak {:.1f} dB re 1 uPa", output,
+  return fmt::format("{}: {} scatterers of {} visible surfels, {} returns, peak {:.1f} dB re 1 uPa", output,
                      manifest["sampling"]["scatterers"].get<std::size_t>(),
                      manifest["sampling"]["visible"].get<std::size_t>(),
-                     manifest["sampling"]["soundings"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
+                     manifest["sampling"]["returns"].get<std::size_t>(), manifest["peak_level_db"].get<double>());
 }
 
 void add_ping_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, true); }
@@ -66,10 +66,10 @@ Verb ping_verb() {
       "ping", "what the sonar hears of the scene: the main job",
       {"insonify ping reef.pcd --sonar oculus-m750d --pose=-1,4,-2.2,0,15,0 --range 0.5:9 -o out",
        "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --set water.temperature_c=4 -o cold",
-       "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --multipath --set surface.height_m=0 --layers "
-       "-o sea",
-       "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --noise --set wind.speed_m_s=8 "
-       "--profile ctd.csv --set surface.height_m=0 -o gale",
+       "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,0,0 --multipath --set surface.height_m=0 --layers -o "
+       "sea",
+       "insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --noise --set wind.speed_m_s=8 --profile "
+       "ctd.csv --set surface.height_m=0 -o gale",
        "insonify ping --run out/run.toml -o again"},
       add_ping_verb_options, ping);
 }

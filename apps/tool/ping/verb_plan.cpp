@@ -32,7 +32,7 @@ void plan(const PingCommand& command) {
   json["scatterers"] = count.scatterers;
   print_result(o.common, json, [&] {
     print_plan(plan);
-    fmt::print("{} surfels in view, {} more turn away; {} scatterers\n", count.visible, count.back_facing,
+    fmt::print("{} surfels are in view, {} more face away; {} scatterers\n", count.visible, count.back_facing,
                count.scatterers);
   });
 }
@@ -41,7 +41,7 @@ void plan(const PingCommand& command) {
 
 Verb plan_verb() {
   return make_verb<PingCommand>(
-      "plan", "what a ping would compute and leave out, and what leaving it out costs",
+      "plan", "the stages that a ping computes and leaves out, with the error of each one left out",
       {"insonify plan reef.pcd --sonar oculus-m750d --pose=-1,4,-2.2,0,15,0 --range 0.5:9",
        "insonify plan harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --set surface.height_m=0 --json"},
       add_plan_verb_options, plan);

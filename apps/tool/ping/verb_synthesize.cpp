@@ -113,7 +113,7 @@ void synthesize(const SynthesizeOptions& o) {
 }  // namespace
 
 Verb synthesize_verb() {
-  return make_verb<SynthesizeOptions>("synthesize", "beams from scatterers of another program (CSV)",
+  return make_verb<SynthesizeOptions>("synthesize", "beams from the scatterers of another program (CSV)",
                                       {"insonify synthesize rays.csv --sonar p900-45 --range 1:20 -o out",
                                        "insonify synthesize rays.csv --sonar p900-45 --method direct -o referee"},
                                       add_options, synthesize);

@@ -47,6 +47,8 @@ auto with_file(const PartsScene& scene, const Body& body) {
 
 }  // namespace
 
+double memory_for_tiles(double limit_gib) { return limit_gib > 0 ? limit_gib * (1 << 30) : available_memory(); }
+
 PartsOfPings::PartsOfPings(const std::string& path, const PartsOfPingsOptions& options)
     : options_(options), scene_(path, loading_of(options)) {
   if (!scene_.has_tiles()) source_.emplace(scene_.parts(), options.draws.rule, options.threads);
@@ -56,8 +58,7 @@ std::shared_ptr<const PreparedScene> PartsOfPings::scene_for(const PingSimulator
                                                              const PingEvent& event) const {
   const SceneMoment moment = moment_of(event.time, event.number);
   if (source_) return with_file(scene_, [&] { return source_->scene_at(moment); });
-  const double memory = options_.memory_limit > 0 ? options_.memory_limit * (1 << 30) : available_memory();
-  LoadedScene near = scene_.scene_of(simulator, event, moment.draw, memory);
+  LoadedScene near = scene_.scene_of(simulator, event, moment.draw, memory_for_tiles(options_.memory_limit));
   return std::make_shared<PreparedScene>(std::move(near.scene), 1);
 }
 

@@ -22,6 +22,9 @@ struct RunDraws {
 /// load_survey_randomisation.
 RunDraws draws_of_run(const std::string& run);
 
+/// Returns the bytes that tiles may take: --memory-limit [GiB], or for 0 the available memory.
+double memory_for_tiles(double limit_gib);
+
 /// How scenes for pings are loaded.
 struct PartsOfPingsOptions {
   RunDraws draws;

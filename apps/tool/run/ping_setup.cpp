@@ -72,7 +72,7 @@ struct Track {
 Track track_of(const PingOptions& o) {
   if (!std::isfinite(o.time)) fail(ErrorKind::argument, "--time = ", o.time, " s, must be finite");
   if (o.pose.empty() == o.trajectory.empty())
-    fail(ErrorKind::argument, "--pose or --trajectory must be given, one of them, e.g. --pose=0,0,-3,0,10,0");
+    fail(ErrorKind::argument, "give either --pose or --trajectory, e.g. --pose=0,0,-3,0,10,0");
   if (o.trajectory.empty()) return {parse_pose(o.pose, o.world), {}};
   if (o.world != "z-up") fail(ErrorKind::argument, "--world ", o.world, ": trajectories are z-up; leave --world out");
   if (!o.velocity.empty() || !o.turn_rate.empty())
@@ -108,10 +108,9 @@ std::string beyond_sonar_note(const SonarSpec& spec, const SonarFile& device) {
   const double most = device.spec.max_range;
   if (device.of_run || spec.max_range <= most) return {};
   return fmt::format(
-      "the range ends at {:g} m, beyond the {:g} m of {}: echoes are computed from where the device hears none; "
-      "--range "
-      "{:g}:{:g} stays within it",
-      spec.max_range, most, device.spec.name, spec.min_range, most);
+      "the range ends at {:g} m, but {} hears only to {:g} m: echoes from beyond are computed all the same; --range "
+      "{:g}:{:g} stays within the range of the device",
+      spec.max_range, device.spec.name, most, spec.min_range, most);
 }
 
 /// The motion that --velocity and --turn-rate ask for.
@@ -195,11 +194,11 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
   const double range = middle->norm();
   if (range > 10 * gate.max_range)
     fail(ErrorKind::content, path, ": the middle point is ", range,
-         " m from the head, more than ten times the max range of ", gate.max_range,
+         " m from the head, more than ten times the greatest range of ", gate.max_range,
          " m; is the cloud in millimetres (--unit mm), or the pose in another frame?");
   if (range < gate.min_range / 10)
     fail(ErrorKind::content, path, ": the middle point is ", range,
-         " m from the head, less than a tenth of the min range of ", gate.min_range,
+         " m from the head, less than a tenth of the least range of ", gate.min_range,
          " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
 }
 
@@ -228,6 +227,7 @@ HeadSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment 
                       std::optional<double> head_height) {
   HeadSetup setup;
   setup.spec = spec;
+  if (!file.of_run) setup.farthest = file.spec.max_range;
   setup.environment = std::move(environment);
   setup.mount = pose_from_yaw_pitch_roll({0, 0, 0}, file.mounting.x(), file.mounting.y(), file.mounting.z());
   for (const SonarNumber& n : file.numbers)
@@ -267,12 +267,12 @@ std::vector<std::string> loading_notes(const LoadReport& r) {
   const auto count = [&](std::size_t n, const char* what) {
     if (n > 0) notes.push_back(fmt::format("{}: {} {}", r.path, n, what));
   };
-  count(r.dropped_not_finite, "points with coordinates that are NaN, infinite or beyond 1e9 m dropped");
-  count(r.dropped_withheld, "points that the file marks as withheld left out");
+  count(r.dropped_not_finite, "points dropped, whose coordinates are NaN, infinite or beyond 1e9 m");
+  count(r.dropped_withheld, "points dropped, which the file marks as withheld");
   count(r.dropped_duplicates, "duplicate points dropped");
   count(r.dropped_degenerate, "degenerate triangles dropped");
   count(r.repaired_normals, "zero or NaN normals replaced by estimates");
-  count(r.dropped_without_normal, "points without neighbours for a normal dropped");
+  count(r.dropped_without_normal, "points dropped, which have too few neighbours for a normal");
   for (const std::string& note : r.notes) notes.push_back(r.path + ": " + note);
   return notes;
 }
@@ -308,11 +308,12 @@ MeshSample mesh_sample_for(const PingOptions& o, const PingSimulator& simulator,
   MeshSample sample;
   if (fine.coarsening > 1)
     sample.note = fmt::format(
-        "{} surfels at most are sampled from the mesh ({:.2g} GiB), {}: raise --memory-limit, or narrow the range",
-        most, static_cast<double>(most) * bytes / 0x1p30,
+        "the mesh is sampled by at most {} surfels ({:.2g} GiB), {}; raise --memory-limit, or narrow the range", most,
+        static_cast<double>(most) * bytes / 0x1p30,
         std::isinf(fine.coarsening)
-            ? fmt::format("fewer than its triangles within reach: {} in all are taken", loaded.scene.size())
-            : fmt::format("{} times as large as the beams ask for", fine.coarsening));
+            ? fmt::format("fewer than its triangles within reach: an overview of {} surfels is taken",
+                          loaded.scene.size())
+            : fmt::format("which are {} times as large as the beams need", fine.coarsening));
   if (!std::isinf(fine.coarsening)) sample.scene = std::move(fine.scene);
   return sample;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,10 +24,11 @@ struct HeadSetup {
   SonarSpec spec;
   SonarHead head;
   Environment environment;
-  Medium medium;                      ///< of the water as given; PingReport::medium is that at the head's depth
-  Pose mount = Pose::Identity();      ///< on a vehicle, as the sonar's file says
-  std::vector<std::string> notes;     ///< inputs outside the validity of the formulas
-  bool range_is_own = false;          ///< the sonar's: neither options nor a run say another
+  Medium medium;                   ///< of the water as given; PingReport::medium is that at the head's depth
+  Pose mount = Pose::Identity();   ///< on a vehicle, as the sonar's file says
+  std::vector<std::string> notes;  ///< inputs outside the validity of the formulas
+  bool range_is_own = false;       ///< the sonar's: neither options nor a run say another
+  double farthest = std::numeric_limits<double>::infinity();  ///< greatest range of the sonar's file [m]; inf: a run's
   std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
 };
 HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run,

@@ -55,12 +55,13 @@ void write_manifest(const RunDirectory& directory, ordered_json manifest) {
 
 RunCheck check_run(const std::string& run, const std::string& only) {
   if (!fs::is_directory(run))
-    fail(ErrorKind::file, run, ": is no folder of a run, of which --verify compares the files");
+    fail(ErrorKind::file, run, ": is no folder; --verify compares the files of a run: give the folder of a run");
   if (is_survey_run(run)) return check_survey(run);
   RunCheck check;
   const auto digests = digests_of_run(run);
   if (digests.empty() && only.empty())
-    fail(ErrorKind::content, run, ": has no manifest.json with SHA-256 of its files, so nothing can be compared");
+    fail(ErrorKind::content, run,
+         ": has no manifest.json with the SHA-256 of its files, and nothing can be compared; give the folder of a run");
   for (const auto& [name, digest] : digests)
     if (only.empty() || name == only) compare_file(check, (fs::path(run) / name).string(), name, digest);
   return check;

@@ -32,7 +32,7 @@ PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, 
   require_no_loading_options(o.scene, "is prepared already; give it to insonify prepare instead");
   const TiledSceneInfo& info = tiled.info();
   const TileSelection near = tiled.select(simulator.reach(info.whole, event));
-  const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
+  const double memory = memory_for_tiles(o.memory_limit);
   require_memory(near, bytes_to_ping, memory, o.scene.path);
 
   PingScene result;
@@ -69,8 +69,7 @@ PingScene load_parts(const PingOptions& o, PingSetup& setup) {
   end_range_with_scene(setup.head, box, setup.event.world_from_head);
   PingScene result{{{}, parts.report()}, {}, {}, {}};
   if (parts.has_tiles()) {
-    const double memory = o.memory_limit > 0 ? o.memory_limit * (1 << 30) : available_memory();
-    result.loaded = parts.scene_of(setup.simulator(), setup.event, moment.draw, memory);
+    result.loaded = parts.scene_of(setup.simulator(), setup.event, moment.draw, memory_for_tiles(o.memory_limit));
   } else {
     result.posed = all.whole_at(moment);
   }

@@ -37,16 +37,15 @@ std::string buried_note(const SceneCloud& cloud, const Vector3d& head) {
   const double distance = nearest->to_head.norm(), radius = std::sqrt(cloud.area[nearest->surfel] / pi);
   if (distance < radius)
     return fmt::format(
-        "the head stands within the surface of the scene, {:.2g} m from the middle of a surfel of {:.2g} m "
-        "radius: move it away, by --pose",
+        "the head is within the surface of the scene, {:.2g} m from the middle of a surfel of {:.2g} m radius; move "
+        "the head away by --pose",
         distance, radius);
   constexpr double straight = 0.7;  // cosine
   const double before = nearest->to_head.dot(cloud.normal[nearest->surfel].cast<double>());
   if (!cloud.normals_oriented || before > -straight * distance) return {};
   return fmt::format(
-      "the head is behind the nearest surface, {:.3g} m from it: it hears the back of the scene; move it by --pose to "
-      "the "
-      "side to which the normals point, or orient them by --viewpoint",
+      "the head is {:.3g} m behind the nearest surface and hears the back of the scene; move the head by --pose to the "
+      "side to which the normals point, or orient the normals by --viewpoint",
       distance);
 }
 
@@ -89,9 +88,8 @@ std::string far_range_note(const HeadSetup& setup, double reach) {
     return {};
   const double end = end_of_range(reach), bytes = 8.0 * static_cast<double>(gate.bins() * setup.head.fan.beams());
   return fmt::format(
-      "the range ends at {:g} m, the scene reaches to {:.3g} m from the head: {:.3g} MB of the {:.3g} MB of a ping "
-      "stay empty; "
-      "range {} holds all of it",
+      "the range ends at {:g} m, but the scene reaches only to {:.3g} m from the head: {:.3g} MB of the {:.3g} MB of a "
+      "ping stay empty; range {} holds the whole scene",
       gate.max_range, reach, 1e-6 * bytes * (gate.max_range - end) / (gate.max_range - gate.min_range), 1e-6 * bytes,
       range_text(gate.min_range, end));
 }
