@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <regex>
 
+#include "scene_io/load_scene.hpp"
 #include "tool/command/command_text.hpp"
 #include "tool/tool_runner.hpp"
+#include "tool/verbs_in_help.hpp"
 
 using namespace insonify;
 
@@ -12,17 +14,7 @@ namespace {
 
 class Help : public ToolTest {
  protected:
-  std::vector<std::string> verbs() const {
-    std::vector<std::string> names;
-    const std::string text = succeed("--help");
-    const std::regex line("\n  ([a-z-]+) ");
-    for (std::sregex_iterator
-             i(text.begin() + static_cast<std::ptrdiff_t>(text.find("Subcommands:")), text.end(), line),
-         end;
-         i != end; ++i)
-      names.push_back((*i)[1]);
-    return names;
-  }
+  std::vector<std::string> verbs() const { return verbs_in(succeed("--help")); }
 
   // Long names of the options in a help text.
   static std::set<std::string> options_in(const std::string& help) {
@@ -90,6 +82,7 @@ TEST_F(Help, fits_the_terminal_and_shows_defaults_units_and_ranges) {
 TEST_F(Help, is_a_verb_too_and_unknown_verbs_are_corrected) {
   EXPECT_EQ(succeed("help ping"), succeed("ping --help"));
   EXPECT_EQ(succeed("help"), succeed("--help"));
+  expect_refused("", 2, {"no verb is given; begin with one, e.g. insonify info FILE", "insonify --help"});
   expect_refused("pnig", 2, {"unknown verb 'pnig'; did you mean 'ping'?", "insonify --help"});
   expect_refused("info plane.ply --jsno", 2,
                  {"unknown option '--jsno'; did you mean '--json'?", "insonify info --help"});
@@ -116,6 +109,20 @@ TEST_F(Help, exit_codes_are_those_of_the_docs) {
   EXPECT_THAT(std::regex_replace(page.str(), std::regex("\n"), " "),
               HasSubstr("Exit codes: " + tool::exit_codes_text() + "."));
   EXPECT_THAT(succeed("man ping"), HasSubstr(".SH EXIT STATUS\n" + tool::exit_codes_text()));
+}
+
+TEST_F(Help, verbs_and_formats_of_scenes_are_in_the_docs) {
+  const auto page = [](const std::string& name) {
+    std::stringstream text;
+    text << std::ifstream(std::string(INSONIFY_ROOT) + "/" + name).rdbuf();
+    return text.str();
+  };
+  const std::string readme = page("README.md"), formats = page("docs/scene-files.md");
+  for (const std::string& verb : verbs())
+    EXPECT_TRUE(std::regex_search(readme, std::regex("(insonify |`)" + verb + "[ `]"))) << "README.md lacks " << verb;
+  std::istringstream extensions(scene_extensions());
+  for (std::string extension; extensions >> extension;)
+    EXPECT_THAT(formats, HasSubstr("`" + extension + "`")) << "docs/scene-files.md lacks a format";
 }
 
 TEST_F(Help, colour_maps_are_words) {

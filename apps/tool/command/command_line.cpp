@@ -75,11 +75,11 @@ using VerbRuns = std::map<std::string, std::function<void()>>;
 /// --help.
 void add_text_verbs(CommandLine& line, VerbRuns& run) {
   const auto shell = std::make_shared<std::string>(), page = std::make_shared<std::string>();
-  line.add_verb("completion", "the script that completes command lines in a shell",
+  line.add_verb("completion", "the script with which a shell completes command lines",
                 "Examples:\n  source <(insonify completion bash)")
       .add("SHELL", shell.get(), "bash, zsh or fish", {.required = true, .words = {"bash", "zsh", "fish"}});
   line.add_verb("man", "the man page of a verb, or of insonify", "Examples:\n  insonify man ping | man -l -")
-      .add("VERB", page.get(), "which; without it, insonify itself");
+      .add("VERB", page.get(), "a verb; without one, the page of insonify itself");
   run["completion"] = [&line, shell] {
     std::fputs(completion_script(*shell, line.text(), line.verb_texts()).c_str(), stdout);
   };
@@ -103,7 +103,7 @@ std::vector<char*> with_help_as_option(int argc, char** argv) {
 /// is on stderr.
 int run_command_line(int argc, char** argv) {
   CommandLine line("insonify", "insonify: what a sonar hears of a captured scene",
-                   "insonify help VERB says the options of a verb.");
+                   "insonify help VERB lists the options of a verb.");
   VerbRuns run;
   for (const Verb& verb : all_verbs()) {
     if (verb.run_with && argc > 1 && argv[1] == verb.name) {
@@ -128,7 +128,7 @@ int run_command_line(int argc, char** argv) {
 int failed_output(int reason) {
   if (reason == EPIPE) return exit_no_reader;
   fail(ErrorKind::file, "the output cannot be written: ", std::generic_category().message(reason ? reason : EIO),
-       "; the results are kept in the files that were named, but not what was to be printed");
+       "; the files of the result are written, only the printed text is lost");
 }
 
 /// Runs the verb and writes what is left of stdout.

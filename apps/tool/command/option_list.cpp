@@ -118,7 +118,9 @@ void OptionList::release(const std::string& name) { app_->get_option(name)->requ
 CommandLine::CommandLine(const std::string& name, const std::string& purpose, const std::string& footer)
     : app_(std::make_unique<CLI::App>(purpose, name)), text_{name, purpose, footer, {}} {
   app_->set_version_flag("--version", INSONIFY_VERSION);
-  app_->formatter(std::make_shared<WrappedHelp>());
+  const auto help = std::make_shared<WrappedHelp>();
+  help->label("SUBCOMMAND", "VERB");
+  app_->formatter(help);
   app_->footer(footer);
 }
 
@@ -129,7 +131,7 @@ OptionList CommandLine::options() { return {app_.get(), &text_}; }
 OptionList CommandLine::add_verb(const std::string& name, const std::string& purpose, const std::string& footer) {
   app_->require_subcommand(1);
   CLI::App* verb = app_->add_subcommand(name, purpose);
-  verb->footer(footer);
+  verb->group("Verbs")->footer(footer);
   return {verb, &verb_texts_.emplace_back(CommandText{name, purpose, footer, {}})};
 }
 
@@ -157,6 +159,12 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     return app_->exit(success);
   } catch (const CLI::ExtrasError&) {
     std::fprintf(stderr, "insonify: %s\n", extras_message().c_str());
+    return exit_usage;
+  } catch (const CLI::RequiredError& error) {
+    const bool lacks_verb = !verb_texts_.empty() && app_->get_subcommands().empty();
+    std::fprintf(stderr, "insonify: %s; see %s --help\n",
+                 lacks_verb ? "no verb is given; begin with one, e.g. insonify info FILE" : error.what(),
+                 program.c_str());
     return exit_usage;
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "insonify: %s; see %s --help\n", error.what(), program.c_str());
