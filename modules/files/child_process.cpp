@@ -136,11 +136,13 @@ int end_of(pid_t child, const std::string& path, const Allowed& allowed, const M
   if (WIFEXITED(status) && WEXITSTATUS(status) != child_without_memory) return WEXITSTATUS(status);
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   if (signal == SIGXCPU || signal == SIGALRM)
-    fail(ErrorKind::content, path, ": reading it takes more than ", allowed.seconds, " s", damaged);
+    fail(ErrorKind::content, path, ": reading the file takes more than ", allowed.seconds, " s", damaged);
   // Libraries that get no memory crash as well.
   if (allowed.short_of_memory() || signal == SIGKILL) throw std::bad_alloc();
-  if (signal != 0) fail(ErrorKind::content, path, ": reading it ends with signal ", signal, said.last_words(), damaged);
-  fail(ErrorKind::content, path, ": reading it takes more than ", allowed.beyond_parent >> 20, " MiB of memory",
+  if (signal != 0)
+    fail(ErrorKind::content, path, ": the process that reads the file ended with signal ", signal, said.last_words(),
+         damaged);
+  fail(ErrorKind::content, path, ": reading the file takes more than ", allowed.beyond_parent >> 20, " MiB of memory",
        damaged);
 }
 
@@ -158,8 +160,8 @@ void expect_from_file(const std::string& path, std::size_t bytes, const Announce
   constexpr double least = 0x1p26, per_byte = 1032, mib = 0x1p20;
   const double wanted = announced.count * announced.bytes, most = least + per_byte * static_cast<double>(bytes);
   if (!(wanted <= most))
-    fail(ErrorKind::content, path, ": announces ", announced.count, " ", announced.what, ", ", wanted / mib,
-         " MiB in memory; of a file of ", bytes, " bytes ", std::floor(most / mib), " MiB are taken at most; ",
+    fail(ErrorKind::content, path, ": its header announces ", announced.count, " ", announced.what, ", ", wanted / mib,
+         " MiB of memory; a file of ", bytes, " bytes may take ", std::floor(most / mib), " MiB at most; ",
          announced.remedy);
   if (!allowed_here) return;
   constexpr double copies = 3, bytes_per_second = 10 << 20;
@@ -193,7 +195,8 @@ ArrayReceiver read_in_child(const std::string& path, const ChildLimits& limits,
     allowed.set();
     _exit(run_child(path, read, *memory, allowed));
   }
-  if (child < 0) fail(ErrorKind::runtime, path, ": no process can be started to read it; end others, and run again");
+  if (child < 0)
+    fail(ErrorKind::runtime, path, ": no process can be started to read the file; end other programs, and run again");
   const int end = end_of(child, path, allowed, said);
   ArrayReceiver sent(path, memory);
   if (end == child_in_order) return sent;

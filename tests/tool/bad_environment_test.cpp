@@ -68,10 +68,10 @@ TEST_F(BadEnvironment, way_of_the_head) {
   refuse("--turn-rate 0,0,9000", {"turn_rate", "100 rad/s"});
   refuse("--time inf", {"--time = inf s", "must be finite"});
   refuse("--time noon", {"--time", "noon"});
-  expect_refused("ping plane.ply" + nowhere, 2, {"--pose or --trajectory must be given"});
+  expect_refused("ping plane.ply" + nowhere, 2, {"give either --pose or --trajectory"});
 
   write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,3,0,15,0\n10,1,0,3,0,15,0\n");
-  refuse("--trajectory way.csv", {"--pose or --trajectory must be given, one of them"});
+  refuse("--trajectory way.csv", {"give either --pose or --trajectory"});
   const auto refuse_trajectory = [&](const std::string& more, int code, const std::vector<std::string>& parts) {
     expect_refused("ping plane.ply" + nowhere + " " + more, code, parts);
   };

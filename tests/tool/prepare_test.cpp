@@ -117,7 +117,7 @@ TEST_F(Prepare, keeps_every_column_by_its_name_and_fits_its_table_again) {
   EXPECT_LT(thin.value.size(), 300U);
   for (std::size_t i = 0; i < thin.value.size(); ++i) EXPECT_EQ(thin.value[i], 0.25 * thin.id[i]);
   EXPECT_THAT(prepared("cloud.csv -o cloud.tiles")["notes"].dump(),
-              HasSubstr("no place for its columns instance, reflectance"));
+              HasSubstr("cannot store the columns instance, reflectance"));
   // A material that the table lacks stays what the file says.
   write("rock.toml", "schema = 1\n" + rock);
   EXPECT_THAT(prepared("once.ply -o part.ply --materials rock.toml")["notes"].dump(),

@@ -137,7 +137,7 @@ TEST_F(RunAgain, refuses_what_is_no_setting) {
   };
   refused("[ping]\nnoize = true\n", {"run.toml:3: unknown key 'ping.noize'; did you mean 'ping.noise'?"});
   refused("tolerence = 1\n[ping]\n", {"run.toml:2: unknown key 'tolerence'; did you mean 'tolerance'?"});
-  refused("[ping]\nlevel_error_db = 0.5\n", {"run.toml:3: level_error_db is no setting any more; set scatterers_per"});
+  refused("[ping]\nlevel_error_db = 0.5\n", {"run.toml:3: level_error_db is no longer a setting; set scatterers_per"});
   refused("[ping]\nsampling = \"ray\"\n", {"run.toml:3: ping.sampling = \"ray\", must be one of surfels, rays"});
   refused("[ping]\ncontributors = 300\n",
           {"run.toml:3: ping.contributors = 300, must be a whole number within 1 and 255"});

@@ -243,6 +243,6 @@ TEST_F(Survey, refuses_what_cannot_be) {
   write("m.toml", survey_mission + "threshold_db = 12\n");
   expect_refused("survey m.toml --pings-per-block 3 -o run", 3, {"run: holds a survey of another mission"});
   expect_refused("survey m.toml -o x --shard 3/3", 2, {"--shard = '3/3' is not I/N"});
-  expect_refused("survey m.toml", 2, {"--output or --plan must be given"});
+  expect_refused("survey m.toml", 2, {"give either --output"});
   expect_refused("merge run -o x", 2, {"--output: a survey is merged in its own folder"});
 }

@@ -38,9 +38,11 @@ TEST(GreyFile, refuses_damaged_files_and_says_why) {
                                   {data, "\xff"},
                                   {data + 3, "\xff\xff"},
                                   {12, "IHDX"}})
-    EXPECT_THAT(damaged(at, bytes), AllOf(HasSubstr("content: a.png: reading it ends with signal"), HasSubstr("libpng"),
-                                          HasSubstr("copy or export it again")))
+    EXPECT_THAT(damaged(at, bytes),
+                AllOf(HasSubstr("content: a.png: the process that reads the file ended with signal"),
+                      HasSubstr("libpng"), HasSubstr("copy or export it again")))
         << at;
-  EXPECT_THAT(damaged(16, "\x10"),  // 268 million pixels in each row
-              AllOf(HasSubstr("content: a.png: announces 8053064880 pixels"), HasSubstr("64 MiB are taken at most")));
+  EXPECT_THAT(
+      damaged(16, "\x10"),  // 268 million pixels in each row
+      AllOf(HasSubstr("content: a.png: its header announces 8053064880 pixels"), HasSubstr("may take 64 MiB at most")));
 }

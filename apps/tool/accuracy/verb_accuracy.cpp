@@ -37,17 +37,18 @@ struct AccuracyOptions {
 
 void add_options(OptionList list, AccuracyOptions& o) {
   o.run.output = "accuracy";
-  list.add("-o,--output", &o.run.output, "run directory to make; default: accuracy");
-  list.add("--scene", &o.scene.path, "measure on the echoes of your own ping; with --sonar and --pose");
+  list.add("-o,--output", &o.run.output, "run directory that is made; default: accuracy");
+  list.add("--scene", &o.scene.path, "scene of your own ping, whose echoes are measured; needs --sonar and --pose");
   list.add("--sonar", &o.run.sonar, "preset (see `insonify sonars`) or a .toml file");
-  list.add("--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down");
+  list.add("--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg] of the head; pitch is positive nose down");
   add_world(list, o.world);
-  list.add("--range", &o.run.range, "min:max [m]; default: the sonar's");
-  list.add("--material", &o.scene.material, "one material for everything, by name, e.g. sand");
-  list.add("--methods", &o.methods, "only these, e.g. gridded,direct", {.comma_separated = true});
-  list.add("--tolerances", &o.tolerances, "of gridded, e.g. 1e-3,1e-6", {.comma_separated = true});
-  list.add("--repeats", &o.repeats, "timed runs of each, after one to warm up; fewer if they take long");
-  list.add("--full", &o.full, "larger tasks and all tolerances: some ten minutes");
+  list.add("--range", &o.run.range, "min:max [m]; default: the sonar's range");
+  list.add("--material", &o.scene.material, "name of one material for the whole scene, e.g. sand");
+  list.add("--methods", &o.methods, "methods that are measured, e.g. gridded,direct; default: all",
+           {.comma_separated = true});
+  list.add("--tolerances", &o.tolerances, "tolerances of gridded, e.g. 1e-3,1e-6", {.comma_separated = true});
+  list.add("--repeats", &o.repeats, "timed runs of each method, after one to warm up; fewer if they take long");
+  list.add("--full", &o.full, "measure larger tasks and all tolerances: some ten minutes");
   list.add("--quick", &o.quick, "tiny tasks: seconds", {.group = ""});
   list.add("--set", &o.common.settings, "SECTION.KEY=VALUE of sonar or environment", {.one_each = true});
   list.add("--force", &o.run.force, "replace an existing run directory");
@@ -79,7 +80,8 @@ SweepOptions sweep_options(const AccuracyOptions& o) {
 std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions& sweep, Progress& progress) {
   if (o.scene.path.empty()) {
     if (!o.run.sonar.empty() || !o.pose.empty() || !o.run.range.empty())
-      fail(ErrorKind::argument, "--sonar, --pose and --range go with --scene FILE; without it the tasks are built in");
+      fail(ErrorKind::argument,
+           "--sonar, --pose and --range need --scene FILE; without a scene the tasks are built in");
     return accuracy_sweep(sweep);
   }
   if (o.run.sonar.empty() || o.pose.empty())

@@ -19,7 +19,7 @@ namespace {
 
 int say_out_of_memory(const char* how, int number, std::size_t left, const char* less) {
   std::fprintf(stderr,
-               "insonify: out of memory (%s %d), of which the limit (ulimit -v) left %zu MiB; raise it, or %s\n", how,
+               "insonify: out of memory (%s %d): the limit of ulimit -v left %zu MiB; raise that limit, or %s\n", how,
                number, left >> 20, less);
   return exit_code_of(ErrorKind::memory);
 }

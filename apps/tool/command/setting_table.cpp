@@ -41,22 +41,21 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
   std::vector<RunSetting> settings{
       {"scene", "path", "SCENE", &o.path, "cloud, mesh or scene of parts", scene, true},
       {"scene", "viewpoint", "--viewpoint", &o.viewpoint,
-       "x,y,z [m] where the capture stood; orients estimated normals; default: the file's, else 0,0,0 of an organised "
-       "scan that fans out from there, and from above of a raster of heights"},
+       "x,y,z [m] of the scanner, to which estimated normals turn; default: the viewpoint in the file, else 0,0,0 for "
+       "an organised scan that fans out from there, and a point above for a raster of heights"},
       {"scene", "materials", "--materials", &o.materials_file, "TOML table of materials for the labels of the cloud",
        file, true},
       {"scene", "material_field", "--material-field", &o.material_field,
-       "field of the cloud that means materials, e.g. classification"},
-      {"scene", "material", "--material", &o.material, "one material for everything, by name, e.g. sand"},
-      {"scene", "unit", "--unit", &o.unit, "of the file: m, mm, cm, km, ft, or metres per unit"},
+       "field of the cloud that holds materials, e.g. classification"},
+      {"scene", "material", "--material", &o.material, "name of one material for the whole scene, e.g. sand"},
+      {"scene", "unit", "--unit", &o.unit, "unit of the file: m, mm, cm, km, ft, or metres per unit"},
       {"scene", "mesh_spacing", "--mesh-spacing", &o.mesh_spacing,
-       "[m] between surfels of a mesh or height field; 0: a ping samples it by what its beams resolve, other verbs "
-       "take 200 000 "
-       "surfels"},
+       "[m] distance between surfels of a mesh or height field; 0: ping samples as finely as its beams resolve, other "
+       "verbs take 200 000 surfels"},
       {"scene", "scan_noise", "--scan-noise", &o.scan_noise,
-       "[m] standard deviation of a cloud across its surfaces; default: its field 'noise', else estimated"},
-      {"scene", "keep_strays", "--keep-strays", &o.keep_strays,
-       "points far from all others keep areas as large as their cells"},
+       "[m] standard deviation of the points across the surfaces; default: the field 'noise' of the cloud, else an "
+       "estimate"},
+      {"scene", "keep_strays", "--keep-strays", &o.keep_strays, "give isolated points the area of their whole cell"},
   };
   return under_titles(std::move(settings), {{"viewpoint", scene_title}});
 }
@@ -65,9 +64,9 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
   std::vector<RunSetting> settings{
       {"", "tolerance", "--tolerance", &o.tolerance, "relative error of the synthesis"},
       {"", "method", "--method", &o.method,
-       "planned: true-delays where the narrow band costs too much; gridded: narrow band, far field; true-delays: wide "
-       "band and near field, slow within three lengths of the array; direct and element-exact: the slow referees of "
-       "both; or incoherent: the expected level, no speckle",
+       "planned: true-delays if the error of the narrow band is too large, else gridded; gridded: narrow band, far "
+       "field; true-delays: wide band and near field, slow within three array lengths; direct, element-exact: slow "
+       "reference methods for these two; incoherent: expected level without speckle",
        methods},
   };
   return under_titles(std::move(settings), {{"tolerance", accuracy_title}});
@@ -75,7 +74,7 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
 
 RunSetting accuracy_setting(double& accuracy_db, const char* section) {
   return {section, "accuracy_db", "--accuracy-db", &accuracy_db,
-          "[dB] budget of all that is left out as not needed; `insonify plan` shows what that is"};
+          "[dB] largest error by effects that the plan leaves out; `insonify plan` lists these effects"};
 }
 
 RunSetting absorption_setting(int& order, const char* section) {
@@ -83,12 +82,13 @@ RunSetting absorption_setting(int& order, const char* section) {
           "absorption_order",
           "--absorption-order",
           &order,
-          "0: one absorption for the pulse; 1, 2: slope, curvature; -1: as --accuracy-db needs",
+          "absorption within the pulse's band: 0: constant; 1: with its slope; 2: with its curvature too; -1: the "
+          "order that --accuracy-db needs",
           absorption_orders};
 }
 
 RunSetting seed_setting(CommonOptions& o) {
-  return {"", "seed", "--seed", &o.seed, "of all random numbers; same seed, same bytes"};
+  return {"", "seed", "--seed", &o.seed, "seed of all random numbers; the same seed gives the same bytes"};
 }
 
 namespace {
@@ -96,36 +96,36 @@ namespace {
 /// Where the head is, and what it hears.
 std::vector<RunSetting> sent_settings(PingOptions& o) {
   return {
-      {"ping", "pose", "--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down"},
+      {"ping", "pose", "--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg] of the head; pitch is positive nose down"},
       {"ping", "mount", "--mount", &o.mount,
-       "x,y,z,yaw,pitch,roll [m, deg] of the head on the vehicle, whose pose --pose is then; default: as the sonar's "
-       "file "
-       "says (mounting_deg), straight down for swaths, else at the pose itself"},
+       "x,y,z,yaw,pitch,roll [m, deg] of the head on a vehicle; --pose is then the pose of the vehicle. Default: "
+       "mounting_deg of the sonar's file (straight down for swath sonars), else the head is at --pose"},
       {"ping", "trajectory", "--trajectory", &o.trajectory,
-       "instead of --pose: CSV time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg", file, true},
-      {"ping", "time", "--time", &o.time, "of transmission on the trajectory [s]"},
+       "CSV time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg that replaces --pose", file, true},
+      {"ping", "time", "--time", &o.time, "[s] time of transmission on the trajectory"},
       {"ping", "ping", "--ping", &o.ping,
-       "number of the ping: noise, waves and water are drawn anew for each; -1: the time in milliseconds",
+       "number of the ping; each number draws other noise, waves and water; -1: the time in milliseconds",
        ping_numbers},
       {"ping", "draw", "--draw", &o.draw,
-       "of a scene of parts: number of the draw of its [[scatter]]s, as [randomise] scene of a mission counts them",
+       "number of the draw of the [[scatter]] tables of a scene of parts, counted as by [randomise] scene of a mission",
        draw_numbers},
-      {"ping", "world", "--world", &o.world, "z-up, or ned: z down, pitch positive nose up", worlds},
+      {"ping", "world", "--world", &o.world, "axes of --pose: z-up, or ned (z down, pitch positive nose up)", worlds},
       accuracy_setting(o.accuracy_db),
-      {"ping", "sampling", "--sampling", &o.sampling, "surfels or rays", samplings},
+      {"ping", "sampling", "--sampling", &o.sampling, "how the scene is sampled: surfels or rays", samplings},
       {"ping", "scatterers_per_cell", "--scatterers-per-cell", &o.scatterers_per_cell,
-       "surfels are split until a resolution cell holds so many"},
+       "least number of scatterers in a resolution cell; surfels are split until it holds them"},
       {"ping", "detail_width", "--detail-width", &o.detail_width,
-       "surfels of dense clouds are merged up to this width, in beam widths; 0: none; --with detail takes 0.5"},
-      {"ping", "rays_per_beam", "--rays-per-beam", &o.rays_per_beam, "with --sampling rays"},
-      {"ping", "amplitude", "--amplitude", &o.amplitude, "speckle, random-phase or coherent", amplitudes},
+       "[beam widths] surfels of dense clouds are merged up to this width; 0: no merging; --with detail takes 0.5"},
+      {"ping", "rays_per_beam", "--rays-per-beam", &o.rays_per_beam, "rays for each beam, with --sampling rays"},
+      {"ping", "amplitude", "--amplitude", &o.amplitude, "phases of the scatterers: speckle, random-phase or coherent",
+       amplitudes},
       {"ping", "noise", "--noise", &o.noise,
-       "add thermal noise, and the wind's and the platform's if the environment has them"},
+       "add thermal noise, and noise of wind and platform if the environment gives them"},
       {"ping", "multipath", "--multipath", &o.multipath,
-       "add echoes by way of the environment's surface and bottom even where --accuracy-db does not need them"},
+       "add echoes by way of the environment's surface and bottom, even if --accuracy-db does not need them"},
       {"ping", "double_echoes", "--double-echoes", &o.double_echoes,
-       "rays from each resolution cell of the surface for echoes by way of two surfaces; 0: none; --with double-echoes "
-       "takes 2"},
+       "rays from each resolution cell of a surface, for echoes by way of two surfaces; 0: no such echoes; --with "
+       "double-echoes takes 2"},
   };
 }
 
@@ -133,39 +133,41 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
 std::vector<RunSetting> kept_settings(PingOptions& o) {
   return {
       {"ping", "keep", "--keep", &o.keep,
-       "elements: also write elements.h5, the series of every element of a line array; mask: mark in the cube where "
-       "the scan has holes; contributors: write contributors.h5, the strongest surfels of every pixel; insonification: "
-       "write the scene with the levels received from it as .ply and .pcd; paths: write paths.vtp, the paths of the "
-       "strongest echoes as lines; several with commas",
+       "further outputs, separated by commas. elements: elements.h5, the series of every element of a line array; "
+       "mask: the holes of the scan, marked in the cube; contributors: contributors.h5, the strongest surfels of every "
+       "pixel; insonification: the scene with the received levels as .ply and .pcd; paths: paths.vtp, the paths of the "
+       "strongest echoes as lines",
        outputs},
-      {"ping", "contributors", "--contributors", &o.contributors, "how many of each pixel, with --keep contributors",
+      {"ping", "contributors", "--contributors", &o.contributors, "surfels of each pixel, with --keep contributors",
        contributor_numbers},
       {"ping", "keep_bits", "--keep-bits", &o.run.keep_bits,
-       "significant bits of the cube's pressures; fewer than 24, which is all, round each number by at most 2^-BITS of "
-       "it and deflate the cube: 12 (0.002 dB) halves it",
+       "significant bits of the cube's pressures. 24 keeps all bits. Fewer bits round each number by at most 2^-BITS "
+       "of it, and the cube is deflated: 12 bits (0.002 dB) halve its size",
        bits},
-      {"ping", "layers", "--layers", &o.layers, "keep each kind of echo as a layer of the cube"},
+      {"ping", "layers", "--layers", &o.layers, "write each kind of echo as a layer of the cube"},
       {"ping", "split", "--split", &o.split,
-       "keep the phase between the halves of the array, by which soundings of the bottom are found at export; "
-       "three times the synthesis"},
+       "write the phase between the halves of the array, from which export finds soundings of the bottom; the "
+       "synthesis takes three times as long"},
       {"ping", "looks_range", "--looks-range", &o.looks_range,
-       "range bins over which pictures and /intensity of the cube average", looks},
+       "range bins that pictures and /intensity of the cube average", looks},
       {"ping", "looks_pings", "--looks-pings", &o.looks_pings,
-       "pulses of independent speckle, each a whole ping of work, over which they average", looks},
+       "pulses of independent speckle that pictures and /intensity average; each pulse takes the time of a whole ping",
+       looks},
       absorption_setting(o.absorption_order),
       {"ping", "velocity", "--velocity", &o.velocity, "vx,vy,vz [m/s] of the head in the world"},
       {"ping", "turn_rate", "--turn-rate", &o.turn_rate, "x,y,z [deg/s]: rotation vector of the head in the world"},
-      {"ping", "threshold_db", "--threshold", &o.threshold_db, "[dB] of a detection above the noise floor"},
+      {"ping", "threshold_db", "--threshold", &o.threshold_db, "[dB] least level of a detection above the noise floor"},
       {"ping", "false_alarm_rate", "--false-alarm-rate", &o.false_alarm_rate,
-       "of a detection above speckle as strong as its surroundings (cell averaging); 1: surroundings do not count"},
+       "rate of detections in speckle as strong as its surroundings (cell averaging); 1: surroundings do not count"},
       {"ping", "all_bins_above", "--all-bins-above", &o.all_bins_above,
-       "[dB re 1 uPa] every bin above is a returned point"},
+       "[dB re 1 uPa] every bin above this level becomes a return"},
       {"ping", "memory_limit_gib", "--memory-limit", &o.memory_limit,
-       "[GiB] that a ping may take of a .tiles scene, more of which is refused before it is read, default: what is "
-       "available; or of a mesh, which is then sampled coarser, default: 1.5",
+       "[GiB] memory for the scene of a ping. Tiles that need more are refused before they are read; default: the "
+       "available memory. A mesh that needs more is sampled more coarsely; default: 1.5",
        positive},
-      {"ping", "with", "--with", &o.with, "force a stage of the plan in, any number of times", stages},
-      {"ping", "without", "--without", &o.without, "force a stage of the plan out, any number of times", stages},
+      {"ping", "with", "--with", &o.with, "include this stage of the plan; may be given several times", stages},
+      {"ping", "without", "--without", &o.without, "leave out this stage of the plan; may be given several times",
+       stages},
   };
 }
 

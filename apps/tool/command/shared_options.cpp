@@ -11,17 +11,17 @@
 namespace insonify::tool {
 
 void add_verbosity(OptionList list, CommonOptions& o) {
-  list.add("-q,--quiet", &o.quiet, "no notes, and no line that says what was written");
-  list.add("-v,--verbose", &o.verbose, "say each step");
+  list.add("-q,--quiet", &o.quiet, "print no notes and no summary");
+  list.add("-v,--verbose", &o.verbose, "print each step");
 }
 
 void add_common(OptionList list, CommonOptions& o) {
   add_verbosity(list, o);
-  list.add("--json", &o.json, "result as JSON on stdout");
+  list.add("--json", &o.json, "print the result as JSON on stdout");
 }
 
 void add_work(OptionList list, CommonOptions& o) {
-  list.add("-j,--threads", &o.threads, "threads, at most 1024; 0: all cores (results do not depend on it)",
+  list.add("-j,--threads", &o.threads, "number of threads; 0: all cores. Results do not depend on it",
            {.within = std::pair(0, 1024)});
   add_settings(list, {seed_setting(o)});
 }
@@ -49,21 +49,24 @@ void add_sonar(OptionList list, CommonOptions& common, RunOptions& o, const char
            "TOML file: [water] [surface] [bottom] [volume] [wind] [noise] [profile], or the run.toml of a run",
            {.group = sonar_title});
   list.add("--profile", &o.profile,
-           "CSV depth_m,sound_speed (or depth_m,temperature_c,salinity_psu): bends rays; needs surface.height_m",
+           "CSV depth_m,sound_speed (or depth_m,temperature_c,salinity_psu) of a profile that bends rays; needs "
+           "surface.height_m or water.level_m",
            {.group = sonar_title});
-  list.add("--set", &common.settings, "SECTION.KEY=VALUE of sonar or environment, e.g. water.temperature_c=4",
+  list.add("--set", &common.settings,
+           "SECTION.KEY=VALUE that replaces a value of sonar or environment, e.g. water.temperature_c=4",
            {.one_each = true, .group = sonar_title});
   add_settings(list, synthesis_settings(o));
 }
 
 void add_output(OptionList list, RunOptions& o) {
-  list.add("-o,--output", &o.output, "run directory to make", {.required = true, .group = output_title});
+  list.add("-o,--output", &o.output, "run directory that is made", {.required = true, .group = output_title});
   list.add("--force", &o.force, "replace an existing run directory", {.group = output_title});
   list.add("--no-picture", &o.no_picture, "do not draw fan.png", {.group = output_title});
 }
 
 void add_world(OptionList list, std::string& world) {
-  list.add("--world", &world, "z-up, or ned: z down, pitch positive nose up", {.words = {"z-up", "ned"}});
+  list.add("--world", &world, "axes of --pose: z-up, or ned (z down, pitch positive nose up)",
+           {.words = {"z-up", "ned"}});
 }
 
 void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
@@ -73,13 +76,13 @@ void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
     list.release("SCENE");
     list.release("--sonar");
   };
-  list.add(
-      "--run", load_run,
-      "run.toml of an earlier ping: the same again, but for the options given beside it; then SCENE and --sonar need "
-      "not be given, and a flag is switched off by e.g. --noise=false");
+  list.add("--run", load_run,
+           "run.toml of an earlier ping, whose scene, sonar and options are taken unless others are given; "
+           "--noise=false switches a flag off");
   PingOptions& o = command.options;
   add_scene(list, o.scene);
-  add_sonar(list, o.common, o.run, "to the end of the scene, at most the sonar's");
+  add_sonar(list, o.common, o.run,
+            "from the sonar's least range to the end of the scene, at most to the sonar's greatest range");
   // Titles stand in the order in which they are first used.
   if (with_output) add_output(list, o.run);
   add_settings(list, ping_settings(o));

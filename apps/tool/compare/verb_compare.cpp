@@ -22,34 +22,34 @@ namespace {
 using nlohmann::ordered_json;
 
 void add_options(OptionList list, CompareOptions& o) {
-  list.add("A", &o.a, "run directory or cube.h5; also a record; or soundings of export --to csv", {.required = true});
+  list.add("A", &o.a, "run directory, cube.h5 or recording; or soundings written by export --to csv",
+           {.required = true});
   list.add("B", &o.b,
            "the reference: a run, a recording (" + record_extensions() +
-               "), .npy (dB, complex Pa, or grey), .png (grey, "
-               "as view grey makes it), or with --strength a cloud; of soundings their scene, or "
-               "their run, whose parts stood elsewhere at each ping",
+               "), .npy (dB, complex Pa, or grey), .png (grey, as written by --view grey), or with --strength a cloud; "
+               "for soundings: their scene, or their run if parts of the scene move",
            {.required = true});
-  list.add("-o,--output", &o.output, "folder to make: compare.json and a page of pictures, index.html");
-  list.add("--window", &o.window, "MIN:MAX [dB] in which images are compared; default: 60 dB below the top of B");
-  list.add("--scale", &o.scale, "MIN:MAX [dB] that black and white of a .png or of a grey .npy stand for");
-  list.add("--ping", &o.ping, "of A, from 0");
-  list.add("--ping-b", &o.ping_b, "of B; default: as of A", {.shown_as = "INT"});
+  list.add("-o,--output", &o.output, "folder that is made: compare.json and a page of pictures, index.html");
+  list.add("--window", &o.window,
+           "MIN:MAX [dB] of the levels that are compared; default: from 60 dB below the top of B");
+  list.add("--scale", &o.scale, "MIN:MAX [dB] of black and white in a .png or a grey .npy");
+  list.add("--ping", &o.ping, "number of the ping of A, from 0");
+  list.add("--ping-b", &o.ping_b, "number of the ping of B; default: as of A", {.shown_as = "INT"});
   list.add("--align", &o.align,
-           "move A by the whole beams and bins at which it correlates best with B, before anything is measured; the "
-           "result says by how many");
+           "first move A by the whole beams and bins at which A correlates best with B; the result lists both numbers");
   const OptionRules from_0{.within = std::pair(0, 1 << 30), .shown_as = "INT"};
   list.add("--frame", &o.frame, "ping of the recording of an imaging sonar, from 0", from_0);
-  list.add("--channel", &o.channel, "of the recording of a side-scan, all of whose pings count; from 0", from_0);
+  list.add("--channel", &o.channel, "channel of the recording of a side-scan, from 0; all pings are compared", from_0);
   list.add("--strength", &o.strength,
-           "B is a cloud with this field of measured strengths: the levels of A at its points are compared");
-  list.add("--strength-unit", &o.unit, "of the field: db, linear (amplitude) or power",
+           "field of the cloud B that holds measured strengths; they are compared with the levels of A at the points");
+  list.add("--strength-unit", &o.unit, "unit of the field: db, linear (amplitude) or power",
            {.words = {"db", "linear", "power"}});
-  list.add("--cell", &o.cell, "[m] of the grids in which heights of soundings and scene are compared",
+  list.add("--cell", &o.cell, "[m] size of the cells in which heights of soundings and scene are compared",
            {.positive = true});
   list.add("--repeat", &o.repeat,
-           "another cloud of the same place, whose strengths say what a repeated measurement reaches");
-  list.add("--seed", &o.common.seed, "of the drawn floor");
-  list.add("--force", &o.force, "replace an existing folder of an earlier comparison");
+           "second cloud of the same place; its strengths show how well a repeated measurement agrees");
+  list.add("--seed", &o.common.seed, "seed of the simulated comparison of two seeds");
+  list.add("--force", &o.force, "replace the folder of an earlier comparison");
   add_common(list, o.common);
 }
 
@@ -228,18 +228,15 @@ void compare_with_points(const CompareOptions& o, std::optional<RunDirectory>& d
   }
   std::string table = fmt::format(
       "{} of {} points\nrank correlation {:.3f} (ceiling of one look of speckle {:.3f}), without the trends over range "
-      "{:.3f} ({:.3f})\n"
-      "A - B: bias {:.2f} dB, deviation {:.2f} dB, without the trends {:.2f} dB\n"
-      "dB per decade of range: predicted {:.1f}, measured {:.1f}: a time-varied gain of {:.1f} explains the "
-      "difference\n",
+      "{:.3f} ({:.3f})\nA - B: bias {:.2f} dB, deviation {:.2f} dB, without the trends {:.2f} dB\ndB per decade of "
+      "range: predicted {:.1f}, measured {:.1f}: a time-varied gain of {:.1f} explains the difference\n",
       c.points, p.in_cloud, c.rank, c.ceiling, c.rank_without_trend, c.ceiling_without_trend, c.bias_db, c.deviation_db,
       c.deviation_without_trend_db, c.predicted_slope_db, c.measured_slope_db,
       c.measured_slope_db - c.predicted_slope_db);
   if (c.far_below > 0.02)
     table += fmt::format(
         "note: {:.0f} % of the points are predicted more than 20 dB below the trend: surface before them hides them in "
-        "the "
-        "run, and they make the slope; if one place saw them all, ping with --viewpoint of that place\n",
+        "the run, and they make the slope; if one place saw them all, ping with --viewpoint of that place\n",
         100 * c.far_below);
   if (result.contains("ceiling_of_repeat"))
     table +=
@@ -290,7 +287,7 @@ void compare(const CompareOptions& o) {
 
 Verb compare_verb() {
   return make_verb<CompareOptions>(
-      "compare", "how alike two runs are, a run and a record, or soundings and the scene that they are of",
+      "compare", "likeness of two runs, of a run and a recording, or of soundings and their scene",
       {"insonify compare run other-seed -o compared", "insonify compare run picture.png --scale 40:100",
        "insonify compare run scan.pcd --strength intensity --strength-unit linear",
        "insonify compare soundings.csv reef.pcd --cell 0.1"},

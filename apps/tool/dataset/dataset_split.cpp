@@ -177,8 +177,8 @@ std::vector<std::string> SplitTally::notes(const std::string& unit, const std::s
     if (shares[k] > 0 && !images_.contains(split_names[k])) empty.push_back(split_names[k]);
   if (!empty.empty())
     notes.push_back(fmt::format(
-        "no image is in {}: --split {} needs more {} than the runs have; give runs of more of them, or a smaller unit "
-        "with --split-by{}",
+        "no image is in {}: --split {} needs more {} than the runs have; give more runs, or a smaller unit with "
+        "--split-by{}",
         joined(empty, " and "), split_option, by.plural, unit == "scene" ? " leg, region or ping" : " region or ping"));
   for (const auto& [split, images] : images_)
     if (const std::size_t near = split == "train" ? 0 : near_train(split); near > 0)

@@ -200,11 +200,9 @@ ordered_json DatasetWriter::empty_coco() const {
 std::string DatasetWriter::card() const {
   std::string text = fmt::format(
       "# Simulated sonar images\n\n{} images in two forms, with {} boxes in the polar and {} in the fan ones, made by "
-      "insonify {}.\n\nSonars:\n{}\n"
-      "## Images\n\n`polar/images`: 16 bits, a column for each beam from port to starboard, the first row is the "
-      "farthest bin. `fan/images`: 8 bits, true "
-      "geometry, forward up, starboard right; `fan_mapping.json` says where. Grey is linear in dB: black {:g} dB or "
-      "below, white {:g} dB or above, {}. All "
+      "insonify {}.\n\nSonars:\n{}\n## Images\n\n`polar/images`: 16 bits, a column for each beam from port to "
+      "starboard, the first row is the farthest bin. `fan/images`: 8 bits, true geometry, forward up, starboard right; "
+      "`fan_mapping.json` says where. Grey is linear in dB: black {:g} dB or below, white {:g} dB or above, {}. All "
       "images have this one mapping.\n\n",
       images_, polar_.boxes, fan_.boxes, INSONIFY_VERSION, sonars_, window_.min_db, window_.max_db,
       options_.raw ? "levels as received (re 1 uPa)"
@@ -212,21 +210,19 @@ std::string DatasetWriter::card() const {
   const std::optional<double> least = parse_min_level(options_.min_level, window_.min_db);
   text += fmt::format(
       "## Labels\n\nA pixel has the class of a material if visible surface of it lies in the pixel's own cell "
-      "(half-power "
-      "widths of beam and pulse) and at least {:g} of the energy heard there is of it, within the main lobe; it is "
-      "shadow if surface of the scene lies there but none is visible from the head; else nothing (water, or side lobes "
-      "and multipath stronger than what is there). Objects are the scene's field `instance`, or without it connected "
-      "parts of a class, of {} "
-      "pixels of the polar image at least. "
-      "Holes of a scan count as nothing{}.\n\n| value | class | polar pixels | fan pixels |\n|---|---|---|---|\n",
+      "(half-power widths of beam and pulse) and at least {:g} of the energy heard there is of it, within the main "
+      "lobe; it is shadow if surface of the scene lies there but none is visible from the head; else nothing (water, "
+      "or side lobes and multipath stronger than what is there). Objects are the scene's field `instance`, or without "
+      "it connected parts of a class, of {} pixels of the polar image at least. Holes of a scan count as "
+      "nothing{}.\n\n| value | class | polar pixels | fan pixels |\n|---|---|---|---|\n",
       options_.share, options_.least_pixels,
       least ? fmt::format(", and so do surfaces in pixels below {:g} dB", *least) : "");
   for (std::size_t k = 0; k < classes_.size(); ++k)
     text += fmt::format("| {} | {} | {} | {} |\n", k, classes_[k], polar_.pixels[k], fan_.pixels[k]);
   text += fmt::format(
       "\n`masks`: class; `colours`: the same in the colours of `palette.json`; `instances`: number of the object, 16 "
-      "bits; `annotations`: COCO with run lengths; `labels`: "
-      "YOLO, the classes that have boxes counted from 0 (`data.yaml`). In masks alone: {}.\n\n",
+      "bits; `annotations`: COCO with run lengths; `labels`: YOLO, the classes that have boxes counted from 0 "
+      "(`data.yaml`). In masks alone: {}.\n\n",
       options_.stuff.empty() ? "none" : joined(options_.stuff));
   const SplitUnit& by = *std::find_if(split_units().begin(), split_units().end(),
                                       [&](const SplitUnit& each) { return options_.split_by == each.name; });
@@ -238,8 +234,8 @@ std::string DatasetWriter::card() const {
                         split == "train" ? "" : std::to_string(tally_.near_train(split)));
   return text +
          "\n`meta.jsonl` has pose, sonar, water, seed and mapping of every image, and by how much it was randomised. "
-         "`SHA256SUMS` checks the files: `sha256sum -c "
-         "SHA256SUMS`.\n\nLevels are those of the simulation; scenes and their licences are the user's.\n";
+         "`SHA256SUMS` checks the files: `sha256sum -c SHA256SUMS`.\n\nLevels are those of the simulation; scenes and "
+         "their licences are the user's.\n";
 }
 
 // The classes that a box of either form has, by their values in masks; YOLO numbers them in this order from 0.
@@ -296,7 +292,7 @@ void DatasetWriter::finish() {
   for (std::size_t k = 2; k < polar_.pixels.size(); ++k) labelled += polar_.pixels[k];
   if (labelled == 0)
     fail(ErrorKind::content, "no pixel of ", images_, " images shows a surface by --share ", options_.share,
-         "; lower it, or look where the scene is");
+         "; lower --share, or check that the images show the scene");
   const std::vector<std::size_t> boxed = boxed_classes();
   std::vector<std::string> boxed_names;
   for (const std::size_t k : boxed) boxed_names.push_back(classes_[k]);

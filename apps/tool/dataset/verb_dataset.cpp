@@ -23,26 +23,28 @@ void add_options(OptionList list, DatasetOptions& o) {
   list.add("RUN", &o.runs,
            "runs, surveys or cubes made with --keep contributors (missions: keep = [\"contributors\"] under [ping])",
            {.required = true});
-  list.add("-o,--output", &o.output, "folder to make", {.required = true});
+  list.add("-o,--output", &o.output, "folder that is made", {.required = true});
   list.add("--window", &o.window,
-           "MIN:MAX [dB] of black and white in all images; default: 60 dB below the top of the first one");
-  list.add("--tvg", &o.tvg, "[dB per decade of range] given back, with absorption");
-  list.add("--raw", &o.raw, "levels as received, without --tvg", {.excludes = "--tvg", .shown_as = " "});
+           "MIN:MAX [dB] of black and white in all images; default: from 60 dB below the top of the first image");
+  list.add("--tvg", &o.tvg, "[dB per decade of range] time-varied gain, to which absorption is added");
+  list.add("--raw", &o.raw, "take levels as received, without time-varied gain",
+           {.excludes = "--tvg", .shown_as = " "});
   list.add("--share", &o.share,
-           "of a pixel's energy that must be of one material in the pixel's own cell, for that class");
+           "least share of a pixel's energy from one material within the pixel's own cell; that material is then the "
+           "class of the pixel");
   list.add("--min-level", &o.min_level, min_level_help);
-  list.add("--least-pixels", &o.least_pixels, "of an object, in the polar image",
+  list.add("--least-pixels", &o.least_pixels, "least number of pixels of an object in the polar image",
            {.within = std::pair(1, 1 << 30), .shown_as = "INT"});
-  list.add("--columns", &o.columns, "of fan images [pixels]", {.within = std::pair(16, 8192), .shown_as = "INT"});
-  list.add("--stuff", &o.stuff, "classes that have no boxes, e.g. sand or shadow; several with commas",
+  list.add("--columns", &o.columns, "[pixels] width of fan images", {.within = std::pair(16, 8192), .shown_as = "INT"});
+  list.add("--stuff", &o.stuff, "classes without boxes, separated by commas, e.g. sand,shadow",
            {.comma_separated = true});
-  list.add("--polygons", &o.polygons, "COCO with outlines too, holes filled: annotations/polygons_SPLIT.json");
+  list.add("--polygons", &o.polygons, "write COCO with outlines too, holes filled: annotations/polygons_SPLIT.json");
   list.add("--row", &o.row,
-           "of heads with several rows of beams: the number of one, from 0 at the bottom, or all: an image of each; "
-           "default: the middle one");
-  list.add("--split", &o.split, "TRAIN:VAL:TEST, shares of what --split-by names");
+           "row of beams of a head with several rows: its number from 0 at the bottom, or all for an image of each; "
+           "default: the middle row");
+  list.add("--split", &o.split, "TRAIN:VAL:TEST, shares of the units of --split-by");
   std::vector<std::string> units;
-  std::string means = "what stays together in train, val or test";
+  std::string means = "unit that stays together in train, val or test";
   for (const SplitUnit& unit : split_units())
     units.push_back(unit.name), means += std::string("; ") + unit.name + ": " + unit.means;
   list.add("--split-by", &o.split_by, means, {.words = units});

@@ -31,37 +31,39 @@ struct ExportOptions {
 void add_options(OptionList list, ExportOptions& o) {
   ProductOptions& p = o.product;
   list.add("RUN", &p.run, "run directory, survey or cube.h5", {.required = true});
-  list.add("-o,--output", &p.output, "file to write; of vtk and png: directory to make", {.required = true});
+  list.add("-o,--output", &p.output, "file that is written; for vtk and png: folder that is made", {.required = true});
   list.add(
       "--to", &p.to,
-      "vtk: grids and returns for ParaView; soundings of the bottom as gsf: Generic Sensor Format 3.11, las: LAS 1.4 "
-      "in "
-      "UTM, geotiff: a grid in UTM or another projected system, or csv: a table; mcap: images, points and poses as "
-      "messages of ROS 2; png: bare pictures; xtf: the samples of side-scans and scanning heads",
+      "format. vtk: grids and returns for ParaView. Soundings of the bottom: gsf (Generic Sensor Format 3.11), las "
+      "(LAS 1.4 in UTM), geotiff (a grid in UTM or another projected system) or csv (a table). mcap: images, points "
+      "and poses as messages of ROS 2. png: bare pictures. xtf: the samples of side-scans and scanning heads",
       {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png", "xtf"}});
   list.add("--anchor", &p.anchor,
-           "LAT,LON[,HEADING] [deg] of the world's origin and x axis (clockwise from north); default: the mission's");
+           "LAT,LON[,HEADING] [deg] of the world's origin and x axis (clockwise from north); default: anchor of the "
+           "mission");
   list.add("--utm", &p.utm, "zone of a world in UTM, e.g. 32N", {.excludes = "--anchor"});
-  list.add("--start-utc", &p.start_utc, "of time 0, as 2026-05-01T08:30:00Z; default: the mission's, else 1970");
-  list.add("--head", &p.head, "of a survey with several heads; an xtf takes both of two");
+  list.add("--start-utc", &p.start_utc,
+           "time of day at time 0, as 2026-05-01T08:30:00Z; default: that of the mission, else 1970");
+  list.add("--head", &p.head, "name of the head, in a survey of several heads; an xtf takes both heads of two");
   list.add("--crs", &p.crs, crs_help);
-  list.add("--cell", &p.cell, "[m] of a geotiff", {.positive = true});
-  list.add("--per-beam", &p.per_beam, "soundings of a beam at most, by falling energy",
+  list.add("--cell", &p.cell, "[m] size of the cells of a geotiff", {.positive = true});
+  list.add("--per-beam", &p.per_beam, "most soundings of a beam, the strongest first",
            {.within = std::pair(1, 100), .shown_as = "INT"});
-  list.add("--keep-rejected", &p.keep_rejected, "also soundings that are judged wrong, flagged");
-  list.add("--min-level", &p.min_level, "[dB re 1 uPa] of a sounding");
-  list.add("--max-deviation", &p.max_deviation, "[m] of a sounding, its predicted standard deviation",
+  list.add("--keep-rejected", &p.keep_rejected, "write rejected soundings too, with a flag");
+  list.add("--min-level", &p.min_level, "[dB re 1 uPa] least level of a sounding");
+  list.add("--max-deviation", &p.max_deviation, "[m] greatest predicted standard deviation of a sounding",
            {.positive = true});
   list.add("--processing-profile", &p.processing_profile,
-           "sound-speed profile (.csv) by which soundings are placed; default: the one that the sound ran through");
-  list.add("--las-version", &p.las_version, "of a las; 1.2 for readers that know no other", {.words = {"1.4", "1.2"}});
-  list.add("--compression", &p.compression, "of the chunks of an mcap; one that this build lacks is noted, and none",
+           "sound-speed profile (.csv) that places the soundings; default: the profile of the simulation");
+  list.add("--las-version", &p.las_version, "version of a las; 1.2 for readers that know no later one",
+           {.words = {"1.4", "1.2"}});
+  list.add("--compression", &p.compression,
+           "compression of the chunks of an mcap; a method that this build lacks is noted and replaced by none",
            {.words = {"none", "lz4", "zstd"}});
-  list.add(
-      "--linear", &p.linear,
-      "mcap: images of pressure in 32 bits instead of levels in 8; xtf: floats of pressure as received instead of 16 "
-      "bits with a gain");
-  list.add("--force", &p.force, "replace an existing file, or the directory of an earlier export");
+  list.add("--linear", &p.linear,
+           "mcap: 32-bit images of pressure in place of 8-bit levels; xtf: floats of received pressure in place of 16 "
+           "bits with a gain");
+  list.add("--force", &p.force, "replace an existing file, or the folder of an earlier export");
   add_common(list, o.common);
 }
 
@@ -102,9 +104,8 @@ void require_soundings(const ProductOptions& o) {
       (o.keep_rejected || std::isfinite(o.min_level) || std::isfinite(o.max_deviation) ||
        !o.processing_profile.empty()))
     fail(ErrorKind::argument, "--to = ", o.to,
-         " has no soundings of the bottom: --keep-rejected, --min-level, --max-deviation and --processing-profile must "
-         "go "
-         "with gsf, las, geotiff, csv or mcap");
+         " has no soundings of the bottom; --keep-rejected, --min-level, --max-deviation and --processing-profile need "
+         "gsf, las, geotiff, csv or mcap");
 }
 
 void export_run(const ExportOptions& options) {

@@ -58,18 +58,20 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("RUN", &o.run,
            "run directory, cube.h5, or a recording (" + record_extensions() + "); for view scene also a cloud or mesh",
            {.required = true});
-  list.add("-o,--output", &o.output, "picture to write, .png (grey also .pgm); with --animate a folder",
+  list.add("-o,--output", &o.output, "picture that is written, .png (grey also .pgm); with --animate a folder",
            {.required = true});
   list.add("--view", &o.view, joined(views, "; "), {.words = names});
-  list.add("--bits", &o.bits, "of grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
-  list.add("--layer", &o.layer, "one kind of echo alone, e.g. multipath, of a run made with --layers");
-  list.add("--ping", &o.ping, "which ping, from 0");
-  list.add("--beam", &o.beam, "from 0, max (waterfall) or all (spectrum); default: the middle one, of a spectrum all");
-  list.add("--raw", &o.raw, "levels as received; default: range compensated; excludes --tvg", {.shown_as = " "});
+  list.add("--bits", &o.bits, "bits of view grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
+  list.add("--layer", &o.layer, "kind of echo that is shown alone, e.g. multipath; the run must be made with --layers");
+  list.add("--ping", &o.ping, "number of the ping, from 0");
+  list.add(
+      "--beam", &o.beam,
+      "number of the beam from 0, or max (waterfall), or all (spectrum); default: the middle beam, for spectrum all");
+  list.add("--raw", &o.raw, "show levels as received; default: range compensated; excludes --tvg", {.shown_as = " "});
   const auto take_tvg = [&o](const std::string& text) { o.tvg = parse_number("--tvg", text); };
   list.add("--tvg", take_tvg,
-           "[dB per decade of range] given back, with absorption; 40: a point's, 30: a bottom's; default: 40, of a "
-           "recording 0",
+           "[dB per decade of range] time-varied gain, to which absorption is added; 40: for points, 30: for a bottom; "
+           "default: 40, for a recording 0",
            {.excludes = "--raw", .shown_as = "FLOAT"});
   PictureOptions& picture = o.picture;
   const auto take_max = [&picture](const std::string& text) { picture.max_db = parse_number("--max", text); };
@@ -77,12 +79,12 @@ void add_options(OptionList list, ImageOptions& o) {
     std::tie(picture.width, picture.height) = parse_size(text);
     picture.trim = false;
   };
-  list.add("--window", &picture.window_db, "[dB] from darkest to brightest");
+  list.add("--window", &picture.window_db, "[dB] difference between the brightest and the darkest level");
   list.add("--max", take_max, "[dB] brightest level; default: automatic");
   list.add("--colormap", &picture.colour_map, joined(colour_map_names()), {.words = colour_map_names()});
-  list.add("--size", take_size, "WIDTHxHEIGHT [pixels]; default: 1400x1050, of fans as much of it as they fill");
-  list.add("--title", &picture.title, "default: sonar and ping");
-  list.add("--dark", &picture.dark, "dark background");
+  list.add("--size", take_size, "WIDTHxHEIGHT [pixels]; default: 1400x1050, trimmed to the fan");
+  list.add("--title", &picture.title, "title of the picture; default: sonar and ping");
+  list.add("--dark", &picture.dark, "draw on a dark background");
   list.add("--force", &o.force, "replace existing pictures");
   for (ViewOption& option : options_of_views()) {
     const std::vector<std::string> takers = views_with(option.name);

@@ -33,10 +33,10 @@ struct MaterialsOptions {
 };
 
 void add_options(OptionList list, MaterialsOptions& o) {
-  list.add("NAME", &o.name, "material, or a .toml file of materials");
-  list.add("--toml", &o.toml, "print the file itself, to begin one of your own with");
-  list.add("-o,--output", &o.output, "picture to write, .png: backscattering strength against grazing angle");
-  list.add("--khz", &o.frequencies, "frequencies of the picture [kHz]");
+  list.add("NAME", &o.name, "name of a material, or a .toml file of materials");
+  list.add("--toml", &o.toml, "print the file, as a start for one of your own");
+  list.add("-o,--output", &o.output, "picture that is written, .png: backscattering strength against grazing angle");
+  list.add("--khz", &o.frequencies, "[kHz] frequencies of the picture");
   list.add("--force", &o.force, "replace an existing picture");
   add_common(list, o.common);
 }
@@ -116,7 +116,7 @@ void materials(const MaterialsOptions& o) {
 
 Verb materials_verb() {
   return make_verb<MaterialsOptions>(
-      "materials", "the materials that surfaces have by name, with their law, numbers and sources",
+      "materials", "the named materials, with their law, numbers and sources",
       {"insonify materials", "insonify materials medium-sand -o sand.png", "insonify materials sand --json",
        "insonify materials --toml > my-materials.toml",
        "insonify ping reef.pcd --material medium-sand --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o out"},

@@ -21,8 +21,8 @@ struct SonarsOptions {
 };
 
 void add_options(OptionList list, SonarsOptions& o) {
-  list.add("NAME", &o.name, "preset or .toml file");
-  list.add("--toml", &o.toml, "print the file itself, to begin one of your own with");
+  list.add("NAME", &o.name, "name of a preset, or a .toml file");
+  list.add("--toml", &o.toml, "print the file, as a start for one of your own");
   add_common(list, o.common);
 }
 
@@ -75,7 +75,7 @@ void sonars(const SonarsOptions& o) {
 
 Verb sonars_verb() {
   return make_verb<SonarsOptions>(
-      "sonars", "the presets; with a name, every number with its source",
+      "sonars", "the presets; with a name, all numbers of one with their sources",
       {"insonify sonars", "insonify sonars oculus-m750d", "insonify sonars oculus-m750d --toml > my-sonar.toml"},
       add_options, sonars);
 }

@@ -35,16 +35,16 @@ void add_options(OptionList list, MergeOptions& o) {
   list.add("RUN", &o.runs, "run directories or cubes with the same fan and gate; or the folder of one survey",
            {.required = true});
   list.add("-o,--output", &o.output,
-           "run directory to make, with returns, contributors and insonification if all runs have them; a survey is "
-           "merged in its own folder");
-  list.add("--copy", &o.copy, "of a survey: copy the blocks into the cubes, which otherwise refer to them");
+           "run directory that is made, with returns, contributors and insonification if all runs have them; a survey "
+           "is merged in its own folder");
+  list.add("--copy", &o.copy, "survey: copy the blocks into the cubes; without it, the cubes refer to the blocks");
   list.add("--mosaic", &o.mosaic.cell,
-           "of a survey: the images of all heads laid on the bed, on a grid of such cells [m]: .vti, .png, and "
+           "[m] survey: lay the images of all heads on the bed, on a grid with cells of this size: .vti, .png, and "
            "GeoTIFF if the mission has an anchor",
            {.positive = true});
-  list.add("--bottom", &o.mosaic.bottom, "z of a level bed for the mosaic [m]; default: the surface of the returns");
+  list.add("--bottom", &o.mosaic.bottom, "[m] z of a level bed for the mosaic; default: the surface of the returns");
   list.add("--mosaic-by", &o.mosaic.by,
-           "mean: of all pings that hear a cell; best: of the ping whose beam is narrowest there",
+           "value of a cell: mean of all pings that hear it, or best: that of the ping with the narrowest beam there",
            {.words = {"mean", "best"}});
   list.add("--crs", &o.mosaic.crs, crs_help);
   list.add("--force", &o.force, "replace an existing run directory");
@@ -72,13 +72,13 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
   }
   if (same_time > 0)
     notes.push_back(
-        fmt::format("{} pings have the time of the one before them and follow in the order given", same_time));
+        fmt::format("{} pings have the time of the ping before; they follow in the order given", same_time));
   if (had_layers && merged.pings.front().layers.empty())
-    notes.emplace_back("layers are left out: not all pings have the same ones");
+    notes.emplace_back("layers are left out: not all pings have the same layers");
   if (had_labels && merged.pings.front().labels.empty())
-    notes.emplace_back("labels are left out: not all pings have them, of the same materials");
+    notes.emplace_back("labels are left out: not all pings have labels of the same materials");
   if (other_settings)
-    notes.emplace_back("runs differ in seed, tolerance or source level; the cube states those of the first");
+    notes.emplace_back("runs differ in seed, tolerance or source level; the cube states those of the first run");
   return notes;
 }
 
@@ -128,7 +128,7 @@ void merge(const MergeOptions& o) {
 
 Verb merge_verb() {
   return make_verb<MergeOptions>(
-      "merge", "pings of several runs of one sonar in one run, by time; or the blocks of a survey",
+      "merge", "join the pings of several runs of one sonar by time; or the blocks of a survey",
       {"insonify merge out-0 out-1 out-2 -o track", "insonify merge survey", "insonify merge survey --mosaic 0.1",
        "insonify merge run-* -o track && insonify image track --view waterfall -o waterfall.png"},
       add_options, merge);

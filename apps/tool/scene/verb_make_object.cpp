@@ -31,11 +31,13 @@ struct MakeObjectOptions {
 };
 
 void add_options(OptionList list, MakeObjectOptions& o) {
-  list.add("NAME", &o.name, "cylinder-mine, tyre, crab-pot ...; without it the objects are listed");
-  list.add("-o,--output", &o.output, "mesh to write, .ply");
-  list.add("--set", &o.set, "KEY=VALUE, an option of the object, e.g. diameter_m=0.7; once for each",
+  list.add("NAME", &o.name, "cylinder-mine, tyre, crab-pot ...; without a name, all objects are listed");
+  list.add("-o,--output", &o.output, "mesh that is written, .ply");
+  list.add("--set", &o.set, "KEY=VALUE of an option of the object, e.g. diameter_m=0.7; may be given several times",
            {.one_each = true, .shown_as = "KEY=VALUE"});
-  list.add("--material", &o.materials, "NAME for all of it, or OLD=NEW for what is made of OLD; `insonify materials`",
+  list.add("--material", &o.materials,
+           "NAME of one material for the whole object, or OLD=NEW to replace a material; `insonify materials` lists "
+           "the names",
            {.one_each = true, .shown_as = "NAME"});
   list.add("--list", &o.list, "list the objects, or the options of NAME");
   list.add("--force", &o.force, "replace an existing file");

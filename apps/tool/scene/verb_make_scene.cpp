@@ -40,18 +40,19 @@ struct MakeSceneOptions {
 
 void add_options(OptionList list, MakeSceneOptions& o) {
   list.add("NAME", &o.name, "harbour, reef, river, plane, sphere, wall or poles", {.required = true});
-  list.add("-o,--output", &o.output, "scene to write, .ply or .pcd; or .tiles, for any size", {.required = true});
-  list.add("--points", &o.points, "surfels wanted");
-  list.add("--size", &o.size, "plane: x,y extent; wall: width,height [m]");
-  list.add("--radius", &o.radius, "of the sphere [m]");
-  list.add("--mu-db", &o.lambert_mu_db, "10 log10 of the Lambert coefficient of plane, sphere, wall, poles");
+  list.add("-o,--output", &o.output, "scene that is written: .ply or .pcd, or .tiles for scenes larger than memory",
+           {.required = true});
+  list.add("--points", &o.points, "number of surfels");
+  list.add("--size", &o.size, "[m] plane: x,y extent; wall: width,height");
+  list.add("--radius", &o.radius, "[m] radius of the sphere");
+  list.add("--mu-db", &o.lambert_mu_db, "[dB] 10 log10 of the Lambert coefficient of plane, sphere, wall and poles");
   list.add(
       "--materials", &o.materials_file,
-      "TOML table whose materials replace those of the same names, or `natural`: sediments, concrete, steel, rock");
-  list.add("--bare", &o.bare, "only the points, as a scanner gives them: `prepare` finds the rest");
+      "TOML table whose materials replace materials of the same names; or `natural`: sediments, concrete, steel, rock");
+  list.add("--bare", &o.bare, "write only points, as a scanner does; `prepare` adds normals and areas");
   list.add("--force", &o.force, "replace an existing file");
   add_common(list, o.common);
-  list.add("--seed", &o.common.seed, "of jitter and ripples; same seed, same bytes");
+  list.add("--seed", &o.common.seed, "seed of jitter and ripples; the same seed gives the same bytes");
 }
 
 nlohmann::ordered_json summary_json(const MakeSceneOptions& o, std::size_t surfels,

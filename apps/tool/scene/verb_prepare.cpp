@@ -36,13 +36,15 @@ struct PrepareOptions {
 
 void add_options(OptionList list, PrepareOptions& o) {
   add_scene(list, o.scene);
-  list.add("-o,--output", &o.output, "prepared scene, .ply or .pcd; or .tiles, for any size: a ping reads what it sees",
+  list.add("-o,--output", &o.output,
+           "prepared scene that is written: .ply or .pcd; or .tiles, of which a ping reads only what it reaches",
            {.required = true});
-  list.add("--thin", &o.thin, "[m] between surfels: denser parts are thinned, area and materials kept",
+  list.add("--thin", &o.thin,
+           "[m] least distance between surfels; denser parts are thinned, with their area and materials kept",
            {.positive = true});
-  list.add("--time", &o.time, "[s] of a scene of parts: where its parts are then");
+  list.add("--time", &o.time, "[s] time at which the parts of a scene of parts are taken");
   list.add("--force", &o.force, "replace an existing file");
-  list.add("--normals", &o.normals, "accepted for clarity: missing normals are always estimated");
+  list.add("--normals", &o.normals, "has no effect: missing normals are always estimated");
   add_common(list, o.common);
   add_work(list, o.common);
 }
@@ -68,7 +70,7 @@ void prepare_as_tiles(const PrepareOptions& o) {
   const PreparedTiles prepared = prepare_tiles(o.scene.path, o.output, options);
   auto notes = loading_notes(prepared.report);
   if (!prepared.report.other_columns.empty())
-    notes.push_back(fmt::format("{}: tiles have no place for its columns {}: prepare a .ply to keep them", o.scene.path,
+    notes.push_back(fmt::format("{}: tiles cannot store the columns {}; prepare a .ply to keep them", o.scene.path,
                                 joined(prepared.report.other_columns)));
   for (const std::string& note : notes) progress.note(note);
   const ordered_json result = {{"output", o.output},
@@ -95,7 +97,8 @@ LoadedScene load_to_prepare(const PrepareOptions& o) {
 
 void prepare(const PrepareOptions& o) {
   if (o.time != 0 && !is_scene_file(o.scene.path))
-    fail(ErrorKind::argument, "--time: ", o.scene.path, " is no scene of parts, so nothing in it moves; leave it out");
+    fail(ErrorKind::argument, "--time: ", o.scene.path,
+         " is no scene of parts, and nothing moves in it; leave --time out");
   require_free_file(o.output, o.force, {o.scene.path, o.scene.materials_file});
   if (is_tiles(o.output) && o.thin == 0 && !is_scene_file(o.scene.path)) return prepare_as_tiles(o);
   Progress progress(o.common, o.thin > 0 ? 3 : 2);

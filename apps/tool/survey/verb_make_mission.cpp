@@ -37,19 +37,20 @@ void add_options(OptionList list, MakeMissionOptions& o) {
   list.add("NAME", &o.name,
            "lawnmower: parallel lines; orbit: a circle, looking inwards; tunnel: a line, with a head that scans across",
            {.required = true, .words = {"lawnmower", "orbit", "tunnel"}});
-  list.add("-o,--output", &o.output, "mission to write, .toml", {.required = true});
-  list.add("--scene", &o.scene, "that the survey pings", {.required = true});
-  list.add("--sonar", &o.sonar, "default: gemini-720im, of a tunnel ping360");
+  list.add("-o,--output", &o.output, "mission that is written, .toml", {.required = true});
+  list.add("--scene", &o.scene, "scene of the survey", {.required = true});
+  list.add("--sonar", &o.sonar, "preset or .toml file of the sonar; default: gemini-720im, or ping360 in a tunnel");
   list.add("--range", &o.range,
-           "min:max [m]; default: to the end of the scene from all of the way, at most the sonar's");
-  list.add("--centre", &o.centre, "x,y,z of the middle [m]");
-  list.add("--size", &o.size, "x,y extent of the lines [m]; of a tunnel its length is x");
-  list.add("--spacing", &o.spacing, "between lines [m]", {.positive = true});
-  list.add("--radius", &o.radius, "of the orbit [m]", {.positive = true});
+           "min:max [m]; default: to the end of the scene from every place of the way, at most to the sonar's greatest "
+           "range");
+  list.add("--centre", &o.centre, "x,y,z [m] of the middle of the way");
+  list.add("--size", &o.size, "x,y [m] extent of the lines; x is the length of a tunnel");
+  list.add("--spacing", &o.spacing, "[m] distance between lines", {.positive = true});
+  list.add("--radius", &o.radius, "[m] radius of the orbit", {.positive = true});
   list.add("--speed", &o.speed, "[m/s]", {.positive = true});
-  list.add("--rate", &o.rate, "pings per second; of a tunnel as many as the range allows", {.positive = true});
-  list.add("--down", &o.down_deg, "tilt of the head [deg]; not of one whose sonar file says how it is mounted");
-  list.add("--labels", &o.labels, "keep what every pixel shows, for insonify dataset");
+  list.add("--rate", &o.rate, "pings per second; a tunnel takes as many as the range allows", {.positive = true});
+  list.add("--down", &o.down_deg, "[deg] tilt of the head; unused if the sonar's file gives the mounting");
+  list.add("--labels", &o.labels, "store what every pixel shows, for insonify dataset");
   list.add("--force", &o.force, "replace an existing file");
   add_common(list, o.common);
 }
@@ -167,21 +168,23 @@ void make_mission(const MakeMissionOptions& o) {
   std::string range = o.range;
   if (range.empty() && std::filesystem::exists(o.scene)) range = range_over(o.scene, file.spec, shape.points);
   write_file(o.output,
-             fmt::format("# {}; docs/survey.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = 1\n\n"
-                         "[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}{}",
+             fmt::format("# {}; docs/survey.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = "
+                         "1\n\n[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}{}",
                          o.name, as_toml(o.scene), points_as_toml(shape.points), o.speed, shape.turn_radius,
                          heads_as_toml(sonar, range, file.mounting, shape), ping_as_toml(o, file), shape.legs));
   if (range.empty())
-    Progress(o.common, 1).note(o.scene + " is not there yet, so the range is the sonar's own: give --range");
+    Progress(o.common, 1)
+        .note(o.scene +
+              " does not exist yet, and the mission takes the sonar's own range; give --range to set another");
   print_summary(o.common, {{"output", o.output}, {"scene", o.scene}, {"sonar", sonar}},
-                fmt::format("{}: make it with: insonify survey {} -o run", o.output, o.output));
+                fmt::format("{}: run the mission with: insonify survey {} -o run", o.output, o.output));
 }
 
 }  // namespace
 
 Verb make_mission_verb() {
   return make_verb<MakeMissionOptions>(
-      "make-mission", "a mission to begin with",
+      "make-mission", "a mission file to begin with",
       {"insonify make-mission lawnmower --scene harbour.ply --range 0.5:15 -o mission.toml",
        "insonify make-mission orbit --scene harbour.ply --centre 12,0,-4 --radius 8 --range 0.5:15 -o orbit.toml"},
       add_options, make_mission);

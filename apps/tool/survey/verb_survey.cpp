@@ -26,22 +26,22 @@ using nlohmann::ordered_json;
 
 void add_options(OptionList list, SurveyOptions& o) {
   list.add("MISSION", &o.mission, "TOML file: scene, trajectory, heads, legs (docs/survey.md)", {.required = true});
-  list.add("-o,--output", &o.output,
-           "folder of the survey: a new one, or one of this mission, whose finished blocks are kept");
+  list.add(
+      "-o,--output", &o.output,
+      "folder of the survey: a new folder, or that of an earlier run of this mission, whose finished blocks are kept");
   list.add("--shard", &o.shard,
-           "I/N: make every Nth block of pings, beginning with block I, from 0 to N-1; counted head after head");
+           "I/N with I from 0 to N-1: make every Nth block of pings, beginning with block I; blocks are counted head "
+           "after head");
   list.add("--pings-per-block", &o.pings_per_block,
-           "stored together, so that as many are made again after a kill; 0: those of a survey that is gone on with, "
-           "else as "
-           "many as fill 32 MiB, at most 64",
+           "pings that are stored together, and made again after a kill; 0: as in the survey that is continued, else "
+           "as many as fill 32 MiB, at most 64",
            {.within = std::pair(0, 100000), .shown_as = "INT"});
   list.add("--plan", &o.plan,
-           "only print how many pings, bytes and CPU hours; makes one to five pings of each head to measure, as many "
-           "as take a "
-           "twentieth of the survey");
+           "only print the numbers of pings, bytes and CPU hours; measured by one to five pings of each head, at most "
+           "a twentieth of the survey");
   add_common(list, o.common);
   list.add("-j,--threads", &o.common.threads,
-           "pings at once, at most 1024; 0: as many as cores (results do not depend on it)",
+           "pings that are made at once; 0: as many as cores. Results do not depend on it",
            {.within = std::pair(0, 1024)});
 }
 
@@ -282,11 +282,10 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
                                   todo.done + status.made(), todo.pings, o.output,
                                   s.file.coverage ? "made, those of whole blocks kept" : "kept")};
   if (silent > 0)
-    progress.note(
-        fmt::format("{} of {} pings made are silent: nothing of the scene is inside fan and range; `insonify image {} "
-                    "--ping N` shows "
-                    "one; turn the head, lengthen its range, or make those parts of the way a transit (active = false)",
-                    silent, status.made(), o.output));
+    progress.note(fmt::format(
+        "{} of {} pings are silent: no surfel is inside fan and range; `insonify image {} --ping N` shows such a ping; "
+        "turn the head, lengthen its range, or make these parts of the way a transit (active = false)",
+        silent, status.made(), o.output));
   const ordered_json result = {{"folder", o.output}, {"pings", todo.pings}, {"made", status.made()},
                                {"silent", silent},   {"failed", failures},  {"seconds", status.seconds()}};
   print_summary(o.common, result,
@@ -299,7 +298,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
 void survey(const SurveyOptions& o) {
   const Shard shard = parse_shard(o.shard);
   if (o.output.empty() != o.plan)
-    fail(ErrorKind::argument, "--output or --plan must be given, one of them: a folder for the survey, or a forecast");
+    fail(ErrorKind::argument, "give either --output, a folder for the survey, or --plan, a forecast");
   Progress progress(o.common, 3);
   const SurveySetup s = set_up_survey(o);
   for (const SurveyHead& head : s.heads)
