@@ -11,10 +11,10 @@ namespace insonify {
 inline constexpr double wgs84_semi_major_axis = 6378137.0;
 inline constexpr double wgs84_flattening = 1 / 298.257223563;
 
-/// Where the origin of the world is, and which way its x axis points: for products with coordinates of the globe.
+/// Place of the world's origin on the globe, and direction of the world's x axis.
 struct Anchor {
   double latitude_deg = 0, longitude_deg = 0;
-  double heading_deg = 0;  ///< of the world's x axis, clockwise from north
+  double heading_deg = 0;  ///< direction of the world's x axis, clockwise from north
 };
 
 /// A place on WGS 84.
@@ -39,41 +39,43 @@ struct UtmZone {
 /// heading finite; `who` names the caller.
 void require_valid(const Anchor& anchor, const char* who);
 
-/// Returns earth-centred, earth-fixed coordinates [m] (E90), and their inverse, good to 1e-9 m: longitude in (-pi, pi].
+/// Returns the earth-centred, earth-fixed coordinates [m] of a place (E90).
 Eigen::Vector3d ecef_of(const GeoPlace& place);
-/// The inverse of ecef_of.
+/// Returns the place of earth-centred, earth-fixed coordinates [m], within 1e-9 m; longitude in (-pi, pi].
 GeoPlace geo_place_of(const Eigen::Vector3d& ecef);
 
 /// Returns the place of a point of the world [m], whose plane z = 0 touches the ellipsoid at the anchor (E90): x points
 /// along the heading, y to its left, z up. Errors as require_valid.
 GeoPlace geo_from_world(const Anchor& anchor, const Eigen::Vector3d& world);
-/// The inverse of geo_from_world [m].
+/// Returns the point of the world [m] of a place, the inverse of geo_from_world.
 Eigen::Vector3d world_from_geo(const Anchor& anchor, const GeoPlace& place);
 
-/// Returns the zone of a place, by longitude alone: the exceptions of Norway and Svalbard are not made.
+/// Returns the zone of a place, by longitude alone, without the exceptions of Norway and Svalbard.
 UtmZone utm_zone_of(const GeoPlace& place);
 /// Returns the transverse Mercator projection of a place (E91), within a micrometre to 30 degrees from the zone's
 /// middle. Throws Error(argument) for a zone that does not exist, or a place further than 60 degrees from its middle.
 UtmPlace utm_place_of(const GeoPlace& place, const UtmZone& zone);
-/// The inverse of utm_place_of, at height 0.
+/// Returns the place of coordinates in a zone, at height 0, the inverse of utm_place_of.
 GeoPlace geo_place_of(const UtmPlace& place, const UtmZone& zone);
-/// The EPSG code of the zone on WGS 84: 32601 to 32660 north, 32701 to 32760 south.
+/// Returns the EPSG code of the zone on WGS 84: 32601 to 32660 north, 32701 to 32760 south.
 int epsg_code(const UtmZone& zone);
 
-/// Returns where coordinates of the world are on the globe: of a world in UTM its zone, else an anchor.
+/// Relation of the world's axes to the globe: the zone of a world in UTM, else an anchor.
 struct Georeference {
   std::optional<UtmZone> zone{};  ///< world x is easting, y northing; `anchor` does not count
   Anchor anchor{};
 };
-/// The place of a point of the world [m]; in a zone its height is z.
+/// Returns the place of a point of the world [m]; in a zone, the height is z.
 GeoPlace geo_from_world(const Georeference& reference, const Eigen::Vector3d& world);
-/// Angle of a horizontal direction of the world clockwise from north [rad, 0 to 2 pi) at a point of the world, of a
-/// zone with the convergence of its meridians: from the places of two points 1 m apart.
+/// Returns the angle of a horizontal direction of the world at one of its points, clockwise from north [rad, 0 to 2
+/// pi). The angle follows from the places of two points 1 m apart; in a zone, it includes the convergence of the
+/// meridians.
 double heading_of(const Georeference& reference, const Eigen::Vector3d& world, const Eigen::Vector3d& direction);
 
-/// Reads LAT,LON[,HEADING] in degrees, and a zone as 32N or 19S. Throw Error(argument) naming `option`, with the rule.
+/// Returns the anchor that a text LAT,LON[,HEADING] in degrees gives. Throws Error(argument) with `option` and the
+/// rule.
 Anchor parse_anchor(const std::string& text, const std::string& option);
-/// The same of a zone.
+/// Returns the zone that a text such as 32N or 19S gives. Throws Error(argument) with `option` and the rule.
 UtmZone parse_utm_zone(const std::string& text, const std::string& option);
 
 }  // namespace insonify

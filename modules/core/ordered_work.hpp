@@ -24,7 +24,8 @@ namespace insonify {
 template <typename Item>
 class OrderedWork {
  public:
-  /// Begins `count` items on `threads` threads (at least 1); make(i) makes the i-th, and is called by any of them.
+  /// Starts to make `count` items on `threads` threads (at least 1). Any of these threads calls make(i), which returns
+  /// item i.
   OrderedWork(std::size_t count, std::size_t threads, std::function<Item(std::size_t)> make)
       : count_(count), ahead_(2 * threads), make_(std::move(make)) {
     try {
@@ -33,16 +34,17 @@ class OrderedWork {
       if (threads_.empty()) throw;  // the system gives no more threads: those that there are do the work
     }
   }
-  /// Stops what is under way, by StopScope: it takes as long as one call of a parallel loop.
+  /// Stops the running calls by StopScope and waits for them, about as long as one call of a parallel loop takes.
   ~OrderedWork() { stop(); }
   OrderedWork(const OrderedWork&) = delete;
   OrderedWork& operator=(const OrderedWork&) = delete;
 
-  /// Number of all items.
+  /// Returns the number of all items.
   std::size_t count() const { return count_; }
 
-  /// Waits for the next item and returns it, or nothing after the last. Meanwhile calls `look` ten times a second: what
-  /// it throws ends all work, as does what make(i) has thrown. Several threads may call it; each item is given once.
+  /// Waits for the next item and returns it, or nothing after the last. While it waits, it calls `look` ten times a
+  /// second. An exception of `look` or of make(i) ends all work and is thrown here. Several threads may call this
+  /// function; it returns each item once.
   std::optional<Item> next(const std::function<void()>& look = [] {}) try {
     std::unique_lock lock(guard_);
     const auto settled = [&] { return given_ == count_ || made_.contains(given_); };

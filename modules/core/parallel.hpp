@@ -17,9 +17,8 @@ inline int thread_count(int threads) {
   return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-/// Calls work() on this thread and, as far as there are any that are free before this call ends, on up to `helpers`
-/// others, which are kept for later. Returns when all calls have. The calls share out among themselves what is to be
-/// done, and must not throw.
+/// Calls work() on this thread and on up to `helpers` threads of a pool, as far as these become free in time. Returns
+/// when all calls have returned. The calls divide the work among themselves, and must not throw.
 void run_on_pool(std::size_t helpers, const std::function<void()>& work);
 
 /// Calls body(i) once for every i in [0, n), on up to `threads` threads (0: all cores). body(i) must only write to data

@@ -22,10 +22,10 @@ enum class RandomStage : std::uint64_t {
   flat_bottom = 10,       ///< reverberation, counted by (head position, range cell, direction cell)
   navigation = 11,        ///< errors of a trajectory, counted by (node, component)
   comparison = 12,        ///< draws of a perfect simulator, counted by (pixel, draw, look), or by (point, 0, 1)
-  randomise = 13,         ///< what varies from ping to ping of a survey, counted by (head, ping, group)
+  randomise = 13,         ///< changes of head and water between pings of a survey, counted by (head, ping, group)
   surface_ray = 14,       ///< rays from surface to surface, counted by (surfel id, ray), or by (surfel id, 0, 1)
   double_echo = 15,       ///< amplitudes of their echoes, counted by (surfel id, ray)
-  scene_draw = 16         ///< where bodies are strewn, counted by (scatter, draw, body and try)
+  scene_draw = 16         ///< places of strewn bodies, counted by (scatter, draw, body and try)
 };
 
 /// Position of a random number in the stream of its stage.

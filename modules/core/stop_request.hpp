@@ -4,7 +4,7 @@
 
 namespace insonify {
 
-/// What parallel loops throw once they are asked to stop. It is no Error, and none of the library's functions catches it.
+/// Exception of parallel loops that are asked to stop. It is no Error, and no function of the library catches it.
 struct Stopped {};
 
 /// While an object of this class lives, parallel loops that its thread begins throw Stopped soon after `stop` is true:

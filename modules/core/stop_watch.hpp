@@ -7,7 +7,7 @@ namespace insonify {
 /// Wall time between laps.
 class StopWatch {
  public:
-  /// Seconds since the last call, or since it was made.
+  /// Returns the seconds since the last call, or since construction.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> seconds = now - last_;

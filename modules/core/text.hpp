@@ -12,20 +12,20 @@
 
 namespace insonify {
 
-/// The text with its ASCII letters in lower case.
+/// Returns the text with its ASCII letters in lower case.
 inline std::string lower_case(std::string text) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
 }
 
-/// The text without `blanks` at either end.
+/// Returns the text without `blanks` at either end.
 inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r") {
   text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
   return text.substr(0, text.find_last_not_of(blanks) + 1);
 }
 
-/// The texts that `text_of` gives for the members of a list, with `separator` between them.
+/// Returns the texts that `text_of` gives for the members of a list, with `separator` between them.
 template <typename List, typename TextOf = std::identity>
 std::string joined(const List& list, const char* separator = ", ", TextOf text_of = {}) {
   std::string text;
@@ -34,7 +34,7 @@ std::string joined(const List& list, const char* separator = ", ", TextOf text_o
   return text;
 }
 
-/// True if the whole word is one number, which `value` gets; nan and inf are numbers, and a leading + is allowed.
+/// Returns true and sets `value` if the whole word is one number; nan and inf are numbers, and a leading + is allowed.
 template <typename Number>
 bool to_number(std::string_view word, Number& value) {
   if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
@@ -42,13 +42,13 @@ bool to_number(std::string_view word, Number& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// The number that the whole word is, if it is one and finite.
+/// Returns the number, if the whole word is one finite number.
 inline std::optional<double> finite_number(std::string_view word) {
   double value = 0;
   return to_number(word, value) && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Numbers in the format of printf; at most 199 characters.
+/// Returns numbers in the format of printf; at most 199 characters.
 template <typename... Numbers>
 std::string printed(const char* format, Numbers... numbers) {
   char text[200];
@@ -63,7 +63,7 @@ struct Named {
   Value value;
 };
 
-/// The value of the entry called `name`; null if there is none.
+/// Returns a pointer to the value of the entry called `name`; null if there is none.
 template <typename Table>
 const auto* find_named(const Table& table, std::string_view name) {
   const auto found =
@@ -71,7 +71,7 @@ const auto* find_named(const Table& table, std::string_view name) {
   return found == std::end(table) ? nullptr : &found->value;
 }
 
-/// The name of `value`; empty if the table does not hold it.
+/// Returns the name of `value`; empty if the table does not hold it.
 template <typename Table, typename Value>
 std::string name_of(const Table& table, const Value& value) {
   for (const auto& entry : table)

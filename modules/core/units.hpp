@@ -14,13 +14,13 @@ constexpr double radians(double degrees) { return degrees * pi / 180.0; }
 /// Returns an angle in degrees.
 constexpr double degrees(double radians) { return radians * 180.0 / pi; }
 
-/// 10 log10(power); -inf for 0.
+/// Returns 10 log10(power); -inf for 0.
 inline double db_from_power(double power) { return 10.0 * std::log10(power); }
-/// 10^(db / 10).
+/// Returns 10^(db / 10).
 inline double power_from_db(double db) { return std::pow(10.0, db / 10.0); }
-/// 20 log10(amplitude); -inf for 0.
+/// Returns 20 log10(amplitude); -inf for 0.
 inline double db_from_amplitude(double amplitude) { return 20.0 * std::log10(amplitude); }
-/// 10^(db / 20).
+/// Returns 10^(db / 20).
 inline double amplitude_from_db(double db) { return std::pow(10.0, db / 20.0); }
 
 /// Returns the sound pressure level [dB re 1 uPa rms] of a complex (analytic, peak-valued) pressure of this magnitude

@@ -12,20 +12,20 @@ namespace insonify::vec {
 
 constexpr double round_magic = 0x1.8p52;
 
-/// Nearest whole number, for |x| < 2^51.
+/// Returns the nearest whole number, for |x| < 2^51.
 INSONIFY_ALWAYS_INLINE double nearest(double x) { return (x + round_magic) - round_magic; }
-/// Largest whole number that is not above x, and smallest that is not below, for |x| < 2^51.
+/// Returns the largest whole number that is not above x, for |x| < 2^51.
 INSONIFY_ALWAYS_INLINE double floor(double x) {
   const double n = nearest(x);
   return n > x ? n - 1 : n;
 }
-/// Smallest whole number that is not below x, for |x| < 2^51.
+/// Returns the smallest whole number that is not below x, for |x| < 2^51.
 INSONIFY_ALWAYS_INLINE double ceil(double x) {
   const double n = nearest(x);
   return n < x ? n + 1 : n;
 }
 
-/// Sine and cosine of so many cycles, |cycles| < 2^51; accurate to 2e-16.
+/// Returns sine and cosine of an angle in cycles, |cycles| < 2^51; accurate to 2e-16.
 INSONIFY_ALWAYS_INLINE void sine_cosine(double cycles, double& sine, double& cosine) {
   const double part = cycles - nearest(cycles), quarter = nearest(4 * part);  // quarter: -2 .. 2
   const double x = 6.283185307179586477 * (part - 0.25 * quarter), q = x * x;
@@ -49,7 +49,7 @@ INSONIFY_ALWAYS_INLINE void sine_cosine(double cycles, double& sine, double& cos
   cosine = quarter * quarter == 4 || quarter == 1 ? -b : b;
 }
 
-/// Exponential; of x below -708 that of -708, of x above 709 that of 709. Accurate to 4e-16 of the result.
+/// Returns the exponential of x, limited to [-708, 709]. Accurate to 4e-16 of the result.
 INSONIFY_ALWAYS_INLINE double exp(double x) {
   x = x < -708 ? -708 : x;
   x = x > 709 ? 709 : x;
@@ -72,7 +72,7 @@ INSONIFY_ALWAYS_INLINE double exp(double x) {
   return p * std::bit_cast<double>((std::bit_cast<std::uint64_t>(shifted) + 1023) << 52);
 }
 
-/// Natural logarithm of a normal number above 0; accurate to 4e-16 of the result, or of 1 near 1.
+/// Returns the natural logarithm of a normal number above 0; accurate to 4e-16 of the result, or of 1 near 1.
 INSONIFY_ALWAYS_INLINE double log(double x) {
   // x = 2^e m with m within sqrt(1/2) and sqrt(2).
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) + (0x3ff0000000000000 - 0x3fe6a09e667f3bcd);
@@ -89,7 +89,7 @@ INSONIFY_ALWAYS_INLINE double log(double x) {
   return e * 6.93147180369123816490e-01 - ((half - (s * (half + r) + e * 1.90821492927058770002e-10)) - f);
 }
 
-/// Arcus tangent for |t| <= 1/16, accurate to 2e-16: Taylor series up to t^13.
+/// Returns the arcus tangent for |t| <= 1/16, accurate to 2e-16: Taylor series up to t^13.
 INSONIFY_ALWAYS_INLINE double atan_of_small(double t) {
   const double q = t * t;
   return t + t * q * (-1.0 / 3 + q * (1.0 / 5 + q * (-1.0 / 7 + q * (1.0 / 9 + q * (-1.0 / 11 + q * (1.0 / 13))))));

@@ -4,24 +4,24 @@
 
 namespace insonify {
 
-/// What the program is doing, for a display.
+/// Stage and progress of the program, for a display.
 struct WorkProgress {
-  const char* stage = "";   ///< that was begun last
-  std::size_t done = 0;     ///< of the outermost parallel loop that is running
-  std::size_t total = 0;    ///< 0: none is running
-  double loop_seconds = 0;  ///< since it began
+  const char* stage = "";   ///< stage that began last
+  std::size_t done = 0;     ///< finished calls of the outermost running parallel loop
+  std::size_t total = 0;    ///< calls of this loop; 0: no loop runs
+  double loop_seconds = 0;  ///< since this loop began
 };
 
-/// Switches the observation of loops on or off; off at first, when it costs nothing.
+/// Switches the observation of loops on or off. It is off at first, and then costs nothing.
 void observe_work(bool on);
 
 /// Names the stage that begins; `name` must live as long as the program. May be called from any thread.
 void begin_stage(const char* name);
 
-/// Returns what the program is doing. May be called from any thread.
+/// Returns stage and progress of the program. May be called from any thread.
 WorkProgress work_progress();
 
-/// A loop that counts if work is observed, it has several calls, and it is not inside another loop that counts.
+/// A loop that is counted if work is observed, if it has several calls, and if no counted loop holds it.
 class ObservedLoop {
  public:
   /// Begins a loop of `total` calls, which ends with this object.
@@ -30,7 +30,7 @@ class ObservedLoop {
   ObservedLoop(const ObservedLoop&) = delete;
   ObservedLoop& operator=(const ObservedLoop&) = delete;
 
-  /// Counts a call that is done.
+  /// Counts one finished call.
   void advance() {
     if (counts_) count();
   }

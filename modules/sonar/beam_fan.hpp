@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// How far a main lobe reaches from its axis, in beam widths: the first null of a Taylor pattern is at 1.25.
+/// Half extent of a main lobe in beam widths: the first null of a Taylor pattern is at 1.25.
 inline constexpr double main_lobe_reach = 1.5;
 
 /// Listening directions and widths of the beams of a head, in head axes, one entry per beam.
@@ -58,8 +58,8 @@ double cone_azimuth(const Eigen::Vector3d& p);
 /// within +-pi/2. Solid angle: |cos(cone)| dcone dturn.
 Direction direction_in_cone(double cone, double turn);
 
-/// Returns the turns between which a cone lies within these elevations [rad], ascending; equal if it does not reach
-/// them.
+/// Returns the interval of turns [rad], ascending, in which a cone lies within these elevations. Both ends are equal if
+/// the cone does not reach these elevations.
 std::pair<double, double> turns_between(double cone, double min_elevation, double max_elevation);
 
 /// The insonified sector: directions in which beams have their main lobes.
@@ -77,20 +77,20 @@ Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, doubl
 /// reaches far up or down.
 std::pair<double, double> azimuths_of(const Sector& sector);
 
-/// Says which places a sector holds, by signed distances: no trigonometry per place. Everything that looks into a
-/// sector asks here.
+/// Tests whether a sector holds a place, by signed distances and without trigonometry for each place. All code that
+/// tests sectors uses this class.
 class SectorBounds {
  public:
   /// Computes the edges of `sector` once.
   explicit SectorBounds(const Sector& sector);
 
-  /// True if a sphere of radius `margin` [m] round p (head axes) may reach into the sector; exact for margin 0.
+  /// Returns true if a sphere of radius `margin` [m] round p (head axes) may reach into the sector; exact for margin 0.
   bool holds(const Eigen::Vector3d& p, double margin = 0) const {
     return in_elevations(p, margin) && in_cones(p, margin);
   }
-  /// The part of holds() that the elevations of the sector decide.
+  /// Returns the part of holds() that depends on the elevations of the sector.
   bool in_elevations(const Eigen::Vector3d& p, double margin = 0) const;
-  /// The part of holds() that the cones of the sector decide.
+  /// Returns the part of holds() that depends on the cones of the sector.
   bool in_cones(const Eigen::Vector3d& p, double margin = 0) const;
 
  private:

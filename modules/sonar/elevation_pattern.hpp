@@ -11,16 +11,16 @@ enum class ElevationShape {
   sector     ///< 1 inside the width, 0 outside
 };
 
-/// Pressure response of a Gaussian main lobe without side lobes, 2^(-2 (off_axis / width)^2) (E14, E57): 1 on the axis;
-/// its intensity is -3 dB at width / 2 and -12 dB at width [rad].
+/// Returns the pressure response of a Gaussian main lobe without side lobes, 2^(-2 (off_axis / width)^2) (E14, E57): 1
+/// on the axis; its intensity is -3 dB at width / 2 and -12 dB at width [rad].
 double gaussian_lobe(double width, double off_axis);
 
-/// Two-way pressure response in elevation (transmit times receive), 1 on the axis (E14); `width` is the full -3 dB
-/// width of the two-way intensity [rad], `elevation_off_centre` the angle from the axis [rad].
+/// Returns the two-way pressure response in elevation (transmit times receive), 1 on the axis (E14); `width` is the
+/// full -3 dB width of the two-way intensity [rad], `elevation_off_centre` the angle from the axis [rad].
 double elevation_response(ElevationShape shape, double width, double elevation_off_centre);
 
-/// Half-angle [rad] beyond which the pattern stays below `floor_db` (gaussian), or the whole half space (line);
-/// surfels farther off need not be sampled.
+/// Returns the half-angle [rad] beyond which the pattern stays below `floor_db` (gaussian), or the whole half space
+/// (line). Surfels beyond this angle need not be sampled.
 double elevation_half_extent(ElevationShape shape, double width, double floor_db);
 
 }  // namespace insonify

@@ -47,7 +47,7 @@ class LinearFmEcho {
   std::vector<Exponential> exponentials_;  ///< empty: the loss is the same at all frequencies
 };
 
-/// Half width of a sweep's compressed intensity at half maximum [s] (E55).
+/// Returns the half width of a sweep's compressed intensity at half maximum [s] (E55).
 double linear_fm_half_width(const Pulse& pulse);
 
 /// See pulse_half_length.

@@ -17,9 +17,9 @@ enum class PulseShape {
 /// 0.5 (hann) or 0.54 (hamming).
 enum class ReplicaWindow { uniform, hann, hamming };
 
-/// As sonar files spell them: "gaussian", "linear_fm"; "uniform", "hann", "hamming".
+/// Returns the name in sonar files: "gaussian" or "linear_fm".
 const char* pulse_shape_name(PulseShape shape);
-/// The same of a window.
+/// Returns the name in sonar files: "uniform", "hann" or "hamming".
 const char* replica_window_name(ReplicaWindow window);
 
 /// The transmitted pulse as it leaves the receiver's filter: unit envelope peak, so that the level of an echo's peak is
@@ -39,29 +39,30 @@ struct Pulse {
 /// sweep, 1 <= bandwidth duration <= 1e6.
 void require_valid(const Pulse& pulse, const char* who);
 
-/// Peak pressure at 1 m on axis [Pa]: sqrt(2) 10^(SL/20) 1 uPa (E5).
+/// Returns the peak pressure at 1 m on axis [Pa]: sqrt(2) 10^(SL/20) 1 uPa (E5).
 double source_pressure(const Pulse& pulse);
 
-/// Intensity full width at half maximum as range [m]. Gaussian: 0.4413 c / 2B (E8). Sweep: found numerically (E55);
-/// for bandwidth duration of 100 and more within 1 % of 0.886 (uniform), 1.44 (hann) or 1.30 (hamming) c / 2B.
+/// Returns the full width at half maximum of the intensity as range [m]. Gaussian: 0.4413 c / 2B (E8). Sweep: found
+/// numerically (E55); for bandwidth duration of 100 and more within 1 % of 0.886 (uniform), 1.44 (hann) or 1.30
+/// (hamming) c / 2B.
 double range_resolution(const Pulse& pulse, double sound_speed);
 
-/// What datasheets call range resolution [m]: c / 2B.
+/// Returns the range resolution of datasheets [m]: c / 2B.
 double nominal_range_resolution(const Pulse& pulse, double sound_speed);
 
-/// Of the envelope's peak: where a pulse ends for paths and cells.
+/// Part of the envelope's peak at which a pulse ends for paths and cells.
 inline constexpr double pulse_floor = 1e-4;
 
-/// Half-length [s] beyond which the envelope is below `tolerance` of its peak, without absorption (E8); tolerance in
-/// (0, 1). Of a sweep an upper bound, at most its duration, outside of which there is nothing (E54).
+/// Returns the half-length [s] beyond which the envelope is below `tolerance` of its peak, without absorption (E8);
+/// tolerance in (0, 1). Of a sweep an upper bound, at most its duration, outside of which there is nothing (E54).
 double pulse_half_length(const Pulse& pulse, double tolerance);
 
-/// Equivalent noise bandwidth of the receive filter [Hz], integral |H(f)|^2 df / |H(0)|^2: of a Gaussian pulse
-/// sqrt(pi / (4 ln 2)) B = 1.0645 B (E18); of a sweep's matched filter integral w^2 / (integral w)^2 (E55), which is
-/// 1 (uniform), 1.5 (hann) or 1.363 (hamming) / duration.
+/// Returns the equivalent noise bandwidth of the receive filter [Hz], integral |H(f)|^2 df / |H(0)|^2: of a Gaussian
+/// pulse sqrt(pi / (4 ln 2)) B = 1.0645 B (E18); of a sweep's matched filter integral w^2 / (integral w)^2 (E55), which
+/// is 1 (uniform), 1.5 (hann) or 1.363 (hamming) / duration.
 double noise_bandwidth(const Pulse& pulse);
 
-/// Weight of a sweep's replica at t [s] from its middle, |t| <= duration / 2.
+/// Returns the weight of a sweep's replica at t [s] from its middle, |t| <= duration / 2.
 double replica_weight(const Pulse& pulse, double t);
 
 class LinearFmEcho;
@@ -89,8 +90,8 @@ class LinearFmEcho;
 ///
 /// It differs from the sweep so filtered only at its ends. That raises or lowers far side lobes by at most 0.06 / (B T)
 /// of the peak per dB by which the loss differs over the band (held by a test up to 11 dB). Zero for |t| >= T. The peak
-/// of a shifted echo stands at t = -f_d / k (range-Doppler coupling). That the sweep itself is stretched by motion is
-/// left out: an error of about B T f_d / f_c cycles at its ends. Accurate to 1e-12 of the peak.
+/// of a shifted echo stands at t = -f_d / k (range-Doppler coupling). Motion also stretches the sweep itself. This is
+/// left out, an error of about B T f_d / f_c cycles at the ends. Accurate to 1e-12 of the peak.
 struct EchoEnvelope {
   double gain = 0;                              ///< at the peak of a Gaussian, at most 1
   double a = 0;                                 ///< [s^2]
@@ -101,18 +102,19 @@ struct EchoEnvelope {
   std::complex<double> at(double t) const;  ///< t [s] from the echo's delay
 };
 
-/// Throws Error if slope or curvature of the absorption would make the pulse grow on its way.
+/// Returns the envelope of one echo. Throws Error if slope or curvature of the absorption would make the pulse grow on
+/// its way.
 EchoEnvelope echo_envelope(const Pulse& pulse, const Absorption& absorption, double range);
 
 struct HermiteRules;
 
-/// The envelopes of all echoes of one ping: what they have in common is worked out once.
+/// Envelopes of all echoes of one ping. Terms that the echoes share are computed once.
 class EchoShapes {
  public:
   /// Throws Error for an invalid pulse.
   EchoShapes(const Pulse& pulse, const Medium& medium);
 
-  /// Envelope of the echo with this two-way delay [s] and Doppler shift [Hz]. Throws as echo_envelope does.
+  /// Returns the envelope of the echo with this two-way delay [s] and Doppler shift [Hz]. Throws as echo_envelope does.
   EchoEnvelope of(double delay, double doppler = 0) const;
 
  private:
