@@ -15,9 +15,10 @@ struct BeamCell {
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
 
-/// Returns the shares of all beams. They tile `sector`: in cones cut at the midpoints between neighbouring columns of
-/// beams, in elevation at the midpoints between the beams of a column. Every direction thus belongs to exactly one
-/// beam, also for staggered rows or beams that all differ in azimuth; each ray contributes to all beams.
+/// Returns the parts of the sector that belong to the beams. They tile `sector`: in cones cut at the midpoints between
+/// neighbouring columns of beams, in elevation at the midpoints between the beams of a column. Every direction thus
+/// belongs to exactly one beam, also for staggered rows or beams that all differ in azimuth; each ray contributes to
+/// all beams.
 std::vector<BeamCell> beam_cells(const BeamFan& fan, const Sector& sector);
 
 /// A ray from the head.

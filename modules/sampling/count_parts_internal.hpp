@@ -13,15 +13,16 @@ namespace insonify {
 /// Most parts of a surfel.
 inline constexpr std::uint16_t most_parts = 4096;
 
-/// How many parts each of some surfels is split into.
+/// Numbers of parts into which some surfels are split.
 struct PartCounts {
   std::vector<std::uint16_t> parts;
   std::size_t capped = 0;  ///< surfels that would need more than most_parts
 };
 
-/// Counts the parts of the given surfels (indices in the scene): as many as `cells` ask for (E17), or, if
-/// options.energy says what a beam receives of each, as their share of it asks for (E127) where that is less; rounded
-/// up, at least 1 and at most most_parts. For shares the surfels must be all that are visible, ascending.
+/// Counts the parts of the given surfels (indices in the scene): the number that `cells` need (E17), or, with
+/// options.energy, the number that the surfel's fraction of the received energy needs (E127), whichever is less.
+/// Numbers are rounded up, and within 1 and most_parts. With options.energy, the surfels must be all visible ones,
+/// ascending.
 PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
                        const SampledCells& cells, const RangeGate& gate, const SamplingOptions& options);
 

@@ -18,7 +18,7 @@ namespace insonify {
 /// octave plus the surfels found.
 class DirectionIndex {
  public:
-  /// reach   how far from its centre a surfel is to be found, in radii of its disc
+  /// reach   distance from its centre within which a surfel is found, in radii of its disc
   DirectionIndex(const GatedSurfels& surfels, Projection projection, float reach, int threads);
 
   /// Calls test(surfel) for candidates in `direction`, among them all surfels that cover it and are nearer than `range`

@@ -12,8 +12,7 @@
 
 namespace insonify {
 
-/// The energy received from a surfel; its range [m] and u = cos(elevation) sin(azimuth), and how far it extends in
-/// both.
+/// Energy received from a surfel, the surfel's range [m] and u = cos(elevation) sin(azimuth), and its extent in both.
 struct ReceivedSurfel {
   double energy, range, half_depth, u, half_u;
   std::uint8_t beyond;  ///< bits of SamplingOptions::inner_sector: 1 beyond its cones, 2 beyond its elevations
@@ -24,13 +23,13 @@ struct ReceivedSurfel {
 class EnergyShares {
  public:
   /// Adds the energy of each surfel in equal parts to the cells that it spans; a surfel smaller than a cell counts in
-  /// the cell of its middle. Sums are made in the order of the surfels, a fixed number of them, so that the result
-  /// depends neither on threads nor on sorting.
+  /// the cell of its middle. A fixed number of sums is made in the order of the surfels; the result depends neither on
+  /// threads nor on sorting.
   EnergyShares(std::span<const ReceivedSurfel> surfels, const RangeGate& gate, const SampledCells& cells, int threads);
 
   /// Returns the sum of the surfel's shares of the energy of the cells that it spans. A cell is one range resolution
   /// long and cells.width_of_shares() wide, and counts surfels that are beyond the inner sector only where this one is.
-  /// Infinite if it spans more than 256 cells.
+  /// The sum is infinite if the surfel spans more than 256 cells.
   double share(const ReceivedSurfel& surfel) const;
 
  private:

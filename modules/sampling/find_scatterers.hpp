@@ -15,13 +15,13 @@
 
 namespace insonify {
 
-/// What a scatterer stands for.
+/// Unit of the scene that a scatterer represents.
 enum class SamplingKind {
   surfels,  ///< every visible surfel is a scatterer with its true area
   rays      ///< a fixed number of rays per beam, each with its solid angle
 };
 
-/// How the surfels in a direction are found. The choice affects the cost, not the result: each method proposes
+/// Method that finds the surfels in a direction. The choice affects the cost, not the result: each method proposes
 /// candidates, and one hit rule decides.
 enum class Projection {
   kdtree,       ///< KD-trees over the directions of the surfels
@@ -55,17 +55,17 @@ struct SamplingOptions {
   double azimuth_margin = 0;         ///< margin beyond the outermost beams, in u; 0: 1.5 beam widths
   /// Surfels up to this distance from the main lobes, in u and v, are split as finely as inside them (E17); 2: all.
   double lobe_margin = 0;
-  /// Shares of energy (E127) are those within this sector, so that they do not depend on how far beyond it is sampled.
-  /// Surfels beyond its cones, or its elevations, share the energy from inside and from there. Empty: shares of all
-  /// energy.
+  /// Fractions of energy (E127) are taken within this sector, so that they do not depend on the margin that is sampled
+  /// beyond. Surfels beyond the cones or elevations of this sector take fractions of the energy from inside and from
+  /// there. Empty: fractions of all energy.
   std::optional<Sector> inner_sector{};
   /// Surfels that return little of the energy from their range (for a fan, from their range and u) are split less
   /// (E127). Empty: energy does not count.
   std::shared_ptr<const SurfelEnergy> energy{};
 };
 
-/// Returns the sector that these options sample: the fan's, extended beyond its outermost beams by the azimuth margin
-/// and the elevation half extent, or by one beam width and the elevation width where those are 0.
+/// Returns the sector that these options sample: the sector of the fan, extended beyond its outermost beams by the
+/// azimuth margin and the elevation half extent; where those are 0, by one beam width and the elevation width.
 Sector insonified_sector(const BeamFan& fan, const SamplingOptions& options);
 
 /// Counts of the sampling, for log and manifest.

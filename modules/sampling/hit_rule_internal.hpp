@@ -22,31 +22,32 @@ struct LineOfSight {
       : end(&s), along(s.position / s.range), right(along.unitOrthogonal()), up(along.cross(right)) {}
 };
 
-/// Directions round a line of sight, one bit for each of 32 equal sectors, in which surfaces stand that cover it.
+/// Directions around a line of sight in which surfaces cover it, one bit for each of 32 equal sectors.
 using Cover = std::uint32_t;
 inline constexpr Cover whole_cover = ~Cover{0};
 
-/// How deep below the tangent plane of one surfel another must lie to be behind it [m]: the larger unevenness, and three standard deviations of noise (E16).
+/// Returns the least depth below the tangent plane of one surfel at which another surfel is behind it [m]: the larger
+/// unevenness, plus three standard deviations of noise (E16).
 inline float hiding_depth(const GatedSurfel& a, const GatedSurfel& b) {
   return std::max(a.unevenness, b.unevenness) + 3 * std::sqrt(a.noise * a.noise + b.noise * b.noise);
 }
 
-/// What `front` covers of the line of sight to a surfel that lies deeper below its tangent plane than the hiding depth
-/// (E16): all of it, if the line crosses the plane within 0.65 spacings of the centre; the sector in which the centre
-/// lies, seen in the tangent plane, if within hiding_reach radii; else nothing.
+/// Returns the part that `front` covers of the line of sight to a surfel that lies deeper below its tangent plane than
+/// the hiding depth (E16): all of it, if the line crosses the plane within 0.65 spacings of the centre; the sector in
+/// which the centre lies, seen in the tangent plane, if within hiding_reach radii; else nothing.
 Cover cover(const GatedSurfel& front, const LineOfSight& line);
 
-/// What a facet covers of the line of sight to a surfel behind its plane: all of it, if the line passes through the
-/// triangle, else nothing.
+/// Returns the part that a facet covers of the line of sight to a surfel behind its plane: all of it, if the line
+/// passes through the triangle, else nothing.
 Cover cover(const GatedFacet& front, const LineOfSight& line);
 
-/// What a surfel covers, by its facet if it has one.
+/// Returns the part that a surfel covers, by its facet if it has one.
 inline Cover cover(const GatedSurfels& surfels, std::size_t front, const LineOfSight& line) {
   return surfels.facet.empty() ? cover(surfels[front], line) : cover(surfels.facet[front], line);
 }
 
-/// True if covers stand on more than one side: spread over 120 degrees, as round the cell of a surface's last surfel.
-/// So surfaces have no gaps between surfels, and do not grow at their edges.
+/// Returns true if covers stand on more than one side: spread over 120 degrees, as around the cell of a surface's last
+/// surfel. Surfaces then have no gaps between surfels, and do not grow at their edges.
 inline bool hides(Cover c) {
   const auto shorter = [](Cover gaps, int by) { return gaps & std::rotr(gaps, by); };
   // What is left of the gaps that are 21 sectors wide: 21 = 1 + 1 + 2 + 4 + 8 + 5.

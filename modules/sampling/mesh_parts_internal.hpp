@@ -38,9 +38,9 @@ class MeshParts {
 
   const SceneMesh& mesh() const { return mesh_; }
   Part root(std::size_t triangle) const;
-  /// The halves of a part; one of them keeps place and id.
+  /// Returns the halves of a part; one half keeps place and id.
   std::array<Part, 2> bisect(const Part& whole, std::size_t triangle) const;
-  /// True if there are ids for the halves.
+  /// Returns true if there are ids for the halves.
   bool may_bisect(const Part& part, std::size_t triangle) const { return part.depth < ids_[triangle].depth; }
   MeshSurfel surfel_of(const Part& part, std::size_t triangle) const;
 
@@ -57,7 +57,7 @@ class MeshParts {
   std::uint64_t seed_;
 };
 
-/// Makes room for so many surfels with facets.
+/// Reserves memory for this number of surfels with facets.
 void reserve(std::size_t surfels, SceneCloud& scene);
 /// Appends surfels to a scene, with their parts as facets.
 void append(const std::vector<MeshSurfel>& surfels, SceneCloud& scene);

@@ -13,7 +13,7 @@ namespace insonify {
 /// Default of the most surfels that a ping samples from a mesh; with scatterers and echoes about 2.2 GiB.
 inline constexpr std::size_t default_mesh_surfels = std::size_t{1} << 23;
 
-/// What a ping needs of a mesh.
+/// Surfels of a mesh that a ping needs.
 struct MeshSurfels {
   SceneCloud scene;  ///< with SceneCloud::part_of = SceneMesh::whole, and the parts as facets
   double coarsening =

@@ -13,7 +13,7 @@
 
 namespace insonify {
 
-/// How well the rays of a ping sample the range axis. At grazing incidence neighbouring rays hit a surface at distant
+/// Sampling of the range axis by the rays of a ping. At grazing incidence neighbouring rays hit a surface at distant
 /// ranges, and range cells between them receive no echo although the surface is continuous.
 struct RangeGaps {
   std::size_t cells = 0;  ///< range cells between neighbouring rays that hit one surface, over all beams

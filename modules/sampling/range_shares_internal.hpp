@@ -8,9 +8,9 @@ namespace insonify {
 
 /// Divides a disc's surface among points on it, so that each range gets the surface that lies there (E128).
 ///
-/// Points of a sequence over a disc are too dense and too sparse by turns along the line of sight. Each point therefore
-/// stands for the strip of the disc that is nearest to it along that line, up to the middles between it and its
-/// neighbours. Keeps its buffers from disc to disc; not for several threads.
+/// Along the line of sight, points of a sequence over a disc are alternately too dense and too sparse. Each point
+/// therefore represents the strip of the disc that is nearest to the point along that line, up to the middles between
+/// the point and its neighbours. An object keeps its buffers from disc to disc, and serves one thread.
 class RangeShares {
  public:
   /// Returns the fraction of the surface of each point, in their order; the sum is 1 but for rounding. Accuracy 2e-5,

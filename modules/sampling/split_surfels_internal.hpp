@@ -10,11 +10,11 @@
 
 namespace insonify {
 
-/// Returns the scatterers of the given surfels, `first` the number of the first part of each
-/// (first_parts), in order. Part 0 is at the surfel's centre;
-/// part k is point k of a low-discrepancy sequence over a disc of the surfel's area in its tangent plane, shifted and
-/// rotated by random numbers of (seed, surfel id): at the same position in the scene for every pose. The surface is
-/// shared among them so that every range has its own (E128), where a surfel is deeper than range_resolution [m].
+/// Returns the scatterers of the given surfels, `first` the number of the first part of each (first_parts), in order.
+/// Part 0 is at the surfel's centre; part k is point k of a low-discrepancy sequence over a disc of the surfel's area
+/// in its tangent plane, shifted and rotated by random numbers of (seed, surfel id): at the same position in the scene
+/// for every pose. Where a surfel is deeper than range_resolution [m], its surface is divided among the parts by range
+/// (E128).
 Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
                          std::span<const std::size_t> first, double range_resolution, std::uint64_t seed, int threads);
 

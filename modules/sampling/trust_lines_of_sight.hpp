@@ -7,8 +7,8 @@
 namespace insonify {
 
 /// Raises scene.noise until no surfel hides another from `viewpoint` (world, [m]). The scanner saw all surfels from
-/// there, so a surfel that would hide another is off by noise. Surfels that hide nothing keep their noise; an empty
-/// scene.noise counts as 0. The result does not depend on `threads`.
+/// there, and a surfel that would hide another is displaced by noise. Surfels that hide nothing keep their noise; an
+/// empty scene.noise counts as 0. The result does not depend on `threads`.
 void trust_lines_of_sight(const Eigen::Vector3d& viewpoint, int threads, SceneCloud& scene);
 
 }  // namespace insonify

@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-/// A vector whose new elements are not set, for large arrays that threads fill side by side: else one thread alone
-/// would first write zeros to all of them, and wait for the memory, a page at a time.
+/// A vector whose new elements are not set, for large arrays that several threads fill. A plain vector would first
+/// write zeros to all elements on one thread.
 template <typename T>
 using UninitializedVector = std::vector<T, boost::noinit_adaptor<std::allocator<T>>>;
 

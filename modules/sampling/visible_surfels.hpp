@@ -33,7 +33,7 @@ Scatterers split_seen(const PreparedScene& prepared, const Pose& world_from_head
 /// Returns the scatterers of some of the visible surfels (`which`: indices in `visible`).
 Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,
                       std::span<const std::uint32_t> which, int threads);
-/// Returns the scatterers of all of them.
+/// Returns the scatterers of all visible surfels.
 Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible);
 
 }  // namespace insonify
