@@ -16,28 +16,28 @@ struct Eigenray {
   double elevation = 0;    ///< where it leaves the first point [rad], positive up
 };
 
-/// The ray that joins two points `horizontal` [m] and two depths [m] apart: arcs of circles in layers of constant
-/// gradient (E43). Rays end neither at the water's surface nor at its bottom. Of several rays that turn once at most
-/// the fastest (no path that is fastest of all turns twice); only where there is none, rays that turn more often, up to
-/// eight times above and below each. Travel time is good to 1e-12 of itself; the ends may be exchanged. The elevation
-/// of a vertical ray is +-pi/2; that between a point and itself 0. Throws Error(content) if no ray joins them (a shadow
-/// zone: nothing but diffraction gets there), Error(argument) for an invalid profile, depths that are not finite, or
-/// horizontal that is not finite and >= 0.
+/// Returns the ray that joins two points `horizontal` [m] and two depths [m] apart: arcs of circles in layers of
+/// constant gradient (E43). Rays end neither at the water's surface nor at its bottom. Of several rays that turn once
+/// at most the fastest (no path that is fastest of all turns twice); only where there is none, rays that turn more
+/// often, up to eight times above and below each. Travel time is good to 1e-12 of itself; the ends may be exchanged.
+/// The elevation of a vertical ray is +-pi/2; that between a point and itself 0. Throws Error(content) if no ray joins
+/// them (a shadow zone: nothing but diffraction gets there), Error(argument) for an invalid profile, depths that are
+/// not finite, or horizontal that is not finite and >= 0.
 Eigenray find_eigenray(const SoundSpeedProfile& profile, double depth_from, double depth_to, double horizontal);
 
-/// Upper bound of what bend_paths does to any of the scatterers (in head axes), from the box of their ranges and
-/// directions alone; some two to four times the true effect where sound speed changes evenly. Both are 0 if sound speed
-/// is the same wherever a ray between head and scatterers can run. `head_depth` [m] is the depth of the head's origin;
-/// straight rays are timed with the profile's sound speed there. Errors as bend_paths.
+/// Returns an upper bound of the changes by bend_paths to any of the scatterers (in head axes), from the box of their
+/// ranges and directions alone. The bound is some two to four times the true change where sound speed changes evenly.
+/// Both are 0 if sound speed is the same wherever a ray between head and scatterers can run. `head_depth` [m] is the
+/// depth of the head's origin; straight rays are timed with the profile's sound speed there. Errors as bend_paths.
 RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
                                  const Scatterers& scatterers);
 
-/// Puts every scatterer where it seems to be: at half the two-way travel time times the sound speed at the head, in the
-/// direction from which its ray arrives (E43), within the vertical plane that holds it. Only range, azimuth and
+/// Moves every scatterer to its apparent place: at half the two-way travel time times the sound speed at the head, in
+/// the direction from which its ray arrives (E43), within the vertical plane that holds it. Only range, azimuth and
 /// elevation change: visibility, incidence and area stay those of straight rays. World z points up, depth = head_depth
 /// - (z_world - z_head). Scatterers in a shadow zone are silenced (projected area 0) and left in place.
 ///
-/// returns   how many were silenced
+/// returns   number of silenced scatterers
 ///
 /// More than some 8000 scatterers are interpolated over depth and distance: within 1e-6 m and 1e-5 rad of
 /// find_eigenray, and where points tried show that this would not hold each ray is solved. (A profile of more than 150
@@ -46,8 +46,8 @@ RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_d
 std::size_t bend_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
                        Scatterers& scatterers, int threads = 0);
 
-/// Returns what bend_paths does at most to the scatterers inside sector and gate: range and angle at the head, of some
-/// 1000 of them tried. Errors as bend_paths.
+/// Returns the largest changes by bend_paths to the scatterers inside sector and gate, in range and in angle at the
+/// head, from about 1000 of them. Errors as bend_paths.
 RefractionBound bending_in_view(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
                                 const Scatterers& scatterers, const Sector& sector, const RangeGate& gate,
                                 int threads = 0);

@@ -13,7 +13,7 @@
 
 namespace insonify {
 
-/// A point mirrored in a plane; exact for level planes, of which it turns the height alone.
+/// Returns a point mirrored in a plane; exact for level planes, of which it turns the height alone.
 inline Eigen::Vector3d mirrored_in(const MirrorPlane& plane, const Eigen::Vector3d& point) {
   return (point - 2 * plane.normal().dot(point) * plane.normal()) - 2 * plane.offset() * plane.normal();
 }
@@ -32,52 +32,55 @@ struct Boundary {
   const Mirror* mirror = nullptr;          ///< of a mirror; neither: the surface, which turns the sign
   std::vector<Eigen::Vector3d> corners{};  ///< in head axes; empty: no edges
 
-  /// Distance from the plane into the water [m] of a place in head axes; negative beyond it.
+  /// Returns the distance from the plane into the water [m] of a place in head axes; negative beyond it.
   double distance(const Eigen::Vector3d& place) const { return normal.dot(place) + head_distance; }
   Eigen::Vector3d mirrored(const Eigen::Vector3d& place) const { return place - 2 * distance(place) * normal; }
   Eigen::Vector3d mirrored_direction(const Eigen::Vector3d& direction) const {
     return direction - 2 * normal.dot(direction) * normal;
   }
-  /// True for a captured piece of the boundary itself: near the plane and lying along it. The mirror stands for it
-  /// already; its own image would all but coincide with it.
+  /// Returns true for a captured piece of the boundary itself: near the plane and lying along it. The mirror stands for
+  /// it already; its own image would all but coincide with it.
   bool holds(double distance_into_water, double along_normal) const {
     return std::abs(distance_into_water) <= thickness && std::abs(along_normal) > 0.5;
   }
-  /// Pressure reflection coefficient, with what roughness leaves of it.
+  /// Returns the pressure reflection coefficient, reduced by roughness.
   std::complex<double> reflection(double grazing) const;
-  /// What its edges let through (E150) of the path from the head to a place whose image in it, in head axes, this is.
+  /// Returns the factor of the boundary's edges (E150) on the path from the head to a place; `image` is the image of
+  /// that place in the boundary, in head axes.
   std::complex<double> edges(const Eigen::Vector3d& image) const;
-  /// What roughness leaves at most of a bounce within `range` [m] of the image, at the least grazing angle there is.
+  /// Returns the largest factor of roughness on a bounce within `range` [m] of the image, which is that at the least
+  /// grazing angle.
   double strongest_bounce(double range) const;
 };
 
-/// -80 dB: what patterns, reflections and edges may leave of an echo at least.
+/// Least factor of patterns, reflections and edges on an echo: -80 dB.
 inline constexpr double echo_floor = 1e-4;
 
-/// How far outside the gate an echo may stand whose pulse reaches into it [m].
+/// Returns the distance outside the gate within which the pulse of an echo reaches into the gate [m].
 double pulse_margin(const Transmission& sent);
 
-/// Square root of the two-way pattern; imaginary where that is negative, so that its square is the two-way pattern.
+/// Returns the square root of the two-way pattern; imaginary where that is negative, so that its square is the two-way
+/// pattern.
 std::complex<double> one_way_pattern(const EchoOptions& options, double v);
 
-/// Two directions across a straight path from the head to `end`, as columns.
+/// Returns two directions across a straight path from the head to `end`, as columns.
 Eigen::Matrix<double, 3, 2> across_way(const Eigen::Vector3d& end);
 
-/// Fresnel parameters per metre across a path of this length [m], at `crossing` as a part of it (E150).
+/// Returns the Fresnel parameters per metre across a path of this length [m], at `crossing` as a part of it (E150).
 double fresnel_scale(double length, double crossing, double wavenumber);
 
-/// Corners of a plane as Fresnel parameters across a straight path from the head to `end` (E150), which crosses the
-/// plane where `crossing` says, as a part of the way; in the same order.
+/// Returns the corners of a plane as Fresnel parameters across a straight path from the head to `end` (E150), which
+/// crosses the plane where `crossing` says, as a part of the way; in the same order.
 ConvexPolygon fresnel_corners(std::span<const Eigen::Vector3d> corners, const Eigen::Vector3d& end, double crossing,
                               double wavenumber);
 
-/// Surface and bottom of `environment`, surface first. Throws Error if there is none, or the head is not in the water
-/// between them.
+/// Returns surface and bottom of `environment`, surface first. Throws Error if there is none, or the head is not in the
+/// water between them.
 std::vector<Boundary> boundaries_of(const Environment& environment, const Pose& world_from_head,
                                     const Transmission& transmission, double tolerance, const char* who);
 
-/// The mirrors that a head faces; refers to `mirrors`. Throws Error if the head stands on one or behind one without
-/// edges.
+/// Returns the mirrors that a head faces; refers to `mirrors`. Throws Error if the head stands on one or behind one
+/// without edges.
 std::vector<Boundary> boundaries_of(std::span<const Mirror> mirrors, const Pose& world_from_head,
                                     const Transmission& transmission, const char* who);
 

@@ -54,7 +54,7 @@ Echoes collect_echoes(std::size_t n, std::size_t block, int threads, Body&& body
   return all;
 }
 
-/// Amplitude xi of a patch: bound to its id and the seed, the same on every path to the patch.
+/// Returns the amplitude xi of a patch: bound to its id and the seed, the same on every path to the patch.
 std::complex<double> surface_amplitude(const EchoOptions& options, double coherent_fraction, std::uint64_t id);
 
 }  // namespace insonify

@@ -8,16 +8,17 @@
 
 namespace insonify {
 
-/// Two-way pressure response of the head at `elevation` [rad], by shape, width and centre of `options` (E14); 1 without
-/// a pattern.
+/// Returns the two-way pressure response of the head at `elevation` [rad], by shape, width and centre of `options`
+/// (E14); 1 without a pattern.
 double elevation_pattern(const EchoOptions& options, double elevation);
 
-/// One-way pressure response of the transmitter at any `azimuth` [rad], a Gaussian lobe about azimuth 0 (E57); 1
-/// without a pattern.
+/// Returns the one-way pressure response of the transmitter at any `azimuth` [rad], a Gaussian lobe about azimuth 0
+/// (E57); 1 without a pattern.
 double transmit_pattern(const EchoOptions& options, double azimuth);
 
-/// The direct echo of every scatterer (E7): amplitude = sqrt2 p0 xi sqrt(sigma) b_E b_T exp(2 i k_c r) / r^2 [Pa], with
-/// sigma the cross_section of the material's law, b_E the elevation pattern and b_T the transmitter's in azimuth.
+/// Returns the direct echo of every scatterer (E7): amplitude = sqrt2 p0 xi sqrt(sigma) b_E b_T exp(2 i k_c r) / r^2
+/// [Pa], with sigma the cross_section of the material's law, b_E the elevation pattern and b_T the transmitter's in
+/// azimuth.
 ///
 /// materials   looked up by scatterers.material
 /// returns     one echo per scatterer, in order; delay = 2 r / c. The phase is reduced to one cycle in double.
@@ -27,11 +28,11 @@ double transmit_pattern(const EchoOptions& options, double azimuth);
 ///
 /// Throws Error for an invalid pulse, medium, material or material index, and for a range that is not > 0.
 Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Transmission& sent);
-/// The same, of a transmission without a table of surfaces.
+/// Returns the same, for a transmission without a table of surfaces.
 Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> materials, const Pulse& pulse,
                      const Medium& medium, const EchoOptions& options = {});
 
-/// The same for targets with known cross-sections sigma [m^2] and amplitudes xi (calibrated targets, other
+/// Returns the same for targets with known cross-sections sigma [m^2] and amplitudes xi (calibrated targets, other
 /// simulators' scatterers): only range, azimuth and elevation of `scatterers` are used.
 Echoes target_echoes(const Scatterers& scatterers, std::span<const double> sigma,
                      std::span<const std::complex<double>> xi, const Pulse& pulse, const Medium& medium,

@@ -12,22 +12,22 @@
 
 namespace insonify {
 
-/// What moves during a ping: the head, and the parts of the scene if they are to.
+/// Movement during a ping: of the head, and of the parts of the scene if they move.
 struct MovingScene {
   Motion head{};
   bool parts = false;
-  /// Whether anything moves.
+  /// Returns true if anything moves.
   bool any() const { return parts || !head.none(); }
 };
 
 /// Returns the direct echoes of patches (E7) as a head in motion receives them (E44) from parts in motion (E145, E146);
-/// patches of moving parts are moved to where sound meets them. Errors as direct_echoes, move_echoes and
+/// patches of moving parts are moved to the places at which sound meets them. Errors as direct_echoes, move_echoes and
 /// meet_moving_parts.
 Echoes echoes_in_motion(const SceneCloud& scene, Scatterers& patches, const Pose& world_from_head,
                         const MovingScene& moving, const Transmission& sent);
 
-/// Widens the bounds of visible surfels so that they hold where their echoes appear to a moving head (E44) and from
-/// moving parts (E145), the fastest surfel of which has this speed [m/s].
+/// Widens the bounds of visible surfels to hold the apparent places of their echoes for a moving head (E44) and for
+/// moving parts (E145), whose fastest surfel has this speed [m/s].
 void widen_bounds(const SceneCloud& scene, const MovingScene& moving, double fastest_part, double sound_speed,
                   VisibleSurfels& visible);
 
@@ -38,9 +38,9 @@ class DirectStream final : public EchoStream {
   /// Refers to scene and surfels, whose bounds must hold the motion (widen_bounds).
   DirectStream(const SceneCloud& scene, const VisibleSurfels& visible, const Pose& world_from_head,
                const MovingScene& moving, const Transmission& sent);
-  /// The bounds of all chunks, some 2048 patches each.
+  /// Returns the bounds of all chunks of some 2048 patches.
   std::span<const ChunkBounds> chunks() const override { return chunks_; }
-  /// Whether head or parts move.
+  /// Returns true if the head or parts move.
   bool moving() const override { return moving_.any(); }
   /// Makes a chunk's patches and echoes on the calling thread.
   void visit(std::size_t chunk, EchoSink& sink) const override;

@@ -14,7 +14,7 @@ namespace insonify {
 
 /// Echoes by way of two surfaces.
 struct DoubleEchoes {
-  Echoes echoes;                     ///< those of the two senses of a pair stand side by side
+  Echoes echoes;                     ///< both senses of a pair are neighbours
   std::vector<std::uint32_t> first;  ///< of every echo, the surfel that sound met first, index in the scene
   std::vector<std::uint32_t> last;   ///< and the one that it came back from
   std::size_t rays = 0;              ///< sent from surface to surface
@@ -23,11 +23,12 @@ struct DoubleEchoes {
 /// Options of double_echoes.
 struct DoubleEchoOptions {
   /// Rays sent from each cell of range resolution and beam width of the surface that the head sees, on average, within
-  /// 1e-6 and 1e6. More are sent where others have met a surface. The error of the expected level of a piece of image falls with the root of its rays.
+  /// 1e-6 and 1e6. More are sent where others have met a surface. The error of the expected level of a piece of image
+  /// falls with the root of its rays.
   double rays_per_cell = 1;
 };
 
-/// Echoes that meet two rough surfaces: out to a patch i, on to a patch j, and back (E158).
+/// Returns the echoes by way of two rough surfaces: out to a patch i, on to a patch j, and back (E158).
 ///
 ///   amplitude = sqrt2 p0 xi_ij sqrt(sigma_i(h, j) dA_i sigma_j(i, h) dA_j) b_o b_i exp(i k (r_i + r_ij + r_j))
 ///               / (r_i r_ij r_j),   delay = (r_i + r_ij + r_j) / c
@@ -39,20 +40,20 @@ struct DoubleEchoOptions {
 ///
 /// Pairs are drawn by rays (E159): from patch i, half of them by its cosine, half over the lobe of its law, if it has
 /// one. A ray stands for sigma_i sigma_j density / (n_i pdf_i cos_j + n_j pdf_j cos_i), n the rays per area from either
-/// end, in place of both cross-sections and of r_ij^2 (balance heuristic of Veach 1997, 9.2). The expected power is that
-/// of the sum over all pairs. Rays and xi are bound to surfels: they stand still while the head moves.
+/// end, in place of both cross-sections and of r_ij^2 (balance heuristic of Veach 1997, 9.2). The expected power is
+/// that of the sum over all pairs. Rays and xi are bound to surfels: they stand still while the head moves.
 ///
 /// seen     the surfels that the head sees, indices in the scene, ascending: both ends are among them
-/// returns  two echoes per ray that meets a surfel of `seen`, but those whose patterns take off more than 80 dB, or whose
-///          half path lies farther outside the view's gate than the pulse reaches
+/// returns  two echoes for each ray that meets a surfel of `seen`, without echoes that the patterns reduce by more than
+///          80 dB, or whose half path lies farther outside the view's gate than the pulse reaches
 ///
-/// Of second order: echoes by three surfaces and more are left out. Legs are straight, surfels are smooth. Does not
-/// depend on the thread count. Throws Error for an invalid argument, and Error(runtime) without Embree.
+/// Echoes by way of three surfaces and more are left out. Legs are straight, surfels are smooth. The result does not
+/// depend on the number of threads. Throws Error for an invalid argument, and Error(runtime) without Embree.
 DoubleEchoes double_echoes(const PreparedScene& scene, std::span<const std::uint32_t> seen, const View& view,
                            const Transmission& sent, const DoubleEchoOptions& options = {});
 
-/// Where the array hears double echoes, as a scatterer for each: at half the path, in the direction of the last surfel;
-/// id, material and surfel are those of that one. Areas and incidence are empty.
+/// Returns a scatterer for each double echo at its apparent place: at half the path, in the direction of the last
+/// surfel, with id, material and surfel of the last surfel. Areas and incidence are empty.
 Scatterers apparent_places(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
                            double sound_speed);
 

@@ -13,7 +13,7 @@ void complex_normal(const double* u, const double* turn, std::size_t count, doub
 /// Multiplies gains by Gaussian lobes 2^(-2 (off / width)^2) of angles off an axis, whole turns apart alike (E14, E57).
 void apply_lobe(const double* angle, std::size_t count, double axis, double width, double* gain);
 
-/// Where echoes are written; amplitudes are real and imaginary parts interleaved.
+/// Arrays into which echoes are written; amplitudes are real and imaginary parts interleaved.
 struct EchoPlaces {
   double *delay, *u, *v, *amplitude;
 };

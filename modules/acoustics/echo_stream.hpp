@@ -13,15 +13,16 @@ namespace insonify {
 class EchoSink {
  public:
   virtual ~EchoSink() = default;
-  /// Whether patches within these bounds are wanted. Others may be left out.
+  /// Returns true if patches within these bounds are wanted; others may be left out.
   virtual bool wants(const SurfelBounds&) const { return true; }
-  /// Whether patches should be asked for one by one, not only surfel by surfel: pays if few of them are wanted.
+  /// Returns true if wants() is to be called for each patch, not only for each surfel; this pays if few patches are
+  /// wanted.
   virtual bool chooses_patches() const { return false; }
   /// Takes patches and echoes, index by index.
   virtual void take(const Scatterers& patches, const Echoes& echoes) = 0;
 };
 
-/// Number of patches of a chunk, and the ranges [m] that they and half the paths of their echoes lie between.
+/// Number of patches of a chunk, and the interval [m] of their ranges and of half the paths of their echoes.
 struct ChunkBounds {
   std::size_t size;
   double min_range, max_range;
@@ -32,16 +33,16 @@ struct ChunkBounds {
 class EchoStream {
  public:
   virtual ~EchoStream() = default;
-  /// The bounds of all chunks, in their order.
+  /// Returns the bounds of all chunks, in their order.
   virtual std::span<const ChunkBounds> chunks() const = 0;
-  /// Makes a chunk, at least what the sink wants of it, and hands it over.
+  /// Makes a chunk, at least the part that the sink wants, and passes it to the sink.
   virtual void visit(std::size_t chunk, EchoSink& sink) const = 0;
-  /// All echoes if they are stored, else nullptr.
+  /// Returns all echoes if they are stored, else nullptr.
   virtual const Echoes* stored() const { return nullptr; }
-  /// Whether echoes have Doppler shifts.
+  /// Returns true if echoes have Doppler shifts.
   virtual bool moving() const { return false; }
 
-  /// Number of patches.
+  /// Returns the number of patches.
   std::size_t size() const;
 };
 
@@ -50,11 +51,11 @@ class StoredEchoes final : public EchoStream {
  public:
   /// Refers to patches and echoes. Throws Error naming `who` if their numbers differ.
   StoredEchoes(const Scatterers& patches, const Echoes& echoes, const char* who);
-  /// One chunk, or none if there are no echoes.
+  /// Returns one chunk, or none if there are no echoes.
   std::span<const ChunkBounds> chunks() const override { return chunks_; }
-  /// Hands over all patches and echoes.
+  /// Passes all patches and echoes to the sink.
   void visit(std::size_t chunk, EchoSink& sink) const override;
-  /// All echoes.
+  /// Returns all echoes.
   const Echoes* stored() const override { return &echoes_; }
 
  private:

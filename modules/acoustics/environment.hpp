@@ -30,8 +30,7 @@ struct FlatBottom {
 
 /// Everything around head and scene. An absent part has no effect and costs nothing.
 struct Environment {
-  Water
-      water;  ///< its depth is that of the head; below a known surface it follows from where the head is (environment_at)
+  Water water;  ///< with the depth of the head; below a known surface, environment_at sets the depth
   std::optional<double>
       water_level{};  ///< world z of the surface, from which depth counts, where it has no other effect [m]
   SoundSpeedFormula sound_speed_formula = SoundSpeedFormula::unesco;
@@ -64,9 +63,9 @@ double head_depth(const Environment& environment, double head_height);
 /// Throws Error(argument), naming `who`, for a profile whose sound speed changes with depth if the surface is unknown.
 void require_depths_known(const Environment& environment, const char* who);
 
-/// The environment with water.depth at a head of world height `head_height` [m] (head_depth). Throws Error(argument)
-/// with the remedy, naming `who`: for a head at or above the surface; for a water.depth other than 0 that is more than
-/// 1 cm off that depth; and as require_depths_known.
+/// Returns the environment with water.depth at a head of world height `head_height` [m] (head_depth). Throws
+/// Error(argument) with the remedy, naming `who`: for a head at or above the surface; for a water.depth other than 0
+/// that is more than 1 cm off that depth; and as require_depths_known.
 Environment environment_at(const Environment& environment, double head_height, const char* who);
 
 /// Returns the lowest sound speed [m/s] at any depth: of the profile; without a profile, of the water at the surface,
@@ -78,8 +77,8 @@ double slowest_sound(const Environment& environment);
 /// the profile's at water.depth.
 Medium medium_of(const Environment& environment, double centre_frequency, int absorption_order = 0);
 
-/// Level of all noise at one element in the pulse's band [dB re 1 uPa]: thermal (E18), with the wind's (E25) and the
-/// platform's own where given. Throws Error for an invalid pulse or environment.
+/// Returns the level of all noise at one element in the pulse's band [dB re 1 uPa]: thermal noise (E18), and the noise
+/// of wind (E25) and platform where given. Throws Error for an invalid pulse or environment.
 double element_noise_level_db(const Environment& environment, const Pulse& pulse);
 
 }  // namespace insonify

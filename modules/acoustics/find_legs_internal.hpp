@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// Which legs lead from the head to a surfel: bit 0 direct, bit 1 + b by boundary b.
+/// Legs from the head to a surfel: bit 0 direct, bit 1 + b by boundary b.
 using LegSet = std::uint32_t;
 constexpr std::size_t most_boundaries = 31;
 constexpr LegSet direct_leg = 1;
@@ -19,7 +19,7 @@ struct FoundLegs {
   std::size_t hidden = 0;    ///< legs by a boundary that the scene hides
 };
 
-/// Elevations on either side of the fan's in which legs are looked for [rad].
+/// Margin in elevation on either side of the fan in which legs are searched [rad].
 double extent_of_legs(const EchoOptions& echo_options);
 
 /// Finds the legs by the boundaries; and the direct legs to the surfels found, besides those marked in

@@ -18,22 +18,22 @@ struct SmoothTarget {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
 };
 
-/// What reflects as a whole.
+/// Bodies of a scene that reflect as a whole.
 struct SmoothShapes {
   std::vector<Mirror> mirrors;
   std::vector<SmoothTarget> targets;
 
-  /// Whether there is nothing.
+  /// Returns true if there are none.
   bool empty() const { return mirrors.empty() && targets.empty(); }
 };
 
-/// The surfels within `radius` [m] of `centre` (world) of materials with is_smooth, as shapes: flat parts of those that
-/// say `mirror` as mirrors; connected parts of those that say `coherent` as cylinders (with their ends as plates),
-/// spheres or plates, whichever fits. Least squares, weighted by area.
+/// Returns the shapes of the surfels within `radius` [m] of `centre` (world) whose materials have is_smooth: mirrors
+/// for flat parts of materials with `mirror`; cylinders (with their ends as plates), spheres or plates, whichever fits,
+/// for connected parts of materials with `coherent`. Least squares, weighted by area.
 ///
-/// A plane ends half a spacing outside the convex outline of its surfels. Surfels are connected that are within three
-/// spacings (of the largest) of each other. Planes of fewer than twelve surfels are left out. Throws Error(content) for
-/// a coherent part that fits no shape, and for a plane that fills less than half of its outline.
+/// A plane ends half a spacing outside the convex outline of its surfels. Surfels are connected if they are within
+/// three spacings of the largest surfel of each other. Planes of fewer than twelve surfels are left out. Throws
+/// Error(content) for a coherent part that fits no shape, and for a plane that fills less than half of its outline.
 SmoothShapes fit_shapes(const SceneCloud& scene, const Eigen::Vector3d& centre, double radius);
 
 }  // namespace insonify

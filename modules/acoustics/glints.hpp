@@ -12,14 +12,14 @@ struct GlintOptions {
   int most_bounces = 3;  ///< off mirrors, surface and bottom, one after the other
 };
 
-/// What a head hears of its own image: sound that goes by one to `most_bounces` mirrors and comes back, and that of
+/// Returns the echoes of a head's own image: sound that returns by way of one to `most_bounces` mirrors, and by way of
 /// targets.
 ///
 ///   amplitude = sqrt2 p0 b_o b_i R F exp(i k L) / L                                                  (E151)
 ///
-/// L is the length of the way, that of a straight line to the image of the head in all mirrors one after the other
-/// (2 d for one mirror d away); b as in E48; R the product of the reflections (E47, E148) and F what the edges of all of
-/// them let through (E150): of the polygon in which they overlap across the line. Two mirrors that meet at a right angle
+/// L is the length of the path, that of a straight line to the image of the head in all mirrors one after the other (2
+/// d for one mirror d away); b is as in E48; R is the product of the reflections (E47, E148); F is the factor of all
+/// edges (E150), of the polygon in which the mirrors overlap across the line. Two mirrors that meet at a right angle
 /// are a corner: its image lies on the edge, and each order, A before B and B before A, has the half of the aperture
 /// where it meets A first. Of a mirror without edges, the part in front of the others on the way counts. Ways of one
 /// image add up and are one echo.
@@ -31,7 +31,7 @@ struct GlintOptions {
 /// with a1 and a2 its radii of curvature there: both that of a sphere, one of them infinite for a cylinder, of which F
 /// are the edges of its length, both for a plate, with the F of its corners. It is the integral of Kirchhoff over the
 /// surface without the waves of its shadow's edge, by stationary phase across the curved directions. Targets are not
-/// mirrors: what comes by way of them from elsewhere is left out, and so is what comes from them by mirrors.
+/// mirrors: echoes of other surfaces by way of targets are left out, and so are echoes of targets by way of mirrors.
 ///
 /// A way is left out that surfels block that belong neither to its mirrors nor to its target, that is shorter or longer
 /// than twice the gate and a pulse, or of which reflections, edges and patterns leave less than -80 dB; a target's, if

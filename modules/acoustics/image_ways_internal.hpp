@@ -11,15 +11,15 @@ namespace insonify {
 
 /// A way to an image of the head and back from it, in head axes.
 struct ImageWay {
-  Eigen::Vector3d sent, heard;             ///< where the image seems to be on the way out, and on the way back
+  Eigen::Vector3d sent, heard;             ///< apparent places of the image on the way out, and on the way back
   std::complex<double> factor = 1;         ///< reflections and edges
   std::vector<Eigen::Vector3d> bounces{};  ///< places at which it bounces
   std::vector<const Boundary*> by{};       ///< off these
   const SmoothTarget* target = nullptr;    ///< or off this
 };
 
-/// The ways by up to `most` mirrors one after the other (E151), at least one of them at index `first` or later, that
-/// reflections and edges leave -80 dB of.
+/// Returns the paths by up to `most` mirrors one after the other (E151), at least one of them at index `first` or
+/// later, on which reflections and edges leave at least -80 dB.
 std::vector<ImageWay> image_ways(std::span<const Boundary> mirrors, std::size_t first, int most);
 
 }  // namespace insonify

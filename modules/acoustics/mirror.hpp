@@ -14,7 +14,7 @@ struct ElasticSolid {
   double shear_speed = 0;  ///< 0: a fluid
 };
 
-/// A smooth plane that sound is mirrored by: a wall, a quay, a plate. World frame [m].
+/// A smooth plane that mirrors sound: a wall, a quay, a plate. World frame [m].
 struct Mirror {
   std::string name = "mirror";
   Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< a point of it
@@ -31,8 +31,8 @@ struct Mirror {
 
 /// Returns a mirror with these corners, and with place and normal that follow from them.
 Mirror with_corners(Mirror mirror, std::vector<Eigen::Vector3d> corners);
-/// The same with those of a rectangle about `place`: `width` [m] along the level direction in the plane (along x if the
-/// plane is level), `height` [m] across it.
+/// Returns a mirror with the corners of a rectangle about `place`: `width` [m] along the level direction in the plane
+/// (along x if the plane is level), `height` [m] across it.
 Mirror with_size(Mirror mirror, double width, double height);
 
 /// A box of water with walls, a floor and a free surface on top, which reflects with -1.
@@ -43,7 +43,7 @@ struct Tank {
   double rms_height = 0;                             ///< of walls and floor [m]
 };
 
-/// Its six planes, floor first, surface last.
+/// Returns the six planes of a tank, floor first, surface last.
 std::vector<Mirror> mirrors_of(const Tank& tank);
 
 /// Throws Error(argument) naming the value, its unit and its rule.

@@ -40,7 +40,8 @@ Pose pose_at(const Trajectory& trajectory, double time);
 Motion motion_at(const Trajectory& trajectory, double time);
 
 /// Changes the echoes of a head at rest into those of a moving head (E44). Sound leaves the head at `world_from_head`
-/// at time 0, and is received at time delay where the head is then. With d the vector to the scatterer, r0 = |d|,
+/// at time 0. The head receives it at the time `delay`, at the place of that time. With d the vector to the scatterer,
+/// r0 = |d|,
 ///
 ///   delay = 2 (c r0 - v d) / (c^2 - v^2),  r1 = c delay - r0
 ///   amplitude *= r0 / r1 exp(i k (r1 - r0))                      spreading r0 r1 for r0^2, carrier phase k (r0 + r1)
@@ -61,8 +62,8 @@ Motion motion_at(const Trajectory& trajectory, double time);
 void move_echoes(const Motion& motion, const Pose& world_from_head, const Scatterers& scatterers,
                  double centre_frequency, double sound_speed, Echoes& echoes);
 
-/// Returns by what part of the range at most a motion slower than a hundredth of the sound speed changes half the way
-/// of sound, c delay / 2, and by how much a displacement changes direction cosines.
+/// Returns bounds for a motion slower than a hundredth of the sound speed: of the relative change of half the path, c
+/// delay / 2, and of the change of direction cosines by a displacement.
 double most_displacement(const Motion& motion, double sound_speed);
 
 }  // namespace insonify

@@ -12,8 +12,9 @@
 
 namespace insonify {
 
-/// Moves scatterers of moving parts (ScenePart) from where they are at transmission to where sound meets them (E145).
-/// With d the vector from the head to the scatterer, w = velocity + turn_rate x arm its velocity and r = |d|,
+/// Moves scatterers of moving parts (ScenePart) from their places at transmission to the places at which sound meets
+/// them (E145). With d the vector from the head to the scatterer, w = velocity + turn_rate x arm its velocity and r =
+/// |d|,
 ///
 ///   t = (w d + sqrt((w d)^2 + (c^2 - w^2) r^2)) / (c^2 - w^2),   d becomes d + w t, r becomes c t
 ///

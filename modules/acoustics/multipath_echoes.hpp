@@ -14,11 +14,11 @@
 
 namespace insonify {
 
-/// A plane that sound is mirrored by, in the world [m]; its normal points into the water.
+/// A plane that mirrors sound, in the world [m]; its normal points into the water.
 using MirrorPlane = Eigen::Hyperplane<double, 3>;
 
-/// By which legs sound went out to a patch and came back: 0 direct, k by the k-th boundary (the surface before the
-/// bottom before the mirrors).
+/// Legs on which sound went out to a patch and came back: 0 direct, k by the k-th boundary (first the surface, then the
+/// bottom, then the mirrors).
 struct LegPair {
   std::uint8_t out = 0, back = 0;
 
@@ -38,7 +38,7 @@ struct Multipath {
   std::size_t blocked = 0;              ///< legs from surfels by a boundary that the scene hides
 };
 
-/// Where a head looks, for stages that look again.
+/// View of a head, for later stages.
 struct View {
   Pose world_from_head = Pose::Identity();
   BeamFan fan;
@@ -48,22 +48,22 @@ struct View {
 
 /// Options of multipath_echoes.
 struct MultipathOptions {
-  /// Captured surfels that lie (within 60 degrees) along a boundary and are nearer to it than this [m], and three times
-  /// its rms relief, are taken for the boundary itself: they neither block a bounce off it nor give an echo by one.
+  /// Captured surfels along a boundary (within 60 degrees) that are nearer to it than this [m], and than three times
+  /// its rms relief, count as the boundary itself: they neither block a bounce off it nor give an echo by one.
   double boundary_tolerance = 0.3;
 };
 
-/// Echoes whose leg out, leg back or both touch the surface or the bottom of `environment` once (E48), by images: the
-/// head sees the scene mirrored in each boundary.
+/// Returns the echoes whose leg out, leg back or both touch the surface or the bottom of `environment` once (E48). They
+/// follow from images: the scene mirrored in each boundary.
 ///
 ///   amplitude = sqrt2 p0 xi sqrt(mu cos_o cos_i dS) b_o b_i R_o R_i exp(i k (r_o + r_i)) / (r_o r_i)
 ///   delay     = (r_o + r_i) / c
 ///
-/// o is the leg out, i the leg back; r, cos, b and R are a leg's length, cosine at the patch, one-way elevation
-/// pattern (the square root of the two-way pattern E14; times E57 on the leg out) and reflection: bottom_reflection,
-/// or -1 at the surface, times coherent_reflection_loss; 1 without a bounce. u and v are those of the leg back. So a
-/// mixed path is two echoes of one delay and size, one for each sense, which add coherently where the beam holds both
-/// directions. The direct echo is not among them.
+/// o is the leg out, i the leg back; r, cos, b and R are a leg's length, cosine at the patch, one-way elevation pattern
+/// (the square root of the two-way pattern E14; times E57 on the leg out) and reflection: bottom_reflection, or -1 at
+/// the surface, times coherent_reflection_loss; 1 without a bounce. u and v are those of the leg back. A mixed path
+/// gives two echoes of one delay and size, one for each sense, which add coherently where the beam holds both
+/// directions. The result holds no direct echoes.
 ///
 /// Every leg is tested for occlusion: before the bounce against the scene itself, behind it against its image. Surfels
 /// beyond a boundary have no leg by it, and those above the surface none at all. Sector in azimuth and gate are the
@@ -81,7 +81,7 @@ struct MultipathOptions {
 Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
                            const View& view, const Transmission& transmission, const MultipathOptions& options = {});
 
-/// The same by way of `mirrors`: the echoes of whose legs at least one is by a mirror. The others are direct or, if
+/// Returns the same by way of `mirrors`: the echoes with at least one leg by a mirror. The others are direct or, if
 /// `with_levels`, by surface and bottom. A leg by a mirror has the factor
 ///
 ///   R exp(-2 (k H cos)^2) F                                                                      (E47, E148, E150)
@@ -96,15 +96,15 @@ Multipath mirror_echoes(const SceneCloud& scene, const Scatterers& direct, const
 /// Adds `more` at the end of `echoes`, both with v and at rest.
 void append(Echoes& echoes, const Echoes& more);
 
-/// Range [m] beyond which neither a surfel nor its image takes part in multipath_echoes. By the triangle inequality two
-/// legs to one patch differ by no more than twice the head's distance from the farther boundary, so neither is longer
-/// than their mean, which lies within the gate and a pulse, by more than that distance.
+/// Returns the range [m] beyond which neither a surfel nor its image takes part in multipath_echoes. By the triangle
+/// inequality two legs to one patch differ by no more than twice the head's distance from the farther boundary, so
+/// neither is longer than their mean, which lies within the gate and a pulse, by more than that distance.
 double longest_leg(const Environment& environment, std::span<const Mirror> mirrors, const View& view,
                    const Transmission& transmission);
 
-/// The most, as a pressure factor, that roughness leaves of a bounce off any boundary within the view's gate: leaving
-/// multipath out costs no more than this, relative to a direct echo of the same length and pattern, per mixed path. 1
-/// for a smooth boundary, 0 if there is none.
+/// Returns the largest pressure factor of roughness on a bounce off any boundary within the view's gate: 1 for a smooth
+/// boundary, 0 without boundaries. It bounds the error without multipath, for each mixed path, relative to a direct
+/// echo of the same length and pattern.
 double strongest_bounce(const Environment& environment, const View& view, const Transmission& transmission);
 
 }  // namespace insonify

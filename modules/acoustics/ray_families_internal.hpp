@@ -29,13 +29,13 @@ struct TurningInterval {
   double speed = 0;           ///< where the turning layer begins [m/s]
 };
 
-/// All that lies above the upper end, or below the lower one.
+/// The layers above the upper end, or below the lower one.
 struct RaySide {
   std::vector<LayerCrossing> crossings;  ///< outwards
   std::vector<TurningInterval> turning;  ///< by rising steepness
 };
 
-/// How often a ray of a family runs through the water between its ends, and turns above and below it.
+/// Numbers of crossings of the water between the ends, and of turns above and below, of the rays of a family.
 struct RayFamily {
   int between = 1, above = 0, below = 0;
   const TurningInterval* turn_above = nullptr;
@@ -50,14 +50,15 @@ class RayWater {
   const RaySide& above() const { return above_; }
   const RaySide& below() const { return below_; }
 
-  /// How far a ray of `steepness` gets.
+  /// Returns the horizontal distance that a ray of `steepness` covers.
   double horizontal(const RayFamily& family, double steepness) const {
     return horizontal(family, steepness, steepness);
   }
   /// The same with crossings, that shrink with steepness, and turns, that grow with it, at a steepness of their own:
   /// with the ends of an interval a bound over it.
   double horizontal(const RayFamily& family, double crossing_steepness, double turning_steepness) const;
-  /// Steepness of the ray that runs straight from end to end and gets `horizontal` far; none if none gets so far.
+  /// Returns the steepness of the ray that runs from end to end without a turn and covers `horizontal`; none if there
+  /// is no such ray.
   std::optional<double> direct_steepness(double horizontal) const;
   /// Time along the chords of its arcs, these stretched to end exactly at `horizontal`: by Fermat's principle an error
   /// of `steepness` enters squared.

@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// How a point is seen from the head: range [m] and unit vector of the direction from which sound arrives.
+/// Apparent place of a point for the head: range [m] and unit vector of the direction from which sound arrives.
 struct ApparentPosition {
   double range = 0;
   double horizontal = 0, up = 0;
@@ -44,7 +44,7 @@ class RefractionTable {
   /// Without a box, or with one of few points, every ray is solved. `profile` must outlive the table.
   RefractionTable(const SoundSpeedProfile& profile, double head_depth, const DepthBox& box, int threads);
 
-  /// None in a shadow zone.
+  /// Returns the apparent place; none in a shadow zone.
   std::optional<ApparentPosition> apparent(double depth, double horizontal) const;
 
  private:

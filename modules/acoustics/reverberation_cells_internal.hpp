@@ -29,7 +29,7 @@ ReverberationCells reverberation_cells(const BeamFan& fan, const RangeGate& gate
 /// Throws Error if slices x directions exceed 2^27.
 void require_few(double directions, const ReverberationCells& cells, const char* who);
 
-/// Amplitude of one cell, complex normal; 1 for SurfaceAmplitude::mean_power.
+/// Returns the amplitude of one cell, complex normal; 1 for SurfaceAmplitude::mean_power.
 std::complex<double> cell_amplitude(const EchoOptions& echo_options, RandomStage stage, const RandomCounter& counter);
 
 /// The two-way elevation pattern as an intensity over solid angle, b^2(e) cos(e), to integrate and to draw from.

@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// How water and boundaries are divided into cells. Each cell gives one echo of complex-normal amplitude from a random
+/// Division of water and boundaries into cells. Each cell gives one echo of complex-normal amplitude from a random
 /// place within it. Mean level and correlation do not depend on the size of cells. The smaller the cells, the closer
 /// the sum in a beam is to a Rayleigh distribution.
 struct ReverberationOptions {
@@ -21,11 +21,12 @@ struct ReverberationOptions {
 };
 
 // All of these fill the gate, and a pulse's reach on either side of it, over the fan's sector in azimuth; the
-// transmitter's pattern (E57) counts if there is one. The scene casts no shadow on them.
-// The result does not depend on the thread count. They throw Error if what scatters is absent from the environment,
-// for invalid arguments, and if there would be more than 2^27 cells.
+// transmitter's pattern (E57) counts if there is one. The scene casts no shadow on them. The result does not depend on
+// the thread count. They throw Error if the environment lacks the scattering strength, for invalid arguments, and for
+// more than 2^27 cells.
 
-/// Echoes of the water's own scatterers (E49): the variance of a cell's amplitude is Sv dV 2 p0^2 / r^4, with
+/// Returns the echoes of the water's own scatterers (E49): the variance of a cell's amplitude is Sv dV 2 p0^2 / r^4,
+/// with
 ///
 ///   dV = r^2 dr dtheta integral b_E^2(e) cos(e) de
 ///
@@ -35,21 +36,21 @@ struct ReverberationOptions {
 Echoes volume_echoes(const Environment& environment, const BeamFan& fan, const RangeGate& gate,
                      const Transmission& transmission, const ReverberationOptions& options = {});
 
-/// Echoes of the sea surface, seen from below (E50): scattering strength, the same at all angles, times the area of
-/// each cell of the plane, weighted by the elevation pattern. Throws Error if the head is not below the surface.
+/// Returns the echoes of the sea surface from below (E50): scattering strength, the same at all angles, times the area
+/// of each cell of the plane, weighted by the elevation pattern. Throws Error if the head is not below the surface.
 Echoes surface_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
                       const RangeGate& gate, const Transmission& transmission,
                       const ReverberationOptions& options = {});
 
-/// Echoes of the flat bottom by Lambert's law, mu sin^2(grazing) dA (E51). Cells are bound to the world's directions
-/// and to the place of the head, rounded to a range cell: a head at rest, or turning about its place, gets
-/// the echoes of the same bottom in every ping, a head that has moved those of another. Throws Error if the head is not
-/// above the bottom.
+/// Returns the echoes of the flat bottom by Lambert's law, mu sin^2(grazing) dA (E51). Cells are bound to the world's
+/// directions and to the place of the head, rounded to a range cell: a head that rests, or turns about its place, gets
+/// echoes of the same bottom in every ping; a head that has moved gets echoes of another bottom. Throws Error if the
+/// head is not above the bottom.
 Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,
                      const RangeGate& gate, const Transmission& transmission, const ReverberationOptions& options = {});
 
-/// Scattering strength of the sea surface at `frequency` [Hz] for `wind_speed` [m/s] and `grazing` [rad], in dB re 1
-/// m^2 per m^2 (Chapman and Harris 1962, E50):
+/// Returns the scattering strength of the sea surface at `frequency` [Hz] for `wind_speed` [m/s] and `grazing` [rad],
+/// in dB re 1 m^2 per m^2 (Chapman and Harris 1962, E50):
 ///
 ///   3.3 beta log10(grazing / 1 deg / 30) - 42.4 log10(beta) + 2.6,  beta = 158 (wind / 1 kn (f / 1 Hz)^(1/3))^-0.58
 ///

@@ -17,18 +17,20 @@ struct SeabedStrength {
   double lobe = 0;     ///< by facets that face the sonar (Kirchhoff, or the large-roughness fit)
 };
 
-/// Backscatter of a sea bed at `grazing` [rad] within 0 and pi/2 by APL-UW TR 9407 (1994), E139: roughness by the
-/// composite model, Kirchhoff's integral near normal incidence, a fit for large roughness, and volume. Reproduces the
-/// report's Table 3 within 0.10 dB but for four cells. For 10 to 100 kHz. Throws Error for an invalid sediment,
-/// frequency [Hz] or sound speed [m/s].
+/// Returns the backscatter of a sea bed at `grazing` [rad] within 0 and pi/2 by APL-UW TR 9407 (1994), E139: roughness
+/// by the composite model, Kirchhoff's integral near normal incidence, a fit for large roughness, and volume.
+/// Reproduces the report's Table 3 within 0.10 dB but for four cells. For 10 to 100 kHz. Throws Error for an invalid
+/// sediment, frequency [Hz] or sound speed [m/s].
 SeabedStrength seabed_strength(const Sediment& sediment, double frequency, double sound_speed, double grazing);
 
-/// I(p) of the small-slope approximation: integral of J0(u) exp(-p u^(2 alpha)) u du over u > 0, for 0 < alpha < 1, to 1e-5.
-/// As a mean over one-sided stable numbers (Kanter 1975), which does not oscillate; by its series where p is small.
+/// Returns I(p) of the small-slope approximation: integral of J0(u) exp(-p u^(2 alpha)) u du over u > 0, for 0 < alpha
+/// < 1, to 1e-5. As a mean over one-sided stable numbers (Kanter 1975), which does not oscillate; by its series where p
+/// is small.
 double small_slope_integral(double alpha, double p);
 
-/// Reflection coefficient of pressure off the solid (or, without shear speed, fluid) of a RoughLaw at `cos_incidence`
-/// [m/s for the water's sound speed], E142; its `reflection` if it has no density. Water of 1026 kg/m^3.
+/// Returns the reflection coefficient of pressure off the solid (or, without shear speed, fluid) of a RoughLaw at
+/// `cos_incidence` [m/s for the water's sound speed], E142; its `reflection` if it has no density. Water of 1026
+/// kg/m^3.
 std::complex<double> rough_reflection(const RoughLaw& law, double sound_speed, double cos_incidence);
 
 /// The laws for sound of `frequency` [Hz] in water of `sound_speed` [m/s]. Throw Error for invalid laws and numbers.
@@ -43,14 +45,14 @@ std::shared_ptr<const SurfaceScattering> surface_of(const RoughLaw& law, double 
 /// Table (E144).
 std::shared_ptr<const SurfaceScattering> surface_of(const TableLaw& law, double frequency, double sound_speed);
 
-/// The law of a material.
+/// Returns the law of a material.
 std::shared_ptr<const SurfaceScattering> surface_of(const Material& material, double frequency, double sound_speed);
 
-/// Throws Error of `kind` if a surface gives back more than it gets: albedo above 1.001 at one of ten incidences, at
-/// frequencies of 10 kHz to 1 MHz and those of a table. Lambert's law may.
+/// Throws Error of `kind` if a surface scatters more power than it receives: albedo above 1.001 at one of ten
+/// incidences, at frequencies of 10 kHz to 1 MHz and those of a table. Lambert's law may.
 void require_energy(const Material& material, const char* who, ErrorKind kind = ErrorKind::argument);
 
-/// One sentence for each material whose law is not known to hold at `frequency`, with by how much it may be off [dB].
+/// Returns one sentence for each material whose law is not validated at `frequency`, with its possible error [dB].
 std::vector<std::string> surface_notes(std::span<const Material> materials, double frequency);
 
 }  // namespace insonify

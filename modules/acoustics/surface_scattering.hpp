@@ -18,19 +18,20 @@ struct PathAngles {
   double cos_between = 1;  ///< i . o; 1: straight back
 };
 
-/// What a surface does to sound of one frequency in one water. All laws are isotropic about the normal and reciprocal:
-/// i and o may change places. Safe to use from several threads.
+/// Scattering of a surface for one frequency and one water. All laws are isotropic about the normal and reciprocal: i
+/// and o may change places. Safe to use from several threads.
 class SurfaceScattering {
  public:
   virtual ~SurfaceScattering() = default;
-  /// Cross-section per area and solid angle [1/sr], mu (i . n) (o . n) by Lambert's law; 0 unless both cosines are > 0.
+  /// Returns the cross-section per area and solid angle [1/sr], mu (i . n) (o . n) by Lambert's law; 0 unless both
+  /// cosines are > 0.
   virtual double cross_section(const PathAngles& path) const = 0;
-  /// The same per area as seen from where the sound comes: over cos_in, which is > 0.
+  /// Returns the same per area as seen from the direction of incidence: divided by cos_in, which is > 0.
   virtual double per_seen_area(const PathAngles& path) const { return cross_section(path) / path.cos_in; }
-  /// The same straight back, at this cosine of incidence > 0: what most echoes need, from a table.
+  /// Returns the same straight back, at this cosine of incidence > 0, from a table.
   virtual double back(double cosine) const = 0;
-  /// Root mean square of the slope of the facets that make the law's lobe about the specular direction, over both axes;
-  /// 0: no lobe.
+  /// Returns the root mean square of the slope of the facets that make the law's lobe about the specular direction,
+  /// over both axes; 0: no lobe.
   virtual double lobe_slope() const { return 0; }
 };
 
@@ -48,23 +49,25 @@ struct InsonifiedPatch {
   double cos_between = 1;  ///< cosine between the two legs; 1: they are one line
 };
 
-/// Cross-section [m^2] of a patch; 0 unless both cosines are > 0.
+/// Returns the cross-section [m^2] of a patch; 0 unless both cosines are > 0.
 double cross_section(const SurfaceScattering& surface, const InsonifiedPatch& patch);
 
-/// Lambert's law alone [m^2] (E4): lambert_mu cos_back seen_area. The area as seen holds one cosine already, so that
-/// this is mu cos^2 dS for a surfel whose legs out and back are one line, and mu cos r^2 dOmega for a ray.
+/// Returns the cross-section by Lambert's law alone [m^2] (E4): lambert_mu cos_back seen_area. The area as seen holds
+/// one cosine already, so that this is mu cos^2 dS for a surfel whose legs out and back are one line, and mu cos r^2
+/// dOmega for a ray.
 double lambert_cross_section(double lambert_mu, double cos_back, double seen_area);
 
-/// Direction (normal = z) in which sound from direction `in` goes on, for two numbers in [0, 1): half of them fall by
-/// the cosine, half off facets of rms slope `lobe_slope` (all by the cosine if that is 0). May lead into the surface.
+/// Returns the direction (normal = z) in which sound from direction `in` goes on, for two numbers in [0, 1): half of
+/// them fall by the cosine, half off facets of rms slope `lobe_slope` (all by the cosine if that is 0). May lead into
+/// the surface.
 Eigen::Vector3d sampled_direction(double lobe_slope, const Eigen::Vector3d& in, double number, double turn);
 
-/// Density [1/sr] of these directions (E138): cos_out / pi, and of facets exp(-tan^2 t / S^2) / (pi S^2 cos^4 t) cos t /
-/// (4 cos d), t between normal and facet, d of incidence on the facet.
+/// Returns the density [1/sr] of these directions (E138): cos_out / pi, and of facets exp(-tan^2 t / S^2) / (pi S^2
+/// cos^4 t) cos t / (4 cos d), t between normal and facet, d of incidence on the facet.
 double sampling_density(double lobe_slope, const PathAngles& path);
 
-/// Part of the power arriving at cosine `cos_in` > 0 that leaves again: integral of the cross-section over all
-/// directions, over cos_in. By 8192 directions of sampled_direction, within 0.001.
+/// Returns the fraction of the power arriving at cosine `cos_in` > 0 that the surface scatters: integral of the
+/// cross-section over all directions, over cos_in. By 8192 directions of sampled_direction, within 0.001.
 double albedo(const SurfaceScattering& surface, double cos_in);
 
 }  // namespace insonify

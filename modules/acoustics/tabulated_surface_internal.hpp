@@ -12,8 +12,8 @@
 // Private to the laws of surfaces.
 namespace insonify {
 
-/// A function of a cosine in (0, 1] between entries of a table, even in sqrt(1 - cosine), which is the angle itself near
-/// normal incidence: 0.04 degrees apart.
+/// A function of a cosine in (0, 1] between entries of a table, even in sqrt(1 - cosine), which is the angle itself
+/// near normal incidence: 0.04 degrees apart.
 class CosineTable {
  public:
   template <typename Function>
@@ -44,13 +44,14 @@ inline HalfVector half_vector(const PathAngles& path) {
   return {std::min(1.0, (path.cos_in + path.cos_out) / (2 * cos_d)), cos_d};
 }
 
-/// What neighbouring facets of rms slope `slope` leave out of shadow (Smith 1967).
+/// Returns the fraction of a surface with facets of rms slope `slope` that lies outside their shadows (Smith 1967).
 inline double facets_seen(double slope, double cosine) {
   const double n = cosine / (std::sqrt(std::max(1e-12, 1 - cosine * cosine)) * slope);
   return n > 4 ? 1 : 1 / (1 + 0.5 * (std::exp(-n * n) / (n * std::sqrt(pi)) - std::erfc(n)));
 }
 
-/// Integral of a cross-section over all directions, over cos_in, by `count` of sampled_direction, even: a golden lattice.
+/// Integral of a cross-section over all directions, over cos_in, by `count` of sampled_direction, even: a golden
+/// lattice.
 template <typename CrossSection>
 double power_share(double lobe_slope, double cos_in, int count, const CrossSection& cross_section) {
   constexpr double golden = 0.6180339887498949;

@@ -22,15 +22,16 @@ struct EchoOptions {
   double transmit_width = 0;  ///< -3 dB width of the transmitter's one-way intensity in azimuth [rad]; 0: no pattern
 };
 
-/// What all echoes of one ping have in common.
+/// Values that all echoes of one ping share.
 struct Transmission {
   Pulse pulse;
   Medium medium;
   EchoOptions echo_options;
-  SurfaceTable surfaces{};  ///< of the scene's materials (surface_table); empty: made by whom needs it
+  SurfaceTable surfaces{};  ///< of the scene's materials (surface_table); empty: surfaces_of makes it
 };
 
-/// The surfaces of a transmission, or made of `materials` if it has none. Throws Error unless there is one for each.
+/// Returns the surfaces of a transmission, or those of `materials` if it has none. Throws Error unless there is one for
+/// each.
 SurfaceTable surfaces_of(const Transmission& sent, std::span<const Material> materials);
 
 }  // namespace insonify
