@@ -9,10 +9,10 @@
 
 namespace insonify {
 
-/// quick: seconds, to try whether everything works; standard: a minute or two; full: about ten minutes.
+/// Size of a sweep. quick: seconds, as a trial; standard: a minute or two; full: about ten minutes.
 enum class SweepSize { quick, standard, full };
 
-/// Extent of a sweep, and what is left out of it.
+/// Extent of a sweep, and its selection of tolerances and methods.
 struct SweepOptions {
   SweepSize size = SweepSize::standard;
   std::uint64_t seed = 1;
@@ -21,20 +21,20 @@ struct SweepOptions {
   std::vector<std::string> methods{};  ///< of accuracy_methods; empty: all
 };
 
-/// A method and what measures it.
+/// A method and the function that measures it.
 struct AccuracyRun {
   std::string method;
   std::function<AccuracyRow(const AccuracyBench&)> measure;
 };
 
-/// One task and what is measured on it.
+/// One task and its measurements.
 struct AccuracyStep {
   std::string sweep, what;
   std::function<AccuracyTask()> make;
   std::vector<AccuracyRun> runs;
 };
 
-/// The sweeps over made-up tasks, each over one parameter:
+/// Returns the sweeps over synthetic tasks, each over one parameter:
 ///   work-precision   every method over its setting, 512 beams x 2000 bins x 50 000 scatterers
 ///   scatterers       from 1 on
 ///   beams, bins      prime numbers and powers of two among them
@@ -45,10 +45,11 @@ struct AccuracyStep {
 /// Throws Error for an unknown method, naming the known ones, or a tolerance out of reach.
 std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options = {});
 
-/// work-precision, scatterers (evenly picked) and threads on a user's own echoes. The seed is not used.
+/// Returns the sweeps work-precision, scatterers (evenly picked) and threads over a user's own echoes. The seed is not
+/// used.
 std::vector<AccuracyStep> accuracy_sweep_of(const AccuracyTask& task, const SweepOptions& options = {});
 
-/// Names of all methods, in the order in which they are measured.
+/// Returns the names of all methods, in the order of measurement.
 std::vector<std::string> accuracy_methods();
 
 }  // namespace insonify

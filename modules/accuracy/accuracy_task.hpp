@@ -15,7 +15,7 @@ struct AccuracyTask {
   Echoes echoes;
 };
 
-/// A made-up task. 600 kHz, half-wavelength line array with Taylor shading, bins of 0.44 c / 2B from 1 m on.
+/// A synthetic task: 600 kHz, half-wavelength line array with Taylor shading, bins of 0.44 c / 2B from 1 m on.
 struct TaskSpec {
   std::size_t scatterers = 5000, beams = 64, bins = 500;
   double bandwidth = 30e3;           ///< [Hz]
@@ -25,21 +25,21 @@ struct TaskSpec {
   std::uint64_t seed = 1;
 };
 
-/// Echoes of complex-normal amplitude, distributed evenly over fan and gate and a little beyond.
+/// Returns echoes of complex-normal amplitude, distributed evenly over fan and gate and a little beyond.
 AccuracyTask make_task(const TaskSpec& spec);
 
-/// The echoes that a head receives from a scene: the direct echoes of simulate_ping along straight rays, before beams
-/// are formed. Throws Error as simulate_ping does, for a head of several rows or a column, and if nothing of the scene
-/// is in fan and gate.
+/// Returns the echoes that a head receives from a scene: the direct echoes of simulate_ping along straight rays, before
+/// beams are formed. Throws Error as simulate_ping does, for a head of several rows or a column, and if no surfel is in
+/// fan and gate.
 AccuracyTask task_of(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                      const Environment& environment, const SimulationOptions& options = {});
 
-/// `count` echoes, evenly picked in their order; all of them if there are fewer.
+/// Returns `count` echoes, evenly picked in their order; all of them if there are fewer.
 Echoes some_echoes(const Echoes& echoes, std::size_t count);
 
-/// The same head with `count` of its beams, evenly picked with both ends.
+/// Returns the same head with `count` of its beams, evenly picked with both ends.
 SonarHead some_beams(const SonarHead& head, std::size_t count);
-/// Which ones are picked: round(k (of - 1) / (count - 1)) for k = 0 ... count - 1.
+/// Returns the picked indices: round(k (of - 1) / (count - 1)) for k = 0 ... count - 1.
 std::vector<std::size_t> picked(std::size_t of, std::size_t count);
 
 }  // namespace insonify

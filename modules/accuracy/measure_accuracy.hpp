@@ -12,9 +12,9 @@ namespace insonify {
 
 /// One method at one setting on one task.
 struct AccuracyRow {
-  std::string sweep;      ///< which series it belongs to
+  std::string sweep;      ///< name of the sweep
   std::string method;     ///< direct, spectrum, gridded, windowed-direct, nearest-bin, pattern-cut, absorption-order
-  std::string precision;  ///< double, or single where the method chose it
+  std::string precision;  ///< double, or single if the method chose it
   std::size_t scatterers = 0, beams = 0, elements = 0, bins = 0;
   double tolerance = 0;          ///< asked for; 0 if the method takes none
   std::size_t kernel_width = 0;  ///< of gridded; 0 else
@@ -32,7 +32,7 @@ struct AccuracyRow {
   std::size_t checked_beams = 0;
 };
 
-/// How long and how thoroughly a method is measured.
+/// Limits of the measurement of a method.
 struct MeasureOptions {
   int threads = 0;
   int repeats = 5;                   ///< timed runs, after one to warm caches
@@ -51,27 +51,27 @@ class AccuracyBench {
   /// Sums the referee's beams of `task`. Throws Error for a task that cannot be synthesized.
   AccuracyBench(std::string sweep, AccuracyTask task, const MeasureOptions& options);
 
-  /// Time of evenly picked echoes, scaled up; error against synthesize_extended on at most twice_checked echoes, 4
-  /// beams and 64 bins.
+  /// Measures the direct sum: time of evenly picked echoes, scaled up; error against synthesize_extended on at most
+  /// twice_checked echoes, 4 beams and 64 bins.
   AccuracyRow direct() const;
-  /// All echoes, once, without repeats: to check the scaling.
+  /// Measures the direct sum of all echoes once, without repeats, to check the scaling.
   AccuracyRow direct_whole() const;
-  /// The plan is made beforehand. threads 0: those of the options.
+  /// Measures the gridded synthesis; the plan is made beforehand. threads 0: those of the options.
   AccuracyRow gridded(double tolerance, int threads = 0) const;
-  /// On a part of echoes and beams, checked against direct on the same part.
+  /// Measures the spectrum on a part of echoes and beams, against the direct sum on the same part.
   AccuracyRow spectrum() const;
-  /// Each pulse cut at the tolerance, exact pattern.
+  /// Measures the direct sum with each pulse cut at the tolerance, and the exact pattern.
   AccuracyRow windowed(double tolerance) const;
-  /// Each echo in the bin nearest to it alone.
+  /// Measures the sum with each echo in its nearest bin alone.
   AccuracyRow nearest_bin() const;
-  /// The pattern cut after so many nulls on either side.
+  /// Measures the sum with the pattern cut after this number of nulls on either side.
   AccuracyRow pattern_cut(double nulls) const;
-  /// Error of leaving out slope (order 0) or curvature (1) of the absorption, gridded at a tolerance of 1e-8.
+  /// Measures the error without slope (order 0) or curvature (1) of the absorption, gridded at a tolerance of 1e-8.
   AccuracyRow absorption_order(int order) const;
 
-  /// The task that is measured.
+  /// Returns the task.
   const AccuracyTask& task() const { return task_; }
-  /// Name of the sweep that the task is part of.
+  /// Returns the name of the sweep.
   const std::string& sweep() const { return sweep_; }
 
  private:
@@ -91,8 +91,8 @@ class AccuracyBench {
   ComplexGrid referee_;
 };
 
-/// Relative L2 error of `pressure`, and the largest of it in eighths of the bins, but for those in which `referee` is 0
-/// or no echo arrives.
+/// Relative L2 error of an image, and the largest such error in eighths of the bins, without eighths in which the
+/// referee is 0 or no echo arrives.
 struct ImageError {
   double whole = 0, worst_eighth = 0;
 };

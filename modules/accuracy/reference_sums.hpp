@@ -11,7 +11,7 @@
 
 namespace insonify {
 
-/// What is left out of the direct sum.
+/// Short cuts of the direct sum.
 struct WindowedOptions {
   double tolerance = 1e-4;   ///< pulses are cut, and the pattern is interpolated, at this part of their peaks
   double pattern_nulls = 0;  ///< the pattern is cut off at so many null widths; 0: never
@@ -19,20 +19,21 @@ struct WindowedOptions {
   int threads = 0;
 };
 
-/// The direct sum as other simulators program it, for comparison: each echo is added to every beam over the length of
-/// its pulse, its weight read from a table of the pattern (cubic interpolation). pattern_nulls and nearest_bin are
-/// short cuts taken elsewhere: their errors do not fall with the tolerance. Cost: echoes x beams x pulse samples.
-/// Gaussian pulses without Doppler shift. The result does not depend on `threads`. Throws Error for an invalid head or
-/// medium, a head of several rows, a sweep, Doppler shifts, or a tolerance outside [1e-12, 1).
+/// Returns the direct sum as other simulators compute it, for comparison: each echo is added to every beam over the
+/// length of its pulse, its weight read from a table of the pattern (cubic interpolation). pattern_nulls and
+/// nearest_bin are short cuts of other simulators; their errors do not fall with the tolerance. Cost: echoes x beams x
+/// pulse samples. Gaussian pulses without Doppler shift. The result does not depend on `threads`. Throws Error for an
+/// invalid head or medium, a head of several rows, a sweep, Doppler shifts, or a tolerance outside [1e-12, 1).
 ComplexGrid synthesize_windowed(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                 const WindowedOptions& options = {});
-/// The same for many sets of echoes: the table is made once. The function refers to head and medium.
+/// Returns a function that computes the same for many sets of echoes, with one table. The function refers to head and
+/// medium.
 std::function<ComplexGrid(const Echoes&)> windowed_synthesizer(const SonarHead& head, const Medium& medium,
                                                                const WindowedOptions& options = {});
 
-/// The direct sum (E12) in long double (64 bits of mantissa on x86-64) with Kahan's compensated sums, for all beams of
-/// the head and the listed bins: it checks the referee. Slow; Gaussian pulses without Doppler shift.
-/// Returns beams x bins.size(), rounded to double.
+/// Returns the direct sum (E12) in long double (64 bits of mantissa on x86-64) with Kahan's compensated sums, for all
+/// beams of the head and the listed bins, as beams x bins.size() rounded to double. It checks the referee. Slow;
+/// Gaussian pulses without Doppler shift.
 ComplexGrid synthesize_extended(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                 const std::vector<std::size_t>& bins, int threads = 0);
 

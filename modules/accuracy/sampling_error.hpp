@@ -24,8 +24,9 @@ struct SamplingErrorOptions {
   int threads = 0;
 };
 
-/// Mean power in a strip of range 0.5 m long about 6 m, from a flat Lambert bottom 3 m below the head, in 21 beams of 1
-/// degree, against fine quadrature of the same integral: sum of sigma B^2 w(r) / r^4 (E4, E10), w a Hann window.
+/// Measures the error of the mean power in a strip of range 0.5 m long about 6 m, from a flat Lambert bottom 3 m below
+/// the head, in 21 beams of 1 degree, against fine quadrature of the same integral: sum of sigma B^2 w(r) / r^4 (E4,
+/// E10), w a Hann window.
 std::vector<SamplingErrorRow> measure_sampling_error(const SamplingErrorOptions& options = {});
 
 }  // namespace insonify

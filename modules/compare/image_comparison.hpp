@@ -14,7 +14,7 @@
 
 namespace insonify {
 
-/// How images are compared.
+/// Options of compare_level_images.
 struct ComparisonOptions {
   std::optional<GreyWindow>
       window{};            ///< declared span; nothing: 60 dB below the 99.9 % quantile of B, in multiples of 5
@@ -27,7 +27,7 @@ struct FittedSimilarity {
   ImageSimilarity similarity;
 };
 
-/// What one image is like by itself.
+/// Statistics of one image.
 struct ImageCharacter {
   SpeckleStatistics speckle;
   KolmogorovSmirnov exponential;  ///< of intensities, one for each resolution cell, against speckle of one look
@@ -36,8 +36,8 @@ struct ImageCharacter {
   double clipped = 0;        ///< share of pixels at the ends of the scale, or silent
 };
 
-/// How image A differs from image B. Pixels that are not measured or clipped in either are left out of all but the
-/// similarity, which has them clamped to the window.
+/// Differences of image A from image B. Pixels that are not measured or clipped in one of them are left out, but for
+/// the similarity, which clamps them to the window.
 struct ImageComparison {
   GreyWindow window;
   std::size_t pixels = 0;
@@ -55,7 +55,7 @@ struct ImageComparison {
   ImageCharacter a, b;
 };
 
-/// Levels that say something: NaN where an image is silent, or at an end of its scale.
+/// Returns the levels of an image, NaN where the image is silent or at an end of its scale.
 Grid<float> unclipped_levels(const ComparedImage& image);
 
 /// Compares images of the same size, pixel by pixel (E120 to E124). Throws Error(argument) if sizes differ, or if no

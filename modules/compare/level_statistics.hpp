@@ -9,7 +9,7 @@ namespace insonify {
 struct MeanAndDeviation {
   double mean = 0, deviation = 0;
 };
-/// Mean and standard deviation of a sample; both 0 if it is empty.
+/// Returns mean and standard deviation of a sample; both are 0 if it is empty.
 MeanAndDeviation mean_and_deviation(const std::vector<double>& values);
 
 /// Returns the Wasserstein-1 distance of two samples: the mean distance of their quantiles, in their unit (E121).
@@ -23,9 +23,9 @@ struct KolmogorovSmirnov {
   std::size_t samples = 0, others = 0;
 };
 
-/// Two samples, of independent numbers. Throws Error(argument) if one is empty.
+/// Tests two samples of independent numbers. Throws Error(argument) if one is empty.
 KolmogorovSmirnov kolmogorov_smirnov(std::vector<double> a, std::vector<double> b);
-/// One sample against the exponential distribution of mean 1, that of the intensity of fully developed speckle.
+/// Tests one sample against the exponential distribution of mean 1, that of the intensity of fully developed speckle.
 KolmogorovSmirnov kolmogorov_smirnov_exponential(std::vector<double> sample);
 
 /// y = offset + slope x by least squares; slope 0 if all x are equal.
@@ -40,10 +40,10 @@ struct LevelMap {
   std::vector<double> from, to;  ///< ascending
 };
 
-/// The map that gives a sample the distribution of another: knots at 21 quantiles, 0 to 100 % (E121). Throws
+/// Returns the map that gives a sample the distribution of another: knots at 21 quantiles, 0 to 100 % (E121). Throws
 /// Error(argument) if one is empty.
 LevelMap level_map(std::vector<double> from, std::vector<double> to);
-/// The level that a map gives for `level`.
+/// Returns the level that a map gives for `level`.
 double mapped(const LevelMap& map, double level);
 
 }  // namespace insonify

@@ -5,12 +5,13 @@
 // Private to compare.
 namespace insonify {
 
-/// A box about a pixel: so many pixels to either side.
+/// A box about a pixel, by the numbers of pixels to either side.
 struct HalfWindow {
   Eigen::Index beams = 0, bins = 0;
 };
 
-/// Mean over the box about each pixel, cut at the edges, of the values that are not NaN; NaN where there are none.
+/// Returns the mean over the box about each pixel, cut at the edges, of the values that are not NaN; NaN where there
+/// are none.
 Grid<double> local_mean(const Grid<double>& image, HalfWindow half);
 
 }  // namespace insonify

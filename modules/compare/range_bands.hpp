@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// What an image is like in a band of range.
+/// Statistics of an image in a band of range.
 struct RangeBand {
   double from = 0, to = 0;        ///< [m]
   std::size_t pixels = 0;         ///< with a level; of fewer than 100 the other numbers are 0
@@ -18,7 +18,7 @@ struct RangeBand {
   double width_beams = 0, width_bins = 0;  ///< of the response: CorrelationWidths
 };
 
-/// Statistics (E123) of equal bands of the gate. Levels [dB] of beams (or pings) x bins; NaN: none. Throws
+/// Returns statistics (E123) of equal bands of the gate. Levels [dB] of beams (or pings) x bins; NaN: none. Throws
 /// Error(argument) unless there are as many bins as the gate has, and at least one band of as many bins at most.
 std::vector<RangeBand> range_bands(const Grid<float>& level_db, const RangeGate& gate, std::size_t bands = 5);
 

@@ -27,7 +27,7 @@ struct PointComparison {
 PointComparison compare_points(const std::vector<double>& predicted_db, const std::vector<double>& measured_db,
                                const std::vector<double>& range, std::uint64_t seed);
 
-/// What is left of levels after the line over log10(range) is taken off.
+/// Returns the levels less their line over log10(range).
 std::vector<double> without_range_trend(const std::vector<double>& level_db, const std::vector<double>& range);
 
 }  // namespace insonify

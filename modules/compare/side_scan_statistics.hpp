@@ -9,9 +9,9 @@
 
 namespace insonify {
 
-/// What counts as a shadow.
+/// Definition of a shadow.
 struct ShadowOptions {
-  double below_db = 10;  ///< a shadow is so far below the bed at its range
+  double below_db = 10;  ///< least level of the bed above a shadow at its range
   double least = 0.5;    ///< [m] of slant range: shorter ones do not count
   double along = 5;      ///< [m] of slant range to either side over which the bed is smooth
 };
@@ -25,8 +25,8 @@ struct SideScanStatistics {
   double shadow_depth_db = 0;                         ///< mean intensity of the bed over that of its shadows
 };
 
-/// Measures levels [dB], pings x bins; NaN: not measured. The bed reaches from the first return of each ping on; a shadow
-/// is a run of bins whose mean intensity over 3 pings x 9 bins is `below_db` below the bed at their range: the median over
+/// Measures levels [dB], pings x bins; NaN: not measured. The bed begins at the first return of each ping; a shadow is
+/// a run of bins whose mean intensity over 3 pings x 9 bins is `below_db` below the bed at their range: the median over
 /// ranges within `along` of the median over all pings of that mean (E136). Throws Error(argument) unless there are as
 /// many bins as the gate has.
 SideScanStatistics side_scan_statistics(const Grid<float>& level_db, const RangeGate& gate,

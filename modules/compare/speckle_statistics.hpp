@@ -25,12 +25,12 @@ struct SpeckleStatistics {
   std::vector<double> covariance_beams, covariance_bins;  ///< at lags of 0, 1, ... pixels, 1 at 0
 };
 
-/// Statistics of an image of levels [dB]; NaN pixels are left out. The local mean is that of `half_beams` and
-/// `half_bins` to either side, which removes slopes but also texture that is longer. Throws Error(argument) if no pixel
-/// has a level, or none but silence.
+/// Returns the statistics of an image of levels [dB]; NaN pixels are left out. The local mean is that of `half_beams`
+/// and `half_bins` to either side, which removes slopes but also texture that is longer. Throws Error(argument) if no
+/// pixel has a level, or all are silent.
 SpeckleStatistics speckle_statistics(const Grid<float>& level_db, int half_beams = 8, int half_bins = 16);
 
-/// Intensities over their local mean, one for each resolution cell: every ceil(width)th beam and bin, so that they are
+/// Returns intensities over their local mean, one for each resolution cell: every ceil(width)th beam and bin, which are
 /// nearly independent.
 std::vector<double> one_per_cell(const Grid<float>& level_db, const CorrelationWidths& width, int half_beams = 8,
                                  int half_bins = 16);
@@ -39,10 +39,11 @@ std::vector<double> one_per_cell(const Grid<float>& level_db, const CorrelationW
 /// intensity over 5 beams x 9 bins is highest, and the tenth where it is lowest.
 double shadow_contrast_db(const Grid<float>& level_db);
 
-/// Deviation [dB] of the level of so many independent looks: 10 / ln 10 sqrt(trigamma(looks)); 5.57 dB for one.
+/// Returns the deviation [dB] of the level of this number of independent looks: 10 / ln 10 sqrt(trigamma(looks)); 5.57
+/// dB for one.
 double looks_deviation_db(double looks);
-/// Mean level less the level of the mean [dB] of so many looks: 10 / ln 10 (digamma(looks) - ln looks); -2.51 dB for
-/// one.
+/// Returns the mean level less the level of the mean [dB] of this number of looks: 10 / ln 10 (digamma(looks) - ln
+/// looks); -2.51 dB for one.
 double looks_bias_db(double looks);
 
 }  // namespace insonify

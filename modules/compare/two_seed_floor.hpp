@@ -7,13 +7,13 @@
 
 namespace insonify {
 
-/// What a perfect simulator reaches: the similarity of two draws of speckle about the same expected level.
+/// Similarity of two draws of speckle about the same expected level, which a perfect simulator reaches.
 struct TwoSeedFloor {
   ImageSimilarity drawn;     ///< of two draws about the image's own expected level
   ImageSimilarity analytic;  ///< of speckle on an even scene far within the window: pixels is 0 (E124)
 };
 
-/// What kinds of images are compared.
+/// Kinds of the compared images.
 struct FloorOptions {
   double looks = 1, other_looks = 1;  ///< of the two images, >= 1
   bool expected = false;              ///< the first one is an expected level, without speckle
@@ -23,10 +23,10 @@ struct FloorOptions {
 
 /// Draws the floor about an image. Expected level: the image itself if it is one; else the mean of its levels [dB]
 /// along range, over 9 bins or four correlation widths, less the bias of its looks, which keeps edges across the beams
-/// and slopes along range. What the mean leaves of the speckle and takes from the scene is measured and removed: the
-/// same is done to a draw, whose expected level is known, and floor = 2 x floor of the image - floor of its draw
-/// (E124). It is within 0.5 dB and 0.05 of what two seeds reach. Each draw is the expected level times the intensity of
-/// complex Gaussian noise of the given widths, averaged over looks. Throws as image_similarity.
+/// and slopes along range. The errors of the mean, speckle that it leaves and detail that it removes, are measured on a
+/// draw, whose expected level is known: floor = 2 x floor of the image - floor of its draw (E124). The floor is within
+/// 0.5 dB and 0.05 of the similarity of two seeds. Each draw is the expected level times the intensity of complex
+/// Gaussian noise of the given widths, averaged over looks. Throws as image_similarity.
 ///
 /// level_db   NaN: not measured
 /// clipped    true where a level is at an end of its scale or silent: it is the same in both draws; or empty

@@ -19,7 +19,7 @@ namespace insonify::tool {
 class PartsOfPings;
 }
 
-// Private to python: what its classes hold, and how arguments become that. Errors name the argument.
+// Private to python: the members of its classes, and the functions that read arguments. Errors name the argument.
 namespace insonify::python {
 
 namespace py = pybind11;
@@ -32,18 +32,18 @@ struct Keywords {
 Keywords keywords(SonarSpec& spec);
 Keywords keywords(Environment& environment);
 Keywords keywords(tool::SceneOptions& options);
-/// Of a simulator, or of one of its pings.
+/// Returns the keywords of a simulator, or of one of its pings.
 Keywords keywords(tool::PingOptions& options, bool of_ping = false);
 
 /// Sets keys by keywords. A keyword is the key, after the name of its section unless that is the main one or no other
 /// section has the key; the units m, Hz, s and m/s at its end may be left out. None leaves a key as it is. Throws
 /// Error(argument), its text after `who`, for unknown keywords with the nearest one, and for values that break a rule.
 void set_keywords(const Keywords& of, const py::dict& given, const std::string& who);
-/// `text` with one line for each keyword: name, unit, rule, help. It lives as long as the module.
+/// Returns `text` with one line for each keyword: name, unit, rule, help. The text lives as long as the module.
 const char* with_docs(const char* text, const Keywords& of);
 
-/// Finite numbers of shape (rows, columns), or (rows,) if columns is 0; any number of rows if it is -1. Throws
-/// Error(argument) that names the argument, what it is and what it must be.
+/// Returns finite numbers of shape (rows, columns), or (rows,) if columns is 0; rows = -1 allows any number of rows.
+/// Throws Error(argument) with the argument, its value and the rule.
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 Numbers numbers_of(const py::handle& value, const std::string& name, py::ssize_t columns, py::ssize_t rows = -1);
 
@@ -103,33 +103,34 @@ struct MadePing {
   SimulatedPing made{};
 };
 using Pings = OrderedWork<std::shared_ptr<MadePing>>;
-/// The surfels that a ping takes: all of a cloud, those of a mesh that its beams resolve, parts where they are then.
+/// Returns the surfels of a ping: all of a cloud, those of a mesh that the beams resolve, parts at their places at that
+/// time.
 std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator);
 
-/// A function of the second extension, which loads PCL and VTK.
+/// Returns a function of the second extension, which loads PCL and VTK.
 py::object io(const char* function);
 
 std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::object& normals, const py::object& areas,
                                        const py::object& material, const py::object& instance, const py::kwargs& keys);
-/// One ping at a position [m] and angles [deg], or what is planned of it: a dict for each stage.
+/// Returns one ping at a position [m] and angles [deg], or its plan as a dict for each stage.
 std::shared_ptr<MadePing> ping(const By& by, const Of& scene, const py::object& position, double yaw, double pitch,
                                double roll, const py::kwargs& keys);
 py::list plan(const By& by, const Of& scene, const py::object& position, double yaw, double pitch, double roll,
               const py::kwargs& keys);
-/// Pings at rows of position and angles; time and draw may be given for each.
+/// Returns pings at rows of position and angles; time and draw may be given for each.
 std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& poses, int threads,
                              const py::kwargs& keys);
-/// The next ping, without the GIL but for a look at signals; nullptr after the last.
+/// Returns the next ping, or nullptr after the last. Waits without the GIL, which it takes only to test for signals.
 std::shared_ptr<MadePing> next_of(Pings& pings);
 
-/// The numbers at `data` as an array that cannot be written, without a copy; `owner` lives as long as the array.
+/// Returns the numbers at `data` as a read-only array, without a copy; `owner` lives as long as the array.
 template <typename T>
 py::array view_of(const T* data, const std::vector<py::ssize_t>& shape, const py::handle& owner) {
   py::array_t<T> array(shape, data, owner);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
-/// Soundings as a structured array: position [m] (three float64) and the columns of files.
+/// Returns soundings as a structured array: position [m] (three float64) and the columns of files.
 py::array array_of(const Soundings& soundings);
 
 }  // namespace insonify::python
