@@ -14,8 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double most_spread = 0.05;  // at normal incidence
-constexpr float per_thickness = 16;   // how far below a node's plane its surface may lie, as far as its disc reaches
+constexpr double most_spread = 0.1;      // of normals, in squares of the cosine of incidence
+constexpr double flat_spread = 0.003;    // of normals that curve the surface too little to change what hides what
+constexpr double most_thickness = 0.25;  // in cells of range
+constexpr float per_thickness = 16;      // how far below a node's plane its surface may lie, as far as its disc reaches
 constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
 constexpr std::size_t blocks_at_once = 16;
 
@@ -25,18 +27,22 @@ struct Part {
   std::vector<std::uint32_t> stands_for;
 };
 
+/// Mean square sine of the angles between a node's normal and those of its surfels.
+double spread_of(const DetailNode& node) { return 1 - quadratic_form(node.normals, node.normal.cast<double>()); }
+
 /// Walks down the levels, as far as a head resolves their nodes.
 class LevelWalk {
  public:
   LevelWalk(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan, const RangeGate& gate,
-            double most_width, const DetailLevels& levels)
+            const CutOptions& options, const DetailLevels& levels)
       : scene_(prepared.scene()),
         levels_(levels),
         head_(scene_, region.world_from_head),
         sector_(region.sector),
         max_range_(region.gate.max_range),
         gate_(gate),
-        width_(most_width * fan.beam_width) {}
+        width_(options.most_width * fan.beam_width),
+        thickness_(most_thickness * options.range_resolution) {}
 
   /// Adds what stands for a root or child; `inside`: its cell is known to lie within the region.
   void visit(std::uint32_t index, bool inside, Part& out) const {
@@ -46,20 +52,23 @@ class LevelWalk {
     const double range = p.norm();
     if (range - node.extent > max_range_ || !sector_.holds(p, 2 * hiding_reach * node.extent)) return;
     inside = inside || holds_cell(node);
-    if (inside && suffices(node, p, range)) return add_node(node, out);
+    if (inside && unresolved(node, range)) {
+      const Vector3d direction = head_.axes_of(node.nearest).to_head.transpose() * (p / range);
+      const double cosine_square = std::pow(node.normal.cast<double>().dot(direction), 2);
+      if (spread_of(node) <= std::min(flat_spread, most_spread * cosine_square))
+        return add_node(node, quadratic_form(node.normals, direction) / cosine_square, out);
+    }
     for (std::uint32_t k = 0; k < node.children; ++k) visit(levels_.child[node.first_child + k], inside, out);
   }
 
  private:
-  /// Whether the head does not resolve the surfels of a node (E137), whose law's mean over normals is known.
-  bool suffices(const DetailNode& node, const Vector3d& p, double range) const {
+  /// Whether the head does not resolve the surfels of a node (E137), and the mean of their law is known.
+  bool unresolved(const DetailNode& node, double range) const {
     if (!std::holds_alternative<LambertLaw>(scene_.materials[node.material].law)) return false;
     const double nearest = range - node.extent, farthest = range + node.extent;
     const auto divides = [&](double end) { return nearest < end && end < farthest; };
-    if (!(nearest > 0) || std::sqrt(node.area) > width_ * nearest) return false;
-    if (divides(gate_.min_range) || divides(gate_.max_range)) return false;
-    const double cosine = head_.direction(node.normal.cast<double>()).dot(p) / range;
-    return node.spread <= most_spread * cosine * cosine;
+    if (!(nearest > 0) || std::sqrt(node.area) > width_ * nearest || node.thickness > thickness_) return false;
+    return !divides(gate_.min_range) && !divides(gate_.max_range);
   }
   /// Whether the cell of a node lies within the region, whatever surfels of it are loaded.
   bool holds_cell(const DetailNode& node) const {
@@ -73,8 +82,9 @@ class LevelWalk {
     out.scene.unevenness.push_back(std::sqrt(scene_.area[i]));
     if (!scene_.noise.empty()) out.scene.noise.push_back(scene_.noise[i]);
   }
-  void add_node(const DetailNode& node, Part& out) const {
-    add(node.point, node.normal, node.area, node.nearest, out);
+  /// Adds a node whose surfels return `factor` times the energy of a plane with the node's area and normal.
+  void add_node(const DetailNode& node, double factor, Part& out) const {
+    add(node.point, node.normal, static_cast<float>(factor * node.area), node.nearest, out);
     out.scene.unevenness.push_back(std::sqrt(scene_.area[node.nearest]) + per_thickness * node.thickness);
     if (!scene_.noise.empty()) out.scene.noise.push_back(node.noise);
   }
@@ -94,7 +104,7 @@ class LevelWalk {
   SectorBounds sector_;
   double max_range_;
   RangeGate gate_;
-  double width_;
+  double width_, thickness_;
 };
 
 /// Where something stands: in which part, and where there.
@@ -122,10 +132,11 @@ void gather(const std::vector<Part>& parts, const std::vector<Place>& places, Ar
 }  // namespace
 
 SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,
-                   const RangeGate& gate, double most_width, int threads) {
+                   const RangeGate& gate, const CutOptions& options) {
+  const int threads = options.threads;
   const SceneCloud& scene = prepared.scene();
   const DetailLevels& levels = prepared.levels(threads);
-  const LevelWalk walk(prepared, region, fan, gate, most_width, levels);
+  const LevelWalk walk(prepared, region, fan, gate, options, levels);
   std::vector<Part> parts((levels.block.size() + blocks_at_once - 1) / blocks_at_once);
   parallel_blocks(levels.block.size(), blocks_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {

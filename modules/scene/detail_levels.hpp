@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,6 +12,9 @@
 
 namespace insonify {
 
+/// Upper triangle of a symmetric matrix, row by row: xx, xy, xz, yy, yz, zz.
+using SymmetricMatrix = std::array<float, 6>;
+
 /// One surfel that stands for neighbouring surfels of one material on one smooth piece of surface (E137).
 struct DetailNode {
   /// Area-weighted mean of the surfels' centres [m], relative to the scene's origin.
@@ -20,7 +24,8 @@ struct DetailNode {
   float noise = 0;                                   ///< root of their area-weighted mean square [m]
   float extent = 0;                                  ///< radius about `point` of a ball that holds the surfels [m]
   float thickness = 0;            ///< largest distance of a child's centre from the plane, plus its thickness [m]
-  float spread = 0;               ///< mean square sine of the angle between the surfels' normals and `normal`
+  float resultant = 0;            ///< length of the area-weighted mean of the surfels' normals
+  SymmetricMatrix normals{};      ///< area-weighted mean of n n^T over the surfels' normals n
   std::uint32_t nearest = 0;      ///< surfel for which the child nearest to `point` stands; the node has its id
   std::uint32_t first_child = 0;  ///< in DetailLevels::child
   std::uint16_t children = 0;     ///< number of them
@@ -52,6 +57,12 @@ struct DetailLevels {
   std::vector<std::uint32_t> root;   ///< nodes and surfels without a parent, along a Morton curve; numbered as `child`
   std::vector<DetailBlock> block;    ///< of roots
 };
+
+/// Returns d^T m d: for the normals of a node, the mean square cosine of the angle between them and `d`.
+inline double quadratic_form(const SymmetricMatrix& m, const Eigen::Vector3d& d) {
+  return m[0] * d.x() * d.x() + m[3] * d.y() * d.y() + m[5] * d.z() * d.z() +
+         2 * (m[1] * d.x() * d.y() + m[2] * d.x() * d.z() + m[4] * d.y() * d.z());
+}
 
 /// Returns the levels of a scene. The smallest cells have an edge of an eighth of `spacing` [m]; ten doublings follow.
 /// With a spacing of 0 no surfels merge. Takes O(n) time and memory; the result does not depend on `threads` (0: all

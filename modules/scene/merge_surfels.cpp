@@ -16,13 +16,18 @@ constexpr float least_fill = 1.2f, most_fill = 3.5;  // area in squares of the e
 constexpr float most_thickness = 0.1f;               // in extents
 constexpr float half_diagonal = 0.70710678f;         // of a square, in its widths
 
+/// n n^T.
+SymmetricMatrix square_of(const Vector3f& n) {
+  return {n.x() * n.x(), n.x() * n.y(), n.x() * n.z(), n.y() * n.y(), n.y() * n.z(), n.z() * n.z()};
+}
+
 }  // namespace
 
 MergedPieces::Piece MergedPieces::piece(std::uint32_t index) const {
   const std::size_t surfels = scene_.size();
   if (index >= surfels) {
     const DetailNode& n = nodes_[index - surfels];
-    return {n.point, n.normal, n.area, n.noise, n.extent, n.thickness, std::sqrt(1 - n.spread), n.nearest, n.material};
+    return {n.point, n.normal, n.area, n.noise, n.extent, n.thickness, n.resultant, n.normals, n.nearest, n.material};
   }
   const float area = scene_.area[index];
   return {scene_.point[index],
@@ -32,6 +37,7 @@ MergedPieces::Piece MergedPieces::piece(std::uint32_t index) const {
           half_diagonal * std::sqrt(area),
           0,
           1,
+          square_of(scene_.normal[index]),
           index,
           scene_.material[index]};
 }
@@ -67,19 +73,21 @@ std::optional<DetailNode> MergedPieces::merged(const Group& group, std::span<con
                                                float edge) const {
   if (group.members < 2 || !(group.area > 0) || !(group.normals.norm() > 0)) return {};
   Vector3d point = Vector3d::Zero();
+  std::array<double, 6> normals{};
   double noise = 0;
   for (const std::uint8_t m : group.all()) {
     const Piece p = piece(cell[m]);
+    for (std::size_t k = 0; k < normals.size(); ++k) normals[k] += p.area * p.normals[k];
     point += p.area * p.point.cast<double>();
     noise += p.area * p.noise * p.noise;
   }
-  const double resultant = std::min(1.0, group.normals.norm() / group.area);
   DetailNode node;
   node.point = (point / group.area).cast<float>();
   node.normal = group.normals.normalized().cast<float>();
   node.area = static_cast<float>(group.area);
+  node.resultant = static_cast<float>(std::min(1.0, group.normals.norm() / group.area));
   node.noise = static_cast<float>(std::sqrt(noise / group.area));
-  node.spread = static_cast<float>(1 - resultant * resultant);
+  for (std::size_t k = 0; k < normals.size(); ++k) node.normals[k] = static_cast<float>(normals[k] / group.area);
   node.material = group.material;
   node.children = group.members;
   node.cell = edge;

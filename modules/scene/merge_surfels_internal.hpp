@@ -45,6 +45,7 @@ class MergedPieces {
   struct Piece {
     Eigen::Vector3f point, normal;
     float area, noise, extent, thickness, resultant;
+    SymmetricMatrix normals;
     std::uint32_t nearest;
     std::uint16_t material;
   };

@@ -24,7 +24,7 @@ struct Reach {
 };
 
 SceneCut cut_of(const SceneCloud& scene, const Reach& reach = Reach(), int threads = 0) {
-  return cut_scene(PreparedScene(scene, threads), reach.region, reach.fan, reach.gate, 0.5, threads);
+  return cut_scene(PreparedScene(scene, threads), reach.region, reach.fan, reach.gate, {0.5, 0.1, threads});
 }
 
 double range_of(const SceneCloud& scene, std::size_t i, const Reach& reach) {
@@ -34,6 +34,19 @@ double range_of(const SceneCloud& scene, std::size_t i, const Reach& reach) {
 void expect_same(const SceneCloud& a, const SceneCloud& b) {
   EXPECT_TRUE(a.point == b.point && a.normal == b.normal && a.area == b.area && a.id == b.id &&
               a.unevenness == b.unevenness && a.material == b.material);
+}
+
+/// Sum of the areas times cos^2 of incidence within fan and gate.
+double lambert_sum(const SceneCloud& s, const Reach& reach) {
+  const SectorBounds sector(reach.region.sector);
+  const Pose head_from_world = reach.region.world_from_head.inverse();
+  double sum = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const Eigen::Vector3d p = head_from_world * (s.origin + s.point[i].cast<double>());
+    if (p.norm() > reach.gate.max_range || !sector.holds(p)) continue;
+    sum += s.area[i] * std::pow((head_from_world.linear() * s.normal[i].cast<double>()).dot(p) / p.norm(), 2);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -50,7 +63,7 @@ TEST(SceneCut, is_coarser_but_nowhere_wider_than_half_a_beam) {
     EXPECT_EQ(s.material[i], scene.material[cut.stands_for[i]]);
     if (s.area[i] == own) continue;
     ++merged;
-    EXPECT_LE(std::sqrt(s.area[i]), 0.5 * reach.fan.beam_width * range_of(s, i, reach));
+    EXPECT_LE(std::sqrt(s.area[i] / 1.1), 0.5 * reach.fan.beam_width * range_of(s, i, reach));
   }
   EXPECT_GT(merged, 1000U);
   EXPECT_EQ(s.part_of->surfels, scene.size());
@@ -72,20 +85,11 @@ TEST(SceneCut, merges_no_surfels_of_another_law) {
   EXPECT_GT(merged, 10U);
 }
 
-TEST(SceneCut, holds_as_much_surface_as_there_is_within_reach) {
+TEST(SceneCut, returns_as_much_by_lamberts_law_as_the_surfels_within_reach) {
   const SceneCloud scene = harbour(200000);
   const Reach reach;
   const SceneCut cut = cut_of(scene, reach);
-  const SectorBounds sector(reach.region.sector);
-  const auto surface = [&](const SceneCloud& s) {
-    double sum = 0;
-    for (std::size_t i = 0; i < s.size(); ++i) {
-      const Eigen::Vector3d p = reach.region.world_from_head.inverse() * (s.origin + s.point[i].cast<double>());
-      if (p.norm() < 20 && sector.holds(p)) sum += s.area[i];
-    }
-    return sum;
-  };
-  EXPECT_NEAR(surface(cut.scene.scene()) / surface(scene), 1, 1e-3);
+  EXPECT_NEAR(lambert_sum(cut.scene.scene(), reach) / lambert_sum(scene, reach), 1, 1e-3);
   std::set<std::uint32_t> ids(cut.scene.scene().id.begin(), cut.scene.scene().id.end());
   EXPECT_EQ(ids.size(), cut.scene.scene().size());
 }
@@ -127,7 +131,7 @@ TEST(SceneCut, is_finer_where_the_surface_turns_away) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double cosine = -s.normal[i].x();
     (cosine > 0.9 ? at_middle : at_edge) =
-        std::max<double>(cosine > 0.9 ? at_middle : at_edge, cosine > 0.9 || std::abs(cosine) < 0.2 ? s.area[i] : 0);
+        std::max<double>(cosine > 0.9 ? at_middle : at_edge, cosine > 0.9 || std::abs(cosine) < 0.05 ? s.area[i] : 0);
   }
   EXPECT_GT(at_middle, 3.9 * at_edge);
 }
@@ -147,4 +151,30 @@ TEST(SceneCut, no_node_reaches_across_the_ends_of_the_gate) {
     near += off < 0.1;
   }
   EXPECT_GT(near, 100U);
+}
+
+// At grazing incidence, a plane with the mean normal returns less than its surfels.
+TEST(SceneCut, returns_as_much_as_the_surfels_of_rough_ground_by_lamberts_law) {
+  SceneCloud rough = make_built_in_scene("plane", {.points = 300000, .size = {30, 30}});
+  std::mt19937 random(5);
+  std::normal_distribution<float> slope(0, 0.02F);
+  for (Eigen::Vector3f& normal : rough.normal) normal = Eigen::Vector3f(slope(random), slope(random), 1).normalized();
+  const Reach reach(Pose(Eigen::Translation3d(-15, 0, 1.5)));
+  const SceneCut cut = cut_of(rough, reach);
+  std::size_t merged = 0;
+  for (std::size_t i = 0; i < cut.stands_for.size(); ++i)
+    merged += cut.scene.scene().area[i] > 1.5F * rough.area[cut.stands_for[i]];
+  EXPECT_GT(4 * merged, cut.stands_for.size());
+  EXPECT_NEAR(lambert_sum(cut.scene.scene(), reach) / lambert_sum(rough, reach), 1, 0.003);
+}
+
+TEST(SceneCut, no_node_is_thicker_than_a_quarter_of_a_cell_of_range) {
+  SceneCloud stairs = make_built_in_scene("plane", {.points = 300000, .size = {30, 30}});
+  for (Eigen::Vector3f& p : stairs.point) p.z() += std::fmod(std::abs(p.x()), 0.4F) < 0.2F ? 0.004F : 0;
+  const Reach reach(pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0));
+  const PreparedScene scene(stairs);
+  const auto size = [&](double range_resolution) {
+    return cut_scene(scene, reach.region, reach.fan, reach.gate, {0.5, range_resolution}).scene.scene().size();
+  };
+  EXPECT_LT(1.5 * static_cast<double>(size(0.1)), static_cast<double>(size(0.004)));
 }

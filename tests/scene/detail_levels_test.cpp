@@ -70,7 +70,7 @@ TEST(DetailLevels, nodes_are_the_means_of_their_surfels) {
   for (std::uint32_t n = 0; n < levels.node.size(); n += 7) {
     const DetailNode& node = levels.node[n];
     Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = point;
-    double area = 0, off = 0;
+    double area = 0, along = 0;
     float nearest = std::numeric_limits<float>::infinity();
     const auto surfels = surfels_below(levels, static_cast<std::uint32_t>(levels.surfels + n));
     for (const std::uint32_t i : surfels) {
@@ -84,9 +84,10 @@ TEST(DetailLevels, nodes_are_the_means_of_their_surfels) {
     EXPECT_NEAR(node.area, area, 1e-5 * area);
     EXPECT_LT((node.point.cast<double>() - point / area).norm(), 1e-4 * node.extent + 1e-5);
     EXPECT_LT((node.normal.cast<double>() - normal.normalized()).norm(), 1e-5);
+    const Eigen::Vector3d direction = Eigen::Vector3d(2, -3, 6) / 7;
     for (const std::uint32_t i : surfels)
-      off += scene.area[i] * (1 - std::pow(scene.normal[i].dot(node.normal), 2)) / area;
-    EXPECT_NEAR(node.spread, off, 2e-5 + 0.1 * off);
+      along += scene.area[i] * std::pow(scene.normal[i].cast<double>().dot(direction), 2) / area;
+    EXPECT_NEAR(quadratic_form(node.normals, direction), along, 1e-6);
     // Of a node of nodes it is the nearest of the children's.
     EXPECT_LE((scene.point[node.nearest] - node.point).norm(), node.extent);
   }
@@ -117,7 +118,7 @@ TEST(DetailLevels, squares_of_an_even_plane_are_nodes_of_four) {
   for (const DetailNode& node : levels.node) {
     EXPECT_EQ(node.children, 4);
     EXPECT_NEAR(node.extent * node.extent, node.area / 2, 1e-5);
-    EXPECT_EQ(node.spread, 0);
+    EXPECT_NEAR(quadratic_form(node.normals, node.normal.cast<double>()), 1, 1e-6);
   }
 }
 
@@ -161,7 +162,7 @@ TEST(DetailLevels, without_sides_normals_may_have_either_sign) {
   plane.normals_oriented = false;
   const DetailLevels levels = levels_of(plane);
   EXPECT_EQ(levels.root.size(), 1U);
-  EXPECT_EQ(levels.node.back().spread, 0);
+  EXPECT_NEAR(quadratic_form(levels.node.back().normals, levels.node.back().normal.cast<double>()), 1, 1e-6);
   EXPECT_NE(levels.node.size(), with_sides);
 }
 

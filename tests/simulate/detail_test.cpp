@@ -49,7 +49,7 @@ void expect_same_levels(const SceneCloud& scene, double total_db, double band_db
 TEST(Detail, keeps_the_level_of_a_harbour) { expect_same_levels(detail_harbour(400000), 0.03, 0.15); }
 
 TEST(Detail, keeps_the_level_of_a_reef_and_of_a_wall) {
-  expect_same_levels(make_built_in_scene("reef", {.points = 400000}), 0.05, 0.25,
+  expect_same_levels(make_built_in_scene("reef", {.points = 400000}), 0.03, 0.15,
                      pose_from_yaw_pitch_roll({-8, 0, -2}, 0, radians(10), 0), 1);
   expect_same_levels(make_built_in_scene("wall", {.points = 400000, .size = {20, 6}}), 0.02, 0.1,
                      Pose(Eigen::Translation3d(-12, 0, 1)));
