@@ -3,6 +3,7 @@
 #include "scene/built_in_scenes.hpp"
 #include "simulate/plan_ping.hpp"
 #include "support/heads.hpp"
+#include "support/scenes.hpp"
 #include "support/simulate_event.hpp"
 #include "support/test.hpp"
 
@@ -67,6 +68,39 @@ TEST(Detail, keeps_shadows_dark_and_their_edges_in_place) {
   }
   EXPECT_GT(both, 1000U);
   EXPECT_LT(50 * differ, both);
+}
+
+// A plate of a metre stands on level ground; its shadow ends where the rays over its upper edge meet the ground. There
+// the energy that is missing or too much, in that of lit ground, is how far the edge has moved. Nodes are four cells
+// wide.
+TEST(Detail, moves_edges_of_shadows_by_less_than_a_cell_of_range) {
+  SceneCloud scene;
+  add_rectangle(scene, {3, -6, 0}, {9, 0, 0}, {0, 12, 0}, {0, 0, 1}, 0.02, 0.4);
+  add_rectangle(scene, {5, -3, 0}, {0, 6, 0}, {0, 0, 1}, {-1, 0, 0}, 0.02, 0.4);
+  const double height = 3, cell = 750 / detail_head.pulse.bandwidth;
+  const Pose pose = pose_from_yaw_pitch_roll({0, 0, height}, 0, radians(20), 0);
+  const SimulatedPing all = detail_ping(scene, mean_level(false), pose),
+                      cut = detail_ping(scene, mean_level(true), pose);
+  const auto a = all.ping.pressure.abs2().eval(), b = cut.ping.pressure.abs2().eval();
+  const RangeGate& gate = detail_head.gate;
+  const auto bin_at = [&](double range) { return static_cast<Eigen::Index>((range - gate.min_range) / gate.bin_size); };
+  std::vector<double> moved;
+  for (std::size_t k = 0; k < detail_head.fan.beams(); ++k) {
+    const double azimuth = detail_head.fan.azimuth[k];
+    if (std::abs(5 * std::tan(azimuth)) > 2.5) continue;
+    const double edge = std::hypot(7.5 / std::cos(azimuth), height);
+    // The bins about the edge, and the lit ones behind it.
+    const Eigen::Index row = static_cast<Eigen::Index>(k), first = bin_at(edge - 0.4),
+                       bins = bin_at(edge + 0.4) - first;
+    const double lit = a.row(row).segment(bin_at(edge + 0.2), bin_at(edge + 0.6) - bin_at(edge + 0.2)).mean();
+    moved.push_back(std::abs(b.row(row).segment(first, bins).sum() - a.row(row).segment(first, bins).sum()) / lit *
+                    gate.bin_size);
+  }
+  std::sort(moved.begin(), moved.end());
+  ASSERT_GT(moved.size(), 30U);
+  EXPECT_LT(15 * cut.report.sampling.in_gate, all.report.sampling.in_gate);
+  EXPECT_LT(moved[moved.size() / 2], 0.7 * cell);
+  EXPECT_LT(moved[moved.size() * 95 / 100], cell);
 }
 
 TEST(Detail, hides_nothing_of_a_scan_from_its_own_viewpoint) {

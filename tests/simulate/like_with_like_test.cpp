@@ -25,7 +25,7 @@ Environment sea() {
   return e;
 }
 
-const SceneCloud& harbour() {
+const SceneCloud& small_harbour() {
   static const SceneCloud scene = make_built_in_scene("harbour", {.points = 30000});
   return scene;
 }
@@ -45,7 +45,7 @@ SimulatedPing ping(std::size_t beams, const std::string& with) {
   SimulationOptions o = bare();
   Environment e = sea();
   if (!with.empty()) force_stage(with, true, at, e, o);
-  return simulate_event(harbour(), head_of(beams), at, e, o);
+  return simulate_event(small_harbour(), head_of(beams), at, e, o);
 }
 
 std::map<std::uint64_t, float> areas_of(const Scatterers& s) {
@@ -98,7 +98,7 @@ TEST(LikeWithLike, multipath_has_as_many_scatterers_as_main_lobes_ask_for) {
     o.sampling.scatterers_per_cell = per_cell;
     o.sampling.outer_azimuths = Choice::always;
     force_stage("multipath", true, at, e, o);
-    return simulate_event(harbour(), head_of(1), at, e, o).report.layers;
+    return simulate_event(small_harbour(), head_of(1), at, e, o).report.layers;
   };
   const auto layers = echoes(8);
   ASSERT_EQ(layers.size(), 2U);
