@@ -42,6 +42,7 @@ class LevelWalk {
         max_range_(region.gate.max_range),
         gate_(gate),
         width_(options.most_width * fan.beam_width),
+        spacing_(options.most_spacing),
         thickness_(most_thickness * options.range_resolution) {}
 
   /// Adds what stands for a root or child; `inside`: its cell is known to lie within the region.
@@ -67,7 +68,8 @@ class LevelWalk {
     if (!std::holds_alternative<LambertLaw>(scene_.materials[node.material].law)) return false;
     const double nearest = range - node.extent, farthest = range + node.extent;
     const auto divides = [&](double end) { return nearest < end && end < farthest; };
-    if (!(nearest > 0) || std::sqrt(node.area) > width_ * nearest || node.thickness > thickness_) return false;
+    if (!(nearest > 0) || std::sqrt(node.area) > std::max(width_ * nearest, spacing_) || node.thickness > thickness_)
+      return false;
     return !divides(gate_.min_range) && !divides(gate_.max_range);
   }
   /// Whether the cell of a node lies within the region, whatever surfels of it are loaded.
@@ -104,7 +106,7 @@ class LevelWalk {
   SectorBounds sector_;
   double max_range_;
   RangeGate gate_;
-  double width_, thickness_;
+  double width_, spacing_, thickness_;
 };
 
 /// Where something stands: in which part, and where there.

@@ -20,7 +20,8 @@ struct SceneCut {
 
 /// How coarse a cut may be.
 struct CutOptions {
-  double most_width = 0.5;      ///< of a node, in beam widths
+  double most_width = 0;        ///< of a node, in beam widths
+  double most_spacing = 0;      ///< of a node, at any range [m]
   double range_resolution = 0;  ///< of the head [m]
   int threads = 0;              ///< 0: all cores; the cut does not depend on it
 };
@@ -28,7 +29,8 @@ struct CutOptions {
 /// Returns what a ping needs of a scene (E137): within `region` a node of the scene's levels of detail stands for its
 /// surfels, if
 ///
-///   sqrt(area) <= r fan.beam_width most_width          at its nearest range r: no beam resolves its surfels
+///   sqrt(area) <= r fan.beam_width most_width          at its nearest range r: no beam resolves its surfels,
+///                 or most_spacing                      which is the same for all pings
 ///   thickness <= range_resolution / 4                  nor does the pulse
 ///   spread of normals <= 0.003, 0.1 cos^2(incidence)   it is flat, and all its surfels face the head
 ///

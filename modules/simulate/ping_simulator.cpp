@@ -85,8 +85,9 @@ auto with_detail(const PreparedScene& scene, ResolvedPing& ping, const Use& use)
     return use(pinged);
   };
   if (!merges_surfels(scene.scene(), o)) return of(scene);
-  const SceneCut cut = cut_scene(scene, ping.region, ping.view.fan, ping.view.gate,
-                                 {o.sampling.detail_width, ping.view.sampling.range_resolution, o.threads});
+  const SceneCut cut =
+      cut_scene(scene, ping.region, ping.view.fan, ping.view.gate,
+                {o.sampling.detail_width, o.sampling.detail_spacing, ping.view.sampling.range_resolution, o.threads});
   ping.stands_for = cut.stands_for;
   auto result = of(cut.scene);
   ping.stands_for = {};

@@ -29,7 +29,9 @@ constexpr PlanStage geometry[] = {
      "surfels finer than the head resolves are merged", "not asked for, or the scene or an output has no use for it",
      nullptr,
      [](bool in, E&, O& o) {
-       if (!in || o.sampling.detail_width == 0) o.sampling.detail_width = in ? usual_detail_width : 0;
+       SamplingSettings& s = o.sampling;
+       if (!in) s.detail_width = s.detail_spacing = 0;
+       if (in && s.detail_spacing == 0 && s.detail_width == 0) s.detail_width = usual_detail_width;
      }},
     {"occlusion", DecidedBy::choice, [](const PlanCause& of) { return of.options.sampling.occlusion; },
      "surfels hide others", "off by the options",

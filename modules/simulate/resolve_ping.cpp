@@ -131,8 +131,8 @@ SamplingOptions sampling_in_view(const ResolvedPing& ping) {
 }
 
 bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options) {
-  return options.sampling.detail_width > 0 && scene.facet.empty() && scene.parts.empty() &&
-         !options.outputs.scatterers && !options.outputs.mask;
+  return (options.sampling.detail_width > 0 || options.sampling.detail_spacing > 0) && scene.facet.empty() &&
+         scene.parts.empty() && !options.outputs.scatterers && !options.outputs.mask;
 }
 
 bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }

@@ -35,6 +35,10 @@ void require_valid(const SamplingSettings& s, const char* who) {
   check.require(at_least_0(s.scatterers_per_cell), "scatterers_per_cell", s.scatterers_per_cell, "finite and >= 0");
   check.require(s.rays_per_beam >= 1, "rays_per_beam", s.rays_per_beam, "at least 1");
   check.require(s.detail_width >= 0 && s.detail_width <= 4, "detail_width", s.detail_width, "within 0 and 4");
+  check.require(s.detail_spacing >= 0 && s.detail_spacing <= 1e3, "detail_spacing", s.detail_spacing,
+                "within 0 and 1000 m");
+  check.require(s.detail_width == 0 || s.detail_spacing == 0, "detail_spacing", s.detail_spacing,
+                "0 where detail_width is set");
   check.require(s.elevation_floor_db < 0, "elevation_floor_db", s.elevation_floor_db, "< 0 dB");
   check.require(at_least_0(s.azimuth_margin), "azimuth_margin", s.azimuth_margin, "finite and >= 0 rad");
 }

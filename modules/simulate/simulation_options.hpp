@@ -30,6 +30,9 @@ struct SamplingSettings {
   /// Surfels are merged to nodes of up to this width, in beam widths, within 0 and 4 (E137); 0: they are not merged.
   /// Surfels with facets are never merged, and no surfels are if an output lists each surfel: scatterers, mask.
   double detail_width = 0;
+  /// Instead of detail_width: surfels are merged to nodes of up to this width [m] at any range, so that pings of one
+  /// place from different poses have the same scatterers, as repeated passes and synthetic apertures need; 0: none.
+  double detail_spacing = 0;
   double elevation_floor_db = -40;              ///< elevations where the two-way pattern is lower are not sampled; < 0
   double azimuth_margin = 0;                    ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
   Choice outer_elevations = Choice::as_needed;  ///< always: elevations below the floor are also sampled

@@ -24,7 +24,7 @@ struct Reach {
 };
 
 SceneCut cut_of(const SceneCloud& scene, const Reach& reach = Reach(), int threads = 0) {
-  return cut_scene(PreparedScene(scene, threads), reach.region, reach.fan, reach.gate, {0.5, 0.1, threads});
+  return cut_scene(PreparedScene(scene, threads), reach.region, reach.fan, reach.gate, {0.5, 0, 0.1, threads});
 }
 
 double range_of(const SceneCloud& scene, std::size_t i, const Reach& reach) {
@@ -174,7 +174,38 @@ TEST(SceneCut, no_node_is_thicker_than_a_quarter_of_a_cell_of_range) {
   const Reach reach(pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0));
   const PreparedScene scene(stairs);
   const auto size = [&](double range_resolution) {
-    return cut_scene(scene, reach.region, reach.fan, reach.gate, {0.5, range_resolution}).scene.scene().size();
+    return cut_scene(scene, reach.region, reach.fan, reach.gate, {0.5, 0, range_resolution}).scene.scene().size();
   };
   EXPECT_LT(1.5 * static_cast<double>(size(0.1)), static_cast<double>(size(0.004)));
+}
+
+// A head that draws nearer resolves more, but nodes of one spacing stay what they are.
+TEST(SceneCut, of_one_spacing_has_the_same_nodes_from_everywhere) {
+  const SceneCloud scene = harbour(200000);
+  const PreparedScene prepared(scene);
+  const auto nodes_from = [&](double x, CutOptions options) {
+    const Reach reach(pose_from_yaw_pitch_roll({x, 0, -3}, 0, radians(10), 0));
+    options.range_resolution = 0.1;
+    const SceneCut cut = cut_scene(prepared, reach.region, reach.fan, reach.gate, options);
+    std::map<std::uint32_t, Eigen::Vector3f> nodes;
+    for (std::size_t i = 0; i < cut.stands_for.size(); ++i) {
+      const Eigen::Vector3f& p = cut.scene.scene().point[i];
+      // What both heads reach at a distance from the ends of fan and gate.
+      const bool common = p.x() > 12 && p.x() < 17 && std::abs(p.y()) < 5;
+      if (common && p != scene.point[cut.stands_for[i]]) nodes[cut.stands_for[i]] = p;
+    }
+    return nodes;
+  };
+  const auto lost = [&](const CutOptions& options) {
+    const auto far = nodes_from(0, options), near = nodes_from(1, options);
+    EXPECT_GT(far.size(), 100U);
+    return 1 - static_cast<double>(std::count_if(far.begin(), far.end(),
+                                                 [&](const auto& node) {
+                                                   const auto found = near.find(node.first);
+                                                   return found != near.end() && found->second == node.second;
+                                                 })) /
+                   static_cast<double>(far.size());
+  };
+  EXPECT_LT(lost({.most_spacing = 0.3}), 0.01);
+  EXPECT_GT(lost({.most_width = 0.5}), 0.1);
 }
