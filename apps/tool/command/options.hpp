@@ -60,6 +60,7 @@ struct PingOptions {
   std::string amplitude = "speckle";
   double scatterers_per_cell = library_options.sampling.scatterers_per_cell;
   double detail_width = library_options.sampling.detail_width;
+  double detail_spacing = library_options.sampling.detail_spacing;
   int rays_per_beam = library_options.sampling.rays_per_beam;
   bool noise = false;
   bool multipath = false;

@@ -35,6 +35,7 @@ SimulationOptions asked_simulation(const CommonOptions& common, const PingOption
   s.sampling.kind = *find_named(sampling_words, o.sampling);
   s.sampling.scatterers_per_cell = o.scatterers_per_cell;
   s.sampling.detail_width = o.detail_width;
+  s.sampling.detail_spacing = o.detail_spacing;
   s.sampling.rays_per_beam = o.rays_per_beam;
   s.amplitude = *find_named(amplitude_words, o.amplitude);
   s.synthesis = asked_synthesis(o.run);
