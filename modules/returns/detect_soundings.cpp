@@ -32,9 +32,9 @@ float level_of(double intensity) { return static_cast<float>(db_from_power(std::
 
 /// A local maximum at the peak of the parabola through its level and those of its neighbours. (E72)
 Cell peak_between(float before, Cell at, float after) {
-  constexpr float steepest = 24.1F;  // of a Gaussian as long as a bin, from one bin to the next; more is a null
-  before = std::max(before, at.level_db - steepest);
-  after = std::max(after, at.level_db - steepest);
+  constexpr float steepest_fall = 24.1F;  // of a Gaussian as long as a bin, from one bin to the next; more is a null
+  before = std::max(before, at.level_db - steepest_fall);
+  after = std::max(after, at.level_db - steepest_fall);
   at.offset = 0.5F * (before - after) / (before - 2 * at.level_db + after);
   at.level_db -= 0.25F * (before - after) * at.offset;
   return at;

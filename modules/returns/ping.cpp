@@ -14,7 +14,7 @@
 
 namespace insonify {
 namespace {
-constexpr std::size_t samples_at_once = 1 << 16;
+constexpr std::size_t samples_per_block = 1 << 16;
 }  // namespace
 
 void note_water(const Medium& at_head, Ping& ping) {
@@ -27,7 +27,7 @@ ComplexGridF stored_pressure(const ComplexGrid& pressure, const char* who) {
   const auto* from = reinterpret_cast<const double*>(pressure.data());
   auto* to = reinterpret_cast<float*>(stored.data());
   std::atomic<bool> finite = true;
-  parallel_blocks(2 * static_cast<std::size_t>(pressure.size()), samples_at_once, 0,
+  parallel_blocks(2 * static_cast<std::size_t>(pressure.size()), samples_per_block, 0,
                   [&](std::size_t begin, std::size_t end) {
                     bool all = true;
                     for (std::size_t k = begin; k < end; ++k) {
@@ -50,9 +50,10 @@ Grid<float> level_db(const Ping& ping, double floor_db) {
     return static_cast<float>(10 / std::numbers::ln10 * vec::log(power / unit));  // (E6)
   };
   Grid<float> level(ping.pressure.rows(), ping.pressure.cols());
-  parallel_blocks(static_cast<std::size_t>(level.size()), samples_at_once, 0, [&](std::size_t begin, std::size_t end) {
-    std::transform(ping.pressure.data() + begin, ping.pressure.data() + end, level.data() + begin, level_of);
-  });
+  parallel_blocks(
+      static_cast<std::size_t>(level.size()), samples_per_block, 0, [&](std::size_t begin, std::size_t end) {
+        std::transform(ping.pressure.data() + begin, ping.pressure.data() + end, level.data() + begin, level_of);
+      });
   return level;
 }
 

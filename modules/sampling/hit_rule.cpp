@@ -11,8 +11,8 @@
 namespace insonify {
 namespace {
 
-constexpr float max_step = 8;           // largest range step within a cluster, in spacings
-constexpr float half_diagonal = 0.71f;  // half diagonal of a square, in widths
+constexpr float max_step = 8;             // largest range step within a cluster, in spacings
+constexpr float reach_of_square = 0.71f;  // half diagonal of a square, in widths
 
 // Returns the end of the cluster that begins with candidate `begin`; candidates are sorted by range.
 std::size_t end_of_cluster(const GatedSurfels& surfels, const std::vector<std::uint32_t>& candidates,
@@ -26,7 +26,7 @@ std::size_t end_of_cluster(const GatedSurfels& surfels, const std::vector<std::u
 
 // Returns true if the ray crosses the tangent plane of s within the circumcircle of a square of its area.
 bool crosses(const GatedSurfel& s, const Eigen::Vector3f& direction) {
-  const float slope = s.away.dot(direction), reach = half_diagonal * s.spacing * slope;
+  const float slope = s.away.dot(direction), reach = reach_of_square * s.spacing * slope;
   return (direction * s.plane_distance - s.position * slope).squaredNorm() <= reach * reach;
 }
 

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double least_cosine = 0.866;               // of a normal with the mean of its group
+constexpr double least_cosine_in_group = 0.866;      // of a normal with the mean of its group
 constexpr float least_fill = 1.2f, most_fill = 3.5;  // area in squares of the extent; 2 for a square
 constexpr float most_thickness = 0.1f;               // in extents
 constexpr float half_diagonal = 0.70710678f;         // of a square, in its widths
@@ -52,7 +52,7 @@ MergedPieces::Groups MergedPieces::grouped(std::span<const std::uint32_t> cell) 
       return scene_.normals_oriented ? cosine : std::abs(cosine);
     };
     const auto joins = [&](const Group& g) {
-      return g.material == p.material && along(g) >= least_cosine * g.normals.norm();
+      return g.material == p.material && along(g) >= least_cosine_in_group * g.normals.norm();
     };
     Group* const end = groups.group.data() + groups.count;
     Group* found = std::find_if(groups.group.data(), end, joins);

@@ -2,12 +2,11 @@
 // Logs of Oculus sonars, written here byte by byte after the public layout, and a public record.
 #include "formats/oculus_file.hpp"
 
+#include "formats/put_bytes.hpp"
 #include "returns/ping.hpp"
 #include "support/test.hpp"
 
 namespace {
-
-void put_at(std::string& bytes, std::size_t at, auto number) { std::memcpy(bytes.data() + at, &number, sizeof number); }
 
 /// How a message is made.
 struct MadeMessage {

@@ -3,6 +3,7 @@
 // bytes put together here and a public record.
 #include "formats/xtf_file.hpp"
 
+#include "formats/put_bytes.hpp"
 #include "formats/xtf_decoder.hpp"
 #include "support/test.hpp"
 
@@ -45,8 +46,6 @@ std::string written_xtf(const std::vector<XtfPing>& pings, XtfSamples samples = 
 std::string xtf_refusal(const std::string& bytes) {
   return error_of_file([](const std::string& path) { read_xtf(path); }, "r.xtf", bytes);
 }
-
-void put_at(std::string& bytes, std::size_t at, auto number) { std::memcpy(bytes.data() + at, &number, sizeof number); }
 
 /// A recording of another program with one starboard channel: one ping of `samples`.
 std::string foreign_recording(int format, int bytes_each, const std::string& samples) {

@@ -37,7 +37,7 @@ Ping noise_ping(const SonarHead& head, const ComplexGrid& signal, std::int64_t n
   return ping;
 }
 
-const SonarHead head = independent_head();
+const SonarHead detecting_head = independent_head();
 
 /// No scene: the ping alone decides.
 Soundings detections_of(const Ping& ping, const DetectionOptions& options) {
@@ -48,7 +48,7 @@ Soundings detections_of(const Ping& ping, const DetectionOptions& options) {
 double false_alarms(int pings, DetectionOptions options) {
   double count = 0;
   for (int ping = 0; ping < pings; ++ping)
-    count += static_cast<double>(detections_of(noise_ping(head, {}, ping), options).size());
+    count += static_cast<double>(detections_of(noise_ping(detecting_head, {}, ping), options).size());
   return count;
 }
 
@@ -111,9 +111,9 @@ TEST(DetectionLaws, rayleigh_target_is_found_with_pfa_to_the_one_over_one_plus_s
     for (std::size_t b = 0; b < beams; ++b)
       for (std::size_t n = 5; n < bins; n += 10) {
         s.id.push_back(s.range.size());
-        s.range.push_back(head.gate.centre(n));
-        s.azimuth.push_back(head.fan.azimuth[b]);
-        const double one_square_metre = source_pressure(head.pulse) / std::pow(s.range.back(), 2);
+        s.range.push_back(detecting_head.gate.centre(n));
+        s.azimuth.push_back(detecting_head.fan.azimuth[b]);
+        const double one_square_metre = source_pressure(detecting_head.pulse) / std::pow(s.range.back(), 2);
         power.push_back(wanted / (one_square_metre * one_square_metre));
       }
     s.elevation.assign(s.range.size(), 0);
@@ -122,8 +122,8 @@ TEST(DetectionLaws, rayleigh_target_is_found_with_pfa_to_the_one_over_one_plus_s
     s.surfel.assign(s.range.size(), 0);
     for (const double sigma : power) s.projected_area.push_back(static_cast<float>(sigma));
     const std::vector<Material> materials{{"target", 1.0}};
-    const Echoes echoes = direct_echoes(s, materials, head.pulse, clear_water(), {.seed = 9});
-    const Ping ping = noise_ping(head, synthesize_gridded(echoes, head, clear_water()), 77);
+    const Echoes echoes = direct_echoes(s, materials, detecting_head.pulse, clear_water(), {.seed = 9});
+    const Ping ping = noise_ping(detecting_head, synthesize_gridded(echoes, detecting_head, clear_water()), 77);
     const Soundings found = detections_of(ping, {.noise_floor_db = noise_floor_db(),
                                                  .threshold_db = threshold_db(rate),
                                                  .side_lobe_margin_db = 1000,

@@ -151,7 +151,7 @@ std::vector<Vector3f> base_normals(const std::vector<Vector3f>& points) {
   return normals;
 }
 
-struct HeightField {
+struct FieldCase {
   const char* name;
   double (*height)(double, double);
   double dx, dy, jitter, length, width;
@@ -171,7 +171,7 @@ double stones(double x, double y) {
 }  // namespace
 
 TEST(SurfelShapes, of_a_height_field_cover_its_plan_and_its_surface) {
-  const HeightField fields[] = {
+  const FieldCase fields[] = {
       {"plane", [](double, double) { return 0.0; }, 0.02, 0.02, 0.8, 2, 2, 0.01, 0.02},
       {"scan lines 1:10", [](double, double) { return 0.0; }, 0.01, 0.1, 0, 2, 2, 0.01, 0.02},
       {"60 degrees", [](double x, double) { return 0.35 * std::sin(5 * x); }, 0.02, 0.02, 0.5, 2, 2, 0.01, 0.02},
@@ -181,7 +181,7 @@ TEST(SurfelShapes, of_a_height_field_cover_its_plan_and_its_surface) {
       {"stones", stones, 0.02, 0.02, 0.3, 2.4, 2.4, 0.01, 0.02}};
   std::mt19937 random(1);
   std::uniform_real_distribution<double> half(-0.5, 0.5);
-  for (const HeightField& f : fields) {
+  for (const FieldCase& f : fields) {
     std::vector<Vector3f> points;
     for (double x = f.dx / 2; x < f.length; x += f.dx)
       for (double y = f.dy / 2; y < f.width; y += f.dy) {

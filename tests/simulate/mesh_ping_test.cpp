@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels of a big mesh under a narrow swath, sampled for the ping_of, against a fine cloud and a closed form.
+// Levels of a big mesh under a narrow swath, sampled for the ping, against a fine cloud and a closed form.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -41,11 +41,11 @@ const SceneMesh& bed() {
 /// In the sector alone: what is open would be sampled, too.
 MeshSurfels surfels_for(SimulationOptions options = {}) {
   options.sampling.outer_elevations = options.sampling.outer_azimuths = Choice::never;
-  const ResolvedPing ping_of = resolve_ping(bed().whole, head, {pose}, {}, options);
-  return mesh_surfels(bed(), ping_of.region, ping_of.head.fan, ping_of.view.sampling);
+  const ResolvedPing resolved = resolve_ping(bed().whole, head, {pose}, {}, options);
+  return mesh_surfels(bed(), resolved.region, resolved.head.fan, resolved.view.sampling);
 }
 
-SimulatedPing ping_of(const SceneCloud& scene, SimulationOptions options = {}) {
+SimulatedPing swath_ping(const SceneCloud& scene, SimulationOptions options = {}) {
   options.synthesis.method = SynthesisMethod::incoherent;
   return simulate_ping(scene, head, pose, {}, options);
 }
@@ -59,13 +59,13 @@ Eigen::ArrayXd beam_levels_db(const Ping& p) {
 TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
   SceneCloud strip;
   add_rectangle(strip, {-1.2, -38, 0}, {2.4, 0, 0}, {0, 76, 0}, {0, 0, 1}, 0.02, 0.5);
-  const Eigen::ArrayXd fine = beam_levels_db(ping_of(strip, {.sampling = {.scatterers_per_cell = 0}}).ping);
+  const Eigen::ArrayXd fine = beam_levels_db(swath_ping(strip, {.sampling = {.scatterers_per_cell = 0}}).ping);
   Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(512);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const MeshSurfels mesh = surfels_for({.seed = seed});
     EXPECT_EQ(mesh.coarsening, 1);
     EXPECT_LT(mesh.scene.size(), 30000U);
-    const SimulatedPing sampled = ping_of(mesh.scene, {.seed = seed});
+    const SimulatedPing sampled = swath_ping(mesh.scene, {.seed = seed});
     EXPECT_EQ(sampled.report.sampling.sparse_beams, 0U);
     EXPECT_TRUE(sampled.report.notes.empty());
     const Eigen::ArrayXd error = beam_levels_db(sampled.ping) - fine;
@@ -80,15 +80,15 @@ TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
 TEST(MeshPing, of_an_even_sampling_is_noted) {
   SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {400, 400}});
   scene.origin.x() -= 200;
-  const SimulatedPing coarse = ping_of(scene);
+  const SimulatedPing coarse = swath_ping(scene);
   EXPECT_GT(coarse.report.sampling.sparse_beams, 500U);
   EXPECT_THAT(coarse.report.notes, testing::ElementsAre(testing::HasSubstr("of 512 beams see mainly surfels")));
 }
 
 TEST(MeshPing, does_not_depend_on_threads) {
   const SceneCloud scene = surfels_for().scene;
-  const SimulatedPing one = ping_of(scene, {.threads = 1}),
-                      three = ping_of(surfels_for({.threads = 3}).scene, {.threads = 3});
+  const SimulatedPing one = swath_ping(scene, {.threads = 1}),
+                      three = swath_ping(surfels_for({.threads = 3}).scene, {.threads = 3});
   EXPECT_TRUE((one.ping.pressure == three.ping.pressure).all());
 }
 

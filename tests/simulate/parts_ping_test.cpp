@@ -63,7 +63,8 @@ const SonarHead& head() {
 
 const PingEvent from_above{pose_from_yaw_pitch_roll({0, 0, -1}, 0, radians(25), 0)};
 
-SimulatedPing ping_of(const SceneCloud& scene, const PingEvent& event = from_above, const SimulationOptions& o = {}) {
+SimulatedPing event_ping(const SceneCloud& scene, const PingEvent& event = from_above,
+                         const SimulationOptions& o = {}) {
   return simulate_event(scene, head(), event, Environment{}, o);
 }
 
@@ -86,7 +87,7 @@ TEST(PingOfParts, is_that_of_the_same_surfels_merged_by_hand) {
     for (Material& m : scene->materials) m.relief_slope = 0;
   SceneCloud smooth = parts;
   for (Material& m : smooth.materials) m.relief_slope = 0;
-  const SimulatedPing a = ping_of(smooth, from_above, o), b = ping_of(by_hand, from_above, o);
+  const SimulatedPing a = event_ping(smooth, from_above, o), b = event_ping(by_hand, from_above, o);
   EXPECT_EQ(a.report.sampling.visible, b.report.sampling.visible);
   EXPECT_EQ(a.report.sampling.hidden, b.report.sampling.hidden);
   EXPECT_GT(a.report.sampling.hidden, 100U);
@@ -104,10 +105,10 @@ TEST(PingOfParts, has_the_same_bytes_in_any_order_and_with_one_more_part_out_of_
   const PlacedPart a = bed(), b = placed("box", box(), {5, 0.5, -4}, 0.4),
                    c = placed("ball", ball(0.3, 4000), {4, -1, -3.5});
   const PlacedPart beyond = placed("far", ball(0.3, 4000), {40, 0, -2});
-  const SimulatedPing one = ping_of(merge_parts(std::vector{a, b, c}));
-  EXPECT_TRUE(same_bytes(one, ping_of(merge_parts(std::vector{c, a, b}))));
-  EXPECT_TRUE(same_bytes(one, ping_of(merge_parts(std::vector{c, beyond, a, b}))));
-  EXPECT_FALSE(same_bytes(one, ping_of(merge_parts(std::vector{a, b}))));
+  const SimulatedPing one = event_ping(merge_parts(std::vector{a, b, c}));
+  EXPECT_TRUE(same_bytes(one, event_ping(merge_parts(std::vector{c, a, b}))));
+  EXPECT_TRUE(same_bytes(one, event_ping(merge_parts(std::vector{c, beyond, a, b}))));
+  EXPECT_FALSE(same_bytes(one, event_ping(merge_parts(std::vector{a, b}))));
 
   // And where all but the bed is placed anew for the ping.
   PosedScene posed(std::vector{a}, {b.cloud->materials[0], c.cloud->materials[0], beyond.cloud->materials[0]});
@@ -125,8 +126,8 @@ double change_by_moving_all(const Pose& motion, const PlacedPart& part) {
   PlacedPart there = part;
   there.world_from_part = motion * part.world_from_part;
   there.velocity = motion.linear() * part.velocity, there.turn_rate = motion.linear() * part.turn_rate;
-  return relative_l2(ping_of(merge_parts(std::vector{there}), moved).ping.pressure,
-                     ping_of(merge_parts(std::vector{part}), at).ping.pressure);
+  return relative_l2(event_ping(merge_parts(std::vector{there}), moved).ping.pressure,
+                     event_ping(merge_parts(std::vector{part}), at).ping.pressure);
 }
 
 TEST(PingOfParts, hears_the_same_of_a_part_that_moves_together_with_the_head) {
@@ -143,7 +144,7 @@ TEST(PingOfParts, keeps_the_speckle_of_a_part_that_others_join) {
   const auto of = [&](const std::vector<PlacedPart>& parts) {
     const SceneCloud scene = merge_parts(parts);
     std::map<std::uint64_t, float> area;
-    const Scatterers s = ping_of(scene, from_above, o).outputs.scatterers;
+    const Scatterers s = event_ping(scene, from_above, o).outputs.scatterers;
     for (std::size_t i = 0; i < s.size(); ++i)
       if (scene.part_of_surfel(s.surfel[i])->name == "tyre") area[s.id[i]] = s.projected_area[i];
     return area;
@@ -184,7 +185,7 @@ TEST(PingOfParts, has_the_level_of_a_sphere_at_rest_where_sound_meets_the_moving
   const auto level = [&](const Vector3d& at, const Vector3d& velocity) {
     PlacedPart part = placed("sphere", ball(0.05, 2000), at);
     part.velocity = velocity;
-    const auto ping = ping_of(merge_parts(std::vector{part}), {}, o).ping;
+    const auto ping = event_ping(merge_parts(std::vector{part}), {}, o).ping;
     return 10 * std::log10(ping.pressure.cast<std::complex<double>>().abs2().sum());
   };
   for (const Vector3d& v : {Vector3d(-2, 0, 0), Vector3d(2, 0, 0), Vector3d(0, 2, 0)})
@@ -196,11 +197,11 @@ TEST(PingOfParts, leaves_motion_out_if_asked_to) {
   moving.velocity = {-2, 0, 0};
   SimulationOptions o;
   o.effects.moving = Choice::never;
-  EXPECT_TRUE(
-      same_bytes(ping_of(merge_parts(std::vector{moving}), {}, o), ping_of(merge_parts(std::vector{still}), {}, o)));
+  EXPECT_TRUE(same_bytes(event_ping(merge_parts(std::vector{moving}), {}, o),
+                         event_ping(merge_parts(std::vector{still}), {}, o)));
   o.effects.moving = Choice::always;
-  EXPECT_FALSE(
-      same_bytes(ping_of(merge_parts(std::vector{moving}), {}, o), ping_of(merge_parts(std::vector{still}), {}, o)));
+  EXPECT_FALSE(same_bytes(event_ping(merge_parts(std::vector{moving}), {}, o),
+                          event_ping(merge_parts(std::vector{still}), {}, o)));
 }
 
 TEST(PingOfParts, is_the_same_for_stored_and_streamed_echoes_and_any_threads) {
@@ -209,9 +210,9 @@ TEST(PingOfParts, is_the_same_for_stored_and_streamed_echoes_and_any_threads) {
   const SceneCloud scene = merge_parts(std::vector{bed(), moving});
   SimulationOptions stored, one_thread;
   stored.outputs.scatterers = true, one_thread.threads = 1;
-  const SimulatedPing usual = ping_of(scene);
-  EXPECT_TRUE(same_bytes(usual, ping_of(scene, from_above, one_thread)));
-  EXPECT_LT(relative_l2(ping_of(scene, from_above, stored).ping.pressure, usual.ping.pressure), 1e-4);
+  const SimulatedPing usual = event_ping(scene);
+  EXPECT_TRUE(same_bytes(usual, event_ping(scene, from_above, one_thread)));
+  EXPECT_LT(relative_l2(event_ping(scene, from_above, stored).ping.pressure, usual.ping.pressure), 1e-4);
 }
 
 }  // namespace insonify::parts_ping_tests

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-const std::string sonar = " --sonar p900-45 --set sonar.beams=16 --range 2:12 --no-picture -q";
+const std::string few_beams = " --sonar p900-45 --set sonar.beams=16 --range 2:12 --no-picture -q";
 const std::string level_pose = " --pose=0,0,-3,0,10,0";
 
 class EnvironmentRun : public ToolTest {
@@ -30,7 +30,7 @@ class EnvironmentRun : public ToolTest {
     return compare_images(x, y).relative_l2;
   }
   void over_harbour(const std::string& run, const std::string& more) const {
-    succeed("ping harbour.ply -o " + run + sonar + level_pose + more);
+    succeed("ping harbour.ply -o " + run + few_beams + level_pose + more);
   }
 };
 
@@ -116,12 +116,12 @@ TEST_F(EnvironmentRun, wind_and_platform_raise_the_noise_by_the_closed_form) {
 
 TEST_F(EnvironmentRun, trajectory_at_rest_gives_the_pressure_of_its_pose) {
   write("still.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,0,0,-3,0,10,0\n");
-  succeed("ping harbour.ply -o pose" + sonar + level_pose);
-  succeed("ping harbour.ply -o still --trajectory still.csv --time 0" + sonar);
+  succeed("ping harbour.ply -o pose" + few_beams + level_pose);
+  succeed("ping harbour.ply -o still --trajectory still.csv --time 0" + few_beams);
   EXPECT_EQ(read("still/cube.h5"), read("pose/cube.h5"));
   EXPECT_EQ(read("still/returns.pcd"), read("pose/returns.pcd"));
   // At another time only the time differs.
-  succeed("ping harbour.ply -o late --trajectory still.csv --time 7.5" + sonar);
+  succeed("ping harbour.ply -o late --trajectory still.csv --time 7.5" + few_beams);
   EXPECT_EQ(ping_of("late").time, 7.5);
   EXPECT_EQ((ping_of("late").pressure - ping_of("pose").pressure).abs().maxCoeff(), 0);
 }
@@ -129,7 +129,7 @@ TEST_F(EnvironmentRun, trajectory_at_rest_gives_the_pressure_of_its_pose) {
 TEST_F(EnvironmentRun, noise_is_drawn_anew_for_each_time_and_number_of_a_ping) {
   write("still.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,0,0,-3,0,10,0\n");
   const auto noisy = [&](const std::string& name, const std::string& options) {
-    succeed("ping harbour.ply --noise --trajectory still.csv -o " + name + options + sonar);
+    succeed("ping harbour.ply --noise --trajectory still.csv -o " + name + options + few_beams);
     return ping_of(name);
   };
   const Ping at_0 = noisy("at-0", " --time 0"), at_7 = noisy("at-7", " --time 7.5"),
@@ -143,16 +143,16 @@ TEST_F(EnvironmentRun, noise_is_drawn_anew_for_each_time_and_number_of_a_ping) {
 TEST_F(EnvironmentRun, trajectory_is_the_pose_and_motion_between_its_entries) {
   write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,20,0,-3,40,10,0\n");
   write("straight.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,-2,0,-3,0,10,0\n2,2,0,-3,0,10,0\n");
-  succeed("ping harbour.ply -o moved --trajectory straight.csv --time 1" + sonar);
-  succeed("ping harbour.ply -o stated --velocity 2,0,0 --time 1" + sonar + level_pose);
+  succeed("ping harbour.ply -o moved --trajectory straight.csv --time 1" + few_beams);
+  succeed("ping harbour.ply -o stated --velocity 2,0,0 --time 1" + few_beams + level_pose);
   EXPECT_LT(difference("moved", "stated"), 1e-6);
   EXPECT_EQ(manifest_of("moved")["motion"]["velocity_m_s"], json({2.0, 0.0, 0.0}));
-  succeed("ping harbour.ply -o still --time 1" + sonar + level_pose);
+  succeed("ping harbour.ply -o still --time 1" + few_beams + level_pose);
   EXPECT_FALSE(manifest_of("still").contains("motion"));
   EXPECT_GT(difference("moved", "still"), 0.1);
-  succeed("ping harbour.ply -o turned --turn-rate 0,0,4 --time 1" + sonar + level_pose);
+  succeed("ping harbour.ply -o turned --turn-rate 0,0,4 --time 1" + few_beams + level_pose);
   EXPECT_GT(difference("turned", "still"), 1e-4);
-  succeed("ping harbour.ply -o way --trajectory way.csv --time 5" + sonar);
+  succeed("ping harbour.ply -o way --trajectory way.csv --time 5" + few_beams);
   EXPECT_NEAR(ping_of("way").world_from_head(0, 3), 10, 1e-12);
   EXPECT_NEAR(manifest_of("way")["motion"]["turn_rate_deg_s"][2].get<double>(), 4, 0.3);
 }
@@ -180,7 +180,7 @@ TEST_F(EnvironmentRun, profile_bends_rays_only_where_it_matters) {
 
 TEST_F(EnvironmentRun, formulas_of_the_water_are_used) {
   const auto medium = [&](const std::string& more) {
-    succeed("ping plain.ply --force -o out --pose=-5,0,0,0,0,0" + sonar + more);
+    succeed("ping plain.ply --force -o out --pose=-5,0,0,0,0,0" + few_beams + more);
     return cube_of("out");
   };
   const Cube usual = medium(""), other = medium(" --set water.sound_speed_formula=mackenzie"),
@@ -211,7 +211,7 @@ TEST_F(EnvironmentRun, run_toml_gives_back_sonar_and_environment) {
       " --noise --multipath --profile ctd.csv --set water.temperature_c=4 --set surface.height_m=0 "
       "--set surface.rms_height_m=0.0001 --set volume.scattering_db=-65 --set noise.self_db=40 "
       "--set bottom.height_m=-9 --set bottom.loss=0.02";
-  succeed("ping harbour.ply -o first --set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.0002" + sonar +
+  succeed("ping harbour.ply -o first --set sonar.pulse=linear_fm --set sonar.pulse_length_s=0.0002" + few_beams +
           level_pose + sea);
   succeed(
       "ping harbour.ply -o again --noise --multipath --sonar first/run.toml --environment first/run.toml "
