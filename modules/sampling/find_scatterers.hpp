@@ -83,7 +83,7 @@ struct SamplingReport {
   /// to about seven spacings wide) rather than open water.
   std::size_t rays_unknown = 0;
   Projection projection = Projection::automatic;  ///< the method used; automatic: none was needed
-  std::size_t sparse_beams = 0;  ///< beams that see mainly surfels of which a main lobe holds fewer than four
+  std::size_t sparse_beams = 0;  ///< beams whose main lobe holds fewer than four of most surfels that they see
 };
 
 /// Result of find_scatterers.

@@ -105,10 +105,9 @@ std::vector<Material> materials_in(const SceneCloud& scene) {
 /// Beams that meet too few surfels, if any, with a remedy.
 std::vector<std::string> sparse_notes(const SamplingReport& report, std::size_t beams) {
   if (report.sparse_beams == 0) return {};
-  return {
-      std::to_string(report.sparse_beams) + " of " + std::to_string(beams) +
-      " beams see mainly surfels of which a main lobe holds fewer than four: their levels are off by 2 dB and more, "
-      "and some may be silent; give a denser cloud, or a mesh without a spacing"};
+  return {"the scene is too coarse for " + std::to_string(report.sparse_beams) + " of " + std::to_string(beams) +
+          " beams: their main lobes hold fewer than four surfels; levels of these beams are wrong by 2 dB or more, and "
+          "some may be silent; give a denser cloud, or a mesh without --mesh-spacing"};
 }
 
 /// Whether beams formed over the whole band hear beside their sector as in main lobes, at its upper end.
