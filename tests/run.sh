@@ -24,7 +24,11 @@ if command -v npm >/dev/null && [[ ! -d build/npm/node_modules ]]; then
   (cd build/npm && timeout 60 npm install --no-audit --no-fund --ignore-scripts >install.log 2>&1) ||
     echo "tests/run.sh: npm cannot install the packages of tests/formats/npm; their test is skipped"
 fi
-cmake --preset dev >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
-rm -f build-configure.log
+# Ninja configures again for what CMakeLists include; presets and packages it does not see.
+made=build/dev/build.ninja
+if [[ ! -e $made || CMakePresets.json -nt $made || /var/lib/dpkg/status -nt $made ]]; then
+  cmake --preset dev >build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
+  rm -f build-configure.log
+fi
 cmake --build --preset dev --target "${targets[@]}"
 tests/run_changed.pl "$@"

@@ -88,7 +88,7 @@ TEST(SynthesisLimits, absorption_that_would_amplify_is_refused) {
 }
 
 TEST(SynthesisLimits, pulse_longer_than_the_gate_is_flat_across_it) {
-  const Pulse tone{900e3, 1, 220};
+  const Pulse tone{900e3, 2, 220};  // 165 m
   const SonarHead head = single_beam(tone, 4, 6);
   const ComplexGrid p = synthesize_gridded(echoes_of(targets_at({5}), tone, clear_water()), head, clear_water());
   EXPECT_TRUE(p.isFinite().all());

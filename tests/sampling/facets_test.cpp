@@ -86,7 +86,7 @@ TEST(Facets, that_turn_their_backs_block_rays) {
 
 TEST(Facets, hide_exactly_what_is_behind_them) {
   const SceneMesh mesh = plates();
-  const SceneCloud scene = even_surfels(mesh, 0.03).scene;
+  const SceneCloud scene = even_surfels(mesh, 0.045).scene;
   ASSERT_EQ(scene.facet.size(), scene.size());
   const auto wanted = seen_by_definition(scene, mesh);
   std::vector<std::vector<Visibility>> found;

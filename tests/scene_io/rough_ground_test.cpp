@@ -24,7 +24,10 @@ namespace {
 
 constexpr Eigen::Index groups = 4, bands = 5;
 
-SonarHead head() { return small_head({.beams = 96, .min_range = 0.6, .max_range = 3.1}); }
+const SonarHead& head() {
+  static const SonarHead made = small_head({.beams = 96, .min_range = 0.6, .max_range = 3.1});
+  return made;
+}
 // 0.5 m above the bed; about 10 degrees of grazing at the far end.
 Pose pose() { return pose_from_yaw_pitch_roll({-1.6, 0, 0.75}, 0, radians(12), 0); }
 
@@ -83,13 +86,14 @@ Grid<double> net_hidden(const LoadedScene& loaded) {
   std::vector<double> shown(scene.size(), 0);
   for (std::size_t i = 0; i < seen.size(); ++i) shown[seen.surfel[i]] = 1;
   Grid<double> net = Grid<double>::Zero(1, bands), to_see = net;
+  const Medium medium = medium_of(Water{}, 450e3);
   for (std::size_t i = 0; i < all.size(); i += 5) {
     Eigen::Vector3d place = scene.origin + scene.point[all.surfel[i]].cast<double>();
     place.z() = bed().at(place.head<2>());
     if (!std::isfinite(place.z()) || !(all.projected_area[i] > 0)) continue;
     const double heard =
         heard_by_definition(all.range[i] * unit_vector({all.azimuth[i], all.elevation[i]}), all.cos_incidence[i],
-                            all.projected_area[i] / all.cos_incidence[i], 1, head(), medium_of(Water{}, 450e3));
+                            all.projected_area[i] / all.cos_incidence[i], 1, head(), medium);
     const auto band = std::min(bands - 1, static_cast<Eigen::Index>((all.range[i] - 0.6) / 2.5 * bands));
     const bool open = bed().in_view(place, pose().translation());
     to_see(band) += open ? heard : 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -36,22 +37,40 @@ double step(double x, double height) {
 }
 
 // Caps of spheres of which 70 degrees stand out, one in each square of `side`, anywhere in it.
-double boulder(double x, double y, double side) {
-  double highest = 0;
-  for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j) {
-      const double column = std::floor(x / side) + i, row = std::floor(y / side) + j;
-      std::seed_seq seed{static_cast<int>(column) + 1000, static_cast<int>(row) + 1000};
+class Boulders {
+ public:
+  explicit Boulders(double side) : side_(side) {}
+  double height(double x, double y) {
+    double highest = 0;
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j) {
+        const Sphere& s = in_square(std::floor(x / side_) + i, std::floor(y / side_) + j);
+        const double squared = std::pow(x - s.x, 2) + std::pow(y - s.y, 2), base = s.radius * std::cos(radians(70));
+        if (squared < s.radius * s.radius) highest = std::max(highest, std::sqrt(s.radius * s.radius - squared) - base);
+      }
+    return highest;
+  }
+
+ private:
+  struct Sphere {
+    double x, y, radius;
+  };
+  // Each square has random numbers of its own, drawn once.
+  const Sphere& in_square(double column, double row) {
+    const auto [place, is_new] = spheres_.try_emplace({static_cast<int>(column), static_cast<int>(row)});
+    Sphere& s = place->second;
+    if (is_new) {
+      std::seed_seq seed{place->first.first + 1000, place->first.second + 1000};
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> uniform;
-      const double cx = (column + uniform(random)) * side, cy = (row + uniform(random)) * side;
-      const double radius = 0.08 + 0.2 * std::pow(uniform(random), 3),
-                   squared = std::pow(x - cx, 2) + std::pow(y - cy, 2);
-      const double base = radius * std::cos(radians(70));
-      if (squared < radius * radius) highest = std::max(highest, std::sqrt(radius * radius - squared) - base);
+      s.x = (column + uniform(random)) * side_, s.y = (row + uniform(random)) * side_;
+      s.radius = 0.08 + 0.2 * std::pow(uniform(random), 3);
     }
-  return highest;
-}
+    return s;
+  }
+  double side_;
+  std::map<std::pair<int, int>, Sphere> spheres_;
+};
 
 Eigen::Vector2d size_of(const HeightField& field) {
   return field.spacing *
@@ -62,10 +81,11 @@ Eigen::Vector2d size_of(const HeightField& field) {
 
 HeightField rough_field(const RoughFieldOptions& o) {
   const std::vector<Wave> all = waves(o.shortest);
+  Boulders boulders(o.boulders > 0 ? 1 / std::sqrt(o.boulders) : 1);
   return height_field(o.centre, o.half, o.spacing, [&](double x, double y) {
     double z = 0;
     for (const Wave& w : all) z += w.height * std::cos(w.kx * x + w.ky * y + w.phase);
-    if (o.boulders > 0) z += boulder(x, y, 1 / std::sqrt(o.boulders));
+    if (o.boulders > 0) z += boulders.height(x, y);
     if (o.terraces) z += step(y - 1.1 - 0.3 * std::sin(2 * x), 0.2) + step(x - 0.8 - 0.2 * std::sin(3 * y), 0.2);
     return z;
   });
