@@ -82,7 +82,8 @@ TEST(MeshPing, of_an_even_sampling_is_noted) {
   scene.origin.x() -= 200;
   const SimulatedPing coarse = swath_ping(scene);
   EXPECT_GT(coarse.report.sampling.sparse_beams, 500U);
-  EXPECT_THAT(coarse.report.notes, testing::ElementsAre(testing::HasSubstr("of 512 beams: their main lobes hold fewer than four surfels")));
+  EXPECT_THAT(coarse.report.notes,
+              testing::ElementsAre(testing::HasSubstr("of 512 beams: their main lobes hold fewer than four surfels")));
 }
 
 TEST(MeshPing, does_not_depend_on_threads) {

@@ -41,7 +41,8 @@ TEST_F(MeshRun, a_spacing_asked_for_is_kept_and_its_gaps_are_noted) {
   const nlohmann::json coarse = manifest_of("coarse");
   EXPECT_EQ(coarse["scene"]["surfels"], 197531);  // 400^2 / 0.9^2
   EXPECT_GT(coarse["sampling"]["sparse_beams"], 32);
-  EXPECT_NE(coarse["notes"].dump().find("of 64 beams: their main lobes hold fewer than four surfels"), std::string::npos);
+  EXPECT_NE(coarse["notes"].dump().find("of 64 beams: their main lobes hold fewer than four surfels"),
+            std::string::npos);
 }
 
 TEST_F(MeshRun, a_memory_limit_coarsens_and_is_noted) {
