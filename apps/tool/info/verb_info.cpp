@@ -61,7 +61,7 @@ void verify(const InfoOptions& o) {
     const RunCheck check = check_run(run);
     for (const std::string& problem : check.problems) problems.push_back(run + ": " + problem);
     all.push_back({{"path", run}, {"files", check.files}, {"problems", check.problems}});
-    if (!o.common.json && check.problems.empty()) fmt::print("{}: {} files are unchanged\n", run, check.files);
+    if (!o.common.json && check.problems.empty()) fmt::print("{}: {} files match the manifest\n", run, check.files);
   }
   if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
   if (!problems.empty()) fail(ErrorKind::content, joined(problems), "; copy the run again, or make it again");
