@@ -118,8 +118,7 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
        "[beam widths] surfels of dense clouds are merged up to this width; 0: no merging; --with detail takes 0.5"},
       {"ping", "detail_spacing", "--detail-spacing", &o.detail_spacing,
        "[m] instead of --detail-width: surfels are merged up to this width at all ranges, so that passes over one "
-       "place "
-       "share their scatterers"},
+       "place share their scatterers"},
       {"ping", "rays_per_beam", "--rays-per-beam", &o.rays_per_beam, "rays for each beam, with --sampling rays"},
       {"ping", "amplitude", "--amplitude", &o.amplitude, "phases of the scatterers: speckle, random-phase or coherent",
        amplitudes},
