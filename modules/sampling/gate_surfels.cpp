@@ -14,6 +14,16 @@ using Eigen::Vector3d;
 
 constexpr double min_distance = 1e-6;  // [m]; nearer points belong to the head itself
 
+// Sizes of discs, in spacings. Surfels of a scan stand at random. Nodes of levels of detail are cells that tile their
+// surface; with the sizes for surfels, shadows would grow by a fifth of a node.
+constexpr double surfel_core = 0.65;
+constexpr double node_core = 0.5, node_footprint = 0.8;
+
+/// A node has an unevenness of its own, a surfel its spacing (E137).
+bool is_node(const SceneCloud& scene, std::size_t i) {
+  return !scene.unevenness.empty() && scene.unevenness[i] != std::sqrt(scene.area[i]);
+}
+
 struct Gate {
   const SceneCloud& scene;
   const HeadFrame& head;
@@ -26,7 +36,9 @@ struct Gate {
     const double r2 = p.squaredNorm();
     if (!(r2 <= range.max_range * range.max_range) || r2 < min_distance * min_distance) return;
     const double spacing = std::sqrt(static_cast<double>(scene.area[i]));
-    const double radius = scene.facet.empty() ? footprint * spacing : reach_of(scene.facet[i], scene.point[i]);
+    const bool node = is_node(scene, i);
+    const double disc = (node ? std::min(node_footprint, footprint) : footprint) * spacing;
+    const double radius = scene.facet.empty() ? disc : reach_of(scene.facet[i], scene.point[i]);
     if (!sector.holds(p, hiding_reach * radius)) return;
 
     const double r = std::sqrt(r2);
@@ -39,6 +51,8 @@ struct Gate {
     s.plane_distance = static_cast<float>(std::abs(along));
     s.radius = static_cast<float>(radius);
     s.spacing = static_cast<float>(spacing);
+    s.core = node ? static_cast<float>(node_core * spacing) : static_cast<float>(surfel_core) * s.spacing;
+    s.core = std::min(s.core, s.radius);
     s.unevenness = scene.unevenness.empty() ? s.spacing : scene.unevenness[i];
     s.noise = scene.noise.empty() ? 0 : scene.noise[i];
     s.surfel = static_cast<std::uint32_t>(i);

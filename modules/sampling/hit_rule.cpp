@@ -110,7 +110,7 @@ Cover cover(const GatedSurfel& front, const LineOfSight& line) {
   if (!(depth - front.plane_distance > hiding_depth(front, behind))) return 0;
   // The line meets the plane at position x plane_distance / depth; multiplied by depth > 0, nothing is divided.
   const Eigen::Vector3f miss = front.position * depth - behind.position * front.plane_distance;
-  const float reach = hiding_reach * front.radius * depth, core = std::min(0.65f * front.spacing, front.radius) * depth;
+  const float reach = hiding_reach * front.radius * depth, core = front.core * depth;
   const float off = miss.squaredNorm();
   if (off > reach * reach) return 0;
   if (off <= core * core) return whole_cover;

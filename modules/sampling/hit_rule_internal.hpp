@@ -33,8 +33,8 @@ inline float hiding_depth(const GatedSurfel& a, const GatedSurfel& b) {
 }
 
 /// Returns the part that `front` covers of the line of sight to a surfel that lies deeper below its tangent plane than
-/// the hiding depth (E16): all of it, if the line crosses the plane within 0.65 spacings of the centre; the sector in
-/// which the centre lies, seen in the tangent plane, if within hiding_reach radii; else nothing.
+/// the hiding depth (E16): all of it, if the line crosses the plane within the core of the disc; the sector in which
+/// the centre lies, seen in the tangent plane, if within hiding_reach radii; else nothing.
 Cover cover(const GatedSurfel& front, const LineOfSight& line);
 
 /// Returns the part that a facet covers of the line of sight to a surfel behind its plane: all of it, if the line

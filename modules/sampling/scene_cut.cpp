@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sampling/scene_cut.hpp"
 
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "core/radix_sort.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "scene/detail_levels.hpp"
 
@@ -109,26 +110,41 @@ class LevelWalk {
   double width_, spacing_, thickness_;
 };
 
-/// Where something stands: in which part, and where there.
-struct Place {
-  std::uint32_t stands_for, part, at;
+/// The ranks of marked surfels: their indices in a cut, which keeps the order of the scene however its surfels are
+/// arranged in levels.
+class Ranks {
+ public:
+  Ranks(const std::vector<Part>& parts, std::size_t surfels, int threads) {
+    marks_.words.resize((surfels + 63) / 64);
+    parallel_for(parts.size(), threads, [&](std::size_t p) {
+      for (const std::uint32_t i : parts[p].stands_for)
+        std::atomic_ref(marks_.words[i / 64]).fetch_or(std::uint64_t{1} << i % 64, std::memory_order_relaxed);
+    });
+    before_.reserve(marks_.words.size());
+    for (const std::uint64_t word : marks_.words) {
+      before_.push_back(all_);
+      all_ += static_cast<std::uint32_t>(std::popcount(word));
+    }
+  }
+  std::size_t all() const { return all_; }
+  std::uint32_t of(std::uint32_t surfel) const {
+    const std::uint64_t below = marks_.words[surfel / 64] & ((std::uint64_t{1} << surfel % 64) - 1);
+    return before_[surfel / 64] + static_cast<std::uint32_t>(std::popcount(below));
+  }
+
+ private:
+  SurfelMarks marks_;
+  std::vector<std::uint32_t> before_;  // each word
+  std::uint32_t all_ = 0;
 };
 
-/// Returns all places in the order of the scene, which does not depend on how its surfels are arranged in levels.
-std::vector<Place> sorted_places(const std::vector<Part>& parts) {
-  std::vector<Place> places;
-  for (std::uint32_t p = 0; p < parts.size(); ++p)
-    for (std::uint32_t k = 0; k < parts[p].stands_for.size(); ++k) places.push_back({parts[p].stands_for[k], p, k});
-  radix_sort(places, 0, 32, [](const Place& place) { return std::uint64_t{place.stands_for}; });
-  return places;
-}
-
-/// Joins one array of all parts.
-template <typename Array>
-void gather(const std::vector<Part>& parts, const std::vector<Place>& places, Array SceneCloud::*array,
-            SceneCloud& to) {
-  (to.*array).reserve(places.size());
-  for (const Place& place : places) (to.*array).push_back((parts[place.part].scene.*array)[place.at]);
+/// Moves the surfels of a part to their places in the cut.
+template <typename... Arrays>
+void scatter(const SceneCloud& from, const std::vector<std::uint32_t>& places, SceneCloud& to, Arrays... arrays) {
+  const auto move = [&](auto array) {
+    for (std::size_t k = 0; k < (from.*array).size(); ++k) (to.*array)[places[k]] = (from.*array)[k];
+  };
+  (move(arrays), ...);
 }
 
 }  // namespace
@@ -149,22 +165,31 @@ SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region
         walk.visit(levels.root[k], false, parts[begin / blocks_at_once]);
     }
   });
-  const std::vector<Place> places = sorted_places(parts);
+  // Join the parts in the order of the scene.
+  const Ranks ranks(parts, scene.size(), threads);
   SceneCloud cut;
-  gather(parts, places, &SceneCloud::point, cut);
-  gather(parts, places, &SceneCloud::normal, cut);
-  gather(parts, places, &SceneCloud::area, cut);
-  gather(parts, places, &SceneCloud::material, cut);
-  gather(parts, places, &SceneCloud::id, cut);
-  gather(parts, places, &SceneCloud::unevenness, cut);
-  if (!scene.noise.empty()) gather(parts, places, &SceneCloud::noise, cut);
-  std::vector<std::uint32_t> stands_for;
-  for (const Place& place : places) stands_for.push_back(place.stands_for);
+  const auto resize = [&](auto... arrays) { ((cut.*arrays).resize(ranks.all()), ...); };
+  resize(&SceneCloud::point, &SceneCloud::normal, &SceneCloud::area, &SceneCloud::material, &SceneCloud::id,
+         &SceneCloud::unevenness);
+  if (!scene.noise.empty()) resize(&SceneCloud::noise);
+  std::vector<std::uint32_t> stands_for(ranks.all()), order(ranks.all());
+  std::vector<std::size_t> first{0};
+  for (const Part& part : parts) first.push_back(first.back() + part.stands_for.size());
+  parallel_for(parts.size(), threads, [&](std::size_t p) {
+    std::vector<std::uint32_t> places;
+    for (const std::uint32_t surfel : parts[p].stands_for) {
+      order[first[p] + places.size()] = ranks.of(surfel);
+      places.push_back(ranks.of(surfel));
+      stands_for[places.back()] = surfel;
+    }
+    scatter(parts[p].scene, places, cut, &SceneCloud::point, &SceneCloud::normal, &SceneCloud::area,
+            &SceneCloud::material, &SceneCloud::id, &SceneCloud::unevenness, &SceneCloud::noise);
+  });
   cut.origin = scene.origin;
   cut.materials = scene.materials;
   cut.normals_oriented = scene.normals_oriented;
   cut.part_of = prepared.whole();
-  return {PreparedScene(std::move(cut), threads), std::move(stands_for)};
+  return {PreparedScene(std::move(cut), std::move(order), threads), std::move(stands_for)};
 }
 
 }  // namespace insonify

@@ -103,13 +103,32 @@ const SurfaceRays& PreparedScene::rays(double footprint) const {
 
 PreparedScene::PreparedScene(std::shared_ptr<const SceneCloud> shared, int threads)
     : scene_(std::move(shared)), later_(std::make_shared<MadeLater>()) {
+  require_valid_scene();
+  if (scene_->size() > 0) order_ = morton_order(scene_->point, threads);
+  divide(threads);
+}
+
+PreparedScene::PreparedScene(SceneCloud&& scene, std::vector<std::uint32_t> order, int threads)
+    : scene_(std::make_shared<const SceneCloud>(std::move(scene))),
+      order_(std::move(order)),
+      later_(std::make_shared<MadeLater>()) {
+  require_valid_scene();
+  if (order_.size() != scene_->size())
+    fail(ErrorKind::argument, "PreparedScene: order holds ", order_.size(), " indices, must hold one of each of ",
+         scene_->size(), " surfels");
+  divide(threads);
+}
+
+void PreparedScene::require_valid_scene() {
+  require_valid(*scene_, "PreparedScene");
+  if (scene_->size() > std::numeric_limits<std::uint32_t>::max())
+    fail(ErrorKind::argument, "PreparedScene: ", scene_->size(), " surfels, must be below 2^32; divide the scene");
+}
+
+/// Divides the order into blocks.
+void PreparedScene::divide(int threads) {
   const SceneCloud& scene = *scene_;
-  require_valid(scene, "PreparedScene");
-  if (scene.size() > std::numeric_limits<std::uint32_t>::max())
-    fail(ErrorKind::argument, "PreparedScene: ", scene.size(), " surfels, must be below 2^32; divide the scene");
   whole_ = whole_of(scene);
-  if (scene.size() == 0) return;
-  order_ = morton_order(scene.point, threads);
   blocks_.resize((scene.size() + block_surfels - 1) / block_surfels);
   parallel_for(blocks_.size(), threads, [&](std::size_t b) {
     SurfelBlock& block = blocks_[b];

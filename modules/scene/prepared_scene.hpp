@@ -65,11 +65,17 @@ class PreparedScene {
   explicit PreparedScene(SceneCloud&& scene, int threads = 0)
       : PreparedScene(std::make_shared<const SceneCloud>(std::move(scene)), threads) {}
 
+  /// Prepares a scene with blocks along a given curve. `order` holds each index of a surfel once; neighbours in it
+  /// should be neighbours in space. The results of pings do not depend on it. Throws as above, and Error(argument) if
+  /// its size differs from the scene's.
+  PreparedScene(SceneCloud&& scene, std::vector<std::uint32_t> order, int threads = 0);
+
   /// Returns the scene given to the constructor.
   const SceneCloud& scene() const { return *scene_; }
   /// Returns the blocks; together they hold every surfel once.
   std::span<const SurfelBlock> blocks() const { return blocks_; }
-  /// Returns the indices of all surfels, block by block along a Morton curve, ascending inside each block.
+  /// Returns the indices of all surfels, block by block along a Morton curve or the given one, ascending inside each
+  /// block.
   std::span<const std::uint32_t> order() const { return order_; }
   /// Returns the surfels of those blocks for which `wanted` is true. Up to `threads` threads (0: all cores) call
   /// `wanted` at once.
@@ -86,6 +92,8 @@ class PreparedScene {
  private:
   friend class PosedScene;
   struct MadeLater;
+  void require_valid_scene();
+  void divide(int threads);
   /// Keeps the first `surfels` surfels and `blocks` blocks, whose statistics are `resting`, and appends the blocks of
   /// `others`. The scene holds the surfels of `others` in this order behind the first ones.
   void replace_others(std::size_t surfels, std::size_t blocks, const WholeScene& resting,

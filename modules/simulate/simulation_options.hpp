@@ -16,7 +16,7 @@ namespace insonify {
 enum class Choice { as_needed, always, never };
 
 /// Default of SamplingSettings::detail_width if detail is requested without a number.
-inline constexpr double usual_detail_width = 0.5;
+inline constexpr double usual_detail_width = 1;
 /// Default of EffectSettings::double_echoes if they are requested without a number.
 inline constexpr double usual_double_echoes = 2;
 

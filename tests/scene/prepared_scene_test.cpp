@@ -37,6 +37,22 @@ TEST(PreparedScene, blocks_hold_every_surfel_once_inside_their_balls) {
 }
 
 // 20 000 surfels on about 10 000 m^2: 128 of them cover 8 m x 8 m, also if a few points are far away.
+TEST(PreparedScene, takes_a_given_curve) {
+  const SceneCloud scene = harbour_with_strays();
+  std::vector<std::uint32_t> backwards(scene.size());
+  std::iota(backwards.rbegin(), backwards.rend(), 0);
+  const PreparedScene prepared(SceneCloud(scene), backwards);
+  ASSERT_EQ(prepared.blocks().size(), PreparedScene(scene).blocks().size());
+  // Blocks follow the curve, and ascend inside.
+  const SurfelBlock& first = prepared.blocks().front();
+  for (std::uint32_t k = first.begin; k < first.end; ++k)
+    EXPECT_EQ(prepared.order()[k], scene.size() - (first.end - k));
+  EXPECT_EQ(prepared.whole().mean_spacing, PreparedScene(scene).whole().mean_spacing);
+  backwards.pop_back();
+  EXPECT_THAT(error_of([&] { const PreparedScene one_is_missing(SceneCloud(scene), backwards); }, ErrorKind::argument),
+              testing::HasSubstr("order holds"));
+}
+
 TEST(PreparedScene, blocks_are_small_though_a_few_points_are_far_away) {
   const SceneCloud scene = harbour_with_strays();
   const PreparedScene prepared(scene);
