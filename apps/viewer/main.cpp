@@ -10,6 +10,7 @@
 #include "tool/command/program.hpp"
 #include "viewer/show_viewer.hpp"
 #include "viewer/viewer_command.hpp"
+#include "viewer/viewer_layout.hpp"
 
 namespace insonify::viewer {
 namespace {
@@ -18,6 +19,8 @@ namespace {
 ViewerOptions options_of(const ViewerCommand& command) {
   ViewerOptions options;
   std::tie(options.width, options.height) = tool::parse_size(command.size);
+  tool::in_words_of("--size = " + command.size,
+                    [&] { lay_out_viewer(options.width, options.height, ViewerMode::run, {}); });
   options.events = parse_viewer_script(command.script.empty() ? "" : read_text_file(command.script));
   for (const ViewerEvent& event : parse_viewer_script(command.events)) options.events.push_back(event);
   options.say = [](const std::string& text) {

@@ -3,12 +3,13 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <string>
 #include <utility>
 
 #include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "core/error.hpp"
-#include "core/require.hpp"
 
 namespace insonify {
 namespace {
@@ -19,19 +20,23 @@ constexpr double most_accuracy_db = 20;
 
 bool at_least_0(double value) { return value >= 0 && std::isfinite(value); }
 
-/// Refuses values of one group of options, by name.
+/// Keeps the first member of a group of options that breaks its rule.
 struct Checker {
-  const char* who;
+  std::optional<OptionProblem>& problem;
   const char* group;
 
   template <typename Value>
   void require(bool good, const char* name, Value value, const char* rule) const {
-    if (!good) fail(ErrorKind::argument, who, ": options.", group, name, " = ", value, ", must be ", rule);
+    if (good || problem) return;
+    std::ostringstream text;
+    text.precision(10);
+    text << value;
+    problem = {std::string(group) + name, text.str(), rule};
   }
 };
 
-void require_valid(const SamplingSettings& s, const char* who) {
-  const Checker check{who, "sampling."};
+void check(const SamplingSettings& s, std::optional<OptionProblem>& problem) {
+  const Checker check{problem, "sampling."};
   check.require(at_least_0(s.scatterers_per_cell), "scatterers_per_cell", s.scatterers_per_cell, "finite and >= 0");
   check.require(s.rays_per_beam >= 1, "rays_per_beam", s.rays_per_beam, "at least 1");
   check.require(s.detail_width >= 0 && s.detail_width <= 4, "detail_width", s.detail_width, "within 0 and 4");
@@ -43,10 +48,10 @@ void require_valid(const SamplingSettings& s, const char* who) {
   check.require(at_least_0(s.azimuth_margin), "azimuth_margin", s.azimuth_margin, "finite and >= 0 rad");
 }
 
-void require_valid(const SynthesisSettings& s, bool elements, const char* who) {
-  const Checker check{who, "synthesis."};
+void check(const SynthesisSettings& s, bool elements, std::optional<OptionProblem>& problem) {
+  const Checker check{problem, "synthesis."};
   const double t = s.tolerance;
-  check.require(t > 0 && t < 1, "tolerance", t, "within 0 and 1");
+  check.require(t > 0 && t < 1, "tolerance", t, "above 0 and below 1");
   if (s.method == SynthesisMethod::gridded)
     check.require(t >= min_gridding_tolerance, "tolerance", t,
                   "at least 1e-13 with method gridded; below that use direct");
@@ -58,13 +63,16 @@ void require_valid(const SynthesisSettings& s, bool elements, const char* who) {
                   "within 1e-5 and 0.1 for method true_delays");
 }
 
-void require_valid(const EffectSettings& e, const char* who) {
-  Checker{who, "effects."}.require(e.double_echoes == 0 || (e.double_echoes >= 1e-6 && e.double_echoes <= 1e4),
-                                   "double_echoes", e.double_echoes, "0, or within 1e-6 and 10000");
+void check(const EffectSettings& e, std::optional<OptionProblem>& problem) {
+  const Checker check{problem, "effects."};
+  const int order = e.absorption_order.value_or(0);
+  check.require(e.double_echoes == 0 || (e.double_echoes >= 1e-6 && e.double_echoes <= 1e4), "double_echoes",
+                e.double_echoes, "0, or within 1e-6 and 10000");
+  check.require(order >= 0 && order <= 2, "absorption_order", order, "0, 1 or 2");
 }
 
-void require_valid(const DetectionOptions& d, const char* who) {
-  const Checker check{who, "detection."};
+void check(const DetectionOptions& d, std::optional<OptionProblem>& problem) {
+  const Checker check{problem, "detection."};
   check.require(d.noise_floor_db < infinity, "noise_floor_db", d.noise_floor_db,
                 "finite, or -inf: all noise in the band");
   check.require(!std::isnan(d.threshold_db), "threshold_db", d.threshold_db, "a number");
@@ -77,14 +85,13 @@ void require_valid(const DetectionOptions& d, const char* who) {
 
 }  // namespace
 
-void require_valid(const SimulationOptions& o, const char* who) {
-  require_valid(o.sampling, who);
-  require_valid(o.synthesis, o.outputs.elements, who);
-  require_valid(o.effects, who);
-  require_valid(o.detection, who);
-  const int order = o.effects.absorption_order.value_or(0);
-  Checker{who, "effects."}.require(order >= 0 && order <= 2, "absorption_order", order, "0, 1 or 2");
-  const Checker outputs{who, "outputs."};
+std::optional<OptionProblem> problem_of(const SimulationOptions& o) {
+  std::optional<OptionProblem> problem;
+  check(o.sampling, problem);
+  check(o.synthesis, o.outputs.elements, problem);
+  check(o.effects, problem);
+  check(o.detection, problem);
+  const Checker outputs{problem, "outputs."};
   outputs.require(o.outputs.paths >= 0, "paths", o.outputs.paths, "at least 0");
   outputs.require(o.outputs.contributors >= 0 && o.outputs.contributors <= most_contributors, "contributors",
                   o.outputs.contributors, "within 0 and 255");
@@ -97,10 +104,16 @@ void require_valid(const SimulationOptions& o, const char* who) {
                   "false with method incoherent: an expected intensity has no pressures at elements; use gridded");
   outputs.require(!(o.outputs.split_phase && o.synthesis.method == SynthesisMethod::incoherent), "split_phase", "true",
                   "false with method incoherent: an expected intensity has no phase; use gridded");
-  const Checker top{who, ""};
+  const Checker top{problem, ""};
   top.require(o.accuracy_db > 0 && o.accuracy_db <= most_accuracy_db, "accuracy_db", o.accuracy_db,
               "above 0 and at most 20 dB");
   top.require(o.threads >= 0, "threads", o.threads, "at least 0; 0: all cores");
+  return problem;
+}
+
+void require_valid(const SimulationOptions& options, const char* who) {
+  if (const auto problem = problem_of(options))
+    fail(ErrorKind::argument, who, ": options.", problem->member, " = ", problem->value, ", must be ", problem->rule);
 }
 
 }  // namespace insonify

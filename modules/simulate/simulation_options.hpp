@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "acoustics/echoes.hpp"
 #include "beamforming/synthesize.hpp"
@@ -115,8 +116,17 @@ struct SimulationOptions {
   int threads = 0;               ///< 0: all cores; the result does not depend on it
 };
 
-/// Throws Error(argument) for a value out of its range, or for two values that exclude each other. `who` names the
-/// caller; the message states option, value and rule.
+/// A member of SimulationOptions that is out of its range, or that excludes another one.
+struct OptionProblem {
+  std::string member;  ///< e.g. "sampling.detail_width"
+  std::string value;   ///< e.g. "-1", or "true" of a flag
+  std::string rule;    ///< what goes on "must be", e.g. "within 0 and 4"
+};
+
+/// Returns the first problem of the options, for callers that call options by names of their own; none: all are valid.
+std::optional<OptionProblem> problem_of(const SimulationOptions& options);
+
+/// Throws Error(argument) for the problem that problem_of returns: "who: options.MEMBER = VALUE, must be RULE".
 void require_valid(const SimulationOptions& options, const char* who);
 
 }  // namespace insonify

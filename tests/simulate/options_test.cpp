@@ -64,7 +64,7 @@ TEST(PingOptions, have_the_tolerance_that_their_method_can_keep) {
   using enum SynthesisMethod;
   for (const SynthesisMethod method : {gridded, direct, spectrum, element_exact, incoherent})
     for (const double tolerance : {0.0, 1.0, not_a_number})
-      EXPECT_THAT(error_of_tolerance(method, tolerance), HasSubstr("must be within 0 and 1"));
+      EXPECT_THAT(error_of_tolerance(method, tolerance), HasSubstr("must be above 0 and below 1"));
   EXPECT_THAT(error_of_tolerance(gridded, 1e-14),
               HasSubstr("synthesis.tolerance = 1e-14, must be at least 1e-13 with method gridded"));
   for (const double tolerance : {1e-6, 0.2})

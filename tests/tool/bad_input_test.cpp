@@ -2,6 +2,7 @@
 // Bad input gets one line that names the file or argument, the value and the remedy, the right exit code, and leaves
 // nothing behind.
 #include "support/test.hpp"
+#include "tool/command/run_settings.hpp"
 #include "tool/tool_runner.hpp"
 
 namespace {
@@ -100,6 +101,60 @@ TEST_F(BadInput, impossible_values) {
   expect_refused("ping plane.ply" + bad_head + " --unit furlong", 2, {"furlong", "m, mm, cm, km, ft"});
   expect_refused("make-scene habour -o x.ply", 2, {"habour", "harbour"});
   expect_refused("make-scene plane --points 0 -o x.ply", 2, {"points"});
+}
+
+TEST_F(BadInput, settings_out_of_range_name_their_option) {
+  const std::string ping = "ping plane.ply" + bad_head;
+  const auto expect_line = [&](const std::string& options, const std::string& line) {
+    const ToolResult result = run(ping + " " + options);
+    EXPECT_EQ(result.exit_code, 2) << options;
+    EXPECT_EQ(result.err, "insonify: " + line + "\n");
+  };
+  expect_line("--detail-width -1", "--detail-width = -1, must be within 0 and 4");
+  expect_line("--all-bins-above 1 --threshold nan", "--threshold = nan, must be a number");
+  expect_line("--method incoherent --split",
+              "--split: must be left out with method incoherent: an expected intensity has no phase; use gridded");
+  expect_line("--method incoherent --keep elements",
+              "--keep elements: must be left out with method incoherent: an expected intensity has no pressures at "
+              "elements; use gridded");
+  expect_line("--with surface", "--with surface: surface cannot be forced in: surface.scattering_db is not given");
+  expect_line("--mesh-spacing -1", "--mesh-spacing = -1 m, must be 0 or more, and finite");
+  expect_refused(ping + " --velocity 100,0,0", 2, {"--velocity = 100 m/s", "a hundredth of the sound speed"});
+
+  // No setting that is a number has a value far out of its range that is refused by another name.
+  tool::PingOptions options;
+  int refused = 0;
+  for (const tool::RunSetting& setting : tool::all_settings(options))
+    if (std::holds_alternative<double*>(setting.value) || std::holds_alternative<int*>(setting.value)) {
+      const bool whole = std::holds_alternative<int*>(setting.value);
+      const ToolResult result = run("plan plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 2:10 " +
+                                    std::string(setting.option) + (whole ? " -1000000" : " -1e300"));
+      if (result.exit_code == 0) continue;
+      ++refused;
+      EXPECT_EQ(result.exit_code, 2) << setting.option;
+      EXPECT_THAT(result.err, testing::StartsWith(std::string("insonify: ") + setting.option)) << setting.option;
+    }
+  EXPECT_GE(refused, 15);
+}
+
+TEST_F(BadInput, settings_of_files_out_of_range_name_line_and_key) {
+  succeed("make-mission lawnmower --scene plane.ply --range 2:10 -o mission.toml -q");
+  write("mission.toml", read("mission.toml") + "[ping]\nnoise = true\ndetail_width = -1\n");
+  const std::string text = read("mission.toml");
+  const auto line = std::to_string(std::count(text.begin(), text.end(), '\n'));
+  expect_refused("survey mission.toml -o run", 3,
+                 {"mission.toml:" + line + ": ping.detail_width = -1, must be within 0 and 4"});
+  succeed("ping plane.ply -q" + bad_head);
+  write("bad.toml", replaced(read("out/run.toml"), "\ntolerance = 0.0001", "\ntolerance = 2"));
+  expect_refused("ping --run bad.toml -o again", 3, {"bad.toml:", ": tolerance = 2, must be above 0 and below 1"});
+}
+
+TEST_F(BadInput, numbers_that_must_be_above_0_say_so) {
+  expect_refused("prepare plane.ply --thin -1 -o x.ply", 2, {"--thin: -1 must be above 0"});
+  expect_refused("make-scene plane --points 0 -o x.ply", 2, {"--points: 0 must be above 0"});
+  expect_refused("make-scene plane --size 0,1 -o x.ply", 2, {"--size = 0,1 m, both lengths must be above 0"});
+  expect_refused("view plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --size 100x100 --screenshot x.png", 2,
+                 {"--size = 100x100", "800 x 600"});
 }
 
 TEST_F(BadInput, wrong_words) {

@@ -11,6 +11,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "core/text.hpp"
 #include "store/nearest_word.hpp"
 #include "tool/command/exit_code.hpp"
 
@@ -32,6 +33,12 @@ CLI::Option* add_value(CLI::App& app, const std::string& name, const OptionValue
         return nullptr;
       },
       value);
+}
+
+/// CLI11 would print the largest number as the end of the range.
+std::string positive_check(const std::string& text) {
+  double value = 0;
+  return to_number(text, value) && value > 0 && std::isfinite(value) ? std::string() : text + " must be above 0";
 }
 
 /// CLI11 takes -1 for the largest number without a sign.
@@ -103,7 +110,7 @@ void OptionList::add(const std::string& name, const OptionValue& value, const st
   option->description(full_help(*option, help, rules))->required(rules.required);
   if (!rules.words.empty()) option->check(CLI::IsMember(rules.words))->option_text("WORD");
   if (rules.within) option->check(CLI::Range(rules.within->first, rules.within->second))->option_text("INT");
-  if (rules.positive) option->check(CLI::PositiveNumber)->option_text("FLOAT");
+  if (rules.positive) option->check(positive_check)->option_text("FLOAT");
   if (std::holds_alternative<std::uint64_t*>(value)) option->check(sign_check)->option_text("UINT");
   if (rules.one_each) option->allow_extra_args(false);
   if (rules.comma_separated) option->delimiter(',');

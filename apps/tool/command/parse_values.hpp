@@ -6,6 +6,7 @@
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize.hpp"
+#include "core/error.hpp"
 #include "core/pose.hpp"
 #include "core/text.hpp"
 #include "sampling/find_scatterers.hpp"
@@ -58,6 +59,20 @@ struct Setting {
   std::string section, key, value;
 };
 Setting parse_setting(const std::string& text);
+
+/// Runs `body`. What it refuses as an argument begins with `option` in place of the library's function:
+/// "force_stage: TEXT" becomes "--with mirrors: TEXT".
+template <typename Body>
+void in_words_of(const std::string& option, const Body& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    const std::size_t end = text.find(": ");
+    if (error.kind() != ErrorKind::argument || end == text.npos) throw;
+    fail(ErrorKind::argument, option, text.substr(end));
+  }
+}
 
 /// A whole text as one finite number.
 double parse_number(const std::string& option, const std::string& text);

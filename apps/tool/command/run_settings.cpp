@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "tool/command/asked_simulation.hpp"
+
 namespace insonify::tool {
 namespace {
 
@@ -63,6 +65,7 @@ SceneOptions load_scene_settings(const std::string& path) {
 PingOptions load_mission_settings(const std::string& path) {
   PingOptions options;
   read_sections(path, load_toml(path), keys_of(mission_settings(options)));
+  require_valid_file(path, options);
   return options;
 }
 

@@ -19,7 +19,8 @@ struct RunSetting {
   OptionValue value;    ///< never a function
   std::string help;
   OptionRules rules = {};
-  bool is_path = false;  ///< relative to the current folder, or to the folder of run.toml
+  bool is_path = false;     ///< relative to the current folder, or to the folder of run.toml
+  const char* member = "";  ///< what SimulationOptions call it, where that is not `key`
 };
 
 /// Titles under which --help lists settings.

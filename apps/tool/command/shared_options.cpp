@@ -73,6 +73,7 @@ void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
   // Values are written in the order of the options, so --run comes first and all others override it.
   const auto load_run = [list, &command](const std::string& path) mutable {
     command.options = command.of_run.emplace(load_ping_settings(path));
+    require_valid_file(path, command.options);
     list.release("SCENE");
     list.release("--sonar");
   };

@@ -24,46 +24,6 @@
 namespace insonify::tool {
 namespace {
 
-constexpr int drawn_paths = 64;  // of each kind; more would hide one another
-
-}  // namespace
-
-SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& o) {
-  SimulationOptions s;
-  s.seed = common.seed;
-  s.threads = common.threads;
-  s.sampling.kind = *find_named(sampling_words, o.sampling);
-  s.sampling.scatterers_per_cell = o.scatterers_per_cell;
-  s.sampling.detail_width = o.detail_width;
-  s.sampling.detail_spacing = o.detail_spacing;
-  s.sampling.rays_per_beam = o.rays_per_beam;
-  s.amplitude = *find_named(amplitude_words, o.amplitude);
-  s.synthesis = asked_synthesis(o.run);
-  s.accuracy_db = o.accuracy_db;
-  s.effects.noise = o.noise;
-  if (o.multipath) s.effects.multipath = Choice::always;
-  s.effects.double_echoes = o.double_echoes;
-  s.outputs.layers = o.layers;
-  s.outputs.looks_range = o.looks_range;
-  s.outputs.looks_pings = o.looks_pings;
-  s.outputs.split_phase = o.split;
-  s.outputs.elements = keeps(o, "elements");
-  s.outputs.scatterers = keeps(o, "insonification");
-  s.outputs.mask = keeps(o, "mask");
-  s.outputs.contributors = keeps(o, "contributors") ? o.contributors : 0;
-  s.outputs.paths = keeps(o, "paths") ? drawn_paths : 0;
-  if (o.absorption_order >= 0) s.effects.absorption_order = o.absorption_order;
-  s.detection.threshold_db = o.threshold_db;
-  s.detection.false_alarm_rate = o.false_alarm_rate;
-  if (!o.all_bins_above.empty()) {
-    s.detection.all_bins = true;
-    s.detection.above_db = parse_number("--all-bins-above", o.all_bins_above);
-  }
-  return s;
-}
-
-namespace {
-
 /// Pose of the vehicle, and its motion if it follows a trajectory.
 struct Track {
   Pose pose;
@@ -122,6 +82,13 @@ Motion asked_motion(const PingOptions& o) {
   return motion;
 }
 
+/// Refuses velocities for which the echoes of a moving head are not computed.
+void require_slow(const PingOptions& o, const Motion& motion, double sound_speed) {
+  if (!o.velocity.empty() && !(motion.velocity.norm() < sound_speed / 100))
+    fail(ErrorKind::argument, "--velocity = ", motion.velocity.norm(), " m/s, must be below ", sound_speed / 100,
+         " m/s, a hundredth of the sound speed");
+}
+
 }  // namespace
 
 PingEvent asked_event(const PingOptions& o) {
@@ -151,11 +118,16 @@ PingSetup set_up(const PingOptions& o, bool at_pose) {
   setup.simulation = asked_simulation(o.common, o);
   if (!o.trajectory.empty())
     for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
-  for (const std::string& stage : o.with) force_stage(stage, true, event, setup.head.environment, setup.simulation);
-  for (const std::string& stage : o.without) force_stage(stage, false, event, setup.head.environment, setup.simulation);
+  const auto force = [&](const char* option, const std::string& stage, bool included) {
+    in_words_of(fmt::format("{} {}", option, stage),
+                [&] { force_stage(stage, included, event, setup.head.environment, setup.simulation); });
+  };
+  for (const std::string& stage : o.with) force("--with", stage, true);
+  for (const std::string& stage : o.without) force("--without", stage, false);
   require_boundaries(o, setup.head.environment);
   require_depths_known(setup.head.environment, "environment");
-  require_valid(setup.simulation, "PingSimulator");
+  require_valid_settings(o, setup.simulation);
+  require_slow(o, event.motion, setup.head.medium.sound_speed);
   require_valid(event, "PingSimulator");
   return setup;
 }
@@ -166,14 +138,6 @@ std::string mounting_text(const SonarFile& sonar) {
   if (sonar.mounting.isZero()) return "";
   const Eigen::Vector3d angles = sonar.mounting * degrees(1);
   return fmt::format("0,0,0,{:.10g},{:.10g},{:.10g}", angles.x(), angles.y(), angles.z());
-}
-
-SynthesisSettings asked_synthesis(const RunOptions& o) {
-  return {*find_named(method_words, o.method), o.tolerance, o.method == "gridded" ? Choice::never : Choice::as_needed};
-}
-
-bool keeps(const PingOptions& options, const std::string& what) {
-  return std::find(options.keep.begin(), options.keep.end(), what) != options.keep.end();
 }
 
 PingSetup set_up_ping(const PingOptions& o) { return set_up(o, true); }
@@ -251,6 +215,10 @@ LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene)
   options.unit = parse_unit(scene.unit);
   options.mesh_spacing = scene.mesh_spacing;
   if (!scene.scan_noise.empty()) options.scan_noise = parse_numbers("--scan-noise", scene.scan_noise, 1, "metres")[0];
+  for (const auto& [option, value] :
+       {std::pair("--mesh-spacing", options.mesh_spacing), std::pair("--scan-noise", options.scan_noise.value_or(0))})
+    if (!(value >= 0 && std::isfinite(value)))
+      fail(ErrorKind::argument, option, " = ", value, " m, must be 0 or more, and finite");
   options.keep_strays = scene.keep_strays;
   if (!scene.viewpoint.empty()) options.viewpoint = parse_vector("--viewpoint", scene.viewpoint, "x,y,z in metres");
   if (!scene.materials_file.empty() || !scene.material.empty()) {

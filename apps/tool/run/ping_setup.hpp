@@ -13,7 +13,7 @@
 #include "simulate/ping_simulator.hpp"
 #include "sonar/sonar_spec.hpp"
 #include "store/sonar_file.hpp"
-#include "tool/command/options.hpp"
+#include "tool/command/asked_simulation.hpp"
 
 namespace insonify::tool {
 
@@ -72,15 +72,6 @@ PingEvent asked_event(const PingOptions& options);
 PingSetup set_up_ping(const PingOptions& options);
 /// The same, but for the depth of the head: of pings that have other poses than the options'.
 PingSetup set_up_any_ping(const PingOptions& options);
-
-/// What the options ask of a simulator; the plan of a ping decides the rest.
-SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& options);
-
-/// How beams are formed, as --method and --tolerance ask for it.
-SynthesisSettings asked_synthesis(const RunOptions& options);
-
-/// Whether --keep names `what`.
-bool keeps(const PingOptions& options, const std::string& what);
 
 /// Places of about 10 000 surfels in head axes [m].
 std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose);

@@ -42,9 +42,9 @@ void add_options(OptionList list, MakeSceneOptions& o) {
   list.add("NAME", &o.name, "harbour, reef, river, plane, sphere, wall or poles", {.required = true});
   list.add("-o,--output", &o.output, "scene that is written: .ply or .pcd, or .tiles for scenes larger than memory",
            {.required = true});
-  list.add("--points", &o.points, "number of surfels");
+  list.add("--points", &o.points, "number of surfels, at most 4 000 000 000", {.positive = true});
   list.add("--size", &o.size, "[m] plane: x,y extent; wall: width,height");
-  list.add("--radius", &o.radius, "[m] radius of the sphere");
+  list.add("--radius", &o.radius, "[m] radius of the sphere", {.positive = true});
   list.add("--mu-db", &o.lambert_mu_db, "[dB] 10 log10 of the Lambert coefficient of plane, sphere, wall and poles");
   list.add(
       "--materials", &o.materials_file,
@@ -111,12 +111,14 @@ void make_scene(const MakeSceneOptions& o) {
   require_free_file(o.output, o.force, {});
   require_room(o);
   const auto size = parse_numbers("--size", o.size, 2, "two lengths in metres, e.g. --size 40,40");
+  if (!(size[0] > 0 && size[1] > 0)) fail(ErrorKind::argument, "--size = ", o.size, " m, both lengths must be above 0");
   const BuiltInSceneOptions built_in{
       o.points, {size[0], size[1]}, o.radius, power_from_db(o.lambert_mu_db), o.common.seed};
   Progress progress(o.common, 2);
   progress.step("making " + o.name);
   if (is_tiles(o.output) && o.bare)
     fail(ErrorKind::argument, "--bare: ", o.output, ": tiles are prepared surfels; write .ply or .pcd");
+  in_words_of("make-scene", [&] { empty_built_in_scene(o.name, built_in); });
   if (is_tiles(o.output)) return make_scene_as_tiles(o, built_in, progress);
   SceneCloud scene = make_built_in_scene(o.name, built_in);
   replace_materials(o, scene.materials);

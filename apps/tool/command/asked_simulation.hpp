@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+#include "tool/command/options.hpp"
+
+/// Options of the command line, or settings of a file, as options of the library.
+namespace insonify::tool {
+
+/// What the options ask of a simulator; the plan of a ping decides the rest.
+SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& options);
+
+/// How beams are formed, as --method and --tolerance ask for it.
+SynthesisSettings asked_synthesis(const RunOptions& options);
+
+/// Whether --keep names `what`.
+bool keeps(const PingOptions& options, const std::string& what);
+
+/// Throws Error(argument) for a problem of `simulation`, which was made of `options`. The message names the option of
+/// the command line: "--detail-width = -1, must be within 0 and 4".
+void require_valid_settings(const PingOptions& options, const SimulationOptions& simulation);
+
+/// Throws Error(content) for a problem of the settings that the run.toml or mission at `path` holds in [ping]. The
+/// message names line and key: "run.toml:7: ping.detail_width = -1, must be within 0 and 4".
+void require_valid_file(const std::string& path, const PingOptions& options);
+
+}  // namespace insonify::tool
