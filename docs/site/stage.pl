@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Puts what Doxygen reads into FOLDER:
 #   insonify/MODULE/*.hpp   the public headers, each in the group of its module; (E12) links to that row of the equations
-#   pages/*.md              README.md, docs/*.md and docs/results/*.md: a page's label is its name (of results: results-NAME), a heading's is NAME-ITS-WORDS
+#   pages/*.md              README.md, docs/*.md, docs/results/*.md and docs/reference/*.md: a page's label is its name (of results: results-NAME), a heading's is NAME-ITS-WORDS
 #   files/                  other files that the pages link to
 use strict;
 use warnings;
@@ -40,7 +40,7 @@ for my $path (grep { !/_internal\.hpp$/ } glob 'modules/*/*.hpp') {
   spew($path =~ s{^modules}{$stage/insonify}r, $text);
 }
 
-for my $path ('README.md', glob('docs/*.md'), glob('docs/results/*.md')) {
+for my $path ('README.md', glob('docs/*.md'), glob('docs/results/*.md'), glob('docs/reference/*.md')) {
   my $page = page_of($path);
   my $folder = $path eq 'README.md' ? '' : dirname($path) . '/';
   my ($fenced, $first, $text, %seen) = (0, 1, '');
@@ -79,13 +79,13 @@ for my $path ('README.md', glob('docs/*.md'), glob('docs/results/*.md')) {
 sub page_of {
   my ($path) = @_;
   return 'mainpage' if $path eq 'README.md';
-  return ($path =~ m{^docs/results/} ? 'results-' : '') . basename($path, '.md');
+  return ($path =~ m{^docs/(results|reference)/} ? "$1-" : '') . basename($path, '.md');
 }
 
 # A link of a page: to a page or heading, to the web, or to a file, which is copied.
 sub link_of {
   my ($words, $target, $folder, $page) = @_;
-  $words =~ s{^(?:docs/)?(?:results/)?([\w-]+)\.md$}{$1};
+  $words =~ s{^(?:docs/)?(?:(?:results|reference)/)?([\w-]+)\.md$}{$1};
   return "[$words]($target)" if $target =~ m{^https?://};
   my ($path, $heading) = $target =~ /^([^#]*)(?:#(.*))?$/;
   return "[$words](\@ref $page-$heading)" if $path eq '';
@@ -93,7 +93,7 @@ sub link_of {
   for (split m{/}, "$folder$path") { if ($_ eq '..') { pop @parts } else { push @parts, $_ } }
   my $full = join '/', @parts;
   die "$page: $target does not exist\n" unless -e $full;
-  if ($full =~ m{^(?:docs/(?:results/)?[\w-]+|README)\.md$}) {
+  if ($full =~ m{^(?:docs/(?:(?:results|reference)/)?[\w-]+|README)\.md$}) {
     my $name = page_of($full);
     return $name eq 'mainpage' ? "[$words](index.html)" : "[$words](\@ref $name" . ($heading ? "-$heading" : '') . ')';
   }

@@ -130,7 +130,7 @@ class GsfFile {
   std::vector<GsfAttitude> attitudes_;  ///< that no record has yet
 };
 
-/// A field that GsfFile writes, for the list in docs/gsf.md.
+/// A field that GsfFile writes, for the list in docs/reference/gsf.md.
 struct GsfFieldRow {
   std::string record;  ///< of which record or subrecord
   std::string name;    ///< as in the specification

@@ -43,15 +43,20 @@ std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, cons
 
 /// A field of the points of point_cloud.
 struct RosPointField {
-  const char *name, *type, *unit;
+  const char *name, *type, *unit, *meaning;
 };
 /// The fields in the order of the message; types are those of PointField.
 inline constexpr RosPointField ros_point_fields[] = {
-    {"x", "float32", "m"},      {"y", "float32", "m"},
-    {"z", "float32", "m"},      {"intensity", "float32", "dB re 1 uPa"},
-    {"range", "float32", "m"},  {"deviation", "float32", "m"},
-    {"quality", "float32", ""}, {"beam", "uint32", ""},
-    {"method", "uint32", ""},   {"reject", "uint32", ""}};
+    {"x", "float32", "m", "position in the world, less the origin in the metadata"},
+    {"y", "float32", "m", "position in the world, less the origin in the metadata"},
+    {"z", "float32", "m", "height in the world, less the origin in the metadata; positive up"},
+    {"intensity", "float32", "dB re 1 uPa", "level of the strongest sample of the echo"},
+    {"range", "float32", "m", "c t / 2 with the sound speed at the head"},
+    {"deviation", "float32", "m", "predicted standard deviation of the range"},
+    {"quality", "float32", "", "log10(range / deviation)"},
+    {"beam", "uint32", "", "number of the beam, from 0"},
+    {"method", "uint32", "", "1: by amplitude, 2: by phase"},
+    {"reject", "uint32", "", "0, or with --keep-rejected the bits of the reasons"}};
 
 /// Returns a PointCloud2 of soundings in the frame "world", less `origin` [m]: ros_point_fields.
 std::string point_cloud(const BottomSoundings& found, const Eigen::Vector3d& origin, std::uint64_t time);

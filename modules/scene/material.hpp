@@ -45,19 +45,22 @@ struct MaterialNumber {
 inline constexpr MaterialNumber material_numbers[] = {
     {&Material::lambert_mu, "lambert_mu", "1/sr", std::numeric_limits<double>::infinity(), "lambert_mu_db", true, true,
      1 / pi, "1/pi: no surface sends back more than it receives",
-     "10 log10(mu / (1/sr)): backscatter at normal incidence"},
+     "Lambert coefficient mu, given as 10 log10(mu / (1/sr)): backscatter of the surface at normal incidence"},
     {&Material::coherent_fraction, "coherent_fraction", "", 1, "coherent_fraction", false, false, 1, "",
-     "fraction of the mean intensity that does not fluctuate"},
+     "fraction of the mean intensity that does not fluctuate; 0: full speckle, 1: no speckle"},
     {&Material::relief_slope, "relief_slope", "", std::numeric_limits<double>::infinity(), "relief_slope", false, false,
-     1, "rise over run, rms: 45 degrees", "rms slope of relief finer than the cloud"},
+     1, "rise over run, rms: 45 degrees",
+     "rms slope of the relief that is finer than the spacing of the cloud; 0: no such relief"},
     {&Material::mirror, "mirror", "", 1, "mirror", false, false, 1, "",
-     "flat parts are mirrors of the scene ([mirrors.md](mirrors.md))", "true"},
+     "true: the flat parts of this material are mirrors of the scene ([mirrors.md](mirrors.md))", "true"},
     {&Material::coherent, "coherent", "", 1, "coherent", false, false, 1, "",
-     "plates, spheres and cylinders are calibrated targets ([mirrors.md](mirrors.md))", "fit"},
+     "\"fit\": each plate, sphere and cylinder of this material is a calibrated target, which reflects as one body "
+     "([mirrors.md](mirrors.md))",
+     "fit"},
     {&Material::reflection, "reflection", "", 1, "mirror_reflection", false, false, 1, "",
-     "pressure reflection of such mirrors and targets"},
+     "reflection coefficient of pressure of the mirrors and targets of this material"},
     {&Material::rms_height, "rms_height", "m", std::numeric_limits<double>::infinity(), "rms_height_m", false, false, 1,
-     "", "rms height of the roughness of such mirrors and targets"},
+     "", "rms height of the roughness of the mirrors and targets of this material"},
 };
 
 /// Returns whether parts of a material reflect as one body each: mirrors, plates, spheres, cylinders.

@@ -23,56 +23,60 @@ constexpr ObjectOption size_or_none(const char* key, double standard, const char
 constexpr ObjectOption upright(const char* help) { return {"upright", "", 0, 0, 1, help, true}; }
 
 constexpr ObjectOption common_options[] = {
-    {"tolerance_mm", "mm", 1, 0.01, 100, "how far triangles may lie from a curved surface"}};
+    {"tolerance_mm", "mm", 1, 0.01, 100, "largest distance of the triangles from a curved surface"}};
 
 constexpr ObjectOption cylinder_mine[] = {
-    size("length_m", 2.0, "from end to end"), size("diameter_m", 0.533, "of the cylinder"),
+    size("length_m", 2.0, "length from end to end"), size("diameter_m", 0.533, "diameter of the cylinder"),
     size_or_none("nose_m", 0, "length of a rounded front end, half an ellipsoid; 0: flat"),
     upright("1: it stands on its flat end")};
 constexpr ObjectOption cone_mine[] = {size("base_m", 0.98, "diameter of the base"),
                                       size_or_none("top_m", 0.5, "diameter of the top; 0: a whole cone"),
-                                      size("height_m", 0.44, "of the cone")};
+                                      size("height_m", 0.44, "height of the truncated cone")};
 constexpr ObjectOption wedge_mine[] = {
-    size("length_m", 1.015, "of the base"), size("width_m", 0.8, "of the base"), size("height_m", 0.385, "of the body"),
-    size("top_length_m", 0.6, "of the upper side"), size("top_width_m", 0.45, "of the upper side")};
+    size("length_m", 1.015, "length of the base"), size("width_m", 0.8, "width of the base"),
+    size("height_m", 0.385, "height of the body"), size("top_length_m", 0.6, "length of the upper side"),
+    size("top_width_m", 0.45, "width of the upper side")};
 constexpr ObjectOption tyre[] = {
-    size("diameter_m", 0.632, "of the tread"),
+    size("diameter_m", 0.632, "diameter of the tread"),
     size("rim_m", 0.406, "diameter of the opening"),
-    size("width_m", 0.205, "from side to side"),
+    size("width_m", 0.205, "width from side to side"),
     size_or_none("tread_m", 0.16, "width of the flat tread, and of the gap inside"),
-    size_or_none("wall_m", 0.012, "of its sides; 0: a solid ring, with tread_m = 0 a torus"),
+    size_or_none("wall_m", 0.012, "thickness of the sides; 0: a solid ring, with tread_m = 0 a torus"),
     upright("1: it stands on its tread and rolls along x")};
-constexpr ObjectOption drum[] = {size("length_m", 0.88, "from rim to rim"),
-                                 size("diameter_m", 0.585, "of the hoops"),
-                                 size("hoop_m", 0.006, "how far the two hoops stand out"),
-                                 size("hoop_width_m", 0.04, "of a hoop, along the drum"),
+constexpr ObjectOption drum[] = {size("length_m", 0.88, "length from rim to rim"),
+                                 size("diameter_m", 0.585, "diameter of the hoops"),
+                                 size("hoop_m", 0.006, "height of the two hoops above the drum"),
+                                 size("hoop_width_m", 0.04, "width of a hoop, along the drum"),
                                  size("rim_m", 0.012, "thickness of the rims of both ends"),
-                                 size_or_none("recess_m", 0.018, "how far the ends lie below their rims"),
+                                 size_or_none("recess_m", 0.018, "depth of the ends below their rims"),
                                  upright("1: it stands on an end")};
-constexpr ObjectOption pipe[] = {size("length_m", 3, "of the pipe"), size("diameter_m", 0.3239, "outside"),
-                                 size("wall_m", 0.0095, "of the pipe, open at both ends"),
-                                 upright("1: it stands on an end")};
-constexpr ObjectOption crab_pot[] = {size("diameter_m", 1.0, "outside"),
-                                     size("height_m", 0.33, "outside"),
-                                     size("bar_m", 0.016, "thickness of the bars of the frame"),
-                                     {"bars", "", 6, 3, 60, "uprights of the frame", true},
-                                     {"mesh_m", "m", 0.08, 0, largest, "between wires of the net; 0: no net"},
-                                     size("wire_m", 0.0025, "thickness of these wires")};
-constexpr ObjectOption anchor[] = {size("length_m", 1.2, "of the shank"), size("arms_m", 0.84, "from tip to tip"),
-                                   size("stock_m", 1.2, "of the stock"),
-                                   size("bar_m", 0.06, "thickness of shank and arms where they meet")};
-constexpr ObjectOption cinder_block[] = {size("length_m", 0.397, "along x"), size("width_m", 0.194, "across"),
-                                         size("height_m", 0.194, "along the cores, which are open"),
+constexpr ObjectOption pipe[] = {
+    size("length_m", 3, "length of the pipe"), size("diameter_m", 0.3239, "outer diameter"),
+    size("wall_m", 0.0095, "thickness of the wall; the pipe is open at both ends"), upright("1: it stands on an end")};
+constexpr ObjectOption crab_pot[] = {
+    size("diameter_m", 1.0, "outer diameter"),
+    size("height_m", 0.33, "outer height"),
+    size("bar_m", 0.016, "thickness of the bars of the frame"),
+    {"bars", "", 6, 3, 60, "number of uprights of the frame", true},
+    {"mesh_m", "m", 0.08, 0, largest, "distance between the wires of the net; 0: no net"},
+    size("wire_m", 0.0025, "thickness of the wires of the net")};
+constexpr ObjectOption anchor[] = {size("length_m", 1.2, "length of the shank"),
+                                   size("arms_m", 0.84, "distance between the tips of the arms"),
+                                   size("stock_m", 1.2, "length of the stock"),
+                                   size("bar_m", 0.06, "thickness of the shank and the arms where they meet")};
+constexpr ObjectOption cinder_block[] = {size("length_m", 0.397, "length along x"),
+                                         size("width_m", 0.194, "width across x"),
+                                         size("height_m", 0.194, "height along the cores, which are open"),
                                          size("shell_m", 0.032, "thickness of the long sides"),
                                          size("web_m", 0.025, "thickness of the three webs between them")};
 constexpr ObjectOption ladder[] = {
-    size("length_m", 3, "of the rails"),         size("width_m", 0.42, "outside"),
+    size("length_m", 3, "length of the rails"),  size("width_m", 0.42, "outer width"),
     size("rail_m", 0.025, "width of a rail"),    size("rail_depth_m", 0.06, "depth of a rail"),
-    size("rung_m", 0.03, "thickness of a rung"), {"pitch_m", "m", 0.28, 0.02, largest, "from rung to rung"}};
-constexpr ObjectOption sphere[] = {size("diameter_m", 0.5, "of the sphere")};
+    size("rung_m", 0.03, "thickness of a rung"), {"pitch_m", "m", 0.28, 0.02, largest, "distance from rung to rung"}};
+constexpr ObjectOption sphere[] = {size("diameter_m", 0.5, "diameter of the sphere")};
 constexpr ObjectOption diver[] = {size("stature_m", 1.8, "height of the diver, without fins"),
                                   size("bottle_m", 0.184, "diameter of the bottle"),
-                                  size("bottle_length_m", 0.66, "of the bottle")};
+                                  size("bottle_length_m", 0.66, "length of the bottle")};
 
 constexpr const char* of_steel[] = {"steel"};
 constexpr const char* of_fibreglass[] = {"fibreglass"};

@@ -95,7 +95,8 @@ std::vector<Key> environment_keys(Environment& e) {
        "pressure reflection coefficient of walls and floor"},
       {"tank", "rms_height_m", "m", number({e.tank, &Tank::rms_height}, not_negative),
        "rms height of the roughness of walls and floor"},
-      {"", "mirror", "", list_of_tables(), "smooth planes, see below"},
+      {"", "mirror", "", list_of_tables(),
+       "smooth planes ([mirrors.md](mirrors.md)); the keys of a plane are in the next table"},
       {"profile", "depth_m", "m", list({e.profile, &SoundSpeedProfile::depth}),
        "depths of the sound-speed profile; `--profile` reads a profile from CSV. A profile that changes with depth "
        "needs `surface.height_m` or `water.level_m`; `--without multipath` omits the surface's echoes",

@@ -85,14 +85,14 @@ std::vector<Key> material_keys(MaterialEntry& entry) {
       keys.end(),
       {
           {"material", "incidence_deg", "deg", list(given(entry.table.incidence), {.least = 0, .most = 90}, in_degrees),
-           "table: angles of incidence, from 0 to 75 or more, below 90"},
+           "law table: angles of incidence, ascending from 0 to 75 or more, below 90"},
           {"material", "frequency_khz", "kHz", list(given(entry.table.frequency), positive, in_kilohertz),
-           "table: frequencies; default: the same strengths at all frequencies"},
+           "law table: frequencies, ascending; default: the same strengths at all frequencies"},
           {"material", "sigma_db", "dB re 1/sr", list(given(entry.table.sigma_db)),
-           "table: backscattering strength at all angles, frequency by frequency"},
+           "law table: backscattering strengths at all angles for the first frequency, then for the next"},
           {"material", "bistatic", "", word(entry.bistatic, {"separable", "half_vector"}),
-           "table: value for two directions. separable takes the geometric mean of both, half_vector the value at the "
-           "half vector, for lobes; default: separable"},
+           "law table: strength between two directions. separable: the geometric mean of both strengths; half_vector: "
+           "the strength at the half vector, for lobes; default: separable"},
           {"material", "label", "", number(entry.sourced.label, label),
            "label of the material in the cloud; default: its position in the file"},
           {"material", "from", "", number(entry.interval.from, any),

@@ -64,7 +64,8 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
       {"survey", "environment", "", path(given(m.environment)), "environment file, as for `ping`"},
       {"survey", "profile", "", path(given(m.profile)), "sound-speed profile, as for `ping`"},
       {"survey", "coverage", "", flag(m.coverage),
-       "true: the survey stores what its pings did to each surfel of a cloud or of tiles (see below)"},
+       "true: the survey stores for each surfel of a cloud or of tiles how it was insonified "
+       "([survey.md](survey.md#coverage))"},
       {"survey", "start_utc", "", text(given(m.start_utc), utc_rule, is_utc), "time of day at the mission's time 0"},
       {"survey.anchor", "latitude_deg", "deg", number(t.anchor.latitude_deg, latitude),
        "latitude of the world's origin on the WGS 84 ellipsoid. `merge` writes anchor and time into `manifest.json`, "

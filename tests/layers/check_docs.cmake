@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Fails if a path, file:function or test (`program.Suite.name`) named in README.md or docs/ does not exist, if an equation
-# of docs/equations.md is not marked by its id in the file it names, or if the code cites an id that the page does not have.
+# Fails if a path, a link, file:function or test (`program.Suite.name`) named in README.md or docs/ does not exist, if a page
+# has more than 300 lines, if an equation of docs/equations.md is not marked by its id in the file it names, or if the code cites an id that the page does not have.
 cmake_minimum_required(VERSION 3.25)
 
-file(GLOB pages "${ROOT}/README.md" "${ROOT}/docs/*.md" "${ROOT}/docs/results/*.md")
+file(GLOB pages "${ROOT}/README.md" "${ROOT}/docs/*.md" "${ROOT}/docs/results/*.md" "${ROOT}/docs/reference/*.md")
 foreach(page IN LISTS pages)
   file(READ "${page}" text)
   string(REGEX MATCHALL "(modules|apps|tests|data|docs)/[A-Za-z0-9_./-]*[A-Za-z0-9_]+(:[a-z_]+)?" names "${text}")
@@ -19,6 +19,20 @@ foreach(page IN LISTS pages)
       endif()
     endif()
   endforeach()
+
+  get_filename_component(folder "${page}" DIRECTORY)
+  string(REGEX MATCHALL "\\([A-Za-z0-9_./-]+\\.(md|png|cpp|toml)[)#]" links "${text}")
+  foreach(link IN LISTS links)
+    string(REGEX REPLACE "^.|.$" "" path "${link}")
+    if(NOT EXISTS "${folder}/${path}")
+      message(SEND_ERROR "${page}: the link to ${path} leads nowhere")
+    endif()
+  endforeach()
+  string(REGEX MATCHALL "\n" line_ends "${text}")
+  list(LENGTH line_ends lines)
+  if(lines GREATER 300)
+    message(SEND_ERROR "${page} has ${lines} lines; the most is 300")
+  endif()
 
   string(REGEX MATCHALL "`[a-z_]+\\.[A-Z][A-Za-z0-9]*\\.[a-z0-9_]+`" tests "${text}")
   foreach(test IN LISTS tests)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/export/sounding_map.hpp"
 
+#include "formats/ros_messages.hpp"
+#include "support/page.hpp"
 #include "support/test.hpp"
+#include "tool/dataset/dataset_split.hpp"
 
 using tool::cell_of, tool::SoundingMap;
 
@@ -37,10 +40,38 @@ TEST(SoundingMap, has_bands_of_height_level_number_deviation_and_extremes) {
   const double expected[] = {-4000.25, 20, 3, 0.25, -4000.5, -4000};
   for (std::size_t k = 0; k < 6; ++k)
     EXPECT_NEAR(static_cast<double>(bands[k].values(0, 0)), expected[k], 1e-4) << bands[k].name;
-  // The page has a row for each, with its unit.
-  const std::string page = file_bytes(INSONIFY_EXPORTS_PAGE);
+}
+
+namespace {
+
+/// A section of the page of exports: heading, first cell of the head, and rows of name, unit, type and meaning.
+std::string section_of_export(const std::string& heading, const std::string& rows) {
+  return "\n## " + heading + "\n\n| name | unit | type | meaning |\n|---|---|---|---|\n" + rows;
+}
+
+std::string row_of_export(const std::string& name, const char* unit, const char* type, const char* meaning) {
+  return "|" + table_cell("`" + name + "`") + table_cell(unit) + table_cell(type) + table_cell(meaning) + "\n";
+}
+
+}  // namespace
+
+TEST(SoundingMap, and_other_exports_have_the_columns_of_the_page) {
+  std::string csv, bands, points, splits;
+  for (const tool::BandMeaning& column : tool::csv_columns)
+    csv += row_of_export(column.name, column.unit, "text", column.meaning);
   for (const tool::BandMeaning& band : tool::sounding_bands)
-    EXPECT_THAT(page, HasSubstr(std::string("| `") + band.name + "` | " + band.unit + (*band.unit ? " |" : "|")));
+    bands += row_of_export(band.name, band.unit, "float32", band.meaning);
+  for (const RosPointField& field : ros_point_fields)
+    points += row_of_export(field.name, field.unit, field.type, field.meaning);
+  for (const tool::SplitUnit& unit : tool::split_units())
+    splits += "|" + table_cell(std::string("`") + unit.name + "`") + table_cell(unit.means) + "\n";
+  expect_reference_page(
+      "exports.md",
+      "# Columns and bands of exports\n\n[exports.md](../exports.md) explains soundings and products.\n" +
+          section_of_export("Columns of CSV", csv) + section_of_export("Bands of GeoTIFF", bands) +
+          section_of_export("Fields of /sonar/points in MCAP", points) +
+          "\n## Splits of data sets\n\n| `--split-by` | what stays together in train, val or test |\n|---|---|\n" +
+          splits);
 }
 
 // As GDAL reads it, where its tools are installed.

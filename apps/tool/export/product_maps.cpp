@@ -2,12 +2,14 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "files/pending_file.hpp"
 #include "formats/geotiff_file.hpp"
@@ -85,8 +87,8 @@ SoundingCount csv_product(const PlacedRun& run) {
   PendingFile pending(run.options.output);
   std::ofstream out(pending.temporary(), std::ios::binary);
   if (const std::string remark = profile_remark(run.options); !remark.empty()) out << "# " << remark << '\n';
-  out << "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,reject"
-      << (run.place ? ",latitude_deg,longitude_deg\n" : "\n");
+  const std::span columns(csv_columns);
+  out << joined(run.place ? columns : columns.first(columns.size() - 2), ",", &BandMeaning::name) << '\n';
   const auto count = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     std::string rows;
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -18,12 +18,33 @@ std::int64_t cell_of(double coordinate, double cell);
 
 /// A band of such a map.
 struct BandMeaning {
-  const char *name, *unit;
+  const char *name, *unit, *meaning;
 };
 /// The bands in the order of the file.
-inline constexpr BandMeaning sounding_bands[] = {{"height", "m"},   {"level", "dB re 1 uPa at 1 m"},
-                                                 {"soundings", ""}, {"deviation", "m"},
-                                                 {"lowest", "m"},   {"highest", "m"}};
+inline constexpr BandMeaning sounding_bands[] = {
+    {"height", "m", "mean height of the soundings, positive up"},
+    {"level", "dB re 1 uPa at 1 m", "mean intensity, with a gain of 30 log r"},
+    {"soundings", "", "number of soundings in the cell; 0: none"},
+    {"deviation", "m", "standard deviation of the heights; NaN for fewer than two soundings"},
+    {"lowest", "m", "least height"},
+    {"highest", "m", "greatest height"}};
+
+/// The columns of soundings as CSV, in the order of the file; the last two only with a place on the globe.
+inline constexpr BandMeaning csv_columns[] = {
+    {"ping", "", "number of the ping, from 0"},
+    {"time_s", "s", "time since 1970 (UTC), or since the begin of the run"},
+    {"beam", "", "number of the beam, from 0"},
+    {"x_m", "m", "position in the world"},
+    {"y_m", "m", "position in the world"},
+    {"z_m", "m", "height in the world, positive up"},
+    {"range_m", "m", "c t / 2 with the sound speed at the head"},
+    {"deviation_m", "m", "predicted standard deviation of the range"},
+    {"level_db", "dB re 1 uPa", "level of the strongest sample of the echo"},
+    {"quality", "", "log10(range / deviation)"},
+    {"method", "", "amplitude or phase"},
+    {"reject", "", "0, or with --keep-rejected the bits of the reasons"},
+    {"latitude_deg", "deg", "latitude on WGS 84, positive north; only with a place on the globe"},
+    {"longitude_deg", "deg", "longitude on WGS 84, positive east; only with a place on the globe"}};
 
 /// Soundings in cells of a grid.
 class SoundingMap {

@@ -168,7 +168,7 @@ void make_mission(const MakeMissionOptions& o) {
   std::string range = o.range;
   if (range.empty() && std::filesystem::exists(o.scene)) range = range_over(o.scene, file.spec, shape.points);
   write_file(o.output,
-             fmt::format("# {}; docs/survey.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = "
+             fmt::format("# {}; docs/reference/keys.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = "
                          "1\n\n[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}{}",
                          o.name, as_toml(o.scene), points_as_toml(shape.points), o.speed, shape.turn_radius,
                          heads_as_toml(sonar, range, file.mounting, shape), ping_as_toml(o, file), shape.legs));
