@@ -35,7 +35,7 @@ std::string footer() {
          viewer_help(ViewerMode::inspect) +
          "\nExamples:\n"
          "  insonify view out                                    a run: fan, 3-D, A-scan, explanation of samples\n"
-         "  insonify view survey --head port --ping 100          a survey: plays, seeks, shows its way\n"
+         "  insonify view survey --head port --ping 100          a survey: plays its pings along the track\n"
          "  insonify view harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0   visibility from a head, without a ping\n"
          "  insonify view out --screenshot viewer.png            the same picture without a display\n"
          "  insonify view line.xtf --head STARBOARD              a channel of a side-scan's recording\n"
@@ -47,26 +47,29 @@ void add_options(tool::OptionList list, ViewerCommand& c) {
            "run directory, survey, cube.h5, a recording (" + tool::record_extensions() +
                "), or a scene to inspect: " + scene_extensions() + " .toml",
            {.required = true});
-  list.add("--head", &c.head,
-           "of a survey: the head to show; of the recording of a side-scan: the channel; default: the first");
-  list.add("--ping", &c.start.ping, "which ping to begin with, from 0");
-  list.add("--beam", &c.beam, "beam to select at its loudest sample, from 0");
+  list.add("--head", &c.head, "head of a survey, or channel of a side-scan's recording; default: the first");
+  list.add("--ping", &c.start.ping, "number of the first ping to show, from 0");
+  list.add("--beam", &c.beam, "number of a beam, from 0; its loudest sample is selected");
   list.add("--colormap", &c.start.colour_map, joined(colour_map_names()), {.words = colour_map_names()});
-  list.add("--window", &c.start.window_db, "[dB] from darkest to brightest, 5 to 150");
-  list.add("--scene", &c.scene.path, "scene of a run, if it is not where run.toml says");
-  list.add("--no-scene", &c.no_scene, "a run without its scene: starts faster");
-  list.add("--sonar", &c.run.sonar, "to inspect: preset, .toml file, or the run.toml of a run");
-  list.add("--pose", &c.pose, "to inspect: x,y,z,yaw,pitch,roll [m, deg]; pitch positive nose down");
+  list.add("--window", &c.start.window_db, "[dB] levels from the darkest to the brightest colour, 5 to 150");
+  list.add("--scene", &c.scene.path, "scene of the run, if it is not at the path that run.toml names");
+  list.add("--no-scene", &c.no_scene, "show the run without its scene, which starts faster");
+  list.add("--sonar", &c.run.sonar, "to inspect a scene: preset, .toml file, or the run.toml of a run");
+  list.add("--pose", &c.pose,
+           "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg] of the head; pitch is positive nose down");
   tool::add_world(list, c.world);
-  list.add("--range", &c.run.range, "to inspect: min:max [m]; default: to the end of the scene, at most the sonar's");
+  list.add("--range", &c.run.range,
+           "to inspect a scene: min:max [m]; default: to the end of the scene, at most that of the sonar");
   tool::add_completion(list, c.scene);
-  list.add("--set", &c.common.settings, "to inspect: SECTION.KEY=VALUE of the sonar", {.one_each = true});
+  list.add("--set", &c.common.settings, "to inspect a scene: SECTION.KEY=VALUE that replaces a value of the sonar",
+           {.one_each = true});
   list.add("--size", &c.size, "WIDTHxHEIGHT of the window [pixels], at least 800x600");
-  list.add("--screenshot", &c.screenshot, "draw one picture off-screen into this .png and exit: needs no display");
+  list.add("--screenshot", &c.screenshot, "draw one picture into this .png and exit; needs no display");
   list.add("--force", &c.force, "replace an existing screenshot");
   list.add("--script", &c.script, "file of events to play first: click, drag, key, select, wait, screenshot, quit");
   list.add("--events", &c.events, "the same as text, separated by semicolons", {.group = ""});
-  list.add("-j,--threads", &c.common.threads, "threads for loading, 0: all cores", {.within = std::pair(0, 1024)});
+  list.add("-j,--threads", &c.common.threads, "threads that load the scene; 0: all cores",
+           {.within = std::pair(0, 1024)});
   tool::add_verbosity(list, c.common);
 }
 

@@ -92,7 +92,7 @@ void ViewerWindow::click_scene(Point2 place) {
   if (!world) return;
   const auto pixel = place_of(*data_.pings.ping(state_.ping), *world);
   if (!pixel) {
-    notice_ = "this point lies outside fan and range gate";
+    notice_ = "this point lies outside the fan or the range";
     return draw();
   }
   const double bearing = -image_->fan.azimuth[pixel->beam];

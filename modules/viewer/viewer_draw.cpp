@@ -180,7 +180,7 @@ std::string ViewerWindow::status_text() const {
   std::string text = "ping " + std::to_string(state_.ping + 1) + " of " + std::to_string(extent_.pings);
   if (extent_.pings > 1) text += " at " + number_text(place.time, 0.01) + " s";
   if (place.scan) text += ", sweep " + std::to_string(place.scan->sweep);
-  if (state_.playing) text += ", playing " + number_text(state_.pings_per_second, 0.01) + " a second";
+  if (state_.playing) text += ", playing " + number_text(state_.pings_per_second, 0.01) + " pings a second";
   text += "   gain " + number_text(state_.gain_db, 1) + " dB   window " + number_text(state_.window_db, 1) + " dB";
   text += state_.tvg ? "   range compensated" : "   as received";
   text += "   " + state_.colour_map;
@@ -221,7 +221,9 @@ void ViewerWindow::draw_facts(ViewerPanel& panel, const PictureOptions& options)
   const double below = sliders_ ? slider_rows * font : font, top = options.height - 0.8 * font;
   std::string words = explanation_;
   if (words.empty())
-    words = "Click a sample in the picture,\na point in 3-D or a range\non the A-scan: it is\nexplained here.";
+    words =
+        "Click a sample in the picture,\na point in the 3-D panel, or a\nrange on the A-scan. Its\nexplanation appears "
+        "here.";
   add_text_lines(facts, words, {font * 1.0, options.width - 0.5 * font, below, top}, font);
 
   const double lines = static_cast<double>(std::count(words.begin(), words.end(), '\n') + 2);

@@ -144,7 +144,7 @@ std::string bearing_words(double azimuth) {
 
 std::string contributor_lines(const PixelFacts& facts) {
   if (!facts.contributions_known) return {};
-  if (facts.contributions.empty()) return "No surfel contributes: side lobes or noise\n";
+  if (facts.contributions.empty()) return "No surfel contributes: the sample\n  holds side lobes or noise\n";
   std::string text = "Strongest contributor:\n";
   for (const Contribution& c : facts.contributions)
     text += "  " + (c.part.empty() ? "" : c.part + ": ") + c.material +
@@ -156,11 +156,10 @@ std::string contributor_lines(const PixelFacts& facts) {
 
 std::string visibility_lines(const PixelVisibility& visibility, const std::string& seen_material) {
   if (visibility.seen.empty() && visibility.hidden.empty() && visibility.turned_away == 0) return {};
-  std::string text = printed("Surfels here: %zu seen", visibility.seen.size());
+  std::string text = printed("Surfels in this sample: %zu seen", visibility.seen.size());
   if (!seen_material.empty()) text += " (" + seen_material + ")";
-  text += printed(",\n  %zu hidden, %zu turned away\n", visibility.hidden.size(), visibility.turned_away);
-  if (visibility.occluder_range)
-    text += printed("Shadow: occluded by a surfel at %.3f m\n", *visibility.occluder_range);
+  text += printed(",\n  %zu hidden, %zu face away\n", visibility.hidden.size(), visibility.turned_away);
+  if (visibility.occluder_range) text += printed("Shadow of a surfel at %.3f m\n", *visibility.occluder_range);
   return text;
 }
 
@@ -223,19 +222,18 @@ std::string explain_pixel(const PixelFacts& facts) {
                              facts.place.beam, facts.place.bin);
   text += printed("Range %.3f m\n", facts.range);
   text += "Bearing " + bearing_words(std::remainder(facts.azimuth + facts.scan_angle.value_or(0), 2 * pi)) + "\n";
-  if (facts.scan_angle)
-    text += "  of which the head turned " + bearing_words(std::remainder(*facts.scan_angle, 2 * pi)) + "\n";
-  text += printed("Elevation %+.2f° of the beam\n", degrees(facts.elevation));
+  if (facts.scan_angle) text += "  Turn of the head " + bearing_words(std::remainder(*facts.scan_angle, 2 * pi)) + "\n";
+  text += printed("Elevation of the beam %+.2f°\n", degrees(facts.elevation));
   if (std::isfinite(facts.level_db)) {
     text += printed("Level %.1f %s\n", facts.level_db, facts.unit.c_str());
     text += printed("  %.1f dB range compensated\n", facts.compensated_level_db);
   } else {
-    text += "Level: no sound at all\n";
+    text += "Level: no sound in this sample\n";
   }
   if (!facts.part.empty()) text += "Part " + facts.part + "\n";
   text += contributor_lines(facts);
   if (facts.visibility) text += visibility_lines(*facts.visibility, facts.seen_material);
-  if (facts.unknown) text += "Hole: surface may be missing here,\n  unknown, not empty\n";
+  if (facts.unknown) text += "Hole of the scan: surface may be\n  missing here\n";
   return text;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr int rays_per_beam = 16;
 
 /// By Visibility.
-constexpr const char* visibility_texts[] = {"not known", "outside fan or gate", "turned away",
+constexpr const char* visibility_texts[] = {"not known", "outside the fan or the range", "facing away",
                                             "hidden by a nearer surface", "seen"};
 
 }  // namespace
@@ -51,14 +51,14 @@ std::string explain_view(const HeadView& view, const ViewerState& state) {
   const HeadPlace& head = state.head;
   std::string text = printed("Head at %.2f, %.2f, %.2f m\n", head.position.x(), head.position.y(), head.position.z());
   text += printed("Yaw %.1f°, pitch %.1f°, roll %.1f°\n", degrees(head.yaw), degrees(head.pitch), degrees(head.roll));
-  text += printed("A key moves it %g m,\nor turns it %g°\n\n", state.stride, 10 * state.stride);
-  text += printed("Of %zu surfels\n", view.visibility.size());
-  text += printed("  %zu seen\n  %zu hidden\n  %zu turned away\n  %zu outside fan or gate\n", view.seen, view.hidden,
-                  view.turned_away, view.outside);
-  if (view.seen > 0) text += printed("Seen from %.2f to %.2f m\n", view.nearest, view.farthest);
-  if (view.seen == 0) text += "Nothing is seen: a ping from here is silent\n";
+  text += printed("A key moves the head by %g m\nor turns it by %g°\n\n", state.stride, 10 * state.stride);
+  text += printed("%zu surfels, of these\n", view.visibility.size());
+  text += printed("  %zu seen\n  %zu hidden\n  %zu facing away\n  %zu outside the fan or the range\n", view.seen,
+                  view.hidden, view.turned_away, view.outside);
+  if (view.seen > 0) text += printed("Ranges of seen surfels %.2f to %.2f m\n", view.nearest, view.farthest);
+  if (view.seen == 0) text += "Nothing is seen: a ping from here\nis silent\n";
   if (view.rays > 0)
-    text += printed("Rays: %.1f %% meet nothing,\n%.1f %% a hole of the scan\n",
+    text += printed("%.1f %% of the rays meet nothing,\n%.1f %% meet a hole of the scan\n",
                     100.0 * static_cast<double>(view.rays_open) / static_cast<double>(view.rays),
                     100.0 * static_cast<double>(view.holes.size()) / static_cast<double>(view.rays));
   return text;
@@ -83,7 +83,7 @@ std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const 
   text += printed("Bearing %+.2f°, elevation %+.2f°\n", -degrees(direction.azimuth), degrees(direction.elevation));
   text += printed("Incidence %.1f°\n", degrees(incidence));
   if (surfel < view.visibility.size())
-    text += std::string("It is ") + visibility_texts[static_cast<std::size_t>(view.visibility[surfel])] + "\n";
+    text += std::string("This surfel is ") + visibility_texts[static_cast<std::size_t>(view.visibility[surfel])] + "\n";
   return text;
 }
 

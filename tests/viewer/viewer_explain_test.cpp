@@ -110,7 +110,7 @@ TEST(ExplainPixel, silence_has_no_level) {
   made.pings[0].pressure(2, 2) = 0;
   made.data.pings = reel_in_memory(made.pings);
   const std::string text = explain_pixel(find_pixel_facts(made.data, 0, {2, 2}));
-  EXPECT_THAT(text, HasSubstr("no sound at all"));
+  EXPECT_THAT(text, HasSubstr("no sound in this sample"));
   EXPECT_THAT(text, Not(HasSubstr("inf")));
 }
 
@@ -178,6 +178,6 @@ TEST(HeadView, explains_a_surfel) {
   EXPECT_THAT(text, HasSubstr("Range 6.050 m"));
   EXPECT_THAT(text, HasSubstr("Bearing -26.00°"));
   EXPECT_THAT(text, HasSubstr("Incidence 0."));
-  EXPECT_THAT(text, HasSubstr("It is seen"));
+  EXPECT_THAT(text, HasSubstr("This surfel is seen"));
   EXPECT_THROW(explain_surfel(made.data.scene, view, head, 75), Error);
 }

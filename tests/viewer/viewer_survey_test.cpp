@@ -167,7 +167,7 @@ TEST_F(SurveyWindow, a_click_on_a_sweep_goes_to_the_ping_that_heard_it) {
   const Box& box = window_->layout().fan;
   click({box.left + 0.6 * box.width(), box.bottom + 0.47 * box.height()});
   EXPECT_EQ(window_->state().ping, 9U);
-  EXPECT_THAT(said_.back(), HasSubstr("of which the head turned"));
+  EXPECT_THAT(said_.back(), HasSubstr("Turn of the head"));
 }
 
 TEST_F(SurveyWindow, the_timeline_seeks_and_stops_playing) {

@@ -77,7 +77,8 @@ ordered_json cloud_info(const std::string& path) {
   if (!d.has_normals && d.triangles == 0 && !d.viewpoint)
     next.insert(next.begin(), "insonify prepare " + shell_word(path) +
                                   " --viewpoint x,y,z -o prepared.ply  # where it was captured from");
-  if (!d.has_materials) next.push_back("insonify materials  # names for --material, which gives all of it one");
+  if (!d.has_materials)
+    next.push_back("insonify materials  # names for --material, which gives the whole scene one material");
   ordered_json json = {{"path", d.path},
                        {"format", d.format},
                        {"points", d.points},
