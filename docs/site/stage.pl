@@ -34,7 +34,7 @@ for my $path (grep { !/_internal\.hpp$/ } glob 'modules/*/*.hpp') {
   my $text = slurp($path);
   $text =~ s{^#include "([a-z_]+/[a-z0-9_]+\.hpp)"}{#include <insonify/$1>}mg;
   $text =~ s/^ private:\n.*?^(?=\};)//msg;
-  $text =~ s{^(\s*///.*|.*?///<.*)$}{equations($1)}meg;
+  $text =~ s{^(\s*///.*|.*?///<.*)$}{equations($1) =~ s/(?<=\w)\@(?=[A-Z])/\\@/gr}meg;  # NAME@LAW is no command
   $text =~ s{^(namespace insonify(?:::\w+)? \{)$}{$1\n/// \@addtogroup $module\n/// \@\{}mg;
   $text =~ s{^(\}  // namespace insonify(?:::\w+)?)$}{/// \@\}\n$1}mg;
   spew($path =~ s{^modules}{$stage/insonify}r, $text);
