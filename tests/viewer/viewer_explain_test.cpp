@@ -91,7 +91,7 @@ TEST(ExplainPixel, names_the_occluder_and_its_range) {
   ASSERT_TRUE(facts.visibility->occluder_range);
   EXPECT_NEAR(*facts.visibility->occluder_range, range, 0.01);
   EXPECT_EQ(made.data.scene.material[*facts.visibility->occluder_surfel], 1);
-  EXPECT_THAT(explain_pixel(facts), HasSubstr("occluded by a surfel at 6.0"));
+  EXPECT_THAT(explain_pixel(facts), HasSubstr("Shadow of a surfel at 6.0"));
 }
 
 TEST(ExplainPixel, reports_a_hole_of_the_scan) {

@@ -224,7 +224,7 @@ TEST_F(ViewSurvey, is_played_from_shards_and_merged) {
   shown("run/fls --ping 5 --events 'select 3 200'");
   EXPECT_EQ(read("a.png"), from_shards);
   EXPECT_THAT(shown("run --head turning --ping 3 --no-scene --events 'select 0 9; key End; select 0 9'"),
-              AllOf(HasSubstr("the head turned -135.00°"), HasSubstr("Ping 12, ")));
+              AllOf(HasSubstr("Turn of the head -135.00°"), HasSubstr("Ping 12, ")));
   // The blocks are not needed once they are copied.
   succeed("merge run --copy -q");
   for (const char* head : {"fls", "turning"}) std::filesystem::remove_all(path("run/" + std::string(head) + "/blocks"));
