@@ -49,5 +49,5 @@ TEST_F(ExpectedLevelRun, keeps_the_mask_of_holes_if_asked) {
 TEST_F(ExpectedLevelRun, refuses_what_makes_no_sense) {
   const std::string ping = "ping plane.ply -o out" + over;
   expect_refused(ping + "--method incoherent --keep elements", 2,
-                 {"outputs.elements = true", "method incoherent", "use gridded"});
+                 {"--keep elements: must be left out", "method incoherent", "use gridded"});
 }

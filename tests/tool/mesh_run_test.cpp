@@ -68,5 +68,5 @@ TEST_F(MeshRun, looks_are_in_the_cube_and_in_run_toml) {
   succeed("ping --run looks/run.toml -o again --no-picture -q");
   EXPECT_TRUE(read("again/cube.h5") == read("looks/cube.h5"));
   expect_refused(swath + " --looks-range 0 -o no", 2, {"--looks-range"});
-  expect_refused(swath + " --looks-pings 2 --method incoherent -o no", 2, {"looks_pings = 2", "method incoherent"});
+  expect_refused(swath + " --looks-pings 2 --method incoherent -o no", 2, {"--looks-pings = 2", "method incoherent"});
 }

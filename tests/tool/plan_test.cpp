@@ -57,7 +57,7 @@ TEST_F(Plan, refuses_stages_that_are_unknown_or_have_no_cause) {
   expect_refused("ping " + ping + " -o out --with refraction", 2, {"refraction", "no sound-speed profile"});
   expect_refused("ping " + ping + " -o out --with volume", 2, {"volume.scattering_db"});
   for (const std::string bad : {"0", "-1", "nan", "inf", "21"})
-    expect_refused("plan " + ping + " --accuracy-db=" + bad, 2, {"accuracy_db = ", "above 0 and at most 20 dB"});
+    expect_refused("plan " + ping + " --accuracy-db=" + bad, 2, {"--accuracy-db = ", "above 0 and at most 20 dB"});
   expect_refused("ping " + ping + " -o out --keep everything", 2, {"--keep"});
 }
 
