@@ -22,8 +22,8 @@ struct GatedSurfel {
   float range;               ///< [m]
   Eigen::Vector3f away;      ///< unit normal, oriented away from the head
   float plane_distance;      ///< from the head to the tangent plane [m], >= 0; 0: seen edge-on
-  float radius;              ///< of the disc, or the farthest corner of the facet [m]
-  float core;                ///< radius of the part of the disc that hides by itself [m]
+  float radius;              ///< of the disc, of a node at most 0.8 spacings; or the farthest corner of the facet [m]
+  float core;                ///< within it the disc hides by itself: 0.65 spacings, 0.5 of a node (E137) [m]
   float spacing;             ///< sqrt(area) [m]
   float unevenness;          ///< how far below its plane its own surface may lie [m]
   float noise;               ///< of the surface [m]
