@@ -36,7 +36,7 @@ TEST_F(BadEnvironment, set_out_of_range) {
   refuse("--set wind.sped_m_s=3", {"wind.sped_m_s", "did you mean 'wind.speed_m_s'?"});
   refuse("--set weather.rain=1", {"unknown key 'weather.rain'"});
   refuse("--set profile.sound_speed=1500", {"profile.sound_speed", "set as a whole", "--profile"});
-  refuse("--scan-noise -0.1", {"scan_noise = -0.1 m", "must be finite and >= 0"});
+  refuse("--scan-noise -0.1", {"--scan-noise = -0.1 m", "must be 0 or more, and finite"});
   refuse("--scan-noise rough", {"--scan-noise", "rough", "metres"});
 }
 
