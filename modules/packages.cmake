@@ -8,10 +8,12 @@ find_package(PkgConfig REQUIRED)
 if("beamforming" IN_LIST insonify_modules)
   pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3 fftw3f)  # Debian ships no CMake config for FFTW
 endif()
-if("store" IN_LIST insonify_modules)
+if("hdf" IN_LIST insonify_modules)
   pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)  # CMake's own module asks for C
   find_library(HDF5_HL_LIBRARY NAMES hdf5_hl hdf5_serial_hl HINTS ${HDF5_LIBRARY_DIRS} REQUIRED)  # dimension scales
   set_property(TARGET PkgConfig::HDF5 APPEND PROPERTY INTERFACE_LINK_LIBRARIES ${HDF5_HL_LIBRARY})
+endif()
+if("store" IN_LIST insonify_modules)
   find_package(tomlplusplus REQUIRED)
 endif()
 if("formats" IN_LIST insonify_modules)

@@ -9,9 +9,9 @@
 
 #include "core/error.hpp"
 #include "files/input_file.hpp"
+#include "hdf/hdf5_internal.hpp"
 #include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
-#include "store/hdf5_internal.hpp"
 
 namespace insonify {
 

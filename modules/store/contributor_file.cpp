@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "hdf/hdf5_internal.hpp"
 #include "returns/label_objects.hpp"
-#include "store/hdf5_internal.hpp"
 
 namespace insonify {
 

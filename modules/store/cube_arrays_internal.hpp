@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "files/child_arrays.hpp"
+#include "hdf/hdf5_internal.hpp"
 #include "store/cube.hpp"
-#include "store/hdf5_internal.hpp"
 
 // Private to store: the data that a child process sends when it reads a cube.
 namespace insonify {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "store/hdf5_internal.hpp"
+#include "hdf/hdf5_internal.hpp"
 
 // Private to store.
 namespace insonify::hdf5 {

@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "hdf/hdf5_internal.hpp"
 #include "store/cube_arrays_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/cube_parts_internal.hpp"
-#include "store/hdf5_internal.hpp"
 
 // Images of a cube, between the child that reads them and its parent.
 namespace insonify {

@@ -2,18 +2,13 @@
 #pragma once
 #include <cstdint>
 
+#include "hdf/dataset_name_internal.hpp"
+
 namespace insonify {
 
 /// Version of the layout of cube.h5, raised when readers of the previous one would fail.
 constexpr std::int64_t cube_schema = 1;
 
-/// Path of a dataset in the file, its unit for the attribute "units" and what it is, signs included, for "long_name"
-/// ("": none).
-struct DatasetName {
-  const char* path;
-  const char* unit;
-  const char* about = "";
-};
 constexpr DatasetName pressure_name{"/pressure", "Pa", "sound pressure of the received signal, complex amplitude"};
 /// Attribute of pressures: what their numbers are, for levels that are right.
 constexpr const char* convention_attribute = "convention";

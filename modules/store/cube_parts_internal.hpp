@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
+#include "hdf/hdf5_internal.hpp"
 #include "store/cube_arrays_internal.hpp"
-#include "store/hdf5_internal.hpp"
 
 // Private to store: the parts of a scene in cubes of pings with labels.
 namespace insonify {

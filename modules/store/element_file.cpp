@@ -2,9 +2,9 @@
 #include "store/element_file.hpp"
 
 #include "core/error.hpp"
+#include "hdf/hdf5_internal.hpp"
 #include "returns/ping.hpp"
 #include "store/cube_layout_internal.hpp"
-#include "store/hdf5_internal.hpp"
 
 namespace insonify {
 

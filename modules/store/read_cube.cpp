@@ -5,9 +5,9 @@
 
 #include "core/error.hpp"
 #include "files/child_process.hpp"
+#include "hdf/hdf5_internal.hpp"
 #include "store/cube_arrays_internal.hpp"
 #include "store/cube_layout_internal.hpp"
-#include "store/hdf5_internal.hpp"
 
 namespace insonify {
 

@@ -7,11 +7,11 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "hdf/hdf5_internal.hpp"
 #include "store/cube.hpp"
 #include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/cube_parts_internal.hpp"
-#include "store/hdf5_internal.hpp"
 
 namespace insonify {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "store/hdf5_internal.hpp"
+#include "hdf/hdf5_internal.hpp"
 
 #include <algorithm>
 
@@ -152,6 +152,15 @@ Handle create_file(const FileContext& place, const std::string& name) {
           H5Fclose};
 }
 
+namespace {
+
+void describe(const FileContext& place, hid_t dataset, const DatasetName& name) {
+  if (*name.unit) write_attribute(place, dataset, "units", std::string(name.unit));
+  if (*name.about) write_attribute(place, dataset, "long_name", std::string(name.about));
+}
+
+}  // namespace
+
 Handle create_dataset(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk, Packing packing) {
   const Handle space(
@@ -170,9 +179,24 @@ Handle create_dataset(const FileContext& place, hid_t file, const DatasetName& n
   Handle dataset(
       place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
       H5Dclose);
-  if (*name.unit) write_attribute(place, dataset, "units", std::string(name.unit));
-  if (*name.about) write_attribute(place, dataset, "long_name", std::string(name.about));
+  describe(place, dataset, name);
   return dataset;
+}
+
+std::uint64_t create_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
+                           const Extent& extent) {
+  const Handle space(
+      place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
+  const Handle properties(place.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
+  place.checked(H5Pset_obj_track_times(properties, false), name.path);
+  place.checked(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), name.path);
+  place.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), name.path);
+  const Handle dataset(
+      place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
+      H5Dclose);
+  describe(place, dataset, name);
+  const haddr_t offset = H5Dget_offset(dataset);
+  return offset == HADDR_UNDEF ? 0 : offset;
 }
 
 Handle create_ordered_group(const FileContext& place, hid_t file, const char* name) {

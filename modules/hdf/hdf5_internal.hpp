@@ -12,8 +12,9 @@
 #include "core/error.hpp"
 #include "files/child_process.hpp"
 #include "files/pending_file.hpp"
-#include "store/cube_layout_internal.hpp"
+#include "hdf/dataset_name_internal.hpp"
 
+// Private to the modules that read and write HDF5 files.
 namespace insonify::hdf5 {
 
 /// Suppresses HDF5's error output during its lifetime; failures become Error instead.
@@ -101,6 +102,15 @@ enum class Packing { none, deflate };
 /// `chunk` is not empty.
 Handle create_dataset(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {}, Packing packing = Packing::none);
+
+/// Creates a dataset whose values lie one after another in the file, and returns the offset of the first [bytes]; 0 for
+/// none. They are written there without HDF5, once the file is closed, and are undefined until then.
+std::uint64_t create_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
+                           const Extent& extent);
+/// Returns the same of a dataset of a file of others. Throws Error(content) unless its values are of this type and
+/// extent and lie in the file as they are.
+std::uint64_t find_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
+                         const Extent& extent);
 
 /// Creates a group that keeps the order in which its members are written.
 Handle create_ordered_group(const FileContext& place, hid_t file, const char* name);

@@ -4,7 +4,7 @@
 
 #include "files/child_process.hpp"
 #include "files/input_file.hpp"
-#include "store/hdf5_internal.hpp"
+#include "hdf/hdf5_internal.hpp"
 
 // What is read of files that others may have made: checked before HDF5 trusts it.
 namespace insonify::hdf5 {
@@ -109,7 +109,7 @@ void require_stored(const FileContext& place, const DatasetName& name, hid_t dat
   if (values * static_cast<double>(H5Tget_size(type)) <= most)
     return expect_from_file(place.path, stored, {values, "values", static_cast<double>(H5Tget_size(type))});
   fail(place.kind, place.path, ": ", name.path, " announces ", values, " values of ", H5Tget_size(type),
-       " bytes, and holds ", stored, " bytes; copy the file again, or run the ping again");
+       " bytes, and holds ", stored, " bytes; copy the file again, or make it anew");
 }
 
 }  // namespace
@@ -126,6 +126,22 @@ Handle open_dataset(const FileContext& place, hid_t file, const DatasetName& nam
   require_own_data(place, file, name, dataset);
   require_stored(place, name, dataset);
   return dataset;
+}
+
+std::uint64_t find_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
+                         const Extent& extent) {
+  const Handle dataset = open_dataset(place, file, name);
+  const Extent found = extent_of(place, dataset, name.path, extent.size());
+  for (std::size_t d = 0; d < extent.size(); ++d)
+    if (found[d] != extent[d])
+      fail(place.kind, place.path, ": ", name.path, " has ", found[d], " entries, must have ", extent[d]);
+  const Handle stored(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
+  const Handle properties(place.checked(H5Dget_create_plist(dataset), name.path), H5Pclose);
+  if (H5Tequal(stored, type) <= 0) fail(place.kind, place.path, ": ", name.path, " is of another type");
+  if (H5Pget_layout(properties) != H5D_CONTIGUOUS || H5Pget_nfilters(properties) > 0)
+    fail(place.kind, place.path, ": ", name.path, " is stored in chunks, must be contiguous");
+  const haddr_t offset = H5Dget_offset(dataset);
+  return offset == HADDR_UNDEF ? 0 : offset;
 }
 
 }  // namespace insonify::hdf5

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace insonify {
+
+/// Path of a dataset in the file, its unit for the attribute "units" and what it is, signs included, for "long_name"
+/// ("": none).
+struct DatasetName {
+  const char* path;
+  const char* unit;
+  const char* about = "";
+};
+
+}  // namespace insonify

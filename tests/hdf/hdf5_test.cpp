@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+
+#include "hdf/hdf5_internal.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+using namespace insonify::hdf5;
+constexpr DatasetName numbers_name{"/numbers", "m", "some numbers"};
+
+/// A file of four numbers that are written without HDF5.
+std::string plain_file() {
+  const std::string path = own_path("plain.h5");
+  std::uint64_t offset = 0;
+  write_hdf5(path, [&](const FileContext& place, hid_t file) {
+    offset = create_plain(place, file, numbers_name, H5T_IEEE_F32LE, {4});
+  });
+  const std::array<float, 4> numbers{1, 2, 3, 4};
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary)
+      .seekp(static_cast<std::streamoff>(offset))
+      .write(reinterpret_cast<const char*>(numbers.data()), sizeof(numbers));
+  return path;
+}
+
+/// Looks for plain numbers in a file, in a child process.
+void find_numbers(const std::string& path, hid_t type, const Extent& extent) {
+  read_apart(path, [&](const FileContext& place, hid_t file, ArraySender&) {
+    find_plain(place, file, numbers_name, type, extent);
+  });
+}
+
+}  // namespace
+
+TEST(Hdf5File, values_written_at_their_offset_are_those_that_hdf5_reads) {
+  const QuietErrors quiet;
+  const std::string path = plain_file();
+  const FileContext place{path, ErrorKind::content};
+  const Handle file = open_file(place);
+  EXPECT_EQ(read_all<float>(place, file, numbers_name, {4}, H5T_NATIVE_FLOAT), (std::vector<float>{1, 2, 3, 4}));
+  const Handle dataset = open_dataset(place, file, numbers_name);
+  EXPECT_EQ(find_plain(place, file, numbers_name, H5T_IEEE_F32LE, {4}), H5Dget_offset(dataset));
+  EXPECT_EQ(read_text(place, dataset, "units"), "m");
+}
+
+TEST(Hdf5File, values_that_do_not_lie_in_the_file_as_announced_are_refused) {
+  const std::string path = plain_file();
+  find_numbers(path, H5T_IEEE_F32LE, {4});
+  expect_error(ErrorKind::content, {"plain.h5", "/numbers has 4 entries, must have 5"},
+               [&] { find_numbers(path, H5T_IEEE_F32LE, {5}); });
+  expect_error(ErrorKind::content, {"/numbers has 1 dimensions, must have 2"}, [&] {
+    find_numbers(path, H5T_IEEE_F32LE, {4, 1});
+  });
+  expect_error(ErrorKind::content, {"/numbers is of another type"}, [&] { find_numbers(path, H5T_IEEE_F32BE, {4}); });
+  write_hdf5(own_path("chunked.h5"), [&](const FileContext& place, hid_t file) {
+    const std::array<float, 4> numbers{1, 2, 3, 4};
+    const Handle dataset = create_dataset(place, file, numbers_name, H5T_IEEE_F32LE, {4}, {2});
+    H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+  });
+  expect_error(ErrorKind::content, {"chunked.h5", "contiguous"},
+               [&] { find_numbers(own_path("chunked.h5"), H5T_IEEE_F32LE, {4}); });
+  expect_error(ErrorKind::content, {"text.h5", "is not an HDF5 file"},
+               [&] { find_numbers(own_file("text.h5", "numbers"), H5T_IEEE_F32LE, {4}); });
+}
+
+TEST(Hdf5File, appears_whole_or_not_at_all) {
+  const std::string path = own_path("none.h5");
+  struct Stop {};
+  EXPECT_THROW(write_hdf5(path, [](const FileContext&, hid_t) { throw Stop{}; }), Stop);
+  EXPECT_TRUE(std::filesystem::is_empty(own_folder()));
+}
