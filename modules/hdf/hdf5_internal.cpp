@@ -30,12 +30,12 @@ void write_scalar(const FileContext& place, hid_t where, const char* name, hid_t
   place.checked(H5Awrite(attribute, memory_type, value), what);
 }
 
-Handle open_attribute(const FileContext& place, hid_t where, const char* name) {
+Handle open_attribute(const FileContext& place, hid_t where, const char* name, hssize_t values = 1) {
   if (H5Aexists(where, name) <= 0) fail(place.kind, place.path, ": attribute '", name, "' is missing");
   Handle attribute(place.checked(H5Aopen(where, name, H5P_DEFAULT), std::string("attribute '") + name + "'"), H5Aclose);
   const Handle space(place.checked(H5Aget_space(attribute), name), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space) != 1)
-    fail(place.kind, place.path, ": attribute '", name, "' must hold one value");
+  if (H5Sget_simple_extent_npoints(space) != values)
+    fail(place.kind, place.path, ": attribute '", name, "' must hold ", values, values == 1 ? " value" : " values");
   return attribute;
 }
 
@@ -116,6 +116,15 @@ void write_attribute(const FileContext& place, hid_t where, const char* name, co
   write_scalar(place, where, name, type, type, &text);
 }
 
+void write_attribute(const FileContext& place, hid_t where, const char* name, std::span<const double> values) {
+  const std::string what = std::string("attribute '") + name + "' cannot be written";
+  const hsize_t count = values.size();
+  const Handle space(place.checked(H5Screate_simple(1, &count, nullptr), what), H5Sclose);
+  const Handle attribute(place.checked(H5Acreate2(where, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), what),
+                         H5Aclose);
+  place.checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()), what);
+}
+
 double read_number(const FileContext& place, hid_t where, const char* name) {
   return read_scalar<double>(place, where, name, H5T_NATIVE_DOUBLE);
 }
@@ -126,6 +135,12 @@ std::int64_t read_integer(const FileContext& place, hid_t where, const char* nam
 
 std::uint64_t read_unsigned(const FileContext& place, hid_t where, const char* name) {
   return read_scalar<std::uint64_t>(place, where, name, H5T_NATIVE_UINT64);
+}
+
+void read_numbers(const FileContext& place, hid_t where, const char* name, std::span<double> to) {
+  const Handle attribute = open_attribute(place, where, name, static_cast<hssize_t>(to.size()));
+  place.checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, to.data()),
+                std::string("attribute '") + name + "' is not numbers");
 }
 
 // Reads text of fixed length (as other programs write it) or of variable length.

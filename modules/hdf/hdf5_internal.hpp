@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -164,12 +165,16 @@ void write_attribute(const FileContext& place, hid_t where, const char* name, do
 void write_attribute(const FileContext& place, hid_t where, const char* name, std::int64_t value);
 void write_attribute(const FileContext& place, hid_t where, const char* name, std::uint64_t value);
 void write_attribute(const FileContext& place, hid_t where, const char* name, const std::string& value);
+/// Writes an attribute of several values.
+void write_attribute(const FileContext& place, hid_t where, const char* name, std::span<const double> values);
 
 /// Read an attribute; throw Error(content) naming it if it is missing or of another type.
 double read_number(const FileContext& place, hid_t where, const char* name);
 std::int64_t read_integer(const FileContext& place, hid_t where, const char* name);
 std::uint64_t read_unsigned(const FileContext& place, hid_t where, const char* name);
 std::string read_text(const FileContext& place, hid_t where, const char* name);
+/// Reads an attribute of as many values as `to` holds; otherwise the same.
+void read_numbers(const FileContext& place, hid_t where, const char* name, std::span<double> to);
 
 /// Reads a whole dataset, which must have the expected extent.
 template <typename T>

@@ -7,12 +7,12 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "files/binary_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/ply_header_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/scene_columns_internal.hpp"
-#include "scene_io/tile_file_internal.hpp"
 
 namespace insonify {
 namespace {

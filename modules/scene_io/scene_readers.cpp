@@ -25,7 +25,7 @@ const std::vector<SceneReader>& scene_readers() {
       {{".tif", ".tiff"}, {std::string("II*\0", 4), std::string("MM\0*", 4)}, "a TIFF file", "", read_raster},
       {{".bag"}, {}, "a BAG file", "", read_raster},
       {{".nc", ".grd"}, {"CDF"}, "a netCDF grid", "", read_raster},
-      {{".tiles"}, {"insotile"}, "an insonify tiles file", "", nullptr, nullptr, load_all_tiles},
+      {{".tiles"}, {"\x89HDF\r\n\x1a\n"}, "an HDF5 file, if of insonify tiles", "", nullptr, nullptr, load_all_tiles},
       {{".las"}, {"LASF"}, "a LAS file", "", read_las, find_las_rows},
       {{".laz"}, {}, "a LAZ file", "convert it first: pdal translate in.laz out.las"},
       {{".e57"}, {"ASTM-E57"}, "an E57 file", "convert it first: pdal translate in.e57 out.ply"},

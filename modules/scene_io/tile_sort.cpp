@@ -1,56 +1,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
 
-#include <Eigen/Core>
-
-#include "core/morton.hpp"
+#include "core/parallel.hpp"
 #include "scene_io/tile_sort_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr std::size_t chunk = 1 << 15;        // records read or written at once
-constexpr std::uint32_t cells_per_axis = 16;  // of one subdivision
-constexpr std::size_t cells = 4096;
+constexpr std::uint64_t cells_per_axis = 16;  // of one subdivision, at most
+constexpr std::size_t cells = cells_per_axis * cells_per_axis * cells_per_axis;
+constexpr std::size_t sorted_at_once = 1 << 14;  // records, by one thread
 
-using Place = Eigen::Map<const Eigen::Vector3d>;
-
-// Cubic cells over a box, numbered along a Morton curve, so that cells with adjacent numbers are neighbours.
-struct Cells {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = Eigen::Vector3d::Constant(-1e300);
-
-  void enclose(const TileRecord& record) {
-    low = low.cwiseMin(Place(record.place));
-    high = high.cwiseMax(Place(record.place));
+/// Aligned cells over a box, numbered along the curve.
+class Cells {
+ public:
+  void enclose(const CurvePlace& place) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      low_[axis] = std::min(low_[axis], place[axis]), high_[axis] = std::max(high_[axis], place[axis]);
   }
-  double extent() const { return (high - low).maxCoeff(); }
-  std::size_t cell(const TileRecord& record) const {
-    std::array<std::uint32_t, 3> place{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double step = (record.place[axis] - low[axis]) / extent() * cells_per_axis;
-      place[axis] = std::min(static_cast<std::uint32_t>(step), cells_per_axis - 1);
-    }
-    return morton_code(place);
+  bool is_one_place() const { return low_ == high_; }
+  /// To be called when all is enclosed.
+  void number() {
+    const auto wide = [&](std::size_t axis) {
+      return (high_[axis] >> shift_) - (low_[axis] >> shift_) >= cells_per_axis;
+    };
+    while (wide(0) || wide(1) || wide(2)) ++shift_;
+    std::vector<std::size_t> order(cells);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return MortonCurve::before(corner(a), corner(b)); });
+    for (std::size_t k = 0; k < cells; ++k) number_[order[k]] = static_cast<std::uint32_t>(k);
   }
+  std::size_t cell(const CurvePlace& place) const {
+    std::size_t index = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      index = index * cells_per_axis + ((place[axis] >> shift_) - (low_[axis] >> shift_));
+    return number_[index];
+  }
+
+ private:
+  CurvePlace corner(std::size_t index) const {
+    return {(low_[0] >> shift_) + index / (cells_per_axis * cells_per_axis),
+            (low_[1] >> shift_) + index / cells_per_axis % cells_per_axis,
+            (low_[2] >> shift_) + index % cells_per_axis};
+  }
+
+  CurvePlace low_{~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}}, high_{};
+  int shift_ = 0;
+  std::array<std::uint32_t, cells> number_{};
 };
 
-// A range of records of a file.
+/// A range of records of a file.
 struct Segment {
   std::uint64_t first = 0, count = 0;
 };
 
 template <typename Body>
-void for_each_record(const RecordFile& file, Segment segment, const PlaceSort& sort, const Body& body) {
+void for_each_record(const RecordFile& file, Segment segment, const CurveSort& sort, const Body& body) {
   for (std::uint64_t done = 0; done < segment.count; done += chunk) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(chunk, segment.count - done));
-    for (const TileRecord& record : file.read(segment.first + done, count)) body(record);
+    for (const TileRecord& record : file.read(segment.first + done, count)) body(record, sort.curve.at(record.place));
     sort.moved(count);
   }
 }
 
-// Groups runs of cells with at most `most` records in total, or single cells with more; also returns the group of each
-// cell.
+/// Groups runs of cells with at most `most` records in total, or single cells with more; also returns the group of each
+/// cell.
 std::vector<Segment> plan_parts(const std::array<std::uint64_t, cells>& counts, std::size_t most,
                                 std::array<std::uint32_t, cells>& part_of_cell) {
   std::vector<Segment> parts;
@@ -63,8 +82,8 @@ std::vector<Segment> plan_parts(const std::array<std::uint64_t, cells>& counts, 
   return parts;
 }
 
-// Copies a segment into `to`, each record to its group, preserving order.
-void distribute(const RecordFile& from, Segment segment, const Cells& grid, const PlaceSort& sort,
+/// Copies a segment into `to`, each record to its group.
+void distribute(const RecordFile& from, Segment segment, const Cells& grid, const CurveSort& sort,
                 const std::array<std::uint32_t, cells>& part_of_cell, std::vector<Segment> parts, RecordFile& to) {
   const std::size_t room = std::max<std::size_t>(16, std::min(chunk, sort.most / parts.size()));
   std::vector<std::vector<TileRecord>> waiting(parts.size());
@@ -73,30 +92,47 @@ void distribute(const RecordFile& from, Segment segment, const Cells& grid, cons
     parts[p].first += waiting[p].size();
     waiting[p].clear();
   };
-  for_each_record(from, segment, sort, [&](const TileRecord& record) {
-    const std::size_t p = part_of_cell[grid.cell(record)];
+  for_each_record(from, segment, sort, [&](const TileRecord& record, const CurvePlace& at) {
+    const std::size_t p = part_of_cell[grid.cell(at)];
     waiting[p].push_back(record);
     if (waiting[p].size() == room) write_out(p);
   });
   for (std::size_t p = 0; p < parts.size(); ++p) write_out(p);
 }
 
-void visit(std::shared_ptr<const RecordFile> file, Segment segment, const PlaceSort& sort) {
+/// The records of a segment that fits into memory, in order.
+std::vector<PlacedRecord> sorted(const RecordFile& file, Segment segment, const CurveSort& sort) {
+  std::vector<PlacedRecord> group;
+  group.reserve(segment.count);
+  for_each_record(file, segment, sort, [&](const TileRecord& record, const CurvePlace& at) {
+    group.push_back({at, record});
+  });
+  const auto before = [](const PlacedRecord& a, const PlacedRecord& b) {
+    return a.at == b.at ? a.record.id < b.record.id : MortonCurve::before(a.at, b.at);
+  };
+  const auto at = [&](std::size_t k) { return group.begin() + static_cast<std::ptrdiff_t>(std::min(k, group.size())); };
+  parallel_blocks(group.size(), sorted_at_once, sort.threads,
+                  [&](std::size_t begin, std::size_t end) { std::sort(at(begin), at(end), before); });
+  for (std::size_t width = sorted_at_once; width < group.size(); width *= 2)
+    parallel_blocks(group.size(), 2 * width, sort.threads, [&](std::size_t begin, std::size_t end) {
+      std::inplace_merge(at(begin), at(begin + width), at(end), before);
+    });
+  return group;
+}
+
+void visit(std::shared_ptr<const RecordFile> file, Segment segment, const CurveSort& sort) {
   if (segment.count == 0) return;
+  if (segment.count <= sort.most) return sort.take(sorted(*file, segment, sort));
   Cells grid;
-  if (segment.count > sort.most)
-    for_each_record(*file, segment, sort, [&](const TileRecord& record) { grid.enclose(record); });
-  if (segment.count <= sort.most || !(grid.extent() > 0)) {  // fits in memory, or cannot be divided
-    for (std::uint64_t done = 0; done < segment.count; done += sort.most) {
-      const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(sort.most, segment.count - done));
-      std::vector<TileRecord> group = file->read(segment.first + done, count);
-      sort.moved(count);
-      sort.take(group);
-    }
+  for_each_record(*file, segment, sort, [&](const TileRecord&, const CurvePlace& at) { grid.enclose(at); });
+  if (grid.is_one_place()) {
+    for (std::uint64_t done = 0; done < segment.count; done += sort.most)
+      sort.take(sorted(*file, {segment.first + done, std::min<std::uint64_t>(sort.most, segment.count - done)}, sort));
     return;
   }
+  grid.number();
   std::array<std::uint64_t, cells> counts{};
-  for_each_record(*file, segment, sort, [&](const TileRecord& record) { ++counts[grid.cell(record)]; });
+  for_each_record(*file, segment, sort, [&](const TileRecord&, const CurvePlace& at) { ++counts[grid.cell(at)]; });
   std::array<std::uint32_t, cells> part_of_cell{};
   const std::vector<Segment> parts = plan_parts(counts, sort.most, part_of_cell);
   const auto divided = std::make_shared<RecordFile>(file->path());
@@ -129,7 +165,29 @@ void RecordFile::write(std::uint64_t first, std::span<const TileRecord> records)
               {reinterpret_cast<const char*>(records.data()), records.size() * sizeof(TileRecord)});
 }
 
-void sort_by_place(std::unique_ptr<RecordFile> file, const PlaceSort& sort) {
+MortonCurve::MortonCurve(double largest, bool single)
+    : cells_per_metre_(std::ldexp(1.0, 51 - std::ilogb(std::max(largest, 1e-3)))), single_(single) {}
+
+CurvePlace MortonCurve::at(const double (&place)[3]) const {
+  constexpr double middle = 0x1p52;
+  CurvePlace result{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double p = single_ ? static_cast<double>(static_cast<float>(place[axis])) : place[axis];
+    result[axis] = static_cast<std::uint64_t>(std::floor(p * cells_per_metre_) + middle);
+  }
+  return result;
+}
+
+std::size_t MortonCurve::highest(const CurvePlace& a, const CurvePlace& b) {
+  std::size_t axis = 2;
+  for (const std::size_t other : {std::size_t{1}, std::size_t{0}}) {
+    const std::uint64_t most = a[axis] ^ b[axis], bits = a[other] ^ b[other];
+    if (most < bits && most < (most ^ bits)) axis = other;  // the highest bit of `bits` is higher
+  }
+  return axis;
+}
+
+void sort_along_curve(std::unique_ptr<RecordFile> file, const CurveSort& sort) {
   file->flush();
   const std::uint64_t count = file->size();
   visit(std::shared_ptr<const RecordFile>(std::move(file)), {0, count}, sort);

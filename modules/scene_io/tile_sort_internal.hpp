@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -7,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "scene_io/tile_file_internal.hpp"
+#include "files/binary_file.hpp"
 
-// Private to scene_io: external sorting of surfels by position.
+// Private to scene_io: external sorting of surfels along a Morton curve.
 namespace insonify {
 
 /// One surfel before it is stored in a tile.
@@ -40,14 +41,43 @@ class RecordFile {
   std::vector<TileRecord> buffer_;
 };
 
-struct PlaceSort {
-  std::size_t most = 0;                                    ///< records in one group, which must fit in memory
-  std::function<void(std::vector<TileRecord>&)> take;      ///< receives every record once, in groups of neighbours
+/// A place as whole numbers: cubic cells of any power of two metres, aligned with the origin, are equal leading bits.
+using CurvePlace = std::array<std::uint64_t, 3>;
+
+/// The Morton curve through all places of a scene.
+class MortonCurve {
+ public:
+  /// largest   of the coordinates, in magnitude [m]
+  /// single    places count as they are in single precision
+  MortonCurve(double largest, bool single);
+  CurvePlace at(const double (&place)[3]) const;
+  /// Whether `a` lies before `b` on the curve: where the highest bit is in which they differ, z before y before x.
+  static bool before(const CurvePlace& a, const CurvePlace& b) { return a[highest(a, b)] < b[highest(a, b)]; }
+  /// Returns the axis of that bit.
+  static std::size_t highest(const CurvePlace& a, const CurvePlace& b);
+
+ private:
+  double cells_per_metre_;
+  bool single_;
+};
+
+/// A record and where it is on the curve.
+struct PlacedRecord {
+  CurvePlace at;
+  TileRecord record;
+};
+
+struct CurveSort {
+  MortonCurve curve;
+  std::size_t most = 0;  ///< records in one group, which must fit in memory
+  int threads = 0;
+  std::function<void(std::span<const PlacedRecord>)> take = {};  ///< receives every record once, in groups
   std::function<void(std::uint64_t)> moved = [](auto) {};  ///< receives the number of records just read or written
 };
 
-/// Passes all records to `take` in groups of neighbours; within a group they keep the order of appending. Records at
-/// one place are in one group, unless there are more than `most`. Needs twice the disk space of the file.
-void sort_by_place(std::unique_ptr<RecordFile> file, const PlaceSort& sort);
+/// Passes all records to `take` in the order of the curve; records of one place by their ids. Records of one place are
+/// in one group, unless there are more than `most`; then they may not be in order. Needs twice the disk space of the
+/// file.
+void sort_along_curve(std::unique_ptr<RecordFile> file, const CurveSort& sort);
 
 }  // namespace insonify

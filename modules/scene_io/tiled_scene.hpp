@@ -13,7 +13,7 @@
 
 namespace insonify {
 
-/// Contents of the header of a .tiles file.
+/// What a .tiles file says of its scene.
 struct TiledSceneInfo {
   std::string path;
   std::uint64_t surfels = 0, bytes = 0;
@@ -24,6 +24,7 @@ struct TiledSceneInfo {
   WholeScene whole;
   bool normals_oriented = true;
   std::vector<Material> materials;
+  std::uint64_t checksum = 0;  ///< of all that the file holds
 };
 
 /// Tiles to be loaded, and their size.
@@ -37,10 +38,10 @@ struct TileSelection {
 
 /// A prepared scene on disk. Only the tiles near a head are read, so scenes far larger than memory can be pinged.
 /// TileWriter writes such a file. Steps and cost:
-///   opening   reads the directory, 80 bytes per tile of at most 4096 surfels
+///   opening   reads the directory, 80 bytes per tile of at most 4096 surfels, in a child process
 ///   select    tests the enclosing ball of every tile against the insonified region: constant cost per tile
 ///   load      reads the selected tiles in parallel, checks them, and sorts their surfels by id. The cloud is the whole
-///             scene without the surfels of other tiles. Tiles may stay in memory for the next load.
+///             scene without the surfels of other tiles.
 ///
 ///   const TiledScene tiled("bay.tiles");
 ///   const InsonifiedRegion region = simulator.reach(tiled.info().whole, event);
@@ -49,14 +50,13 @@ struct TileSelection {
 class TiledScene {
  public:
   /// Opens a file and reads its directory.
-  /// kept_bytes   memory for tiles that were read; the least recently used are dropped first; 0: none
   /// Throws Error(file) if the file is missing or unreadable; Error(content) if it is not a .tiles file, truncated,
-  /// damaged, incomplete or of a newer version.
-  explicit TiledScene(const std::string& path, std::size_t kept_bytes = 0);
+  /// damaged, of a newer version, or of the format before HDF5.
+  explicit TiledScene(const std::string& path);
   ~TiledScene();
   TiledScene(TiledScene&&) noexcept;
 
-  /// Returns the contents of the file's header: facts about the whole scene.
+  /// Returns facts about the whole scene.
   const TiledSceneInfo& info() const;
 
   /// Returns the tiles that may hold a surfel within the region.
@@ -71,9 +71,6 @@ class TiledScene {
   /// memory   limit for loading [bytes]; 0: the available memory. Throws Error(runtime) if more is needed, before
   ///          anything is read; Error(content) if a tile is damaged.
   SceneCloud load(const TileSelection& selection, double memory = 0, int threads = 0) const;
-
-  /// Returns the number of tiles read from the file so far. Tiles in memory are not read again.
-  std::uint64_t tiles_read() const;
 
   /// Returns the centres of the tiles (world, [m]).
   std::vector<Eigen::Vector3d> places() const;

@@ -48,7 +48,7 @@ TEST(BadFile, a_file_of_another_format_than_its_name_says_is_named) {
   expect_bad(own_file("b.ply", text), {"not a PLY file", "expected 'ply'", "text beginning with '0 0 0'"});
   expect_bad(own_file("c.pcd", "ply\nformat ascii 1.0\n"), {"not a PCD file", "rename it to .ply"});
   expect_bad(own_file("d.ply", "# .PCD v0.7\n"), {"not a PLY file", "rename it to .pcd"});
-  expect_bad(own_file("d.ply", "insotile"), {"not a PLY file", "rename it to .tiles"});
+  expect_bad(own_file("d.ply", "\x89HDF\r\n\x1a\n"), {"not a PLY file", "rename it to .tiles"});
   expect_bad(own_file("e.obj", text), {"not an OBJ file", "'v x y z'"});
   expect_bad(own_file("f.stl", text), {"not an STL file", "solid"});
   expect_bad(own_file("g.vtk", text), {"not a legacy VTK file", "# vtk DataFile"});

@@ -4,7 +4,7 @@
 #include "core/random.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/estimate/surfel_area.hpp"
-#include "scene_io/tile_file_internal.hpp"
+#include "scene_io/tile_sort_internal.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "support/test.hpp"
 #include "test_files.hpp"
@@ -50,7 +50,7 @@ TEST(TiledScene, a_surfel_takes_34_bytes_and_a_little_of_a_tile_entry) {
   const SceneCloud scene = harbour();
   const TileReport report = save_tiles(own_path("a.tiles"), scene);
   EXPECT_EQ(report.bytes, std::filesystem::file_size(own_path("a.tiles")));
-  EXPECT_LT(static_cast<double>(report.bytes), 34.1 * static_cast<double>(scene.size()));
+  EXPECT_LT(static_cast<double>(report.bytes), 34.1 * static_cast<double>(scene.size()) + 16384);
 }
 
 TEST(TiledScene, file_depends_neither_on_batches_nor_on_threads) {
@@ -207,35 +207,69 @@ TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
   const std::string good = file_bytes(own_path("good.tiles"));
   const auto refuse = [&](const std::string& bytes, const std::vector<std::string>& parts) {
     const std::string path = own_file("bad.tiles", bytes);
+    testing::internal::CaptureStderr();
     expect_error(ErrorKind::content, parts, [&] {
       const TiledScene tiled(path);
       tiled.load(tiled.select_all());
     });
-  };
-  const auto with = [&](std::size_t at, char value) {
-    std::string bytes = good;
-    bytes[at] = value;
-    return bytes;
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   };
   refuse("", {"bad.tiles", "empty"});
   refuse("ply\nformat ascii 1.0\n", {"bad.tiles", "not a .tiles file", "PLY"});
-  refuse(good.substr(0, 100), {"cut off", "256"});
-  refuse(good.substr(0, good.size() - 1), {"cut off", std::to_string(good.size())});
-  refuse(good.substr(0, 3000), {"cut off"});
-  refuse(good + "x", {"longer"});
-  refuse(with(8, 2), {"version 2", "update insonify"});
-  refuse(std::string(256, '\0') + good.substr(256), {"is incomplete"});
-  refuse(with(30, static_cast<char>(good[30] ^ 1)), {"header is damaged"});
-  refuse(with(300, static_cast<char>(good[300] ^ 1)), {"tile 0", "is damaged"});
-  refuse(with(good.size() - 1, 'x'), {"directory is damaged"});
-  TileHeader newer{};
-  const std::size_t one_more = std::size(material_numbers) + 1;
-  newer.materials = 1;
-  newer.added_numbers = static_cast<decltype(newer.added_numbers)>(one_more - first_material_numbers);
-  expect_error(ErrorKind::content,
-               {"a.tiles", "a material has " + std::to_string(one_more) + " numbers", "update insonify"},
-               [&] { unpack_materials({}, newer, "a.tiles"); });
+  refuse("insotile" + std::string(300, '\0'), {"before they were HDF5", "insonify prepare SCENE -o", "bad.tiles"});
+  for (const std::size_t kept : {std::size_t{100}, std::size_t{3000}, good.size() / 2, good.size() - 1})
+    refuse(good.substr(0, kept), {"bad.tiles", "damaged or cut short"});
+  const auto with = [&](const std::string& at, char change) {
+    std::string bytes = good;
+    const std::size_t where = bytes.find(at);
+    EXPECT_NE(where, std::string::npos);
+    bytes[where] = static_cast<char>(bytes[where] ^ change);
+    return bytes;
+  };
+  refuse(with("insonify tiles", 1),
+         {"bad.tiles", "is an HDF5 file, but not a .tiles file", "insonify prepare SCENE -o"});
+  refuse(with("insonify scene", 1), {"directory is damaged", "checksum"});
+  const TiledScene whole(own_path("good.tiles"));
+  const auto bytes_of_number = [](auto number) {
+    return std::string(reinterpret_cast<char*>(&number), sizeof(number));
+  };
+  refuse(with(bytes_of_number(whole.info().box.max.x()), 1), {"directory is damaged", "checksum"});
+  const SceneCloud scene = whole.load(whole.select_all());
+  refuse(with(bytes_of_number(scene.point[1234].x()), 1), {" of ", "is damaged: its checksum is wrong"});
+  refuse(with(bytes_of_number(scene.normal[321].z()), 1), {" of ", "is damaged: its checksum is wrong"});
   expect_error(ErrorKind::file, {"none.tiles", "no such file"}, [] { TiledScene(own_path("none.tiles")); });
+}
+
+TEST(TiledScene, any_byte_that_changes_is_found_or_changes_nothing) {
+  const SceneCloud scene = harbour(300);
+  save_tiles(own_path("good.tiles"), scene, small_tiles());
+  const std::string good = file_bytes(own_path("good.tiles"));
+  int found = 0;
+  for (std::size_t at = 0; at < good.size(); at += 151) {
+    std::string bytes = good;
+    bytes[at] = static_cast<char>(bytes[at] ^ 0x55);
+    const std::string path = own_file("bad.tiles", bytes);
+    try {
+      const TiledScene tiled(path);
+      expect_same_surfels(tiled.load(tiled.select_all()), scene);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::content) << error.what();
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 60);
+}
+
+TEST(TiledScene, rows_follow_the_curve_and_tiles_are_aligned_with_the_origin) {
+  save_tiles(own_path("a.tiles"), harbour(), {.tile_surfels = 1});
+  const TiledScene tiled(own_path("a.tiles"));
+  const MortonCurve curve(100, true);
+  std::optional<CurvePlace> before;
+  for (const Eigen::Vector3d& place : tiled.places()) {
+    const CurvePlace at = curve.at({place.x(), place.y(), place.z()});
+    EXPECT_FALSE(before && MortonCurve::before(at, *before));
+    before = at;
+  }
 }
 
 TEST(TileWriter, an_unfinished_or_interrupted_file_leaves_nothing) {
@@ -281,28 +315,4 @@ TEST(TileWriter, bad_input_is_refused) {
   expect_error(ErrorKind::argument, {"tile_surfels"}, [] { TileWriter(own_path("b.tiles"), {.tile_surfels = 0}); });
   writer.finish();
   expect_error(ErrorKind::argument, {"after finish"}, [&] { writer.add(one_point()); });
-}
-
-TEST(TiledScene, keeps_the_tiles_last_used_up_to_a_limit) {
-  const SceneCloud scene = harbour();
-  save_tiles(own_path("a.tiles"), scene, small_tiles());
-  constexpr std::size_t most_per_tile = 200 * surfel_bytes;
-  const TiledScene forgets(own_path("a.tiles")), keeps(own_path("a.tiles"), 3 * most_per_tile);
-  const auto load = [](const TiledScene& tiled, std::vector<std::uint32_t> tiles) {
-    TileSelection selection = tiled.select_all();
-    selection.tiles = std::move(tiles);
-    return tiled.load(selection, 0, 1);
-  };
-  EXPECT_EQ(load(keeps, {0, 1, 2}).point, load(forgets, {0, 1, 2}).point);
-  EXPECT_EQ(keeps.tiles_read(), 3U);
-  EXPECT_EQ(load(keeps, {1, 2, 0}).point, load(forgets, {1, 2, 0}).point);
-  EXPECT_EQ(keeps.tiles_read(), 3U);
-  // A fourth tile takes the place of tile 1, which was not used for longest.
-  load(keeps, {0, 2, 3});
-  EXPECT_EQ(keeps.tiles_read(), 4U);
-  load(keeps, {0, 2, 3});
-  EXPECT_EQ(keeps.tiles_read(), 4U);
-  load(keeps, {1});
-  EXPECT_EQ(keeps.tiles_read(), 5U);
-  EXPECT_EQ(forgets.tiles_read(), 6U);
 }

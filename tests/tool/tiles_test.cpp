@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
+#include "scene_io/load_scene.hpp"
+#include "scene_io/tiled_scene.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -61,6 +63,41 @@ TEST_F(Tiles, a_ping_that_sees_nothing_reads_nothing_and_is_silent) {
   EXPECT_THAT(manifest["notes"].dump(), HasSubstr("silent"));
 }
 
+TEST_F(Tiles, h5py_reads_the_surfels_as_the_page_says) {
+  const std::string python = "cd " + path("") + " && /usr/bin/python3 ";
+  if (std::system((python + "-c 'import h5py' 2>absent.txt").c_str()) != 0)
+    GTEST_SKIP() << "python3-h5py is not installed";
+  succeed("prepare harbour.ply -o harbour.tiles -q");
+  std::istringstream page(file_bytes(INSONIFY_ROOT "/docs/scene-files.md"));
+  std::string code;
+  for (std::string line; std::getline(page, line) && !(line == "```" && !code.empty());)
+    if (line == "import h5py" || !code.empty()) code += line + "\n";
+  write("read.py", code + R"x(
+import numpy
+every = tiles["tile"][:]
+assert (every["first"][1:] == (every["first"] + every["count"])[:-1]).all() and every["count"].sum() == len(tiles["id"])
+order = numpy.argsort(tiles["id"][:])
+print(repr(float(tiles["point"][:][order][1234, 0])), tiles["material"][:][order][1234], tiles["point"].attrs["units"])
+)x");
+  ASSERT_EQ(std::system((python + "read.py >said.txt").c_str()), 0);
+  const SceneCloud scene = load_scene(path("harbour.ply")).scene;
+  const TiledScene tiled(path("harbour.tiles"));
+  const std::string said = read("said.txt");
+  std::istringstream words(said.substr(said.rfind(']') + 1));
+  double area = 0, x = 0;
+  std::size_t material = 0;
+  std::string unit;
+  ASSERT_TRUE(words >> area >> x >> material >> unit) << said;
+  TileSelection first = tiled.select_all();
+  first.tiles = {0};
+  const SceneCloud tile = tiled.load(first);
+  EXPECT_NEAR(area, std::accumulate(tile.area.begin(), tile.area.end(), 0.0), 1e-4 * area);
+  EXPECT_EQ(static_cast<float>(x), scene.point[1234].x());
+  EXPECT_EQ(material, scene.material[1234]);
+  EXPECT_EQ(unit, "m");
+  EXPECT_THAT(said, HasSubstr("insonify material 0"));
+}
+
 TEST_F(Tiles, what_cannot_be_pinged_is_refused) {
   succeed("prepare harbour.ply -o harbour.tiles -q");
   expect_refused("ping harbour.tiles -o out --memory-limit 0.001" + tiles_head, 4,
@@ -69,8 +106,11 @@ TEST_F(Tiles, what_cannot_be_pinged_is_refused) {
   expect_refused("prepare harbour.ply -o harbour.tiles", 4, {"harbour.tiles", "exists already"});
   const std::string good = read("harbour.tiles");
   write("cut.tiles", good.substr(0, good.size() / 2));
-  expect_refused("ping cut.tiles -o out" + tiles_head, 3, {"cut.tiles", "cut off"});
-  expect_refused("info cut.tiles", 3, {"cut.tiles", "cut off"});
+  expect_refused("ping cut.tiles -o out" + tiles_head, 3, {"cut.tiles", "cut short"});
+  expect_refused("info cut.tiles", 3, {"cut.tiles", "cut short"});
   write("text.tiles", "hello");
   expect_refused("info text.tiles", 3, {"text.tiles", "not a .tiles file"});
+  write("old.tiles", "insotile" + std::string(300, '\0'));
+  for (const char* verb : {"info old.tiles", "prepare old.tiles -o x.ply"})
+    expect_refused(verb, 3, {"old.tiles", "before they were HDF5", "insonify prepare SCENE -o old.tiles"});
 }

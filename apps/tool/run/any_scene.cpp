@@ -2,10 +2,10 @@
 #include "tool/run/any_scene.hpp"
 
 #include <filesystem>
-#include <fstream>
 
 #include "core/error.hpp"
 #include "files/sha256.hpp"
+#include "scene_io/tiled_scene.hpp"
 #include "store/scene_file.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/run/parts_scene.hpp"
@@ -32,11 +32,7 @@ std::string digest_of_scene(const std::string& path) {
     return sha.digest();
   }
   if (!is_tiles(path)) return sha256_of_file(path);
-  std::ifstream file(path, std::ios::binary);
-  std::string header(256, '\0');
-  if (!file.read(header.data(), static_cast<std::streamsize>(header.size())))
-    fail(ErrorKind::file, path, ": cannot be read");
-  return sha256_of(header);
+  return sha256_of(std::to_string(TiledScene(path).info().checksum));
 }
 
 void require_no_loading_options(const SceneOptions& o, const std::string& why) {

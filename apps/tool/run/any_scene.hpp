@@ -12,8 +12,8 @@ namespace insonify::tool {
 /// and PartsScene; Error(argument) for options of loading beside a scene of parts.
 LoadedScene load_any_scene(const CommonOptions& common, const SceneOptions& scene, double time = 0);
 
-/// Returns the digest of a scene and of all files that it is made of; of tiles that of the header, which holds a
-/// checksum over those of all tiles. Throws Error(file).
+/// Returns the digest of a scene and of all files that it is made of; of tiles that of their checksum, which
+/// covers all that they hold. Throws Error(file); for tiles as TiledScene.
 std::string digest_of_scene(const std::string& path);
 
 /// Throws Error(argument) naming the option unless all options that say how a scene is read have their defaults.

@@ -29,10 +29,7 @@ RunDraws draws_of_run(const std::string& run) {
 namespace {
 
 PartsOptions loading_of(const PartsOfPingsOptions& o) {
-  return {.seed = o.draws.seed,
-          .threads = o.threads,
-          .drawn_anew = o.drawn_at_will || o.draws.rule.pings_per_draw > 0,
-          .kept_tile_bytes = o.kept_tile_bytes};
+  return {.seed = o.draws.seed, .threads = o.threads, .drawn_anew = o.drawn_at_will || o.draws.rule.pings_per_draw > 0};
 }
 
 /// Adds the scene file to what `body` refuses.

@@ -28,10 +28,9 @@ double memory_for_tiles(double limit_gib);
 /// How scenes for pings are loaded.
 struct PartsOfPingsOptions {
   RunDraws draws;
-  int threads = 0;                  ///< 0: all cores
-  std::size_t kept_tile_bytes = 0;  ///< of tiles that were read
-  double memory_limit = 0;          ///< [GiB] of tiles for one ping; 0: what is available
-  bool drawn_at_will = true;        ///< moments with any draw are asked for; else only those of draws.rule
+  int threads = 0;            ///< 0: all cores
+  double memory_limit = 0;    ///< [GiB] of tiles for one ping; 0: what is available
+  bool drawn_at_will = true;  ///< moments with any draw are asked for; else only those of draws.rule
 };
 
 /// A scene of parts as each ping finds it: by its time and its draw. All that pings, shows or compares such a scene asks

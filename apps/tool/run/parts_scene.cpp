@@ -148,7 +148,7 @@ SceneBody PartsScene::load_body(const PartFile& file, const std::string& name, b
 /// Of captured tiles the ground beneath what is to rest: a ball that holds all of it.
 SceneBody PartsScene::read_ground(const PartFile& file, const std::string& name) {
   require_no_loading_options(options_of(file), "is prepared already");
-  const TiledScene& tiled = tiles_.try_emplace(name, file.path, options_.kept_tile_bytes).first->second;
+  const TiledScene& tiled = tiles_.try_emplace(name, file.path).first->second;
   const Bounds& bed = tiled.info().box;
   report_.points_read += tiled.info().surfels;
   Bounds rests;

@@ -19,10 +19,9 @@ namespace insonify::tool {
 
 /// How a scene of parts is loaded.
 struct PartsOptions {
-  std::uint64_t seed = 1;           ///< of draws, and of samples of meshes
-  int threads = 0;                  ///< 0: all cores
-  bool drawn_anew = false;          ///< scatters are drawn for every ping, not once
-  std::size_t kept_tile_bytes = 0;  ///< of tiles that were read
+  std::uint64_t seed = 1;   ///< of draws, and of samples of meshes
+  int threads = 0;          ///< 0: all cores
+  bool drawn_anew = false;  ///< scatters are drawn for every ping, not once
 };
 
 /// A scene of parts with all its files. Captured .tiles stay on disk: of them the ground beneath the parts is read, then

@@ -60,7 +60,7 @@ namespace {
 PingScene load_parts(const PingOptions& o, PingSetup& setup) {
   require_no_loading_options(o.scene, "says itself how each part is read; give it there");
   const RunDraws draws{o.common.seed, {0, static_cast<std::uint64_t>(o.draw)}};
-  const PartsOfPings all(o.scene.path, {draws, o.common.threads, 0, o.memory_limit});
+  const PartsOfPings all(o.scene.path, {draws, o.common.threads, o.memory_limit});
   const PartsScene& parts = all.scene();
   if (o.draw > 0 && parts.file().scatters.empty())
     fail(ErrorKind::argument, "--draw = ", o.draw, ": ", o.scene.path, " has no [[scatter]] to draw; leave it out");

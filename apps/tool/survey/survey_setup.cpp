@@ -16,7 +16,6 @@
 namespace insonify::tool {
 namespace {
 
-constexpr std::size_t kept_tile_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_block_bytes = std::size_t{32} << 20, most_block_pings = 64;
 constexpr std::size_t most_covering_pings = 16;  // each lists every surfel that it insonifies
 
@@ -146,9 +145,8 @@ Bounds SurveyScene::load_parts(const SurveySetup& setup, const CommonOptions& co
     fail(ErrorKind::content, file.path, ": coverage counts the pings of each surfel of one cloud, but ", file.scene,
          " is a scene of parts; leave coverage out");
   const std::int64_t per_draw = file.randomise.scene_pings;
-  parts_.emplace(
-      file.scene,
-      PartsOfPingsOptions{{file.seed, {per_draw, 0}}, common.threads, kept_tile_bytes, options_.memory_limit, false});
+  parts_.emplace(file.scene,
+                 PartsOfPingsOptions{{file.seed, {per_draw, 0}}, common.threads, options_.memory_limit, false});
   const PartsScene& parts = parts_->scene();
   if (per_draw > 0 && parts.file().scatters.empty())
     fail(ErrorKind::content, file.path, ": [randomise] scene draws the bodies of [[scatter]] anew, but ", file.scene,
@@ -173,7 +171,7 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
   if (is_scene_file(setup.file.scene)) {
     box = load_parts(setup, common, progress);
   } else if (is_tiles(setup.file.scene)) {
-    box = tiles_.emplace(setup.file.scene, kept_tile_bytes).info().box;
+    box = tiles_.emplace(setup.file.scene).info().box;
   } else {
     loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
     for (const std::string& note : loading_notes(loaded_.report)) progress.note(note);
