@@ -141,7 +141,12 @@ std::uint64_t find_plain(const FileContext& place, hid_t file, const DatasetName
   if (H5Pget_layout(properties) != H5D_CONTIGUOUS || H5Pget_nfilters(properties) > 0)
     fail(place.kind, place.path, ": ", name.path, " is stored in chunks, must be contiguous");
   const haddr_t offset = H5Dget_offset(dataset);
-  return offset == HADDR_UNDEF ? 0 : offset;
+  if (offset == HADDR_UNDEF) return 0;
+  const hsize_t bytes = H5Dget_storage_size(dataset), all = std::filesystem::file_size(place.path);
+  if (offset > all || bytes > all - offset)
+    fail(place.kind, place.path, ": ", name.path, " takes ", bytes, " bytes from byte ", offset, " on, the file holds ",
+         all, "; copy or make the file again");
+  return offset;
 }
 
 }  // namespace insonify::hdf5

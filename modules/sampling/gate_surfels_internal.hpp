@@ -61,6 +61,7 @@ class HeadFrame {
     return world_.to_head * (world_.shift + point.cast<double>());
   }
   Eigen::Vector3d direction(const Eigen::Vector3d& scene_vector) const { return world_.to_head * scene_vector; }
+  const Eigen::Matrix3d& to_head() const { return world_.to_head; }
 
   /// The axes that surfels are given in: to_head (shift + point) is in head axes.
   struct Axes {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "sampling/insonified_region.hpp"
+#include "scene/detail_levels.hpp"
 #include "scene/prepared_scene.hpp"
 #include "sonar/beam_fan.hpp"
 #include "sonar/range_gate.hpp"
@@ -42,5 +45,37 @@ struct CutOptions {
 /// The surfels within the region alone give the same cut. Errors as detail_levels.
 SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,
                    const RangeGate& gate, const CutOptions& options);
+
+/// Surfels and levels of a piece of a scene that are loaded as a cut needs them. Cells of a piece hold all their surfels.
+/// `nearest` of a node is the id of the surfel. A node without children is a surfel: its point, normal, area, material,
+/// and its place and area again.
+struct LoadedLevels {
+  SceneCloud scene;     ///< its surfels, those that were loaded
+  DetailLevels levels;  ///< all roots; nodes and their children as far as they were loaded, without blocks
+  virtual ~LoadedLevels() = default;
+  /// Loads levels.node[node] and its children. Nodes that were loaded keep their addresses.
+  virtual void need_node(std::size_t node) = 0;
+  /// Loads a surfel.
+  virtual void need_surfel(std::size_t surfel) = 0;
+};
+
+/// A scene in pieces, of which a ping needs some. Several threads may call.
+class LevelSource {
+ public:
+  virtual ~LevelSource() = default;
+  /// Returns a cloud without surfels that has all else of the scene, with part_of set.
+  virtual const SceneCloud& like() const = 0;
+  /// Returns the number of the pieces that may intersect the region of the cut.
+  virtual std::size_t pieces() const = 0;
+  /// Opens a piece.
+  virtual std::unique_ptr<LoadedLevels> open(std::size_t piece) const = 0;
+  /// Receives the number of surfels and nodes that a piece gave to the cut; may throw to end it.
+  virtual void note(std::size_t taken) const = 0;
+};
+
+/// Returns what cut_scene returns of the whole scene, by ascending id; some surfels outside of the region may differ.
+/// Throws what the source throws.
+SceneCloud cut_levels(const LevelSource& source, const InsonifiedRegion& region, const BeamFan& fan,
+                      const RangeGate& gate, const CutOptions& options);
 
 }  // namespace insonify

@@ -22,7 +22,6 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr int finest_below_spacing = 3;  // halvings of the spacing
-constexpr int most_levels = 10;
 constexpr std::size_t entries_at_once = 1 << 14;
 constexpr std::size_t roots_per_block = 64;
 
@@ -35,7 +34,7 @@ struct Entry {
 /// Finest cells: coordinates are counted from far below, so that they are not negative.
 class FinestCells {
  public:
-  explicit FinestCells(double spacing) : exponent_(std::ilogb(spacing) - finest_below_spacing) {}
+  explicit FinestCells(double spacing) : exponent_(std::ilogb(finest_cell(spacing))) {}
   double edge(int level) const { return std::ldexp(1.0, exponent_ + level); }
   /// Whether a point has a code; those too far from the origin have none.
   bool holds(const Vector3f& p) const {
@@ -170,6 +169,8 @@ void enclose(const SceneCloud& scene, const DetailLevels& levels, DetailBlock& b
 
 }  // namespace
 
+double finest_cell(double spacing) { return std::ldexp(1.0, std::ilogb(spacing) - finest_below_spacing); }
+
 DetailLevels detail_levels(const SceneCloud& scene, double spacing, int threads) {
   constexpr const char* me = "detail_levels";
   if (!scene.facet.empty()) fail(ErrorKind::argument, me, ": the surfels have facets, must be discs");
@@ -178,7 +179,7 @@ DetailLevels detail_levels(const SceneCloud& scene, double spacing, int threads)
   levels.surfels = scene.size();
   const FinestCells cells(spacing > 0 ? spacing : 1);
   std::vector<Entry> open = entries_of(scene, cells, threads, levels.root), closed;
-  for (int level = 0; spacing > 0 && level <= most_levels; ++level)
+  for (int level = 0; spacing > 0 && level <= detail_doublings; ++level)
     merge_level(scene, level, cells.edge(level), threads, levels, open, closed);
 
   // What no node holds, along the curve again.

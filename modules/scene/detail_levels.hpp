@@ -23,14 +23,16 @@ struct DetailNode {
   float area = 0;                                    ///< sum of their areas [m^2]
   float noise = 0;                                   ///< root of their area-weighted mean square [m]
   float extent = 0;                                  ///< radius about `point` of a ball that holds the surfels [m]
-  float thickness = 0;            ///< largest distance of a child's centre from the plane, plus its thickness [m]
-  float resultant = 0;            ///< length of the area-weighted mean of the surfels' normals
-  SymmetricMatrix normals{};      ///< area-weighted mean of n n^T over the surfels' normals n
-  std::uint32_t nearest = 0;      ///< surfel for which the child nearest to `point` stands; the node has its id
-  std::uint32_t first_child = 0;  ///< in DetailLevels::child
-  std::uint16_t children = 0;     ///< number of them
-  std::uint16_t material = 0;     ///< of all of them
-  float cell = 0;                 ///< edge of the cubic cell that holds their centres [m]
+  float thickness = 0;        ///< largest distance of a child's centre from the plane, plus its thickness [m]
+  float resultant = 0;        ///< length of the area-weighted mean of the surfels' normals
+  SymmetricMatrix normals{};  ///< area-weighted mean of n n^T over the surfels' normals n
+  std::uint32_t nearest = 0;  ///< surfel for which the child nearest to `point` stands; the node has its id
+  Eigen::Vector3f place = Eigen::Vector3f::Zero();  ///< of that surfel [m], relative to the scene's origin
+  float own_area = 0;                               ///< of that surfel [m^2]
+  std::uint32_t first_child = 0;                    ///< in DetailLevels::child
+  std::uint16_t children = 0;                       ///< number of them
+  std::uint16_t material = 0;                       ///< of all of them
+  float cell = 0;                                   ///< edge of the cubic cell that holds their centres [m]
 };
 
 /// Consecutive roots of the levels, and a bounding ball of the surfels below them.
@@ -63,6 +65,11 @@ inline double quadratic_form(const SymmetricMatrix& m, const Eigen::Vector3d& d)
   return m[0] * d.x() * d.x() + m[3] * d.y() * d.y() + m[5] * d.z() * d.z() +
          2 * (m[1] * d.x() * d.y() + m[2] * d.x() * d.z() + m[4] * d.y() * d.z());
 }
+
+/// Number of doublings of the edges of cells.
+inline constexpr int detail_doublings = 10;
+/// Returns the edge of the smallest cells of a scene with this spacing [m].
+double finest_cell(double spacing);
 
 /// Returns the levels of a scene. The smallest cells have an edge of an eighth of `spacing` [m]; ten doublings follow.
 /// With a spacing of 0 no surfels merge. Takes O(n) time and memory; the result does not depend on `threads` (0: all

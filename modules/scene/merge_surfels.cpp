@@ -27,7 +27,8 @@ MergedPieces::Piece MergedPieces::piece(std::uint32_t index) const {
   const std::size_t surfels = scene_.size();
   if (index >= surfels) {
     const DetailNode& n = nodes_[index - surfels];
-    return {n.point, n.normal, n.area, n.noise, n.extent, n.thickness, n.resultant, n.normals, n.nearest, n.material};
+    return {n.point,     n.normal,  n.area,    n.noise, n.extent,   n.thickness,
+            n.resultant, n.normals, n.nearest, n.place, n.own_area, n.material};
   }
   const float area = scene_.area[index];
   return {scene_.point[index],
@@ -39,6 +40,8 @@ MergedPieces::Piece MergedPieces::piece(std::uint32_t index) const {
           1,
           square_of(scene_.normal[index]),
           index,
+          scene_.point[index],
+          area,
           scene_.material[index]};
 }
 
@@ -98,7 +101,8 @@ std::optional<DetailNode> MergedPieces::merged(const Group& group, std::span<con
     const float distance = away.norm();
     node.extent = std::max(node.extent, distance + p.extent);
     node.thickness = std::max(node.thickness, std::abs(away.dot(node.normal)) + p.thickness);
-    if (distance < nearest) nearest = distance, node.nearest = p.nearest;
+    if (distance < nearest)
+      nearest = distance, node.nearest = p.nearest, node.place = p.place, node.own_area = p.own_area;
   }
   const float square = node.extent * node.extent;
   const bool compact = node.area >= least_fill * square && node.area <= most_fill * square;

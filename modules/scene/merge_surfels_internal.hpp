@@ -47,6 +47,8 @@ class MergedPieces {
     float area, noise, extent, thickness, resultant;
     SymmetricMatrix normals;
     std::uint32_t nearest;
+    Eigen::Vector3f place;
+    float own_area;
     std::uint16_t material;
   };
   Piece piece(std::uint32_t index) const;

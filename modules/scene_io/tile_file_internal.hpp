@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "files/binary_file.hpp"
+#include "scene/detail_levels.hpp"
 #include "scene_io/tiled_scene.hpp"
 
 // Private to scene_io: a .tiles file as it lies on the disk (docs/scene-files.md).
@@ -26,6 +27,37 @@ struct TileEntry {
 };
 static_assert(sizeof(TileEntry) == 80);
 
+/// A node of the levels of detail (DetailNode).
+struct TileNode {
+  float point[3], normal[3], area, extent, thickness, normals[6], cell;
+  float place[3], own_area;          ///< of the surfel nearest to the point
+  std::uint32_t id, first_child;     ///< of that surfel; in the children of the forest
+  std::uint16_t children, material;  ///< no children: the node is that surfel
+};
+static_assert(sizeof(TileNode) == 92);
+
+/// Children lie in groups: roots, children of nodes of the largest cells, of half of them, and so on.
+constexpr std::size_t level_groups = detail_doublings + 2;
+/// The levels of some consecutive tiles. Nodes stand group by group. A child is a row of the forest, or the number of
+/// its rows plus a node. The first children are rows that are roots; other roots are the nodes of the first group.
+struct TileForest {
+  double reference[3], centre[3];  ///< [m] as of a tile
+  float radius, largest_area;
+  std::uint64_t first_row, rows, first_tile, tiles, first_node, first_child, loose;
+  std::uint32_t node_end[level_groups], child_end[level_groups];  ///< of each group, counted from the first
+  std::uint64_t checksum[level_groups];                           ///< of nodes and children of each group
+};
+static_assert(sizeof(TileForest) == 304);
+/// Nodes and children that wait for the end of the file.
+struct LevelFiles {
+  BinaryFile nodes, children;
+  std::uint64_t node_count = 0, child_count = 0;
+  explicit LevelFiles(const std::string& path)
+      : nodes(path, BinaryFile::Mode::nameless), children(path, BinaryFile::Mode::nameless) {}
+};
+
+inline Eigen::Vector3d vector_in(const double (&xyz)[3]) { return {xyz[0], xyz[1], xyz[2]}; }
+
 constexpr std::size_t tile_columns = 5, surfel_bytes = 34;
 /// The bytes of some rows in each column: points (3 float32), normals (3 float32), areas (float32), ids (uint32),
 /// materials (uint16).
@@ -34,8 +66,12 @@ using TileRows = std::array<std::span<char>, tile_columns>;
 TileRows rows_of(SceneCloud& cloud, std::size_t first, std::size_t count);
 /// Gives a cloud that many surfels, of undefined values.
 void resize(SceneCloud& cloud, std::size_t count);
-/// Returns the checksum of rows (docs/scene-files.md). It finds what was damaged, not what was forged.
-std::uint64_t checksum_of(const TileRows& rows);
+/// Continues a checksum h: for each 8 bytes w, the last ones padded with zeros, h = (h xor w) * 0x9e3779b97f4a7c15,
+/// then h = h xor (h >> 32).
+constexpr std::uint64_t checksum_start = 0xcbf29ce484222325ull;
+std::uint64_t add_to_checksum(std::span<const char> bytes, std::uint64_t hash);
+/// Returns the checksum of arrays, one after another, from checksum_start on. It finds damage, not forgery.
+std::uint64_t checksum_of(std::span<const std::span<char>> arrays);
 
 /// Where the columns begin in a file [bytes].
 using ColumnOffsets = std::array<std::uint64_t, tile_columns>;
@@ -61,16 +97,23 @@ struct TileDirectory {
   TiledSceneInfo info;
   bool wide = false;  ///< points are relative to references
   std::vector<TileEntry> tiles;
+  std::vector<TileForest> forests;
   ColumnOffsets begin{};
+  std::uint64_t nodes_begin = 0, children_begin = 0;
 };
 
 /// Offsets of columns of `rows` rows, one after another.
 ColumnOffsets packed_columns(std::uint64_t rows);
 /// Creates the file `name` with columns that are still to be written; errors name `path`.
 ColumnOffsets create_columns(const std::string& path, const std::string& name, std::uint64_t rows);
-/// Adds the directory to a file whose columns are written.
-void add_directory(const std::string& path, const std::string& name, const TileDirectory& directory);
+/// Adds directory and levels to a file whose columns are written.
+void add_directory(const std::string& path, const std::string& name, const TileDirectory& directory,
+                   const LevelFiles& levels);
 /// Reads and checks the directory of a file. Throws as TiledScene.
 TileDirectory read_directory(const std::string& path);
+/// Reads and checks a tile into the surfels of a cloud from `first` on, with points relative to `reference`, itself
+/// relative to the file's origin [m]. Throws Error(content) if the tile is damaged.
+void read_tile(const ColumnFile& columns, const TileDirectory& directory, std::size_t number,
+               const Eigen::Vector3d& reference, SceneCloud& to, std::size_t first);
 
 }  // namespace insonify

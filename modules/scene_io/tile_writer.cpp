@@ -6,7 +6,8 @@
 //   3. write_group      a part is halved at the highest bit in which its places differ, as in building an octree, until at
 //                       most tile_surfels are in each piece; its rows go to the columns of the output
 //   4. fill_areas       only where areas are estimated: Voronoi areas (E15) with the neighbours in the tiles around
-//   5. add_directory    tiles and facts, with checksums; then the file gets its name
+//   5. make_forests     levels of detail of the tiles of each cube of the largest cells (tile_levels.cpp)
+//   6. add_directory    tiles and facts, with checksums; then the file gets its name
 // Cost: about five passes over the records on the disk and O(n log n) comparisons. The bytes do not depend on threads;
 // the memory allowed changes the division into tiles, not the surfels.
 #include "scene_io/tile_writer.hpp"
@@ -22,7 +23,7 @@
 #include "core/parallel.hpp"
 #include "files/pending_file.hpp"
 #include "scene_io/tile_areas_internal.hpp"
-#include "scene_io/tile_file_internal.hpp"
+#include "scene_io/tile_levels_internal.hpp"
 #include "scene_io/tile_sort_internal.hpp"
 
 namespace insonify {
@@ -102,8 +103,8 @@ struct TileWriter::State {
   }
   /// Writes a group of neighbours as tiles.
   void write_group(std::span<const PlacedRecord> group, ColumnFile& columns);
-  /// Writes all columns of the file `name`.
-  void write_columns(const std::string& name);
+  /// Writes all columns of the file `name`, and the levels to `files`.
+  void write_columns(const std::string& name, LevelFiles& files);
 };
 
 TileWriter::TileWriter(const std::string& path, const TileWriterOptions& options) : state_(std::make_unique<State>()) {
@@ -177,7 +178,7 @@ void TileWriter::State::write_group(std::span<const PlacedRecord> group, ColumnF
   report.surfels += group.size();
 }
 
-void TileWriter::State::write_columns(const std::string& name) {
+void TileWriter::State::write_columns(const std::string& name, LevelFiles& files) {
   const std::uint64_t most = waiting->size();
   const bool shrinks = options.drop_duplicates;  // then the length of the columns is known at last
   std::optional<ColumnFile> columns;
@@ -185,7 +186,7 @@ void TileWriter::State::write_columns(const std::string& name) {
     columns.emplace(path, BinaryFile::Mode::nameless, packed_columns(most));
   else
     columns.emplace(name, BinaryFile::Mode::update, create_columns(path, name, most));
-  const double sorting = options.estimate_areas ? 0.2 : 1;
+  const double sorting = options.estimate_areas ? 0.1 : 0.5, levels = 0.5;
   const auto count = static_cast<double>(most);
   double largest = 0;
   if (most > 0) largest = std::max(box.max.maxCoeff(), -box.min.minCoeff());
@@ -200,10 +201,13 @@ void TileWriter::State::write_columns(const std::string& name) {
   };
   sort_along_curve(std::move(waiting), sort);
   if (options.estimate_areas)
-    total_area =
-        fill_areas(*columns, directory.tiles, options, [&](double part) { report_progress(sorting + 0.8 * part); });
+    total_area = fill_areas(*columns, directory.tiles, options,
+                            [&](double part) { report_progress(sorting + (levels - sorting) * part); });
   else if (report.dropped_duplicates > 0)
     total_area = sum_of_areas(*columns, directory.tiles);
+  const double spacing = report.surfels == 0 ? 0 : std::sqrt(total_area / static_cast<double>(report.surfels));
+  directory.forests = make_forests(*columns, directory, spacing, files, options.threads,
+                                   [&](double part) { report_progress(levels + (1 - levels) * part); });
   if (shrinks)
     ColumnFile(name, BinaryFile::Mode::update, create_columns(path, name, report.surfels))
         .copy(*columns, report.surfels);
@@ -213,16 +217,18 @@ TileReport TileWriter::finish() {
   State& s = *state_;
   if (!s.waiting) fail(ErrorKind::argument, "TileWriter: finish() twice, make another writer");
   PendingFile pending(s.path);
-  s.write_columns(pending.temporary());
+  LevelFiles levels(s.path);
   TiledSceneInfo& info = s.directory.info;
+  info.path = s.path;
   info.origin = s.options.origin;
+  info.normals_oriented = s.options.normals_oriented;
+  info.materials = s.options.materials;
+  s.write_columns(pending.temporary(), levels);
   info.box = s.box;
   if (s.report.surfels > 0) info.box = {s.box.min + info.origin, s.box.max + info.origin};
   info.total_area = s.report.total_area = s.total_area;
-  info.normals_oriented = s.options.normals_oriented;
-  info.materials = s.options.materials;
   s.report.tiles = s.directory.tiles.size();
-  add_directory(s.path, pending.temporary(), s.directory);
+  add_directory(s.path, pending.temporary(), s.directory, levels);
   s.report.bytes = std::filesystem::file_size(pending.temporary());
   s.report_progress(1);
   pending.commit();

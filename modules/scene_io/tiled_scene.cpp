@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/radix_sort.hpp"
-#include "scene_io/tile_file_internal.hpp"
+#include "scene_io/tile_levels_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -16,8 +16,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double origin_step = 256;  // [m]
-
-Vector3d vector_of(const double (&xyz)[3]) { return {xyz[0], xyz[1], xyz[2]}; }
 
 /// Moves values[order[k]] to index k.
 template <typename T>
@@ -63,18 +61,14 @@ struct TiledScene::State {
     return info().origin + origin_step * ((place - info().origin) / origin_step).array().round().matrix();
   }
 
-  /// Reads a tile into the rows of `scene` from `first` on.
-  void read(std::uint32_t number, SceneCloud& scene, std::size_t first) const {
-    const TileEntry& tile = tiles()[number];
-    const TileRows rows = rows_of(scene, first, tile.count);
-    columns.read(tile.first, rows);
-    if (checksum_of(rows) != tile.checksum)
-      fail(ErrorKind::content, info().path, ": tile ", number, " of ", tiles().size(),
-           " is damaged: its checksum is wrong; copy or make the file again");
-    const Vector3d offset = vector_of(tile.reference) - (scene.origin - info().origin);
-    if (offset.isZero(0)) return;
-    for (std::size_t i = first; i < first + tile.count; ++i)
-      scene.point[i] = (scene.point[i].cast<double>() + offset).cast<float>();
+  /// A cloud without surfels that has all else of the scene.
+  SceneCloud cloud_at(const Vector3d& origin) const {
+    SceneCloud scene;
+    scene.origin = origin;
+    scene.materials = info().materials;
+    scene.normals_oriented = info().normals_oriented;
+    scene.part_of = info().whole;
+    return scene;
   }
 };
 
@@ -90,7 +84,7 @@ TileSelection TiledScene::select(const InsonifiedRegion& region) const {
   selection.origin = state_->origin_near(region.world_from_head.translation());
   for (std::uint32_t t = 0; t < state_->tiles().size(); ++t) {
     const TileEntry& tile = state_->tiles()[t];
-    if (!may_intersect(region, state_->info().origin + vector_of(tile.centre), tile.radius, tile.largest_area))
+    if (!may_intersect(region, state_->info().origin + vector_in(tile.centre), tile.radius, tile.largest_area))
       continue;
     selection.tiles.push_back(t);
     selection.surfels += tile.count;
@@ -116,20 +110,28 @@ SceneCloud TiledScene::load(const TileSelection& selection, double memory, int t
       fail(ErrorKind::argument, "TiledScene: selection holds tile ", t, ", must be below ", s.tiles().size());
     first.push_back(first.back() + s.tiles()[t].count);
   }
-  SceneCloud scene;
-  scene.origin = selection.origin;
-  scene.materials = s.info().materials;
-  scene.normals_oriented = s.info().normals_oriented;
-  scene.part_of = s.info().whole;
+  SceneCloud scene = s.cloud_at(selection.origin);
   resize(scene, first.back());
-  parallel_for(selection.tiles.size(), threads, [&](std::size_t k) { s.read(selection.tiles[k], scene, first[k]); });
+  parallel_for(selection.tiles.size(), threads, [&](std::size_t k) {
+    read_tile(s.columns, s.directory, selection.tiles[k], selection.origin - s.info().origin, scene, first[k]);
+  });
   sort_by_id(scene);
   return scene;
 }
 
+TiledCut TiledScene::cut(const InsonifiedRegion& region, const BeamFan& fan, const RangeGate& gate,
+                         const CutOptions& options, double most_surfels) const {
+  const State& s = *state_;
+  const Vector3d origin = s.origin_near(region.world_from_head.translation());
+  const ForestSource source(s.columns, s.directory, s.cloud_at(origin), region, most_surfels);
+  TiledCut cut{cut_levels(source, region, fan, gate, options), 0};
+  cut.bytes = source.bytes_read();
+  return cut;
+}
+
 std::vector<Vector3d> TiledScene::places() const {
   std::vector<Vector3d> places;
-  for (const TileEntry& tile : state_->tiles()) places.push_back(state_->info().origin + vector_of(tile.centre));
+  for (const TileEntry& tile : state_->tiles()) places.push_back(state_->info().origin + vector_in(tile.centre));
   return places;
 }
 

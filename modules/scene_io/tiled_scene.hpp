@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "scene/scene_cloud.hpp"
 
 namespace insonify {
+
+struct CutOptions;
 
 /// What a .tiles file says of its scene.
 struct TiledSceneInfo {
@@ -36,12 +39,19 @@ struct TileSelection {
   double bytes_to_load() const { return 64.0 * static_cast<double>(surfels); }
 };
 
+/// A scene as fine as a head resolves it (cut_scene).
+struct TiledCut {
+  SceneCloud scene;         ///< surfels and nodes by ascending id, with part_of of the whole scene
+  std::uint64_t bytes = 0;  ///< that were read
+};
+
 /// A prepared scene on disk. Only the tiles near a head are read, so scenes far larger than memory can be pinged.
 /// TileWriter writes such a file. Steps and cost:
 ///   opening   reads the directory, 80 bytes per tile of at most 4096 surfels, in a child process
 ///   select    tests the enclosing ball of every tile against the insonified region: constant cost per tile
 ///   load      reads the selected tiles in parallel, checks them, and sorts their surfels by id. The cloud is the whole
 ///             scene without the surfels of other tiles.
+///   cut       walks down the levels of detail, and reads them as far as a head resolves them
 ///
 ///   const TiledScene tiled("bay.tiles");
 ///   const InsonifiedRegion region = simulator.reach(tiled.info().whole, event);
@@ -71,6 +81,12 @@ class TiledScene {
   /// memory   limit for loading [bytes]; 0: the available memory. Throws Error(runtime) if more is needed, before
   ///          anything is read; Error(content) if a tile is damaged.
   SceneCloud load(const TileSelection& selection, double memory = 0, int threads = 0) const;
+
+  /// Returns what cut_scene returns of the whole scene. Of what is far, only coarse levels are read. Does not depend on
+  /// options.threads.
+  /// most_surfels   Throws Error(memory) if surfels and nodes are more; Error(content) if what is read is damaged.
+  TiledCut cut(const InsonifiedRegion& region, const BeamFan& fan, const RangeGate& gate, const CutOptions& options,
+               double most_surfels = std::numeric_limits<double>::infinity()) const;
 
   /// Returns the centres of the tiles (world, [m]).
   std::vector<Eigen::Vector3d> places() const;

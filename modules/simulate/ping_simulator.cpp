@@ -76,6 +76,11 @@ void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& sim
   ping.intensity = mean_over_bins(sum / wanted.looks_pings, wanted.looks_range);
 }
 
+/// Whether a ping merges surfels of a scene. One whose surfels have depths of their own is a cut of levels already.
+bool to_merge(const SceneCloud& scene, const SimulationOptions& options) {
+  return scene.unevenness.empty() && merges_surfels(scene, options);
+}
+
 /// Returns use(scene), or where the options ask for it use() of the scene as fine as the head resolves it (E137).
 template <typename Use>
 auto with_detail(const PreparedScene& scene, ResolvedPing& ping, const Use& use) {
@@ -84,7 +89,7 @@ auto with_detail(const PreparedScene& scene, ResolvedPing& ping, const Use& use)
     find_smooth(pinged.scene(), ping);
     return use(pinged);
   };
-  if (!merges_surfels(scene.scene(), o)) return of(scene);
+  if (!to_merge(scene.scene(), o)) return of(scene);
   const SceneCut cut =
       cut_scene(scene, ping.region, ping.view.fan, ping.view.gate,
                 {o.sampling.detail_width, o.sampling.detail_spacing, ping.view.sampling.range_resolution, o.threads});
@@ -96,8 +101,7 @@ auto with_detail(const PreparedScene& scene, ResolvedPing& ping, const Use& use)
 
 /// Says of how many surfels a scene is, where a part of them or nodes were pinged.
 void count_merged(const PreparedScene& scene, const ResolvedPing& ping, SamplingReport& report) {
-  if (merges_surfels(scene.scene(), ping.options))
-    report.merged_to = std::exchange(report.surfels, scene.scene().size());
+  if (to_merge(scene.scene(), ping.options)) report.merged_to = std::exchange(report.surfels, scene.scene().size());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "formats/npy_file.hpp"
 #include "formats/oculus_file.hpp"
 #include "formats/xtf_file.hpp"
+#include "sampling/scene_cut.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/tiled_scene.hpp"
@@ -36,6 +37,7 @@ void read_description(const std::string& path) { describe_file(path); }
 void read_tiles(const std::string& path) {
   const TiledScene tiles(path);
   tiles.load(tiles.select_all(), 0, 1);
+  tiles.cut(region_around({0, 0, 0}, 1e6), {}, {0.1, 1e6, 1}, {1e-9, 0, 1, 1});  // all nodes
 }
 
 }  // namespace

@@ -63,6 +63,22 @@ TEST(Hdf5File, values_that_do_not_lie_in_the_file_as_announced_are_refused) {
                [&] { find_numbers(own_file("text.h5", "numbers"), H5T_IEEE_F32LE, {4}); });
 }
 
+TEST(Hdf5File, values_beyond_the_end_of_the_file_are_refused) {
+  constexpr std::uint64_t count = 12345;
+  const std::string path = own_path("long.h5");
+  write_hdf5(path, [&](const FileContext& place, hid_t file) {
+    create_plain(place, file, numbers_name, H5T_IEEE_F32LE, {count});
+  });
+  std::string bytes = file_bytes(path);
+  for (std::uint64_t number : {count, 4 * count}) {
+    const auto text = [](std::uint64_t n) { return std::string(reinterpret_cast<const char*>(&n), sizeof(n)); };
+    bytes = replaced(bytes, text(number), text(number << 30));
+  }
+  own_file("long.h5", bytes);
+  expect_error(ErrorKind::content, {"long.h5: /numbers takes", "the file holds"},
+               [&] { find_numbers(path, H5T_IEEE_F32LE, {count << 30}); });
+}
+
 TEST(Hdf5File, appears_whole_or_not_at_all) {
   const std::string path = own_path("none.h5");
   struct Stop {};

@@ -168,6 +168,16 @@ TEST(SceneCut, returns_as_much_as_the_surfels_of_rough_ground_by_lamberts_law) {
   EXPECT_NEAR(lambert_sum(cut.scene.scene(), reach) / lambert_sum(rough, reach), 1, 0.003);
 }
 
+TEST(SceneCut, a_plane_in_which_the_head_lies_has_areas_above_zero) {
+  const SceneCloud plane = make_built_in_scene("plane", {.points = 100000, .size = {30, 30}});
+  for (const double height : {0.0, 1e-4}) {
+    const Reach reach(Pose(Eigen::Translation3d(-5, 15, height)));
+    const SceneCut cut = cut_of(plane, reach);
+    EXPECT_LT(2 * cut.stands_for.size(), plane.size());
+    for (const float area : cut.scene.scene().area) EXPECT_GT(area, 0);
+  }
+}
+
 TEST(SceneCut, no_node_is_thicker_than_a_quarter_of_a_cell_of_range) {
   SceneCloud stairs = make_built_in_scene("plane", {.points = 300000, .size = {30, 30}});
   for (Eigen::Vector3f& p : stairs.point) p.z() += std::fmod(std::abs(p.x()), 0.4F) < 0.2F ? 0.004F : 0;

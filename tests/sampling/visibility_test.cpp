@@ -165,7 +165,7 @@ TEST(Visibility, flipped_normals_of_an_unoriented_cloud_change_nothing) {
 TEST(Visibility, takes_cover_from_more_than_one_side) {
   const auto surfel = [](float x, float y, float z = 0, float noise = 0) {
     const Eigen::Vector3f place(x, y, z);
-    return GatedSurfel{place, place.norm(), {1, 0, 0}, x, 0.12f, 0.1f, 0.1f, noise, 0, true, true};
+    return GatedSurfel{place, place.norm(), {1, 0, 0}, x, 0.12f, 0.065f, 0.1f, 0.1f, noise, 0, true, true};
   };
   const GatedSurfel far = surfel(6, 0);
   const LineOfSight line(far);

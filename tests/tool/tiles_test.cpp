@@ -5,6 +5,7 @@
 
 #include "scene_io/load_scene.hpp"
 #include "scene_io/tiled_scene.hpp"
+#include "store/contributor_file.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -27,6 +28,24 @@ TEST_F(Tiles, a_ping_of_the_tiles_is_the_ping_of_the_cloud_byte_for_byte) {
     succeed("ping harbour.tiles --force -o b" + tiles_head + more);
     EXPECT_EQ(read("a/cube.h5"), read("b/cube.h5"));
     EXPECT_EQ(read("a/returns.ply"), read("b/returns.ply"));
+  }
+}
+
+TEST_F(Tiles, a_ping_with_detail_is_that_of_the_cloud_and_reads_less) {
+  succeed("prepare harbour.ply -o harbour.tiles -q");
+  const std::string head = sonar + " --pose=0,0,-3,0,10,0 --range 2:30 --keep contributors --force";
+  for (const std::string& more : {std::string(" --with detail"), std::string(" --detail-spacing 0.5")}) {
+    succeed("ping harbour.ply -o a" + head + more);
+    const auto manifest = nlohmann::json::parse(succeed("ping harbour.tiles --json -o b" + head + more));
+    EXPECT_EQ(read("a/cube.h5"), read("b/cube.h5"));
+    EXPECT_EQ(read("a/returns.ply"), read("b/returns.ply"));
+    const Contributors a = read_contributor_file(path("a/contributors.h5")).contributors,
+                       b = read_contributor_file(path("b/contributors.h5")).contributors;
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_EQ(a.material, b.material);
+    const auto& tiles = manifest["scene"]["tiles"];
+    EXPECT_LT(tiles["bytes_read"].get<double>(), 0.8 * tiles["bytes"].get<double>());  // most is near here
+    EXPECT_LT(2 * tiles["surfels_read"].get<double>(), tiles["surfels"].get<double>());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "sampling/scene_cut.hpp"
 #include "scene_io/cloud_field.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "tool/ping/ping_report.hpp"
@@ -31,26 +32,39 @@ PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, 
                           const TiledScene& tiled) {
   require_no_loading_options(o.scene, "is prepared already; give it to insonify prepare instead");
   const TiledSceneInfo& info = tiled.info();
-  const TileSelection near = tiled.select(simulator.reach(info.whole, event));
   const double memory = memory_for_tiles(o.memory_limit);
-  require_memory(near, bytes_to_ping, memory, o.scene.path);
-
   PingScene result;
-  result.loaded.scene = tiled.load(near, memory, o.common.threads);
   LoadReport& report = result.loaded.report;
   report.path = o.scene.path;
   report.format = "insonify tiles";
-  report.points_read = near.surfels;
-  report.notes.push_back(fmt::format("{} of {} surfels read, in {} of {} tiles", near.surfels, info.surfels,
-                                     near.tiles.size(), info.tiles));
+  ordered_json read = {{"surfels", info.surfels}, {"tiles", info.tiles}, {"bytes", info.bytes}};
+  const ResolvedPing ping =
+      resolve_ping(info.whole, simulator.head(), event, simulator.environment(), simulator.options(), "ping");
+  if (merges_surfels({}, ping.options)) {
+    const SamplingSettings& sampling = ping.options.sampling;
+    TiledCut cut = tiled.cut(
+        ping.region, ping.view.fan, ping.view.gate,
+        {sampling.detail_width, sampling.detail_spacing, ping.view.sampling.range_resolution, o.common.threads},
+        memory / bytes_to_ping);
+    result.loaded.scene = std::move(cut.scene);
+    report.points_read = result.loaded.scene.size();
+    report.notes.push_back(fmt::format("{} surfels and nodes of {} surfels, from {} of {} bytes", report.points_read,
+                                       info.surfels, cut.bytes, info.bytes));
+    read["bytes_read"] = cut.bytes;
+  } else {
+    const TileSelection near = tiled.select(ping.region);
+    require_memory(near, bytes_to_ping, memory, o.scene.path);
+    result.loaded.scene = tiled.load(near, memory, o.common.threads);
+    report.points_read = near.surfels;
+    report.notes.push_back(fmt::format("{} of {} surfels read, in {} of {} tiles", near.surfels, info.surfels,
+                                       near.tiles.size(), info.tiles));
+    read["tiles_read"] = near.tiles.size();
+  }
+  read["surfels_read"] = report.points_read;
   for (const Eigen::Vector3d& place : tiled.places())
     result.places.push_back(event.world_from_head.linear().transpose() * (place - event.world_from_head.translation()));
   result.json = scene_json(result.loaded.report, result.loaded.scene);
-  result.json["tiles"] = {{"surfels", info.surfels},
-                          {"surfels_read", near.surfels},
-                          {"tiles", info.tiles},
-                          {"tiles_read", near.tiles.size()},
-                          {"bytes", info.bytes}};
+  result.json["tiles"] = std::move(read);
   return result;
 }
 
