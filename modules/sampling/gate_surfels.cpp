@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr double min_distance = 1e-6;  // [m]; nearer points belong to the head itself
 
 // Sizes of discs, in spacings. Surfels of a scan stand at random. Nodes of levels of detail are cells that tile their
-// surface; with the sizes for surfels, shadows would grow by a fifth of a node.
+// surface; with the sizes for surfels, they would make shadows longer (Detail.leaves_edges_of_shadows*).
 constexpr double surfel_core = 0.65;
 constexpr double node_core = 0.5, node_footprint = 0.8;
 

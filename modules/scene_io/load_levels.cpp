@@ -70,6 +70,10 @@ class LoadedForest : public LoadedLevels {
              " on is damaged: ", what, "; copy or make the file again");
     };
     require(checksum_of(bytes) == forest_.checksum[g], "its checksum is wrong");
+    if (g == 0)
+      require(std::all_of(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(forest_.loose),
+                          [&](std::uint32_t child) { return child < forest_.rows; }),
+              "a root that is no node is no row either");
     levels.child.insert(levels.child.end(), children.begin(), children.end());
     const Vector3d offset = vector_in(forest_.reference) - reference_;
     const std::uint64_t numbers = forest_.rows + forest_.node_end[level_groups - 1];
