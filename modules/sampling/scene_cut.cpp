@@ -18,8 +18,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double most_spread = 0.1;      // of normals, in squares of the cosine of incidence
-constexpr double flat_spread = 0.003;    // of normals that curve the surface too little to change what hides what
+constexpr double flat_spread = 0.003;    // of normals of a node as wide as may be
+constexpr double steep_spread = 0.008;   // of such a node, in squares of the cosine of incidence
+constexpr double most_narrow = 8;        // narrower than may be by this factor, a node is no rougher still
 constexpr double most_thickness = 0.25;  // in cells of range
 constexpr float per_thickness = 16;      // how far below a node's plane its surface may lie, as far as its disc reaches
 constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
@@ -75,7 +76,7 @@ class LevelWalk {
     if (inside && unresolved(node, range)) {
       const Vector3d direction = head_.to_head().transpose() * (p / range);
       const double cosine_square = std::pow(node.normal.cast<double>().dot(direction), 2);
-      if (spread_of(node) <= std::min(flat_spread, most_spread * cosine_square))
+      if (spread_of(node) <= most_spread(node, range, cosine_square))
         return add_node(of, node, factor_of(quadratic_form(node.normals, direction), cosine_square), out);
     }
     for (std::uint32_t k = 0; k < node.children; ++k) visit(of, of.levels.child[node.first_child + k], inside, out);
@@ -87,9 +88,17 @@ class LevelWalk {
     if (!std::holds_alternative<LambertLaw>(scene_.materials[node.material].law)) return false;
     const double nearest = range - node.extent, farthest = range + node.extent;
     const auto divides = [&](double end) { return nearest < end && end < farthest; };
-    if (!(nearest > 0) || std::sqrt(node.area) > std::max(width_ * nearest, spacing_) || node.thickness > thickness_)
-      return false;
+    if (!(nearest > 0) || std::sqrt(node.area) > most_width(node, range) || node.thickness > thickness_) return false;
     return !divides(gate_.min_range) && !divides(gate_.max_range);
+  }
+  double most_width(const DetailNode& node, double range) const {
+    return std::max(width_ * (range - node.extent), spacing_);
+  }
+  /// How rough a node may be (E137): many narrow ones share a beam, and their errors average out. Nodes of one width at
+  /// all ranges do not depend on where they are seen from.
+  double most_spread(const DetailNode& node, double range, double cosine_square) const {
+    const double narrow = std::min(most_width(node, range) / std::sqrt(node.area), most_narrow);
+    return narrow * (width_ > 0 ? std::max(flat_spread, steep_spread * cosine_square) : flat_spread);
   }
   /// Whether the cell of a node lies within the region, whatever surfels of it are loaded.
   bool holds_cell(const DetailNode& node) const {

@@ -32,15 +32,17 @@ struct CutOptions {
 /// Returns what a ping needs of a scene (E137): within `region` a node of the scene's levels of detail stands for its
 /// surfels, if
 ///
-///   sqrt(area) <= r fan.beam_width most_width          at its nearest range r: no beam resolves its surfels,
-///                 or most_spacing                      which is the same for all pings
-///   thickness <= range_resolution / 4                  nor does the pulse
-///   spread of normals <= 0.003, 0.1 cos^2(incidence)   it is flat, and all its surfels face the head
+///   width <= r fan.beam_width most_width     at its nearest range r: no beam resolves its surfels,
+///            or most_spacing                 which is the same for all pings
+///   thickness <= range_resolution / 4        nor does the pulse
+///   spread of normals <= 0.003 q             it is flat, or the head looks down on it so steeply that
+///            or 0.008 q cos^2(incidence)     its relief hides nothing (not with most_spacing alone)
 ///
-/// and all of it lies within the region and on one side of either end of `gate` (the sampled ranges). Its area is such
-/// that Lambert's law gives the mean over the normals of its surfels. Surfels elsewhere in the region stand for
-/// themselves. The surface of a node lies sqrt(area of a surfel) + 16 thickness below its plane
-/// at most, as far as its disc hides others.
+/// with width = sqrt(area) and q = (largest width allowed) / width, at most 8, since errors of many narrow nodes average
+/// out. All of a node lies within the region and on one side of either end of `gate` (the sampled ranges). Its area is
+/// such that Lambert's law gives the mean over the normals of its surfels. Surfels elsewhere in the region stand for
+/// themselves. The surface of a node lies sqrt(area of a surfel) + 16 thickness below its plane at most, as far as its
+/// disc hides others.
 ///
 /// The surfels within the region alone give the same cut. Errors as detail_levels.
 SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,

@@ -23,6 +23,7 @@ struct DetailNode {
   float area = 0;                                    ///< sum of their areas [m^2]
   float noise = 0;                                   ///< root of their area-weighted mean square [m]
   float extent = 0;                                  ///< radius about `point` of a ball that holds the surfels [m]
+  float moment = 0;           ///< mean square distance of the surfels' surface from `point` [m^2]
   float thickness = 0;        ///< largest distance of a child's centre from the plane, plus its thickness [m]
   float resultant = 0;        ///< length of the area-weighted mean of the surfels' normals
   SymmetricMatrix normals{};  ///< area-weighted mean of n n^T over the surfels' normals n
@@ -49,7 +50,7 @@ struct DetailBlock {
 ///
 /// Within a cell, children of one material whose normals lie within 30 degrees of each other are merged if together
 /// they are one compact, flat piece. Such a piece is no thicker than a tenth of its extent, and neither sparse nor in
-/// several sheets: its area is 1.2 to 3.5 times its extent squared (2 for a square). Rods, nets and rough ground may
+/// several sheets: its area is 0.65 to 1.75 times that of a square with the same moment. Rods, nets and rough ground may
 /// fail this test in one cell and merge in a larger one; otherwise their surfels stay single (rows of single surfels
 /// merge in pairs).
 struct DetailLevels {

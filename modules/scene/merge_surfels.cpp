@@ -11,10 +11,11 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double least_cosine_in_group = 0.866;      // of a normal with the mean of its group
-constexpr float least_fill = 1.2f, most_fill = 3.5;  // area in squares of the extent; 2 for a square
-constexpr float most_thickness = 0.1f;               // in extents
-constexpr float half_diagonal = 0.70710678f;         // of a square, in its widths
+constexpr double least_cosine_in_group = 0.866;        // of a normal with the mean of its group
+constexpr double least_fill = 0.65, most_fill = 1.75;  // a square has 1, half of one 0.75, three squares in a row 0.6
+constexpr float of_square = 6;                         // area of a square over the mean square distance from its centre
+constexpr float most_thickness = 0.1f;                 // in extents
+constexpr float half_diagonal = 0.70710678f;           // of a square, in its widths
 
 /// n n^T.
 SymmetricMatrix square_of(const Vector3f& n) {
@@ -27,7 +28,7 @@ MergedPieces::Piece MergedPieces::piece(std::uint32_t index) const {
   const std::size_t surfels = scene_.size();
   if (index >= surfels) {
     const DetailNode& n = nodes_[index - surfels];
-    return {n.point,     n.normal,  n.area,    n.noise, n.extent,   n.thickness,
+    return {n.point,     n.normal,  n.area,    n.noise, n.extent,   n.moment,  n.thickness,
             n.resultant, n.normals, n.nearest, n.place, n.own_area, n.material};
   }
   const float area = scene_.area[index];
@@ -36,6 +37,7 @@ MergedPieces::Piece MergedPieces::piece(std::uint32_t index) const {
           area,
           scene_.noise.empty() ? 0 : scene_.noise[index],
           half_diagonal * std::sqrt(area),
+          area / of_square,
           0,
           1,
           square_of(scene_.normal[index]),
@@ -94,19 +96,21 @@ std::optional<DetailNode> MergedPieces::merged(const Group& group, std::span<con
   node.material = group.material;
   node.children = group.members;
   node.cell = edge;
+  double moment = 0;
   float nearest = std::numeric_limits<float>::infinity();
   for (const std::uint8_t m : group.all()) {
     const Piece p = piece(cell[m]);
     const Vector3f away = p.point - node.point;
     const float distance = away.norm();
+    moment += p.area * (p.moment + away.squaredNorm());
     node.extent = std::max(node.extent, distance + p.extent);
     node.thickness = std::max(node.thickness, std::abs(away.dot(node.normal)) + p.thickness);
     if (distance < nearest)
       nearest = distance, node.nearest = p.nearest, node.place = p.place, node.own_area = p.own_area;
   }
-  const float square = node.extent * node.extent;
-  const bool compact = node.area >= least_fill * square && node.area <= most_fill * square;
-  if (!compact || node.thickness > most_thickness * node.extent) return {};
+  node.moment = static_cast<float>(moment / group.area);
+  const double fill = group.area / (of_square * node.moment);
+  if (fill < least_fill || fill > most_fill || node.thickness > most_thickness * node.extent) return {};
   return node;
 }
 

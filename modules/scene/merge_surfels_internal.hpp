@@ -44,7 +44,7 @@ class MergedPieces {
  private:
   struct Piece {
     Eigen::Vector3f point, normal;
-    float area, noise, extent, thickness, resultant;
+    float area, noise, extent, moment, thickness, resultant;
     SymmetricMatrix normals;
     std::uint32_t nearest;
     Eigen::Vector3f place;

@@ -26,8 +26,10 @@ constexpr PlanStage geometry[] = {
      [](bool in, E&, O& o) { o.sampling.outer_azimuths = chosen(in); },
      [](const O& o) { return o.sampling.outer_azimuths; }},
     {"detail", DecidedBy::choice, [](const PlanCause& of) { return merges_surfels(of.scene, of.options); },
-     "surfels finer than the head resolves are merged", "not asked for, or the scene or an output has no use for it",
-     nullptr,
+     "surfels finer than the head resolves are merged; of nodes a beam wide, errors are at most 0.05 dB in total, 0.1 "
+     "dB in "
+     "a tenth of the ranges, and 3 cells of range at the edges of shadows",
+     "not asked for, or the scene or an output has no use for it", nullptr,
      [](bool in, E&, O& o) {
        SamplingSettings& s = o.sampling;
        if (!in) s.detail_width = s.detail_spacing = 0;

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Measures levels of detail on this machine, error against run time, and writes tables and picture of docs/results/detail.md.
+# It takes ten minutes; times are only meaningful on an otherwise idle machine.
+#   docs/make_detail.sh [build/release/bin]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+programs=${1:-build/release/bin}
+page=docs/results/detail.md picture=docs/images/detail.png
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+"$programs/detail_accuracy" "$work/detail.png" >"$work/tables"
+# The tables of scenes, and of edges of shadows, each between two marks of the page.
+awk -v edges="$work/edges" -v scenes="$work/scenes" \
+  '/^\| widest node/ { out = 1 } { print > (out ? edges : scenes) }' "$work/tables"
+awk -v work="$work" '
+  /^<!-- end -->$/ { inside = 0 }
+  !inside { print }
+  match($0, /^<!-- made: [a-z]+ -->$/) {
+    inside = 1
+    file = work "/" $3
+    while ((getline line < file) > 0) print line
+    close(file)
+  }' "$page" >"$work/page.md"
+[[ $(stat -c %s "$work/detail.png") -lt 150000 ]] || { echo "make_detail.sh: the picture is larger than 150 kB" >&2; exit 1; }
+cp "$work/detail.png" "$picture"
+mv "$work/page.md" "$page"
+echo "$page written"
