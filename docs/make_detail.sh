@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 "$programs/detail_accuracy" "$work/detail.png" >"$work/tables"
 # The tables of scenes, and of edges of shadows, each between two marks of the page.
 awk -v edges="$work/edges" -v scenes="$work/scenes" \
-  '/^\| widest node/ { out = 1 } { print > (out ? edges : scenes) }' "$work/tables"
+  '/^\| widest node/ { out = 1; print "" > edges } { print > (out ? edges : scenes) } END { print "" > edges }' "$work/tables"
 awk -v work="$work" '
   /^<!-- end -->$/ { inside = 0 }
   !inside { print }

@@ -86,6 +86,7 @@ PingSimulator settle(MadePing& ping, int threads) {
   ping.simulation.seed = ping.options.common.seed;
   ping.simulation.threads = threads;
   ping.simulation.outputs = tool::asked_simulation(ping.options.common, ping.options).outputs;
+  tool::require_valid_settings(ping.options, ping.simulation, tool::NamedBy::keyword);
   return ping.by->simulator->with(ping.simulation);
 }
 
@@ -126,6 +127,7 @@ Simulator::Simulator(const Sonar& of, const Environment& environment, const py::
   simulation = tool::asked_simulation(options.common, options);
   for (const std::string& stage : options.with) force_stage(stage, true, {}, head.environment, simulation);
   for (const std::string& stage : options.without) force_stage(stage, false, {}, head.environment, simulation);
+  tool::require_valid_settings(options, simulation, tool::NamedBy::keyword);
   require_depths_known(head.environment, "environment");
   simulator.emplace(head.head, head.environment, simulation);
 }

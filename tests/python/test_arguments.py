@@ -90,7 +90,8 @@ def test_environments(keys, names):
 
 @pytest.mark.parametrize("keys,names", [
     ({"acuracy_db": 1}, "PingSimulator: unknown keyword 'acuracy_db'; did you mean 'accuracy_db'"),
-    ({"accuracy_db": 0}, "accuracy_db"),
+    ({"accuracy_db": 0}, "^accuracy_db = 0, must be"),
+    ({"detail_width": 9}, "^detail_width = 9, must be within 0 and 4"),
     ({"noise": 3}, "noise = 3, must be true or false"),
     ({"method": "best"}, "method = \"best\", must be one of"),
     ({"keep": "everything"}, "keep = .*must be"),

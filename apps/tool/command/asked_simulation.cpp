@@ -15,6 +15,29 @@ namespace {
 
 constexpr int drawn_paths = 64;  // of each kind; more would hide one another
 
+/// The member of SimulationOptions without its group: "detail_width" of "sampling.detail_width".
+std::string name_of_member(const OptionProblem& problem) {
+  return problem.member.substr(problem.member.rfind('.') + 1);
+}
+
+/// "NAME = VALUE, must be RULE". A flag that must be false is to be left out; of a list of words, its word is.
+std::string refusal(const std::string& name, const RunSetting& setting, const OptionProblem& problem) {
+  const bool word = std::holds_alternative<std::vector<std::string>*>(setting.value);
+  if (const std::string no = "false"; problem.value == "true" && problem.rule.starts_with(no))
+    return fmt::format("{}{}: must be left out{}", name, word ? " " + name_of_member(problem) : "",
+                       problem.rule.substr(no.size()));
+  return fmt::format("{} = {}, must be {}", name, problem.value, problem.rule);
+}
+
+/// The row of the setting by which a problem came about; none for a member that no setting reaches.
+const RunSetting* setting_of(const std::vector<RunSetting>& settings, const OptionProblem& problem) {
+  const std::string member = name_of_member(problem);
+  const auto at = std::find_if(settings.begin(), settings.end(), [&](const RunSetting& setting) {
+    return member == (*setting.member ? setting.member : setting.key);
+  });
+  return at == settings.end() ? nullptr : &*at;
+}
+
 }  // namespace
 
 SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& o) {
@@ -59,40 +82,13 @@ bool keeps(const PingOptions& options, const std::string& what) {
   return std::find(options.keep.begin(), options.keep.end(), what) != options.keep.end();
 }
 
-namespace {
-
-/// The member of SimulationOptions without its group: "detail_width" of "sampling.detail_width".
-std::string name_of_member(const OptionProblem& problem) {
-  return problem.member.substr(problem.member.rfind('.') + 1);
-}
-
-/// "NAME = VALUE, must be RULE". A flag that must be false is to be left out; of a list of words, its word is.
-std::string refusal(const std::string& name, const RunSetting& setting, const OptionProblem& problem) {
-  const bool word = std::holds_alternative<std::vector<std::string>*>(setting.value);
-  if (const std::string no = "false"; problem.value == "true" && problem.rule.starts_with(no))
-    return fmt::format("{}{}: must be left out{}", name, word ? " " + name_of_member(problem) : "",
-                       problem.rule.substr(no.size()));
-  return fmt::format("{} = {}, must be {}", name, problem.value, problem.rule);
-}
-
-/// The row of the setting by which a problem came about; none for a member that no setting reaches.
-const RunSetting* setting_of(const std::vector<RunSetting>& settings, const OptionProblem& problem) {
-  const std::string member = name_of_member(problem);
-  const auto at = std::find_if(settings.begin(), settings.end(), [&](const RunSetting& setting) {
-    return member == (*setting.member ? setting.member : setting.key);
-  });
-  return at == settings.end() ? nullptr : &*at;
-}
-
-}  // namespace
-
-void require_valid_settings(const PingOptions& options, const SimulationOptions& simulation) {
+void require_valid_settings(const PingOptions& options, const SimulationOptions& simulation, NamedBy by) {
   const auto problem = problem_of(simulation);
   if (!problem) return;
   PingOptions copy = options;
   const std::vector<RunSetting> settings = all_settings(copy);
   if (const RunSetting* setting = setting_of(settings, *problem))
-    fail(ErrorKind::argument, refusal(setting->option, *setting, *problem));
+    fail(ErrorKind::argument, refusal(by == NamedBy::option ? setting->option : setting->key, *setting, *problem));
   require_valid(simulation, "PingSimulator");
 }
 

@@ -16,9 +16,12 @@ SynthesisSettings asked_synthesis(const RunOptions& options);
 /// Whether --keep names `what`.
 bool keeps(const PingOptions& options, const std::string& what);
 
+enum class NamedBy { option, keyword };
+
 /// Throws Error(argument) for a problem of `simulation`, which was made of `options`. The message names the option of
-/// the command line: "--detail-width = -1, must be within 0 and 4".
-void require_valid_settings(const PingOptions& options, const SimulationOptions& simulation);
+/// the command line, "--detail-width = -1, must be within 0 and 4", or the keyword of Python, "detail_width = -1, ...".
+void require_valid_settings(const PingOptions& options, const SimulationOptions& simulation,
+                            NamedBy by = NamedBy::option);
 
 /// Throws Error(content) for a problem of the settings that the run.toml or mission at `path` holds in [ping]. The
 /// message names line and key: "run.toml:7: ping.detail_width = -1, must be within 0 and 4".
