@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 
 constexpr double flat_spread = 0.003;    // of normals of a node as wide as may be
 constexpr double steep_spread = 0.008;   // of such a node, in squares of the cosine of incidence
-constexpr double most_narrow = 8;        // narrower than may be by this factor, a node is no rougher still
+constexpr double most_narrow = 8;        // times: narrower nodes than this may not be still rougher
 constexpr double most_thickness = 0.25;  // in cells of range
 constexpr float per_thickness = 16;      // how far below a node's plane its surface may lie, as far as its disc reaches
 constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
@@ -35,8 +35,8 @@ struct Part {
 /// Mean square sine of the angles between a node's normal and those of its surfels.
 double spread_of(const DetailNode& node) { return 1 - quadratic_form(node.normals, node.normal.cast<double>()); }
 
-/// Energy of a node's surfels over that of a plane, whose cosines have these mean squares. Of normals in single
-/// precision, both are rounding where the plane is seen edge-on; elsewhere the factor is 0.9 to 1.8.
+/// Energy of a node's surfels over that of a plane, whose cosines have these mean squares; within 0.5 and 2, since both
+/// are rounding where the plane is seen edge-on.
 double factor_of(double of_surfels, double of_plane) {
   return of_plane > 0 ? std::clamp(of_surfels / of_plane, 0.5, 2.0) : 1;
 }
