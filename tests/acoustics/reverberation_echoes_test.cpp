@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mean levels of the reverberation of water, surface and bottom against closed forms.
+#include "acoustics/direct_echoes.hpp"
 #include "acoustics/reverberation_bench.hpp"
 #include "acoustics/reverberation_cells_internal.hpp"
 #include "sampling/find_scatterers.hpp"

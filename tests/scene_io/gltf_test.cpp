@@ -33,12 +33,12 @@ json turned_triangle() {
     for (std::size_t k = 0; k < 3; ++k) word = word << 8 | static_cast<unsigned char>(bytes[i + k]);
     for (int shift = 18; shift >= 0; shift -= 6) base64 += digits[word >> shift & 63];
   }
-  const double half = std::sqrt(0.5);
+  const double root = std::sqrt(0.5);
   return {
       {"asset", {{"version", "2.0"}}},
       {"scene", 0},
       {"scenes", {{{"nodes", {0}}}}},
-      {"nodes", {{{"translation", {10, 0, 0}}, {"children", {1}}}, {{"rotation", {0, half, 0, half}}, {"mesh", 0}}}},
+      {"nodes", {{{"translation", {10, 0, 0}}, {"children", {1}}}, {{"rotation", {0, root, 0, root}}, {"mesh", 0}}}},
       {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
       {"accessors",
        {{{"bufferView", 0},
