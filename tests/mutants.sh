@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Reads N damaged files per reader (10 000), each in a process of its own. Fails, and keeps the file in build/mutants, if one
-# ends otherwise than with 0, 2, 3 or 4, takes 5 s of processor or 1 GB, or says more than one line.
+# ends otherwise than with 0, 2, 3, 4 or 5, takes 5 s of processor or 1 GB, or says more than one line.
 #
 #   tests/mutants.sh [READER|all] [N] [SEED]
 set -euo pipefail

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "files/path_status.hpp"
 #include "store/output_rules.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/memory_guard.hpp"
@@ -34,7 +35,7 @@ ViewerOptions options_of(const ViewerCommand& command) {
          "no display: set DISPLAY, run under xvfb-run, or use insonify image (or --screenshot FILE.png)");
   if (!command.screenshot.empty())
     require_free_file(command.screenshot, command.force, {command.target, command.script});
-  if (!std::filesystem::exists(command.target)) fail(ErrorKind::file, command.target, ": no such run or scene");
+  if (!path_exists(command.target)) fail(ErrorKind::file, command.target, ": no such run or scene");
   return options;
 }
 

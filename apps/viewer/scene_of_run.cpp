@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "files/path_status.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/scene_file.hpp"
 #include "tool/command/run_settings.hpp"
@@ -44,7 +45,7 @@ void load_scene_of_run(const ViewerCommand& command, const std::string& run_fold
     const std::string path = command.scene.path;
     options = command.scene;
     options.path = path;
-  } else if (options.path.empty() || !fs::exists(options.path)) {
+  } else if (options.path.empty() || !path_exists(options.path)) {
     view.notes.push_back(options.path.empty()
                              ? "the run does not say what its scene was: give it with --scene for the 3-D panel"
                              : options.path + ": the scene of the run is missing: give it with --scene");

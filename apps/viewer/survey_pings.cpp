@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "files/path_status.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
 #include "store/survey_run.hpp"
@@ -44,7 +45,7 @@ struct CubeList {
 
   Soundings returns_of_ping(std::size_t ping) {
     const std::size_t c = cube_of(ping);
-    if (c != returns_of) returns = fs::exists(cubes[c].returns) ? load_soundings(cubes[c].returns) : Soundings{};
+    if (c != returns_of) returns = path_exists(cubes[c].returns) ? load_soundings(cubes[c].returns) : Soundings{};
     returns_of = c;
     return soundings_of_ping(returns, number[ping], {});
   }
@@ -96,7 +97,7 @@ std::optional<SurveyHeadRun> find_survey_head(const std::string& target, const s
   const fs::path given = fs::path(target).has_filename() ? fs::path(target) : fs::path(target).parent_path();
   const bool is_whole = is_survey_run(given.string());
   const fs::path folder = is_whole ? given : given.parent_path();
-  if (!is_whole && (!fs::is_directory(given) || !is_survey_run(folder.string()))) return {};
+  if (!is_whole && (!is_folder(given) || !is_survey_run(folder.string()))) return {};
   const SurveyRun run = load_survey_run(folder.string());
   const std::string wanted = is_whole ? head : given.filename().string();
   SurveyHeadRun found;
@@ -114,12 +115,11 @@ std::optional<SurveyHeadRun> find_survey_head(const std::string& target, const s
   found.folder = (folder / chosen->name).string();
   found.blocks = chosen->blocks();
   for (const auto& [number, files, mark] : stored_blocks(folder.string(), run, *chosen)) {
-    if (!mark) continue;
     ++found.done;
-    if (!mark->cube_sha256.empty()) found.cubes.push_back({files.cube, files.returns});
+    if (!mark.cube_sha256.empty()) found.cubes.push_back({files.cube, files.returns});
   }
   const fs::path merged = fs::path(found.folder) / "cube.h5";
-  if (found.cubes.empty() && fs::exists(merged)) {
+  if (found.cubes.empty() && path_exists(merged)) {
     found.cubes.push_back({merged.string(), ""});
     found.done = found.blocks;
   }

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "files/path_status.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/contributor_file.hpp"
@@ -77,10 +78,10 @@ namespace fs = std::filesystem;
 
 // Reads the cube of a complete run; runs appear atomically, including the manifest.
 std::string finished_cube(const std::string& target) {
-  if (!fs::is_directory(target)) return target;
+  if (!is_folder(target)) return target;
   const fs::path cube = fs::path(target) / "cube.h5";
-  if (!fs::exists(cube)) fail(ErrorKind::content, target, ": holds no cube.h5, so it is no run directory");
-  if (!fs::exists(fs::path(target) / "manifest.json"))
+  if (!path_exists(cube)) fail(ErrorKind::content, target, ": holds no cube.h5, so it is no run directory");
+  if (!path_exists(fs::path(target) / "manifest.json"))
     fail(ErrorKind::content, target,
          ": has no manifest.json, so the run is unfinished or damaged; ping again, or view ", cube.string(), " alone");
   return cube.string();
@@ -100,7 +101,7 @@ void load_contributors(const fs::path& run, LoadedView& view) {
   std::vector<std::string> files;
   for (std::size_t p = 0; p < pings; ++p)
     files.push_back((run / (pings == 1 ? "contributors.h5" : fmt::format("contributors/{:06}.h5", p))).string());
-  if (!std::all_of(files.begin(), files.end(), [](const std::string& file) { return fs::exists(file); })) return;
+  if (!std::all_of(files.begin(), files.end(), [](const std::string& file) { return path_exists(file); })) return;
   std::uintmax_t bytes = 0;
   for (const std::string& file : files) bytes += contributor_bytes(file);
   if (bytes > most_bytes) {
@@ -188,7 +189,7 @@ ViewerCommand parse_viewer_command(int argc, char** argv) {
 }
 
 bool is_run(const std::string& target) {
-  return fs::is_directory(target) || fs::path(target).extension() == ".h5" || tool::is_record(target);
+  return is_folder(target) || fs::path(target).extension() == ".h5" || tool::is_record(target);
 }
 
 LoadedView load_run(const ViewerCommand& command) {
@@ -217,7 +218,7 @@ LoadedView load_run(const ViewerCommand& command) {
       view.notes.push_back(doubt);
   const fs::path run(command.target), returns = run / "returns.ply";
   load_contributors(run, view);
-  if (fs::is_directory(run) && fs::exists(returns)) view.data.returns = load_soundings(returns.string());
+  if (is_folder(run) && path_exists(returns)) view.data.returns = load_soundings(returns.string());
   show_scene_of_run(command, command.target, view);
   choose_start(command, view);
   return view;

@@ -2,15 +2,14 @@
 #include "files/input_file.hpp"
 
 #include <filesystem>
-#include <system_error>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 
 namespace insonify {
 
 void require_regular_file(const std::string& path) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  const auto status = look_at_paths([&] { return std::filesystem::status(path); });
   if (!std::filesystem::exists(status)) fail(ErrorKind::file, path, ": no such file; check the path");
   if (std::filesystem::is_directory(status)) fail(ErrorKind::file, path, ": is a folder, must be a file");
   if (!std::filesystem::is_regular_file(status))

@@ -4,6 +4,7 @@
 
 #include "files/child_process.hpp"
 #include "files/input_file.hpp"
+#include "files/path_status.hpp"
 #include "hdf/hdf5_internal.hpp"
 
 // What is read of files that others may have made: checked before HDF5 trusts it.
@@ -37,7 +38,7 @@ Handle open_file(const FileContext& place) {
 ArrayReceiver read_apart(const std::string& path,
                          const std::function<void(const FileContext&, hid_t, ArraySender&)>& read) {
   require_regular_file(path);
-  return read_in_child(path, limits_of_file(std::filesystem::file_size(path)), [&](ArraySender& to) {
+  return read_in_child(path, limits_of_file(size_of_file(path)), [&](ArraySender& to) {
     const QuietErrors quiet;
     const FileContext place{path, ErrorKind::content};
     const Handle file = open_file(place);
@@ -142,7 +143,7 @@ std::uint64_t find_plain(const FileContext& place, hid_t file, const DatasetName
     fail(place.kind, place.path, ": ", name.path, " is stored in chunks, must be contiguous");
   const haddr_t offset = H5Dget_offset(dataset);
   if (offset == HADDR_UNDEF) return 0;
-  const hsize_t bytes = H5Dget_storage_size(dataset), all = std::filesystem::file_size(place.path);
+  const hsize_t bytes = H5Dget_storage_size(dataset), all = size_of_file(place.path);
   if (offset > all || bytes > all - offset)
     fail(place.kind, place.path, ": ", name.path, " takes ", bytes, " bytes from byte ", offset, " on, the file holds ",
          all, "; copy or make the file again");

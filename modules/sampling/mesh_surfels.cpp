@@ -184,10 +184,27 @@ MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, 
   return result;
 }
 
-EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t seed, int threads) {
+std::size_t count_even_surfels(double area, double spacing, const EvenLimit& limit) {
+  constexpr double most = 4e8, bytes_each = 128, gibibyte = 1 << 30;  // while they are made
+  const double wanted = std::round(area / (spacing * spacing));
+  if (!(wanted <= most))
+    fail(ErrorKind::content, limit.where, ": surfels ", spacing, " m apart on ", area, " m^2 are ", wanted,
+         ", at most ", most, " may be asked for; give a wider spacing");
+  if (wanted * bytes_each > limit.memory)
+    fail(ErrorKind::memory, limit.where, ": ", wanted, " surfels ", spacing, " m apart need about ",
+         wanted * bytes_each / gibibyte, " GiB of memory, ", limit.memory / gibibyte,
+         " GiB may be used; give a wider spacing");
+  return std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
+}
+
+EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t seed, int threads,
+                         const EvenLimit& limit) {
   require_valid(mesh, "even_surfels");
   if (!(spacing > 0 && std::isfinite(spacing)))
     fail(ErrorKind::argument, "even_surfels: spacing = ", spacing, " m, must be > 0");
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t) area += area_of(corners_of(mesh, t));
+  count_even_surfels(area, spacing, limit);
   // Halves of areas that are spread evenly over an octave have the mean 1 / (2 ln 2) of the largest.
   const double largest = 2 * std::numbers::ln2 * spacing * spacing;
   const MeshParts parts(mesh, seed);

@@ -2,6 +2,8 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "sampling/find_scatterers.hpp"
@@ -37,6 +39,16 @@ struct MeshSurfels {
 MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, const BeamFan& fan,
                          const SamplingOptions& options = {}, std::size_t most_surfels = default_mesh_surfels);
 
+/// What evenly spaced surfels may take.
+struct EvenLimit {
+  std::string where = "even_surfels";                       ///< with which messages begin: a path
+  double memory = std::numeric_limits<double>::infinity();  ///< [bytes]
+};
+/// Returns about how many surfels `spacing` [m] apart a surface of `area` [m^2] has, at least 1. Whatever samples
+/// surfaces evenly asks here before it begins. Throws Error(content) for more than 4e8, Error(memory) if they need more
+/// than limit.memory.
+std::size_t count_even_surfels(double area, double spacing, const EvenLimit& limit);
+
 /// Surfels of a whole mesh for any ping, and the corner of the mesh that is nearest to each.
 struct EvenSurfels {
   SceneCloud scene;  ///< with parts of triangles as facets
@@ -45,7 +57,8 @@ struct EvenSurfels {
 
 /// Samples all triangles evenly: parts as in mesh_surfels, with a mean area of `spacing`^2 [m^2] and at most 1.4 times
 /// that; a smaller triangle has one surfel. The result does not depend on `threads` (0: all cores). Throws Error for an
-/// invalid mesh or spacing.
-EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t seed = 1, int threads = 0);
+/// invalid mesh or spacing, and as count_even_surfels.
+EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t seed = 1, int threads = 0,
+                         const EvenLimit& limit = {});
 
 }  // namespace insonify

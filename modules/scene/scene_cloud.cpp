@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <sstream>
 
 #include "core/error.hpp"
+#include "scene/surfel_fault.hpp"
 
 namespace insonify {
 namespace {
@@ -16,37 +18,34 @@ void require_length(std::size_t length, std::size_t points, const char* name, co
          ")");
 }
 
-void require_valid_surfel(const SceneCloud& scene, std::size_t i, const char* who) {
-  const auto at = [&](const Eigen::Vector3f& v) {
-    std::ostringstream text;
-    text << "(" << v.x() << ", " << v.y() << ", " << v.z() << ")";
-    return text.str();
+/// Tells `refuse(array, what, remedy)` what is wrong with the values of a surfel.
+template <typename Refuse>
+void check_surfel(const SceneCloud& scene, std::size_t i, std::size_t materials, const Refuse& refuse) {
+  const auto text = [](const auto&... parts) {
+    std::ostringstream all;
+    (all << ... << parts);
+    return all.str();
   };
+  const auto at = [&](const Eigen::Vector3f& v) { return text(" = (", v.x(), ", ", v.y(), ", ", v.z(), ")"); };
   if (!scene.point[i].allFinite())
-    fail(ErrorKind::content, who, ": scene.point[", i, "] = ", at(scene.point[i]),
-         " m, must be finite; remove such points");
+    refuse("point", text(at(scene.point[i]), " m, must be finite"), "; remove such points");
   if (!(std::abs(scene.normal[i].squaredNorm() - 1.0f) <= 2e-3f))
-    fail(ErrorKind::content, who, ": scene.normal[", i, "] = ", at(scene.normal[i]),
-         ", must be a unit vector; normalise the normals or estimate them");
+    refuse("normal", text(at(scene.normal[i]), ", must be a unit vector"), "; normalise the normals or estimate them");
   if (!(scene.area[i] >= 0 && std::isfinite(scene.area[i])))
-    fail(ErrorKind::content, who, ": scene.area[", i, "] = ", scene.area[i], " m^2, must be finite and >= 0");
+    refuse("area", text(" = ", scene.area[i], " m^2, must be finite and >= 0"), "");
   if (!scene.noise.empty() && !(scene.noise[i] >= 0 && std::isfinite(scene.noise[i])))
-    fail(ErrorKind::content, who, ": scene.noise[", i, "] = ", scene.noise[i], " m, must be finite and >= 0");
+    refuse("noise", text(" = ", scene.noise[i], " m, must be finite and >= 0"), "");
   if (!scene.facet.empty())
     for (const Eigen::Vector3f& corner : scene.facet[i])
-      if (!corner.allFinite())
-        fail(ErrorKind::content, who, ": scene.facet[", i, "] has a corner ", at(corner), " m, must be finite");
+      if (!corner.allFinite()) refuse("facet", text(": a corner", at(corner), " m, must be finite"), "");
   if (!scene.part.empty()) {
     if (scene.part[i] >= scene.parts.size())
-      fail(ErrorKind::content, who, ": scene.part[", i, "] = ", scene.part[i], ", must be below the number of parts, ",
-           scene.parts.size());
-    if (const auto& own = scene.parts[scene.part[i]].own; own && scene.id[i] >= own->size())
-      fail(ErrorKind::content, who, ": scene.id[", i, "] = ", scene.id[i], ", must be below the ", own->size(),
-           " surfels of its part");
+      refuse("part", text(" = ", scene.part[i], ", must be below the number of parts, ", scene.parts.size()), "");
+    else if (const auto& own = scene.parts[scene.part[i]].own; own && scene.id[i] >= own->size())
+      refuse("id", text(" = ", scene.id[i], ", must be below the ", own->size(), " surfels of its part"), "");
   }
-  if (scene.material[i] >= scene.materials.size())
-    fail(ErrorKind::content, who, ": scene.material[", i, "] = ", scene.material[i],
-         ", must be below the number of materials, ", scene.materials.size());
+  if (scene.material[i] >= materials)
+    refuse("material", text(" = ", scene.material[i], ", must be below the number of materials, ", materials), "");
 }
 
 /// Speed of the fastest surfel [m/s].
@@ -91,7 +90,18 @@ void require_valid(const SceneCloud& scene, const char* who) {
   if (!scene.part.empty()) require_length(scene.part.size(), scene.size(), "part", who);
   if (!scene.origin.allFinite()) fail(ErrorKind::content, who, ": scene.origin must be finite");
   for (const Material& material : scene.materials) require_valid(material, who, ErrorKind::content);
-  for (std::size_t i = 0; i < scene.size(); ++i) require_valid_surfel(scene, i, who);
+  if (const auto fault = find_fault(scene, 0, scene.size(), scene.materials.size()))
+    fail(ErrorKind::content, who, ": scene.", fault->array, "[", fault->surfel, "]", fault->what, fault->remedy);
+}
+
+std::optional<SurfelFault> find_fault(const SceneCloud& scene, std::size_t begin, std::size_t end,
+                                      std::size_t materials) {
+  std::optional<SurfelFault> fault;
+  for (std::size_t i = begin; i < end && !fault; ++i)
+    check_surfel(scene, i, materials, [&](const char* array, const std::string& what, const char* remedy) {
+      if (!fault) fault = {i, array, what, remedy};
+    });
+  return fault;
 }
 
 WholeScene whole_of(const SceneCloud& scene) {

@@ -30,6 +30,7 @@ class LoadedForest : public LoadedLevels {
                const Vector3d& reference, std::atomic<std::uint64_t>& bytes)
       : columns_(columns), directory_(directory), forest_(forest), reference_(reference), bytes_(bytes) {
     levels.surfels = forest.rows;
+    has_parent_.resize(forest.rows + forest.node_end[level_groups - 1]);
     levels.node.reserve(forest.node_end[level_groups - 1]);  // nodes keep their addresses
     levels.child.reserve(forest.child_end[level_groups - 1]);
     load_group();
@@ -64,30 +65,41 @@ class LoadedForest : public LoadedLevels {
                          bytes_in(children));
     bytes_ += bytes_in(nodes).size() + bytes_in(children).size();
     const std::array<std::span<char>, 2> bytes{bytes_in(nodes), bytes_in(children)};
-    const auto require = [&](bool good, const char* what) {
-      if (!good)
-        fail(ErrorKind::content, directory_.info.path, ": level ", g, " of the tiles from ", forest_.first_tile,
-             " on is damaged: ", what, "; copy or make the file again");
-    };
-    require(checksum_of(bytes) == forest_.checksum[g], "its checksum is wrong");
+    if (checksum_of(bytes) != forest_.checksum[g])
+      fail(ErrorKind::content, directory_.info.path, ": level ", g, " of the tiles from ", forest_.first_tile,
+           " on is damaged: its checksum is wrong; copy or make the file again");
     if (g == 0)
-      require(std::all_of(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(forest_.loose),
-                          [&](std::uint32_t child) { return child < forest_.rows; }),
-              "a root that is no node is no row either");
+      for (const std::uint32_t root : std::span(children).first(forest_.loose)) {
+        if (root >= forest_.rows || has_parent_[root])
+          fail(ErrorKind::content, directory_.info.path, ": the roots of the tiles from ", forest_.first_tile,
+               " on are not different rows; copy or make the file again");
+        has_parent_[root] = true;
+      }
     levels.child.insert(levels.child.end(), children.begin(), children.end());
     const Vector3d offset = vector_in(forest_.reference) - reference_;
-    const std::uint64_t numbers = forest_.rows + forest_.node_end[level_groups - 1];
-    for (const TileNode& node : nodes) {
-      require(node.first_child + std::uint64_t{node.children} <= levels.child.size() &&
-                  node.material < directory_.info.materials.size(),
-              "a node has children elsewhere");
-      for (std::uint32_t k = 0; k < node.children; ++k) {
-        const std::uint64_t child = levels.child[node.first_child + k];
-        require(child < numbers && (child < forest_.rows || child - forest_.rows >= forest_.node_end[g]),
-                "a child is not finer than its node");
-      }
-      levels.node.push_back(unpacked(node, offset));
+    for (const TileNode& node : nodes) add_node(unpacked(node, offset), g);
+  }
+
+  /// Adds a node of group `g`. Nodes and rows are a forest: each has one parent, in a coarser group, unless it is a root.
+  void add_node(const DetailNode& node, std::size_t g) {
+    const std::size_t number = levels.node.size();
+    const auto require = [&](bool good, const auto&... what) {
+      if (!good)
+        fail(ErrorKind::content, directory_.info.path, ": node ", forest_.first_node + number, ": ", what...,
+             "; copy or make the file again");
+    };
+    require_values(directory_, forest_.first_node + number, node);
+    require(g == 0 || has_parent_[forest_.rows + number], "no coarser node has it as a child");
+    require(node.first_child + std::uint64_t{node.children} <= levels.child.size(), "has children elsewhere");
+    for (std::uint32_t k = 0; k < node.children; ++k) {
+      const std::uint64_t child = levels.child[node.first_child + k], rows = forest_.rows;
+      require(child < has_parent_.size() && (child < rows || child - rows >= forest_.node_end[g]), "its child ", child,
+              " is neither a row nor a finer node");
+      require(!has_parent_[child], "its child, ", child < rows ? "row " : "node ",
+              child < rows ? forest_.first_row + child : forest_.first_node + child - rows, ", has another parent");
+      has_parent_[child] = true;
     }
+    levels.node.push_back(node);
   }
 
   const ColumnFile& columns_;
@@ -96,7 +108,8 @@ class LoadedForest : public LoadedLevels {
   Vector3d reference_;
   std::atomic<std::uint64_t>& bytes_;
   std::size_t group_ = 0;
-  std::vector<bool> loaded_;
+  std::vector<bool> loaded_;      // tiles
+  std::vector<bool> has_parent_;  // rows, then nodes; roots among the rows count
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "files/memory_limit.hpp"
 #include "sampling/mesh_surfels.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/scene_columns_internal.hpp"
@@ -20,7 +21,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr std::size_t default_surfels = 200000;
-constexpr std::size_t most_surfels = 400000000;
 
 /// Consistency of the winding over shared edges.
 struct Winding {
@@ -78,16 +78,6 @@ bool winding_is_oriented(const SceneMesh& mesh, std::vector<std::string>& notes)
         "the faces");
   }
   return true;
-}
-
-std::size_t surfels_wanted(double total_area, double spacing) {
-  if (spacing == 0) return default_surfels;
-  const double wanted = std::round(total_area / (spacing * spacing));
-  if (wanted > static_cast<double>(most_surfels)) {
-    fail(ErrorKind::argument, "load_scene: mesh_spacing = ", spacing, " m gives ", wanted, " surfels on ", total_area,
-         " m^2, at most ", most_surfels, "; give a wider spacing");
-  }
-  return std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
 }
 
 /// Barycentric weights of a surfel in its triangle. `along` in [0, 1) is stratified by the caller, the other coordinate
@@ -220,7 +210,8 @@ void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
     result.mesh = std::move(mesh);
     return;
   }
-  EvenSurfels even = even_surfels(mesh, options.mesh_spacing, options.seed, options.threads);
+  EvenSurfels even =
+      even_surfels(mesh, options.mesh_spacing, options.seed, options.threads, {raw.path, available_memory()});
   scene = std::move(even.scene);
   for (SceneColumn& column : raw.columns) keep_rows(column, even.corner);
 }
@@ -233,7 +224,9 @@ void sample_mesh(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
 
   // One surfel in each of `count` equal intervals of the cumulative area: exact total, no bias between triangles.
   const Surface surface = measure(mesh);
-  const std::size_t count = surfels_wanted(surface.total(), options.mesh_spacing);
+  const std::size_t count = options.mesh_spacing > 0 ? count_even_surfels(surface.total(), options.mesh_spacing,
+                                                                          {raw.path, available_memory()})
+                                                     : default_surfels;
   scene.point.resize(count);
   scene.normal.resize(count);
   scene.area.assign(count, static_cast<float>(surface.total() / static_cast<double>(count)));

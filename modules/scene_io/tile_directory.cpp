@@ -225,36 +225,6 @@ void add_directory(const std::string& path, const std::string& name, const TileD
   bytes.copy(children, levels.children, 0, levels.child_count * sizeof(std::uint32_t));
 }
 
-namespace {
-
-/// Throws unless tiles and forests hold all that the file holds, one after another.
-template <typename Require>
-void require_whole(const Found& found, const TileDirectory& directory, const Require& require) {
-  std::uint64_t surfels = 0, tiles = 0, nodes = 0, children = 0;
-  for (const TileEntry& tile : directory.tiles) {
-    require(tile.first == surfels && tile.count <= found.surfels - surfels, "its tiles are not consecutive");
-    surfels += tile.count;
-  }
-  require(surfels == found.surfels, "its tiles do not add up to the surfels");
-  for (const TileForest& f : directory.forests) {
-    require(f.first_tile == tiles && f.tiles > 0 && f.tiles <= directory.tiles.size() - tiles &&
-                f.first_node == nodes && f.first_child == children && f.loose <= f.child_end[0] &&
-                f.first_row == directory.tiles[tiles].first,
-            "its forests are not consecutive");
-    tiles += f.tiles;
-    require(f.first_row + f.rows == (tiles < directory.tiles.size() ? directory.tiles[tiles].first : surfels),
-            "a forest has other rows than its tiles");
-    for (std::size_t g = 1; g < level_groups; ++g)
-      require(f.node_end[g] >= f.node_end[g - 1] && f.child_end[g] >= f.child_end[g - 1], "groups are not consecutive");
-    nodes += f.node_end[level_groups - 1];
-    children += f.child_end[level_groups - 1];
-  }
-  require(tiles == directory.tiles.size() && nodes == found.nodes.count && children == found.children.count,
-          "its forests do not add up");
-}
-
-}  // namespace
-
 TileDirectory read_directory(const std::string& path) {
   require_new_format(path);
   Found found;
@@ -266,11 +236,8 @@ TileDirectory read_directory(const std::string& path) {
   file.read(found.tiles.begin, bytes_in(directory.tiles));
   directory.forests.resize(found.forests.count);
   file.read(found.forests.begin, bytes_in(directory.forests));
-  const auto require = [&](bool good, const char* what) {
-    if (!good) fail(ErrorKind::content, path, ": the directory is damaged: ", what, "; copy or make the file again");
-  };
-  require(facts.checksum == facts.checksum_with(directory.tiles, directory.forests), "its checksum is wrong");
-  require_whole(found, directory, require);
+  require_sound(facts.checksum == facts.checksum_with(directory.tiles, directory.forests), path,
+                "its checksum is wrong");
 
   TiledSceneInfo& info = directory.info;
   SceneTags tags;
@@ -295,6 +262,7 @@ TileDirectory read_directory(const std::string& path) {
   directory.begin = found.begin;
   directory.nodes_begin = found.nodes.begin;
   directory.children_begin = found.children.begin;
+  require_whole(directory, found.nodes.count, found.children.count);
   return directory;
 }
 

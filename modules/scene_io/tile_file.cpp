@@ -72,9 +72,10 @@ void read_tile(const ColumnFile& columns, const TileDirectory& directory, std::s
     fail(ErrorKind::content, directory.info.path, ": tile ", number, " of ", directory.tiles.size(),
          " is damaged: its checksum is wrong; copy or make the file again");
   const Eigen::Vector3d offset = Eigen::Map<const Eigen::Vector3d>(tile.reference) - reference;
-  if (offset.isZero(0)) return;
-  for (std::size_t i = first; i < first + tile.count; ++i)
-    to.point[i] = (to.point[i].cast<double>() + offset).cast<float>();
+  if (!offset.isZero(0))
+    for (std::size_t i = first; i < first + tile.count; ++i)
+      to.point[i] = (to.point[i].cast<double>() + offset).cast<float>();
+  require_values(directory, tile, to, first);
 }
 
 }  // namespace insonify

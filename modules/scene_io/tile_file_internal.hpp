@@ -111,6 +111,16 @@ void add_directory(const std::string& path, const std::string& name, const TileD
                    const LevelFiles& levels);
 /// Reads and checks the directory of a file. Throws as TiledScene.
 TileDirectory read_directory(const std::string& path);
+/// Throws Error(content) "path: the directory is damaged: `what`" unless `good`.
+void require_sound(bool good, const std::string& path, const char* what);
+/// Throws Error(content) unless the directory's numbers are finite, and its tiles and forests hold all rows, nodes and
+/// children of the file, one after another.
+void require_whole(const TileDirectory& directory, std::uint64_t all_nodes, std::uint64_t all_children);
+/// Throws Error(content) with the row's number in the file unless the rows of a tile, from `first` on in `rows`, have
+/// the values of surfels.
+void require_values(const TileDirectory& directory, const TileEntry& tile, const SceneCloud& rows, std::size_t first);
+/// Throws Error(content) with the node's number in the file unless its values are those of a node.
+void require_values(const TileDirectory& directory, std::uint64_t number, const DetailNode& node);
 /// Reads and checks a tile into the surfels of a cloud from `first` on, with points relative to `reference`, itself
 /// relative to the file's origin [m]. Throws Error(content) if the tile is damaged.
 void read_tile(const ColumnFile& columns, const TileDirectory& directory, std::size_t number,

@@ -21,6 +21,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "files/path_status.hpp"
 #include "files/pending_file.hpp"
 #include "scene_io/tile_areas_internal.hpp"
 #include "scene_io/tile_levels_internal.hpp"
@@ -229,7 +230,7 @@ TileReport TileWriter::finish() {
   info.total_area = s.report.total_area = s.total_area;
   s.report.tiles = s.directory.tiles.size();
   add_directory(s.path, pending.temporary(), s.directory, levels);
-  s.report.bytes = std::filesystem::file_size(pending.temporary());
+  s.report.bytes = size_of_file(pending.temporary());
   s.report_progress(1);
   pending.commit();
   return s.report;

@@ -2,12 +2,11 @@
 #include "scene_io/tiled_scene.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <limits>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/radix_sort.hpp"
+#include "files/memory_limit.hpp"
 #include "scene_io/tile_levels_internal.hpp"
 
 namespace insonify {
@@ -133,15 +132,6 @@ std::vector<Vector3d> TiledScene::places() const {
   std::vector<Vector3d> places;
   for (const TileEntry& tile : state_->tiles()) places.push_back(state_->info().origin + vector_in(tile.centre));
   return places;
-}
-
-double available_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string word;
-  double kibibytes = 0;
-  while (file >> word)
-    if (word == "MemAvailable:" && file >> kibibytes) return 1024 * kibibytes;
-  return std::numeric_limits<double>::infinity();
 }
 
 void require_memory(const TileSelection& selection, double bytes_per_surfel, double memory, const std::string& path) {

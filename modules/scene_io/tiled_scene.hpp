@@ -96,9 +96,6 @@ class TiledScene {
   std::unique_ptr<State> state_;
 };
 
-/// Returns the available memory [bytes]; infinite if unknown.
-double available_memory();
-
 /// Throws Error(runtime) naming `path` if `selection` needs more than `memory` [bytes] at `bytes_per_surfel`.
 void require_memory(const TileSelection& selection, double bytes_per_surfel, double memory, const std::string& path);
 

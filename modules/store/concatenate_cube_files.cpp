@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "files/input_file.hpp"
+#include "files/path_status.hpp"
 #include "hdf/hdf5_internal.hpp"
 #include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
@@ -290,7 +291,7 @@ void concatenate_cube_files(const std::string& path, const std::vector<std::stri
   std::size_t bytes = 0;
   for (const std::string& part : parts) {
     require_regular_file(part);
-    bytes += std::filesystem::file_size(part);
+    bytes += size_of_file(part);
   }
   try_in_child(parts.front(), limits_of_file(bytes), [&] { join_parts(path, parts, {copy, true}); });
   join_parts(path, parts, {copy});

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "store/run_manifest.hpp"
 #include "store/survey_run.hpp"
 
@@ -34,7 +35,7 @@ const std::string* holder_of(const std::string& path, const InputPaths& folders)
 
 /// Whether a file below the folder of a run or survey is part of it.
 bool is_part_of(const std::string& folder, const fs::path& file) {
-  const std::string name = fs::canonical(file).lexically_relative(fs::canonical(folder)).string();
+  const std::string name = real_path(file).lexically_relative(real_path(folder)).string();
   if (is_survey_run(folder)) return is_of_survey(folder, name);
   return name == "manifest.json" || name == "cube.h5" || name == "run.toml" || digests_of_run(folder).contains(name);
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "files/sha256.hpp"
 #include "store/run_directory.hpp"
 
@@ -47,7 +48,7 @@ std::map<std::string, std::string> digests_in(const json& manifest) {
 
 bool is_unchanged(const fs::path& file, const std::string& digest) {
   constexpr std::uintmax_t most_bytes = 16 << 20;  // some milliseconds
-  return fs::file_size(file) > most_bytes || sha256_of_file(file.string()) == digest;
+  return size_of_file(file) > most_bytes || sha256_of_file(file.string()) == digest;
 }
 
 }  // namespace
@@ -62,14 +63,16 @@ std::vector<std::string> names_of_no_run(const std::string& folder) {
   const bool is_run = manifest.is_object() && manifest.contains("insonify_version");
   const auto digests = is_run ? digests_in(manifest) : std::map<std::string, std::string>{};
   std::vector<std::string> others;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::path(entry.path()).lexically_relative(folder).string();
-    const fs::file_status status = entry.symlink_status();
-    if (fs::is_directory(status) || (is_run && name == manifest_name && fs::is_regular_file(status))) continue;
-    const auto listed = digests.find(name);
-    if (!fs::is_regular_file(status) || listed == digests.end() || !is_unchanged(entry.path(), listed->second))
-      others.push_back(name);
-  }
+  look_at_paths([&] {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+      const std::string name = fs::path(entry.path()).lexically_relative(folder).string();
+      const fs::file_status status = entry.symlink_status();
+      if (fs::is_directory(status) || (is_run && name == manifest_name && fs::is_regular_file(status))) continue;
+      const auto listed = digests.find(name);
+      if (!fs::is_regular_file(status) || listed == digests.end() || !is_unchanged(entry.path(), listed->second))
+        others.push_back(name);
+    }
+  });
   std::sort(others.begin(), others.end());
   return others;
 }

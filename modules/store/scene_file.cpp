@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/text.hpp"
+#include "files/path_status.hpp"
 #include "store/csv_tables.hpp"
 #include "store/run_directory.hpp"
 #include "store/scene_file_keys_internal.hpp"
@@ -47,7 +48,7 @@ int line_in(const TomlValue& table, const char* key) {
 
 std::string Reader::path_of(int line, const char* key, const std::string& name) const {
   const fs::path named(name), found = named.is_absolute() ? named : fs::path(path).parent_path() / named;
-  if (!fs::exists(found))
+  if (!path_exists(found))
     fail_at(line, key, " = '", name, "': there is no file ", found.string(), "; paths are relative to the scene file");
   return found.string();
 }
@@ -59,7 +60,7 @@ void Reader::complete(PartFile& file, int line, const char* key) const {
   if (!file.materials.empty() && file.materials != "natural")
     file.materials = path_of(line, "materials", file.materials);
   if (!is_scene_file(file.path)) return;
-  const std::string real = fs::canonical(file.path).string();
+  const std::string real = real_path(file.path).string();
   if (const auto begin = std::ranges::find(chain, real); begin != chain.end()) {
     std::string names;
     for (auto name = begin; name != chain.end(); ++name) names += *name + " -> ";
@@ -183,8 +184,8 @@ SceneFile Reader::read() const {
 bool is_scene_file(const std::string& path) { return lower_case(fs::path(path).extension().string()) == ".toml"; }
 
 SceneFile load_scene_file(const std::string& path) {
-  if (!fs::exists(path)) fail(ErrorKind::file, path, ": no such file");
-  return Reader{path, {fs::canonical(path).string()}}.read();
+  if (!path_exists(path)) fail(ErrorKind::file, path, ": no such file");
+  return Reader{path, {real_path(path).string()}}.read();
 }
 
 std::vector<std::string> files_of(const SceneFile& scene) {

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "files/path_status.hpp"
 #include "store/nearest_word.hpp"
 #include "store/sonar_file.hpp"
 
@@ -23,8 +24,10 @@ bool is_data_folder(const fs::path& folder) {
 std::vector<std::string> preset_names() {
   const fs::path folder = fs::path(data_folder()) / "sonars";
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  look_at_paths([&] {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  });
   std::sort(names.begin(), names.end());
   return names;
 }

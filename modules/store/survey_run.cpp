@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 
@@ -12,9 +14,12 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "files/path_status.hpp"
 #include "files/pending_file.hpp"
 #include "files/sha256.hpp"
+#include "store/run_directory.hpp"
 #include "store/toml_tree_internal.hpp"
+#include "survey/survey_pings.hpp"
 
 namespace insonify {
 
@@ -23,6 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int survey_schema = 1;
+constexpr const char* end_of_mark = "# end of the mark\n";
 
 std::string description_path(const std::string& folder) { return (fs::path(folder) / "survey.toml").string(); }
 
@@ -35,20 +41,40 @@ void sync_to_disk(const std::string& path) {
   if (!synced) fail(ErrorKind::file, path, ": cannot be put on disk: ", std::generic_category().message(reason));
 }
 
-std::size_t count_in(const std::string& path, const TomlValue& table, const char* key) {
-  const double value = toml_number(path, table, key);
-  if (!(value >= 1)) fail_in_file(path, table.line, key, " = ", value, ", must be at least 1");
-  return static_cast<std::size_t>(value);
+std::int64_t count_in(const std::string& path, const TomlValue& table, const char* key, double least) {
+  const double value = toml_number(path, table, key), most = most_survey_pings;
+  if (!(value >= least && value <= most && value == std::floor(value)))
+    fail_in_file(path, table.line, key, " = ", value, ", must be a whole number from ", least, " to ", most);
+  return static_cast<std::int64_t>(value);
+}
+
+SurveyRunHead head_in(const std::string& path, const TomlValue& table, const std::vector<SurveyRunHead>& before) {
+  const std::string name = toml_text(path, table, "name");
+  const auto is_called_so = [&](const SurveyRunHead& head) { return head.name == name; };
+  if (!is_plain_name(name) || std::any_of(before.begin(), before.end(), is_called_so))
+    fail_in_file(path, table.line, "name = ", as_toml(name), ", must be a name of its own, of letters, digits, '-', ",
+                 "'_' and '.'");
+  return {name, static_cast<std::size_t>(count_in(path, table, "pings", 1)),
+          static_cast<std::size_t>(count_in(path, table, "pings_per_block", 1))};
+}
+
+/// The names of what a folder holds, sorted.
+std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  look_at_paths([&] {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      names.push_back(entry.path().filename().string());
+  });
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 /// Refuses a folder that holds anything but what other shards of the survey, starting just now, may have put there.
 void require_new(const std::string& folder) {
-  if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder))
-    fail(ErrorKind::file, folder, ": is a file, must be a folder of a survey, or a new one");
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (const std::string name = entry.path().filename().string();
-        !name.starts_with(".survey.toml.") && name != "survey.toml")
+  if (!path_exists(folder)) return;
+  if (!is_folder(folder)) fail(ErrorKind::file, folder, ": is a file, must be a folder of a survey, or a new one");
+  for (const std::string& name : names_in(folder))
+    if (!name.starts_with(".survey.toml.") && name != "survey.toml")
       fail(ErrorKind::file, folder, ": holds ", name, " but no survey.toml, so it is no survey; choose another folder");
 }
 
@@ -74,11 +100,11 @@ std::string description_of(const SurveyRun& run) {
 
 }  // namespace
 
-bool is_survey_run(const std::string& folder) { return fs::exists(description_path(folder)); }
+bool is_survey_run(const std::string& folder) { return path_exists(description_path(folder)); }
 
 bool is_of_survey(const std::string& folder, const std::string& name) {
   const fs::path path(name);
-  if (path.has_parent_path()) return fs::is_directory(fs::path(folder) / *path.begin() / "blocks");
+  if (path.has_parent_path()) return is_folder(fs::path(folder) / *path.begin() / "blocks");
   constexpr std::array stems = {"survey", "mission", "manifest", "returns", "coverage", "mosaic", "track"};
   return name.starts_with("status") || std::find(stems.begin(), stems.end(), path.stem().string()) != stems.end();
 }
@@ -111,9 +137,8 @@ SurveyRun load_survey_run(const std::string& folder) {
   SurveyRun run;
   run.mission_sha256 = toml_text(path, document, "mission_sha256");
   if (const TomlValue* heads = document.find("head"))
-    for (const TomlValue& head : heads->items)
-      run.heads.push_back(
-          {toml_text(path, head, "name"), count_in(path, head, "pings"), count_in(path, head, "pings_per_block")});
+    for (const TomlValue& head : heads->items) run.heads.push_back(head_in(path, head, run.heads));
+  if (run.heads.empty()) fail_in_file(path, 1, "lists no [[head]], must list at least one");
   return run;
 }
 
@@ -126,17 +151,18 @@ BlockFiles block_files(const std::string& run_folder, const std::string& head, s
 
 void finish_block(const BlockFiles& files, const std::string& mission_sha256, const std::vector<FailedPing>& failed) {
   std::string text = "mission_sha256 = \"" + mission_sha256 + "\"\n";
-  if (fs::exists(files.cube)) {
+  if (path_exists(files.cube)) {
     for (const std::string& path : {files.cube, files.returns}) sync_to_disk(path);
     text += "cube_sha256 = \"" + sha256_of_file(files.cube) + "\"\nreturns_sha256 = \"" +
             sha256_of_file(files.returns) + "\"\n";
   }
-  if (fs::exists(files.coverage)) {
+  if (path_exists(files.coverage)) {
     sync_to_disk(files.coverage);
     text += "coverage_sha256 = \"" + sha256_of_file(files.coverage) + "\"\n";
   }
   for (const FailedPing& ping : failed)
     text += "\n[[failed]]\nping = " + std::to_string(ping.number) + "\nreason = " + as_toml(ping.reason) + "\n";
+  text += end_of_mark;
   sync_to_disk(files.folder);
   write_file(files.mark, text);
   sync_to_disk(files.mark);
@@ -145,7 +171,10 @@ void finish_block(const BlockFiles& files, const std::string& mission_sha256, co
 }
 
 std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& mission_sha256) {
-  if (!fs::exists(files.mark)) return std::nullopt;
+  if (!path_exists(files.mark)) return std::nullopt;
+  // After a loss of power a file may be empty, cut short, or zeros.
+  const std::string text = read_text_file(files.mark);
+  if (!text.ends_with(end_of_mark) || text.find('\0') != text.npos) return std::nullopt;
   const TomlValue document = load_toml(files.mark);
   BlockMark mark;
   mark.mission_sha256 = toml_text(files.mark, document, "mission_sha256");
@@ -159,17 +188,33 @@ std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& m
   if (document.find("coverage_sha256")) mark.coverage_sha256 = toml_text(files.mark, document, "coverage_sha256");
   if (const TomlValue* failed = document.find("failed"))
     for (const TomlValue& ping : failed->items)
-      mark.failed.push_back(
-          {static_cast<std::int64_t>(toml_number(files.mark, ping, "ping")), toml_text(files.mark, ping, "reason")});
+      mark.failed.push_back({count_in(files.mark, ping, "ping", 0), toml_text(files.mark, ping, "reason")});
   return mark;
 }
 
 std::vector<StoredBlock> stored_blocks(const std::string& folder, const SurveyRun& run, const SurveyRunHead& head) {
   std::vector<StoredBlock> blocks;
-  for (std::size_t b = 0; b < head.blocks(); ++b) {
-    StoredBlock& block = blocks.emplace_back(b, block_files(folder, head.name, static_cast<std::int64_t>(b)));
-    block.mark = find_mark(block.files, run.mission_sha256);
+  const std::string beside = block_files(folder, head.name, 0).folder;
+  if (!path_exists(beside)) return blocks;
+  for (const std::string& name : names_in(beside)) {
+    std::size_t number = 0;
+    const auto end = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (end.ec != std::errc{} || number >= head.blocks()) continue;
+    const BlockFiles files = block_files(folder, head.name, static_cast<std::int64_t>(number));
+    if (fs::path(files.mark).filename() != name) continue;
+    if (auto mark = find_mark(files, run.mission_sha256)) blocks.push_back({number, files, std::move(*mark)});
   }
+  std::sort(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  return blocks;
+}
+
+std::vector<StoredBlock> all_blocks(const std::string& folder, const SurveyRun& run, const SurveyRunHead& head) {
+  std::vector<StoredBlock> blocks = stored_blocks(folder, run, head);
+  std::size_t next = 0;
+  while (next < blocks.size() && blocks[next].number == next) ++next;
+  if (next < head.blocks())
+    fail(ErrorKind::content, folder, ": block ", next, " of head ", head.name,
+         " is not done; run the survey (or its missing shards) again");
   return blocks;
 }
 
@@ -179,7 +224,7 @@ void remove_leftovers(const BlockFiles& files) {
   for (const auto& entry : fs::directory_iterator(files.folder, ignored))
     if (entry.path().filename().string().starts_with(begin)) fs::remove(entry.path(), ignored);
   for (const std::string& path : {files.partial_cube, files.partial_returns})
-    if (fs::exists(files.mark)) fs::remove(path, ignored);
+    if (path_exists(files.mark)) fs::remove(path, ignored);
 }
 
 void require_unchanged(const BlockFiles& files, const BlockMark& mark) {

@@ -63,18 +63,21 @@ struct BlockMark {
 /// remains of an interrupted run. Throws Error(file).
 void finish_block(const BlockFiles& files, const std::string& mission_sha256, const std::vector<FailedPing>& failed);
 
-/// Returns the mark of a block; nothing if the block is not done. Throws Error(content) for a mark that is damaged or
-/// of another mission.
+/// Returns the mark of a block; nothing if the block is not done, or if its mark is not whole, as after a loss of power.
+/// Throws Error(content) for a mark that is damaged otherwise or of another mission.
 std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& mission_sha256);
 
-/// A block of a head in the folder of a survey.
+/// A finished block of a head in the folder of a survey.
 struct StoredBlock {
   std::size_t number = 0;
   BlockFiles files;
-  std::optional<BlockMark> mark;  ///< absent: not done
+  BlockMark mark;
 };
-/// Returns the blocks of a head of a survey in the order of its pings; errors as find_mark.
+/// Returns the finished blocks of a head in the order of its pings; errors as find_mark. The cost follows from the files
+/// that there are.
 std::vector<StoredBlock> stored_blocks(const std::string& folder, const SurveyRun& run, const SurveyRunHead& head);
+/// The same; throws Error(content) too if a block is not done.
+std::vector<StoredBlock> all_blocks(const std::string& folder, const SurveyRun& run, const SurveyRunHead& head);
 
 /// Removes unfinished files that a killed process left of the block.
 void remove_leftovers(const BlockFiles& files);

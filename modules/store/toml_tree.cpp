@@ -11,6 +11,7 @@
 #include <toml++/toml.h>
 
 #include "core/text.hpp"
+#include "files/path_status.hpp"
 #include "store/run_directory.hpp"
 #include "store/toml_tree_internal.hpp"
 
@@ -139,10 +140,10 @@ double toml_number(const std::string& path, const TomlValue& table, const std::s
 
 std::string path_named_in(const std::string& file, const std::string& path) {
   namespace fs = std::filesystem;
-  if (path.empty() || fs::exists(path) || fs::path(path).is_absolute()) return path;
+  if (path.empty() || path_exists(path) || fs::path(path).is_absolute()) return path;
   const fs::path folder = fs::path(file).parent_path();
   for (const fs::path& start : {folder, folder.parent_path()})
-    if (fs::exists(start / path)) return (start / path).string();
+    if (path_exists(start / path)) return (start / path).string();
   return path;
 }
 

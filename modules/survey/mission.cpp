@@ -10,13 +10,6 @@
 namespace insonify {
 namespace {
 
-bool is_plain_name(const std::string& name) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.';
-  };
-  return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), plain);
-}
-
 /// Refuses a name that another of the items before item `i` has.
 template <typename Item>
 void require_own_name(const std::vector<Item>& items, std::size_t i, const char* who, const char* what) {
@@ -49,6 +42,13 @@ void require_valid(const HeadScan& scan, const std::string& head) {
 }
 
 }  // namespace
+
+bool is_plain_name(const std::string& name) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.';
+  };
+  return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), plain);
+}
 
 void require_valid_head(const Mission& mission, std::size_t i, const char* who) {
   require_own_name(mission.heads, i, who, "head");

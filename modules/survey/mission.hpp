@@ -50,6 +50,10 @@ struct Mission {
   NavigationErrors navigation{};  ///< differences of the stored poses from those of the trajectory
 };
 
+/// Returns whether a head or leg, and with it a folder, may have this name: letters, digits, '-', '_' and '.', which is
+/// not the first.
+bool is_plain_name(const std::string& name);
+
 /// Throws Error(argument) unless head `i` is valid. Its name consists of letters, digits, '-', '_' and '.' and differs
 /// from those of earlier heads. It has exactly one rule for its pings. Its scan has finite angles and a step > 0 of at
 /// most its span.

@@ -59,7 +59,7 @@ double length_between(const Trajectory& t, double from, double to) {
 
 /// Refuses a mission before a list of its pings takes the memory of the machine.
 void require_countable(const Mission& mission, const std::vector<MissionLeg>& legs) {
-  constexpr double most = 1e8;
+  constexpr double most = most_survey_pings;
   double pings = 0;
   for (const MissionHead& head : mission.heads) {
     double of_head = 0;

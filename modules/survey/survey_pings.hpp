@@ -17,6 +17,8 @@ struct SurveyPing {
   double scan_angle = 0;    ///< of a scanning head [rad], positive to port; else 0
 };
 
+inline constexpr double most_survey_pings = 1e8;  ///< of all heads of a mission
+
 /// Returns all pings of a mission, head after head, and in the order of time for each head. They depend on the mission
 /// alone. Every leg begins with a ping and a new sweep. Throws Error(argument) for an invalid mission, for pings of a
 /// head closer than its listening time (naming both and the time), and if there is no ping.

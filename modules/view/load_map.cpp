@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "files/child_process.hpp"
 #include "files/input_file.hpp"
+#include "files/path_status.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/save_vtk.hpp"
 
@@ -49,7 +50,7 @@ void pass(Stream& stream, SampleField& field) {
 HorizontalMap load_map_image(const std::string& path) {
   require_regular_file(path);
   HorizontalMap map;
-  read_in_child(path, limits_of_file(std::filesystem::file_size(path)), [&](ArraySender& to) {
+  read_in_child(path, limits_of_file(size_of_file(path)), [&](ArraySender& to) {
     const HorizontalMap read = read_map_image(path);
     to(read.x, read.y, read.cell, read.fields);
   })(map.x, map.y, map.cell, map.fields);

@@ -10,6 +10,7 @@
 #include <vtkGenericRenderWindowInteractor.h>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "view/off_screen_internal.hpp"
 #include "viewer/viewer_data.hpp"
 #include "viewer/viewer_window_internal.hpp"
@@ -39,7 +40,7 @@ void require_start(const ViewerState& start, const ViewerExtent& extent) {
 std::string free_screenshot_name() {
   for (int i = 1;; ++i) {
     const std::string name = "insonify-view-" + std::to_string(i) + ".png";
-    if (!std::filesystem::exists(name)) return name;
+    if (!path_exists(name)) return name;
   }
 }
 

@@ -9,7 +9,7 @@ set -euo pipefail
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
 mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environment mission materials profile \
-  trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run work
+  trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run levels survey work
 
 # Formats that the tool writes.
 "$tool" make-scene poles --points 40 -o ply/scene.ply -q >/dev/null
@@ -120,6 +120,29 @@ perl -e '
 for kind in lawnmower orbit tunnel; do
   "$tool" make-mission $kind --scene x.ply -o mission/$kind.toml -q >/dev/null
 done
+# Tiles whose surfels merge, and a survey of two blocks, whose files stand in one, each behind a line "NAME SIZE".
+"$tool" make-scene plane --points 300 --size 6x6 -o levels/plane.tiles -q >/dev/null
+"$tool" make-scene harbour --points 200 -o levels/harbour.tiles -q >/dev/null
+cat >work/m.toml <<'TOML'
+schema = 1
+[survey]
+scene = "poles.ply"
+[trajectory]
+waypoints_m = [[0, 0, 0], [1, 0, 0]]
+speed_m_s = 1
+[[head]]
+name = "fls"
+sonar = "p900-45"
+range = "3:5"
+set = ["sonar.beams=4"]
+rate_hz = 3
+TOML
+"$tool" make-scene poles --points 300 -o work/few.ply -q >/dev/null && mv work/few.ply work/poles.ply
+"$tool" survey work/m.toml -o work/survey/run --pings-per-block 2 -q >/dev/null
+cp work/m.toml work/poles.ply work/survey/
+(cd work/survey && find . -type f -printf '%P\n' | sort | while read -r name; do
+  printf '%s %d\n' "$name" "$(stat -c %s "$name")" && cat "$name"
+done) >survey/run.folder
 rm -r work
 
 # Words of text and of binary formats alike.

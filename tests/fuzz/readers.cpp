@@ -17,6 +17,13 @@
 #include "store/mission_file.hpp"
 #include "store/sonar_file.hpp"
 #ifdef INSONIFY_FUZZ_TOOL
+#include <cstdio>
+#include <filesystem>
+
+#include <unistd.h>
+
+#include "store/run_directory.hpp"
+#include "tool/command/command_line.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/run/record_file.hpp"
 #include "view/grey_file.hpp"
@@ -39,6 +46,53 @@ void read_tiles(const std::string& path) {
   tiles.load(tiles.select_all(), 0, 1);
   tiles.cut(region_around({0, 0, 0}, 1e6), {}, {0.1, 1e6, 1}, {1e-9, 0, 1, 1});  // all nodes
 }
+
+#ifdef INSONIFY_FUZZ_TOOL
+/// Runs a verb; ends this process with its exit code unless that is 0.
+void run_verb(std::vector<std::string> words) {
+  words.insert(words.begin(), "insonify");
+  words.emplace_back("-q");
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  if (!std::freopen("/dev/null", "w", stdout)) std::abort();
+  const int code = tool::run_tool(static_cast<int>(arguments.size()), arguments.data());
+  std::fflush(nullptr);
+  if (code != 0) _exit(code);
+}
+
+/// `info`, or a ping of four beams, of all rows or of levels.
+void ping_tiles(const std::string& path) {
+  const std::string run = path + ".run";
+  std::filesystem::remove_all(run);
+  std::vector<std::string> ping = {
+      "ping", path,           "--sonar", "p900-45", "--set", "sonar.beams=4", "--pose=0,0,-3,0,10,0", "--range",
+      "1:12", "--no-picture", "-j1",     "-o",      run};
+  read_tiles(path);
+  run_verb({"info", path});
+  run_verb(ping);
+  std::filesystem::remove_all(run);
+  ping.insert(ping.end(), {"--with", "detail"});
+  run_verb(ping);
+  std::filesystem::remove_all(run);
+}
+
+/// A verb that reads the folder of a survey, which the file's size chooses, and then its survey, of four beams, and merge.
+void go_on_with_survey(const std::string& path) {
+  const std::string bytes = read_text_file(path), folder = path + ".folder";
+  std::filesystem::remove_all(folder);
+  unpack_folder(bytes, folder);
+  const std::string run = folder + "/run", mission = folder + "/m.toml";
+  const std::vector<std::vector<std::string>> first = {{"merge", run},
+                                                       {"info", run},
+                                                       {"info", "--verify", run},
+                                                       {"export", run, "--to", "csv", "-o", folder + "/x.csv"},
+                                                       {"survey", mission, "-o", run}};
+  run_verb(first[bytes.size() % first.size()]);
+  run_verb({"survey", mission, "-o", run, "-j1"});
+  run_verb({"merge", run});
+  std::filesystem::remove_all(folder);
+}
+#endif
 
 }  // namespace
 
@@ -77,6 +131,8 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"png", ".png", [](const std::string& path) { load_grey_png(path); }},
       {"run", ".toml", [](const std::string& path) { tool::load_ping_settings(path); }},
       {"record", ".xtf", [](const std::string& path) { tool::read_record(path); }},
+      {"levels", ".tiles", ping_tiles, damage_tiles},
+      {"survey", ".folder", go_on_with_survey, damage_folder},
 #endif
   };
   return readers;

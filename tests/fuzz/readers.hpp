@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/structured.hpp"
+
 namespace insonify {
 
 /// A reader of files that strangers may have made.
@@ -11,6 +13,8 @@ struct FuzzedReader {
   std::string name;       ///< also of its folders of seeds and regressions
   std::string extension;  ///< of its files, with the dot
   std::function<void(const std::string& path)> read;
+  /// Damage that the format's own checks do not find; empty: bytes are damaged anywhere.
+  std::function<std::string(const std::string& bytes, const DamageSource& source)> damage{};
 };
 
 /// All of them.

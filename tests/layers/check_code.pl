@@ -5,6 +5,7 @@
 # - a header of a module is neither listed in its CMakeLists.txt, as public or shared, nor named _internal, or both; a public
 #   header includes one that is not public; a shared one includes an _internal one; or one is included outside its module, but for those in %lent (tests may use all);
 # - a header of the signal path, public or shared, has a std::function;
+# - std::filesystem is asked about a path by a function that throws what is no Error, outside modules/files;
 # - a file does not begin with its licence (SPDX);
 # - a file of modules/ has more than 300 lines beside that, or a function of modules/ or apps/ more than 60.
 # It relies on clang-format: what begins and ends in one column belongs together.
@@ -84,6 +85,11 @@ for my $path (sort @files) {
     }
     complain("$path:", $i + 2, ": std::function in a header of the signal path, must be an abstract class")
       if /std::function\b/ && $listed{$path} && $signal_path{$module};
+    while ($path !~ m{^modules/files/} && /\b(?:fs|filesystem)::(exists|is_directory|is_regular_file|file_size|canonical)(\((?:[^()]++|(?2))*\))/g) {
+      my ($call, $given) = ($1, $2);
+      complain("$path:", $i + 2, ": std::filesystem::$call throws what is no Error, must be asked by files/path_status.hpp")
+        unless $given =~ /, \w+\)+$/ || $given eq '(status)';
+    }
     if (/^namespace (\S* ?)\{$/) { $namespace .= '::' . ($1 =~ s/ $//r || 'unnamed') }
     if (m{^\}  // namespace}) { $namespace =~ s/^(.*)::(unnamed|.+?)$/$1/ }
     if ($module && $namespace !~ /unnamed/ && /^(?:struct|class|enum(?: class)?|union) ([\w:<> ]*?)(?: final)?(?: : [^{]*)? \{/) {

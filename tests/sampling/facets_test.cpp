@@ -155,3 +155,16 @@ TEST(EvenSurfels, cover_each_triangle_with_parts_of_one_size_and_its_area) {
   EXPECT_EQ(even_surfels(mesh, 0.05, 1, 1).scene.point, scene.point);
   EXPECT_THAT(error_of([&] { even_surfels(mesh, 0); }), testing::HasSubstr("spacing = 0"));
 }
+
+TEST(EvenSurfels, that_are_too_many_are_refused_before_they_are_made) {
+  EXPECT_EQ(count_even_surfels(2, 0.1, {}), 200U);
+  EXPECT_EQ(count_even_surfels(1e-9, 0.1, {}), 1U);
+  for (const double spacing : {1e-5, 1e-9, 1e-200})
+    expect_error(ErrorKind::content, {"a.obj: surfels", "at most 400000000", "give a wider spacing"},
+                 [&] { count_even_surfels(1, spacing, {"a.obj"}); });
+  expect_error(ErrorKind::content, {"even_surfels: surfels 1e-09 m apart"}, [] { even_surfels(plates(), 1e-9); });
+  EXPECT_EQ(count_even_surfels(1e4, 0.01, {"a.obj", 100.0 * (1 << 30)}), 100000000U);
+  expect_error(ErrorKind::memory, {"a.obj: 100000000 surfels 0.01 m apart need about", "GiB of memory, 2 GiB may"}, [] {
+    count_even_surfels(1e4, 0.01, {"a.obj", 2.0 * (1 << 30)});
+  });
+}

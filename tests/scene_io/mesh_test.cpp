@@ -261,11 +261,15 @@ TEST(Mesh, stl_and_vtk_files_written_by_vtk_have_the_area_of_a_sphere) {
   }
 }
 
-TEST(Mesh, too_fine_a_spacing_is_an_argument_error) {
+TEST(Mesh, too_fine_a_spacing_is_refused_with_the_file) {
   LoadOptions options;
   options.mesh_spacing = 1e-6;
-  expect_error(ErrorKind::argument, {"mesh_spacing = 1e-06 m", "at most 400000000"},
+  expect_error(ErrorKind::content, {"a.obj: surfels 1e-06 m apart on", "at most 400000000", "give a wider spacing"},
                [&] { load_scene(own_file("a.obj", cube_obj()), options); });
+  // A height field, which is sampled by another way.
+  options.mesh_spacing = 1e-9;
+  expect_error(ErrorKind::content, {"grid.xyz: surfels 1e-09 m apart on", "at most 400000000"},
+               [&] { load_scene(own_file("grid.xyz", plate_text(12, 0.5)), options); });
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
+#include "support/tile_parts.hpp"
 #include "test_files.hpp"
 
 namespace {
@@ -50,6 +51,36 @@ double expect_same_cut(const SceneCloud& scene, const FanReach& reach, const Til
   EXPECT_GT(a.size(), 300U);
   EXPECT_EQ(part.scene.part_of->surfels, scene.size());
   return static_cast<double>(part.bytes) / static_cast<double>(tiled.info().bytes);
+}
+
+/// All nodes and rows of a file.
+SceneCloud finest_cut(const std::string& path) {
+  return TiledScene(path).cut(region_around({0, 0, 0}, 1e6), {}, {0.1, 1e6, 1}, {1e-9, 0, 1, 1}).scene;
+}
+
+/// A plane of one forest, whose roots are nodes.
+TileParts plane_in_parts() {
+  save_tiles(own_path("plane.tiles"), make_built_in_scene("plane", {.points = 2000, .size = {4, 4}}));
+  return load_tile_parts(own_path("plane.tiles"));
+}
+
+/// A forest of one node in each group, which is `times` a child of the one before; the last node has one row.
+TileParts chain_of_nodes(std::uint32_t times) {
+  TileParts parts = plane_in_parts();
+  const auto rows = static_cast<std::uint32_t>(parts.rows.size());
+  TileNode node = parts.node.at(0);
+  parts.node.clear(), parts.child.clear();
+  TileForest& forest = parts.directory.forests.at(0);
+  forest.loose = 0;
+  for (std::uint32_t g = 0; g < level_groups; ++g) {
+    const bool last = g + 1 == level_groups;
+    node.first_child = static_cast<std::uint32_t>(parts.child.size());
+    node.children = static_cast<std::uint16_t>(last ? 1 : times);
+    for (std::uint32_t k = 0; k < node.children; ++k) parts.child.push_back(last ? 0 : rows + g + 1);
+    parts.node.push_back(node);
+    forest.node_end[g] = g + 1, forest.child_end[g] = static_cast<std::uint32_t>(parts.child.size());
+  }
+  return parts;
 }
 
 }  // namespace
@@ -158,4 +189,66 @@ TEST(TiledLevels, that_are_damaged_or_too_many_are_refused) {
   bytes[damaged] = static_cast<char>(bytes[damaged] ^ 1);
   expect_error(ErrorKind::content, {"bad.tiles", "level", "is damaged: its checksum is wrong"},
                [&] { cut(own_file("bad.tiles", bytes)); });
+}
+
+TEST(TiledLevels, whose_nodes_or_rows_have_two_parents_are_refused) {
+  save_tile_parts(chain_of_nodes(1), own_path("chain.tiles"));
+  EXPECT_EQ(finest_cut(own_path("chain.tiles")).size(), 1U);
+  // Each row would be walked 8^11 times.
+  for (const std::uint32_t times : {2U, 3U, 8U}) {
+    save_tile_parts(chain_of_nodes(times), own_path("bad.tiles"));
+    expect_error(ErrorKind::content, {"bad.tiles: node 0: its child, node 1, has another parent"},
+                 [] { finest_cut(own_path("bad.tiles")); });
+  }
+  const auto refuse = [](const TileParts& parts, const std::vector<std::string>& said) {
+    save_tile_parts(parts, own_path("bad.tiles"));
+    expect_error(ErrorKind::content, said, [] { finest_cut(own_path("bad.tiles")); });
+  };
+  TileParts parts = chain_of_nodes(1);
+  parts.child[3] = static_cast<std::uint32_t>(parts.rows.size()) + 5;  // node 4 is passed over
+  refuse(parts, {"bad.tiles: node 4: no coarser node has it as a child"});
+  parts = chain_of_nodes(1);
+  parts.directory.forests[0].loose = 1;  // the child of the first node, a node, would be a root too
+  refuse(parts, {"bad.tiles: the roots of the tiles from 0 on are not different rows"});
+  parts = chain_of_nodes(1);
+  parts.child[3] = static_cast<std::uint32_t>(parts.rows.size()) + 2;
+  refuse(parts, {"bad.tiles: node 3: its child", "is neither a row nor a finer node"});
+
+  // Two nodes of the levels as they are written, of which the second takes the children of the first.
+  parts = plane_in_parts();
+  const auto with_rows = [&](const TileNode& n) {
+    return n.children > 0 && parts.child[n.first_child] < parts.rows.size();
+  };
+  const auto first = std::find_if(parts.node.begin(), parts.node.end(), with_rows);
+  ASSERT_NE(first, parts.node.end());
+  const auto second = std::find_if(first + 1, parts.node.end(), with_rows);
+  ASSERT_NE(second, parts.node.end());
+  second->first_child = first->first_child, second->children = 1;
+  refuse(parts, {"bad.tiles: node " + std::to_string(second - parts.node.begin()) + ": its child, row " +
+                 std::to_string(parts.child[first->first_child]) + ", has another parent"});
+}
+
+TEST(TiledLevels, whose_nodes_have_values_of_no_surfel_are_refused) {
+  const TileParts good = plane_in_parts();
+  save_tile_parts(good, own_path("again.tiles"));
+  expect_same_surfels(finest_cut(own_path("again.tiles")), finest_cut(own_path("plane.tiles")));
+  const std::vector<std::pair<std::string, std::function<void(TileNode&)>>> damages = {
+      {"point = (nan, ", [](TileNode& n) { n.point[0] = NAN; }},
+      {"place = (", [](TileNode& n) { n.place[2] = INFINITY; }},
+      {"normal = (0, 0, 0), must be a unit vector", [](TileNode& n) { std::fill_n(n.normal, 3, 0.0F); }},
+      {"area = -1, must be", [](TileNode& n) { n.area = -1; }},
+      {"own_area = 1e+38, must be", [](TileNode& n) { n.own_area = 1e38F; }},
+      {"extent = nan, must be", [](TileNode& n) { n.extent = NAN; }},
+      {"thickness = inf, must be", [](TileNode& n) { n.thickness = INFINITY; }},
+      {"cell = 0, must be", [](TileNode& n) { n.cell = 0; }},
+      {"normals = (2, ", [](TileNode& n) { n.normals[0] = 2; }},
+      {"material = 9, must be below the number of materials", [](TileNode& n) { n.material = 9; }},
+  };
+  for (const auto& [said, damage] : damages) {
+    TileParts parts = good;
+    damage(parts.node.at(7));
+    save_tile_parts(parts, own_path("bad.tiles"));
+    expect_error(ErrorKind::content, {"bad.tiles: node 7: " + said, "copy or make the file again"},
+                 [] { finest_cut(own_path("bad.tiles")); });
+  }
 }

@@ -7,6 +7,7 @@
 #include "scene_io/tile_sort_internal.hpp"
 #include "scene_io/tile_writer.hpp"
 #include "support/test.hpp"
+#include "support/tile_parts.hpp"
 #include "test_files.hpp"
 
 namespace {
@@ -239,6 +240,56 @@ TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
   refuse(with(bytes_of_number(scene.point[1234].x()), 1), {" of ", "is damaged: its checksum is wrong"});
   refuse(with(bytes_of_number(scene.normal[321].z()), 1), {" of ", "is damaged: its checksum is wrong"});
   expect_error(ErrorKind::file, {"none.tiles", "no such file"}, [] { TiledScene(own_path("none.tiles")); });
+}
+
+TEST(TiledScene, a_row_with_values_of_no_surfel_is_named_by_its_number) {
+  const SceneCloud scene = harbour(2000);
+  save_tiles(own_path("good.tiles"), scene, small_tiles());
+  const TileParts good = load_tile_parts(own_path("good.tiles"));
+  const std::size_t row = 1234;
+  const std::vector<std::pair<std::string, std::function<void(SceneCloud&)>>> damages = {
+      {"material = 99, must be below the number of materials", [](SceneCloud& s) { s.material[row] = 99; }},
+      {"area = -2 m^2, must be", [](SceneCloud& s) { s.area[row] = -2; }},
+      {"area = nan m^2, must be", [](SceneCloud& s) { s.area[row] = NAN; }},
+      {"normal = (0, 0, 2), must be a unit vector",
+       [](SceneCloud& s) {
+         s.normal[row] = {0, 0, 2};
+       }},
+      {"point = (inf, 0, 0) m, must be finite",
+       [](SceneCloud& s) {
+         s.point[row] = {INFINITY, 0, 0};
+       }},
+  };
+  for (const auto& [said, damage] : damages) {
+    TileParts parts = good;
+    damage(parts.rows);
+    save_tile_parts(parts, own_path("bad.tiles"));
+    const TiledScene tiled(own_path("bad.tiles"));
+    expect_error(ErrorKind::content, {"bad.tiles: row 1234: " + said, "copy or make the file again"},
+                 [&] { tiled.load(tiled.select_all()); });
+    expect_error(ErrorKind::content, {"bad.tiles: row 1234: " + said}, [] { load_scene(own_path("bad.tiles")); });
+  }
+}
+
+TEST(TiledScene, a_directory_of_no_numbers_is_refused) {
+  save_tiles(own_path("good.tiles"), harbour(2000), small_tiles());
+  const TileParts good = load_tile_parts(own_path("good.tiles"));
+  const auto refuse = [&](const std::string& said, const std::function<void(TileDirectory&)>& damage) {
+    TileParts parts = good;
+    damage(parts.directory);
+    save_tile_parts(parts, own_path("bad.tiles"));
+    expect_error(ErrorKind::content, {"bad.tiles: the directory is damaged: " + said},
+                 [] { TiledScene(own_path("bad.tiles")); });
+  };
+  refuse("its origin, box or area", [](TileDirectory& d) { d.info.origin.x() = NAN; });
+  refuse("its origin, box or area", [](TileDirectory& d) { d.info.box.max.z() = INFINITY; });
+  refuse("its origin, box or area", [](TileDirectory& d) { d.info.total_area = -1; });
+  refuse("it has no material", [](TileDirectory& d) { d.info.materials.clear(); });
+  refuse("a tile has no ball", [](TileDirectory& d) { d.tiles[3].radius = NAN; });
+  refuse("a tile has no ball", [](TileDirectory& d) { d.tiles[3].reference[1] = NAN; });
+  refuse("a forest has no ball", [](TileDirectory& d) { d.forests[0].largest_area = INFINITY; });
+  refuse("its tiles are not consecutive", [](TileDirectory& d) { d.tiles[3].count = 1ull << 60; });
+  refuse("its forests are not consecutive", [](TileDirectory& d) { d.forests[0].tiles = 1ull << 60; });
 }
 
 TEST(TiledScene, any_byte_that_changes_is_found_or_changes_nothing) {

@@ -84,6 +84,50 @@ TEST(SurveyRun, marks_finished_blocks_with_their_digests_and_failures) {
   EXPECT_EQ(names, (std::set<std::string>{"000001.done", "000001.h5", "000001.ply"})) << "nothing is left over";
 }
 
+TEST(SurveyRun, takes_a_mark_that_is_not_whole_for_none) {
+  const BlockFiles files = finished_block();
+  const std::string whole = file_bytes(files.mark);
+  ASSERT_TRUE(find_mark(files, "abc"));
+  for (std::size_t kept = 0; kept < whole.size(); ++kept) {
+    own_file("run/fls/blocks/000001.done", whole.substr(0, kept));
+    EXPECT_FALSE(find_mark(files, "abc")) << kept << " bytes of " << whole.size();
+  }
+  own_file("run/fls/blocks/000001.done", std::string(whole.size(), '\0'));
+  EXPECT_FALSE(find_mark(files, "abc"));
+  own_file("run/fls/blocks/000001.done", std::string(16, '\0') + whole.substr(16));
+  EXPECT_FALSE(find_mark(files, "abc"));
+  EXPECT_THAT(stored_blocks(own_path("run"), small_run, small_run.heads[0]), testing::IsEmpty());
+  own_file("run/fls/blocks/000001.done", whole);
+  EXPECT_EQ(stored_blocks(own_path("run"), small_run, small_run.heads[0]).size(), 1U);
+  EXPECT_THAT(error_of([] { all_blocks(own_path("run"), small_run, small_run.heads[0]); }, ErrorKind::content),
+              HasSubstr("run: block 0 of head fls is not done"));
+}
+
+TEST(SurveyRun, refuses_heads_that_no_mission_has) {
+  open_survey_run(own_path("run"), small_run);
+  const std::string good = file_bytes(own_path("run/survey.toml"));
+  const auto refuse = [&](const std::string& from, const std::string& to, const std::string& said) {
+    own_file("run/survey.toml", replaced(good, from, to));
+    expect_error(ErrorKind::content, {"survey.toml:", said}, [] { load_survey_run(own_path("run")); });
+  };
+  refuse("pings = 10\n", "pings = 1e300\n", "pings = 1e+300, must be a whole number from 1 to 100000000");
+  refuse("pings = 10\n", "pings = nan\n", "pings = nan, must be a whole number");
+  refuse("pings = 10\n", "pings = 1.5\n", "pings = 1.5, must be a whole number");
+  refuse("pings_per_block = 4", "pings_per_block = 0", "pings_per_block = 0, must be a whole number from 1");
+  refuse("\"fls\"", "\"../../fls\"", "must be a name of its own, of letters, digits");
+  refuse("[[head]]", "[[feet]]", "lists no [[head]]");
+  own_file("run/survey.toml", good + "[[head]]\nname = \"fls\"\npings = 1\npings_per_block = 1\n");
+  expect_error(ErrorKind::content, {"must be a name of its own"}, [] { load_survey_run(own_path("run")); });
+}
+
+// A list of 1e8 blocks would take 40 GB.
+TEST(SurveyRun, costs_what_is_there_and_not_what_is_announced) {
+  SurveyRun run = small_run;
+  run.heads[0] = {"fls", 100000000, 1};
+  open_survey_run(own_path("run"), run);
+  EXPECT_THAT(stored_blocks(own_path("run"), run, run.heads[0]), testing::IsEmpty());
+}
+
 TEST(SurveyRun, sees_changed_files_and_marks_of_another_mission) {
   const BlockFiles files = finished_block();
   EXPECT_THAT(error_of([&] { find_mark(files, "xyz"); }, ErrorKind::content), HasSubstr("is of another mission"));

@@ -3,7 +3,7 @@
 #include <hdf5.h>
 #include <sys/stat.h>
 
-#include "tool/tool_runner.hpp"
+#include "tool/survey_fixture.hpp"
 
 namespace fs = std::filesystem;
 
@@ -64,6 +64,53 @@ TEST_F(Hostile, pipes_and_devices_are_no_input) {
   for (const char* arguments : {"info pipe.ply", "info /dev/zero", "prepare pipe.ply -o x.ply", "sonars pipe.toml",
                                 "survey pipe.toml -o run", "compare pipe.npy pipe.npy", "compare pipe.aris pipe.aris"})
     expect_refused(arguments, 4, {"is a pipe or a device, must be a regular file"});
+}
+
+// Whatever a verb asks of a path first.
+TEST_F(Hostile, links_to_themselves_are_no_input) {
+  have("harbour.ply", "make-scene harbour --points 2000");
+  succeed(small_ping + " --range 2:9 -o out");
+  for (const char* name : {"loop", "loop.ply", "loop.tiles", "loop.toml", "loop.h5", "loop.xtf", "loop.csv"})
+    fs::create_symlink(name, path(name));
+  write("m.toml", replaced(survey_mission, "harbour.ply", "loop.ply"));
+  const std::string head = " --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:9 -o x";
+  for (const std::string& arguments : {std::string("info loop"),
+                                       std::string("info loop.ply"),
+                                       std::string("info loop.toml"),
+                                       std::string("info loop.h5"),
+                                       std::string("info --verify loop"),
+                                       std::string("prepare loop.ply -o x.ply"),
+                                       std::string("prepare loop.ply -o x.tiles"),
+                                       std::string("make-mission orbit --scene loop.ply -o x.toml"),
+                                       std::string("sonars loop.toml"),
+                                       std::string("plan loop.ply") + head.substr(0, head.size() - 5),
+                                       "ping loop.ply" + head,
+                                       "ping loop.tiles" + head,
+                                       "ping loop.toml" + head,
+                                       "ping harbour.ply --environment loop.toml" + head,
+                                       "ping harbour.ply --materials loop.toml" + head,
+                                       std::string("ping --run loop.toml -o x"),
+                                       std::string("survey loop.toml -o x"),
+                                       std::string("survey m.toml -o x"),
+                                       std::string("survey m.toml -o loop"),
+                                       "synthesize loop.csv" + head,
+                                       std::string("image loop -o x.png"),
+                                       std::string("image loop.h5 -o x.png"),
+                                       std::string("image loop.xtf -o x.png"),
+                                       std::string("image loop.ply --view scene -o x.png"),
+                                       std::string("export loop -o x"),
+                                       std::string("export loop.h5 -o x"),
+                                       std::string("compare loop out"),
+                                       std::string("compare out loop"),
+                                       std::string("compare out loop.ply"),
+                                       std::string("dataset loop -o x"),
+                                       std::string("merge loop -o x"),
+                                       std::string("merge out loop -o x"),
+                                       std::string("merge loop.h5 out -o x"),
+                                       std::string("export out -o loop/x"),
+                                       std::string("merge out out -o loop"),
+                                       std::string("view loop")})
+    expect_refused(arguments, 4, {"loop"});
 }
 
 TEST_F(Hostile, keys_of_very_many_parts_are_refused) {

@@ -122,3 +122,19 @@ TEST_F(DoorsToParts, a_ping_has_the_draw_that_is_asked_for) {
   expect_refused("ping scene.toml -o out --draw 1" + parts_head, 2, {"--draw", "no [[scatter]]"});
   expect_refused("ping harbour.ply -o out --draw 1" + parts_head, 2, {"--draw", "no scene of parts"});
 }
+
+// However a surface comes into a scene: one limit, before any surfel is made.
+TEST_F(DoorsToParts, surfels_too_many_for_any_machine_are_refused_at_once) {
+  std::string grid;
+  for (int i = 0; i < 400; ++i) grid += fmt::format("{} {} -5\n", 0.5 * (i % 20), 0.5 * (i / 20));
+  write("grid.xyz", grid);
+  const std::string box = "schema = 1\n[[part]]\nfile = \"harbour.ply\"\n[[part]]\nname = \"box\"\n";
+  write("placed.toml", box + "file = \"box.obj\"\nposition_m = [8, 1]\nspacing_m = 1e-9\n");
+  write("captured.toml", "schema = 1\n[[part]]\nfile = \"box.obj\"\nspacing_m = 1e-9\n");
+  write("heights.toml", "schema = 1\n[[part]]\nfile = \"grid.xyz\"\nspacing_m = 1e-9\n");
+  for (const std::string& arguments :
+       {std::string("placed.toml"), std::string("captured.toml"), std::string("heights.toml"),
+        std::string("grid.xyz --mesh-spacing 1e-9"), std::string("box.obj --mesh-spacing 1e-9")})
+    expect_refused("ping " + arguments + parts_head + " -o x", 3,
+                   {": surfels 1e-09 m apart on", "at most 400000000", "give a wider spacing"});
+}

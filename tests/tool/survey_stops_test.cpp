@@ -102,6 +102,22 @@ TEST_F(SurveyStops, names_missing_and_changed_blocks) {
   expect_refused("merge run", 3, {"run/fls/blocks/000001.h5: was changed since it was made"});
 }
 
+// As a loss of power leaves it on some disks.
+TEST_F(SurveyStops, a_block_whose_mark_is_not_whole_is_made_again) {
+  const auto whole = expected();
+  survey("run");
+  const std::string mark = "run/fls/blocks/000001.done", text = read(mark);
+  const auto digest = text.find("cube_sha256");
+  for (const std::string& left : {std::string(), text.substr(0, digest), std::string(text.size(), '\0')}) {
+    write(mark, left);
+    expect_refused("merge run", 3, {"run: 1 of 10 blocks are not done: fls/blocks/000001 (pings 3 to 5)", "again"});
+    EXPECT_EQ(json_of("info run")["heads"][0]["blocks_done"], 4);
+    EXPECT_EQ(json_of("survey m.toml -o run -q")["made"], 3);
+  }
+  EXPECT_EQ(merged("run"), whole);
+  EXPECT_EQ(names_in("run/fls/blocks"), names_in("whole/fls/blocks"));
+}
+
 TEST_F(SurveyStops, a_block_of_another_mission_is_refused) {
   survey("run", "--shard 0/2");
   write("m.toml", survey_mission + "threshold_db = 12\n");

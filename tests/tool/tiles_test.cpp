@@ -7,7 +7,8 @@
 #include "scene_io/tiled_scene.hpp"
 #include "store/contributor_file.hpp"
 #include "support/test.hpp"
-#include "tool/tool_runner.hpp"
+#include "support/tile_parts.hpp"
+#include "tool/survey_fixture.hpp"
 
 namespace {
 
@@ -132,4 +133,27 @@ TEST_F(Tiles, what_cannot_be_pinged_is_refused) {
   write("old.tiles", "insotile" + std::string(300, '\0'));
   for (const char* verb : {"info old.tiles", "prepare old.tiles -o x.ply"})
     expect_refused(verb, 3, {"old.tiles", "before they were HDF5", "insonify prepare SCENE -o old.tiles"});
+}
+
+TEST_F(Tiles, values_of_no_surfel_are_named_by_file_and_row_whatever_reads_them) {
+  have("small.tiles", "make-scene plane --points 400");
+  write("m.toml", replaced(survey_mission, "harbour.ply", "bad.tiles"));
+  succeed("ping small.tiles -o whole" + tiles_head);
+  const TileParts good = load_tile_parts(path("small.tiles"));
+  const std::vector<std::pair<std::string, std::function<void(SceneCloud&)>>> damages = {
+      {"bad.tiles: row 24: normal = (0, 0, 0), must be", [](SceneCloud& s) { s.normal[24].setZero(); }},
+      {"bad.tiles: row 24: material = 77, must be", [](SceneCloud& s) { s.material[24] = 77; }}};
+  for (const auto& [said, damage] : damages) {
+    TileParts parts = good;
+    damage(parts.rows);
+    save_tile_parts(parts, path("bad.tiles"));
+    for (const std::string& arguments :
+         {std::string("info bad.tiles"), "ping bad.tiles -o x" + tiles_head, std::string("prepare bad.tiles -o x.ply"),
+          std::string("image bad.tiles --view scene -o x.png"), std::string("survey m.toml --plan")})
+      expect_refused(arguments, 3, {said});
+  }
+  TileParts parts = good;
+  parts.node.at(0).area = -1;
+  save_tile_parts(parts, path("bad.tiles"));
+  expect_refused("ping bad.tiles -o x --with detail" + tiles_head, 3, {"bad.tiles: node 0: area = -1, must be"});
 }

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <stdexcept>
@@ -52,6 +53,10 @@ inline int run_program(const std::function<int()>& run, const char* less) {
   } catch (const std::length_error&) {  // an array beyond all memory
     std::fprintf(stderr, "insonify: out of memory; %s\n", less);
     return no_memory;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "insonify: %s: %s; check the path\n", one_line(error.path1().string()).c_str(),
+                 error.code().message().c_str());
+    return exit_code_of(ErrorKind::file);
   } catch (const std::system_error& error) {
     std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
     // A thread that cannot be started lacks memory.

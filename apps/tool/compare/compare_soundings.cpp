@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "files/path_status.hpp"
 #include "scene/scene_index.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/csv_tables.hpp"
@@ -79,7 +80,7 @@ SceneOfSoundings scene_of_soundings(const CompareOptions& o, const SoundingTable
   SceneOptions options;
   options.path = o.b;
   std::string folder;
-  if (std::filesystem::is_directory(o.b)) {
+  if (is_folder(o.b)) {
     const std::vector<std::string> heads = head_names(o.b);
     folder = heads.size() == 1 ? (std::filesystem::path(o.b) / heads.front()).string() : o.b;
     options = scene_of_run(folder);

@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "files/path_status.hpp"
 #include "formats/aris_file.hpp"
 #include "formats/npy_file.hpp"
 #include "formats/oculus_file.hpp"
@@ -185,9 +186,9 @@ bool is_waterfall(const std::string& path) {
 
 ComparedFile load_compared(const std::string& path, int ping, const CompareOptions& options, bool waterfall) {
   namespace fs = std::filesystem;
-  if (!fs::exists(path)) fail(ErrorKind::file, path, ": no such run or record");
+  if (!path_exists(path)) fail(ErrorKind::file, path, ": no such run or record");
   const std::string ending = lower_case(fs::path(path).extension().string());
-  if (fs::is_directory(path) || ending == ".h5") return waterfall ? compared_waterfall(path) : compared_run(path, ping);
+  if (is_folder(path) || ending == ".h5") return waterfall ? compared_waterfall(path) : compared_run(path, ping);
   if (is_waterfall(path)) return compared_side_scan(path, options.channel);
   if (ending == ".aris") return compared_aris(path, options.frame);
   if (is_record(path)) return compared_oculus(path, options.frame);

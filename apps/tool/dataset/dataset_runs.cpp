@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "files/sha256.hpp"
 #include "store/survey_run.hpp"
 #include "tool/run/ping_setup.hpp"
@@ -43,12 +44,8 @@ std::vector<DatasetSource> sources_of_survey(const std::string& run) {
   for (std::size_t h = 0; h < survey.heads.size(); ++h) {
     DatasetSource source;
     source.run = run, source.head = survey.heads[h].name, source.head_index = h;
-    for (const auto& [number, files, mark] : stored_blocks(run, survey, survey.heads[h])) {
-      if (!mark)
-        fail(ErrorKind::content, run, ": block ", number, " of head ", source.head,
-             " is not done; run the survey again");
-      if (fs::exists(files.cube)) source.cubes.push_back(files.cube);
-    }
+    for (const auto& [number, files, mark] : all_blocks(run, survey, survey.heads[h]))
+      if (path_exists(files.cube)) source.cubes.push_back(files.cube);
     source.randomisation = load_survey_randomisation(mission);
     find_scene(source, (fs::path(run) / source.head).string());
     sources.push_back(std::move(source));
@@ -68,7 +65,7 @@ std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs)
     } else {
       DatasetSource& source = sources.emplace_back();
       source.run = run, source.cubes = {run_cube_path(run)};
-      find_scene(source, fs::is_directory(run) ? run : fs::path(run).parent_path().string());
+      find_scene(source, is_folder(run) ? run : fs::path(run).parent_path().string());
     }
     for (std::size_t s = before; s < sources.size(); ++s) {
       sources[s].run_index = r;

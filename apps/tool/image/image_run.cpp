@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/image/image.hpp"
 #include "tool/run/record_file.hpp"
@@ -39,7 +40,7 @@ ImageRun read_image_run(const std::string& path, const std::string& layer) {
   }
   ImageRun run{path, read_run_cube(path)};
   const fs::path settings = fs::path(path) / "run.toml";
-  if (fs::is_directory(path) && fs::exists(settings))
+  if (is_folder(path) && path_exists(settings))
     run.head = make_head(load_sonar_file(settings.string()).spec, run.cube.sound_speed);
   if (!layer.empty())
     for (Ping& ping : run.cube.pings) take_layer(ping, layer, path);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "sampling/find_holes.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/scene_file.hpp"
@@ -89,7 +90,7 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   const fs::path returns = fs::path(o.run) / "returns.ply";
   const bool covered = drawing.look.colour == SceneColour::visibility || drawing.look.colour == SceneColour::grazing ||
                        drawing.look.colour == SceneColour::incidence;
-  if (!fs::exists(returns)) {
+  if (!path_exists(returns)) {
     progress.note(returns.string() + " is missing, so no returns are drawn");
   } else if (!covered) {
     const std::optional<Tvg> tvg = tvg_of(o, ping.absorption_db_per_m);
@@ -150,7 +151,7 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
 void draw_scene(const ImageOptions& o) {
   Progress progress(o.common, 2);
   progress.step("reading " + o.run);
-  const bool run = fs::is_directory(o.run) || fs::path(o.run).extension() == ".h5";
+  const bool run = is_folder(o.run) || fs::path(o.run).extension() == ".h5";
   Drawing drawing = run ? drawing_of_run(o, progress) : drawing_of_scene(o, progress);
   SceneLook& look = drawing.look;
   look.camera = *find_named(camera_words, o.camera);

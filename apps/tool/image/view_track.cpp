@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "scene_io/bed_of_returns.hpp"
 #include "store/survey_run.hpp"
 #include "tool/command/progress.hpp"
@@ -29,12 +30,12 @@ TrackMap::Way way_of(const std::string& name, const std::vector<TrackPoint>& tra
 /// The mosaic, or the returns; nothing if there are none.
 void add_levels(const fs::path& folder, TrackMap& map) {
   const std::string mosaic = (folder / "mosaic.vti").string(), returns = (folder / "returns.ply").string();
-  if (fs::exists(mosaic)) {
+  if (path_exists(mosaic)) {
     const HorizontalMap laid = load_map_image(mosaic);
     map.x = laid.x, map.y = laid.y, map.cell = laid.cell;
     map.level_db = laid.fields.front().values;
     map.unit = "dB re 1 m² per m²";
-  } else if (fs::exists(returns)) {
+  } else if (path_exists(returns)) {
     constexpr int cells = 400;
     ReturnsMap of_returns = map_of_returns(returns, cells);
     map.x = of_returns.x, map.y = of_returns.y, map.cell = of_returns.cell;
@@ -51,7 +52,7 @@ void draw_track(const ImageOptions& o) {
   std::size_t pings = 0;
   for (const SurveyRunHead& head : run.heads) {
     const fs::path cube = fs::path(o.run) / head.name / "cube.h5";
-    if (!fs::exists(cube))
+    if (!path_exists(cube))
       fail(ErrorKind::content, o.run, ": holds no ", head.name, "/cube.h5; run insonify merge ", o.run);
     map.ways.push_back(way_of(head.name, read_track(cube.string())));
     pings += map.ways.back().places.size();

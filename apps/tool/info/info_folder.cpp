@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "returns/looks.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
@@ -31,15 +32,15 @@ struct HeadState {
 HeadState state_of(const std::string& run, const SurveyRun& survey, const SurveyRunHead& head) {
   HeadState state;
   for (const StoredBlock& block : stored_blocks(run, survey, head))
-    if (block.mark) ++state.done, state.failed += block.mark->failed.size();
-  state.merged = fs::exists(fs::path(run) / head.name / "cube.h5");
+    ++state.done, state.failed += block.mark.failed.size();
+  state.merged = path_exists(fs::path(run) / head.name / "cube.h5");
   return state;
 }
 
 /// What a head of a survey keeps: settings of its run.toml.
 PingOptions settings_of(const std::string& run, const std::string& head) {
   const fs::path file = fs::path(run) / head / "run.toml";
-  return fs::exists(file) ? load_ping_settings(file.string()) : PingOptions{};
+  return path_exists(file) ? load_ping_settings(file.string()) : PingOptions{};
 }
 
 bool keeps_contributors(const PingOptions& settings) {
@@ -91,7 +92,7 @@ ordered_json survey_info(const std::string& run) {
                     : merged ? "merged"
                              : "done, not merged"},
           {"heads", heads},
-          {"mosaic", fs::exists(fs::path(run) / "mosaic.vti")},
+          {"mosaic", path_exists(fs::path(run) / "mosaic.vti")},
           {"next", next}};
 }
 
@@ -138,12 +139,11 @@ ordered_json manifest_info(const std::string& path) {
 }
 
 std::vector<std::string> next_of_run(const std::string& path) {
-  const fs::path run(path), folder = fs::is_directory(run) ? run : run.parent_path();
+  const fs::path run(path), folder = is_folder(run) ? run : run.parent_path();
   const std::string word = shell_word(path);
   std::vector<std::string> next = {"insonify image " + word + " -o picture.png"};
-  const PingOptions settings =
-      fs::is_directory(run) && fs::exists(run / "run.toml") ? settings_of(path, ".") : PingOptions{};
-  if (fs::is_directory(run)) next.push_back("insonify view " + word);
+  const PingOptions settings = is_folder(run) && path_exists(run / "run.toml") ? settings_of(path, ".") : PingOptions{};
+  if (is_folder(run)) next.push_back("insonify view " + word);
   for (std::string& command : products_of(word, settings)) next.push_back(std::move(command));
   if (keeps_contributors(settings)) next.push_back("insonify dataset " + word + " -o dataset");
   return next;
@@ -163,7 +163,7 @@ std::string shell_word(const std::string& path) {
 }
 
 ordered_json info_of_cube(const std::string& path) {
-  const bool is_run = fs::is_directory(path);
+  const bool is_run = is_folder(path);
   const std::string file = is_run ? path + "/cube.h5" : path;
   const Cube cube = read_cube(file);
   const Ping& first = cube.pings.front();
@@ -203,10 +203,10 @@ ordered_json info_of_folder(const std::string& path) {
   fs::path folder = fs::path(path).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();  // of a path that ends with a slash
   if (is_survey_run(path)) return survey_info(path);
-  if (fs::exists(folder / "cube.h5")) return info_of_cube(folder.string());
+  if (path_exists(folder / "cube.h5")) return info_of_cube(folder.string());
   if (const auto head = head_of_survey(folder))
     return head_info(head->first, load_survey_run(head->first), head->second);
-  if (fs::exists(folder / "manifest.json")) return manifest_info(folder.string());
+  if (path_exists(folder / "manifest.json")) return manifest_info(folder.string());
   fail(ErrorKind::content, path, ": is no run, survey, head of a survey or export of insonify: it holds no cube.h5, ",
        "survey.toml or manifest.json; give one of its files, or the folder of a run");
 }

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "files/memory_limit.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/tiled_scene.hpp"
 #include "tool/info/info.hpp"

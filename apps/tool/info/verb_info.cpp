@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
+#include "files/path_status.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/info/info.hpp"
@@ -72,9 +73,8 @@ void info(const InfoOptions& o) {
   ordered_json all = ordered_json::array();
   for (const std::string& path : o.files) {
     const std::filesystem::path file(path);
-    const bool recorded = !std::filesystem::is_directory(file) && is_record(path);
-    const bool is_scene =
-        !recorded && !std::filesystem::is_directory(file) && file.extension() != ".h5" && file.extension() != ".toml";
+    const bool recorded = !is_folder(file) && is_record(path);
+    const bool is_scene = !recorded && !is_folder(file) && file.extension() != ".h5" && file.extension() != ".toml";
     if (recorded)
       all.push_back(info_of_record(path));
     else if (is_scene)
@@ -82,7 +82,7 @@ void info(const InfoOptions& o) {
     else if (file.extension() == ".toml")
       all.push_back(info_of_toml(path));
     else
-      all.push_back(std::filesystem::is_directory(file) ? info_of_folder(path) : info_of_cube(path));
+      all.push_back(is_folder(file) ? info_of_folder(path) : info_of_cube(path));
     if (!o.common.json) (is_scene && !is_tiles(path) ? print_scene : print_facts)(all.back());
   }
   if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "returns/sounding_columns.hpp"
 #include "scene_io/insonification_file.hpp"
 #include "scene_io/load_scene.hpp"
@@ -25,7 +26,7 @@ std::vector<std::string> files_of(const std::vector<std::string>& runs, const st
   std::vector<std::string> files, without;
   for (const std::string& run : runs) {
     const fs::path file = fs::path(run) / name;
-    if (fs::is_directory(run) && fs::exists(file))
+    if (is_folder(run) && path_exists(file))
       files.push_back(file.string());
     else
       without.push_back(run);

@@ -39,20 +39,27 @@ std::string pings_of(const SurveyRunHead& head, std::size_t block) {
 
 /// All blocks in the order of heads and pings. Throws Error(content) naming those that are not done.
 std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun& run) {
+  constexpr std::size_t most_named = 5;
   std::vector<Finished> finished;
   std::vector<std::string> missing;
-  for (const SurveyRunHead& head : run.heads)
-    for (const auto& [number, files, mark] : stored_blocks(folder, run, head)) {
-      if (mark)
-        finished.push_back({&head, files, *mark});
-      else
-        missing.push_back(pings_of(head, number));
+  std::size_t all = 0;
+  for (const SurveyRunHead& head : run.heads) {
+    std::size_t next = 0;
+    const auto miss_until = [&](std::size_t end) {
+      for (; next < end && missing.size() < most_named; ++next) missing.push_back(pings_of(head, next));
+      next = end + 1;
+    };
+    for (StoredBlock& block : stored_blocks(folder, run, head)) {
+      miss_until(block.number);
+      finished.push_back({&head, std::move(block.files), std::move(block.mark)});
     }
-  const std::size_t named = std::min<std::size_t>(missing.size(), 5);
-  if (named > 0)
-    fail(ErrorKind::content, folder, ": ", missing.size(), " of ", missing.size() + finished.size(),
-         " blocks are not done: ", joined(std::vector(missing.begin(), missing.begin() + static_cast<long>(named))),
-         missing.size() > named ? ", ..." : "", "; run the survey (or its missing shards) again");
+    miss_until(head.blocks());
+    all += head.blocks();
+  }
+  const std::size_t undone = all - finished.size();
+  if (undone > 0)
+    fail(ErrorKind::content, folder, ": ", undone, " of ", all, " blocks are not done: ", joined(missing),
+         undone > missing.size() ? ", ..." : "", "; run the survey (or its missing shards) again");
   return finished;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "store/merge_cubes_by_time.hpp"
 #include "store/run_directory.hpp"
 #include "store/survey_run.hpp"
@@ -117,7 +118,7 @@ void merge(const MergeOptions& o) {
   for (const std::string& note : notes) progress.note(note);
   manifest["notes"] = notes;
   const std::filesystem::path settings = std::filesystem::path(o.runs.front()) / "run.toml";
-  if (std::filesystem::exists(settings)) write_file(directory.file("run.toml"), read_text_file(settings.string()));
+  if (path_exists(settings)) write_file(directory.file("run.toml"), read_text_file(settings.string()));
   write_manifest(directory, manifest);
   directory.commit();
   print_summary(o.common, manifest,

@@ -4,6 +4,8 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "files/memory_limit.hpp"
+#include "files/path_status.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 #include "tool/command/run_settings.hpp"
@@ -15,13 +17,13 @@ namespace insonify::tool {
 namespace fs = std::filesystem;
 
 RunDraws draws_of_run(const std::string& run) {
-  const fs::path folder = fs::exists(run) ? fs::canonical(run) : fs::path(run);
+  const fs::path folder = path_exists(run) ? real_path(run) : fs::path(run);
   const fs::path mission = folder.parent_path() / "mission.toml", settings = folder / "run.toml";
-  if (is_survey_run(folder.parent_path().string()) && fs::exists(mission)) {
+  if (is_survey_run(folder.parent_path().string()) && path_exists(mission)) {
     const SurveyRandomisation differs = load_survey_randomisation(mission.string());
     return {differs.seed, {differs.spread.scene_pings, 0}};
   }
-  if (!fs::exists(settings)) return {};
+  if (!path_exists(settings)) return {};
   const PingOptions sent = load_ping_settings(settings.string());
   return {sent.common.seed, {0, static_cast<std::uint64_t>(sent.draw)}};
 }

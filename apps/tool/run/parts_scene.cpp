@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "files/memory_limit.hpp"
 #include "sampling/mesh_surfels.hpp"
 #include "scene/posed_scene.hpp"
 #include "scene/thin_scene.hpp"
@@ -68,7 +69,9 @@ SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, 
   SceneCloud cloud = std::move(loaded.scene);
   if (loaded.mesh && !loaded.columns.heights && !(captured && file.spacing == 0)) {
     const double by_size = std::clamp(diagonal_of(cloud) / spacings_of_diagonal, least_spacing, most_spacing);
-    cloud = even_surfels(*loaded.mesh, file.spacing > 0 ? file.spacing : by_size, o.seed, o.threads).scene;
+    cloud = even_surfels(*loaded.mesh, file.spacing > 0 ? file.spacing : by_size, o.seed, o.threads,
+                         {file.path, available_memory()})
+                .scene;
   }
   cloud.facet.clear();
   cloud.part_of.reset();

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "files/path_status.hpp"
 #include "sampling/mesh_surfels.hpp"
 #include "simulate/plan_ping.hpp"
 #include "simulate/resolve_ping.hpp"
@@ -248,12 +249,12 @@ std::vector<std::string> loading_notes(const LoadReport& r) {
 
 SceneOptions scene_of_run(const std::string& run) {
   const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
-  return std::filesystem::exists(settings) ? load_scene_settings(settings.string()) : SceneOptions{};
+  return path_exists(settings) ? load_scene_settings(settings.string()) : SceneOptions{};
 }
 
 std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads) {
   const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
-  if (!std::filesystem::exists(settings) || !load_toml(settings.string()).find("sonar")) return std::nullopt;
+  if (!path_exists(settings) || !load_toml(settings.string()).find("sonar")) return std::nullopt;
   RunOptions options;
   options.sonar = options.environment = settings.string();
   HeadSetup setup = set_up_head({}, options);

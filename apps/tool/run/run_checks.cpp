@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "files/sha256.hpp"
 #include "store/run_manifest.hpp"
 #include "store/survey_run.hpp"
@@ -19,7 +20,7 @@ using nlohmann::ordered_json;
 
 void compare_file(RunCheck& check, const std::string& path, const std::string& name, const std::string& digest) {
   ++check.files;
-  if (!fs::exists(path))
+  if (!path_exists(path))
     check.problems.push_back(name + " is missing");
   else if (sha256_of_file(path) != digest)
     check.problems.push_back(name + " was changed");
@@ -29,13 +30,11 @@ RunCheck check_survey(const std::string& run) {
   RunCheck check;
   const SurveyRun survey = load_survey_run(run);
   for (const SurveyRunHead& head : survey.heads)
-    for (const auto& [number, files, mark] : stored_blocks(run, survey, head)) {
-      if (!mark) continue;
+    for (const auto& [number, files, mark] : stored_blocks(run, survey, head))
       for (const auto& [path, digest] :
-           {std::pair(files.cube, mark->cube_sha256), std::pair(files.returns, mark->returns_sha256),
-            std::pair(files.coverage, mark->coverage_sha256)})
+           {std::pair(files.cube, mark.cube_sha256), std::pair(files.returns, mark.returns_sha256),
+            std::pair(files.coverage, mark.coverage_sha256)})
         if (!digest.empty()) compare_file(check, path, fs::path(path).lexically_relative(run).string(), digest);
-    }
   return check;
 }
 
@@ -54,7 +53,7 @@ void write_manifest(const RunDirectory& directory, ordered_json manifest) {
 }
 
 RunCheck check_run(const std::string& run, const std::string& only) {
-  if (!fs::is_directory(run))
+  if (!is_folder(run))
     fail(ErrorKind::file, run, ": is no folder; --verify compares the files of a run: give the folder of a run");
   if (is_survey_run(run)) return check_survey(run);
   RunCheck check;
@@ -68,7 +67,7 @@ RunCheck check_run(const std::string& run, const std::string& only) {
 }
 
 std::string integrity_problem(const std::string& run, const std::string& file) {
-  if (!fs::is_directory(run) || is_survey_run(run)) return {};
+  if (!is_folder(run) || is_survey_run(run)) return {};
   const RunCheck check = check_run(run, file);
   return check.problems.empty() ? "" : run + ": " + check.problems.front() + " since the run was made";
 }

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "files/path_status.hpp"
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
 #include "store/survey_run.hpp"
@@ -29,7 +30,7 @@ const SurveyRunHead& head_of_survey(const SurveyRun& survey, const std::string& 
 
 /// Adds what a mission says of the pings of one of its heads, if it is there and has that head.
 void add_mission(const std::string& path, const std::string& head, RunPings& pings) {
-  if (!fs::exists(path)) return;
+  if (!path_exists(path)) return;
   MissionFile file = load_mission(path);
   const auto found = std::find_if(file.mission.heads.begin(), file.mission.heads.end(),
                                   [&](const MissionHead& each) { return each.name == head; });
@@ -62,7 +63,7 @@ std::optional<Trajectory> named_way(const std::string& settings, const Pose& veh
                                     const Trajectory& places) {
   constexpr double same_place = 1e-3;  // [m]
   const std::string path = path_named_in(settings, ping_setting(settings, "trajectory"));
-  if (!fs::is_regular_file(path)) return {};
+  if (!is_file(path)) return {};
   try {
     const Trajectory way = load_trajectory(path);
     for (std::size_t i = 0; i < places.time.size(); ++i)
@@ -93,15 +94,12 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
   const SurveyRun survey = load_survey_run(run);
   const SurveyRunHead& head = head_of_survey(survey, run, head_name);
   RunPings pings;
-  for (const auto& [number, files, mark] : stored_blocks(run, survey, head)) {
-    if (!mark)
-      fail(ErrorKind::content, run, ": block ", number, " of ", head.name,
-           " is not done; run the survey (or its missing shards) again");
-    if (fs::exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
-    if (fs::exists(files.returns)) pings.returns.push_back(files.returns);
+  for (const auto& [number, files, mark] : all_blocks(run, survey, head)) {
+    if (path_exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
+    if (path_exists(files.returns)) pings.returns.push_back(files.returns);
   }
   const std::string settings = run + "/" + head.name + "/run.toml";
-  if (fs::exists(settings)) pings.environment = load_environment(settings);
+  if (path_exists(settings)) pings.environment = load_environment(settings);
   add_mission(run + "/mission.toml", head.name, pings);
   return pings;
 }
@@ -110,13 +108,13 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
 RunPings pings_of_directory(const std::string& run) {
   RunPings pings;
   pings.cubes = {run_cube_path(run)};
-  if (fs::is_directory(run) && fs::exists(run + "/returns.ply")) pings.returns = {run + "/returns.ply"};
+  if (is_folder(run) && path_exists(run + "/returns.ply")) pings.returns = {run + "/returns.ply"};
   const std::string settings = run + "/run.toml";
-  if (fs::is_directory(run) && fs::exists(settings)) pings.environment = load_environment(settings);
-  if (!fs::is_directory(run)) return pings;
-  const fs::path folder = fs::canonical(run), survey = folder.parent_path();
+  if (is_folder(run) && path_exists(settings)) pings.environment = load_environment(settings);
+  if (!is_folder(run)) return pings;
+  const fs::path folder = real_path(run), survey = folder.parent_path();
   if (!is_survey_run(survey.string())) {
-    if (fs::exists(settings)) pings.vehicle_from_head = mounting_of_ping(settings), pings.settings = settings;
+    if (path_exists(settings)) pings.vehicle_from_head = mounting_of_ping(settings), pings.settings = settings;
     return pings;
   }
   try {
@@ -138,23 +136,23 @@ std::size_t leg_at(const std::vector<MissionLeg>& legs, double time) {
 }
 
 std::string run_cube_path(const std::string& run) {
-  if (!fs::exists(run)) fail(ErrorKind::file, run, ": no such run directory or cube");
-  if (!fs::is_directory(run)) return run;
+  if (!path_exists(run)) fail(ErrorKind::file, run, ": no such run directory or cube");
+  if (!is_folder(run)) return run;
   std::string path = run + "/cube.h5";
-  if (!fs::exists(path)) fail(ErrorKind::content, run, ": holds no cube.h5, so it is no run directory");
+  if (!path_exists(path)) fail(ErrorKind::content, run, ": holds no cube.h5, so it is no run directory");
   return path;
 }
 
 Cube read_run_cube(const std::string& path) { return read_cube(run_cube_path(path)); }
 
 RunPings find_run_pings(const std::string& run, const std::string& head) {
-  if (fs::is_directory(run) && is_survey_run(run)) return pings_of_survey(run, head);
+  if (is_folder(run) && is_survey_run(run)) return pings_of_survey(run, head);
   return pings_of_directory(run);
 }
 
 std::vector<std::string> head_names(const std::string& run) {
   std::vector<std::string> names;
-  if (fs::is_directory(run) && is_survey_run(run))
+  if (is_folder(run) && is_survey_run(run))
     for (const SurveyRunHead& head : load_survey_run(run).heads) names.push_back(head.name);
   return names;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "files/path_status.hpp"
 #include "files/pending_file.hpp"
 #include "returns/sounding_columns.hpp"
 #include "scene_io/coverage_file.hpp"
@@ -48,10 +49,12 @@ bool SurveyBlocks::is_done(const SurveyBlock& block) const {
 
 BlockOutcomes SurveyBlocks::resume(const SurveyBlock& block) const {
   const BlockFiles files = files_of(block);
+  std::error_code ignored;
+  fs::remove(files.mark, ignored);  // one that is not whole
   remove_leftovers(files);
-  for (const std::string& unmarked : {files.cube, files.returns, files.coverage}) fs::remove(unmarked);
+  for (const std::string& unmarked : {files.cube, files.returns, files.coverage}) fs::remove(unmarked, ignored);
   BlockOutcomes outcomes(block.end - block.begin);
-  if (fs::exists(files.partial_cube) && fs::exists(files.partial_returns)) try {
+  if (path_exists(files.partial_cube) && path_exists(files.partial_returns)) try {
       Cube cube = read_cube(files.partial_cube);
       const Soundings soundings = load_soundings(files.partial_returns);
       for (Ping& ping : cube.pings) {
@@ -103,13 +106,13 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const
 
 void write_survey_settings(const SurveySetup& setup, const std::string& folder) {
   const auto write_once = [](const fs::path& path, const std::string& text) {
-    if (!fs::exists(path)) write_file(path.string(), text);
+    if (!path_exists(path)) write_file(path.string(), text);
   };
   write_once(fs::path(folder) / "mission.toml", setup.file.text);
   for (std::size_t h = 0; h < setup.heads.size(); ++h) {
     PingOptions options = setup.heads[h].options;
     const fs::path head = fs::path(folder) / setup.file.mission.heads[h].name;
-    if (fs::exists(head))
+    if (path_exists(head))
       write_once(head / "run.toml",
                  run_toml(options.run, setup.heads[h].setup.head, settings_as_toml(all_settings(options))));
   }

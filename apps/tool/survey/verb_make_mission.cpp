@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "files/path_status.hpp"
 #include "files/pending_file.hpp"
 #include "scene_io/describe_file.hpp"
 #include "store/output_rules.hpp"
@@ -166,7 +167,7 @@ void make_mission(const MakeMissionOptions& o) {
   const std::string sonar = !o.sonar.empty() ? o.sonar : o.name == "tunnel" ? "ping360" : "gemini-720im";
   const SonarFile file = find_sonar(sonar);
   std::string range = o.range;
-  if (range.empty() && std::filesystem::exists(o.scene)) range = range_over(o.scene, file.spec, shape.points);
+  if (range.empty() && path_exists(o.scene)) range = range_over(o.scene, file.spec, shape.points);
   write_file(o.output,
              fmt::format("# {}; docs/reference/keys.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = "
                          "1\n\n[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}{}",
