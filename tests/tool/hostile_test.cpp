@@ -93,7 +93,7 @@ TEST_F(Hostile, links_to_themselves_are_no_input) {
                                        std::string("survey loop.toml -o x"),
                                        std::string("survey m.toml -o x"),
                                        std::string("survey m.toml -o loop"),
-                                       "synthesize loop.csv" + head,
+                                       std::string("synthesize loop.csv --sonar p900-45 --range 2:9 -o x"),
                                        std::string("image loop -o x.png"),
                                        std::string("image loop.h5 -o x.png"),
                                        std::string("image loop.xtf -o x.png"),
@@ -109,7 +109,7 @@ TEST_F(Hostile, links_to_themselves_are_no_input) {
                                        std::string("merge loop.h5 out -o x"),
                                        std::string("export out -o loop/x"),
                                        std::string("merge out out -o loop"),
-                                       std::string("view loop")})
+                                       std::string("view loop --screenshot x.png")})
     expect_refused(arguments, 4, {"loop"});
 }
 
