@@ -174,6 +174,30 @@ void PendingPath::commit() {
   if (!later) synchronise_folder_of(target_);
 }
 
+void PendingPath::commit_together(const std::vector<PendingPath*>& files) {
+  for (const PendingPath* file : files) synchronise_all(file->temporary_, file->target_);
+  {
+    const std::scoped_lock lock(pending_names().guard);
+    std::vector<std::function<void()>> undo;
+    try {
+      for (const PendingPath* file : files) {
+        const std::string &from = file->temporary_, &to = file->target_;
+        if (fs::exists(fs::symlink_status(to))) {
+          exchange(from, to);
+          undo.emplace_back([&] { exchange(from, to); });
+        } else {
+          if (std::rename(from.c_str(), to.c_str()) != 0) fail_to_write(to, errno);
+          undo.emplace_back([&] { std::rename(to.c_str(), from.c_str()); });
+        }
+      }
+    } catch (...) {
+      for (auto step = undo.rbegin(); step != undo.rend(); ++step) (*step)();
+      throw;
+    }
+  }
+  for (const PendingPath* file : files) synchronise_folder_of(file->target_);
+}
+
 void PendingPath::commit_in_place_of_folder(const std::function<void(const std::string& old)>& require_removable) {
   synchronise_all(temporary_, target_);
   {

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace insonify {
 
@@ -26,6 +27,9 @@ class PendingPath {
   /// Writes the file or folder from memory to the disk (fsync), then gives it the target's name. An old file of that
   /// name is replaced in one step; a folder needs a free name. Throws Error(file) with the reason of the system.
   void commit();
+  /// Commits files that are one output: if one of them cannot get its name, none of them has it, and old files of their
+  /// names are as they were. Throws as commit().
+  static void commit_together(const std::vector<PendingPath*>& files);
   /// Commits a folder that replaces an old one, which is removed. Both exchange their names in one step if the file
   /// system can do that. `require_removable` receives the old folder when nobody finds it under its name any more; if
   /// it throws, the old folder gets its name back.

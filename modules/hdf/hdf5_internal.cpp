@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <pthread.h>
+
 namespace insonify::hdf5 {
 namespace {
 
@@ -19,6 +21,12 @@ std::string plain_reason(const std::string& reason) {
   if (begin == std::string::npos) return reason.substr(0, reason.find('\n'));
   const std::size_t text = begin + quote.size();
   return reason.substr(text, reason.find('\'', text) - text);
+}
+
+std::string reported_reason() {
+  std::string reason;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first_reason, &reason);
+  return plain_reason(reason);
 }
 
 void write_scalar(const FileContext& place, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
@@ -50,6 +58,9 @@ T read_scalar(const FileContext& place, hid_t where, const char* name, hid_t mem
 }  // namespace
 
 QuietErrors::QuietErrors() {
+  using Turn = LibraryTurn<class Hdf5>;
+  static const int forks_wait = pthread_atfork(Turn::take, Turn::give_back, Turn::give_back);
+  static_cast<void>(forks_wait);
   // A file that could not be written to its end stays open within HDF5, which would crash when the program ends.
   static const herr_t no_exit_handler = H5dont_atexit();
   static_cast<void>(no_exit_handler);
@@ -60,9 +71,13 @@ QuietErrors::QuietErrors() {
 QuietErrors::~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 
 void FileContext::fail_here(const std::string& what) const {
-  std::string reason;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first_reason, &reason);
-  fail(kind, path, ": ", what, reason.empty() ? "" : ": ", plain_reason(reason));
+  const std::string reason = reported_reason();
+  fail(kind, path, ": ", what, reason.empty() ? "" : ": ", reason);
+}
+
+void note_failed_close() {
+  if (failed_to_close.empty()) failed_to_close = reported_reason();
+  if (failed_to_close.empty()) failed_to_close = "it cannot be closed";
 }
 
 Handle text_type(const FileContext& place, std::size_t length) {

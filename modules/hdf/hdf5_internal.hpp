@@ -11,6 +11,7 @@
 #include <hdf5.h>
 
 #include "core/error.hpp"
+#include "core/library_turn.hpp"
 #include "files/child_process.hpp"
 #include "files/pending_file.hpp"
 #include "hdf/dataset_name_internal.hpp"
@@ -18,7 +19,9 @@
 // Private to the modules that read and write HDF5 files.
 namespace insonify::hdf5 {
 
-/// Suppresses HDF5's error output during its lifetime; failures become Error instead.
+/// Suppresses HDF5's error output during its lifetime; failures become Error instead. It has the turn in HDF5, whose
+/// lock a child process would otherwise find taken for ever if another thread was within HDF5: fork() waits for it. All
+/// calls of HDF5 in this process are made during the lifetime of one.
 class QuietErrors {
  public:
   QuietErrors();
@@ -27,6 +30,7 @@ class QuietErrors {
   QuietErrors& operator=(const QuietErrors&) = delete;
 
  private:
+  LibraryTurn<class Hdf5> turn_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };
@@ -46,9 +50,11 @@ struct FileContext {
   }
 };
 
-/// True if a Handle of this thread could not be closed. HDF5 writes buffered data of a dataset when the dataset is
-/// closed, and does not report a failure later.
-inline thread_local bool failed_to_close = false;
+/// Why a Handle of this thread could not be closed, the first one since it was cleared; empty: all could. HDF5 writes
+/// buffered data of a dataset when the dataset is closed, and does not report a failure later.
+inline thread_local std::string failed_to_close;
+/// Sets it to what HDF5 reports.
+void note_failed_close();
 
 /// Owns an HDF5 identifier and closes it.
 class Handle {
@@ -58,11 +64,9 @@ class Handle {
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
   Handle& operator=(Handle&&) = delete;
   ~Handle() {
-    if (id_ >= 0 && close_(id_) < 0) failed_to_close = true;
+    if (id_ >= 0 && close_(id_) < 0) note_failed_close();
   }
   operator hid_t() const { return id_; }
-  /// Closes the identifier; returns a negative number on failure.
-  herr_t close() { return close_(std::exchange(id_, H5I_INVALID_HID)); }
 
  private:
   hid_t id_;
@@ -74,17 +78,26 @@ using Extent = std::vector<hsize_t>;
 /// Creates a file without timestamps: same input, same bytes.
 Handle create_file(const FileContext& place, const std::string& name);
 
+/// Calls write(), which writes to the file of `place`. Throws Error(file) with the first failure, as of a full disk:
+/// later calls of HDF5 on the file only report what follows from it.
+template <typename Write>
+void write_checked(const FileContext& place, Write&& write) {
+  failed_to_close.clear();
+  try {
+    write();
+  } catch (const Error&) {
+    if (failed_to_close.empty()) throw;
+  }
+  if (!failed_to_close.empty()) fail(place.kind, place.path, ": cannot be written: ", failed_to_close);
+}
+
 /// Writes a file by body(place, file), to a temporary name that is then renamed.
 template <typename Body>
 void write_hdf5(const std::string& path, Body&& body) {
   const QuietErrors quiet;
   const FileContext place{path, ErrorKind::file};
   PendingFile pending(path);
-  failed_to_close = false;
-  Handle file = create_file(place, pending.temporary());
-  body(place, file);
-  place.checked(file.close(), "cannot be written");  // a full disk shows here
-  place.checked(failed_to_close ? -1 : 0, "cannot be written");
+  write_checked(place, [&] { body(place, create_file(place, pending.temporary())); });
   pending.commit();
 }
 

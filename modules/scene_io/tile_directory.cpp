@@ -182,12 +182,12 @@ void require_new_format(const std::string& path) {
 ColumnOffsets create_columns(const std::string& path, const std::string& name, std::uint64_t rows) {
   const QuietErrors quiet;
   const FileContext place{path, ErrorKind::file};
-  Handle file = create_file(place, name);
   ColumnOffsets begin{};
-  for (std::size_t c = 0; c < tile_columns; ++c) {
-    begin[c] = create_plain(place, file, column_names[c], type_of_column(c), extent_of_column(c, rows));
-  }
-  place.checked(file.close(), "cannot be written");
+  write_checked(place, [&] {
+    const Handle file = create_file(place, name);
+    for (std::size_t c = 0; c < tile_columns; ++c)
+      begin[c] = create_plain(place, file, column_names[c], type_of_column(c), extent_of_column(c, rows));
+  });
   return begin;
 }
 
@@ -195,12 +195,7 @@ void add_directory(const std::string& path, const std::string& name, const TileD
                    const LevelFiles& levels) {
   const QuietErrors quiet;
   const FileContext place{path, ErrorKind::file};
-  failed_to_close = false;
-  Handle file(place.checked(H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "cannot be written"), H5Fclose);
-  write_table(place, file, tile_name, tile_type(place), directory.tiles);
-  write_table(place, file, forest_name, forest_type(place), directory.forests);
-  const std::uint64_t nodes = create_plain(place, file, node_name, node_type(place), {levels.node_count});
-  const std::uint64_t children = create_plain(place, file, child_name, H5T_STD_U32LE, {levels.child_count});
+  std::uint64_t nodes = 0, children = 0;
   const TiledSceneInfo& info = directory.info;
   SceneCloud facts_of_scene;
   facts_of_scene.origin = info.origin;
@@ -209,17 +204,22 @@ void add_directory(const std::string& path, const std::string& name, const TileD
   Facts facts{
       array_of(info.origin), array_of(info.box.min), array_of(info.box.max), info.total_area, {}, directory.wide, 0};
   for (const std::string& line : tag_lines(facts_of_scene)) facts.scene += line + "\n";
-  write_attribute(place, file, "format", std::string(format_text));
-  write_attribute(place, file, "version", newest_version);
-  write_attribute(place, file, "origin", facts.origin);
-  write_attribute(place, file, "low", facts.low);
-  write_attribute(place, file, "high", facts.high);
-  write_attribute(place, file, "total_area", facts.total_area);
-  write_attribute(place, file, "scene", facts.scene);
-  write_attribute(place, file, "wide", facts.wide);
-  write_attribute(place, file, "checksum", facts.checksum_with(directory.tiles, directory.forests));
-  place.checked(file.close(), "cannot be written");  // a full disk shows here
-  place.checked(failed_to_close ? -1 : 0, "cannot be written");
+  write_checked(place, [&] {
+    const Handle file(place.checked(H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "cannot be written"), H5Fclose);
+    write_table(place, file, tile_name, tile_type(place), directory.tiles);
+    write_table(place, file, forest_name, forest_type(place), directory.forests);
+    nodes = create_plain(place, file, node_name, node_type(place), {levels.node_count});
+    children = create_plain(place, file, child_name, H5T_STD_U32LE, {levels.child_count});
+    write_attribute(place, file, "format", std::string(format_text));
+    write_attribute(place, file, "version", newest_version);
+    write_attribute(place, file, "origin", facts.origin);
+    write_attribute(place, file, "low", facts.low);
+    write_attribute(place, file, "high", facts.high);
+    write_attribute(place, file, "total_area", facts.total_area);
+    write_attribute(place, file, "scene", facts.scene);
+    write_attribute(place, file, "wide", facts.wide);
+    write_attribute(place, file, "checksum", facts.checksum_with(directory.tiles, directory.forests));
+  });
   BinaryFile bytes(name, BinaryFile::Mode::update);
   bytes.copy(nodes, levels.nodes, 0, levels.node_count * sizeof(TileNode));
   bytes.copy(children, levels.children, 0, levels.child_count * sizeof(std::uint32_t));

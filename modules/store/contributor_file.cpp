@@ -99,6 +99,20 @@ struct ContributorFile::Open {
     datasets.push_back(create_dataset(place, file, name, type_of<Number>(true), lists,
                                       {beams_per_chunk(lists), lists[1], lists[2]}, Packing::deflate));
   }
+  void begin(const std::vector<std::string>& names, bool two_surfaces) {
+    write_attribute(place, file, "schema", contributor_schema);
+    write_attribute(place, file, "content", content);
+    write_attribute(place, file, "paths",
+                    std::string("0 direct, 1 one bounce, 2 two bounces") + (two_surfaces ? ", 3 two surfaces" : ""));
+    add<std::uint32_t>(surfel_name);
+    add<std::uint32_t>(id_name);
+    add<float>(share_name);
+    add<float>(elevations_name);
+    add<std::uint16_t>(material_name);
+    add<std::uint8_t>(path_name);
+    if (two_surfaces) add<std::uint32_t>(before_name);
+    write_names(place, file, names);
+  }
   /// Writes the lists of a band of beams.
   template <typename Number>
   void write(std::size_t dataset, const DatasetName& name, std::size_t first_beam, std::size_t beams,
@@ -108,6 +122,18 @@ struct ContributorFile::Open {
     const Handle there(place.checked(H5Dget_space(datasets[dataset]), name.path), H5Sclose);
     place.checked(H5Sselect_hyperslab(there, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), name.path);
     place.checked(H5Dwrite(datasets[dataset], type_of<Number>(false), here, there, H5P_DEFAULT, numbers), name.path);
+  }
+  void write(const Contributors& band, std::size_t first_beam) {
+    write(0, surfel_name, first_beam, band.beams, band.surfel.data());
+    write(1, id_name, first_beam, band.beams, band.id.data());
+    write(2, share_name, first_beam, band.beams, band.share.data());
+    write(3, elevations_name, first_beam, band.beams, band.elevation.data());
+    write(4, material_name, first_beam, band.beams, band.material.data());
+    static_assert(sizeof(PathKind) == 1);
+    write(5, path_name, first_beam, band.beams, reinterpret_cast<const std::uint8_t*>(band.path.data()));
+    if (datasets.size() <= 6) return;
+    const std::vector<std::uint32_t> none(band.surfel_before.empty() ? band.surfel.size() : 0, Contributors::none);
+    write(6, before_name, first_beam, band.beams, none.empty() ? band.surfel_before.data() : none.data());
   }
   void write_image(const DatasetName& name, const auto& image) {
     using Number = typename std::decay_t<decltype(image)>::Scalar;
@@ -121,23 +147,14 @@ struct ContributorFile::Open {
 ContributorFile::ContributorFile(const std::string& path, std::size_t beams, std::size_t bins, std::size_t per_pixel,
                                  const std::vector<std::string>& materials, bool two_surfaces) {
   const QuietErrors quiet;
-  failed_to_close = false;
   open_ = std::make_unique<Open>(path, Extent{beams, bins, per_pixel}, materials.size());
-  write_attribute(open_->place, open_->file, "schema", contributor_schema);
-  write_attribute(open_->place, open_->file, "content", content);
-  write_attribute(open_->place, open_->file, "paths",
-                  std::string("0 direct, 1 one bounce, 2 two bounces") + (two_surfaces ? ", 3 two surfaces" : ""));
-  open_->add<std::uint32_t>(surfel_name);
-  open_->add<std::uint32_t>(id_name);
-  open_->add<float>(share_name);
-  open_->add<float>(elevations_name);
-  open_->add<std::uint16_t>(material_name);
-  open_->add<std::uint8_t>(path_name);
-  if (two_surfaces) open_->add<std::uint32_t>(before_name);
-  write_names(open_->place, open_->file, materials);
+  write_checked(open_->place, [&] { open_->begin(materials, two_surfaces); });
 }
 
-ContributorFile::~ContributorFile() = default;
+ContributorFile::~ContributorFile() {
+  const QuietErrors quiet;  // of a file that could not be written
+  open_.reset();
+}
 
 void ContributorFile::write(const Contributors& band, std::size_t first_beam) {
   const QuietErrors quiet;
@@ -148,16 +165,7 @@ void ContributorFile::write(const Contributors& band, std::size_t first_beam) {
     fail(ErrorKind::argument, "write_contributor_file: ", open_->place.path, ": beams ", first_beam, " to ",
          first_beam + band.beams, " of ", band.bins, " x ", band.per_pixel, " entries, must be within ", lists[0],
          " beams of ", lists[1], " x ", lists[2]);
-  open_->write(0, surfel_name, first_beam, band.beams, band.surfel.data());
-  open_->write(1, id_name, first_beam, band.beams, band.id.data());
-  open_->write(2, share_name, first_beam, band.beams, band.share.data());
-  open_->write(3, elevations_name, first_beam, band.beams, band.elevation.data());
-  open_->write(4, material_name, first_beam, band.beams, band.material.data());
-  static_assert(sizeof(PathKind) == 1);
-  open_->write(5, path_name, first_beam, band.beams, reinterpret_cast<const std::uint8_t*>(band.path.data()));
-  if (open_->datasets.size() <= 6) return;
-  const std::vector<std::uint32_t> none(band.surfel_before.empty() ? band.surfel.size() : 0, Contributors::none);
-  open_->write(6, before_name, first_beam, band.beams, none.empty() ? band.surfel_before.data() : none.data());
+  write_checked(open_->place, [&] { open_->write(band, first_beam); });
 }
 
 void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Grid<std::uint32_t>& instance_image) {
@@ -167,11 +175,12 @@ void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Gr
     if (static_cast<hsize_t>(rows) != open_->lists[0] || static_cast<hsize_t>(columns) != open_->lists[1])
       fail(ErrorKind::argument, "write_contributor_file: ", open_->place.path, ": labels of ", rows, " x ", columns,
            " pixels, must be of ", open_->lists[0], " x ", open_->lists[1]);
-  open_->write_image(material_image_name, material_image);
-  open_->write_image(instance_image_name, instance_image);
-  open_->datasets.clear();
-  open_->place.checked(open_->file.close(), "cannot be written");  // a full disk shows here
-  open_->place.checked(failed_to_close ? -1 : 0, "cannot be written");
+  write_checked(open_->place, [&] {
+    open_->write_image(material_image_name, material_image);
+    open_->write_image(instance_image_name, instance_image);
+    open_->datasets.clear();
+    const Handle last = std::move(open_->file);  // a full disk shows when it is closed
+  });
   open_->pending.commit();
 }
 

@@ -6,6 +6,7 @@
 #include <vtkTextRenderer.h>
 
 #include "view/canvas_internal.hpp"
+#include "view/off_screen_internal.hpp"
 #include "view/placed_text.hpp"
 
 namespace insonify {
@@ -64,6 +65,7 @@ std::string readable_text(const std::string& text) {
 }
 
 TextSize text_size(const std::string& text, int font_size) {
+  const DrawingTurn turn;
   vtkNew<vtkTextProperty> property;
   set_font(property, font_size);
   int box[4] = {0, 0, 0, 0};

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "files/child_process.hpp"
 #include "files/input_file.hpp"
+#include "files/pending_file.hpp"
 #include "view/label_colours.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/scene_colours_internal.hpp"
@@ -21,13 +22,11 @@
 namespace insonify {
 namespace {
 
-// Writes pixels of so many channels, rows from the top, each as `put` fills it: VTK's origin is the lower left corner.
+// PNG of pixels of so many channels, rows from the top, each as `put` fills it: VTK's origin is the lower left corner.
 template <typename Value, typename Put>
-void save_pixels(const std::string& path, Eigen::Index rows, Eigen::Index columns, int channels, const char* who,
-                 const Put& put) {
+std::string png_of_pixels(Eigen::Index rows, Eigen::Index columns, int channels, const char* who, const Put& put) {
   if (rows * columns == 0)
-    fail(ErrorKind::argument, who, ": ", path, ": picture of ", rows, " x ", columns,
-         " values, must have one at least");
+    fail(ErrorKind::argument, who, ": picture of ", rows, " x ", columns, " values, must have one at least");
   const VtkMessages messages;
   vtkNew<vtkImageData> image;
   image->SetDimensions(static_cast<int>(columns), static_cast<int>(rows), 1);
@@ -37,13 +36,13 @@ void save_pixels(const std::string& path, Eigen::Index rows, Eigen::Index column
     for (Eigen::Index column = 0; column < columns; ++column, pixel += channels) put(row, column, pixel);
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
-  write_png(writer, path, messages, who);
+  return bytes_of_png(writer, messages, who);
 }
 
 template <typename Grey>
 void save_grey(const std::string& path, const Grid<Grey>& grey) {
-  save_pixels<Grey>(path, grey.rows(), grey.cols(), 1, "save_grey_png",
-                    [&](Eigen::Index row, Eigen::Index column, Grey* pixel) { *pixel = grey(row, column); });
+  const auto put = [&](Eigen::Index row, Eigen::Index column, Grey* pixel) { *pixel = grey(row, column); };
+  write_png(path, png_of_pixels<Grey>(grey.rows(), grey.cols(), 1, "save_grey_png", put));
 }
 
 template <typename Grey>
@@ -97,6 +96,7 @@ GreyPicture read_png(const std::string& path) {
 
 GreyPicture load_grey_png(const std::string& path) {
   const PngHead head = png_head(path);
+  const DrawingTurn turn;
   ArrayReceiver sent = read_in_child(path, limits_of_file(head.bytes), [&](ArraySender& to) {
     expect_from_file(path, head.bytes,
                      {head.width * head.height, "pixels", head.channels * (head.bits > 8 ? 2.0 : 1.0), "crop it"});
@@ -117,19 +117,23 @@ std::array<std::uint8_t, 3> label_colour(std::uint8_t category) {
 }
 
 void save_rgb_png(const std::string& path, const Grid<std::uint32_t>& rgb) {
-  save_pixels<std::uint8_t>(path, rgb.rows(), rgb.cols(), 3, "save_rgb_png",
-                            [&](Eigen::Index row, Eigen::Index column, std::uint8_t* pixel) {
-                              for (int k = 0; k < 3; ++k)
-                                pixel[k] = static_cast<std::uint8_t>(rgb(row, column) >> (16 - 8 * k));
-                            });
+  const auto put = [&](Eigen::Index row, Eigen::Index column, std::uint8_t* pixel) {
+    for (int k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>(rgb(row, column) >> (16 - 8 * k));
+  };
+  write_png(path, png_of_pixels<std::uint8_t>(rgb.rows(), rgb.cols(), 3, "save_rgb_png", put));
+}
+
+std::string label_png(const std::string& path, const Grid<std::uint8_t>& category) {
+  require_png_name(path);
+  const auto put = [&](Eigen::Index row, Eigen::Index column, std::uint8_t* pixel) {
+    const auto colour = label_colour(category(row, column));
+    std::copy(colour.begin(), colour.end(), pixel);
+  };
+  return png_of_pixels<std::uint8_t>(category.rows(), category.cols(), 3, "label_png", put);
 }
 
 void save_label_png(const std::string& path, const Grid<std::uint8_t>& category) {
-  save_pixels<std::uint8_t>(path, category.rows(), category.cols(), 3, "save_label_png",
-                            [&](Eigen::Index row, Eigen::Index column, std::uint8_t* pixel) {
-                              const auto colour = label_colour(category(row, column));
-                              std::copy(colour.begin(), colour.end(), pixel);
-                            });
+  write_file(path, label_png(path, category));
 }
 
 }  // namespace insonify

@@ -12,7 +12,11 @@ namespace insonify {
 /// colours of pictures of scenes, which repeat after ten.
 std::array<std::uint8_t, 3> label_colour(std::uint8_t category);
 
-/// Writes classes, rows from the top, as a PNG in their colours. Errors as save_grey_png.
+/// Returns classes, rows from the top, as the bytes of a PNG in their colours, for the file `path`. Throws
+/// Error(argument) without classes, or unless `path` ends with .png.
+std::string label_png(const std::string& path, const Grid<std::uint8_t>& category);
+
+/// Writes such a PNG. Errors as save_grey_png.
 void save_label_png(const std::string& path, const Grid<std::uint8_t>& category);
 
 }  // namespace insonify

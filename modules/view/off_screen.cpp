@@ -92,27 +92,6 @@ std::string drawn_in_child(const char* who, std::size_t left, const std::functio
   return png;
 }
 
-void require_png_name(const std::string& path) {
-  if (lower_case(std::filesystem::path(path).extension().string()) != ".png")
-    fail(ErrorKind::argument, path, ": pictures are written as PNG; the name must end with .png");
-}
-
-std::string bytes_of_png(vtkPNGWriter* writer, const VtkMessages& messages, const char* who) {
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* png = writer->GetResult();
-  if (writer->GetErrorCode() != vtkErrorCode::NoError || !png || png->GetNumberOfTuples() == 0)
-    fail(ErrorKind::runtime, who,
-         ": cannot make a PNG: ", vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
-  messages.throw_first_error(who);
-  return {reinterpret_cast<const char*>(png->GetPointer(0)), static_cast<std::size_t>(png->GetNumberOfTuples())};
-}
-
-std::mutex& drawing_turn() {
-  static std::mutex turn;
-  return turn;
-}
-
 }  // namespace
 
 vtkStandardNewMacro(EglWindow);
@@ -184,9 +163,7 @@ void EglWindow::OpenGLInitContext() {
 }
 
 VtkMessages::VtkMessages()
-    : turn_(drawing_turn()),
-      before_(vtkOutputWindow::GetInstance()),
-      collector_(vtkSmartPointer<MessageCollector>::New()) {
+    : before_(vtkOutputWindow::GetInstance()), collector_(vtkSmartPointer<MessageCollector>::New()) {
   vtkOutputWindow::SetInstance(collector_);
 }
 
@@ -199,14 +176,25 @@ void VtkMessages::throw_first_error(const char* who) const {
   fail(ErrorKind::runtime, who, ": VTK could not draw: ", text);
 }
 
+void require_png_name(const std::string& path) {
+  if (lower_case(std::filesystem::path(path).extension().string()) != ".png")
+    fail(ErrorKind::argument, path, ": pictures are written as PNG; the name must end with .png");
+}
+
+std::string bytes_of_png(vtkPNGWriter* writer, const VtkMessages& messages, const char* who) {
+  writer->WriteToMemoryOn();
+  writer->Write();
+  vtkUnsignedCharArray* png = writer->GetResult();
+  if (writer->GetErrorCode() != vtkErrorCode::NoError || !png || png->GetNumberOfTuples() == 0)
+    fail(ErrorKind::runtime, who,
+         ": cannot make a PNG: ", vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  messages.throw_first_error(who);
+  return {reinterpret_cast<const char*>(png->GetPointer(0)), static_cast<std::size_t>(png->GetNumberOfTuples())};
+}
+
 void write_png(const std::string& path, std::string_view png) {
   require_png_name(path);
   write_file(path, png);
-}
-
-void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who) {
-  require_png_name(path);
-  write_file(path, bytes_of_png(writer, messages, who));
 }
 
 std::string png_of_window(vtkRenderWindow* window, const VtkMessages& messages, const char* who) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <functional>
-#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -12,7 +11,13 @@
 #include <vtkRenderWindow.h>
 #include <vtkSmartPointer.h>
 
+#include "core/library_turn.hpp"
+
 namespace insonify {
+
+/// The turn of a thread in VTK, with FreeType and EGL: fonts, texts, messages and contexts exist once per process.
+/// Whatever uses one of them has it, by VtkMessages or of its own.
+using DrawingTurn = LibraryTurn<class Vtk>;
 
 /// A VTK render window without a screen: surfaceless EGL (Mesa), which needs neither an X server nor DISPLAY.
 /// Debian's VTK 9.1 supports only X windows and aborts the program if there is no display.
@@ -40,8 +45,7 @@ class EglWindow : public vtkGenericOpenGLRenderWindow {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-/// During its lifetime, collects what VTK would print to stderr and lets only one thread draw, because VTK's text
-/// renderer and message window exist once per process.
+/// During its lifetime, collects what VTK would print to stderr, and has the turn to draw.
 class VtkMessages {
  public:
   VtkMessages();
@@ -53,7 +57,7 @@ class VtkMessages {
   void throw_first_error(const char* who) const;
 
  private:
-  std::unique_lock<std::mutex> turn_;
+  DrawingTurn turn_;
   vtkSmartPointer<vtkOutputWindow> before_;
   vtkSmartPointer<vtkOutputWindow> collector_;
 };
@@ -61,13 +65,14 @@ class VtkMessages {
 /// Returns the window's back buffer as the bytes of a PNG. Throws Error(runtime) if VTK reported an error.
 std::string png_of_window(vtkRenderWindow* window, const VtkMessages& messages, const char* who);
 
-/// Writes the bytes of a PNG. Throws Error(file) if the file cannot be written, Error(argument) unless `path` ends with
-/// .png.
-void write_png(const std::string& path, std::string_view png);
+/// Returns the input of `writer` as the bytes of a PNG. Throws Error(runtime) if VTK reported an error.
+std::string bytes_of_png(vtkPNGWriter* writer, const VtkMessages& messages, const char* who);
 
-/// Writes the input of `writer` as PNG, to a temporary name that is then renamed. Throws Error(runtime) if VTK reported
-/// an error, Error(file) if the file cannot be written, Error(argument) unless `path` ends with .png.
-void write_png(vtkPNGWriter* writer, const std::string& path, const VtkMessages& messages, const char* who);
+/// Throws Error(argument) unless `path` ends with .png.
+void require_png_name(const std::string& path);
+
+/// Writes the bytes of a PNG. Throws Error(file) if the file cannot be written, and as require_png_name.
+void write_png(const std::string& path, std::string_view png);
 
 /// Writes the PNG that `draw` returns, as write_png. Under a limit of address space a child process draws, since Mesa
 /// ends its process where it gets no memory: Error(memory) then.

@@ -32,6 +32,7 @@ void require_map(const HorizontalMap& map, const char* who) {
 void save_map_image(const std::string& path, const HorizontalMap& map) {
   require_map(map, "save_map_image");
   const Grid<float>& first = map.fields.front().values;
+  const VtkMessages messages;
   vtkNew<vtkImageData> image;
   image->SetDimensions(static_cast<int>(first.rows()) + 1, static_cast<int>(first.cols()) + 1, 1);
   image->SetOrigin(map.x, map.y, 0);
@@ -43,7 +44,7 @@ void save_map_image(const std::string& path, const HorizontalMap& map) {
   list_units(image, units);
   image->GetCellData()->SetActiveScalars(map.fields.front().name.c_str());
   vtkNew<vtkXMLImageDataWriter> writer;
-  write_xml(*writer, image, path, "save_map_image");
+  write_xml(*writer, image, path, messages, "save_map_image");
 }
 
 void save_map_picture(const std::string& stem, const HorizontalMap& map, double window) {

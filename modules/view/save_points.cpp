@@ -25,6 +25,7 @@ void save_points(const std::string& path, const Soundings& soundings, const std:
       fail(ErrorKind::argument, "save_points: ", path, ": column '", name, "' has ", length,
            " entries, must have one for each of the ", soundings.size(), " soundings");
   };
+  const VtkMessages messages;
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -56,7 +57,7 @@ void save_points(const std::string& path, const Soundings& soundings, const std:
   columns->SetActiveScalars("level_db");
   list_units(data, units);
   vtkNew<vtkXMLPolyDataWriter> writer;
-  write_xml(*writer, data, path, "save_points");
+  write_xml(*writer, data, path, messages, "save_points");
 }
 
 }  // namespace insonify

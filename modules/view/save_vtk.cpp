@@ -27,14 +27,13 @@
 #include "core/text.hpp"
 #include "files/pending_file.hpp"
 #include "view/drawn_cells_internal.hpp"
-#include "view/off_screen_internal.hpp"
 #include "view/scene_lines_internal.hpp"
 #include "view/xml_file_internal.hpp"
 
 namespace insonify {
 
-void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const char* who) {
-  const VtkMessages messages;
+void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const VtkMessages& messages,
+               const char* who) {
   writer.SetInputData(data);
   writer.SetDataModeToAppended();
   writer.EncodeAppendedDataOff();
@@ -123,6 +122,7 @@ bool rows_are_alike(const BeamFan& fan, const std::vector<FanRow>& rows) {
 /// One grid of rows of the same bearings: a surface for one row, a volume for several.
 void save_rows(const std::string& path, const BeamFan& fan, const RangeGate& gate,
                const std::vector<SampleField>& fields, const Pose& world_from_head, const std::vector<FanRow>& rows) {
+  const VtkMessages messages;
   vtkNew<vtkStructuredGrid> grid;
   const std::vector<double> elevations = elevation_edges(rows);
   UnitList units{"Points: m"};
@@ -141,7 +141,7 @@ void save_rows(const std::string& path, const BeamFan& fan, const RangeGate& gat
   list_units(grid, units);
   grid->GetCellData()->SetActiveScalars(fields.front().name.c_str());
   vtkNew<vtkXMLStructuredGridWriter> writer;
-  write_xml(*writer, grid, path, "save_fan_grid");
+  write_xml(*writer, grid, path, messages, "save_fan_grid");
 }
 
 void require_valid(const LineSet& lines) {
@@ -178,6 +178,7 @@ std::vector<std::string> save_fan_grid(const std::string& path, const BeamFan& f
 void save_sample_image(const std::string& path, const BeamFan& fan, const RangeGate& gate,
                        const std::vector<SampleField>& fields) {
   require_fields(fan, gate, fields, "save_sample_image");
+  const VtkMessages messages;
   vtkNew<vtkImageData> image;
   image->SetDimensions(static_cast<int>(fan.beams()) + 1, static_cast<int>(gate.bins()) + 1, 1);
   image->SetOrigin(0, gate.min_range, 0);
@@ -189,7 +190,7 @@ void save_sample_image(const std::string& path, const BeamFan& fan, const RangeG
   list_units(image, units);
   image->GetCellData()->SetActiveScalars(fields.front().name.c_str());
   vtkNew<vtkXMLImageDataWriter> writer;
-  write_xml(*writer, image, path, "save_sample_image");
+  write_xml(*writer, image, path, messages, "save_sample_image");
 }
 
 void save_series(const std::string& path, const std::vector<SeriesEntry>& entries) {
@@ -206,13 +207,14 @@ void save_series(const std::string& path, const std::vector<SeriesEntry>& entrie
 
 void save_lines(const std::string& path, const LineSet& lines) {
   require_valid(lines);
+  const VtkMessages messages;
   const vtkSmartPointer<vtkPolyData> data = polylines(lines.points, VTK_DOUBLE);
   UnitList units;
   for (const LineSet::Field& field : lines.fields)
     add_array<vtkFloatArray>(data->GetCellData(), field.name, field.values, "", units);
   if (!lines.fields.empty()) data->GetCellData()->SetActiveScalars(lines.fields.front().name.c_str());
   vtkNew<vtkXMLPolyDataWriter> writer;
-  write_xml(*writer, data, path, "save_lines");
+  write_xml(*writer, data, path, messages, "save_lines");
 }
 
 }  // namespace insonify

@@ -10,6 +10,7 @@
 #include <vtkInformationStringKey.h>
 #include <vtkSmartPointer.h>
 
+#include "view/off_screen_internal.hpp"
 #include "view/save_vtk.hpp"
 
 class vtkDataSet;
@@ -17,8 +18,10 @@ class vtkXMLWriter;
 
 namespace insonify {
 
-/// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed.
-void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const char* who);
+/// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed. `messages` have been
+/// collected since before `data` was made.
+void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const VtkMessages& messages,
+               const char* who);
 
 /// A list of units, which becomes the text array `units` of the field data, "name: unit" each.
 using UnitList = std::vector<std::string>;

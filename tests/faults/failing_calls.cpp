@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "faults/failing_calls.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <vector>
 
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -21,7 +24,7 @@ namespace {
 
 // Shared with the processes that are forked.
 struct Plan {
-  std::atomic<long> calls{0}, chosen{0};
+  std::atomic<long> calls{0}, bytes{0}, chosen{0};
   std::atomic<bool> failed{false};
   Failure failure = Failure::none;
   char root[1024] = {};
@@ -44,7 +47,8 @@ enum CallKind { is_write = 1, is_sync = 2, is_name = 4 };  // what the call does
 
 // 0, or the error that this call is to report; -1: it shall write less.
 int error_of_call(CallKind kind) {
-  if (++plan->calls != plan->chosen) return 0;
+  ++plan->calls;
+  if (plan->failure == Failure::full_disk || plan->calls != plan->chosen) return 0;
   plan->failed = true;
   switch (plan->failure) {
     case Failure::kill:
@@ -63,6 +67,7 @@ int error_of_call(CallKind kind) {
     case Failure::short_write:
       if (kind == is_write) return -1;
       break;
+    case Failure::full_disk:
     case Failure::none:
       break;
   }
@@ -86,15 +91,25 @@ Result failing(bool watched, CallKind kind, Result failed, const Call& call) {
   return failed;
 }
 
+// How many of `count` bytes the disk still holds.
+std::size_t bytes_on_disk(std::size_t count) {
+  const long before = plan->bytes.fetch_add(static_cast<long>(count));
+  if (plan->failure != Failure::full_disk) return count;
+  const std::size_t room = static_cast<std::size_t>(std::max(0L, plan->chosen - before));
+  if (room < count) plan->failed = true;
+  return std::min(room, count);
+}
+
 // The same of a write, which may become shorter.
 template <typename Write>
 ssize_t writing(int file, std::size_t count, const Write& write) {
-  const int error = is_watched(file) ? error_of_call(is_write) : 0;
-  if (error > 0) {
-    errno = error;
-    return -1;
-  }
-  return write(error < 0 ? (count + 1) / 2 : count);
+  if (!is_watched(file)) return write(count);
+  int error = error_of_call(is_write);
+  const std::size_t held = error == 0 ? bytes_on_disk(count) : (count + 1) / 2;
+  if (held == 0 && count > 0) error = ENOSPC;
+  if (error <= 0) return write(held);
+  errno = error;
+  return -1;
 }
 
 }  // namespace
@@ -103,11 +118,13 @@ namespace insonify {
 
 void fail_call(const std::string& root, long chosen, Failure failure) {
   if (!plan) plan = new (mmap(nullptr, sizeof(Plan), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) Plan;
-  plan->calls = 0, plan->chosen = chosen, plan->failed = false, plan->failure = failure;
+  plan->calls = 0, plan->bytes = 0, plan->chosen = chosen, plan->failed = false, plan->failure = failure;
   std::snprintf(plan->root, sizeof plan->root, "%s", root.c_str());
 }
 
 long counted_calls() { return plan->calls; }
+
+long counted_bytes() { return plan->bytes; }
 
 bool has_failed() { return plan->failed; }
 
@@ -134,12 +151,29 @@ ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) {
 
 ssize_t writev(int file, const iovec* parts, int count) {
   NEXT(writev);
-  return failing<ssize_t>(is_watched(file), is_write, -1, [&] { return on(file, parts, count); });
+  std::vector<iovec> held(parts, parts + count);
+  std::size_t all = 0;
+  for (const iovec& part : held) all += part.iov_len;
+  return writing(file, all, [&](size_t room) {
+    for (iovec& part : held) room -= part.iov_len = std::min(part.iov_len, room);
+    return on(file, held.data(), count);
+  });
+}
+
+ssize_t sendfile(int to, int from, off_t* at, size_t count) noexcept {
+  NEXT(sendfile);
+  return writing(to, count, [&](size_t n) { return on(to, from, at, n); });
 }
 
 size_t fwrite(const void* bytes, size_t size, size_t count, FILE* file) {
   NEXT(fwrite);
-  return failing<size_t>(plan && is_watched(fileno(file)), is_write, 0, [&] { return on(bytes, size, count, file); });
+  if (!plan || !file) return on(bytes, size, count, file);
+  const ssize_t written = writing(fileno(file), size * count, [&](size_t n) {
+    const size_t put = on(bytes, 1, n, file);
+    if (n < size * count) errno = ENOSPC;
+    return static_cast<ssize_t>(put);
+  });
+  return written < 0 || size == 0 ? 0 : static_cast<size_t>(written) / size;
 }
 
 int fsync(int file) {

@@ -7,17 +7,21 @@
 // system would report it.
 namespace insonify {
 
-/// What happens to the chosen call.
-enum class Failure { none, no_space, io_error, no_access, interrupted, short_write, kill };
+/// What happens to the chosen call; full_disk: to all writes from the chosen byte on.
+enum class Failure { none, no_space, io_error, no_access, interrupted, short_write, kill, full_disk };
 
 /// Counts calls that concern files below `root`, or of a relative name, from 1 on, and lets number `chosen` fail. A call to
-/// which `failure` cannot happen (a rename is not short) is left alone.
+/// which `failure` cannot happen (a rename is not short) is left alone. On a full disk `chosen` bytes can be written, the
+/// last of them by a short write.
 void fail_call(const std::string& root, long chosen, Failure failure);
 
 /// Number of such calls so far, also of processes that were forked after fail_call().
 long counted_calls();
 
-/// Whether the chosen call has failed.
+/// Number of bytes that these calls wrote.
+long counted_bytes();
+
+/// Whether a call has failed.
 bool has_failed();
 
 }  // namespace insonify

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes every call by which a verb writes fail, one at a time and in every way, or kills the verb there or at a random time.
+// Makes every call by which a verb writes fail, one at a time and in every way, or kills the verb there or at a random time,
+// or runs it on a disk that is full after some bytes.
 // An error must be one line and exit code 4, the old output as it was, and no other file there; success in spite of it, as
 // after a short write, must give the bytes of an undisturbed run. After a kill the old or the new output must be whole, and
 // the next run must leave nothing else.
@@ -9,9 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -21,75 +20,27 @@
 #include <wordexp.h>
 
 #include "faults/failing_calls.hpp"
+#include "faults/fault_cases.hpp"
+#include "faults/files_below.hpp"
 #include "tool/command/command_line.hpp"
+#include "tool/verbs_in_help.hpp"
 
 namespace fs = std::filesystem;
-using insonify::Failure;
+using namespace insonify;
 
 namespace {
-
-using Files = std::map<std::string, std::string>;  // bytes of all files below a folder; a folder's are "/"
-
-// A command that replaces `output`, and the one that wrote what it replaces.
-struct Case {
-  const char *verb, *output, *before, *command;
-  bool resumes = false;  // keeps what is done, and completes it when it is run again
-};
-
-const char* const ping = "ping poles.ply --no-picture -q --sonar p900-45 --set sonar.beams=4 --pose=0,0,0,0,0,0 ";
-const char* const side_ping =
-    "ping poles.ply --no-picture -q --sonar starfish-450 --set sonar.range_resolution_m=0.05 --pose=0,0,0,0,0,0 ";
-
-std::vector<Case> cases() {
-  static const std::string old_ping = std::string(ping) + "--range 3:4 -o out",
-                           new_ping = std::string(ping) + "--range 3:5 --layers --keep contributors -o out --force";
-  return {
-      {"make-scene", "a.ply", "make-scene poles --points 50 -o a.ply", "make-scene poles --points 60 -o a.ply --force"},
-      {"make-scene", "a.pcd", "make-scene poles --points 50 -o a.pcd", "make-scene poles --points 60 -o a.pcd --force"},
-      {"make-scene", "a.tiles", "make-scene poles --points 50 -o a.tiles",
-       "make-scene poles --points 60 -o a.tiles --force"},
-      {"prepare", "p.ply", "prepare small.ply -o p.ply", "prepare poles.ply -o p.ply --force"},
-      {"prepare", "p.tiles", "prepare small.ply -o p.tiles", "prepare poles.ply -o p.tiles --force"},
-      {"ping", "out", old_ping.c_str(), new_ping.c_str()},
-      {"merge", "both", "merge run -o both", "merge run run -o both --force"},
-      {"export", "vtk", "export short -o vtk", "export run -o vtk --force"},
-      {"export", "b.las", "export short --to las --utm 32N -o b.las", "export run --to las --utm 32N -o b.las --force"},
-      {"export", "b.csv", "export short --to csv -o b.csv", "export run --to csv -o b.csv --force"},
-      {"export", "b.tif", "export short --to geotiff --cell 0.1 --utm 32N -o b.tif",
-       "export run --to geotiff --cell 0.1 --utm 32N -o b.tif --force"},
-      {"export", "b.gsf", "export short --to gsf --anchor 54,8,90 -o b.gsf",
-       "export run --to gsf --anchor 54,8,90 -o b.gsf --force"},
-      {"export", "b.mcap", "export short --to mcap -o b.mcap", "export run --to mcap -o b.mcap --force"},
-      {"export", "b.xtf", "export short-side --to xtf --anchor 54,8 -o b.xtf",
-       "export side --to xtf --anchor 54,8 -o b.xtf --force"},
-      {"survey", "survey", "", "survey mission.toml --pings-per-block 2 -j 1 -o survey", true},
-  };
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
-}
-
-Files files_in(const fs::path& folder) {
-  Files files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    files[entry.path().lexically_relative(folder).string()] = entry.is_directory() ? "/" : bytes_of(entry.path());
-  return files;
-}
 
 // Runs `insonify COMMAND -q` in this folder, in a process of its own.
 struct Ended {
   int status;
-  std::string said;
+  std::string said, printed;
 
   int code() const { return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status); }
 };
 
 Ended run_apart(const std::string& command, double kill_after = -1) {
-  const std::string said = "../said";
+  const std::string outside = fs::current_path().parent_path(), said = outside + "/said",
+                    printed = outside + "/printed";
   const pid_t child = fork();
   if (child == 0) {
     alarm(120);
@@ -97,9 +48,10 @@ Ended run_apart(const std::string& command, double kill_after = -1) {
     if (wordexp(("insonify " + command + (command.find(" -q") == command.npos ? " -q" : "")).c_str(), &words,
                 WRDE_NOCMD) != 0)
       _exit(99);
-    const int to = ::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), nowhere = ::open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO), dup2(to, STDERR_FILENO);
-    const int code = insonify::tool::run_tool(static_cast<int>(words.we_wordc), words.we_wordv);
+    constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC;
+    dup2(::open(printed.c_str(), flags, 0600), STDOUT_FILENO);
+    dup2(::open(said.c_str(), flags, 0600), STDERR_FILENO);
+    const int code = tool::run_tool(static_cast<int>(words.we_wordc), words.we_wordv);
     std::fflush(nullptr);
     _exit(code);
   }
@@ -109,61 +61,36 @@ Ended run_apart(const std::string& command, double kill_after = -1) {
   }
   int status = -1;
   waitpid(child, &status, 0);
-  return {status, bytes_of(said)};
-}
-
-// Run times, peak memory and dates are in manifest.json and in blocks' marks; these are compared by their end alone.
-bool same(const Files& a, const Files& b) {
-  if (a.size() != b.size()) return false;
-  for (auto x = a.begin(), y = b.begin(); x != a.end(); ++x, ++y) {
-    if (x->first != y->first) return false;
-    const std::string name = fs::path(x->first).filename().string();
-    const bool timed = name == "manifest.json" || name.ends_with(".json") || name.ends_with(".jsonl");
-    if (timed ? x->second.empty() || x->second.back() != y->second.back() : x->second != y->second) return false;
-  }
-  return true;
-}
-
-std::string difference(const Files& found, const Files& expected) {
-  std::string text;
-  for (const auto& [name, bytes] : found)
-    if (!expected.contains(name)) text += " +" + name;
-  for (const auto& [name, bytes] : expected)
-    if (!found.contains(name))
-      text += " -" + name;
-    else if (found.at(name) != bytes)
-      text += " ~" + name;
-  return text;
+  return {status, bytes_of(said), bytes_of(printed)};
 }
 
 // One case with its files before, and after an undisturbed run.
 class Sweep {
  public:
-  Sweep(const Case& each, const fs::path& kept, const fs::path& work) : case_(each), kept_(kept), work_(work) {
-    if (*each.before && run_apart(each.before).code() != 0) std::printf("%s fails\n", each.before);
+  Sweep(const FaultCase& each, const fs::path& kept, const fs::path& work) : case_(each), kept_(kept), work_(work) {
+    if (!each.before.empty()) require_good(each.before, run_apart(each.before));
     fs::remove_all(kept_);
     fs::copy(work_, kept_, fs::copy_options::recursive);
     before_ = files_in(work_);
-    insonify::fail_call(work_.string(), 0, Failure::none);
-    const Ended whole = run_apart(each.command);
-    calls = insonify::counted_calls();
-    if (whole.code() != 0) std::printf("%s fails: %s\n", each.command, whole.said.c_str());
+    fail_call(work_.string(), 0, Failure::none);
+    require_good(each.command, run_apart(each.command));
+    calls = counted_calls(), bytes = counted_bytes();
     after_ = files_in(work_);
     restore();
   }
 
-  // True if the answer to the failure of call `number` is good.
+  // True if the answer to the failure of call `number` is good, or to a disk that is full after so many bytes.
   bool holds(long number, Failure failure, const char* name) {
-    insonify::fail_call(work_.string(), number, failure);
+    fail_call(work_.string(), number, failure);
     const Ended ended = run_apart(case_.command);
-    const bool failed = insonify::has_failed();
-    insonify::fail_call(work_.string(), 0, Failure::none);
-    const std::string problem = failure == Failure::kill ? after_kill() : after_failure(ended);
+    const bool failed = has_failed();
+    fail_call(work_.string(), 0, Failure::none);
+    const std::string problem = failure == Failure::kill ? after_kill() : after_failure(ended, failure);
     restore();
     if (failed || !problem.empty()) ++tried;
     if (problem.empty()) return true;
-    std::printf("%s -o %s: call %ld of %ld, %s: %s; exit %d: %s\n", case_.verb, case_.output, number, calls, name,
-                problem.c_str(), ended.code(), ended.said.c_str());
+    std::printf("%s -o %s: %ld of %ld calls, %ld bytes, %s: %s; exit %d: %.600s\n", case_.verb.c_str(),
+                case_.output.c_str(), number, calls, bytes, name, problem.c_str(), ended.code(), ended.said.c_str());
     return false;
   }
 
@@ -174,29 +101,47 @@ class Sweep {
     restore();
     ++tried;
     if (!problem.empty())
-      std::printf("%s -o %s: killed after %g s: %s\n", case_.verb, case_.output, seconds, problem.c_str());
+      std::printf("%s -o %s: killed after %g s: %s\n", case_.verb.c_str(), case_.output.c_str(), seconds,
+                  problem.c_str());
     return problem.empty();
   }
 
-  long calls = 0, tried = 0;
+  long calls = 0, bytes = 0, tried = 0;
+  bool begins_well = true;  // whether the commands succeed undisturbed
 
  private:
-  std::string after_failure(const Ended& ended) {
+  using Kind = FaultCase::Kind;
+
+  void require_good(const std::string& command, const Ended& ended) {
+    if (ended.code() == 0) return;
+    std::printf("%s fails: %s\n", command.c_str(), ended.said.c_str());
+    begins_well = false;
+  }
+
+  bool is_new(const Files& found) const { return same(found, after_, case_.kind); }
+
+  std::string after_failure(const Ended& ended, Failure failure) {
     const Files found = files_in(work_);
-    if (ended.code() == 0) return same(found, after_) ? "" : "success with other files:" + difference(found, after_);
-    if (ended.code() != 4 && !(case_.resumes && ended.code() == 5)) return "exit code is not 4";
+    if (ended.code() == 0) return is_new(found) ? "" : "success with other files:" + difference(found, after_);
+    if (ended.code() != 4 && !(case_.kind == Kind::resumes && ended.code() == 5)) return "exit code is not 4";
     if (std::count(ended.said.begin(), ended.said.end(), '\n') != 1) return "not one line";
-    if (case_.resumes) return completed();
+    if (failure == Failure::full_disk)
+      for (const std::string& part : {std::string("No space left on device"), fs::path(case_.output).stem().string()})
+        if (ended.said.find(part) == std::string::npos) return "does not say " + part;
+    if (case_.kind == Kind::resumes) return completed();
     // The last step: the name is there, but the disk does not confirm it.
-    if (ended.said.find("is complete, but") != std::string::npos && same(found, after_)) return "";
-    return same(found, before_) ? "" : "other files:" + difference(found, before_);
+    if (ended.said.find("is complete, but") != std::string::npos && is_new(found)) return "";
+    return same(found, before_, case_.kind) ? "" : "other files:" + difference(found, before_);
   }
 
   std::string after_kill() {
     const Files found = visible(files_in(work_));
-    if (!case_.resumes && !same(found, before_) && !same(found, after_))
-      return "neither old nor new:" + difference(found, before_);
-    return completed();
+    bool whole = case_.kind == Kind::resumes || same(found, before_, case_.kind) || is_new(found);
+    if (case_.kind == Kind::pair)
+      whole = std::ranges::all_of(found, [&](const auto& file) {
+        return file.second == before_[file.first] || file.second == after_[file.first];
+      });
+    return whole ? completed() : "neither old nor new:" + difference(found, before_);
   }
 
   // What the next run leaves.
@@ -204,7 +149,7 @@ class Sweep {
     const Ended again = run_apart(case_.command);
     if (again.code() != 0) return "the next run ends with " + std::to_string(again.code()) + ": " + again.said;
     const Files found = files_in(work_);
-    return same(found, after_) ? "" : "the next run leaves" + difference(found, after_);
+    return is_new(found) ? "" : "the next run leaves" + difference(found, after_);
   }
 
   static Files visible(Files files) {
@@ -219,60 +164,98 @@ class Sweep {
     fs::copy(kept_, work_, fs::copy_options::recursive);
   }
 
-  const Case& case_;
+  const FaultCase& case_;
   fs::path kept_, work_;
   Files before_, after_;
 };
 
 // What the cases start from.
 void make_inputs() {
-  const std::string to_run = std::string(ping) + "--range 3:5 -o run",
-                    to_short = std::string(ping) + "--range 3:4 -o short",
-                    to_side = std::string(side_ping) + "--range 3:5 -o side",
-                    to_short_side = std::string(side_ping) + "--range 3:4 -o short-side";
-  for (const std::string& command :
-       {std::string("make-scene poles --points 50 -o small.ply"),
-        std::string("make-scene poles --points 4000 -o poles.ply"), to_run, to_short, to_side, to_short_side,
-        std::string("make-mission lawnmower --scene poles.ply --sonar p900-45 --range 3:5 --centre 0,0,0 --size 2,1 "
-                    "--spacing 4 --rate 2 -o mission.toml")})
+  std::ofstream("echoes.csv") << "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n3.5,0,0,0.01,0.6,-0.3\n";
+  for (const std::string& command : commands_for_inputs())
     if (const Ended made = run_apart(command); made.code() != 0)
       std::printf("%s fails: %s\n", command.c_str(), made.said.c_str());
 }
+
+// The number of verbs that have --output and no case.
+long verbs_without_case(const std::vector<FaultCase>& cases) {
+  long without = 0;
+  for (const std::string& verb : verbs_in(run_apart("--help").printed)) {
+    const bool writes = run_apart(verb + " --help").printed.find("--output") != std::string::npos;
+    if (!writes || std::ranges::any_of(cases, [&](const FaultCase& each) { return each.verb == verb; })) continue;
+    std::printf("%s has --output and no case\n", verb.c_str());
+    ++without;
+  }
+  return without;
+}
+
+constexpr std::pair<Failure, const char*> failures[] = {
+    {Failure::no_space, "ENOSPC"},   {Failure::io_error, "EIO"},      {Failure::no_access, "EACCES"},
+    {Failure::interrupted, "EINTR"}, {Failure::short_write, "short"}, {Failure::kill, "kill"}};
+constexpr long disk_sizes = 30;
+
+// What is done to each case; the functions return how many answers were wrong.
+struct Sweeping {
+  std::string mode;
+  long number;  // every such failure or size of all cases; of kills the count of each case
+  std::mt19937_64 random;
+  long failure_turn = 0, size_turn = 0;
+
+  long kills(Sweep& sweep, long count) {
+    std::uniform_real_distribution<> moment(0, 0.3);
+    long bad = 0;
+    for (long i = 0; i < count; ++i) bad += !sweep.survives_kill(moment(random));
+    return bad;
+  }
+  long full_disks(Sweep& sweep, long step) {
+    long bad = 0;
+    for (long size = 0; size < disk_sizes; ++size)
+      if (size_turn++ % step == 0)
+        bad += !sweep.holds(size * sweep.bytes / disk_sizes, Failure::full_disk, "full disk");
+    return bad;
+  }
+  long faults(Sweep& sweep, long step) {
+    long bad = 0;
+    for (long call = 1; call <= sweep.calls; ++call)
+      for (const auto& [failure, name] : failures)
+        if (failure_turn++ % step == 0) bad += !sweep.holds(call, failure, name);
+    return bad;
+  }
+  long bad_of(Sweep& sweep) {
+    if (mode == "kills") return kills(sweep, number);
+    if (mode == "disk") return full_disks(sweep, number);
+    if (mode == "faults") return faults(sweep, number);
+    return faults(sweep, number) + full_disks(sweep, disk_sizes - 1) + kills(sweep, 1);
+  }
+};
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 4) {
-    std::fprintf(stderr, "usage: fault_sweep faults VERB|all STEP\n       fault_sweep kills VERB|all COUNT [SEED]\n");
+    std::fprintf(
+        stderr,
+        "usage: fault_sweep faults|disk|sample VERB|all STEP\n       fault_sweep kills VERB|all COUNT [SEED]\n");
     return 2;
   }
-  const bool kills = std::strcmp(argv[1], "kills") == 0;
   const std::string verb = argv[2];
-  const long number = std::max(1L, std::atol(argv[3]));
+  Sweeping sweeping{argv[1], std::max(1L, std::atol(argv[3])),
+                    std::mt19937_64(argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1)};
   char folder[] = "/tmp/insonify-faults-XXXXXX";
   if (!mkdtemp(folder)) return 2;
   const fs::path top = folder, work = top / "work";
   fs::create_directory(work);
   fs::current_path(work);
   make_inputs();
-  static constexpr std::pair<Failure, const char*> failures[] = {
-      {Failure::no_space, "ENOSPC"},   {Failure::io_error, "EIO"},      {Failure::no_access, "EACCES"},
-      {Failure::interrupted, "EINTR"}, {Failure::short_write, "short"}, {Failure::kill, "kill"}};
-  std::mt19937_64 random(argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1);
-  long bad = 0, tried = 0, turn = 0;
-  std::printf("| verb | output | calls | tried | bad |\n|---|---|---|---|---|\n");
-  for (const Case& each : cases()) {
+  const std::vector<FaultCase> cases = fault_cases();
+  long bad = verbs_without_case(cases), tried = 0;
+  std::printf("| verb | output | calls | bytes | tried | bad |\n|---|---|---|---|---|---|\n");
+  for (const FaultCase& each : cases) {
     if (verb != "all" && verb != each.verb) continue;
     Sweep sweep(each, top / "kept", work);
-    long wrong = 0;
-    if (kills) {
-      for (long i = 0; i < number; ++i) wrong += !sweep.survives_kill(std::uniform_real_distribution<>(0, 0.3)(random));
-    } else {
-      for (long call = 1; call <= sweep.calls; ++call)
-        for (const auto& [failure, name] : failures)
-          if (turn++ % number == 0) wrong += !sweep.holds(call, failure, name);
-    }
-    std::printf("| %s | %s | %ld | %ld | %ld |\n", each.verb, each.output, sweep.calls, sweep.tried, wrong);
+    const long wrong = sweeping.bad_of(sweep) + !sweep.begins_well;
+    std::printf("| %s | %s | %ld | %ld | %ld | %ld |\n", each.verb.c_str(), each.output.c_str(), sweep.calls,
+                sweep.bytes, sweep.tried, wrong);
     std::fflush(stdout);
     bad += wrong, tried += sweep.tried;
   }

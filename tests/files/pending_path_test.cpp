@@ -92,6 +92,33 @@ TEST(PendingPath, folder_takes_the_place_of_another) {
   EXPECT_EQ(std::distance(fs::directory_iterator(fs::path(out).parent_path()), {}), 1);
 }
 
+TEST(PendingPath, files_that_are_one_output_get_their_names_together) {
+  write_text(own_path("old"), "old");
+  const auto write_pair = [](bool whole) {
+    PendingPath old(own_path("old")), fresh(own_path("fresh")), last(own_path("last"));
+    for (const PendingPath* path : {&old, &fresh, &last}) write_text(path->temporary(), "new");
+    if (!whole) fs::remove(last.temporary());
+    PendingPath::commit_together({&old, &fresh, &last});
+  };
+  EXPECT_THAT(error_with_kind([&] { write_pair(false); }), HasSubstr("last: cannot be written: No such file"));
+  EXPECT_EQ(text_of(own_path("old")), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(own_folder()), {}), 1);
+  write_pair(true);
+  for (const char* name : {"old", "fresh", "last"}) EXPECT_EQ(text_of(own_path(name)), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(own_folder()), {}), 3);
+}
+
+TEST(PendingFile, several_files_are_written_or_none) {
+  write_text(own_path("a"), "old");
+  EXPECT_THAT(error_with_kind([] {
+                write_files({{own_path("a"), "new"}, {own_path("none/b"), "new"}});
+              }),
+              HasSubstr("file: "));
+  EXPECT_EQ(text_of(own_path("a")), "old");
+  write_files({{own_path("a"), "new"}, {own_path("b"), "two"}});
+  EXPECT_EQ(text_of(own_path("a")) + text_of(own_path("b")), "newtwo");
+}
+
 TEST(PendingPath, refuses_names_that_no_file_may_have) {
   const std::string longest(255, 'n'), too_long(256, 'n');
   write_file(own_path(longest.c_str()), "text");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fstream>
+#include <thread>
 
 #include "hdf/hdf5_internal.hpp"
 #include "support/test.hpp"
@@ -84,4 +85,18 @@ TEST(Hdf5File, appears_whole_or_not_at_all) {
   struct Stop {};
   EXPECT_THROW(write_hdf5(path, [](const FileContext&, hid_t) { throw Stop{}; }), Stop);
   EXPECT_TRUE(std::filesystem::is_empty(own_folder()));
+}
+
+// A child process finds the lock of HDF5 as it was when the child was started.
+TEST(Hdf5File, is_read_in_a_child_while_another_thread_writes) {
+  const std::string path = plain_file();
+  std::jthread writer([to = own_path("other.h5")](const std::stop_token& end) {
+    const std::vector<float> numbers(1 << 16);
+    while (!end.stop_requested())
+      write_hdf5(to, [&](const FileContext& place, hid_t file) {
+        for (const char* name : {"/a", "/b", "/c", "/d"})
+          write_numbers(place, file, {name, ""}, {numbers.size()}, numbers.data());
+      });
+  });
+  for (int i = 0; i < 20; ++i) find_numbers(path, H5T_IEEE_F32LE, {4});
 }

@@ -184,12 +184,8 @@ void accuracy(const AccuracyOptions& o) {
   progress.step("writing " + o.run.output);
   write_file(directory.file("sweep.csv"), sweep_csv(rows));
   if (!sampling.empty()) write_file(directory.file("sampling.csv"), sampling_csv(sampling));
-  if (!o.run.no_picture) try {
-      manifest["pictures"] = draw_accuracy(rows, sampling, directory);
-    } catch (const Error& error) {  // without OpenGL the numbers are still written
-      progress.note(std::string("no pictures: ") + error.what());
-      manifest["notes"].push_back(std::string("no pictures: ") + error.what());
-    }
+  const auto draw = [&] { manifest["pictures"] = draw_accuracy(rows, sampling, directory); };
+  if (!o.run.no_picture) draw_if_possible("no pictures", draw, manifest, progress);
   manifest["summary"] = accuracy_summary(rows);
   manifest["peak_memory_mib"] = peak_memory_mib();
   write_manifest(directory, manifest);

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "files/pending_file.hpp"
 #include "returns/picture_grid.hpp"
+#include "store/output_rules.hpp"
 #include "tool/dataset/label_pictures.hpp"
 #include "tool/image/image.hpp"
 #include "view/colour_maps_internal.hpp"
@@ -20,6 +21,8 @@ void draw_labels(const PictureRequest& job) {
   if (whole.labels.empty())
     fail(ErrorKind::content, job.run.path, ": ping ", job.ping,
          " has no labels: make the run with --keep contributors");
+  const std::string json = std::filesystem::path(job.path).replace_extension(".json").string();
+  require_free_file(json, job.options.force, {job.run.path});
   const Ping ping = row_of(whole, rows_of(whole) / 2);
   const std::vector<std::string> classes = class_names(ping.labels);
   const Grid<float> level = level_image(ping, tvg_of(job.options, whole.absorption_db_per_m)).level_db;
@@ -27,14 +30,14 @@ void draw_labels(const PictureRequest& job) {
   const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, least_label_share, classes), level,
                                                     parse_min_level(job.options.min_level, scale.min_db));
   const FanRaster raster = fan_raster(ping.fan, ping.gate, job.picture.width);
-  save_label_png(job.path, fan_picture(category, raster, std::uint8_t{0}));
   nlohmann::ordered_json palette{{"least_share", least_label_share},
                                  {"metres_per_pixel", raster.metres_per_pixel},
                                  {"head_column", raster.head_column},
                                  {"head_row", raster.head_row},
                                  {"classes", palette_json(classes)}};
   for (auto& row : palette["classes"]) row["samples"] = (category == row["value"].get<std::uint8_t>()).count();
-  write_file(std::filesystem::path(job.path).replace_extension(".json").string(), palette.dump(2) + "\n");
+  write_files({{json, palette.dump(2) + "\n"},
+               {job.path, label_png(job.path, fan_picture(category, raster, std::uint8_t{0}))}});
 }
 
 }  // namespace

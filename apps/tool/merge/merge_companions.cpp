@@ -2,7 +2,9 @@
 #include "tool/merge/merge_companions.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 
 #include "core/error.hpp"
 #include "files/path_status.hpp"
+#include "files/pending_file.hpp"
 #include "returns/sounding_columns.hpp"
 #include "scene_io/insonification_file.hpp"
 #include "scene_io/load_scene.hpp"
@@ -57,9 +60,14 @@ void copy_contributors(const RunDirectory& directory, const std::vector<std::str
   fs::create_directory(directory.file("contributors"));
   for (std::size_t p = 0; p < merged.origins.size(); ++p) {
     const std::string to = directory.file(fmt::format("contributors/{:06}.h5", p));
-    std::error_code error;
-    fs::copy_file(files[merged.origins[p].cube], to, error);
-    if (error) fail(ErrorKind::file, to, ": cannot be written: ", error.message());
+    const std::string& from = files[merged.origins[p].cube];
+    PendingFile pending(to);
+    errno = 0;
+    std::ifstream in(from, std::ios::binary);
+    std::ofstream out(pending.temporary(), std::ios::binary);
+    if (!in) fail(ErrorKind::file, from, ": cannot be read");
+    out << in.rdbuf();  // copy_file reports a full disk as an error of input or output
+    pending.commit(out);
   }
 }
 

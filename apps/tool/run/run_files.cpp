@@ -86,21 +86,13 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
   });
   write_file(directory.file("run.toml"), run_toml(run, setup, settings));
 
-  // Without OpenGL or memory for it the data is still written.
-  const auto no_picture = [&](const std::string& reason) {
-    progress.note("no fan.png: " + reason);
-    manifest["notes"].push_back("no fan.png: " + reason);
+  const auto draw = [&] {
+    PictureOptions options;
+    options.title = picture_title(setup.head.name, ping);
+    options.trim = true;
+    show_fan(level_image(ping, Tvg{40, ping.absorption_db_per_m}), options, directory.file("fan.png"));
   };
-  if (!run.no_picture) try {
-      PictureOptions options;
-      options.title = picture_title(setup.head.name, ping);
-      options.trim = true;
-      show_fan(level_image(ping, Tvg{40, ping.absorption_db_per_m}), options, directory.file("fan.png"));
-    } catch (const Error& error) {
-      no_picture(error.what());
-    } catch (const std::bad_alloc&) {
-      no_picture("out of memory");
-    }
+  if (!run.no_picture) draw_if_possible("no fan.png", draw, manifest, progress);
 
   manifest[digests_key]["cube.h5"] = digest.get();
   if (ping.expected_level) manifest["pressure"] = expected_level_text;
@@ -114,6 +106,21 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
                        {"sound_speed", ping.sound_speed},
                        {"absorption_db_per_m", ping.absorption_db_per_m}};
   manifest["peak_memory_mib"] = peak_memory_mib();
+}
+
+void draw_if_possible(const std::string& lacks, const std::function<void()>& draw, ordered_json& manifest,
+                      Progress& progress) {
+  std::string reason;
+  try {
+    return draw();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::runtime && error.kind() != ErrorKind::memory) throw;
+    reason = error.what();
+  } catch (const std::bad_alloc&) {
+    reason = "out of memory";
+  }
+  progress.note(lacks + ": " + reason);
+  manifest["notes"].push_back(lacks + ": " + reason);
 }
 
 std::string picture_title(const std::string& sonar, const Ping& ping) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,11 @@ namespace insonify::tool {
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
                const HeadSetup& setup, Ping ping, const std::string& settings, nlohmann::ordered_json& manifest,
                Progress& progress);
+
+/// Draws a picture that a run may lack: where there is no OpenGL, or no memory for it, the data are written all the
+/// same, and a note that begins with `lacks` says why. An error of any other kind, such as a full disk, ends the run.
+void draw_if_possible(const std::string& lacks, const std::function<void()>& draw, nlohmann::ordered_json& manifest,
+                      Progress& progress);
 
 /// The text of a run.toml, with `settings` as from settings_as_toml.
 std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings);
