@@ -13,6 +13,7 @@
 
 #include <unistd.h>
 
+#include "files/sha256.hpp"
 #include "support/tile_parts.hpp"
 
 namespace fs = std::filesystem;
@@ -160,6 +161,26 @@ std::string in_one(const Files& files) {
   return bytes;
 }
 
+/// Puts the digests of blocks as they are into their marks.
+void renew_marks(Files& files) {
+  const auto content_of = [&](const std::string& name) -> std::string* {
+    for (auto& [other, content] : files)
+      if (other == name) return &content;
+    return nullptr;
+  };
+  for (const auto& [name, content] : Files(files)) {
+    if (!name.ends_with(".done")) continue;
+    const std::string stem = name.substr(0, name.size() - 5);
+    for (const auto& [key, ending] : {std::pair("cube_sha256 = \"", ".h5"), std::pair("returns_sha256 = \"", ".ply")}) {
+      std::string& mark = *content_of(name);
+      const std::string* const block = content_of(stem + ending);
+      const std::size_t at = mark.find(key), digits = 64;
+      if (block && at != mark.npos && mark.size() >= at + std::strlen(key) + digits)
+        mark.replace(at + std::strlen(key), digits, sha256_of(*block));
+    }
+  }
+}
+
 bool stays_below(const std::string& name) {
   const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("._-/", c); };
   return !name.empty() && name.front() != '/' && name.back() != '/' && name.find("..") == name.npos &&
@@ -186,7 +207,9 @@ std::string damage_tiles(const std::string& bytes, const DamageSource& source) {
 std::string damage_folder(const std::string& bytes, const DamageSource& source) {
   Files files = files_in_one(bytes);
   for (std::size_t left = 1 + source.below(2); left > 0 && !files.empty(); --left) {
-    const std::size_t chosen = source.below(files.size());
+    // Another mission or scene makes another survey, which is refused at once: mostly its own folder is damaged.
+    std::size_t chosen = source.below(files.size());
+    while (!files[chosen].first.starts_with("run/") && source.below(8) > 0) chosen = source.below(files.size());
     std::string& content = files[chosen].second;
     switch (source.below(6)) {
       case 0:
@@ -205,6 +228,7 @@ std::string damage_folder(const std::string& bytes, const DamageSource& source) 
         content = source.at_random(content);
     }
   }
+  if (source.below(2)) renew_marks(files);
   return in_one(files);
 }
 
