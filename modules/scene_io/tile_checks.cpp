@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -66,33 +65,29 @@ void require_values(const TileDirectory& directory, const TileEntry& tile, const
 }
 
 void require_values(const TileDirectory& directory, std::uint64_t number, const DetailNode& node) {
-  const auto require = [&](const char* name, std::span<const float> values, bool good, const char* rule) {
-    if (good) return;
+  const auto refuse = [&](const char* name, std::span<const float> values, const char* rule) {
     std::ostringstream text;
     for (const float value : values) text << (text.tellp() > 0 ? ", " : "") << value;
     fail(ErrorKind::content, directory.info.path, ": node ", number, ": ", name, " = ",
          values.size() > 1 ? "(" + text.str() + ")" : text.str(), ", must be ", rule, "; copy or make the file again");
   };
-  const auto require_vector = [&](const char* name, const Eigen::Vector3f& v, bool good, const char* rule) {
-    require(name, {v.data(), 3}, good, rule);
-  };
   // A cut takes sums and multiples of sizes: below this all of them are finite.
   constexpr float most = 1e30F;
-  const auto require_size = [&](const char* name, float value) {
-    require(name, {&value, 1}, value >= 0 && value <= most, ">= 0 and at most 1e30");
+  const auto require_size = [&](const char* name, const float& value) {
+    if (!(value >= 0 && value <= most)) refuse(name, {&value, 1}, ">= 0 and at most 1e30");
   };
-  require_vector("point", node.point, node.point.allFinite(), "finite");
-  require_vector("place", node.place, node.place.allFinite(), "finite");
-  require_vector("normal", node.normal, std::abs(node.normal.squaredNorm() - 1.0F) <= 2e-3F, "a unit vector");
+  if (!node.point.allFinite()) refuse("point", {node.point.data(), 3}, "finite");
+  if (!node.place.allFinite()) refuse("place", {node.place.data(), 3}, "finite");
+  if (!(std::abs(node.normal.squaredNorm() - 1.0F) <= 2e-3F))
+    refuse("normal", {node.normal.data(), 3}, "a unit vector");
   require_size("area", node.area);
   require_size("own_area", node.own_area);
   require_size("extent", node.extent);
   require_size("thickness", node.thickness);
   require_size("cell", node.cell);
-  require("cell", {&node.cell, 1}, node.children == 0 || node.cell > 0, "> 0");
-  require("normals", node.normals,
-          std::all_of(node.normals.begin(), node.normals.end(), [](float n) { return std::abs(n) <= 1.01F; }),
-          "products of unit vectors");
+  if (node.children > 0 && node.cell == 0) refuse("cell", {&node.cell, 1}, "> 0");
+  for (const float n : node.normals)
+    if (!(std::abs(n) <= 1.01F)) refuse("normals", node.normals, "products of unit vectors");
   if (node.material >= directory.info.materials.size())
     fail(ErrorKind::content, directory.info.path, ": node ", number, ": material = ", node.material,
          ", must be below the number of materials, ", directory.info.materials.size(), "; copy or make the file again");
