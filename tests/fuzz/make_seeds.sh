@@ -120,9 +120,9 @@ perl -e '
 for kind in lawnmower orbit tunnel; do
   "$tool" make-mission $kind --scene x.ply -o mission/$kind.toml -q >/dev/null
 done
-# Tiles whose surfels merge, and a survey of two blocks, whose files stand in one, each behind a line "NAME SIZE".
+# Tiles whose surfels merge, one of several tiles; and a survey of two blocks, whose files stand in one, each behind a line "NAME SIZE".
 "$tool" make-scene plane --points 300 --size 6,6 -o levels/plane.tiles -q >/dev/null
-"$tool" make-scene harbour --points 200 -o levels/harbour.tiles -q >/dev/null
+"$tool" make-scene harbour --points 6000 -o levels/harbour.tiles -q >/dev/null
 cat >work/m.toml <<'TOML'
 schema = 1
 [survey]

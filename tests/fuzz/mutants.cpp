@@ -24,7 +24,14 @@ using namespace insonify;
 
 namespace {
 
-constexpr double most_seconds = 5, most_mib = 1024, beside_others = 5;
+constexpr double most_seconds = 5, most_mib = 1024;
+
+/// How many times as long as its processor time a process may take beside others.
+double beside_others() {
+  double load = 0;
+  getloadavg(&load, 1);
+  return std::max(5.0, 5 * load / static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN)));
+}
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -153,7 +160,7 @@ struct Outcome {
   bool good() const {
     const bool code = exit_code == 0 || (exit_code >= 2 && exit_code <= 5);
     const auto lines = std::count(said.begin(), said.end(), '\n');
-    return code && seconds < most_seconds && waited < beside_others * most_seconds && mib < most_mib &&
+    return code && seconds < most_seconds && waited < beside_others() * most_seconds && mib < most_mib &&
            lines == (exit_code == 0 ? 0 : 1);
   }
 };
@@ -164,7 +171,7 @@ Outcome read_apart(const FuzzedReader& reader, const fs::path& path) {
   StopWatch watch;
   const pid_t child = fork();
   if (child == 0) {
-    alarm(static_cast<unsigned>(2 * beside_others * most_seconds));
+    alarm(static_cast<unsigned>(2 * beside_others() * most_seconds));
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     const int to = open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
