@@ -7,6 +7,7 @@ find_package(PkgConfig REQUIRED)
 
 if("beamforming" IN_LIST insonify_modules)
   pkg_check_modules(FFTW3 REQUIRED IMPORTED_TARGET fftw3 fftw3f)  # Debian ships no CMake config for FFTW
+  set_property(TARGET PkgConfig::FFTW3 APPEND PROPERTY INTERFACE_LINK_LIBRARIES fftw3_threads fftw3f_threads)  # lock of planners
 endif()
 if("hdf" IN_LIST insonify_modules)
   pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)  # CMake's own module asks for C

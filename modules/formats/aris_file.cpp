@@ -15,6 +15,7 @@ namespace {
 constexpr std::size_t aris_header_bytes = 1024;
 constexpr std::uint32_t aris_version = 0x05464444, aris_swapped = 0x44444605;  // "DDF" and 5
 constexpr std::uint32_t aris_3000 = 1;
+constexpr double aris_farthest = 1000;  // [m], beyond any ARIS
 
 /// Offsets in the header of a frame.
 enum ArisOffset : std::size_t {
@@ -75,6 +76,9 @@ RangeGate aris_gate(const std::string& path, const std::string& head) {
          " s, delay ", delay, " s, ", samples, " samples; must be 1000 to 2000 m/s and > 0");
   // A sample stands for the range of its index: it is the centre of its bin.
   const double bin = period * speed / 2, first = delay * speed / 2 - bin / 2;
+  if (!(first > 0 && first + samples * bin < aris_farthest))
+    fail(ErrorKind::content, path, ": its samples reach from ", first, " to ", first + samples * bin,
+         " m, must begin above 0 and end below ", aris_farthest, " m; the file is damaged, copy it again");
   RangeGate gate{first, first + samples * bin, bin};
   while (gate.bins() > samples) gate.max_range -= 1e-6 * bin;
   return gate;

@@ -32,7 +32,7 @@ struct ArisFrame {
 /// each has a header of 1024 bytes and beams x samples of 8 bits, sample by sample, the starboard beam first. The
 /// layout follows the public headers of SoundMetrics/aris-file-sdk. Throws Error(file) if the file cannot be read;
 /// Error(content) if it is not such a recording, is of the other byte order, is truncated, lacks the geometry (sound
-/// speed, sample period), or has samples that are not in order; Error(argument) unless number < frames.
+/// speed, sample period) or has one beyond any sonar's (1 km), or has samples that are not in order; Error(argument) unless number < frames.
 ArisFrame read_aris_frame(const std::string& path, std::size_t number);
 
 /// Returns the levels of a frame [dB re unknown], beams x samples.

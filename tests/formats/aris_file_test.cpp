@@ -88,6 +88,10 @@ TEST(ArisFile, refuses_what_is_damaged) {
   EXPECT_THAT(aris_refusal(with_byte(whole, 1024 + 436, 13)), HasSubstr("ping mode 13, must be 1 to 12"));
   EXPECT_THAT(aris_refusal(with_byte(whole, 1024 + 452, 0)),
               HasSubstr("has no geometry: sound speed 1500 m/s, sample period 0 s"));
+  EXPECT_THAT(aris_refusal(with_byte(whole, 1024 + 455, 1)),  // samples of 12.6 km, so the first begins behind the head
+              HasSubstr("its samples reach from -62"));
+  EXPECT_THAT(aris_refusal(with_byte(whole, 1024 + 478, 21)),  // a delay of 1.4 s
+              HasSubstr("must begin above 0 and end below 1000 m; the file is damaged"));
   EXPECT_THAT(aris_refusal(with_byte(whole, 1024 + 516, 0)), HasSubstr("are not in order"));
   EXPECT_THAT(aris_refusal(whole, 2), HasSubstr("argument: r.aris: frame 2, must be below the number of frames, 2"));
   EXPECT_THAT(error_with_kind([] { read_aris_frame("none.aris", 0); }), HasSubstr("file: none.aris"));

@@ -85,6 +85,41 @@ TEST_F(Cost, of_clouds_that_announce_more_than_they_hold) {
   expect_cheap("info wide.pcd", 3, "cut off");
 }
 
+// Headers of packets are of 256 bytes, those of their channels of 64.
+TEST_F(Cost, of_recordings_that_repeat_and_that_reach_far) {
+  const std::string side_scan = insonify::file_bytes(INSONIFY_RECORDS "/sidescan_scotsman.xtf");
+  const std::string header = side_scan.substr(0, 1024);
+  const auto repeated = [&](const std::string& packet, int times) {
+    std::string file = header;
+    for (int i = 0; i < times; ++i) file += packet;
+    return file;
+  };
+  std::string packet = side_scan.substr(1024, 4480);
+  write("repeated.xtf", repeated(packet, 100));
+  expect_cheap("image repeated.xtf --view rect --animate -o frames", 0, "as a film");
+  succeed("image repeated.xtf --view rect --ping 99 -q -o last.png");
+  EXPECT_TRUE(read("frames/rect_000099.png") == read("frames/rect_000000.png"));
+  EXPECT_TRUE(read("frames/rect_000099.png") == read("last.png"));
+
+  const auto put = [](std::string& bytes, std::size_t at, auto number) {
+    std::memcpy(bytes.data() + at, &number, sizeof number);
+  };
+  put(packet, 32, 1500.0F);
+  for (const std::size_t trace : {256U, 256U + 64 + 2048})
+    put(packet, trace + 4, 9001.0F), put(packet, trace + 12, 12.0F);
+  write("far.xtf", repeated(packet, 30));
+  for (const char* view : {"--altitude 5 --beam 0", ""})
+    expect_cheap(std::string("image far.xtf --view waterfall -o far.png ") + view, 3,
+                 "far.xtf: a picture from the head to 9000.99");
+
+  std::string aris = insonify::file_bytes(INSONIFY_RECORDS "/sample.aris");
+  const std::size_t frame = (aris.size() - 1024) / 2;
+  for (const std::size_t head : {std::size_t{1024}, 1024 + frame})
+    put(aris, head + 452, std::uint32_t{1}), put(aris, head + 476, std::uint32_t{16'000'000});
+  write("far.aris", aris);
+  expect_cheap("image far.aris --view waterfall --altitude 5 -o far.png", 3, "far.aris: its samples reach from");
+}
+
 TEST_F(Cost, of_one_line_of_20_megabytes) {
   const std::string row = ones("1 ");
   write("row.xyz", row);

@@ -61,15 +61,20 @@ TEST_F(Hostile, a_run_whose_picture_finds_the_disk_full_is_no_run) {
   have("harbour.ply", "make-scene harbour --points 20000");
   const std::string drawn =
       "ping harbour.ply -q --sonar p900-45 --set sonar.beams=4 --pose=0,0,-3,0,10,0 --range 4:6 --keep contributors";
+  const std::string labels = "image whole --view labels -q --size 4000x3000 -o labels.png";
   succeed(drawn + " -o whole");
+  succeed(labels);
   write("echoes.csv", "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n5,0,0,0.01,0.6,-0.3\n");
   const auto kib = [&](const char* name) { return static_cast<int>(fs::file_size(path(name)) / 1024); };
+  const int room_for_palette = kib("labels.json") + 1;
   ASSERT_LT(kib("whole/contributors.h5"), kib("whole/fan.png"));
+  ASSERT_LT(room_for_palette, kib("labels.png"));
+  for (const char* name : {"labels.png", "labels.json"}) fs::remove(path(name));
   const auto before = names();
   for (const auto& [arguments, room] :
        {std::pair(drawn + " -o out", kib("whole/fan.png")),
         std::pair(std::string("synthesize echoes.csv -q --sonar p900-45 --set sonar.beams=4 --range 4:6 -o out"), 30),
-        std::pair(std::string("image whole --view labels -q -o labels.png"), 1)}) {
+        std::pair(labels, room_for_palette)}) {
     const ToolResult result = with_small_files(room, arguments);
     EXPECT_EQ(result.exit_code, 4) << arguments << ": " << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;

@@ -95,8 +95,9 @@ inline const ViewOption annotate_option{
     &ImageOptions::annotate,
     "name so many of the strongest maxima (5), or the places in a .csv: bearing_deg,range_m,text",
     {.shown_as = "[N|CSV]"}};
-inline const ViewOption animate_option{"--animate", &ImageOptions::animate,
-                                       "one picture per ping in the folder -o, all with the same levels"};
+inline const ViewOption animate_option{
+    "--animate", &ImageOptions::animate,
+    "one picture per ping in the folder -o, all with the same levels; at most 10000"};
 
 /// A view, from which --view, its options, their help and checks are made. A new view is one file, view_<name>.cpp,
 /// that defines `ViewSpec <name>_view()`, and its name in the list of apps/CMakeLists.txt.
@@ -111,6 +112,7 @@ struct ViewSpec {
   const char* beam_word = "";                   ///< that --beam takes beside a number
   BeamChoice beam_choice = BeamChoice::one;     ///< that the word means
   BeamChoice default_choice = BeamChoice::one;  ///< without --beam
+  bool of_levels = false;                       ///< shows title, levels and marks of a ping, and nothing else
   bool of_bearings = false;  ///< shows beams by bearing, which the sides of a recorded side-scan have not
   /// Set for a view that reads what it draws by itself, in place of `draw`.
   void (*draw_alone)(const ImageOptions& options) = nullptr;

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/stop_watch.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "files/pending_file.hpp"
+#include "files/sha256.hpp"
 #include "store/csv_tables.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/parse_values.hpp"
@@ -139,9 +144,51 @@ void draw_ping(const ImageRun& run, const ImageOptions& o, PictureOptions pictur
 
 InputPaths inputs_of(const ImageOptions& o) { return {o.run, o.scene, o.sonar, o.starboard}; }
 
-void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const Annotation& annotation,
-             Progress& progress) {
+/// Equal for pings whose pictures are the same.
+std::string shown_by(const ImageRun& run, const ImageOptions& o, std::size_t ping) {
+  if (!view_of(o).of_levels) return std::to_string(ping);
+  const LevelImage image = levels_of(run, o, ping);
+  Sha256 shown;
+  const auto add = [&](const auto& values) {
+    shown.add(
+        {reinterpret_cast<const char*>(values.data()), static_cast<std::size_t>(values.size()) * sizeof values[0]});
+  };
+  shown.add(o.picture.title.empty() ? default_title(run, o, ping) : "");
+  add(image.fan.azimuth), add(image.fan.elevation), add(image.level_db.reshaped().eval());
+  add(std::array{image.gate.min_range, image.gate.bin_size});
+  return shown.digest();
+}
+
+/// Draws a picture of each ping into the folder; those that show the same, as of packets that a recording repeats, once.
+void draw_series(const ImageRun& run, const ImageOptions& o, const PictureOptions& picture,
+                 const Annotation& annotation, const RunDirectory& directory, const std::vector<std::string>& names) {
+  std::map<std::string, std::size_t> first;
+  std::vector<std::size_t> drawn;  // the ping whose picture each ping has
+  for (std::size_t ping = 0; ping < names.size(); ++ping)
+    drawn.push_back(first.try_emplace(shown_by(run, o, ping), ping).first->second);
+  Progress progress(o.common, static_cast<int>(first.size()));
+  StopWatch watch;
+  for (std::size_t ping = 0; ping < names.size(); ++ping) {
+    const std::string path = directory.file(names[ping]);
+    if (drawn[ping] != ping) {
+      write_file(path, read_text_file(directory.file(names[drawn[ping]])));
+      continue;
+    }
+    progress.step("drawing " + names[ping]);
+    draw_ping(run, o, picture, annotation, ping, path);
+    constexpr double long_time = 5;  // [s]
+    const double seconds = ping == 0 ? static_cast<double>(first.size()) * watch.lap() : 0;
+    if (seconds > long_time)
+      progress.note(fmt::format("{} pictures, which take about {}", first.size(), time_text(seconds)));
+  }
+}
+
+void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const Annotation& annotation) {
+  constexpr std::size_t most = 10000;
   const std::size_t pings = run.cube.pings.size();
+  if (pings > most)
+    fail(ErrorKind::content, o.run, ": has ", pings, " pings, --animate draws at most ", most,
+         "; split it, or draw single pings by --ping");
   if (std::isnan(picture.max_db)) {
     double highest = -std::numeric_limits<double>::infinity();
     for (std::size_t ping = 0; ping < pings; ++ping)
@@ -149,19 +196,19 @@ void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture,
     picture.max_db = highest;
   }
   RunDirectory directory(o.output, o.force, inputs_of(o));
-  std::vector<std::string> files;
+  std::vector<std::string> names, files;
   for (std::size_t ping = 0; ping < pings; ++ping) {
-    const std::string name = fmt::format("{}_{:06}.png", o.view, ping);
-    files.push_back((fs::path(o.output) / name).string());
-    progress.step("drawing " + files.back());
-    draw_ping(run, o, picture, annotation, ping, directory.file(name));
+    names.push_back(fmt::format("{}_{:06}.png", o.view, ping));
+    files.push_back((fs::path(o.output) / names.back()).string());
   }
+  draw_series(run, o, picture, annotation, directory, names);
   write_manifest(directory,
                  {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"drawn", o.run}, {"view", o.view}});
   directory.commit();
   print_summary(o.common, {{"output", files}, {"view", o.view}}, fmt::format("{}", fmt::join(files, "\n")));
-  progress.note(fmt::format("as a film: ffmpeg -framerate 10 -i {}/{}_%06d.png -pix_fmt yuv420p {}.mp4", o.output,
-                            o.view, o.view));
+  Progress(o.common, 1)
+      .note(fmt::format("as a film: ffmpeg -framerate 10 -i {}/{}_%06d.png -pix_fmt yuv420p {}.mp4", o.output, o.view,
+                        o.view));
 }
 
 /// Refuses options that the view does not take.
@@ -190,8 +237,8 @@ void image(const ImageOptions& o) {
          ") have not; take --view waterfall");
   choose_beam(o, run.cube.pings.front().fan);
 
-  Progress progress(o.common, o.animate ? static_cast<int>(pings) : 1);
-  if (o.animate) return animate(run, o, o.picture, annotation, progress);
+  if (o.animate) return animate(run, o, o.picture, annotation);
+  Progress progress(o.common, 1);
   progress.step("drawing " + o.output);
   draw_ping(run, o, o.picture, annotation, o.ping, o.output);
   print_summary(o.common, {{"output", o.output}, {"view", o.view}, {"ping", o.ping}}, o.output);

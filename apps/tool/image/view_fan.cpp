@@ -9,6 +9,7 @@ ViewSpec fan_view() {
           .options = {annotate_option, animate_option},
           .draw = [](const PictureRequest& job) { show_fan(levels_of(job), job.picture, job.path); },
           .max_db = max_db_of_image,
+          .of_levels = true,
           .of_bearings = true};
 }
 

@@ -8,7 +8,8 @@ ViewSpec rect_view() {
           .shows = "beams against range",
           .options = {annotate_option, animate_option},
           .draw = [](const PictureRequest& job) { show_rect(levels_of(job), job.picture, job.path); },
-          .max_db = max_db_of_image};
+          .max_db = max_db_of_image,
+          .of_levels = true};
 }
 
 }  // namespace insonify::tool

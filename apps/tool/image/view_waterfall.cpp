@@ -21,11 +21,25 @@ PingHistory silent_history(const PingHistory& other, double min_range, double ma
   return history;
 }
 
+/// Throws Error(content) for a history of far too many cells if it shows all ranges from the head on.
+void require_room_from_head(const std::string& path, const PingHistory& history) {
+  constexpr double always = 0x1p24, most_growth = 16;
+  const double bins = history.gate.max_range / history.gate.bin_size;
+  const double cells = bins * static_cast<double>(history.level_db.rows());
+  const double most = std::max(always, most_growth * static_cast<double>(history.level_db.size()));
+  if (!(cells <= most))
+    fail(ErrorKind::content, path, ": a picture from the head to ", history.gate.max_range, " m has ", cells,
+         " cells of ", history.gate.bin_size, " m, must have at most ", most,
+         "; its samples begin too far away: draw one beam by slant range");
+}
+
 /// One head by slant range, or by ground range if the options give an altitude.
 PingHistory history_of(const ImageRun& run, const ImageOptions& o) {
   const PingHistory slant = beam_history(run, o);
   const std::vector<double> altitude = altitudes_of(run, o);
-  return altitude.empty() ? slant : on_flat_bottom(slant, altitude);
+  if (altitude.empty()) return slant;
+  require_room_from_head(run.path, slant);
+  return on_flat_bottom(slant, altitude);
 }
 
 /// The first channels to port and to starboard of a recording; nothing if it lacks one.
@@ -113,12 +127,15 @@ void draw_waterfall(const PictureRequest& job) {
   std::string what = beam_text(choose_beam(o, fan_of(job)), fan_of(job));
   const auto sides = job.run.side_scan && o.beam.empty() ? channels_of_sides(fan_of(job)) : std::nullopt;
   if (sides) {
-    history = side_by_side(history_of_channel(job.run, o, sides->first), history_of_channel(job.run, o, sides->second));
+    history = history_of_channel(job.run, o, sides->first);
+    require_room_from_head(job.run.path, history);
+    history = side_by_side(history, history_of_channel(job.run, o, sides->second));
     what = "port and starboard";
   } else {
     history = history_of(job.run, o);
   }
   if (!o.starboard.empty()) {
+    require_room_from_head(job.run.path, history);
     history = side_by_side(history, history_of(read_image_run(o.starboard, o.layer), o));
     what = "port and starboard";
   }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <bit>
-#include <mutex>
 
 #include "beamforming/numerics/fft_internal.hpp"
 
 namespace insonify {
 namespace {
 
-/// FFTW creates and destroys plans one at a time, for all precisions together; executing plans needs no lock.
-std::mutex& fftw_planner() {
-  static std::mutex planner;
-  return planner;
+/// Lets FFTW create and destroy plans one at a time, by its own lock: each extension of Python has a copy of this file,
+/// and all of the process share the planners of FFTW. Executing plans needs no lock.
+void lock_planners() {
+  static const bool locked = (fftw_make_planner_thread_safe(), fftwf_make_planner_thread_safe(), true);
+  static_cast<void>(locked);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ template <typename Real>
 Fft<Real>::Fft(const FftLayout& layout, int sign) {
   const std::size_t numbers = layout.length * layout.stride + layout.series * layout.distance;
   AlignedArray<std::complex<Real>, Real> from(numbers), to(layout.in_place ? 0 : numbers);
-  const std::scoped_lock lock(fftw_planner());
+  lock_planners();
   plan_ = Fftw<Real>::make(static_cast<int>(layout.length), static_cast<int>(layout.series),
                            static_cast<int>(layout.stride), static_cast<int>(layout.distance), from.data(),
                            layout.in_place ? from.data() : to.data(), sign);
@@ -37,7 +37,6 @@ Fft<Real>::Fft(const FftLayout& layout, int sign) {
 
 template <typename Real>
 Fft<Real>::~Fft() {
-  const std::scoped_lock lock(fftw_planner());
   Fftw<Real>::destroy(plan_);
 }
 
