@@ -45,7 +45,7 @@ int view(int argc, char** argv) {
   ViewerOptions options = options_of(command);
   const LoadedView loaded = is_run(command.target) ? load_run(command) : load_inspection(command);
   if (!command.common.quiet)
-    for (const std::string& note : loaded.notes) std::fprintf(stderr, "insonify: note: %s\n", note.c_str());
+    for (const std::string& note : loaded.notes) tool::print_error("note: " + note);
   options.start = loaded.start;
   if (command.screenshot.empty()) {
     show_viewer(loaded.data, options);

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "core/message.hpp"
 #include "files/path_status.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
@@ -110,7 +110,7 @@ std::optional<SurveyHeadRun> find_survey_head(const std::string& target, const s
   }
   if (!chosen)
     fail(ErrorKind::argument, "--head = '", wanted, "' is not in ", folder.string(), "; it has ",
-         joined(found.others, ", "));
+         shortened_list(found.others));
   found.name = chosen->name;
   found.folder = (folder / chosen->name).string();
   found.blocks = chosen->blocks();

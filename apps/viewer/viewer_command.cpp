@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/text.hpp"
 #include "files/path_status.hpp"
 #include "scene_io/load_scene.hpp"
@@ -149,7 +150,7 @@ std::size_t channel_of(const ViewerCommand& command, const tool::Record& record)
   const auto named = std::find(record.channels.begin(), record.channels.end(), command.head);
   if (named == record.channels.end())
     fail(ErrorKind::argument, "--head = '", command.head, "' must name a channel of ", command.target, ": ",
-         joined(record.channels));
+         shortened_list(record.channels));
   return static_cast<std::size_t>(named - record.channels.begin());
 }
 
@@ -163,7 +164,8 @@ LoadedView load_record(const ViewerCommand& command) {
     const std::size_t channel = channel_of(command, record);
     view.data.title = record.channels[channel] + ", " + view.data.title;
     if (record.channels.size() > 1 && command.head.empty())
-      view.notes.push_back("the recording has the channels " + joined(record.channels) + ": choose with --head");
+      view.notes.push_back("the recording has the channels " + shortened_list(record.channels) +
+                           ": choose with --head");
     for (Ping& ping : record.cube.pings) ping = tool::channel_alone(ping, channel);
   } else if (!command.head.empty()) {
     fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no side-scan; leave --head out");
@@ -205,7 +207,7 @@ LoadedView load_run(const ViewerCommand& command) {
       view.notes.push_back(fmt::format("{} of {} blocks of {} are not done yet: their pings are missing here",
                                        head->blocks - head->done, head->blocks, head->name));
     if (!head->others.empty() && command.head.empty() && is_survey_run(command.target))
-      view.notes.push_back("the survey has other heads too: --head " + joined(head->others, ", --head "));
+      view.notes.push_back("the survey has other heads too: --head " + shortened_list(head->others, ", --head "));
     show_scene_of_run(command, head->folder, view);
     choose_start(command, view);
     return view;

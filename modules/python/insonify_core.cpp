@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "python/binding_internal.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "store/environment_file.hpp"
@@ -34,7 +35,7 @@ void add_errors(py::module_& m) {
     try {
       std::rethrow_exception(thrown);
     } catch (const insonify::Error& caught) {
-      PyErr_SetString(caught.kind() == ErrorKind::argument ? argument : error, caught.what());
+      PyErr_SetString(caught.kind() == ErrorKind::argument ? argument : error, message_line(caught.what()).c_str());
     }
   });
 }

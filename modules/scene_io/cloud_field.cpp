@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "core/message.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
@@ -18,7 +18,7 @@ CloudField load_cloud_field(const std::string& path, const std::string& field) {
   const RawCloud raw = read_cloud(path, options);
   if (raw.extra.size() != raw.point.size())
     fail(ErrorKind::content, path, ": has no field '", field, "'; it has ",
-         joined(raw.fields, ", ", [](const auto& f) { return f.name; }));
+         shortened_list(raw.fields, ", ", [](const auto& f) { return f.name; }));
   CloudField cloud;
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
     if (!raw.point[i].allFinite() || !std::isfinite(raw.extra[i])) continue;

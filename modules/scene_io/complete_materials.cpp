@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "core/message.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
@@ -51,7 +51,8 @@ std::vector<Material> materials_of(const RawCloud& raw, const LoadOptions& optio
       missing.push_back(material.name);
   }
   if (!known) return options.materials;
-  if (!missing.empty()) report.notes.push_back("the table of materials has no " + joined(missing) + ": as in the file");
+  if (!missing.empty())
+    report.notes.push_back("the table of materials has no " + shortened_list(missing) + ": as in the file");
   return own;
 }
 

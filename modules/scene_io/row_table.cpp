@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/parallel.hpp"
-#include "core/text.hpp"
 #include "files/binary_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/ply_header_internal.hpp"
@@ -28,7 +28,7 @@ const RowTable::Column* find_column(const RowTable& table, const std::vector<std
   return nullptr;
 }
 
-std::string names_of(const RowTable& table) { return joined(table.columns, " ", &RowTable::Column::name); }
+std::string names_of(const RowTable& table) { return shortened_list(table.columns, " ", &RowTable::Column::name); }
 
 const RowTable::Column* find_label(const RowTable& table, const std::string& path, const std::string& name) {
   if (name.empty()) return find_column(table, {"label", "material", "class", "classification"});

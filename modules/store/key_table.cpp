@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "store/key_table_internal.hpp"
 #include "store/nearest_word.hpp"
 
@@ -44,7 +45,7 @@ std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& 
   for (const Key& key : keys)
     if (near.empty() && !is_table && key.name == name.substr(name.rfind('.') + 1)) near = full_name(key);
   const std::string open = is_table ? "[" : "'", close = is_table ? "]" : "'";
-  return (is_table ? "unknown table " : "unknown key ") + open + name + close +
+  return (is_table ? "unknown table " : "unknown key ") + open + shortened(name) + close +
          (!near.empty() ? "; did you mean " + open + near + close + "?"
           : is_table    ? "; known are [" + joined(known, "] [") + "]"
                         : "; known are " + joined(known));
@@ -52,11 +53,8 @@ std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& 
 
 /// "key = value unit, must be ..."
 std::string refusal_of_value(const Key& key, const TomlValue& value) {
-  constexpr std::size_t longest = 100;
-  std::string text = as_toml(value);
-  if (text.size() > longest) text = text.substr(0, longest) + " ...";
   const std::string unit = value.is_number() && *key.unit ? std::string(" ") + key.unit : "";
-  return full_name(key) + " = " + text + unit + ", must be " + key.value.rule;
+  return full_name(key) + " = " + shortened(as_toml(value)) + unit + ", must be " + key.value.rule;
 }
 
 /// The values that a text of the command line may mean, the likeliest first.
@@ -80,7 +78,7 @@ std::vector<TomlValue> values_of_text(const std::string& text) {
 void read_keys(const std::string& path, const TomlValue& table, const std::vector<Key>& keys,
                const std::string& section, const std::vector<std::string>& others) {
   if (table.kind != Kind::table)
-    fail_in_file(path, table.line, section, " = ", as_toml(table), ", must be a table with keys of its own");
+    fail_in_file(path, table.line, section, " = ", shortened(as_toml(table)), ", must be a table with keys of its own");
   for (std::size_t i = 0; i < table.keys.size(); ++i) {
     const std::string name = full_name(section, table.keys[i]);
     const TomlValue& item = table.items[i];
@@ -106,7 +104,7 @@ void require_schema(const std::string& path, const TomlValue& document, int sche
   const TomlValue* found = document.find("schema");
   if (!found) fail_in_file(path, document.line, "missing key 'schema'");
   if (found->kind != Kind::integer || found->number != schema)
-    fail_in_file(path, found->line, "schema = ", as_toml(*found), ", this version reads schema ", schema,
+    fail_in_file(path, found->line, "schema = ", shortened(as_toml(*found)), ", this version reads schema ", schema,
                  found->number > schema ? "; the file is of a newer insonify" : "");
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "files/path_status.hpp"
 #include "store/run_manifest.hpp"
 #include "store/survey_run.hpp"
@@ -59,13 +60,10 @@ void require_free_file(const std::string& output, bool force, const InputPaths& 
 }
 
 void require_run_alone(const std::string& folder, const std::string& called) {
-  constexpr std::size_t named = 3;
   const std::vector<std::string> others = names_of_no_run(folder);
   if (others.empty()) return;
-  std::string names;
-  for (std::size_t i = 0; i < std::min(named, others.size()); ++i) names += (i > 0 ? ", " : "") + others[i];
-  if (others.size() > named) names += " and " + std::to_string(others.size() - named) + " more";
-  fail(ErrorKind::file, called, ": holds what no run of insonify wrote, or what was changed since: ", names,
+  fail(ErrorKind::file, called,
+       ": holds what no run of insonify wrote, or what was changed since: ", shortened_list(others),
        "; --force replaces only what manifest.json lists; move these files, remove the folder yourself, or give "
        "another name");
 }

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/random.hpp"
-#include "core/text.hpp"
 
 namespace insonify {
 namespace {
@@ -194,8 +194,9 @@ std::vector<PlacedPart> SceneParts::drawn_of(std::size_t scatter, std::uint64_t 
     const double bury = between(what[2], rule.least_bury, rule.most_bury) * height_of(part);
     const Setting setting = set_down(draws, k, rule, {std::move(part), body.radius * scale, bury}, ground_, taken);
     if (!setting.found)
-      fail(ErrorKind::content, "scatter of '", joined(bodies, "', '", [](const Drawable& d) { return d.body.name; }),
-           "': no place for body ", k, " of ", count, " after ", most_tries,
+      fail(ErrorKind::content, "scatter of ",
+           shortened_list(bodies, ", ", [](const Drawable& d) { return "'" + d.body.name + "'"; }),
+           ": no place for body ", k, " of ", count, " after ", most_tries,
            " tries; ask for fewer (count), a smaller min_distance_m, or a larger area_m without holes of the scan");
     if (setting.part) parts.push_back(*setting.part);
   }

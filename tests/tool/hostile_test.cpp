@@ -28,6 +28,13 @@ class Hostile : public ToolTest {
   }
 };
 
+/// 5000 letters and blanks.
+std::string prose() {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += "abc d";
+  return text;
+}
+
 const std::string small_ping =
     "ping harbour.ply --no-picture -q --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0";
 
@@ -171,4 +178,48 @@ TEST_F(Hostile, cubes_do_not_read_files_elsewhere) {
   ASSERT_GE(H5Lcreate_external("../secret.h5", "/pressure", file, "/pressure", H5P_DEFAULT, H5P_DEFAULT), 0);
   H5Fclose(file);
   expect_refused("image out -o x.png", 3, {"cube.h5", "/pressure is a link to elsewhere"});
+}
+
+TEST_F(Hostile, messages_cut_texts_of_5000_letters) {
+  const auto expect_short = [&](const std::string& arguments, std::vector<int> codes) {
+    const ToolResult result = run(arguments);
+    EXPECT_THAT(codes, testing::Contains(result.exit_code)) << arguments.substr(0, 80) << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(" ... "));
+    EXPECT_LT(result.err.size(), 450U) << result.err;
+  };
+  write("box.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  const std::string ping = "ping box.obj --sonar p900-45 --pose=0,0,-3,0,10,0 -o out ";
+  for (const std::string& text : {std::string(5000, 'x'), prose()}) {
+    const std::string quoted = "'" + text + "'";
+    expect_short(ping + "--material " + quoted, {2});
+    expect_short(ping + "--set sonar.beams=" + quoted, {2});
+    expect_short("ping box.obj -o out --pose=0,0,0,0,0,0 --sonar " + quoted, {2});
+    write("materials.toml", "schema = 1\n[[material]]\nname = \"a\"\nlike = \"" + text + "\"\n");
+    expect_short(ping + "--materials materials.toml", {3});
+    write("mission.toml", "schema = 1\n\"" + text + "\" = 1\n");
+    expect_short("survey mission.toml -o out", {3});
+    write("mission.toml",
+          "schema = 1\n[survey]\nscene = \"box.obj\"\n[trajectory]\nfile = 7\n[ping]\nspeed = \"" + text + "\"\n");
+    expect_short("survey mission.toml -o out", {3});
+    write("run.toml", "insonify_version = \"0\"\n[sonar]\n[ping]\nmethod = \"" + text + "\"\n");
+    expect_short("info run.toml", {3});
+    write("scene.toml", "schema = 1\n[[part]]\nfile = \"box.obj\"\nmaterial = \"" + text + "\"\n");
+    expect_short("info scene.toml", {3});
+  }
+  expect_short("ping " + std::string(5000, 'x') + " --sonar p900-45 --pose=0,0,0,0,0,0 -o out", {4});
+  expect_short("image none -o a.png --view " + std::string(5000, 'x'), {2});
+}
+
+TEST_F(Hostile, messages_list_ten_of_5000_names) {
+  std::string text = "schema = 1\nmission_sha256 = \"0\"\n";
+  for (int i = 1; i <= 5000; ++i)
+    text += "[[head]]\nname = \"h" + std::to_string(i) + "\"\npings = 1\npings_per_block = 1\n";
+  fs::create_directory(path("many"));
+  write("many/survey.toml", text);
+  for (const char* verb : {"image many -o a.png", "export many --to csv -o a.csv", "dataset many -o data"}) {
+    const ToolResult result = run(verb);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("h1, h2, h3, h4, h5, h6, h7, h8, h9, h10 and 4990 more\n")) << verb;
+  }
 }

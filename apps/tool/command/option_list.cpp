@@ -11,9 +11,10 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "core/text.hpp"
+#include "core/message.hpp"
 #include "store/nearest_word.hpp"
 #include "tool/command/exit_code.hpp"
+#include "tool/command/program.hpp"
 
 namespace insonify::tool {
 
@@ -165,16 +166,16 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help and --version
     return app_->exit(success);
   } catch (const CLI::ExtrasError&) {
-    std::fprintf(stderr, "insonify: %s\n", extras_message().c_str());
+    print_error(extras_message());
     return exit_usage;
   } catch (const CLI::RequiredError& error) {
     const bool lacks_verb = !verb_texts_.empty() && app_->get_subcommands().empty();
-    std::fprintf(stderr, "insonify: %s; see %s --help\n",
-                 lacks_verb ? "no verb is given; begin with one, e.g. insonify info FILE" : error.what(),
-                 program.c_str());
+    print_error(fmt::format("{}; see {} --help",
+                            lacks_verb ? "no verb is given; begin with one, e.g. insonify info FILE" : error.what(),
+                            program));
     return exit_usage;
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "insonify: %s; see %s --help\n", error.what(), program.c_str());
+    print_error(fmt::format("{}; see {} --help", error.what(), program));
     return exit_usage;
   }
   return std::nullopt;

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "tool/command/exit_code.hpp"
 
 namespace insonify::tool {
@@ -24,12 +25,9 @@ struct SomeFailed {
   std::string which;
 };
 
-/// The text with a blank for every control character: what a file holds cannot make two lines of a message, nor colour
-/// it.
-inline std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
-  return text;
+/// Prints a message on stderr as message_line.
+inline void print_error(const std::string& message) {
+  std::fprintf(stderr, "insonify: %s\n", message_line(message).c_str());
 }
 
 /// Runs a program, reports on stderr what it throws, and returns the exit code. `less` says what
@@ -39,13 +37,13 @@ inline int run_program(const std::function<int()>& run, const char* less) {
   try {
     return run();
   } catch (const Interrupted& interrupted) {
-    std::fprintf(stderr, "insonify: interrupted; %s\n", interrupted.kept.c_str());
+    print_error("interrupted; " + interrupted.kept);
     return exit_interrupted;
   } catch (const SomeFailed& failed) {
-    std::fprintf(stderr, "insonify: %s\n", failed.which.c_str());
+    print_error(failed.which);
     return exit_some_failed;
   } catch (const Error& error) {
-    std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
+    print_error(error.what());
     return exit_code_of(error.kind());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "insonify: out of memory; %s\n", less);
@@ -54,15 +52,14 @@ inline int run_program(const std::function<int()>& run, const char* less) {
     std::fprintf(stderr, "insonify: out of memory; %s\n", less);
     return no_memory;
   } catch (const std::filesystem::filesystem_error& error) {
-    std::fprintf(stderr, "insonify: %s: %s; check the path\n", one_line(error.path1().string()).c_str(),
-                 error.code().message().c_str());
+    print_error(error.path1().string() + ": " + error.code().message() + "; check the path");
     return exit_code_of(ErrorKind::file);
   } catch (const std::system_error& error) {
-    std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
+    print_error(error.what());
     // A thread that cannot be started lacks memory.
     if (error.code() == std::errc::resource_unavailable_try_again) return no_memory;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "insonify: %s\n", one_line(error.what()).c_str());
+    print_error(error.what());
   }
   return exit_failure;
 }

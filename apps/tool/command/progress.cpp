@@ -15,6 +15,7 @@
 
 #include "core/work_progress.hpp"
 #include "files/pending_path.hpp"
+#include "tool/command/program.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -163,7 +164,7 @@ void Progress::note(const std::string& sentence) {
   if (quiet_) return;
   const std::scoped_lock lock(guard_);
   clear_bar();
-  std::fprintf(stderr, "insonify: %s\n", sentence.c_str());
+  print_error(sentence);
 }
 
 }  // namespace insonify::tool

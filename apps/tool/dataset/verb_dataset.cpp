@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "files/peak_memory.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
@@ -111,7 +112,7 @@ DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOpti
   for (const std::string& name : o.stuff)
     if (std::find(plan.classes.begin() + 1, plan.classes.end(), name) == plan.classes.end())
       fail(ErrorKind::argument, "--stuff = ", name, " is no class of the runs; they have ",
-           joined(std::vector<std::string>(plan.classes.begin() + 1, plan.classes.end())));
+           shortened_list(std::span(plan.classes).subspan(1)));
   return plan;
 }
 
@@ -161,7 +162,7 @@ void dataset(const DatasetOptions& o) {
       {"peak_memory_mib", peak_memory_mib()}};
   print_summary(o.common, result,
                 fmt::format("{}: {} images ({}) with {} polar and {} fan boxes; classes {}", o.output, writer.images(),
-                            counts, writer.boxes_of_polar(), writer.boxes_of_fan(), joined(plan.classes)));
+                            counts, writer.boxes_of_polar(), writer.boxes_of_fan(), shortened_list(plan.classes)));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "files/path_status.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/image/image.hpp"
@@ -24,7 +25,7 @@ void take_layer(Ping& ping, const std::string& name, const std::string& run) {
   if (layer == ping.layers.end())
     fail(ErrorKind::argument, "--layer = '", name, "' is not in ", run,
          ping.layers.empty() ? "; it has none: ping with --layers"
-                             : "; it has " + joined(ping.layers, ", ", &Layer::name));
+                             : "; it has " + shortened_list(ping.layers, ", ", &Layer::name));
   ping.pressure = std::move(layer->pressure);
   ping.layers.clear();
   ping.intensity.resize(0, 0);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "files/path_status.hpp"
 #include "scene_io/bed_of_returns.hpp"
 #include "store/survey_run.hpp"
@@ -60,7 +61,7 @@ void draw_track(const ImageOptions& o) {
   add_levels(o.run, map);
   PictureOptions picture = o.picture;
   if (picture.title.empty())
-    picture.title = fmt::format("{} pings of {}", pings, joined(run.heads, ", ", &SurveyRunHead::name));
+    picture.title = fmt::format("{} pings of {}", pings, shortened_list(run.heads, ", ", &SurveyRunHead::name));
   show_track(map, picture, o.output);
   print_summary(o.common, {{"output", o.output}, {"view", o.view}}, o.output);
 }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/text.hpp"
+#include "core/message.hpp"
 #include "files/path_status.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
@@ -65,7 +65,7 @@ void verify(const InfoOptions& o) {
     if (!o.common.json && check.problems.empty()) fmt::print("{}: {} files match the manifest\n", run, check.files);
   }
   if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
-  if (!problems.empty()) fail(ErrorKind::content, joined(problems), "; copy the run again, or make it again");
+  if (!problems.empty()) fail(ErrorKind::content, shortened_list(problems), "; copy the run again, or make it again");
 }
 
 void info(const InfoOptions& o) {

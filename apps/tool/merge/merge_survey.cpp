@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "files/pending_file.hpp"
@@ -39,14 +40,13 @@ std::string pings_of(const SurveyRunHead& head, std::size_t block) {
 
 /// All blocks in the order of heads and pings. Throws Error(content) naming those that are not done.
 std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun& run) {
-  constexpr std::size_t most_named = 5;
   std::vector<Finished> finished;
   std::vector<std::string> missing;
   std::size_t all = 0;
   for (const SurveyRunHead& head : run.heads) {
     std::size_t next = 0;
     const auto miss_until = [&](std::size_t end) {
-      for (; next < end && missing.size() < most_named; ++next) missing.push_back(pings_of(head, next));
+      for (; next < end && missing.size() < most_listed; ++next) missing.push_back(pings_of(head, next));
       next = end + 1;
     };
     for (StoredBlock& block : stored_blocks(folder, run, head)) {
@@ -59,7 +59,8 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
   const std::size_t undone = all - finished.size();
   if (undone > 0)
     fail(ErrorKind::content, folder, ": ", undone, " of ", all, " blocks are not done: ", joined(missing),
-         undone > missing.size() ? ", ..." : "", "; run the survey (or its missing shards) again");
+         undone > missing.size() ? fmt::format(" and {} more", undone - missing.size()) : "",
+         "; run the survey (or its missing shards) again");
   return finished;
 }
 
@@ -149,7 +150,7 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
   write_file((fs::path(folder) / "manifest.json").string(), manifest.dump(2) + "\n");
   print_summary(common, manifest,
                 fmt::format("{}: {} blocks of {} joined", folder, finished.size(),
-                            joined(run.heads, ", ", &SurveyRunHead::name)));
+                            shortened_list(run.heads, ", ", &SurveyRunHead::name)));
   if (!failed.empty())
     throw SomeFailed{fmt::format("{}: {} pings failed and are missing in the cubes; manifest.json lists them", folder,
                                  failed.size())};

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "core/message.hpp"
 #include "core/units.hpp"
 #include "files/path_status.hpp"
 #include "store/csv_tables.hpp"
@@ -25,7 +25,7 @@ const SurveyRunHead& head_of_survey(const SurveyRun& survey, const std::string& 
   for (const SurveyRunHead& each : survey.heads)
     if (each.name == head || (head.empty() && survey.heads.size() == 1)) return each;
   fail(ErrorKind::argument, "--head = '", head, "' must name a head of ", run, ": ",
-       joined(survey.heads, ", ", &SurveyRunHead::name));
+       shortened_list(survey.heads, ", ", &SurveyRunHead::name));
 }
 
 /// Adds what a mission says of the pings of one of its heads, if it is there and has that head.

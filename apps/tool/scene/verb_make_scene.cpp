@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "core/message.hpp"
 #include "core/units.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -70,8 +70,8 @@ void replace_materials(const MakeSceneOptions& o, std::vector<Material>& materia
     for (Material& material : materials)
       if (material.name == other.material.name) material = other.material, ++replaced;
   if (replaced == 0)
-    fail(ErrorKind::argument, "--materials = ", o.materials_file,
-         ": has none of the scene's materials: ", joined(materials, ", ", [](const Material& m) { return m.name; }));
+    fail(ErrorKind::argument, "--materials = ", o.materials_file, ": has none of the scene's materials: ",
+         shortened_list(materials, ", ", [](const Material& m) { return m.name; }));
 }
 
 void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& built_in, Progress& progress) {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "core/message.hpp"
 #include "scene/thin_scene.hpp"
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -71,7 +71,7 @@ void prepare_as_tiles(const PrepareOptions& o) {
   auto notes = loading_notes(prepared.report);
   if (!prepared.report.other_columns.empty())
     notes.push_back(fmt::format("{}: tiles cannot store the columns {}; prepare a .ply to keep them", o.scene.path,
-                                joined(prepared.report.other_columns)));
+                                shortened_list(prepared.report.other_columns)));
   for (const std::string& note : notes) progress.note(note);
   const ordered_json result = {{"output", o.output},
                                {"points_read", prepared.report.points_read},

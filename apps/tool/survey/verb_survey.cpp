@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "store/csv_tables.hpp"
@@ -292,7 +293,8 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
                 fmt::format("{}: {} of {} pings made in {:.1f} s; join them with: insonify merge {}", o.output,
                             status.made(), todo.pings, status.seconds(), o.output));
   if (!failures.empty())
-    throw SomeFailed{fmt::format("{} of {} pings failed: {}", failures.size(), todo.pings, joined(failures, "; "))};
+    throw SomeFailed{
+        fmt::format("{} of {} pings failed: {}", failures.size(), todo.pings, shortened_list(failures, "; "))};
 }
 
 void survey(const SurveyOptions& o) {
