@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <functional>
+#include <ranges>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -170,6 +172,16 @@ void send_labels(const FileContext& place, hid_t file, const Extent& extent, Pin
   if (parts) send_parts(place, file, extent, pings, to);
 }
 
+/// Throws Error(content) for a pixel whose label has no name; labels from `reserved` on need none.
+void require_names(const std::string& path, const char* map, const Grid<std::uint16_t>& labels, std::uint16_t reserved,
+                   const char* attribute, std::size_t names) {
+  const auto nameless = std::find_if(labels.data(), labels.data() + labels.size(),
+                                     [&](std::uint16_t label) { return label >= names && label < reserved; });
+  if (nameless != labels.data() + labels.size())
+    fail(ErrorKind::content, path, ": ", map, " holds ", *nameless, ", but ", attribute, " has ", names,
+         " names, counted from 0; the file is damaged: copy or export it again");
+}
+
 void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings) {
   bool there = false;
   sent(there);
@@ -188,6 +200,12 @@ void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Pi
   bool parts = false;
   sent(parts);
   if (parts) receive_parts(sent, pings);
+  for (const PixelLabels& labels : pings | std::views::transform(&Ping::labels)) {
+    require_names(path, label_material_name.path, labels.material, PixelLabels::shadow, label_names_attribute,
+                  labels.names.size());
+    require_names(path, label_part_name.path, labels.part, PixelLabels::no_part, part_names_attribute,
+                  labels.part_names.size());
+  }
 }
 
 }  // namespace

@@ -173,7 +173,9 @@ void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& p
   write_label(label_share_name, &PixelLabels::share);
   if (first.part.size() > 0) write_label(label_part_name, &PixelLabels::part);
   write_parts(place, file, pings);
-  write_attribute(place, file, label_names_attribute, joined(first.names, "\n"));
+  // An empty last name is a line of its own.
+  const bool ends_empty = !first.names.empty() && first.names.back().empty();
+  write_attribute(place, file, label_names_attribute, joined(first.names, "\n") + (ends_empty ? "\n" : ""));
 }
 
 void write_axes(const FileContext& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {

@@ -48,3 +48,46 @@ TEST(DamagedCube, is_not_joined) {
     expect_error(ErrorKind::content, {"part.h5: "}, [&] { concatenate_cube_files(whole, {part}, copy); });
   EXPECT_FALSE(std::filesystem::exists(whole));
 }
+
+namespace {
+
+/// A cube whose pixels show materials 0 and 1, parts 0 to 2, shadow and nothing.
+Cube labelled_cube() {
+  Cube cube = random_cube(2, 4);
+  for (Ping& ping : cube.pings) {
+    PixelLabels& labels = ping.labels;
+    const Eigen::Index beams = ping.pressure.rows(), bins = ping.pressure.cols();
+    labels.material = Grid<std::uint16_t>::Constant(beams, bins, PixelLabels::nothing);
+    labels.material.row(1) = PixelLabels::shadow, labels.material(2, 3) = 1, labels.material(2, 4) = 0;
+    labels.id = Grid<std::uint32_t>::Zero(beams, bins), labels.share = Grid<float>::Ones(beams, bins);
+    labels.part = Grid<std::uint16_t>::Constant(beams, bins, PixelLabels::no_part);
+    labels.part(2, 3) = 2;
+    labels.names = {"sand", "tyre"};
+    labels.part_names = labels.part_labels = {"bed", "pot", "tyre"}, labels.views.resize(3);
+  }
+  return cube;
+}
+
+}  // namespace
+
+TEST(DamagedCube, labels_without_names_are_refused) {
+  EXPECT_EQ(read_cube(write(labelled_cube())).pings[1].labels.material(2, 3), 1);
+  Cube no_names = labelled_cube(), one_name = labelled_cube(), two_parts = labelled_cube();
+  for (Ping& ping : no_names.pings) ping.labels.names.clear();
+  for (Ping& ping : one_name.pings) ping.labels.names.pop_back();
+  for (Ping& ping : two_parts.pings)
+    ping.labels.part_names = ping.labels.part_labels = {"bed", "pot"}, ping.labels.views.pop_back();
+  EXPECT_EQ(error_of_cube(write(no_names)),
+            "content: cube.h5: /label_material holds 1, but label_names has 0 names, counted from 0; the file is "
+            "damaged: copy or export it again");
+  EXPECT_THAT(error_of_cube(write(one_name)), HasSubstr("/label_material holds 1, but label_names has 1 names"));
+  EXPECT_THAT(error_of_cube(write(two_parts)), HasSubstr("/label_part holds 2, but part_names has 2 names"));
+}
+
+TEST(Cube, names_of_labels_may_be_empty) {
+  Cube cube = labelled_cube();
+  for (const std::vector<std::string>& names : {std::vector<std::string>{"", ""}, {"sand", ""}, {"", "tyre"}}) {
+    for (Ping& ping : cube.pings) ping.labels.names = names;
+    EXPECT_EQ(read_cube(write(cube)).pings[0].labels.names, names);
+  }
+}
