@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/boundary_count.hpp"
 #include "acoustics/boundary_internal.hpp"
 #include "acoustics/reflection.hpp"
 #include "core/error.hpp"
@@ -123,6 +124,9 @@ std::vector<Boundary> boundaries_of(std::span<const Mirror> mirrors, const Pose&
            "', must be in front of it: its normal points into the water, and it has no edges");
     if (b.head_distance >= on_the_plane) boundaries.push_back(std::move(b));
   }
+  if (boundaries.size() > most_boundaries)
+    fail(ErrorKind::argument, who, ": ", boundaries.size(), " mirrors face the head, must be at most ", most_boundaries,
+         "; declare fewer, or fewer smooth materials");
   return boundaries;
 }
 

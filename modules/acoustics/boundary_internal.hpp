@@ -80,7 +80,7 @@ std::vector<Boundary> boundaries_of(const Environment& environment, const Pose& 
                                     const Transmission& transmission, double tolerance, const char* who);
 
 /// Returns the mirrors that a head faces; refers to `mirrors`. Throws Error if the head stands on one or behind one
-/// without edges.
+/// without edges, and for more than most_boundaries.
 std::vector<Boundary> boundaries_of(std::span<const Mirror> mirrors, const Pose& world_from_head,
                                     const Transmission& transmission, const char* who);
 

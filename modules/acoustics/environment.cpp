@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/boundary_count.hpp"
 #include "acoustics/noise.hpp"
 #include "core/error.hpp"
 #include "core/require.hpp"
@@ -55,6 +56,8 @@ void require_valid(const Environment& e, const char* who) {
   if (e.surface && e.water_level && !(std::abs(*e.water_level - e.surface->height) <= depths_agree_to))
     fail(ErrorKind::argument, who, ": water.level_m = ", *e.water_level,
          " m, must be that of surface.height_m = ", e.surface->height, " m to 0.01 m; leave one of them out");
+  require(e.mirrors.size() <= most_mirrors, who, "number of mirrors", static_cast<double>(e.mirrors.size()), "",
+          "at most 57: the time of a ping grows with the cube of the number of planes");
   for (const Mirror& mirror : e.mirrors) require_valid(mirror, who);
   if (e.tank) require_valid(*e.tank, who);
   if (e.tank && (e.surface || e.bottom || e.water_level))

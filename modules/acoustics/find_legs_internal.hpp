@@ -4,15 +4,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "acoustics/boundary_count.hpp"
 #include "acoustics/boundary_internal.hpp"
 
 namespace insonify {
 
 /// Legs from the head to a surfel: bit 0 direct, bit 1 + b by boundary b.
-using LegSet = std::uint32_t;
-constexpr std::size_t most_boundaries = 31;
+using LegSet = std::uint64_t;
 constexpr LegSet direct_leg = 1;
-constexpr LegSet leg_by(std::size_t boundary) { return static_cast<LegSet>(2u << boundary); }
+constexpr LegSet leg_by(std::size_t boundary) { return LegSet{2} << boundary; }
+static_assert(leg_by(most_boundaries - 1) != 0);
 
 struct FoundLegs {
   std::vector<LegSet> legs;  ///< one entry per surfel of the scene

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "acoustics/boundary_count.hpp"
 #include "core/require.hpp"
 
 namespace insonify {
@@ -83,7 +84,7 @@ void require_valid(const Mirror& m, const char* who) {
   }
   if (m.corners.empty()) return;
   const auto corners = static_cast<double>(m.corners.size());
-  require(corners >= 3, me, "number of corners", corners, "", "at least 3");
+  require(corners >= 3 && corners <= most_corners, me, "number of corners", corners, "", "within 3 and 64");
   require(convex_and_flat(m), me, "corners", corners, "", "those of a flat convex polygon, in order");
 }
 

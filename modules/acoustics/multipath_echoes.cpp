@@ -43,12 +43,6 @@ struct Leg {
   std::uint8_t by;   ///< 0: direct; k: by the k-th boundary
 };
 
-/// The legs to one patch, the direct one first.
-struct LegsToPatch {
-  Leg leg[1 + most_boundaries];
-  std::size_t count = 0;
-};
-
 /// Where the echoes of one block came from, echo by echo.
 struct Origins {
   std::vector<std::uint32_t> surfel;
@@ -86,11 +80,12 @@ class PathBuilder {
                                [&](std::size_t begin, std::size_t end, Echoes& out) {
                                  Origins& from = origins[begin / patches_per_block];
                                  std::size_t twice = 0;
+                                 std::vector<Leg> legs;
                                  for (std::size_t i = begin; i < end; ++i) {
                                    const std::uint32_t surfel = patches.surfel[i];
                                    if (!(found_.legs[surfel] & ~direct_leg)) continue;
-                                   const LegsToPatch legs = legs_to(patches, i, cosines);
-                                   if (legs.count == 0) continue;
+                                   find_legs_to(patches, i, cosines, legs);
+                                   if (legs.empty()) continue;
                                    const double area = static_cast<double>(scene_.area[surfel]) / parts[surfel];
                                    add_paths(legs, patches, i, area, out, from);
                                    from.surfel.resize(out.size(), surfel);
@@ -108,32 +103,33 @@ class PathBuilder {
   }
 
  private:
-  LegsToPatch legs_to(const Scatterers& patches, std::size_t i, bool cosines) const {
+  /// Sets `legs` to the legs to one patch, the direct one first.
+  void find_legs_to(const Scatterers& patches, std::size_t i, bool cosines, std::vector<Leg>& legs) const {
     const std::uint32_t surfel = patches.surfel[i];
     const LegSet open = found_.legs[surfel];
     const Vector3d place = patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
     const Vector3d normal = to_head_ * scene_.normal[surfel].cast<double>();
-    LegsToPatch legs;
+    legs.clear();
+    const auto add = [&legs](const Leg& leg) {
+      if (leg.cosine > 0) legs.push_back(leg);
+    };
     if (open & direct_leg) {
-      Leg& leg = legs.leg[legs.count];
-      leg = leg_to(surfel, place, normal, 1);
+      Leg leg = leg_to(surfel, place, normal, 1);
       leg.by = 0;
       if (cosines) leg.cosine = patches.cos_incidence[i];
-      legs.count += leg.cosine > 0;
+      add(leg);
     }
     for (std::size_t b = 0; b < boundaries_.size(); ++b) {
       const Boundary& boundary = boundaries_[b];
       if (!(open & leg_by(b)) || boundary.distance(place) <= 0) continue;
       const Vector3d image = boundary.mirrored(place);
       const double sine = std::min(1.0, std::abs(boundary.normal.dot(image)) / image.norm());
-      Leg& leg = legs.leg[legs.count];
-      leg = leg_to(surfel, image, boundary.mirrored_direction(normal),
-                   boundary.reflection(std::asin(sine)) * boundary.edges(image));
+      Leg leg = leg_to(surfel, image, boundary.mirrored_direction(normal),
+                       boundary.reflection(std::asin(sine)) * boundary.edges(image));
       leg.towards = boundary.mirrored_direction(leg.towards);
       leg.by = static_cast<std::uint8_t>(b + 1);
-      legs.count += leg.cosine > 0;
+      add(leg);
     }
-    return legs;
   }
 
   Leg leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal, complex reflection) const {
@@ -149,14 +145,13 @@ class PathBuilder {
     return leg;
   }
 
-  void add_paths(const LegsToPatch& legs, const Scatterers& patches, std::size_t patch, double area, Echoes& out,
+  void add_paths(const std::vector<Leg>& legs, const Scatterers& patches, std::size_t patch, double area, Echoes& out,
                  Origins& from) const {
     const std::size_t material = patches.material[patch];
     const complex amplitude =
         source_ * surface_amplitude(echo_options_, scene_.materials[material].coherent_fraction, patches.id[patch]);
-    for (std::size_t o = 0; o < legs.count; ++o)
-      for (std::size_t i = 0; i < legs.count; ++i) {
-        const Leg &there = legs.leg[o], &back = legs.leg[i];
+    for (const Leg& there : legs)
+      for (const Leg& back : legs) {
         const double length = there.range + back.range;
         if (std::max(there.by, back.by) < first_ || length < least_leg_ || length > longest_leg_) continue;
         const complex gain = there.sent * back.gain;

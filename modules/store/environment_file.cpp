@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "store/environment_file.hpp"
 
+#include "acoustics/boundary_count.hpp"
 #include "core/error.hpp"
 #include "store/environment_keys_internal.hpp"
 
@@ -18,6 +19,8 @@ constexpr Named<AbsorptionFormula> absorption_formulas[] = {{"francois-garrison"
 std::vector<Mirror> mirrors_in(const std::string& path, const TomlValue& tables) {
   std::vector<Mirror> mirrors;
   for (const TomlValue& table : tables.items) {
+    if (mirrors.size() == most_mirrors)
+      fail_in_file(path, table.line, tables.items.size(), " mirrors, must be at most ", most_mirrors);
     MirrorEntry entry;
     read_keys(path, table, mirror_keys(entry), "mirror");
     Mirror& mirror = entry.mirror;
@@ -28,6 +31,11 @@ std::vector<Mirror> mirrors_in(const std::string& path, const TomlValue& tables)
       fail_in_file(path, table.line, "mirror.size_m must be [width, height] beside place_m and normal");
     if (!mirror.corners.empty()) mirror = with_corners(mirror, mirror.corners);
     if (!entry.size.empty()) mirror = with_size(mirror, entry.size[0], entry.size[1]);
+    try {
+      require_valid(mirror, (path + ":" + std::to_string(table.line)).c_str());
+    } catch (const Error& error) {
+      fail(ErrorKind::content, error.what());
+    }
     mirrors.push_back(std::move(mirror));
   }
   return mirrors;

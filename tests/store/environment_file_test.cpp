@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "store/environment_file.hpp"
 
+#include "core/text.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -99,6 +100,23 @@ TEST(EnvironmentFile, refuses_mirrors_and_tanks_that_are_none) {
     const std::string error = error_of_environment(text);
     EXPECT_TRUE(holds(error, expected)) << error;
   }
+}
+
+TEST(EnvironmentFile, refuses_more_mirrors_and_corners_than_a_ping_can_have) {
+  const std::string wall = "[[mirror]]\nplace_m = [9, 0, 0]\nnormal = [-1, 0, 0]\n";
+  std::string walls = "[tank]\nsize_m = [9, 9, 9]\n";
+  for (int i = 0; i < 57; ++i) walls += wall;
+  EXPECT_EQ(mirrors_of(load_environment(own_file("walls.toml", walls))).size(), 63u);
+  const std::string error = error_of_environment(walls + wall + wall);
+  EXPECT_TRUE(holds(error, ":174: 59 mirrors, must be at most 57")) << error;
+  const auto round = [](int corners) {
+    std::string text = "\n[[mirror]]\ncorners_m = [";
+    for (int i = 0; i < corners; ++i)
+      text += printed("[%.15f, %.15f, 0], ", std::cos(2 * pi * i / corners), std::sin(2 * pi * i / corners));
+    return text + "]\n";
+  };
+  EXPECT_EQ(load_environment(own_file("round.toml", round(64))).mirrors[0].corners.size(), 64u);
+  EXPECT_TRUE(holds(error_of_environment(round(65)), ":2: mirror 'mirror': number of corners = 65, must be within 3"));
 }
 
 TEST(EnvironmentFile, names_line_and_nearest_key_of_a_mistake) {
