@@ -25,10 +25,17 @@ constexpr const char* placing_keys[] = {"position_m", "rest",       "bury_m",   
 /// Keys in whose place a trajectory stands.
 constexpr const char* replaced_by_trajectory[] = {"position_m", "rest", "bury_m", "velocity_mps", "turn_deg_per_s"};
 
+/// Files that are read already, by path: many parts may name one.
+struct KnownFiles {
+  std::map<std::string, std::shared_ptr<const SceneFile>> scenes;
+  std::map<std::string, Trajectory> trajectories;
+};
+
 /// A scene file that is being read, and the chain of those that hold it.
 struct Reader {
   std::string path;
   std::vector<std::string> chain;  // canonical paths, this one last
+  KnownFiles& known;
 
   template <typename... Parts>
   [[noreturn]] void fail_at(int line, const Parts&... parts) const {
@@ -37,6 +44,7 @@ struct Reader {
   SceneFile read() const;
   void read_part(const TomlValue& table, SceneFile& scene) const;
   void read_scatter(const TomlValue& table, SceneFile& scene) const;
+  const Trajectory& trajectory_of(int line, const std::string& file) const;
   std::string path_of(int line, const char* key, const std::string& name) const;
   void complete(PartFile& file, int line, const char* key) const;
 };
@@ -62,17 +70,32 @@ void Reader::complete(PartFile& file, int line, const char* key) const {
   if (!is_scene_file(file.path)) return;
   const std::string real = real_path(file.path).string();
   if (const auto begin = std::ranges::find(chain, real); begin != chain.end()) {
-    std::string names;
-    for (auto name = begin; name != chain.end(); ++name) names += *name + " -> ";
-    fail_at(line, key, ": a scene cannot hold itself: ", names, real);
+    const std::string names = joined(std::vector(begin, chain.end()), " -> ");
+    fail_at(line, key, ": a scene cannot hold itself: ", names, " -> ", real);
   }
   if (!file.material.empty() || !file.materials.empty() || file.viewpoint || file.thin > 0 || file.spacing > 0)
     fail_at(line, file.path,
             " is a scene of parts: unit, material, materials, viewpoint_m, thin_m and spacing_m belong ",
             "to its own parts");
-  Reader inner{file.path, chain};
-  inner.chain.push_back(real);
-  file.scene = std::make_shared<const SceneFile>(inner.read());
+  std::shared_ptr<const SceneFile>& scene = known.scenes[file.path];
+  if (!scene) {
+    Reader inner{file.path, chain, known};
+    inner.chain.push_back(real);
+    scene = std::make_shared<const SceneFile>(inner.read());
+  }
+  file.scene = scene;
+}
+
+const Trajectory& Reader::trajectory_of(int line, const std::string& file) const {
+  const auto [trajectory, is_new] = known.trajectories.try_emplace(file);
+  if (!is_new) return trajectory->second;
+  trajectory->second = lower_case(file).ends_with(".csv") ? load_trajectory(file) : load_tum_trajectory(file);
+  try {
+    require_valid(trajectory->second, "trajectory");
+  } catch (const Error& error) {
+    fail_at(line, error.what());
+  }
+  return trajectory->second;
 }
 
 /// Where a part stands and how it moves, of what its table says.
@@ -111,14 +134,7 @@ void Reader::read_part(const TomlValue& table, SceneFile& scene) const {
   if (!t.trajectory.empty()) {
     const int line = line_in(table, "trajectory");
     scene.trajectories.push_back(path_of(line, "trajectory", t.trajectory));
-    part.placement.trajectory = lower_case(t.trajectory).ends_with(".csv")
-                                    ? load_trajectory(scene.trajectories.back())
-                                    : load_tum_trajectory(scene.trajectories.back());
-    try {
-      require_valid(*part.placement.trajectory, "trajectory");
-    } catch (const Error& error) {
-      fail_at(line, error.what());
-    }
+    part.placement.trajectory = trajectory_of(line, scene.trajectories.back());
   }
   scene.parts.push_back(std::move(part));
 }
@@ -185,7 +201,8 @@ bool is_scene_file(const std::string& path) { return lower_case(fs::path(path).e
 
 SceneFile load_scene_file(const std::string& path) {
   if (!path_exists(path)) fail(ErrorKind::file, path, ": no such file");
-  return Reader{path, {real_path(path).string()}}.read();
+  KnownFiles known;
+  return Reader{path, {real_path(path).string()}, known}.read();
 }
 
 std::vector<std::string> files_of(const SceneFile& scene) {

@@ -2,6 +2,7 @@
 #include "tool/run/any_scene.hpp"
 
 #include <filesystem>
+#include <map>
 
 #include "core/error.hpp"
 #include "files/sha256.hpp"
@@ -26,9 +27,12 @@ LoadedScene load_any_scene(const CommonOptions& common, const SceneOptions& scen
 std::string digest_of_scene(const std::string& path) {
   if (is_scene_file(path)) {
     Sha256 sha;
-    for (const std::string& file : files_of(load_scene_file(path)))
-      sha.add(fs::path(file).filename().string() + ":" +
-              (is_scene_file(file) ? sha256_of_file(file) : digest_of_scene(file)) + "\n");
+    std::map<std::string, std::string> digests;
+    for (const std::string& file : files_of(load_scene_file(path))) {
+      std::string& digest = digests[file];
+      if (digest.empty()) digest = is_scene_file(file) ? sha256_of_file(file) : digest_of_scene(file);
+      sha.add(fs::path(file).filename().string() + ":" + digest + "\n");
+    }
     return sha.digest();
   }
   if (!is_tiles(path)) return sha256_of_file(path);

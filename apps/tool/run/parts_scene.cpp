@@ -10,10 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "files/memory_limit.hpp"
-#include "sampling/mesh_surfels.hpp"
 #include "scene/posed_scene.hpp"
-#include "scene/thin_scene.hpp"
 #include "tool/run/any_scene.hpp"
 #include "tool/run/ping_setup.hpp"
 
@@ -22,8 +19,6 @@ namespace {
 
 using Eigen::Vector3d;
 using nlohmann::ordered_json;
-
-constexpr double least_spacing = 0.002, most_spacing = 0.05, spacings_of_diagonal = 50;
 
 /// Adds file and line of the scene to what `body` refuses; what was wrong with an argument is wrong with the file.
 template <typename Body>
@@ -34,61 +29,6 @@ auto at_line_of_scene(const std::string& path, int line, const Body& body) {
     const ErrorKind kind = error.kind() == ErrorKind::argument ? ErrorKind::content : error.kind();
     fail(kind, path, ":", line, ": ", error.what());
   }
-}
-
-SceneOptions options_of(const PartFile& file) {
-  SceneOptions o;
-  o.path = file.path, o.unit = file.unit;
-  o.material = file.material, o.materials_file = file.materials, o.material_field = file.material_field;
-  if (const auto& v = file.viewpoint) o.viewpoint = fmt::format("{:.17g},{:.17g},{:.17g}", v->x(), v->y(), v->z());
-  return o;
-}
-
-double diagonal_of(const SceneCloud& cloud) {
-  const Bounds box = bounds(cloud);
-  return (box.max - box.min).norm();
-}
-
-/// Leaves the materials that surfels have: a name of the library comes with its whole table.
-void drop_unused_materials(SceneCloud& cloud) {
-  constexpr std::uint16_t unused = 0xffff;
-  std::vector<std::uint16_t> renumbered(cloud.materials.size(), unused);
-  std::vector<Material> used;
-  for (std::uint16_t& m : cloud.material) {
-    if (renumbered[m] == unused) {
-      renumbered[m] = static_cast<std::uint16_t>(used.size());
-      used.push_back(cloud.materials[m]);
-    }
-    m = renumbered[m];
-  }
-  if (!used.empty()) cloud.materials = std::move(used);
-}
-
-/// The surfels of a file: of a mesh evenly spaced ones; all hide as discs.
-SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, const PartsOptions& o) {
-  SceneCloud cloud = std::move(loaded.scene);
-  if (loaded.mesh && !loaded.columns.heights && !(captured && file.spacing == 0)) {
-    const double by_size = std::clamp(diagonal_of(cloud) / spacings_of_diagonal, least_spacing, most_spacing);
-    cloud = even_surfels(*loaded.mesh, file.spacing > 0 ? file.spacing : by_size, o.seed, o.threads,
-                         {file.path, available_memory()})
-                .scene;
-  }
-  cloud.facet.clear();
-  cloud.part_of.reset();
-  if (!captured || !file.material.empty()) drop_unused_materials(cloud);
-  return file.thin > 0 ? thin_scene(cloud, file.thin) : cloud;
-}
-
-void add_report(const LoadReport& of, LoadReport& all) {
-  all.points_read += of.points_read, all.triangles_read += of.triangles_read;
-  all.dropped_not_finite += of.dropped_not_finite, all.dropped_withheld += of.dropped_withheld;
-  all.dropped_duplicates += of.dropped_duplicates, all.dropped_degenerate += of.dropped_degenerate;
-  all.repaired_normals += of.repaired_normals, all.dropped_without_normal += of.dropped_without_normal;
-  all.normals_estimated |= of.normals_estimated, all.areas_estimated |= of.areas_estimated;
-  all.noise_estimated |= of.noise_estimated, all.materials_found |= of.materials_found;
-  all.outside_intervals += of.outside_intervals;
-  LoadReport said = of;
-  for (std::string& note : loading_notes(said)) all.notes.push_back(std::move(note));
 }
 
 Bounds box_of(const PlacedPart& part) {
@@ -115,42 +55,17 @@ std::string file_of_name(const std::map<std::string, std::string>& files, const 
 
 }  // namespace
 
-SceneBody PartsScene::load_body(const PartFile& file, const std::string& name, bool captured) {
+SceneBody PartsScene::load_body(const PartFile& file, const std::string& name, bool captured, PartFiles& files) {
   file_of_[name] = file.path;
-  SceneCloud cloud;
-  if (file.scene) {
-    const PartsScene inner(file.path, options_);
-    random_ |= inner.is_random();
-    LoadedScene whole = inner.whole_at(0);
-    add_report(whole.report, report_);
-    cloud = std::move(whole.scene);
-    std::iota(cloud.id.begin(), cloud.id.end(), 0u);
-  } else if (is_tiles(file.path) && captured) {
-    return read_ground(file, name);
-  } else {
-    if (is_tiles(file.path)) require_no_loading_options(options_of(file), "is prepared already");
-    CommonOptions common;
-    common.seed = options_.seed, common.threads = options_.threads;
-    LoadOptions loading = load_options(common, options_of(file));
-    if (captured) loading.mesh_spacing = file.spacing;
-    LoadedScene loaded = load_scene(file.path, loading);
-    add_report(loaded.report, report_);
-    cloud = surfels_of(loaded, file, captured, options_);
-  }
-  SceneBody body{name, "", nullptr};
-  if (!captured) {
-    // In axes of its own, near its coordinates, with numbers of its own.
-    body.centre = cloud.origin;
-    cloud.origin.setZero();
-    std::iota(cloud.id.begin(), cloud.id.end(), 0u);
-  }
-  body.cloud = std::make_shared<const SceneCloud>(std::move(cloud));
+  SceneBody body =
+      !file.scene && is_tiles(file.path) && captured ? read_ground(file, name) : files.body_of(file, captured);
+  body.name = name;
   return body;
 }
 
 /// Of captured tiles the ground beneath what is to rest: a ball that holds all of it.
 SceneBody PartsScene::read_ground(const PartFile& file, const std::string& name) {
-  require_no_loading_options(options_of(file), "is prepared already");
+  require_no_loading_options(scene_options_of(file), "is prepared already");
   const TiledScene& tiled = tiles_.try_emplace(name, file.path).first->second;
   const Bounds& bed = tiled.info().box;
   report_.points_read += tiled.info().surfels;
@@ -178,10 +93,11 @@ SceneBody PartsScene::read_ground(const PartFile& file, const std::string& name)
 PartsScene::PartsScene(const std::string& path, const PartsOptions& options)
     : file_(load_scene_file(path)), options_(options) {
   report_.path = path, report_.format = "insonify scene of parts";
+  PartFiles files(options_, report_);
   std::vector<PartDefinition> parts;
   for (const ScenePartEntry& entry : file_.parts)
     at_line_of_scene(path, entry.file.line, [&] {
-      SceneBody body = load_body(entry.file, entry.name, entry.placement.captured);
+      SceneBody body = load_body(entry.file, entry.name, entry.placement.captured, files);
       body.label = entry.label;
       parts.push_back({std::move(body), entry.placement});
     });
@@ -191,11 +107,12 @@ PartsScene::PartsScene(const std::string& path, const PartsOptions& options)
     scatter.rule = entry.rule;
     for (std::size_t f = 0; f < entry.files.size(); ++f)
       at_line_of_scene(path, entry.line, [&] {
-        SceneBody body = load_body(entry.files[f], entry.names[f], false);
+        SceneBody body = load_body(entry.files[f], entry.names[f], false, files);
         body.label = entry.labels[f];
         scatter.bodies.push_back(std::move(body));
       });
   }
+  random_ = files.is_random() || report_.triangles_read > 0 || !file_.scatters.empty();
   try {
     parts_ =
         std::make_shared<const SceneParts>(std::move(parts), std::move(scatters), options_.seed, options_.drawn_anew);

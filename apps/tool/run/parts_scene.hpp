@@ -14,15 +14,9 @@
 #include "simulate/ping_simulator.hpp"
 #include "store/scene_file.hpp"
 #include "survey/scene_parts.hpp"
+#include "tool/run/part_files.hpp"
 
 namespace insonify::tool {
-
-/// How a scene of parts is loaded.
-struct PartsOptions {
-  std::uint64_t seed = 1;   ///< of draws, and of samples of meshes
-  int threads = 0;          ///< 0: all cores
-  bool drawn_anew = false;  ///< scatters are drawn for every ping, not once
-};
 
 /// A scene of parts with all its files. Captured .tiles stay on disk: of them the ground beneath the parts is read, then
 /// what each ping reaches.
@@ -38,7 +32,7 @@ class PartsScene {
   /// Returns what was read of all files, and the notes on each.
   const LoadReport& report() const { return report_; }
   /// Returns whether surfels or places follow from the seed: of meshes, and of bodies that are drawn.
-  bool is_random() const { return random_ || report_.triangles_read > 0 || !file_.scatters.empty(); }
+  bool is_random() const { return random_; }
   /// Returns whether a captured part is on disk, so that each ping has a scene of its own.
   bool has_tiles() const { return !tiles_.empty(); }
 
@@ -59,13 +53,13 @@ class PartsScene {
  private:
   std::vector<PlacedPart> resting() const;
   std::vector<PlacedPart> others_at(double time, std::uint64_t draw) const;
-  SceneBody load_body(const PartFile& file, const std::string& name, bool captured);
+  SceneBody load_body(const PartFile& file, const std::string& name, bool captured, PartFiles& files);
   SceneBody read_ground(const PartFile& file, const std::string& name);
 
   SceneFile file_;
   PartsOptions options_;
   LoadReport report_;
-  bool random_ = false;                         ///< a part is a scene that follows from the seed
+  bool random_ = false;
   std::map<std::string, TiledScene> tiles_;     ///< of captured parts, by name
   std::map<std::string, std::string> file_of_;  ///< by the name of a part, or of a body that is strewn
   std::shared_ptr<const SceneParts> parts_;

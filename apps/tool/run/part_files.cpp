@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tool/run/part_files.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "files/memory_limit.hpp"
+#include "sampling/mesh_surfels.hpp"
+#include "scene/thin_scene.hpp"
+#include "tool/run/any_scene.hpp"
+#include "tool/run/parts_scene.hpp"
+#include "tool/run/ping_setup.hpp"
+
+namespace insonify::tool {
+namespace {
+
+constexpr double least_spacing = 0.002, most_spacing = 0.05, spacings_of_diagonal = 50;
+
+double diagonal_of(const SceneCloud& cloud) {
+  const Bounds box = bounds(cloud);
+  return (box.max - box.min).norm();
+}
+
+/// Leaves the materials that surfels have: a name of the library comes with its whole table.
+void drop_unused_materials(SceneCloud& cloud) {
+  constexpr std::uint16_t unused = 0xffff;
+  std::vector<std::uint16_t> renumbered(cloud.materials.size(), unused);
+  std::vector<Material> used;
+  for (std::uint16_t& m : cloud.material) {
+    if (renumbered[m] == unused) {
+      renumbered[m] = static_cast<std::uint16_t>(used.size());
+      used.push_back(cloud.materials[m]);
+    }
+    m = renumbered[m];
+  }
+  if (!used.empty()) cloud.materials = std::move(used);
+}
+
+/// The surfels of a file: of a mesh evenly spaced ones; all hide as discs.
+SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, const PartsOptions& o) {
+  SceneCloud cloud = std::move(loaded.scene);
+  if (loaded.mesh && !loaded.columns.heights && !(captured && file.spacing == 0)) {
+    const double by_size = std::clamp(diagonal_of(cloud) / spacings_of_diagonal, least_spacing, most_spacing);
+    cloud = even_surfels(*loaded.mesh, file.spacing > 0 ? file.spacing : by_size, o.seed, o.threads,
+                         {file.path, available_memory()})
+                .scene;
+  }
+  cloud.facet.clear();
+  cloud.part_of.reset();
+  if (!captured || !file.material.empty()) drop_unused_materials(cloud);
+  return file.thin > 0 ? thin_scene(cloud, file.thin) : cloud;
+}
+
+void add_report(const LoadReport& of, LoadReport& all) {
+  all.points_read += of.points_read, all.triangles_read += of.triangles_read;
+  all.dropped_not_finite += of.dropped_not_finite, all.dropped_withheld += of.dropped_withheld;
+  all.dropped_duplicates += of.dropped_duplicates, all.dropped_degenerate += of.dropped_degenerate;
+  all.repaired_normals += of.repaired_normals, all.dropped_without_normal += of.dropped_without_normal;
+  all.normals_estimated |= of.normals_estimated, all.areas_estimated |= of.areas_estimated;
+  all.noise_estimated |= of.noise_estimated, all.materials_found |= of.materials_found;
+  all.outside_intervals += of.outside_intervals;
+  LoadReport said = of;
+  for (std::string& note : loading_notes(said)) all.notes.push_back(std::move(note));
+}
+
+}  // namespace
+
+SceneOptions scene_options_of(const PartFile& file) {
+  SceneOptions o;
+  o.path = file.path, o.unit = file.unit;
+  o.material = file.material, o.materials_file = file.materials, o.material_field = file.material_field;
+  if (const auto& v = file.viewpoint) o.viewpoint = fmt::format("{:.17g},{:.17g},{:.17g}", v->x(), v->y(), v->z());
+  return o;
+}
+
+const SceneBody& PartFiles::body_of(const PartFile& file, bool captured) {
+  const SceneOptions o = scene_options_of(file);
+  const Settings settings = {o.path,      o.unit,    o.material,   o.materials_file, o.material_field,
+                             o.viewpoint, file.thin, file.spacing, captured};
+  const auto [known, is_new] = bodies_.try_emplace(settings);
+  if (is_new) known->second = read(file, captured);
+  return known->second;
+}
+
+SceneBody PartFiles::read(const PartFile& file, bool captured) {
+  SceneCloud cloud;
+  if (file.scene) {
+    const PartsScene inner(file.path, options_);
+    random_ |= inner.is_random();
+    LoadedScene whole = inner.whole_at(0);
+    add_report(whole.report, report_);
+    cloud = std::move(whole.scene);
+    std::iota(cloud.id.begin(), cloud.id.end(), 0u);
+  } else {
+    if (is_tiles(file.path)) require_no_loading_options(scene_options_of(file), "is prepared already");
+    CommonOptions common;
+    common.seed = options_.seed, common.threads = options_.threads;
+    LoadOptions loading = load_options(common, scene_options_of(file));
+    if (captured) loading.mesh_spacing = file.spacing;
+    LoadedScene loaded = load_scene(file.path, loading);
+    add_report(loaded.report, report_);
+    cloud = surfels_of(loaded, file, captured, options_);
+  }
+  SceneBody body;
+  if (!captured) {
+    // In axes of its own, near its coordinates, with numbers of its own.
+    body.centre = cloud.origin;
+    cloud.origin.setZero();
+    std::iota(cloud.id.begin(), cloud.id.end(), 0u);
+  }
+  body.cloud = std::make_shared<const SceneCloud>(std::move(cloud));
+  return body;
+}
+
+}  // namespace insonify::tool
