@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <algorithm>
 #include <cstddef>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "returns/pixel_labels.hpp"
@@ -25,12 +26,19 @@ struct LabelKinds {
 /// Also lists the parts.
 inline LabelKinds name_kinds(const SceneCloud& scene, PixelLabels& labels) {
   LabelKinds kinds;
-  for (const Material& material : scene.materials) labels.names.push_back(material.name);
+  std::unordered_map<std::string, std::size_t> known;  // number of each name, of the first one of equals
+  for (const Material& material : scene.materials) {
+    known.try_emplace(material.name, labels.names.size());
+    labels.names.push_back(material.name);
+  }
   for (const ScenePart& part : scene.parts) {
-    const auto known = std::find(labels.names.begin(), labels.names.end(), part.label);
-    const auto number = static_cast<std::size_t>(known - labels.names.begin());
-    kinds.of_part.push_back(part.label.empty() ? LabelKinds::of_material : number);
-    if (!part.label.empty() && known == labels.names.end()) labels.names.push_back(part.label);
+    if (part.label.empty()) {
+      kinds.of_part.push_back(LabelKinds::of_material);
+    } else {
+      const auto [number, is_new] = known.try_emplace(part.label, labels.names.size());
+      kinds.of_part.push_back(number->second);
+      if (is_new) labels.names.push_back(part.label);
+    }
     labels.part_names.push_back(part.name), labels.part_labels.push_back(part.label);
   }
   return kinds;

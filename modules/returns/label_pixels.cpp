@@ -10,6 +10,7 @@
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "returns/kinds_in_beam_internal.hpp"
 #include "returns/label_kinds_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
 #include "sonar/pulse.hpp"
@@ -123,14 +124,6 @@ VisibleParts visible_parts(const SceneCloud& scene, const SurfelEchoes& direct, 
   return parts;
 }
 
-// Energies of one material: in the cell of a pixel; there or nearer to it than the radius of a surfel, which closes
-// gaps between surfels; and in the main lobe. And the surfel of the strongest part of the first two.
-struct MaterialHere {
-  double cell = 0, near = 0, lobe = 0;
-  double in_cell = 0, in_near = 0;
-  std::uint32_t of_cell = 0, of_near = 0;
-};
-
 class Labelling {
  public:
   Labelling(const SceneCloud& scene, const SeenSurface& seen, const SonarHead& head, const Pose& world_from_head,
@@ -169,16 +162,19 @@ class Labelling {
   }
 
  private:
-  // Energies of the visible parts in the main lobe of a beam, by bin and material.
+  // Labels the pixels of a beam by the energies of the visible parts in its main lobe, by bin and kind.
   void label_beam(const BeamRow& row, std::pair<double, std::size_t> beam) {
-    const std::size_t kinds = labels_.names.size();
     const auto bins = static_cast<std::int64_t>(head_.gate.bins());
-    std::vector<MaterialHere> here(static_cast<std::size_t>(bins) * kinds);
+    const auto begin = static_cast<std::size_t>(
+        std::lower_bound(parts_.u.begin(), parts_.u.end(), beam.first - row.lobe.u) - parts_.u.begin());
+    const auto in_lobe = [&](std::size_t k) { return k < parts_.u.size() && parts_.u[k] <= beam.first + row.lobe.u; };
+    KindsInBeam here(labels_.names.size(), static_cast<std::size_t>(bins));
+    for (std::size_t k = begin; in_lobe(k); ++k)
+      here.extend(kinds_.of(scene_, parts_.surfel[k]), parts_.first[k], parts_.length);
+    here.make_room();
     const bool weighted = rows_.size() > 1 || head_.column;
     RowResponse response(head_, wavelength_, row.elevation);
-    const auto begin = std::lower_bound(parts_.u.begin(), parts_.u.end(), beam.first - row.lobe.u);
-    for (auto k = static_cast<std::size_t>(begin - parts_.u.begin());
-         k < parts_.u.size() && parts_.u[k] <= beam.first + row.lobe.u; ++k) {
+    for (std::size_t k = begin; in_lobe(k); ++k) {
       const double up =
           row.lobe.up < anywhere ? std::abs(std::asin(std::clamp(parts_.v[k], -1.0, 1.0)) - row.elevation) : 0;
       if (up > row.lobe.up) continue;
@@ -190,11 +186,11 @@ class Labelling {
         return up <= row.cell.up + radius / range && off <= row.cell.u + radius / range;
       };
       const bool of_cell = lies_within(part), of_near = of_cell || lies_within(surfel);
-      const std::size_t material = kinds_.of(scene_, parts_.surfel[k]);
+      const std::size_t kind = kinds_.of(scene_, parts_.surfel[k]);
       for (std::size_t n = 0; n < parts_.length; ++n) {
         const std::int64_t bin = parts_.first[k] + static_cast<std::int64_t>(n);
         if (bin < 0 || bin >= bins) continue;
-        MaterialHere& sum = here[static_cast<std::size_t>(bin) * kinds + material];
+        KindHere& sum = here.at(kind, bin);
         const double energy = weight * static_cast<double>(parts_.energy[k * parts_.length + n]);
         sum.lobe += energy;
         const double away = std::abs(head_.gate.centre(static_cast<std::size_t>(bin)) - range) - row.cell.range;
@@ -206,20 +202,21 @@ class Labelling {
         if (of_near && away <= surfel) add(sum.near, sum.in_near, sum.of_near);
       }
     }
-    for (std::int64_t n = 0; n < bins; ++n) label_pixel(beam.second, n, &here[static_cast<std::size_t>(n) * kinds]);
+    const auto most_in_cell = here.most(&KindHere::cell), most_near = here.most(&KindHere::near);
+    for (std::int64_t n = 0; n < bins; ++n)
+      label_pixel(beam.second, n, most_in_cell[static_cast<std::size_t>(n)], most_near[static_cast<std::size_t>(n)]);
   }
 
-  // The material with most energy in the cell of a pixel; near it, if there is neither visible nor hidden surface.
-  void label_pixel(std::size_t beam, Eigen::Index bin, const MaterialHere* here) {
-    const MaterialHere* end = here + labels_.names.size();
+  // The kind with most energy in the cell of a pixel; near it, if there is neither visible nor hidden surface.
+  void label_pixel(std::size_t beam, Eigen::Index bin, const KindsInBeam::Most& in_cell,
+                   const KindsInBeam::Most& near_cell) {
     const auto row = static_cast<Eigen::Index>(beam);
-    const MaterialHere* most = std::max_element(here, end, [](auto& a, auto& b) { return a.cell < b.cell; });
-    const bool visible = most->cell > 0;
+    const bool visible = in_cell.here;
     if (!visible && labels_.material(row, bin) == PixelLabels::shadow) return;
-    if (!visible) most = std::max_element(here, end, [](auto& a, auto& b) { return a.near < b.near; });
-    if (!(most->near > 0)) return;
+    const auto [most, kind] = visible ? in_cell : near_cell;
+    if (!most) return;
     const auto total = static_cast<double>(seen_.all.total[beam * seen_.all.bins + static_cast<std::size_t>(bin)]);
-    labels_.material(row, bin) = static_cast<std::uint16_t>(most - here);
+    labels_.material(row, bin) = kind;
     const std::uint32_t strongest = visible ? most->of_cell : most->of_near;
     labels_.id(row, bin) = scene_.id[strongest];
     if (!scene_.part.empty()) labels_.part(row, bin) = scene_.part[strongest];

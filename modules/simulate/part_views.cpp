@@ -17,27 +17,25 @@ struct SeenSurfel {
 
 class PartViewer {
  public:
-  PartViewer(const SceneCloud& scene, const std::vector<std::uint8_t>& seen, const ResolvedPing& ping)
-      : scene_(scene), seen_(seen), ping_(ping), head_from_world_(ping.view.world_from_head.inverse()) {
+  explicit PartViewer(const ResolvedPing& ping) : ping_(ping), head_from_world_(ping.view.world_from_head.inverse()) {
     const auto [least, most] = std::minmax_element(ping.head.fan.azimuth.begin(), ping.head.fan.azimuth.end());
     least_azimuth_ = *least - 0.5 * ping.head.fan.beam_width, most_azimuth_ = *most + 0.5 * ping.head.fan.beam_width;
   }
 
-  /// A part of which the scene has these surfels.
-  PartView view_of(const ScenePart& part, const std::vector<std::uint32_t>& surfels) const {
+  /// View of a part, of a scene without the other parts.
+  /// seen   1 of each surfel that the head sees among all parts
+  PartView view_of(const ScenePart& part, const SceneCloud& alone, const std::vector<std::uint8_t>& seen) const {
     PartView view{part.world_from_part};
-    if (!part.own || surfels.empty()) return view;
-    const SceneCloud alone = subset(scene_, surfels);
     const View& look = ping_.view;
     const auto visibility = find_visibility(alone, look.world_from_head, look.fan, look.gate,
                                             std::vector<std::uint8_t>(alone.size(), 1), look.sampling);
     double all = 0, shown = 0;
-    for (std::size_t k = 0; k < surfels.size(); ++k) {
+    for (std::size_t k = 0; k < alone.size(); ++k) {
       if (visibility[k] != Visibility::seen) continue;
-      const SeenSurfel surfel = in_head_axes(surfels[k]);
+      const SeenSurfel surfel = in_head_axes(alone, k);
       if (!in_fan(surfel)) continue;
       all += surfel.solid_angle;
-      if (seen_[surfels[k]]) shown += surfel.solid_angle;
+      if (seen[k]) shown += surfel.solid_angle;
       widen(view.azimuth, surfel.direction.azimuth);
       widen(view.elevation, surfel.direction.elevation);
       widen(view.range, surfel.range);
@@ -47,11 +45,11 @@ class PartViewer {
   }
 
  private:
-  SeenSurfel in_head_axes(std::uint32_t i) const {
-    const Vector3d place = head_from_world_ * (scene_.origin + scene_.point[i].cast<double>());
+  SeenSurfel in_head_axes(const SceneCloud& scene, std::size_t i) const {
+    const Vector3d place = head_from_world_ * (scene.origin + scene.point[i].cast<double>());
     const double range = place.norm();
-    const double cosine = std::abs((head_from_world_.linear() * scene_.normal[i].cast<double>()).dot(place)) / range;
-    return {direction_of(place), range, cosine * static_cast<double>(scene_.area[i]) / (range * range)};
+    const double cosine = std::abs((head_from_world_.linear() * scene.normal[i].cast<double>()).dot(place)) / range;
+    return {direction_of(place), range, cosine * static_cast<double>(scene.area[i]) / (range * range)};
   }
   bool in_fan(const SeenSurfel& s) const {
     return s.direction.azimuth >= least_azimuth_ && s.direction.azimuth <= most_azimuth_ &&
@@ -61,8 +59,6 @@ class PartViewer {
     extent.least = std::fmin(extent.least, value), extent.most = std::fmax(extent.most, value);
   }
 
-  const SceneCloud& scene_;
-  const std::vector<std::uint8_t>& seen_;
   const ResolvedPing& ping_;
   Pose head_from_world_;
   double least_azimuth_, most_azimuth_;
@@ -72,12 +68,28 @@ class PartViewer {
 
 std::vector<PartView> part_views(const SceneCloud& scene, const std::vector<std::uint8_t>& seen,
                                  const ResolvedPing& ping) {
-  std::vector<std::vector<std::uint32_t>> surfels(scene.parts.size());
-  for (std::uint32_t i = 0; i < scene.part.size(); ++i)
-    if (scene.parts[scene.part[i]].own) surfels[scene.part[i]].push_back(i);
-  const PartViewer viewer(scene, seen, ping);
+  // One copy of all placed surfels without the lists of parts and materials, and the rows of each part in it.
+  std::vector<std::vector<std::uint32_t>> rows(scene.parts.size());
+  std::vector<std::uint32_t> placed;
+  for (std::uint32_t i = 0; i < scene.part.size(); ++i) {
+    if (!scene.parts[scene.part[i]].own) continue;
+    rows[scene.part[i]].push_back(static_cast<std::uint32_t>(placed.size()));
+    placed.push_back(i);
+  }
+  SceneCloud bodies = subset(scene, placed);
+  bodies.parts.clear(), bodies.part.clear(), bodies.materials.clear();
+
+  const PartViewer viewer(ping);
   std::vector<PartView> views;
-  for (std::size_t p = 0; p < surfels.size(); ++p) views.push_back(viewer.view_of(scene.parts[p], surfels[p]));
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    views.push_back({scene.parts[p].world_from_part});
+    if (rows[p].empty()) continue;
+    SceneCloud alone = subset(bodies, rows[p]);
+    alone.parts = {scene.parts[p]}, alone.part.assign(alone.size(), 0);
+    std::vector<std::uint8_t> seen_here;
+    for (const std::uint32_t row : rows[p]) seen_here.push_back(seen[placed[row]]);
+    views.back() = viewer.view_of(scene.parts[p], alone, seen_here);
+  }
   return views;
 }
 
