@@ -96,7 +96,13 @@ std::shared_ptr<const SurfaceScattering> surface_of(const Material& material, do
 
 SurfaceTable surface_table(std::span<const Material> materials, double frequency, double sound_speed) {
   SurfaceTable table;
-  for (const Material& m : materials) table.push_back(surface_of(m, frequency, sound_speed));
+  std::vector<std::size_t> distinct;  // materials of laws that take time to tabulate, one of each
+  for (const Material& m : materials) {
+    const auto same = std::ranges::find_if(distinct, [&](std::size_t k) { return materials[k].law == m.law; });
+    const bool lambert = std::holds_alternative<LambertLaw>(m.law);
+    if (!lambert && same == distinct.end()) distinct.push_back(table.size());
+    table.push_back(lambert || same == distinct.end() ? surface_of(m, frequency, sound_speed) : table[*same]);
+  }
   return table;
 }
 

@@ -5,7 +5,6 @@
 
 #include "acoustics/surface_laws.hpp"
 #include "store/material_keys_internal.hpp"
-#include "store/material_library.hpp"
 
 namespace insonify {
 namespace {
@@ -106,11 +105,12 @@ std::vector<Key> material_keys(MaterialEntry& entry) {
 }
 
 void read_material(const std::string& path, const TomlValue& table, MaterialEntry& entry,
+                   const std::function<Material(const std::string&)>& find_like,
                    const std::vector<std::string>& others) {
   const auto line = [&](const char* key) { return table.find(key) ? table.find(key)->line : 0; };
   if (const TomlValue* like = table.find("like"); like && like->kind == TomlValue::Kind::text) {
     try {
-      entry.sourced.material = find_material(like->text);
+      entry.sourced.material = find_like(like->text);
     } catch (const Error& error) {
       fail_in_file(path, like->line, "like: ", error.what());
     }

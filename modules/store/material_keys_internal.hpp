@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +24,10 @@ struct MaterialEntry {
 /// Returns the keys of a [[material]], bound to `entry`, including those of material_numbers and law_numbers.
 std::vector<Key> material_keys(MaterialEntry& entry);
 
-/// Reads a table of keys into `entry`, which starts as a copy of the material `like`, if given. Throws Error(content)
-/// with path and line for keys that are unknown, missing, out of range or of another law.
+/// Reads a table of keys into `entry`, which starts as a copy of the material `like`, if given, as `find_like` returns
+/// it. Throws Error(content) with path and line for keys that are unknown, missing, out of range or of another law.
 void read_material(const std::string& path, const TomlValue& table, MaterialEntry& entry,
+                   const std::function<Material(const std::string&)>& find_like,
                    const std::vector<std::string>& others = {});
 
 }  // namespace insonify

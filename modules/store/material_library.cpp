@@ -60,7 +60,7 @@ MaterialFile load_material_file(const std::string& path) {
     return n.key == "schema" || n.key == "name" || n.key == "description" || n.key == "law";
   });
   MaterialEntry entry;
-  read_material(path, table, entry, {"schema", "description"});
+  read_material(path, table, entry, find_material, {"schema", "description"});
   file.material = entry.sourced.material;
   return file;
 }

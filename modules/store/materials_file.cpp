@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "acoustics/surface_laws.hpp"
 #include "store/material_keys_internal.hpp"
+#include "store/material_library.hpp"
 
 namespace insonify {
 namespace {
@@ -30,15 +33,35 @@ void add_interval(const std::string& path, const TomlValue& entry, const Materia
   table.field.intervals.push_back(next);
 }
 
+/// The materials of one file so far.
+struct Listed {
+  std::set<std::string> names;
+  std::map<int, std::string> name_of_label;
+  std::map<std::string, Material> liked;  // of the library, which is read once for each
+  std::vector<Material> checked;          // one of each law
+  std::size_t frequencies = 0;            // at which laws were checked
+};
+
 /// Refuses a name or label that is already in the table.
-void require_new(const std::string& path, int line, const SourcedMaterial& next, const MaterialTable& table) {
-  for (const SourcedMaterial& other : table.materials) {
-    if (other.material.name == next.material.name)
-      fail_in_file(path, line, "material '", next.material.name, "' is listed twice");
-    if (other.label == next.label)
-      fail_in_file(path, line, "label ", next.label, " of '", next.material.name, "' belongs to '", other.material.name,
-                   "' already");
-  }
+void require_new(const std::string& path, int line, const SourcedMaterial& next, Listed& listed) {
+  const std::string& name = next.material.name;
+  if (!listed.names.insert(name).second) fail_in_file(path, line, "material '", name, "' is listed twice");
+  if (const auto [other, is_new] = listed.name_of_label.try_emplace(next.label, name); !is_new)
+    fail_in_file(path, line, "label ", next.label, " of '", name, "' belongs to '", other->second, "' already");
+}
+
+/// Refuses a law that creates energy; equal laws are checked once. The check takes up to 20 ms for each frequency.
+void require_energy(const std::string& path, int line, const Material& material, Listed& listed) {
+  constexpr std::size_t most_frequencies = 256, untabulated = 3;
+  const auto* table = std::get_if<TableLaw>(&material.law);
+  const auto same_law = [&](const Material& other) { return other.law == material.law; };
+  if (std::holds_alternative<LambertLaw>(material.law) || std::ranges::any_of(listed.checked, same_law)) return;
+  listed.frequencies += table && !table->frequency.empty() ? table->frequency.size() : untabulated;
+  if (listed.frequencies > most_frequencies)
+    fail_in_file(path, line, "the laws of the materials up to '", material.name, "' have more than ", most_frequencies,
+                 " frequencies, 3 for each law without a table; list fewer, or less densely");
+  require_energy(material, (path + ":" + std::to_string(line)).c_str(), ErrorKind::content);
+  listed.checked.push_back(material);
 }
 
 }  // namespace
@@ -51,13 +74,19 @@ MaterialTable load_materials(const std::string& path) {
             {{"", "field", "", text(table.field.name), "field of the cloud that encodes materials"},
              {"", "material", "", list_of_tables(), "", true}},
             "", {"schema"});
+  Listed listed;
+  const auto find_like = [&](const std::string& name) {
+    const auto [found, is_new] = listed.liked.try_emplace(name);
+    if (is_new) found->second = find_material(name);
+    return found->second;
+  };
   for (const TomlValue& item : document.find("material")->items) {
     MaterialEntry entry;
     entry.sourced.label = static_cast<int>(table.materials.size());
     entry.sourced.status = "user";
-    read_material(path, item, entry);
-    require_energy(entry.sourced.material, (path + ":" + std::to_string(item.line)).c_str(), ErrorKind::content);
-    require_new(path, item.line, entry.sourced, table);
+    read_material(path, item, entry, find_like);
+    require_energy(path, item.line, entry.sourced.material, listed);
+    require_new(path, item.line, entry.sourced, listed);
     add_interval(path, item, entry, table);
     table.materials.push_back(entry.sourced);
   }
