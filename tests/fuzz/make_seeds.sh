@@ -8,8 +8,8 @@ set -euo pipefail
 [[ $# == 2 ]] || { sed -n '6s/^# *//p' "$0" >&2; exit 2; }
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
-mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environment mission materials profile \
-  trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run levels survey work
+mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environment mission materials mirrors scene \
+  scene.beside profile trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run levels survey work
 
 # Formats that the tool writes.
 "$tool" make-scene poles --points 40 -o ply/scene.ply -q >/dev/null
@@ -69,6 +69,180 @@ schema = 1
 [[material]]
 name = "sand"
 lambert_mu_db = -27
+TOML
+# All laws, and a table over angles and frequencies.
+cat >materials/laws.toml <<'TOML'
+schema = 1
+[[material]]
+name = "bed"
+law = "seabed"
+density_ratio = 1.8
+speed_ratio = 1.2
+loss = 0.016
+volume_parameter = 0.002
+spectral_strength_cm4 = 0.0044
+spectral_exponent = 3.25
+grain_mm = 0.3
+[[material]]
+name = "mud"
+law = "small_slope"
+density_ratio = 1.2
+speed_ratio = 0.98
+loss = 0.002
+volume_parameter = 0.001
+spectral_strength_cm4 = 0.0005
+[[material]]
+name = "hull"
+law = "rough"
+slope = 0.2
+micro_roughness_mm = 0.1
+diffuse_mu_db = -40
+density = 7800
+compression_speed = 5900
+shear_speed = 3200
+[[material]]
+name = "air"
+law = "rough"
+slope = 0.1
+reflection = 0.9
+[[material]]
+name = "measured"
+law = "table"
+incidence_deg = [0, 10, 30, 60, 89]
+frequency_khz = [100, 1000]
+sigma_db = [-10, -12, -20, -30, -40, -8, -10, -18, -28, -38]
+bistatic = "half_vector"
+TOML
+cat >materials/smooth.toml <<'TOML'
+schema = 1
+[[material]]
+name = "tiles"
+like = "concrete"
+mirror = true
+mirror_reflection = 0.9
+rms_height_m = 0.0001
+relief_slope = 0
+[[material]]
+name = "other"
+law = "table"
+incidence_deg = [0, 45, 80]
+sigma_db = [-10, -20, -30]
+bistatic = "separable"
+TOML
+cat >mirrors/walls.toml <<'TOML'
+[surface]
+height_m = 0
+[bottom]
+height_m = -9
+[[mirror]]
+name = "quay"
+place_m = [0, 3, -2]
+normal = [0, -1, 0]
+reflection = 0.71
+rms_height_m = 0.0005
+[[mirror]]
+name = "plate"
+place_m = [8, 0, -4]
+normal = [-1, 0, 0]
+size_m = [4, 3]
+density_kg_m3 = 2300
+pressure_speed = 4000
+shear_speed = 2400
+thickness_m = 0.1
+[[mirror]]
+name = "corners"
+corners_m = [[8, -2, -5], [8, -2, -2], [3, -4, -2], [3, -4, -5]]
+TOML
+cat >mirrors/tank.toml <<'TOML'
+[tank]
+size_m = [9, 6, 5]
+corner_m = [-1, -3, -5.5]
+reflection = 0.7
+rms_height_m = 0.0001
+[[mirror]]
+name = "lid"
+place_m = [4, 0, -1.5]
+normal = [0, 0, -1]
+size_m = [1, 1]
+TOML
+
+# Scenes of parts, beside the files that they name.
+cat >scene.beside/box.obj <<'OBJ'
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+OBJ
+perl -e 'print "x y z nx ny nz area\n";
+  for my $i (0 .. 399) { printf "%g %g -5 0 0 1 .25\n", .5 * ($i % 20), .5 * int($i / 20) - 5 }' >scene.beside/bed.xyz
+cp materials/two.toml scene.beside/table.toml
+printf "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,5,-1,-4,0,0,0\n6,5,1,-4,90,0,0\n" >scene.beside/swim.csv
+printf 'schema = 1\n[[part]]\nfile = "box.obj"\nspacing_m = 0.2\nposition_m = [0, 0, 0]\n' >scene.beside/raft.toml
+cat >scene/all.toml <<'TOML'
+schema = 1
+[[part]]
+file = "bed.xyz"
+[[part]]
+name = "crate"
+file = "box.obj"
+label = "box"
+material = "steel"
+spacing_m = 0.1
+position_m = [5, 1]
+rest = "bed"
+bury_m = 0.1
+yaw_deg = 30
+scale = 0.5
+[[part]]
+name = "hangs"
+file = "box.obj"
+spacing_m = 0.2
+thin_m = 0.1
+unit = "m"
+viewpoint_m = [0, 0, 0]
+position_m = [6, -1, -4]
+pitch_deg = 10
+roll_deg = -20
+velocity_mps = [0.1, 0.2, 0]
+turn_deg_per_s = [0, 0, 10]
+[[part]]
+name = "swims"
+file = "box.obj"
+materials = "table.toml"
+spacing_m = 0.3
+trajectory = "swim.csv"
+TOML
+cat >scene/strewn.toml <<'TOML'
+schema = 1
+[[part]]
+file = "bed.xyz"
+[[part]]
+name = "raft"
+file = "raft.toml"
+position_m = [4, 0, -2]
+[[scatter]]
+files = ["box.obj", "raft.toml"]
+names = ["pot", "raft"]
+labels = ["pot", "raft"]
+count = [1, 3]
+area_m = [[4, -2], [7, -2], [7, 2], [4, 2]]
+min_distance_m = 0.5
+yaw_deg = 180
+tilt_deg = 5
+bury = [0, 0.2]
+scale = [0.2, 0.4]
+empty_share = 0
+rest = "bed"
 TOML
 
 # Binary, by hand.

@@ -241,6 +241,8 @@ Tally try_reader(const FuzzedReader& reader, const fs::path& seed_folder, const 
     ++tally.bad;
     return tally;
   }
+  // Files that those of the reader name.
+  if (const fs::path beside = seed_folder / (reader.name + ".beside"); fs::exists(beside)) fs::copy(beside, work);
   for (const std::string& bytes : seeds) try_bytes(bytes, "seed");
   for (const std::string& bytes : files_in(regressions / reader.name)) try_bytes(bytes, "regression");
   Mutator mutator(seed);

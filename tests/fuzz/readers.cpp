@@ -5,6 +5,7 @@
 #include "formats/npy_file.hpp"
 #include "formats/oculus_file.hpp"
 #include "formats/xtf_file.hpp"
+#include "fuzz/damage_toml.hpp"
 #include "sampling/scene_cut.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/load_scene.hpp"
@@ -22,9 +23,11 @@
 
 #include <unistd.h>
 
+#include "simulate/simulate_ping.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/command_line.hpp"
 #include "tool/command/run_settings.hpp"
+#include "tool/run/parts_scene.hpp"
 #include "tool/run/record_file.hpp"
 #include "view/grey_file.hpp"
 #endif
@@ -103,6 +106,38 @@ void go_on_with_survey(const std::string& path) {
   run_verb({"merge", run});
   std::filesystem::remove_all(folder);
 }
+
+/// Pings a scene as it is at time 0 with four beams, 5 m ahead of them.
+void ping_with_four_beams(const SceneCloud& scene, const Environment& environment = {}) {
+  SonarSpec spec = find_sonar("p900-45").spec;
+  spec.beams = 4, spec.min_range = 1, spec.max_range = 10;
+  SimulationOptions options;
+  options.threads = 1;
+  options.outputs.contributors = 2;
+  const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
+  simulate_ping(scene, make_head(spec, slowest_sound(environment)), pose, environment, options);
+}
+
+/// A wall of 60 x 60 surfels across the beams, with these materials in columns.
+SceneCloud wall_of(const std::vector<Material>& materials) {
+  SceneCloud wall;
+  wall.materials = materials;
+  for (std::size_t i = 0; i < 3600; ++i) {
+    const double y = -1.5 + 0.05 * static_cast<double>(i % 60), z = -5 + 0.05 * static_cast<double>(i / 60);
+    add_surfel(wall, {5, y, z}, {-1, 0, 0}, 0.0025, static_cast<std::uint16_t>(i % materials.size()));
+  }
+  return wall;
+}
+
+void ping_materials(const std::string& path) {
+  ping_with_four_beams(wall_of(materials_by_label(load_materials(path))));
+}
+
+void ping_mirrors(const std::string& path) { ping_with_four_beams(wall_of({Material{}}), load_environment(path)); }
+
+void ping_parts(const std::string& path) {
+  ping_with_four_beams(tool::PartsScene(path, {.threads = 1}).whole_at(0).scene);
+}
 #endif
 
 }  // namespace
@@ -126,7 +161,6 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"sonar", ".toml", [](const std::string& path) { load_sonar_file(path); }},
       {"environment", ".toml", [](const std::string& path) { load_environment(path); }},
       {"mission", ".toml", [](const std::string& path) { load_mission(path); }},
-      {"materials", ".toml", [](const std::string& path) { load_materials(path); }},
       {"profile", ".csv", [](const std::string& path) { load_sound_speed_profile(path); }},
       {"trajectory", ".csv", [](const std::string& path) { load_trajectory(path); }},
       {"tum", ".txt", [](const std::string& path) { load_tum_trajectory(path); }},
@@ -138,7 +172,12 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"xtf", ".xtf", [](const std::string& path) { read_xtf(path); }},
       {"oculus", ".raw", [](const std::string& path) { level_db(read_oculus_ping(path, 0)); }},
       {"npy", ".npy", [](const std::string& path) { read_npy(path); }},
-#ifdef INSONIFY_FUZZ_TOOL
+#ifndef INSONIFY_FUZZ_TOOL
+      {"materials", ".toml", [](const std::string& path) { load_materials(path); }, damage_toml},
+#else
+      {"materials", ".toml", ping_materials, damage_toml},
+      {"mirrors", ".toml", ping_mirrors, damage_toml},
+      {"scene", ".toml", ping_parts, damage_toml},
       {"png", ".png", [](const std::string& path) { load_grey_png(path); }},
       {"run", ".toml", [](const std::string& path) { tool::load_ping_settings(path); }},
       {"record", ".xtf", [](const std::string& path) { tool::read_record(path); }},
