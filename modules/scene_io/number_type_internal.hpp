@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace insonify {
@@ -37,31 +38,44 @@ T read_as(const char* bytes) {
   return value;
 }
 
-/// The number at `bytes`, in this machine's byte order.
-inline double read_number(const char* bytes, NumberType type) {
+/// Calls use(zero) with a zero of a type.
+template <typename Use>
+auto with_type(NumberType type, const Use& use) {
   switch (type) {
     case NumberType::int8:
-      return read_as<std::int8_t>(bytes);
+      return use(std::int8_t{});
     case NumberType::uint8:
-      return read_as<std::uint8_t>(bytes);
+      return use(std::uint8_t{});
     case NumberType::int16:
-      return read_as<std::int16_t>(bytes);
+      return use(std::int16_t{});
     case NumberType::uint16:
-      return read_as<std::uint16_t>(bytes);
+      return use(std::uint16_t{});
     case NumberType::int32:
-      return read_as<std::int32_t>(bytes);
+      return use(std::int32_t{});
     case NumberType::uint32:
-      return read_as<std::uint32_t>(bytes);
+      return use(std::uint32_t{});
     case NumberType::int64:
-      return static_cast<double>(read_as<std::int64_t>(bytes));
+      return use(std::int64_t{});
     case NumberType::uint64:
-      return static_cast<double>(read_as<std::uint64_t>(bytes));
+      return use(std::uint64_t{});
     case NumberType::float32:
-      return read_as<float>(bytes);
-    case NumberType::float64:
-      return read_as<double>(bytes);
+      return use(float{});
+    default:
+      return use(double{});
   }
-  return 0;
+}
+
+/// The number at `bytes`, in this machine's byte order.
+inline double read_number(const char* bytes, NumberType type) {
+  return with_type(type, [&](auto zero) { return static_cast<double>(read_as<decltype(zero)>(bytes)); });
+}
+
+/// Appends a number that a variable of that type can hold, in this machine's byte order.
+inline void append_number(std::string& bytes, NumberType type, double value) {
+  with_type(type, [&](auto zero) {
+    zero = static_cast<decltype(zero)>(value);
+    bytes.append(reinterpret_cast<const char*>(&zero), sizeof zero);
+  });
 }
 
 /// True if a variable of that type can hold the value.

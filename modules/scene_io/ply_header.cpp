@@ -89,16 +89,6 @@ void check_binary(const PlyHeader& header) {
   }
 }
 
-void check_text(const PlyHeader& header) {
-  const std::string text = read_whole_file(header.path);
-  LineReader lines(std::string_view(text).substr(header.end), header.lines);
-  for (const PlyElement& element : header.elements) {
-    std::vector<TextColumn> columns;
-    for (const PlyProperty& p : element.properties) columns.push_back({p.type, p.is_list});
-    check_number_rows(lines, element.count, columns, element.name, header.path);
-  }
-}
-
 }  // namespace
 
 const PlyElement& PlyHeader::vertex() const {
@@ -113,13 +103,8 @@ PlyHeader probe_ply(const std::string& path) {
   PlyHeader header = read_ply_header(path);
   if (header.encoding.empty())
     fail(ErrorKind::content, path, ": the PLY header has no 'format' line; export the file again");
-  if (header.vertex().has_list())
-    fail(ErrorKind::content, path, ": the PLY vertices hold a list property, which cannot be read; ",
-         "save the file again from CloudCompare or MeshLab");
-  if (header.encoding == "ascii")
-    check_text(header);
-  else
-    check_binary(header);
+  header.vertex();
+  if (header.encoding != "ascii") check_binary(header);
   return header;
 }
 

@@ -38,8 +38,8 @@ struct PlyHeader {
   const PlyElement& vertex() const;
 };
 
-/// Reads the header and checks the file against it, before PCL reads the data. Throws Error(content) if the file is not
-/// a PLY, is truncated, has no vertices or unknown types, or (ascii) holds a row that PCL would misread.
+/// Reads the header, and checks the size of a binary file against it. Throws Error(content) if the file is not a PLY, is
+/// truncated, or has no vertices or unknown types.
 PlyHeader probe_ply(const std::string& path);
 
 }  // namespace insonify

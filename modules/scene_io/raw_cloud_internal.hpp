@@ -54,6 +54,8 @@ struct RawCloud {
   std::vector<SceneColumn> columns;        ///< with ReadOptions::keep_columns: unused columns, and that of the labels
   std::vector<std::string> other_columns;  ///< names of the unused columns
   std::vector<std::array<std::uint32_t, 3>> triangle;
+  std::vector<std::array<std::size_t, 2>>
+      polygon;  ///< of more than three corners: its first triangle, and their number
   std::vector<std::array<std::uint32_t, 3>> raster;   ///< triangles between the points, if they are a raster of heights
   std::vector<std::array<std::uint32_t, 3>> surface;  ///< triangles between the points of a height field
   std::vector<float> surface_height;  ///< z of the surface at each point [m]; empty: the points lie on the surface
@@ -136,6 +138,14 @@ std::vector<Eigen::Vector3d> read_places(const RowTable& table, const std::strin
 
 /// Appends a polygon as a fan of triangles; counts it as bad if a corner is not in [0, vertices).
 void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices);
+/// Appends a strip of triangles, whose sides alternate. A corner of -1 ends a strip; a triangle that has a corner twice
+/// joins two strips, and is left out.
+void add_strip(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices);
+
+/// Replaces the fans of polygons that are not convex by triangles that cover the polygon. Notes polygons whose edges
+/// cross, which keep their fan, and polygons with a corner off their plane by more than 1 % of their size. Throws
+/// Error(content) if a polygon takes too long.
+void cut_polygons(RawCloud& raw);
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options);
 RawCloud read_ply(const std::string& path, const ReadOptions& options);
@@ -147,6 +157,7 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///<
 /// Throws Error(content) for a classic netCDF file that ends before its variables do; other files pass.
 void check_netcdf(const std::string& path);
 RawCloud read_asc(const std::string& path, const ReadOptions& options);  ///< text, or an ESRI ASCII grid
-RawCloud read_vtk(const std::string& path, const ReadOptions& options);  ///< .vtk, .vtp, .stl
+RawCloud read_stl(const std::string& path, const ReadOptions& options);
+RawCloud read_vtk(const std::string& path, const ReadOptions& options);  ///< .vtk, .vtp
 
 }  // namespace insonify

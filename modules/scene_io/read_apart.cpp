@@ -17,8 +17,8 @@ void pass(Stream& stream, RowTable::Column& column) {
 /// What a library may find out about a cloud.
 template <typename Stream>
 void pass(Stream& stream, RawCloud& raw) {
-  stream(raw.format, raw.fields, raw.width, raw.height, raw.triangle, raw.triangles_in_file, raw.bad_triangles,
-         raw.float_coordinates, raw.notes);
+  stream(raw.format, raw.fields, raw.width, raw.height, raw.triangle, raw.polygon, raw.triangles_in_file,
+         raw.bad_triangles, raw.float_coordinates, raw.notes);
 }
 
 SentRows rows_of_doubles(const std::vector<std::string>& names, std::size_t rows) {

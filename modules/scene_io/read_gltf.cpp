@@ -1,246 +1,183 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <optional>
+#include <array>
+#include <map>
 
-#include <nlohmann/json.hpp>
-#include <vtkCellArray.h>
-#include <vtkCompositeDataIterator.h>
-#include <vtkGLTFReader.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
+#include <Eigen/Geometry>
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
+#include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
-#include "scene_io/text_lines_internal.hpp"
-#include "scene_io/vtk_messages_internal.hpp"
 
-// Reads glTF 2.0 (Khronos; ISO/IEC 12113) by VTK, which does not check that accessors lie within their buffers: the
-// document is checked first. A glTF's y axis points up: (x, y, z) becomes (x, -z, y).
+// Meshes of glTF, where its nodes put them. A glTF's y axis points up: (x, y, z) becomes (x, -z, y).
 namespace insonify {
 namespace {
 
+using Eigen::Affine3d;
 using nlohmann::json;
 
-/// A document, and how many bytes stand behind it in a .glb.
-struct GltfDocument {
-  const std::string& path;
-  json root;
-  std::uint64_t chunk_bytes = 0;
-
-  [[noreturn]] void refuse(const std::string& what) const {
-    fail(ErrorKind::content, path, ": ", what, "; the file is damaged or cut off: copy or export it again");
-  }
-  /// A number of an object; `otherwise` if it is absent.
-  std::uint64_t number(const json& object, const char* key, std::optional<std::uint64_t> otherwise = {}) const {
-    const auto found = object.find(key);
-    if (found == object.end() && otherwise) return *otherwise;
-    if (found == object.end() || !found->is_number_unsigned() || found->get<std::uint64_t>() > 0xffffffff)
-      refuse(std::string("'") + key + "' must be a whole number of 32 bits");
-    return found->get<std::uint64_t>();
-  }
-  /// The entry of a list of the root.
-  const json& entry(const char* list, std::uint64_t index) const {
-    const auto found = root.find(list);
-    if (found == root.end() || !found->is_array() || index >= found->size() || !(*found)[index].is_object())
-      refuse(std::string("there is no entry ") + std::to_string(index) + " in '" + list + "'");
-    return (*found)[index];
-  }
-  std::size_t size_of_list(const char* list) const {
-    const auto found = root.find(list);
-    return found == root.end() ? 0 : found->size();
-  }
+/// A mesh in its own axes, read once and placed by one node or many.
+struct GltfMesh {
+  std::vector<double> points;  ///< x y z
+  RawCloud faces;              ///< its triangles alone
 };
 
-GltfDocument document_of(const std::string& path) {
-  std::string text = read_whole_file(path);
-  GltfDocument document{path, {}, 0};
-  if (extension_of(path) == ".glb") {
-    const auto at = [&](std::size_t offset) -> std::uint64_t {
-      if (offset + 4 > text.size()) document.refuse("ends within its head");
-      return read_as<std::uint32_t>(text.data() + offset);
+/// Appends the triangles of a primitive whose points are `count` behind the first `first` of its mesh.
+void add_primitive(const GltfDocument& document, const json& primitive, std::size_t first, std::size_t count,
+                   RawCloud& faces) {
+  const auto corner = [&](auto i) { return static_cast<std::int64_t>(first) + static_cast<std::int64_t>(i); };
+  std::vector<std::int64_t> corners;
+  for (std::size_t i = 0; i < count; ++i) corners.push_back(corner(i));
+  if (primitive.contains("indices")) {
+    corners.clear();
+    const std::uint64_t index = document.number(primitive, "indices");
+    const std::uint64_t type = document.number(document.entry("accessors", index), "componentType");
+    const double restart = type == 5121 ? 0xff : type == 5123 ? 0xffff : 0xffffffff;
+    for (const double i : document.numbers(index, "SCALAR"))
+      corners.push_back(i == restart ? -1 : i < static_cast<double>(count) ? corner(i) : -2);
+  }
+  const std::uint64_t mode = document.number(primitive, "mode", 4);
+  if (mode == 5) add_strip(faces, corners, first + count);
+  for (std::size_t i = 0; mode == 4 && i < corners.size(); i += 3)
+    add_polygon(faces, {corners.begin() + i, corners.begin() + std::min(i + 3, corners.size())}, first + count);
+  for (std::size_t i = 2; mode == 6 && i < corners.size(); ++i)
+    add_polygon(faces, {corners[0], corners[i - 1], corners[i]}, first + count);
+}
+
+GltfMesh read_mesh(const GltfDocument& document, std::uint64_t index) {
+  GltfMesh mesh;
+  std::map<std::uint64_t, std::array<std::size_t, 2>> known;  // accessors of points: where they begin, and their number
+  const json& primitives = document.list(document.entry("meshes", index), "primitives");
+  if (primitives.empty()) document.refuse("a mesh has no primitives");
+  for (const json& primitive : primitives) {
+    const json attributes = primitive.value("attributes", json::object());
+    if (!attributes.contains("POSITION")) document.refuse("a primitive has no positions");
+    const std::uint64_t accessor = document.number(attributes, "POSITION");
+    const auto [entry, is_new] = known.try_emplace(accessor);
+    auto& [first, count] = entry->second;
+    if (is_new) {
+      const std::vector<double> points = document.numbers(accessor, "VEC3");
+      first = mesh.points.size() / 3, count = points.size() / 3;
+      mesh.points.insert(mesh.points.end(), points.begin(), points.end());
+    }
+    add_primitive(document, primitive, first, count, mesh.faces);
+  }
+  return mesh;
+}
+
+Affine3d transform_of(const std::array<double, 3>& translation, const std::array<double, 4>& rotation,
+                      const std::array<double, 3>& scale) {
+  return Eigen::Translation3d(translation[0], translation[1], translation[2]) *
+         Eigen::Quaterniond(rotation[3], rotation[0], rotation[1], rotation[2]).normalized() *
+         Eigen::Scaling(scale[0], scale[1], scale[2]);
+}
+
+constexpr std::array<double, 3> no_move = {0, 0, 0}, no_scale = {1, 1, 1};
+constexpr std::array<double, 4> no_turn = {0, 0, 0, 1};
+
+Affine3d transform_of(const json& node) {
+  if (!node.contains("matrix"))
+    return transform_of(node.value("translation", no_move), node.value("rotation", no_turn),
+                        node.value("scale", no_scale));
+  const auto numbers = node["matrix"].get<std::array<double, 16>>();
+  return Affine3d(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
+}
+
+/// Where the copies of a node's mesh stand: one, or those of EXT_mesh_gpu_instancing.
+std::vector<Affine3d> copies_of(const GltfDocument& document, const json& node) {
+  const json extensions = node.value("extensions", json::object());
+  if (!extensions.contains("EXT_mesh_gpu_instancing")) return {Affine3d::Identity()};
+  const json& attributes = extensions["EXT_mesh_gpu_instancing"].at("attributes");
+  std::array<std::vector<double>, 3> numbers;
+  std::size_t copies = 0;
+  constexpr std::array names = {"TRANSLATION", "ROTATION", "SCALE"};
+  for (const std::size_t i : {0, 1, 2}) {
+    if (!attributes.contains(names[i])) continue;
+    numbers[i] = document.numbers(document.number(attributes, names[i]), i == 1 ? "VEC4" : "VEC3");
+    copies = std::max(copies, numbers[i].size() / (i == 1 ? 4 : 3));
+  }
+  std::vector<Affine3d> transforms;
+  for (std::size_t k = 0; k < copies; ++k) {
+    const auto row = [&]<std::size_t size>(std::size_t i, std::array<double, size> otherwise) {
+      if (numbers[i].size() >= (k + 1) * size) std::copy_n(&numbers[i][k * size], size, otherwise.begin());
+      return otherwise;
     };
-    if (text.compare(0, 4, "glTF") != 0)
-      fail(ErrorKind::content, path, ": not a binary glTF file: expected 'glTF', found ", what_it_looks_like(path));
-    if (at(4) != 2) fail(ErrorKind::content, path, ": is glTF version ", at(4), ", expected 2; export it again");
-    if (at(8) != text.size())
-      document.refuse("its head announces " + std::to_string(at(8)) + " bytes, the file has " +
-                      std::to_string(text.size()));
-    const std::uint64_t length = at(12), behind = 20 + length;
-    if (at(16) != 0x4e4f534a || behind > text.size()) document.refuse("its first chunk is not JSON");
-    if (behind + 8 <= text.size()) document.chunk_bytes = std::min<std::uint64_t>(at(behind), text.size() - behind - 8);
-    text = text.substr(20, length);
+    transforms.push_back(transform_of(row(0, no_move), row(1, no_turn), row(2, no_scale)));
   }
-  document.root = json::parse(text, nullptr, false);
-  if (!document.root.is_object())
-    fail(ErrorKind::content, path, ": not a glTF document: its JSON cannot be read, it looks like ",
-         what_it_looks_like(path), "; the file is damaged or cut off: copy or export it again");
-  return document;
+  return transforms;
 }
 
-/// Bytes that a buffer has, in the chunk, in its address, or in its file.
-std::uint64_t buffer_bytes(const GltfDocument& document, const json& buffer) {
-  const auto uri = buffer.find("uri");
-  if (uri == buffer.end()) return document.chunk_bytes;
-  if (!uri->is_string()) document.refuse("the 'uri' of a buffer must be text");
-  const auto address = uri->get<std::string>();
-  if (address.starts_with("data:")) {
-    const std::size_t begin = address.find(";base64,");
-    if (begin == std::string::npos) document.refuse("a buffer is not in base64");
-    const std::size_t letters = address.find_last_not_of('=') + 1 - (begin + 8);
-    return letters * 3 / 4;
+/// The scene as a whole, or all nodes without a parent if the document names no scene.
+json roots_of(const GltfDocument& document) {
+  const json& root = document.root;
+  if (!document.list(root, "scenes").empty())
+    return document.list(document.entry("scenes", document.number(root, "scene", 0)), "nodes");
+  std::vector<std::uint64_t> children, roots;
+  const json& nodes = document.list(root, "nodes");
+  for (const json& node : nodes)
+    for (const json& child : document.list(node, "children")) children.push_back(child.get<std::uint64_t>());
+  std::sort(children.begin(), children.end());
+  for (std::uint64_t n = 0; n < nodes.size(); ++n)
+    if (!std::binary_search(children.begin(), children.end(), n)) roots.push_back(n);
+  return roots;
+}
+
+/// A mesh, and its place in the world.
+struct Placement {
+  std::uint64_t mesh;
+  Affine3d world;
+};
+
+/// Follows the nodes, which must form trees, from the roots to the leaves.
+std::vector<Placement> placements_of(const GltfDocument& document, RawCloud& raw) {
+  std::vector<Placement> placements, nodes;  // of nodes: the number of a node, and the place of its parent
+  std::vector<bool> seen(document.list(document.root, "nodes").size());
+  bool skinned = document.root.contains("animations");
+  for (const json& node : roots_of(document)) nodes.push_back({node.get<std::uint64_t>(), Affine3d::Identity()});
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const json& node = document.entry("nodes", nodes[i].mesh);
+    if (seen[nodes[i].mesh]) document.refuse("node " + std::to_string(nodes[i].mesh) + " has several parents");
+    seen[nodes[i].mesh] = true;
+    const Affine3d world = nodes[i].world * transform_of(node);
+    for (const json& child : document.list(node, "children")) nodes.push_back({child.get<std::uint64_t>(), world});
+    skinned = skinned || node.contains("skin") || node.contains("weights");
+    if (!node.contains("mesh")) continue;
+    for (const Affine3d& copy : copies_of(document, node))
+      placements.push_back({document.number(node, "mesh"), world * copy});
   }
-  const std::size_t slash = document.path.rfind('/');
-  const std::string file = (slash == std::string::npos ? "" : document.path.substr(0, slash + 1)) + address;
-  require_readable(file);
-  return file_size_of(file);
+  if (skinned) raw.notes.push_back("animations, skins and morph targets are left out: the meshes are as without them");
+  return placements;
 }
 
-void check_buffers(const GltfDocument& document) {
-  for (std::size_t b = 0; b < document.size_of_list("buffers"); ++b) {
-    const json& buffer = document.entry("buffers", b);
-    const std::uint64_t announced = document.number(buffer, "byteLength"), held = buffer_bytes(document, buffer);
-    if (held < announced)
-      document.refuse("buffer " + std::to_string(b) + " announces " + std::to_string(announced) + " bytes and has " +
-                      std::to_string(held));
+/// Sends the points of all meshes, and adds their triangles.
+SentRows send_meshes(const GltfDocument& document, ArraySender& to, RawCloud& raw) {
+  const std::vector<Placement> placements = placements_of(document, raw);
+  std::map<std::uint64_t, GltfMesh> meshes;
+  double points = 0, triangles = 0;
+  for (const Placement& placed : placements) {
+    if (!meshes.contains(placed.mesh)) meshes[placed.mesh] = read_mesh(document, placed.mesh);
+    points += static_cast<double>(meshes[placed.mesh].points.size() / 3);
+    triangles += static_cast<double>(meshes[placed.mesh].faces.triangle.size());
   }
-  for (std::size_t v = 0; v < document.size_of_list("bufferViews"); ++v) {
-    const json& view = document.entry("bufferViews", v);
-    const json& buffer = document.entry("buffers", document.number(view, "buffer"));
-    if (document.number(view, "byteOffset", 0) + document.number(view, "byteLength") >
-        document.number(buffer, "byteLength"))
-      document.refuse("buffer view " + std::to_string(v) + " ends beyond its buffer");
-  }
-}
-
-void check_accessor(const GltfDocument& document, std::uint64_t index) {
-  const json& accessor = document.entry("accessors", index);
-  const std::uint64_t type = document.number(accessor, "componentType");
-  const std::uint64_t bytes = type == 5120 || type == 5121 ? 1 : type == 5122 || type == 5123 ? 2 : 4;
-  const std::string shape = accessor.value("type", "");
-  const std::uint64_t parts = shape == "SCALAR" ? 1
-                              : shape == "VEC2" ? 2
-                              : shape == "VEC3" ? 3
-                              : shape == "VEC4" ? 4
-                                                : 0;
-  const std::uint64_t count = document.number(accessor, "count");
-  if (type < 5120 || type > 5126 || parts == 0) document.refuse("accessor " + std::to_string(index) + " has no type");
-  if (accessor.contains("sparse") || !accessor.contains("bufferView"))
-    fail(ErrorKind::content, document.path, ": accessor ", index,
-         " is sparse, which is not read; export it as a whole");
-  const json& view = document.entry("bufferViews", document.number(accessor, "bufferView"));
-  const std::uint64_t stride = document.number(view, "byteStride", bytes * parts);
-  if (count == 0 || stride < bytes * parts ||
-      document.number(accessor, "byteOffset", 0) + (count - 1) * stride + bytes * parts >
-          document.number(view, "byteLength"))
-    document.refuse("accessor " + std::to_string(index) + " ends beyond its buffer view");
-}
-
-/// Nodes must form trees: VTK follows them without end otherwise.
-void check_nodes(const GltfDocument& document) {
-  std::vector<int> parents(document.size_of_list("nodes"), 0);
-  const auto add_child = [&](const json& child) {
-    if (!child.is_number_unsigned() || child.get<std::uint64_t>() >= parents.size() ||
-        ++parents[child.get<std::size_t>()] > 1)
-      document.refuse("a node has no or several parents");
-  };
-  for (std::size_t n = 0; n < parents.size(); ++n) {
-    const json& node = document.entry("nodes", n);
-    if (node.contains("mesh")) document.entry("meshes", document.number(node, "mesh"));
-    if (const auto children = node.find("children"); children != node.end())
-      for (const json& child : *children) add_child(child);
-  }
-  for (std::size_t s = 0; s < document.size_of_list("scenes"); ++s)
-    if (const json& scene = document.entry("scenes", s); s == document.number(document.root, "scene", 0))
-      if (const auto nodes = scene.find("nodes"); nodes != scene.end())
-        for (const json& node : *nodes) add_child(node);
-}
-
-void check_gltf(const GltfDocument& document) {
-  const auto asset = document.root.find("asset");
-  const std::string version = asset != document.root.end() && asset->is_object() ? asset->value("version", "") : "";
-  if (!version.starts_with("2."))
-    fail(ErrorKind::content, document.path, ": is glTF version '", version, "', expected 2.0; export it again");
-  if (const auto required = document.root.find("extensionsRequired");
-      required != document.root.end() && !required->empty())
-    fail(ErrorKind::content, document.path, ": needs the extension ", shown(required->front().dump()),
-         ", which is not read; export it without compression and quantisation");
-  check_buffers(document);
-  for (std::size_t m = 0; m < document.size_of_list("meshes"); ++m) {
-    const json& mesh = document.entry("meshes", m);
-    const auto primitives = mesh.find("primitives");
-    if (primitives == mesh.end() || !primitives->is_array()) document.refuse("a mesh has no primitives");
-    for (const json& primitive : *primitives) {
-      const auto attributes = primitive.find("attributes");
-      if (attributes == primitive.end() || !attributes->contains("POSITION"))
-        document.refuse("a primitive has no positions");
-      for (const auto& [name, index] : attributes->items())
-        check_accessor(document, document.number(*attributes, name.c_str()));
-      if (!primitive.contains("indices")) continue;
-      const std::uint64_t indices = document.number(primitive, "indices");
-      check_accessor(document, indices);
-      if (document.entry("accessors", indices).value("type", "") != "SCALAR")
-        document.refuse("accessor " + std::to_string(indices) + " holds no indices");
-    }
-  }
-  check_nodes(document);
-}
-
-/// Size of a document and its buffers.
-std::size_t bytes_with_buffers(const GltfDocument& document) {
-  std::size_t bytes = file_size_of(document.path);
-  for (std::size_t b = 0; b < document.size_of_list("buffers"); ++b)
-    bytes += document.number(document.entry("buffers", b), "byteLength");
-  return bytes;
-}
-
-/// Appends the faces of a part whose points follow the first `first` ones.
-void add_faces(vtkPolyData* part, std::int64_t first, std::size_t points, RawCloud& raw) {
-  vtkIdType corners = 0;
-  const vtkIdType* ids = nullptr;
-  std::vector<std::int64_t> polygon;
-  vtkCellArray* polygons = part->GetPolys();
-  for (polygons->InitTraversal(); polygons->GetNextCell(corners, ids);) {
-    polygon.clear();
-    for (vtkIdType k = 0; k < corners; ++k) polygon.push_back(ids[k] < part->GetNumberOfPoints() ? first + ids[k] : -1);
-    add_polygon(raw, polygon, points);
-  }
-}
-
-std::vector<vtkPolyData*> parts_of(vtkMultiBlockDataSet* blocks) {
-  std::vector<vtkPolyData*> parts;
-  const auto each = vtk::TakeSmartPointer(blocks->NewIterator());
-  for (each->InitTraversal(); !each->IsDoneWithTraversal(); each->GoToNextItem())
-    if (auto* part = vtkPolyData::SafeDownCast(each->GetCurrentDataObject())) parts.push_back(part);
-  return parts;
-}
-
-/// Reads a document that was checked.
-SentRows read_parts(ArraySender& to, RawCloud& raw) {
-  vtkNew<VtkReadMessages> messages;
-  const QuietVtk quiet(messages);
-  vtkNew<vtkGLTFReader> reader;
-  reader->SetFileName(raw.path.c_str());
-  reader->Update();
-  if (!messages->errors.empty())
-    fail(ErrorKind::content, raw.path, ": VTK cannot read it: ", messages->errors.front(), "; export it again");
-  const std::vector<vtkPolyData*> parts = parts_of(reader->GetOutput());
-  std::size_t points = 0, first = 0;
-  for (vtkPolyData* part : parts) points += static_cast<std::size_t>(part->GetNumberOfPoints());
+  expect_from_file(raw.path, document.bytes, {points + triangles, "points and triangles", 24});
   if (points == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the glTF again");
-  raw.width = points;
-  const SentRows rows = rows_of_doubles({"x", "y", "z"}, points);
+  const SentRows rows = rows_of_doubles({"x", "y", "z"}, static_cast<std::size_t>(points));
   auto* place = reinterpret_cast<double*>(to.take_array<char>(rows.rows * rows.stride));
-  for (vtkPolyData* part : parts) {
-    for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i) {
-      double p[3];
-      part->GetPoint(i, p);
-      *place++ = p[0], *place++ = -p[2], *place++ = p[1];
+  for (const auto& [index, world] : placements) {
+    const GltfMesh& mesh = meshes[index];
+    const auto first = static_cast<std::uint32_t>(raw.width);
+    for (std::size_t i = 0; i < mesh.points.size(); i += 3) {
+      const Eigen::Vector3d local(mesh.points[i], mesh.points[i + 1], mesh.points[i + 2]), p = world * local;
+      raw.float_coordinates = raw.float_coordinates || local.cwiseAbs().maxCoeff() > 1000;
+      *place++ = p.x(), *place++ = -p.z(), *place++ = p.y();
     }
-    add_faces(part, static_cast<std::int64_t>(first), points, raw);
-    first += static_cast<std::size_t>(part->GetNumberOfPoints());
+    // A mirror turns triangles over, whose outside stays where it was.
+    const bool mirrored = world.linear().determinant() < 0;
+    for (const auto& [a, b, c] : mesh.faces.triangle)
+      raw.triangle.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
+    raw.width += mesh.points.size() / 3;
+    raw.triangles_in_file += mesh.faces.triangles_in_file, raw.bad_triangles += mesh.faces.bad_triangles;
   }
   return rows;
 }
@@ -252,17 +189,13 @@ RawCloud read_gltf(const std::string& path, const ReadOptions& options) {
   raw.path = path;
   raw.format = "glTF mesh";
   raw.fields = {{"x", "float"}, {"y", "float"}, {"z", "float"}};
-  raw.float_coordinates = true;
   read_rows_apart(raw, file_size_of(path), options, [&](ArraySender& to, RawCloud& read) {
-    const GltfDocument document = document_of(path);
     try {
-      check_gltf(document);
+      return send_meshes(load_gltf(path), to, read);
     } catch (const json::exception& wrong) {
-      document.refuse(std::string("its document has a value of another type (") + wrong.what() + ")");
+      fail(ErrorKind::content, path, ": its document has a value of another type (", wrong.what(),
+           "); the file is damaged: copy or export it again");
     }
-    const std::size_t bytes = bytes_with_buffers(document);
-    expect_from_file(path, bytes, {static_cast<double>(bytes), "bytes with its buffers", 16});
-    return read_parts(to, read);
   });
   return raw;
 }

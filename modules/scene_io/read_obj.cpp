@@ -54,8 +54,11 @@ Obj parse(const std::string& path, const std::string& text) {
   obj.path = path;
   LineReader lines(text);
   std::string_view line;
+  std::string whole;
   while (lines.next_filled(line)) {
-    std::string_view rest = line;
+    // A backslash at the end of a line goes on in the next one; a comment may stand behind a face.
+    for (whole = trimmed(line); whole.ends_with('\\') && lines.next(line);) whole.back() = ' ', whole += trimmed(line);
+    std::string_view rest = std::string_view(whole).substr(0, whole.find('#'));
     const std::string_view key = take_word(rest);
     if (key == "v") read_numbers(obj, rest, lines.number(), obj.positions);
     if (key == "vn") read_numbers(obj, rest, lines.number(), obj.normals);

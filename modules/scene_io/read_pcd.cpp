@@ -157,9 +157,9 @@ void check_compressed(const Header& header, std::size_t held) {
 }
 
 void check_text(const Header& header) {
-  std::vector<TextColumn> columns;
+  std::vector<NumberType> columns;
   for (const Field& f : header.fields)
-    columns.resize(columns.size() + f.count, {f.name == "_" ? NumberType::float64 : type_of(header, f)});
+    columns.resize(columns.size() + f.count, f.name == "_" ? NumberType::float64 : type_of(header, f));
   const std::string text = read_whole_file(header.path);
   LineReader lines(std::string_view(text).substr(header.end), header.lines);
   check_number_rows(lines, header.points, columns, "point", header.path);

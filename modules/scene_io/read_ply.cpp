@@ -1,120 +1,126 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstring>
-#include <functional>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
 #include <limits>
-#include <tuple>
-
-#include <pcl/io/ply/ply_parser.h>
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/ply_header_internal.hpp"
-#include "scene_io/read_apart_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/row_file_internal.hpp"
+#include "scene_io/text_lines_internal.hpp"
 
-// PCL's parser, and not pcl::PLYReader on top of it, since PLYReader 1.13 does these things without a message: it
-// shifts coordinates that stand between or behind colours other than a run of red green blue, gives faces with 8 or
-// 16-bit indices no corners, and ends the program if 'obj_info num_cols' contradicts the number of vertices.
+// A reader of our own: PCL's takes no strips and no lists of vertices, and ends at counts with a sign.
 namespace insonify {
 namespace {
 
-using pcl::io::ply::ply_parser;
-
-template <typename Number>
-constexpr NumberType number_type() {
-  for (int t = 0; t <= static_cast<int>(NumberType::float64); ++t) {
-    const auto type = static_cast<NumberType>(t);
-    const bool real = type >= NumberType::float32, has_sign = real || t % 2 == 0;
-    if (size_of(type) == sizeof(Number) && real == std::is_floating_point_v<Number> &&
-        has_sign == std::is_signed_v<Number>)
-      return type;
-  }
-}
-
-/// Takes vertices from the parser into rows that are sent, faces into `raw`.
-class PlyTaker {
+/// Reads the elements of a file in their order: vertices into a table, faces and strips into `raw`.
+class PlyWalk {
  public:
-  PlyTaker(ArraySender& to, RawCloud& raw) : to_(to), raw_(raw) {}
-
-  /// Empty, or what PCL found wrong.
-  std::string parse(const std::string& path) {
-    std::string problem;
-    take<pcl::io::ply::int8, pcl::io::ply::int16, pcl::io::ply::int32, pcl::io::ply::uint8, pcl::io::ply::uint16,
-         pcl::io::ply::uint32, pcl::io::ply::float32, pcl::io::ply::float64>();
-    ply_parser parser;
-    parser.scalar_property_definition_callbacks(scalars_);
-    parser.list_property_definition_callbacks(lists_);
-    parser.warning_callback([this](std::size_t, const std::string& text) {
-      if (text.find("extra data") != text.npos) raw_.notes.push_back("PCL: " + text);
-    });
-    parser.error_callback([&](std::size_t line, const std::string& text) {
-      if (problem.empty()) problem = "after line " + std::to_string(line) + ", " + text;
-    });
-    parser.element_definition_callback([this](const std::string& element, std::size_t rows) {
-      if (element == "vertex") set_vertices(rows);
-      return ply_parser::element_callbacks_type();
-    });
-    parser.end_header_callback([this] {
-      next_ = to_.take_array<char>(rows_.rows * rows_.stride);
-      return true;
-    });
-    if (!parser.parse(path) && problem.empty()) problem = "without saying why";
-    return problem;
+  PlyWalk(const PlyHeader& header, RawCloud& raw)
+      : header_(header), raw_(raw), file_(header.path, std::ios::binary), line_number_(header.lines) {
+    file_.seekg(static_cast<std::streamoff>(header.end));
   }
 
-  const SentRows& rows() const { return rows_; }
+  RowTable walk() {
+    RowTable table;
+    for (const PlyProperty& property : header_.vertex().properties) {
+      if (property.is_list) {
+        raw_.notes.push_back("the lists '" + shown(property.name) + "' of the vertices are not read");
+        continue;
+      }
+      table.columns.push_back({property.name, property.type, table.stride});
+      table.stride += size_of(property.type);
+    }
+    for (const PlyElement& element : header_.elements) take_element(element);
+    if (const auto rest = file_.peek(); rest != std::ifstream::traits_type::eof() && !ascii_)
+      raw_.notes.push_back("what follows the last row that the header announces is not read");
+    table.rows = header_.vertex().count;
+    const auto held = std::make_shared<const std::string>(std::move(rows_));
+    table.bytes = held->data();
+    table.owner = held;
+    return table;
+  }
 
  private:
-  void set_vertices(std::size_t rows) {
-    if (rows >= std::numeric_limits<std::uint32_t>::max())
-      fail(ErrorKind::content, raw_.path, ": holds ", rows, " points, must be at most 4294967294; split it");
-    rows_.rows = raw_.width = rows;
+  void take_element(const PlyElement& element) {
+    const bool vertices = &element == &header_.vertex(), strips = element.name == "tristrips";
+    element_ = &element;
+    for (row_ = 0; row_ < element.count; ++row_) {
+      if (ascii_) next_line();
+      for (const PlyProperty& property : element.properties) {
+        const double numbers = property.is_list ? next(property.count_type) : 1;
+        if (!(numbers >= 0 && numbers == std::floor(numbers))) refuse_number(property.count_type, "a negative length");
+        corners_.clear();
+        const bool used = (strips || element.name == "face") && property.is_list &&
+                          (property.name == "vertex_indices" || property.name == "vertex_index");
+        for (double i = 0; i < numbers; ++i) {
+          const double number = next(property.type);
+          if (vertices && !property.is_list) append_number(rows_, property.type, number);
+          if (used) corners_.push_back(vertex_of(number));
+        }
+        if (used) (strips ? add_strip : add_polygon)(raw_, corners_, header_.vertex().count);
+      }
+      if (ascii_) end_line();
+    }
   }
 
-  template <typename... Number>
-  void take() {
-    (take_vertices<Number>(), ...);
-    (take_faces<pcl::io::ply::uint8, Number>(), ...);
-    (take_faces<pcl::io::ply::uint16, Number>(), ...);
-    (take_faces<pcl::io::ply::uint32, Number>(), ...);
+  /// The vertex of a number; -1 for -1, which ends a strip, and -2 for one that does not exist.
+  std::int64_t vertex_of(double number) const {
+    if (number == -1) return -1;
+    return number >= 0 && number < static_cast<double>(header_.vertex().count) ? static_cast<std::int64_t>(number) : -2;
   }
 
-  template <typename Number>
-  void take_vertices() {
-    ply_parser::at<Number>(scalars_) = [this](const std::string& element,
-                                              const std::string& name) -> std::function<void(Number)> {
-      if (element != "vertex") return {};
-      const NumberType type = number_type<Number>();
-      rows_.columns.push_back({name, type, rows_.stride});
-      raw_.fields.push_back({name, name_of(type)});
-      rows_.stride += sizeof(Number);
-      return [this](Number value) {
-        std::memcpy(next_, &value, sizeof(Number));
-        next_ += sizeof(Number);
-      };
-    };
+  /// The next number of this row.
+  double next(NumberType type) {
+    if (ascii_) {
+      double number = 0;
+      const std::string_view word = take_word(rest_);
+      if (!to_number(word, number) || !fits(number, type)) refuse_number(type, shown(word));
+      return number;
+    }
+    std::array<char, 8> bytes;
+    if (!file_.read(bytes.data(), static_cast<std::streamsize>(size_of(type)))) cut_off();
+    if (header_.encoding == "binary_big_endian") std::reverse(bytes.begin(), bytes.begin() + size_of(type));
+    return read_number(bytes.data(), type);
   }
 
-  template <typename Count, typename Number>
-  void take_faces() {
-    using Callbacks = std::tuple<std::function<void(Count)>, std::function<void(Number)>, std::function<void()>>;
-    ply_parser::at<Count, Number>(lists_) = [this](const std::string& element, const std::string& name) -> Callbacks {
-      if (element != "face" || (name != "vertex_indices" && name != "vertex_index")) return {};
-      return {[this](Count) { corners_.clear(); },
-              [this](Number corner) {
-                const double number = static_cast<double>(corner);
-                corners_.push_back(
-                    number >= 0 && number < static_cast<double>(rows_.rows) ? static_cast<std::int64_t>(number) : -1);
-              },
-              [this] { add_polygon(raw_, corners_, rows_.rows); }};
-    };
+  void next_line() {
+    if (!std::getline(file_, line_)) cut_off();
+    ++line_number_;
+    if (!line_.empty() && line_.back() == '\r') line_.pop_back();
+    rest_ = line_;
   }
 
-  ArraySender& to_;
+  void end_line() {
+    if (!take_word(rest_).empty())
+      fail(ErrorKind::content, header_.path, ":", line_number_, ": expected the ", element_->properties.size(), " ",
+           element_->has_list() ? "columns" : "numbers", " of a ", element_->name, " as the header says, found ",
+           count_words(line_), " words in '", shown(line_),
+           "'; correct the line, or export the file again if it is cut off");
+  }
+
+  [[noreturn]] void refuse_number(NumberType type, const std::string& found) const {
+    fail(ErrorKind::content, header_.path, ascii_ ? ":" + std::to_string(line_number_) : "",
+         ": expected a number in this ", element_->name, " row that fits ", name_of(type), ", found '", found,
+         "'; correct it, or export the file again if it is cut off");
+  }
+
+  [[noreturn]] void cut_off() const {
+    fail(ErrorKind::content, header_.path, ": cut off: the header announces ", element_->count, " ", element_->name,
+         " rows, found ", row_, "; copy or export the file again");
+  }
+
+  const PlyHeader& header_;
   RawCloud& raw_;
-  ply_parser::scalar_property_definition_callbacks_type scalars_;
-  ply_parser::list_property_definition_callbacks_type lists_;
-  SentRows rows_;
-  char* next_ = nullptr;  ///< where the next number of a vertex goes
+  std::ifstream file_;
+  const bool ascii_ = header_.encoding == "ascii";
+  const PlyElement* element_ = nullptr;
+  std::size_t row_ = 0, line_number_;
+  std::string line_, rows_;
+  std::string_view rest_;
   std::vector<std::int64_t> corners_;
 };
 
@@ -126,16 +132,15 @@ RawCloud read_ply(const std::string& path, const ReadOptions& options) {
   raw.path = path;
   raw.tags = header.tags;
   raw.format = "PLY " + header.encoding;
-  const std::size_t bytes = file_size_of(path);
-  read_rows_apart(raw, bytes, options, [&](ArraySender& to, RawCloud& read) {
-    PlyTaker taker(to, read);
-    const std::string problem = taker.parse(path);
-    if (!problem.empty())
-      fail(ErrorKind::content, path, ": cut off, damaged or of an unknown kind: PCL stops reading ", problem,
-           "; copy the file again, or save it from CloudCompare or MeshLab");
-    return taker.rows();
-  });
-  if (raw.tags.prepared && raw.tags.heights)
+  raw.width = header.vertex().count;
+  if (raw.width >= std::numeric_limits<std::uint32_t>::max())
+    fail(ErrorKind::content, path, ": holds ", raw.width, " points, must be at most 4294967294; split it");
+  for (const PlyProperty& p : header.vertex().properties)
+    if (!p.is_list) raw.fields.push_back({p.name, name_of(p.type)});
+  const bool heights = raw.tags.prepared && raw.tags.heights;
+  const std::optional<RowFile> rows = heights ? std::nullopt : find_ply_rows(path);
+  fill_cloud(raw, rows ? read_rows(*rows, 0, rows->rows) : PlyWalk(header, raw).walk(), options);
+  if (heights)
     raw.surface = std::move(raw.triangle), raw.triangle.clear();
   else if (!raw.triangle.empty() || raw.bad_triangles > 0)
     raw.format += " mesh";

@@ -7,7 +7,6 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
-#include <vtkSTLReader.h>
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
@@ -24,29 +23,6 @@ void check_xml(const std::string& path) {
     fail(ErrorKind::content, path, ": not a VTK XML file: expected '<VTKFile', found ", what_it_looks_like(path));
 }
 
-/// A binary STL has 84 bytes and 50 per triangle; an ASCII one begins with solid and ends with endsolid.
-void check_stl(const std::string& path) {
-  const std::string bytes = read_whole_file(path);
-  std::size_t announced = 0;
-  if (bytes.size() >= 84) {
-    announced = read_as<std::uint32_t>(bytes.data() + 80);
-    if (84 + 50 * announced == bytes.size()) return;
-    const bool binary = what_it_looks_like(path) == "binary data";
-    if (binary && announced > 0 && 84 + 50 * announced < bytes.size()) return;
-  }
-  if (bytes.rfind("solid", 0) == 0 && bytes.find("facet") != bytes.npos) {
-    if (bytes.find("endsolid", bytes.size() - std::min<std::size_t>(bytes.size(), 400)) != bytes.npos) return;
-    fail(ErrorKind::content, path, ": cut off: an ASCII STL file ends with 'endsolid', found '",
-         shown(bytes.substr(bytes.size() - std::min<std::size_t>(bytes.size(), 40))),
-         "'; copy or export the file again");
-  }
-  if (bytes.size() >= 84 && what_it_looks_like(path) == "binary data")
-    fail(ErrorKind::content, path, ": cut off or not an STL file: it announces ", announced, " triangles, ",
-         84 + 50 * announced, " bytes, and holds ", bytes.size(), "; copy or export the file again");
-  fail(ErrorKind::content, path, ": not an STL file: expected 'solid ...' or a binary header of 84 bytes, found ",
-       what_it_looks_like(path));
-}
-
 template <typename Reader>
 vtkSmartPointer<vtkPolyData> output_of(Reader* reader, const std::string& path) {
   reader->SetFileName(path.c_str());
@@ -57,7 +33,6 @@ vtkSmartPointer<vtkPolyData> output_of(Reader* reader, const std::string& path) 
 /// What VTK reads; what it says goes to its output window.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string& path, const std::string& extension) {
   if (extension == ".vtk") return output_of(vtkNew<vtkPolyDataReader>().Get(), path);
-  if (extension == ".stl") return output_of(vtkNew<vtkSTLReader>().Get(), path);
   const vtkNew<CheckedXmlReader> reader;
   const vtkSmartPointer<vtkPolyData> data = output_of(reader.Get(), path);
   if (!reader->problem.empty())
@@ -82,10 +57,8 @@ void add_faces(vtkPolyData* data, RawCloud& raw) {
   }
   vtkCellArray* strips = data->GetStrips();
   for (strips->InitTraversal(); strips->GetNextCell(count, ids);) {
-    for (vtkIdType i = 2; i < count; ++i) {
-      const vtkIdType odd = i % 2;
-      add_polygon(raw, {ids[i - 2], ids[i - 1 + odd], ids[i - odd]}, vertices);
-    }
+    corners.assign(ids, ids + count);
+    add_strip(raw, corners, vertices);
   }
 }
 
@@ -143,10 +116,8 @@ RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
   const std::string extension = extension_of(path);
   RawCloud raw;
   raw.path = path;
-  raw.format = extension == ".vtk" ? "VTK legacy polydata" : extension == ".vtp" ? "VTK XML polydata" : "STL";
-  if (extension == ".vtp") check_xml(path);
-  if (extension == ".stl") check_stl(path);
-  if (extension == ".vtk") check_legacy_vtk(path);
+  raw.format = extension == ".vtk" ? "VTK legacy polydata" : "VTK XML polydata";
+  extension == ".vtk" ? check_legacy_vtk(path) : check_xml(path);
   read_rows_apart(raw, file_size_of(path), options, read_by_vtk);
   return raw;
 }

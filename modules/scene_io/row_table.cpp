@@ -241,21 +241,7 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
       if (ids) raw.id[first + i] = static_cast<std::uint32_t>(number(*found.id));
     }
   });
-}
-
-void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices) {
-  ++raw.triangles_in_file;
-  const bool good = corners.size() >= 3 && std::all_of(corners.begin(), corners.end(), [&](std::int64_t c) {
-                      return c >= 0 && static_cast<std::size_t>(c) < vertices;
-                    });
-  if (!good) {
-    ++raw.bad_triangles;
-    return;
-  }
-  raw.triangles_in_file += corners.size() - 3;
-  for (std::size_t i = 2; i < corners.size(); ++i)
-    raw.triangle.push_back({static_cast<std::uint32_t>(corners[0]), static_cast<std::uint32_t>(corners[i - 1]),
-                            static_cast<std::uint32_t>(corners[i])});
+  cut_polygons(raw);
 }
 
 std::optional<RowFile> find_ply_rows(const std::string& path) {

@@ -15,7 +15,7 @@ const std::vector<SceneReader>& scene_readers() {
       {{".pcd"}, {"# .PCD", "VERSION ", "FIELDS "}, "a PCD file", "", read_pcd, find_pcd_rows},
       {{".ply"}, {"ply\n", "ply\r\n"}, "a PLY file", "", read_ply, find_ply_rows},
       {{".obj"}, {}, "an OBJ file", "", read_obj},
-      {{".stl"}, {"solid "}, "an ASCII STL file", "", read_vtk},
+      {{".stl"}, {"solid "}, "an ASCII STL file", "", read_stl},
       {{".vtk"}, {"# vtk DataFile"}, "a legacy VTK file", "", read_vtk},
       {{".vtp"}, {"<?xml", "<VTKFile"}, "an XML file, if of VTK polydata", "", read_vtk},
       {{".glb"}, {"glTF"}, "a binary glTF file", "", read_gltf},

@@ -14,34 +14,26 @@ std::string shown(std::string_view line) {
   return text + (line.size() > 60 ? "..." : "");
 }
 
-void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<TextColumn>& columns,
+void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<NumberType>& columns,
                        const std::string& what, const std::string& path) {
-  const bool lists = std::any_of(columns.begin(), columns.end(), [](const TextColumn& c) { return c.is_list; });
-  std::string_view line, rest;
-  // A missing word of a plain row is reported with both counts.
-  const auto take = [&](NumberType type) {
-    const std::string_view word = take_word(rest);
-    double value = 0;
-    if (word.empty() && !lists) return value;
-    if (!to_number(word, value) || !fits(value, type))
-      fail(ErrorKind::content, path, ":", lines.number(), ": expected a number in this ", what, " row that fits ",
-           name_of(type), ", found '", shown(word), "'; correct the line, or export the file again if it is cut off");
-    return value;
-  };
+  std::string_view line;
   for (std::size_t row = 0; row < rows; ++row) {
     if (!lines.next(line))
       fail(ErrorKind::content, path, ": cut off: the header announces ", rows, " ", what, " rows, found ", row,
            "; copy or export the file again");
-    rest = line;
-    for (const TextColumn& column : columns) {
-      const double numbers = column.is_list ? take(NumberType::uint32) : 1;
-      for (double i = 0; i < numbers; ++i) take(column.type);
+    std::string_view rest = line;
+    for (const NumberType type : columns) {
+      const std::string_view word = take_word(rest);
+      double value = 0;
+      // A missing word is reported with both counts.
+      if (!word.empty() && (!to_number(word, value) || !fits(value, type)))
+        fail(ErrorKind::content, path, ":", lines.number(), ": expected a number in this ", what, " row that fits ",
+             name_of(type), ", found '", shown(word), "'; correct the line, or export the file again if it is cut off");
     }
-    const std::size_t found = lists ? 0 : count_words(line);
-    if (lists ? !take_word(rest).empty() : found != columns.size())
+    if (const std::size_t found = count_words(line); found != columns.size())
       fail(ErrorKind::content, path, ":", lines.number(), ": expected ", columns.size(),
-           lists ? " columns" : " numbers", " as the header says, found ", lists ? count_words(line) : found,
-           " words in '", shown(line), "'; correct the line, or export the file again if it is cut off");
+           " numbers as the header says, found ", found, " words in '", shown(line),
+           "'; correct the line, or export the file again if it is cut off");
   }
 }
 

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // glTF: files that assimp wrote, nodes that turn and move their meshes, and damaged documents.
-#include <nlohmann/json.hpp>
-
-#include "scene_io/test_files.hpp"
+#include "scene_io/gltf_maker.hpp"
 
 namespace {
-
-using nlohmann::json;
 
 const std::string meshes = INSONIFY_TEST_MESHES;
 
@@ -16,39 +12,14 @@ std::string wedge_copy(const std::string& name) {
   return own_file(name, file_bytes(meshes + "/" + name));
 }
 
-double area_of_gltf(const LoadedScene& loaded) {
-  double sum = 0;
-  for (std::size_t t = 0; t < loaded.mesh->triangle.size(); ++t) sum += area_of(corners_of(*loaded.mesh, t));
-  return sum;
-}
-
-/// One triangle of 1 m, in a data address, under nodes that move by (10, 0, 0) and turn by 90 degrees about y.
+/// One triangle of 1 m, under nodes that move by (10, 0, 0) and turn by 90 degrees about y.
 json turned_triangle() {
-  std::string bytes;
-  for (const float number : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F}) bytes += bytes_of(number);
-  const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string base64;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {  // 36 bytes: no padding
-    unsigned word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | static_cast<unsigned char>(bytes[i + k]);
-    for (int shift = 18; shift >= 0; shift -= 6) base64 += digits[word >> shift & 63];
-  }
-  const double root = std::sqrt(0.5);
-  return {
-      {"asset", {{"version", "2.0"}}},
-      {"scene", 0},
-      {"scenes", {{{"nodes", {0}}}}},
-      {"nodes", {{{"translation", {10, 0, 0}}, {"children", {1}}}, {{"rotation", {0, root, 0, root}}, {"mesh", 0}}}},
-      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
-      {"accessors",
-       {{{"bufferView", 0},
-         {"componentType", 5126},
-         {"count", 3},
-         {"type", "VEC3"},
-         {"min", {0, 0, 0}},
-         {"max", {1, 1, 0}}}}},
-      {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
-      {"buffers", {{{"byteLength", 36}, {"uri", "data:application/octet-stream;base64," + base64}}}}};
+  GltfMaker maker;
+  maker.primitive()["attributes"]["POSITION"] = maker.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const double sine = std::sqrt(0.5);
+  maker.root["nodes"] = {{{"translation", {10, 0, 0}}, {"children", {1}}},
+                         {{"rotation", {0, sine, 0, sine}}, {"mesh", 0}}};
+  return json::parse(maker.text());
 }
 
 }  // namespace
@@ -60,7 +31,7 @@ TEST(Gltf, of_another_program_is_the_mesh_that_it_was_given) {
     ASSERT_TRUE(loaded.mesh) << name;
     EXPECT_EQ(loaded.report.format, "glTF mesh");
     EXPECT_EQ(loaded.mesh->triangle.size(), 8U);
-    EXPECT_NEAR(area_of_gltf(loaded), 4 * 2 + 3 * 2 + 2 * 5 + 2 * 6, 1e-5);
+    EXPECT_NEAR(area_of_mesh(loaded), 4 * 2 + 3 * 2 + 2 * 5 + 2 * 6, 1e-5);
     const Bounds box = bounds(loaded.scene);
     EXPECT_GT(box.min.x(), -1e-6);
     EXPECT_LT(box.max.x(), 4 + 1e-6);
@@ -105,11 +76,10 @@ TEST(Gltf, that_contradicts_itself_is_refused) {
   };
   refused("/asset/version", "1.0", "glTF version '1.0'");
   refused("/asset/version", 2, "of another type");
-  refused("/extensionsRequired", {"KHR_draco_mesh_compression"}, "KHR_draco_mesh_compression");
   refused("/accessors/0/count", 4, "accessor 0 ends beyond its buffer view");
   refused("/accessors/0/count", -1, "'count' must be a whole number");
   refused("/accessors/0/bufferView", 7, "no entry 7 in 'bufferViews'");
-  refused("/accessors/0/type", "VEC9", "accessor 0 has no type");
+  refused("/accessors/0/type", "VEC9", "accessor 0 is of type 'VEC9'");
   refused("/bufferViews/0/byteLength", 37, "buffer view 0 ends beyond its buffer");
   refused("/buffers/0/byteLength", 40, "announces 40 bytes and has 36");
   refused("/nodes/1/children", {0}, "several parents");
@@ -122,17 +92,17 @@ TEST(Gltf, that_contradicts_itself_is_refused) {
                [] { load_scene(own_file("text.glb", "solid of another kind")); });
 }
 
-// VTK's JSON throws on these; what it says is part of the reason.
-TEST(Gltf, values_that_vtk_cannot_take_are_refused) {
+TEST(Gltf, values_of_another_type_are_refused) {
   const auto refused = [](const char* pointer, const json& value, const std::string& part) {
     json document = turned_triangle();
     document[json::json_pointer(pointer)] = value;
-    expect_error(ErrorKind::content, {"bad.gltf", part, "copy or export it again"},
+    expect_error(ErrorKind::content, {"bad.gltf", part, "export it again"},
                  [&] { load_scene(own_file("bad.gltf", document.dump())); });
   };
-  refused("/materials", json::array({5}), "cannot be read (");
-  refused("/nodes/1/matrix", std::vector<std::string>(16, "NaN"), "cannot be read (");
-  refused("/nodes/1/translation", {"a", "b", "c"}, "cannot be read (");
+  refused("/nodes/1/matrix", std::vector<std::string>(16, "NaN"), "of another type (");
+  refused("/nodes/1/translation", {"a", "b", "c"}, "of another type (");
+  refused("/nodes", 5, "'nodes' is no list");
+  refused("/scenes/0/nodes", {-1}, "no entry");
   refused("/nodes/1/children", {1}, "several parents");
   std::string text = turned_triangle().dump();
   text.replace(text.find("\"rotation\":["), 12, "\"matrix\":[NaN");

@@ -25,6 +25,13 @@ inline std::string plate_text(int side, double spacing, double x0 = 0, double y0
   return text.str();
 }
 
+/// Sum of the areas of the triangles of a mesh [m^2].
+inline double area_of_mesh(const LoadedScene& loaded) {
+  double sum = 0;
+  for (std::size_t t = 0; t < loaded.mesh->triangle.size(); ++t) sum += area_of(corners_of(*loaded.mesh, t));
+  return sum;
+}
+
 inline bool has_note(const LoadReport& report, const std::string& part) {
   return std::any_of(report.notes.begin(), report.notes.end(),
                      [&](const std::string& note) { return note.find(part) != std::string::npos; });
