@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
 #include "scene_io/vtk_checks_internal.hpp"
 
@@ -63,8 +64,7 @@ class LegacyWalk {
     for (; key == "field"; key = lower_case(word())) take_field();
     const std::string kind = key == "dataset" ? word() : "nothing";
     if (lower_case(kind) != "polydata")
-      fail(ErrorKind::content, path_, ": holds ", shown(kind),
-           ", expected DATASET POLYDATA; in ParaView apply 'Extract Surface' and save again");
+      fail(ErrorKind::content, path_, ": holds ", shown(kind), ", expected DATASET POLYDATA; ", surface_remedy(".vtk"));
   }
 
   std::size_t bits_of(const std::string& type) const {

@@ -39,8 +39,15 @@ std::string read_beginning(const std::string& path, std::size_t count) {
   return bytes;
 }
 
+std::string vtk_tag(const std::string& head) {
+  const std::size_t tag = head.find("<VTKFile");
+  if (tag == head.npos) return {};
+  return head.substr(tag, head.find('>', tag) - tag).find("PolyData") == head.npos ? "<VTKFile" : "<VTKFile PolyData";
+}
+
 std::string what_it_looks_like(const std::string& path) {
-  const std::string head = read_beginning(path, 512);
+  std::string head = read_beginning(path, 512);
+  if (const std::string tag = vtk_tag(head); !tag.empty()) head = tag;
   for (const SceneReader& reader : scene_readers())
     for (const std::string& magic : reader.magic)
       if (head.starts_with(magic)) {

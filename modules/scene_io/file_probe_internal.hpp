@@ -19,6 +19,10 @@ std::string read_whole_file(const std::string& path);
 /// First bytes of the file, at most `count`.
 std::string read_beginning(const std::string& path, std::size_t count);
 
+/// The tag by which the first bytes tell a VTK file of XML: "<VTKFile PolyData", "<VTKFile" for another kind of data, or
+/// nothing.
+std::string vtk_tag(const std::string& head);
+
 /// Guess of the format from the first bytes ("a PLY file; rename it to .ply", "text", "binary data", ...), for
 /// messages.
 std::string what_it_looks_like(const std::string& path);

@@ -81,7 +81,8 @@ void check_extensions(const GltfDocument& document) {
     if (!found) continue;
     const bool packed = name.find("compression") != name.npos;
     fail(ErrorKind::content, document.path, ": its meshes need the extension ", shown(name), ", which is not read; ",
-         packed ? "export it again with the compression of meshes switched off" : "export it again without it");
+         packed ? "export it again without it, or unpack it: npx @gltf-transform/cli copy in.glb out.glb"
+                : "export it again without it");
   }
 }
 

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 // Reads LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15): a header, variable-length records, of which those that
 // describe extra bytes are read, and points as rows of packed numbers.
@@ -105,9 +106,7 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
   if (major != 1 || minor > 4)
     fail(ErrorKind::content, path, ": is LAS ", major, ".", minor, ", expected 1.0 to 1.4; convert it");
   const unsigned format = start.at<std::uint8_t>(104);
-  if (format >= 128)
-    fail(ErrorKind::content, path,
-         ": its points are compressed (LAZ); convert it first: pdal translate in.laz out.las");
+  if (format >= 128) fail(ErrorKind::content, path, ": its points are compressed (LAZ); ", laz_remedy);
   if (format >= point_formats.size())
     fail(ErrorKind::content, path, ": point data record format ", format, ", expected 0 to 10; convert it");
   const PointFormat& layout = point_formats[format];

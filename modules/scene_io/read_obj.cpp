@@ -12,7 +12,6 @@ namespace insonify {
 namespace {
 
 constexpr std::int64_t no_index = -1;
-constexpr std::size_t most_corners = 65535;
 
 struct Obj {
   std::string path;
@@ -65,11 +64,7 @@ Obj parse(const std::string& path, const std::string& text) {
     if (key != "f") continue;
     auto& polygon = obj.polygons.emplace_back();
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
-      if (polygon.size() < most_corners)
-        polygon.push_back(read_corner(obj, word, lines.number()));
-      else
-        fail(ErrorKind::content, path, ":", lines.number(), ": a face of more than ", most_corners,
-             " corners; triangulate the mesh and export it again");
+      polygon.push_back(read_corner(obj, word, lines.number()));
   }
   return obj;
 }

@@ -19,8 +19,9 @@ namespace insonify {
 namespace {
 
 void check_xml(const std::string& path) {
-  if (read_beginning(path, 4096).find("<VTKFile") == std::string::npos)
-    fail(ErrorKind::content, path, ": not a VTK XML file: expected '<VTKFile', found ", what_it_looks_like(path));
+  if (vtk_tag(read_beginning(path, 4096)) != "<VTKFile PolyData")
+    fail(ErrorKind::content, path, ": not a VTK XML file of polydata: expected '<VTKFile type=\"PolyData\"', found ",
+         what_it_looks_like(path));
 }
 
 template <typename Reader>

@@ -10,6 +10,16 @@
 
 namespace insonify {
 
+std::string surface_remedy(const std::string& extension) {
+  const bool legacy = extension == ".vtk";
+  return "save its surface as polydata first, by 'Extract Surface' of ParaView, or with the package python3-vtk9: "
+         "/usr/bin/python3 -c \"from vtk import *; from sys import argv; r = " +
+         std::string(legacy ? "vtkGenericDataObjectReader" : "vtkXMLGenericDataObjectReader") +
+         "(); r.SetFileName(argv[1]); s = vtkGeometryFilter(); s.SetInputConnection(r.GetOutputPort()); "
+         "w = vtkXMLPolyDataWriter(); w.SetInputConnection(s.GetOutputPort()); w.SetFileName(argv[2]); w.Write()\" in" +
+         extension + " out.vtp";
+}
+
 const std::vector<SceneReader>& scene_readers() {
   static const std::vector<SceneReader> readers = {
       {{".pcd"}, {"# .PCD", "VERSION ", "FIELDS "}, "a PCD file", "", read_pcd, find_pcd_rows},
@@ -17,7 +27,8 @@ const std::vector<SceneReader>& scene_readers() {
       {{".obj"}, {}, "an OBJ file", "", read_obj},
       {{".stl"}, {"solid "}, "an ASCII STL file", "", read_stl},
       {{".vtk"}, {"# vtk DataFile"}, "a legacy VTK file", "", read_vtk},
-      {{".vtp"}, {"<?xml", "<VTKFile"}, "an XML file, if of VTK polydata", "", read_vtk},
+      {{".vtp"}, {"<VTKFile PolyData"}, "a VTK file of polydata", "", read_vtk},
+      {{".vtu", ".vts", ".vtr", ".vti"}, {"<VTKFile"}, "a VTK file that is no polydata", surface_remedy(".vtu")},
       {{".glb"}, {"glTF"}, "a binary glTF file", "", read_gltf},
       {{".gltf"}, {}, "a glTF document", "", read_gltf},
       {{".xyz", ".txt", ".csv"}, {}, "text", "", read_text_cloud},
@@ -27,8 +38,8 @@ const std::vector<SceneReader>& scene_readers() {
       {{".nc", ".grd"}, {"CDF"}, "a netCDF grid", "", read_raster},
       {{".tiles"}, {"\x89HDF\r\n\x1a\n"}, "an HDF5 file, if of insonify tiles", "", nullptr, nullptr, load_all_tiles},
       {{".las"}, {"LASF"}, "a LAS file", "", read_las, find_las_rows},
-      {{".laz"}, {}, "a LAZ file", "convert it first: pdal translate in.laz out.las"},
-      {{".e57"}, {"ASTM-E57"}, "an E57 file", "convert it first: pdal translate in.e57 out.ply"},
+      {{".laz"}, {}, "a LAZ file", laz_remedy},
+      {{".e57"}, {"ASTM-E57"}, "an E57 file", "make it .xyz first: docs/scene-files.md has the command (LAZ and E57)"},
   };
   return readers;
 }
@@ -44,14 +55,13 @@ std::string scene_extensions() {
 const SceneReader& reader_of(const std::string& path) {
   require_readable(path);
   const std::string extension = extension_of(path);
-  std::string remedy;
   for (const SceneReader& reader : scene_readers()) {
     if (std::count(reader.extensions.begin(), reader.extensions.end(), extension) == 0) continue;
     if (reader.remedy.empty()) return reader;
-    remedy = "; " + reader.remedy;
+    fail(ErrorKind::content, path, ": is ", reader.name, ", which is not read; ", reader.remedy);
   }
   fail(ErrorKind::content, path, ": unknown extension '", extension, "', expected one of ", scene_extensions(),
-       "; it looks like ", what_it_looks_like(path), remedy);
+       "; it looks like ", what_it_looks_like(path));
 }
 
 RawCloud read_cloud(const std::string& path, const ReadOptions& options) {

@@ -24,6 +24,10 @@ struct SceneReader {
 
 const std::vector<SceneReader>& scene_readers();
 
+/// How the surface of a VTK file that is no polydata becomes a .vtp; `extension` is that of the file.
+std::string surface_remedy(const std::string& extension);
+constexpr const char* laz_remedy = "make it .las first: docs/scene-files.md has the command (LAZ and E57)";
+
 /// The reader of `path`, by its extension. Throws Error(file) if the file cannot be opened, Error(content) if it is
 /// empty or its extension is none of scene_extensions().
 const SceneReader& reader_of(const std::string& path);

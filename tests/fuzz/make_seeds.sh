@@ -39,6 +39,9 @@ printf "ply\nformat ascii 1.0\ncomment made\nelement vertex 4\nproperty float x\
 printf "# .PCD v.7\nVERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 4\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 4\nDATA ascii\n$square" >pcd/text.pcd
 printf "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nf -1 -2 -3\n" >obj/mesh.obj
 printf "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid a\n" >stl/text.stl
+printf "ply\nformat ascii 1.0\nelement tristrips 1\nproperty list int int vertex_indices\nelement vertex 4\nproperty float x\nproperty list uchar float uv\nproperty float y\nproperty float z\nend_header\n6 0 1 3 -1 2 1\n0 1 5 0 0\n1 0 0 0\n1 0 1 0\n0 2 5 6 1 0\n" >ply/strips.ply
+printf "v 0 0 0\nv 6 0 0\nv 6 5 0\nv 4 5 0\nv 4 1 0\nv 2 1 0\nv 2 5 0\nv 0 5 1\nv 3 3 0\nf 1 2 3 4 \\\\\n5 6 7 8 # slip\nf 1 1 9 5 5 6 2 3 9 4\nf 8 7 6 5 4 3 2 1\n" >obj/polygons.obj
+printf " SOLID of a name\n\nFACET normal nan 0 1 outer loop\n vertex 0 0 0 vertex 1 0 0\nvertex 1 1 0\nvertex 0 1 1e9\nendloop endfacet\nend solid\n" >stl/other.stl
 printf "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n${square}POLYGONS 2 8\n3 0 1 2\n3 0 2 3\nPOINT_DATA 4\nSCALARS label int 1\nLOOKUP_TABLE default\n1 2 3 4\nNORMALS n float\n0 0 1 0 0 1 0 0 1 0 0 1\nFIELD f 1\narea 1 4 float\n1 1 1 1\n" >vtk/old.vtk
 printf "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n${square}TRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nMETADATA\nx y\n\nPOINT_DATA 4\nCOLOR_SCALARS c 2\n0 0 1 1 0 0 1 1\n" >vtk/strip.vtk
 printf '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n<Piece NumberOfPoints="4" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="1">\n<PointData><DataArray type="Int32" Name="label" NumberOfComponents="1" format="ascii">1 2 3 4</DataArray></PointData>\n<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 1 1 0 0 1 0</DataArray></Points>\n<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray><DataArray type="Int64" Name="offsets" format="ascii">4</DataArray></Polys>\n</Piece></PolyData></VTKFile>\n' >vtp/text.vtp
@@ -273,6 +276,18 @@ perl -e '
   my $text = $json->(""); $text .= " " while length($text) % 4;
   put("glb/square.glb", "glTF" . pack("VV", 2, 12 + 8 + length($text) + 8 + 60) . pack("V", length $text) . "JSON" . $text
     . pack("V", 60) . "BIN\0" . $buffer);
+  my $more = q({"asset":{"version":"2.0"},"extensionsRequired":["KHR_materials_unlit","KHR_mesh_quantization","EXT_mesh_gpu_instancing"],) .
+    q("buffers":[{"uri":"data:;base64,%s","byteLength":96}],"bufferViews":[{"buffer":0,"byteLength":24,"byteStride":6},{"buffer":0,) .
+    q("byteOffset":24,"byteLength":12},{"buffer":0,"byteOffset":36,"byteLength":2},{"buffer":0,"byteOffset":40,"byteLength":6},) .
+    q({"buffer":0,"byteOffset":48,"byteLength":24},{"buffer":0,"byteOffset":72,"byteLength":8}],"accessors":[{"bufferView":0,) .
+    q("componentType":5122,"normalized":true,"count":4,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":2,"componentType":5121},) .
+    q("values":{"bufferView":3}}},{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"},{"bufferView":4,"componentType":5126,) .
+    q("count":2,"type":"VEC3"},{"bufferView":5,"componentType":5120,"normalized":true,"count":2,"type":"VEC4"}],) .
+    q("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":5},{"attributes":{"POSITION":0},"mode":6}]}],) .
+    q("nodes":[{"children":[1],"matrix":[1,0,0,0,0,-1,0,0,0,0,1,0,5,0,0,1]},{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":) .
+    q({"attributes":{"TRANSLATION":2,"ROTATION":3}}}}]});
+  put("gltf/strips.gltf", sprintf($more, encode_base64(pack("s<12 v6 C x3 s<3 x2 f<6 c8 x16", map({ 30000 * $_ } map { @$_ } @corner),
+    0, 1, 3, 65535, 2, 1, 2, 9, 9, 9, 0, 0, 0, 7, 0, 0, 0, 0, 0, 127, 0, 90, 0, 90), "")));
   my $header = sprintf("%-117s\n", "{\x27descr\x27: \x27<f4\x27, \x27fortran_order\x27: False, \x27shape\x27: (3, 4), }");
   put("npy/array.npy", "\x93NUMPY\1\0" . pack("v", length $header) . $header . $floats);
   open(my $in, "<:raw", "'"$root"'/data/records/sample.aris") or die; read($in, my $record, 1 << 20); close $in;

@@ -38,7 +38,7 @@ TEST(BadFile, empty_and_unknown_files_say_what_was_expected) {
   expect_bad(own_file("a.ply", ""), {"empty (0 bytes)"});
   expect_bad(own_file("a.blend", "BLENDER"),
              {"unknown extension '.blend'", ".pcd .ply .obj", scene_extensions(), "text beginning with 'BLENDER'"});
-  expect_bad(own_file("a.laz", "LASF...."), {"unknown extension '.laz'", "pdal translate"});
+  expect_bad(own_file("a.laz", "LASF...."), {"a LAZ file, which is not read", "docs/scene-files.md has the command"});
   expect_bad(own_file("noextension", "ply\n"), {"unknown extension ''", "rename it to .ply"});
 }
 
