@@ -23,7 +23,7 @@ void keep_only(std::vector<T>& column, const std::vector<std::uint32_t>& keep) {
 /// Drops points that are withheld, not finite or coincide with an earlier point.
 void drop_unusable(RawCloud& raw, LoadReport& report) {
   const bool search = !raw.tags.prepared;  // save_scene writes no duplicates
-  if (!search && raw.not_finite + raw.withheld == 0) return;
+  if (!search && raw.not_finite + raw.withheld + raw.holes == 0) return;
   std::vector<std::uint32_t> first(raw.point.size());
   std::iota(first.begin(), first.end(), 0u);
   if (search) first = first_at_same_place(raw.point);
@@ -111,6 +111,8 @@ LoadReport begin_report(const RawCloud& raw) {
   report.triangles_read = raw.triangles_in_file;
   report.dropped_not_finite = raw.not_finite, report.dropped_withheld = raw.withheld;
   report.notes = raw.notes;
+  report.meaning = raw.meaning;
+  for (std::string& note : raw.meaning.notes()) report.notes.push_back(std::move(note));
   report.other_columns = raw.other_columns;
   return report;
 }
@@ -131,8 +133,8 @@ void note_no_area(double total_area, std::vector<std::string>& notes) {
 }
 
 void check_options(const LoadOptions& options, const char* who) {
-  if (!(options.unit > 0) || !std::isfinite(options.unit)) {
-    fail(ErrorKind::argument, who, ": unit = ", options.unit, " m, must be > 0; 0.001 for millimetres");
+  if (const double unit = options.meaning.unit.value_or(1); !(unit > 0) || !std::isfinite(unit)) {
+    fail(ErrorKind::argument, who, ": unit = ", unit, " m, must be > 0; 0.001 for millimetres");
   }
   if (!(options.mesh_spacing >= 0) || !std::isfinite(options.mesh_spacing)) {
     fail(ErrorKind::argument, who, ": mesh_spacing = ", options.mesh_spacing, " m, must be >= 0 (0: chosen)");
@@ -205,6 +207,8 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     complete_materials(raw, options, result);
     add_surface(raw, options, result);
   } else {
+    if (raw.meaning.axes().mirrors())
+      for (auto& triangle : raw.triangle) std::swap(triangle[1], triangle[2]);
     // The corners have materials, of which the surfels take theirs.
     scene.point = raw.point;
     scene.material = std::move(raw.label);
@@ -214,7 +218,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
   if (options.keep_columns) take_columns(raw, options, result.columns);
   note_no_area(std::accumulate(scene.area.begin(), scene.area.end(), 0.0), result.report.notes);
   if (!raw.tags.prepared) {
-    for (std::string& doubt : doubts_about(raw, typical_spacing(raw, scene.area), options.unit)) {
+    for (std::string& doubt : doubts_about(raw, typical_spacing(raw, scene.area))) {
       result.report.notes.push_back(std::move(doubt));
     }
   }

@@ -101,9 +101,8 @@ void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
 /// become columns of the surfels.
 void sample_mesh(RawCloud& mesh, const LoadOptions& options, LoadedScene& result);
 
-/// Returns warnings about doubtful coordinates: units, precision. `spacing` is the typical spacing of the cloud [m];
-/// `unit` has already been applied.
-std::vector<std::string> doubts_about(const RawCloud& raw, double spacing, double unit);
+/// Returns warnings about doubtful coordinates, each with a remedy. `spacing` is the typical spacing of the cloud [m].
+std::vector<std::string> doubts_about(const RawCloud& raw, double spacing);
 
 /// Adds a note if the total area is zero: such a scene reflects no sound.
 void note_no_area(double total_area, std::vector<std::string>& notes);

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "scene/material_shares.hpp"
+#include "scene_io/file_meaning.hpp"
 
 namespace insonify {
 
@@ -20,17 +21,18 @@ struct FileDescription {
   std::size_t points = 0, triangles = 0, not_finite = 0, withheld = 0, duplicates = 0;
   std::size_t width = 0, height = 0;  ///< height > 1: organised
   std::vector<Field> fields;
-  Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< of finite points [file units]
-  double median_spacing = 0;                                                     ///< of nearest neighbours [file units]
+  Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< of usable points, world [m]
+  double median_spacing = 0;                                                     ///< of nearest neighbours [m]
   bool has_normals = false, has_area = false, has_materials = false;
   std::optional<Eigen::Vector3d> viewpoint;
   /// Shares of the materials among the points that load_scene keeps, or among the corners of a mesh. The shares follow
   /// from the file's labels and areas; no areas are estimated. Empty without materials.
   std::vector<MaterialShare> materials;
+  std::vector<MeaningItem> meaning;   ///< what was taken as what
   std::vector<std::string> problems;  ///< defects and doubts, each with a remedy
 };
 
-/// Returns the description of a cloud or mesh file. Throws as load_scene.
-FileDescription describe_file(const std::string& path);
+/// Returns the description of a cloud or mesh file, with what the caller says of its meaning. Throws as load_scene.
+FileDescription describe_file(const std::string& path, const AskedMeaning& asked = {});
 
 }  // namespace insonify

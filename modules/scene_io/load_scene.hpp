@@ -8,9 +8,11 @@
 #include <Eigen/Core>
 
 #include "returns/soundings.hpp"
+#include "scene/asked_meaning.hpp"
 #include "scene/material_field.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene/scene_mesh.hpp"
+#include "scene_io/file_meaning.hpp"
 #include "scene_io/scene_columns.hpp"
 
 namespace insonify {
@@ -20,7 +22,7 @@ struct LoadOptions {
   std::optional<Eigen::Vector3d> viewpoint;  ///< position of the capture [m, world]; orients normals without sides
   int normal_neighbours = 32;                ///< for the planes of estimated normals
   double mesh_spacing = 0;                ///< [m] between surfels of a mesh or height field; 0: see LoadedScene::mesh
-  double unit = 1;                        ///< metres per unit of the file, e.g. 0.001 for millimetres
+  AskedMeaning meaning;                   ///< units, axes and holes that the file does not state, or states wrongly
   std::vector<Material> materials;        ///< by label; by name where the file names a material of this list. Empty:
                                           ///< the materials in the file, or a default one per label
   std::optional<std::uint16_t> material;  ///< gives every surfel this index into the materials
@@ -56,6 +58,7 @@ struct LoadReport {
   std::string material_field;                ///< as the file calls it; empty: none was read
   std::vector<std::string> other_columns{};  ///< columns of the file that the scene does not use
   std::size_t outside_intervals = 0;         ///< surfels, or corners of a mesh, whose number lies in no interval
+  FileMeaning meaning{};                     ///< of the numbers of the file, as applied
 };
 
 /// Result of load_scene.

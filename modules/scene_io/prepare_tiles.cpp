@@ -39,8 +39,9 @@ Batch read_batch(const Survey& survey, std::size_t first) {
   const RowTable table = read_rows(survey.file, first, count);
   Batch batch;
   batch.raw.path = survey.file.path;
+  batch.raw.meaning = survey.whole.meaning;
   fill_cloud(batch.raw, table, survey.reading);
-  batch.places = read_places(table, survey.file.path, survey.reading);
+  batch.places = read_places(batch.raw, table, survey.reading);
   return batch;
 }
 
@@ -58,6 +59,7 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     const RawCloud raw = read_batch(survey, first).raw;
     add_counts(whole, raw);
     whole.float_coordinates = raw.float_coordinates;
+    whole.named_depth = raw.named_depth;
     whole.label_field = raw.label_field;
     whole.other_columns = raw.other_columns;
     survey.normals = !raw.normal.empty();
@@ -75,6 +77,7 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     }
     report_progress(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
   }
+  settle_meaning(whole);
   require_usable_points(whole, survey.file.rows);
   whole.points_in_file = survey.file.rows;
   if (survey.largest_area > largest_area(whole)) ++survey.bad_areas;
@@ -132,8 +135,8 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   RawCloud& whole = survey.whole;
   whole.path = survey.file.path, whole.format = survey.file.format;
   whole.tags = survey.file.tags;
-  if (survey.file.viewpoint) whole.viewpoint = options.load.unit * *survey.file.viewpoint;
-  if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
+  whole.meaning = survey.file.meaning;
+  whole.meaning.override_by(options.load.meaning);
   if (survey.reading.material_field.name.empty()) survey.reading.material_field.name = whole.tags.material_field;
   survey.reading.origin = Vector3d::Zero();
   survey_rows(survey, options);
@@ -142,7 +145,9 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
          options.whole_points,
          ") are prepared in batches, which cannot estimate them: compute normals first, or run "
          "`insonify prepare` with a .ply output, not .tiles, if memory holds the cloud");
-  survey.reading.origin = whole.origin = origin_of(whole.box, whole.tags, options.load.unit);
+  survey.reading.origin = whole.origin = origin_of(whole);
+  if (survey.file.viewpoint) whole.viewpoint = whole.meaning.axes().place(*survey.file.viewpoint);
+  if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
 
   LoadedScene result;
   LoadReport& report = result.report = begin_report(whole);
@@ -179,7 +184,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   const double spacing =
       std::sqrt(prepared.tiles.total_area / std::max(1.0, static_cast<double>(prepared.tiles.surfels)));
   if (!whole.tags.prepared)
-    for (std::string& doubt : doubts_about(whole, spacing, options.load.unit)) report.notes.push_back(std::move(doubt));
+    for (std::string& doubt : doubts_about(whole, spacing)) report.notes.push_back(std::move(doubt));
   prepared.report = report;
   return prepared;
 }

@@ -12,6 +12,7 @@
 #include "scene/material_field.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/describe_file.hpp"
+#include "scene_io/file_meaning.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/number_type_internal.hpp"
 
@@ -34,15 +35,41 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags);
 /// The comment lines of a scene, without "comment " or "# ".
 std::vector<std::string> tag_lines(const SceneCloud& scene);
 
+/// Heights that mark holes by custom, although their files do not say so [units of the file].
+inline constexpr std::array<double, 3> usual_marks = {-9999, -32768, -99999};
+
+/// A height that is more than so many deviations of the middle 98 % away from the others is far from them.
+inline constexpr double far_deviations = 50;
+
+/// The middle 98 % of the heights of a file [its units].
+struct HeightSpread {
+  double median = 0, deviation = 0, low = 0, high = 0;
+};
+/// Returns the spread of one height or more.
+HeightSpread spread_of(std::vector<double> heights);
+
+/// Facts about the coordinates of the usable points of a file [units of the file], before usual_marks are judged.
+struct RawExtent {
+  Bounds box;                                            ///< without points whose height is one of usual_marks
+  std::vector<double> heights;                           ///< of some of these points
+  std::array<std::size_t, usual_marks.size()> marked{};  ///< number of points with each of usual_marks
+  std::array<Bounds, usual_marks.size()> marked_box{};
+
+  void add(const RawExtent& part);
+};
+
 /// A cloud or mesh as in its file, columns identified by name, before cleaning and completion. Absent columns are
 /// empty.
 struct RawCloud {
   std::string path, format;
   std::vector<FileDescription::Field> fields;
   std::size_t width = 0, height = 1;
-  std::size_t points_in_file = 0;                    ///< differs from point.size() for OBJ corners
+  std::size_t points_in_file = 0;  ///< differs from point.size() for OBJ corners
+  FileMeaning meaning;
+  bool named_depth = false;  ///< the heights are called depths
+  RawExtent extent;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]
-  Bounds box;                                        ///< of the finite points, world [m]
+  Bounds box;                                        ///< of the usable points, world [m]
   std::vector<Eigen::Vector3f> point;                ///< relative to origin [m]; all NaN if not finite, or withheld
   std::vector<Eigen::Vector3f> normal;
   std::vector<float> area;           ///< [m^2]
@@ -65,6 +92,7 @@ struct RawCloud {
   std::size_t withheld = 0;                              ///< points that their file marks as not to be used
   std::size_t not_finite = 0;                            ///< points that are not finite, including too_far
   std::size_t too_far = 0;                               ///< beyond farthest_coordinate
+  std::size_t holes = 0;                                 ///< points whose height marks a hole
   bool float_coordinates = false;                        ///< stored as float32
   std::optional<Eigen::Vector3d> viewpoint;              ///< [m]
   bool heights = false;  ///< points of a raster: seen from above unless a viewpoint is known
@@ -107,34 +135,40 @@ struct RowTable {
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers);
 
 struct ReadOptions {
-  double unit = 1;  ///< metres per unit of the file
+  AskedMeaning meaning{};
   int threads = 0;
   MaterialField material_field{};  ///< source of the labels
   std::string extra_field{};       ///< a column that is read as it is, or empty
   bool keep_columns = false;
   std::optional<Eigen::Vector3d>
-      origin{};  ///< [m] of the whole cloud, if this is a batch of it; a batch may hold no usable point
+      origin{};  ///< [m] of the whole cloud, if this is a batch of it, whose meaning is known; a batch may hold no
+                 ///< usable point
 };
 
 /// ReadOptions for `options`; labels are not read if all surfels get one material.
 ReadOptions read_options(const LoadOptions& options);
 
 /// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, and
-/// scales its viewpoint. Throws Error(content) if x, y, z or the requested material field is missing, or no point is
+/// moves its viewpoint from the axes of the file to the world. raw.meaning is first completed by the options and by the
+/// numbers (settle_meaning), and tells how. Throws Error(content) if x, y, z or the requested material field is missing, or no point is
 /// finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
-/// Extends the box of `whole` by the box of `part`, and adds the counts of unused points.
+/// Extends the extent of `whole` by that of `part`, and adds the counts of unused points.
 void add_counts(RawCloud& whole, const RawCloud& part);
+
+/// Decides from the extent which of usual_marks are holes, and whether heights called depths count downwards; sets the
+/// box. Triangles have no holes.
+void settle_meaning(RawCloud& raw);
 
 /// Throws Error(content) if none of the file's points is usable, and says why.
 void require_usable_points(const RawCloud& raw, std::size_t points);
 
 /// The origin of a cloud [m]: the one in its tags, else the centre of the box in whole metres.
-Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit);
+Eigen::Vector3d origin_of(const RawCloud& raw);
 
-/// Coordinates of the rows in double [m], relative to options.origin; NaN where unusable.
-std::vector<Eigen::Vector3d> read_places(const RowTable& table, const std::string& path, const ReadOptions& options);
+/// Coordinates of the rows in double [m], relative to raw.origin; NaN where unusable.
+std::vector<Eigen::Vector3d> read_places(const RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
 /// Appends a polygon as a fan of triangles; counts it as bad if a corner is not in [0, vertices).
 void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices);

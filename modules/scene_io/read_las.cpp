@@ -147,6 +147,7 @@ RawCloud read_las(const std::string& path, const ReadOptions& options) {
   RawCloud raw;
   raw.path = path;
   raw.format = file.format;
+  raw.meaning = file.meaning;
   raw.width = file.rows;
   for (const RowTable::Column& column : file.columns) raw.fields.push_back({column.name, name_of(column.type)});
   fill_cloud(raw, read_rows(file, 0, file.rows), options);

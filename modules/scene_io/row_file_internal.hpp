@@ -23,6 +23,7 @@ struct RowFile {
   std::optional<Eigen::Vector3d> viewpoint;  ///< [file units]
   std::vector<std::string> comments{};       ///< of a PLY
   WithheldBit withheld{};
+  FileMeaning meaning{};
 };
 
 /// The layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a whole.

@@ -78,34 +78,50 @@ bool too_far(const Eigen::Vector3d& position) {
 
 bool usable(const Eigen::Vector3d& position) { return position.allFinite() && !too_far(position); }
 
-/// Where a row stands [m]; NaN if it is withheld.
-Eigen::Vector3d place_of(const RowTable& table, const Columns& found, const char* row, double unit) {
-  return table.withheld.is_set(row) ? nowhere : Eigen::Vector3d(unit * read_triple(found.position, row));
-}
+/// Where the rows of a table stand.
+struct Places {
+  const RowTable& table;
+  const Columns& found;
+  const FileMeaning& meaning;
+  FileAxes axes = meaning.axes();
 
-/// Finds bounding box, number of usable points, and origin.
-void find_box(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
-  std::vector<RawCloud> blocks((table.rows + block_rows - 1) / block_rows);  // boxes and counts
+  /// The place of a row [m]; NaN if it is withheld, a hole or otherwise unusable.
+  Eigen::Vector3d of(const char* row) const {
+    if (table.withheld.is_set(row)) return nowhere;
+    const Eigen::Vector3d in_file = read_triple(found.position, row), p = axes.place(in_file);
+    return usable(p) && !meaning.is_hole(in_file[axes.from[2]]) ? p : nowhere;
+  }
+};
+
+void add_to(Bounds& box, const Eigen::Vector3d& p) { box = {box.min.cwiseMin(p), box.max.cwiseMax(p)}; }
+
+/// Finds the extent and counts the points that are not used.
+void find_extent(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
+  std::vector<RawCloud> blocks((table.rows + block_rows - 1) / block_rows);  // extents and counts
+  const FileAxes axes = raw.meaning.axes();
+  const std::size_t step = options.origin ? 1024 : std::max<std::size_t>(1, table.rows / 8192);
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
     RawCloud& block = blocks[first / block_rows];
     for (std::size_t i = 0; i < rows; ++i) {
       const char* row = bytes + i * table.stride;
-      const Eigen::Vector3d p = place_of(table, found, row, options.unit);
-      if (usable(p))
-        block.box.min = block.box.min.cwiseMin(p), block.box.max = block.box.max.cwiseMax(p);
-      else if (table.withheld.is_set(row))
+      const Eigen::Vector3d p = read_triple(found.position, row);
+      const double height = p[axes.from[2]];
+      const auto mark = std::find(usual_marks.begin(), usual_marks.end(), height) - usual_marks.begin();
+      if (table.withheld.is_set(row))
         ++block.withheld;
-      else
-        ++block.not_finite, block.too_far += too_far(p);
+      else if (raw.meaning.is_hole(height))
+        ++block.holes;
+      else if (!usable(axes.place(p)))
+        ++block.not_finite, block.too_far += too_far(axes.place(p));
+      else if (mark < std::ssize(usual_marks))
+        ++block.extent.marked[mark], add_to(block.extent.marked_box[mark], p);
+      else {
+        add_to(block.extent.box, p);
+        if ((first + i) % step == 0) block.extent.heights.push_back(height);
+      }
     }
   });
   for (const RawCloud& block : blocks) add_counts(raw, block);
-  if (options.origin) {
-    raw.origin = *options.origin;
-    return;
-  }
-  require_usable_points(raw, table.rows);
-  raw.origin = origin_of(raw.box, raw.tags, options.unit);
 }
 
 std::uint16_t label_from(double number) {
@@ -149,13 +165,16 @@ std::vector<const RowTable::Column*> others_of(const RowTable& table, const Colu
 }  // namespace
 
 void add_counts(RawCloud& whole, const RawCloud& part) {
-  whole.box.min = whole.box.min.cwiseMin(part.box.min);
-  whole.box.max = whole.box.max.cwiseMax(part.box.max);
+  whole.extent.add(part.extent);
   whole.withheld += part.withheld, whole.not_finite += part.not_finite, whole.too_far += part.too_far;
+  whole.holes += part.holes;
 }
 
 void require_usable_points(const RawCloud& raw, std::size_t points) {
-  if (raw.withheld + raw.not_finite < points) return;
+  if (raw.withheld + raw.not_finite + raw.holes < points) return;
+  if (raw.holes > 0)
+    fail(ErrorKind::content, raw.path, ": holds no usable point (", raw.holes, " of ", points,
+         " points mark holes); give --nodata none, or the heights that do mark holes");
   if (raw.withheld > 0)
     fail(ErrorKind::content, raw.path, ": holds no usable point (", raw.withheld, " of ", points,
          " points are marked as withheld); clear the flags, or export the cloud again");
@@ -166,21 +185,19 @@ void require_usable_points(const RawCloud& raw, std::size_t points) {
        " of them with coordinates beyond 1e9 m, the others not finite); give the unit of the file, or move the cloud");
 }
 
-Eigen::Vector3d origin_of(const Bounds& box, const SceneTags& tags, double unit) {
-  if (tags.origin && unit == 1) return *tags.origin;
-  return (0.5 * (box.min + box.max) + Eigen::Vector3d::Constant(0.5)).array().floor();
+Eigen::Vector3d origin_of(const RawCloud& raw) {
+  if (raw.tags.origin && raw.meaning.axes().is_identity()) return *raw.tags.origin;
+  return (0.5 * (raw.box.min + raw.box.max) + Eigen::Vector3d::Constant(0.5)).array().floor();
 }
 
-std::vector<Eigen::Vector3d> read_places(const RowTable& table, const std::string& path, const ReadOptions& options) {
-  const Columns found = find_columns(table, path, options.material_field.name);
-  std::vector<Eigen::Vector3d> places(table.rows);
+std::vector<Eigen::Vector3d> read_places(const RawCloud& raw, const RowTable& table, const ReadOptions& options) {
+  const Columns found = find_columns(table, raw.path, options.material_field.name);
+  const Places places{table, found, raw.meaning};
+  std::vector<Eigen::Vector3d> all(table.rows);
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
-    for (std::size_t i = 0; i < rows; ++i) {
-      const Eigen::Vector3d p = place_of(table, found, bytes + i * table.stride, options.unit);
-      places[first + i] = usable(p) ? Eigen::Vector3d(p - options.origin.value_or(Eigen::Vector3d::Zero())) : nowhere;
-    }
+    for (std::size_t i = 0; i < rows; ++i) all[first + i] = places.of(bytes + i * table.stride) - raw.origin;
   });
-  return places;
+  return all;
 }
 
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers) {
@@ -202,8 +219,17 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   const Columns found = find_columns(table, raw.path, asked.empty() ? raw.tags.material_field : asked);
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
   if (raw.points_in_file == 0) raw.points_in_file = table.rows;
-  if (raw.viewpoint) *raw.viewpoint *= options.unit;
-  find_box(raw, table, found, options);
+  raw.meaning.override_by(options.meaning);
+  find_extent(raw, table, found, options);
+  if (options.origin) {
+    raw.origin = *options.origin;
+  } else {
+    settle_meaning(raw);
+    require_usable_points(raw, table.rows);
+    raw.origin = origin_of(raw);
+  }
+  const Places places{table, found, raw.meaning};
+  if (raw.viewpoint) raw.viewpoint = places.axes.place(*raw.viewpoint);
 
   // Coordinates become relative to the origin in double, then float.
   raw.point.resize(table.rows);
@@ -231,11 +257,11 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
     for (std::size_t i = 0; i < rows; ++i) {
       const char* row = bytes + i * table.stride;
       const auto number = [&](const RowTable::Column& c) { return c.value(row); };
-      const Eigen::Vector3d p = place_of(table, found, row, options.unit);
-      raw.point[first + i] = (usable(p) ? Eigen::Vector3d(p - raw.origin) : nowhere).cast<float>();
-      if (normals) raw.normal[first + i] = read_triple(found.normal, row).cast<float>();
-      if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * options.unit * options.unit);
-      if (found.noise) raw.noise[first + i] = static_cast<float>(number(*found.noise) * options.unit);
+      raw.point[first + i] = (places.of(row) - raw.origin).cast<float>();
+      const Eigen::Vector3d normal = normals ? read_triple(found.normal, row) : Eigen::Vector3d::Zero();
+      if (normals) raw.normal[first + i] = places.axes.normal(normal).cast<float>();
+      if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * places.axes.area_factor(normal));
+      if (found.noise) raw.noise[first + i] = static_cast<float>(number(*found.noise) * raw.meaning.unit.value);
       if (found.label) raw.label[first + i] = label_from(number(*found.label), options.material_field.intervals);
       if (extra != table.columns.end()) raw.extra[first + i] = number(*extra);
       if (ids) raw.id[first + i] = static_cast<std::uint32_t>(number(*found.id));

@@ -71,7 +71,7 @@ RawCloud read_cloud(const std::string& path, const ReadOptions& options) {
 }
 
 ReadOptions read_options(const LoadOptions& options) {
-  ReadOptions reading{options.unit, options.threads, options.material ? MaterialField{} : options.material_field};
+  ReadOptions reading{options.meaning, options.threads, options.material ? MaterialField{} : options.material_field};
   reading.keep_columns = options.keep_columns;
   return reading;
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "scene/asked_meaning.hpp"
 #include "survey/part_placement.hpp"
 
 namespace insonify {
@@ -20,7 +21,7 @@ struct SceneFile;
 struct PartFile {
   std::string path;
   std::shared_ptr<const SceneFile> scene{};    ///< its contents, if the file itself is a scene of parts
-  std::string unit = "m";                      ///< "mm", or metres per unit as text
+  MeaningText meaning;                         ///< units, axes and holes of the file
   std::string material, materials;             ///< a name for every surfel; a table; or empty
   std::string material_field;                  ///< field of the cloud whose numbers mean materials, or empty
   std::optional<Eigen::Vector3d> viewpoint{};  ///< of the capture [m, in the axes of the file]

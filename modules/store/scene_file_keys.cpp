@@ -18,9 +18,10 @@ KeyValue interval(std::vector<double>& numbers, const char* rule, const NumberRu
 
 /// Rows of how a file is read.
 std::vector<Key> reading_keys(const char* section, PartFile& file) {
-  return {
-      {section, "unit", "", text(file.unit),
-       "unit of the coordinates: m, mm, cm, km, ft, or metres per unit in quotes"},
+  std::vector<Key> keys;
+  for (const MeaningOption& row : meaning_options)
+    keys.push_back({section, row.key, "", text(given(file.meaning.*row.text)), row.help});
+  const std::vector<Key> others = {
       {section, "material", "", text(given(file.material)),
        "name of one material for every surfel; default: the materials of the file"},
       {section, "materials", "", text(given(file.materials)), "file with a table of materials by label"},
@@ -30,6 +31,8 @@ std::vector<Key> reading_keys(const char* section, PartFile& file) {
        "distance between surfels of a mesh; default: a fiftieth of the diagonal of its box, from 2 mm to 5 cm; of a "
        "captured mesh: the spacing of its overview"},
   };
+  keys.insert(keys.end(), others.begin(), others.end());
+  return keys;
 }
 
 }  // namespace

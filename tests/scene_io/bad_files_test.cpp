@@ -247,7 +247,7 @@ TEST(BadFile, clouds_without_a_usable_point_are_refused) {
 TEST(BadOption, values_that_no_file_can_satisfy_are_argument_errors) {
   const std::string path = own_file("a.xyz", plate_text(4, 0.5));
   LoadOptions options;
-  options.unit = 0;
+  options.meaning.unit = 0;
   expect_error(ErrorKind::argument, {"unit = 0 m, must be > 0"}, [&] { load_scene(path, options); });
   options = {};
   options.mesh_spacing = -1;

@@ -132,7 +132,7 @@ TEST(CompleteScene, moving_a_cloud_by_whole_metres_changes_the_origin_alone) {
 
 TEST(CompleteScene, unit_scales_coordinates_and_areas) {
   LoadOptions options;
-  options.unit = 0.001;
+  options.meaning.unit = 0.001;
   const LoadedScene loaded =
       load_scene(own_file("a.csv", "x,y,z,area\n0,0,0,250000\n1000,0,0,250000\n0,500,0,1e6\n1000,500,0,0\n"), options);
   EXPECT_LT((world(loaded.scene, 3) - Eigen::Vector3d(1, 0.5, 0)).norm(), 1e-7);
@@ -205,7 +205,7 @@ TEST(Doubts, a_scan_in_millimetres_is_suspected_and_one_in_metres_is_not) {
   };
   EXPECT_TRUE(has_note(load_scene(own_file("a.xyz", corner(1))).report, "looks like millimetres"));
   LoadOptions options;
-  options.unit = 0.001;
+  options.meaning.unit = 0.001;
   EXPECT_FALSE(has_note(load_scene(own_file("b.xyz", corner(1)), options).report, "millimetres"));
   EXPECT_FALSE(has_note(load_scene(own_file("c.xyz", corner(0.001))).report, "millimetres"));
   // A bathymetric grid of 1 km with 10 m spacing is coarse, not wrong.

@@ -109,9 +109,9 @@ TEST(PrepareTiles, both_byte_orders_doubles_and_labels_are_read_as_load_scene_re
     EXPECT_EQ(prepared.report.material_field, "classification");
   }
   PrepareTilesOptions options = in_batches();
-  options.load.unit = 0.001;
+  options.load.meaning.unit = 0.001;
   expect_as_loaded(ply_of(rows, true), options);
-  options.load.unit = 1;
+  options.load.meaning.unit.reset();
   options.load.materials = {{"mud", 0.01}, {"rock", 0.1}};
   options.load.material_field.intervals = {{0, 1, 1}, {1, 2, 0}};  // 2 lies in none
   EXPECT_EQ(expect_as_loaded(ply_of(rows, false), options).report.outside_intervals, rows.size() / 3);

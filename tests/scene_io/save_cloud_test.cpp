@@ -121,7 +121,7 @@ TEST(SaveScene, unit_scales_a_saved_scene_too) {
   const std::string path = own_path("a.ply");
   save_scene(path, scene_at({1000, 0, 0}));
   LoadOptions options;
-  options.unit = 0.5;
+  options.meaning.unit = 0.5;
   const LoadedScene loaded = load_scene(path, options);
   EXPECT_LT((world(loaded.scene, 10) - 0.5 * world(scene_at({1000, 0, 0}), 10)).norm(), 1e-6);
   EXPECT_FLOAT_EQ(loaded.scene.area[10], 0.25f * 0.01f);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/asked_meaning.hpp"
 #include "simulate/simulation_options.hpp"
 
 namespace insonify::tool {
@@ -28,7 +29,7 @@ struct SceneOptions {
   std::string materials_file;  ///< TOML table
   std::string material;        ///< name for every surfel, or empty
   std::string material_field;  ///< field of the cloud whose numbers mean materials, or empty: found by name
-  std::string unit = "m";
+  MeaningText meaning;         ///< units, axes and holes of the file
   double mesh_spacing = 0;
   std::string scan_noise;  ///< [m] or empty: the file's, else estimated
   bool keep_strays = false;

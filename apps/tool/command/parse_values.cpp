@@ -78,15 +78,6 @@ std::pair<int, int> parse_size(const std::string& text) {
   return {static_cast<int>(*width), static_cast<int>(*height)};
 }
 
-double parse_unit(const std::string& text) {
-  constexpr Named<double> units[] = {{"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", 0.3048}};
-  if (const double* known = find_named(units, text)) return *known;
-  const auto value = number(text);
-  if (!value || *value <= 0)
-    fail(ErrorKind::argument, "--unit = '", text, "' must be m, mm, cm, km, ft, or metres per unit as a number > 0");
-  return *value;
-}
-
 Setting parse_setting(const std::string& text) {
   const std::size_t equals = text.find('='), dot = text.find('.');
   if (equals == std::string::npos || dot == std::string::npos || dot > equals || dot == 0 || dot + 1 == equals)

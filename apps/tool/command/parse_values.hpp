@@ -51,9 +51,6 @@ std::pair<double, double> parse_range(const std::string& text);
 /// "1400x1050" pixels.
 std::pair<int, int> parse_size(const std::string& text);
 
-/// Metres per unit: m, mm, cm, km, ft, or a number.
-double parse_unit(const std::string& text);
-
 /// "sonar.beams=256" to ("sonar", "beams", "256").
 struct Setting {
   std::string section, key, value;

@@ -28,6 +28,8 @@ inline constexpr const char *scene_title = "Scene", *sonar_title = "Sonar and wa
                             *sound_title = "Sound", *accuracy_title = "Accuracy", *output_title = "Output",
                             *detection_title = "Detections";
 
+/// Rows of [scene]: what the numbers of a file mean.
+std::vector<RunSetting> meaning_settings(MeaningText& options);
 /// Rows of [scene]: how a cloud is read and completed.
 std::vector<RunSetting> scene_settings(SceneOptions& options);
 /// Rows of the top level: the synthesis.

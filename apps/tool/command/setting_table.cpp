@@ -37,6 +37,13 @@ std::vector<RunSetting> under_titles(std::vector<RunSetting> settings,
 
 }  // namespace
 
+std::vector<RunSetting> meaning_settings(MeaningText& o) {
+  std::vector<RunSetting> settings;
+  for (const MeaningOption& row : meaning_options)
+    settings.push_back({"scene", row.key, row.option, &(o.*row.text), row.help});
+  return settings;
+}
+
 std::vector<RunSetting> scene_settings(SceneOptions& o) {
   std::vector<RunSetting> settings{
       {"scene", "path", "SCENE", &o.path, "cloud, mesh or scene of parts", scene, true},
@@ -48,7 +55,6 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
       {"scene", "material_field", "--material-field", &o.material_field,
        "field of the cloud that holds materials, e.g. classification"},
       {"scene", "material", "--material", &o.material, "name of one material for the whole scene, e.g. sand"},
-      {"scene", "unit", "--unit", &o.unit, "unit of the file: m, mm, cm, km, ft, or metres per unit"},
       {"scene", "mesh_spacing", "--mesh-spacing", &o.mesh_spacing,
        "[m] distance between surfels of a mesh or height field; 0: ping samples as finely as its beams resolve, other "
        "verbs take 200 000 surfels"},
@@ -57,6 +63,9 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
        "estimate"},
       {"scene", "keep_strays", "--keep-strays", &o.keep_strays, "give isolated points the area of their whole cell"},
   };
+  const auto behind = std::ranges::find(settings, std::string_view("material"), &RunSetting::key) + 1;
+  std::vector<RunSetting> meaning = meaning_settings(o.meaning);
+  settings.insert(behind, std::make_move_iterator(meaning.begin()), std::make_move_iterator(meaning.end()));
   return under_titles(std::move(settings), {{"viewpoint", scene_title}});
 }
 

@@ -10,6 +10,7 @@
 #include "files/memory_limit.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/tiled_scene.hpp"
+#include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
 #include "tool/info/material_list.hpp"
 #include "tool/run/ping_setup.hpp"
@@ -69,17 +70,31 @@ std::string next_of_camera(const FileDescription& d) {
                      shell_word(d.path), pose_text(*d.viewpoint, pi / 2, -pi / 2));
 }
 
-ordered_json cloud_info(const std::string& path) {
-  const FileDescription d = describe_file(path);
-  ordered_json fields = ordered_json::array();
-  for (const auto& f : d.fields) fields.push_back({{"name", f.name}, {"type", f.type}});
+/// The commands that go on from a cloud. With options they prepare it first, so that the next ones need none.
+std::vector<std::string> next_of_cloud(const FileDescription& d, MeaningText& asked) {
+  std::string options;
+  for (const RunSetting& setting : meaning_settings(asked))
+    if (const std::string& value = *std::get<std::string*>(setting.value); !value.empty())
+      options += fmt::format(" {} {}", setting.option, shell_word(value));
+  const bool sided = d.has_normals || d.triangles > 0 || d.viewpoint;
+  const std::string prepared = options.empty() ? d.path : "prepared.ply";
   std::vector<std::string> next =
-      is_of_camera(d) ? std::vector{next_of_camera(d)} : next_of_scene(path, {d.min, d.max});
-  if (!d.has_normals && d.triangles == 0 && !d.viewpoint)
-    next.insert(next.begin(), "insonify prepare " + shell_word(path) +
-                                  " --viewpoint x,y,z -o prepared.ply  # where it was captured from");
+      is_of_camera(d) ? std::vector{next_of_camera(d)} : next_of_scene(prepared, {d.min, d.max});
+  if (!sided || !options.empty())
+    next.insert(next.begin(), "insonify prepare " + shell_word(d.path) + options + (sided ? "" : " --viewpoint x,y,z") +
+                                  " -o prepared.ply" + (sided ? "" : "  # where it was captured from"));
   if (!d.has_materials)
     next.push_back("insonify materials  # names for --material, which gives the whole scene one material");
+  return next;
+}
+
+ordered_json cloud_info(const std::string& path, MeaningText& asked) {
+  const FileDescription d = describe_file(path, parse_meaning(asked));
+  ordered_json fields = ordered_json::array();
+  for (const auto& f : d.fields) fields.push_back({{"name", f.name}, {"type", f.type}});
+  ordered_json meaning = ordered_json::array();
+  for (const MeaningItem& m : d.meaning)
+    meaning.push_back({{"item", m.name}, {"value", m.value}, {"origin", m.origin}, {"sentence", m.sentence}});
   ordered_json json = {{"path", d.path},
                        {"format", d.format},
                        {"points", d.points},
@@ -90,6 +105,7 @@ ordered_json cloud_info(const std::string& path) {
                        {"withheld", d.withheld},
                        {"duplicates", d.duplicates},
                        {"fields", fields},
+                       {"meaning", meaning},
                        {"bounds", {{"min", point(d.min)}, {"max", point(d.max)}}},
                        {"median_spacing", d.median_spacing},
                        {"normals", d.has_normals},
@@ -98,7 +114,7 @@ ordered_json cloud_info(const std::string& path) {
                        {"material_shares", shares_json(d.materials)},
                        {"problems", d.problems}};
   if (d.viewpoint) json["viewpoint"] = point(*d.viewpoint);
-  json["next"] = next;
+  json["next"] = next_of_cloud(d, asked);
   return json;
 }
 
@@ -132,7 +148,9 @@ ordered_json tiles_info(const std::string& path) {
 
 }  // namespace
 
-ordered_json info_of_scene(const std::string& path) { return is_tiles(path) ? tiles_info(path) : cloud_info(path); }
+ordered_json info_of_scene(const std::string& path, MeaningText asked) {
+  return is_tiles(path) ? tiles_info(path) : cloud_info(path, asked);
+}
 
 void print_scene(const ordered_json& d) {
   const auto text = [](const ordered_json& value) { return value.get<std::string>(); };
@@ -148,6 +166,9 @@ void print_scene(const ordered_json& d) {
   fmt::print("\n  not finite {}\n  duplicates {}\n  fields    ", d["not_finite"].get<std::size_t>(),
              d["duplicates"].get<std::size_t>());
   for (const auto& f : d["fields"]) fmt::print(" {}:{}", text(f["name"]), text(f["type"]));
+  for (const auto& m : d["meaning"])
+    fmt::print("\n  meaning    {}: {} ({}){}{}", text(m["item"]), text(m["value"]), text(m["origin"]),
+               text(m["sentence"]).empty() ? "" : ": ", text(m["sentence"]));
   const Eigen::Vector3d min = place("min"), max = place("max"), size = max - min;
   // To a tenth of the spacing, in plain digits: a northing has seven before the point.
   const double spacing = d["median_spacing"].get<double>();

@@ -22,6 +22,7 @@ struct InfoOptions {
   CommonOptions common;
   std::vector<std::string> files;
   bool verify = false;
+  MeaningText meaning;
 };
 
 void add_options(OptionList list, InfoOptions& o) {
@@ -31,6 +32,7 @@ void add_options(OptionList list, InfoOptions& o) {
                record_extensions(),
            {.required = true});
   list.add("--verify", &o.verify, "compare the files of runs and surveys with the SHA-256 in their manifests");
+  add_settings(list, meaning_settings(o.meaning));
   add_common(list, o.common);
 }
 
@@ -78,7 +80,7 @@ void info(const InfoOptions& o) {
     if (recorded)
       all.push_back(info_of_record(path));
     else if (is_scene)
-      all.push_back(info_of_scene(path));
+      all.push_back(info_of_scene(path, o.meaning));
     else if (file.extension() == ".toml")
       all.push_back(info_of_toml(path));
     else

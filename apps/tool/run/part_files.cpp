@@ -69,7 +69,7 @@ void add_report(const LoadReport& of, LoadReport& all) {
 
 SceneOptions scene_options_of(const PartFile& file) {
   SceneOptions o;
-  o.path = file.path, o.unit = file.unit;
+  o.path = file.path, o.meaning = file.meaning;
   o.material = file.material, o.materials_file = file.materials, o.material_field = file.material_field;
   if (const auto& v = file.viewpoint) o.viewpoint = fmt::format("{:.17g},{:.17g},{:.17g}", v->x(), v->y(), v->z());
   return o;

@@ -213,7 +213,7 @@ LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene)
   LoadOptions options;
   options.seed = common.seed;
   options.threads = common.threads;
-  options.unit = parse_unit(scene.unit);
+  options.meaning = parse_meaning(scene.meaning);
   options.mesh_spacing = scene.mesh_spacing;
   if (!scene.scan_noise.empty()) options.scan_noise = parse_numbers("--scan-noise", scene.scan_noise, 1, "metres")[0];
   for (const auto& [option, value] :

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/asked_meaning.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace insonify {
+namespace {
+
+/// Numbers with commas between them. Throws Error(argument) which says what the option must be.
+std::vector<double> numbers_of(const char* option, const std::string& text, const char* rule) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::optional<double> value = finite_number(trimmed(std::string_view(text).substr(begin, end - begin)));
+    if (!value) fail(ErrorKind::argument, option, " = '", text, "' must be ", rule);
+    numbers.push_back(*value);
+    begin = end + 1;
+  }
+  return numbers;
+}
+
+double parse_unit(const std::string& text) {
+  constexpr Named<double> units[] = {
+      {"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", metres_per_foot}, {"us-ft", metres_per_survey_foot}};
+  if (const double* known = find_named(units, text)) return *known;
+  const std::optional<double> value = finite_number(text);
+  if (!value || *value <= 0)
+    fail(ErrorKind::argument, "--unit = '", text,
+         "' must be m, mm, cm, km, ft, us-ft, or metres per unit as a number > 0");
+  return *value;
+}
+
+/// Whether `text` is the first of two words. Throws Error(argument) if it is neither.
+bool is_first(const char* option, const std::string& text, const char* first, const char* second) {
+  if (text != first && text != second)
+    fail(ErrorKind::argument, option, " = '", text, "' must be ", first, " or ", second);
+  return text == first;
+}
+
+PointClasses parse_classes(const std::string& text) {
+  if (text == "all") return PointClasses().set();
+  const char* const rule = "all, or whole numbers from 0 to 255 with commas between them, e.g. 2,9";
+  PointClasses classes;
+  for (const double number : numbers_of("--classes", text, rule)) {
+    if (number != std::floor(number) || number < 0 || number > 255)
+      fail(ErrorKind::argument, "--classes = '", text, "' must be ", rule);
+    classes.set(static_cast<std::size_t>(number));
+  }
+  return classes;
+}
+
+}  // namespace
+
+AskedMeaning parse_meaning(const MeaningText& text) {
+  AskedMeaning asked;
+  if (!text.unit.empty()) asked.unit = parse_unit(text.unit);
+  if (!text.z.empty()) asked.z_down = is_first("--z", text.z, "down", "up");
+  if (!text.up.empty()) asked.y_up = is_first("--up", text.up, "y", "z");
+  asked.band = text.band;
+  if (text.no_data == "none")
+    asked.no_data.emplace();
+  else if (!text.no_data.empty())
+    asked.no_data = numbers_of("--nodata", text.no_data, "none, or numbers with commas between them, e.g. -9999");
+  if (!text.classes.empty()) asked.classes = parse_classes(text.classes);
+  return asked;
+}
+
+}  // namespace insonify

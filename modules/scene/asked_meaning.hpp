@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <bitset>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace insonify {
+
+constexpr double metres_per_foot = 0.3048, metres_per_survey_foot = 1200.0 / 3937;
+
+/// Classes of LAS points by their numbers.
+using PointClasses = std::bitset<256>;
+
+/// What a caller says about the meaning of a scene file. An empty member means: as the file says, else as its format
+/// has it.
+struct AskedMeaning {
+  std::optional<double> unit;  ///< [m] of one unit of all coordinates
+  std::optional<bool> z_down;  ///< z is a depth: it counts downwards
+  std::optional<bool> y_up;    ///< the y axis points up: (x, y, z) becomes (x, -z, y)
+  std::string band;            ///< number from 1, or name, of the band or variable of a raster that holds the heights
+  std::optional<std::vector<double>> no_data;  ///< heights that mark holes [units of the file]; may be none
+  std::optional<PointClasses> classes;         ///< classes of LAS points that are read; others are left out
+};
+
+/// AskedMeaning as text, as the command line, TOML files and Python give it. An empty text is not given.
+struct MeaningText {
+  std::string unit, z, up, band, no_data, classes;
+};
+
+/// A row of the table of MeaningText.
+struct MeaningOption {
+  const char* key;     ///< in TOML files and Python
+  const char* option;  ///< on the command line
+  std::string MeaningText::*text;
+  const char* help;
+};
+inline constexpr MeaningOption meaning_options[] = {
+    {"unit", "--unit", &MeaningText::unit,
+     "unit of the coordinates: m, mm, cm, km, ft, us-ft, or metres per unit; default: that of the file, else m"},
+    {"z", "--z", &MeaningText::z, "sign of z: up, or down for depths; default: as the file says, else up"},
+    {"up", "--up", &MeaningText::up, "axis of the file that points up: y or z; default: y of glTF, else z"},
+    {"band", "--band", &MeaningText::band,
+     "number or name of the band or variable of a raster that holds the heights; default: the one that is named as "
+     "one, "
+     "else 1"},
+    {"nodata", "--nodata", &MeaningText::no_data,
+     "heights that mark holes, as numbers with commas between them, or none; default: those of the file, and numbers "
+     "such as -9999 that stand far from all others"},
+    {"classes", "--classes", &MeaningText::classes,
+     "classes of LAS points that are read, as numbers with commas between them, or all; default: all but noise (7 and "
+     "18)"},
+};
+
+/// Returns what a text says. Throws Error(argument) with the option, its value and what it may be.
+AskedMeaning parse_meaning(const MeaningText& text);
+
+}  // namespace insonify

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "scene/asked_meaning.hpp"
+
+namespace insonify {
+
+/// Where a fact about a file comes from: the convention of its format, the file, its numbers, or the caller.
+enum class MeaningOrigin { convention, file, guessed, option };
+
+/// A fact about a file.
+template <typename Value>
+struct Meant {
+  Value value{};
+  MeaningOrigin origin = MeaningOrigin::convention;
+  std::string sentence{};  ///< what was taken as what, for people; empty for conventions
+};
+
+/// A fact about a file as text.
+struct MeaningItem {
+  std::string name, value;
+  const char* origin;  ///< "convention", "file", "guessed" or "option"
+  std::string sentence;
+};
+
+/// From coordinates of a file to those of the world: axis i of the world is factor[i] times axis from[i] of the file.
+struct FileAxes {
+  std::array<int, 3> from{0, 1, 2};
+  Eigen::Vector3d factor{1, 1, 1};  ///< [m] per unit of the file
+
+  bool is_identity() const { return *this == FileAxes{}; }
+  bool operator==(const FileAxes& other) const { return from == other.from && factor == other.factor; }
+  /// Returns whether left becomes right.
+  bool mirrors() const;
+  /// Returns a place in the world [m].
+  Eigen::Vector3d place(const Eigen::Vector3d& in_file) const {
+    return {factor[0] * in_file[from[0]], factor[1] * in_file[from[1]], factor[2] * in_file[from[2]]};
+  }
+  /// Returns a normal of a surface in the world, as long as `in_file`.
+  Eigen::Vector3d normal(const Eigen::Vector3d& in_file) const;
+  /// Returns by how much areas grow whose normal in the file is `in_file`; zero stands for an unknown normal.
+  double area_factor(const Eigen::Vector3d& in_file) const;
+};
+
+/// What a file says about its units, axes, signs and holes. Readers set it, fill_cloud applies it, `info` shows it.
+struct FileMeaning {
+  Meant<double> unit{1};                              ///< [m] of one unit of the coordinates
+  Meant<double> unit_z{0};                            ///< [m] of one unit of the heights; 0: as `unit`
+  Meant<bool> z_down;                                 ///< heights are depths
+  Meant<bool> y_up;                                   ///< the y axis points up
+  Meant<std::string> band;                            ///< band or variable of a raster that holds the heights
+  Meant<std::vector<double>> no_data;                 ///< heights that mark holes [units of the file]
+  Meant<PointClasses> classes{PointClasses().set()};  ///< classes of points that are read
+  Meant<std::string> system;  ///< coordinate system: "EPSG:32632 (WGS 84 / UTM zone 32N)", or its name
+
+  /// Returns the axes, with all that is known.
+  FileAxes axes() const;
+  /// Returns whether the file marks this height [units of the file] as a hole.
+  bool is_hole(double height) const {
+    for (const double mark : no_data.value)
+      if (height == mark || static_cast<float>(height) == static_cast<float>(mark)) return true;
+    return false;
+  }
+  /// Replaces what the caller says otherwise.
+  void override_by(const AskedMeaning& asked);
+  /// Returns all facts that differ from the convention of any format, and unit and sign of z.
+  std::vector<MeaningItem> items() const;
+  /// Returns the sentences of facts that the file or its numbers gave.
+  std::vector<std::string> notes() const;
+};
+
+}  // namespace insonify
