@@ -33,7 +33,9 @@ struct FileAxes {
   std::array<int, 3> from{0, 1, 2};
   Eigen::Vector3d factor{1, 1, 1};  ///< [m] per unit of the file
 
+  /// Returns whether coordinates stay as they are.
   bool is_identity() const { return *this == FileAxes{}; }
+  /// Returns whether all numbers are equal.
   bool operator==(const FileAxes& other) const { return from == other.from && factor == other.factor; }
   /// Returns whether left becomes right.
   bool mirrors() const;

@@ -149,8 +149,8 @@ struct ReadOptions {
 ReadOptions read_options(const LoadOptions& options);
 
 /// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, and
-/// moves its viewpoint from the axes of the file to the world. raw.meaning is first completed by the options and by the
-/// numbers (settle_meaning), and tells how. Throws Error(content) if x, y, z or the requested material field is missing, or no point is
+/// moves its viewpoint from the axes of the file to the world. raw.meaning, completed by the options and settle_meaning,
+/// says what its numbers are. Throws Error(content) if x, y, z or the requested material field is missing, or no point is
 /// finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 

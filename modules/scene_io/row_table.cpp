@@ -7,11 +7,8 @@
 #include "core/error.hpp"
 #include "core/message.hpp"
 #include "core/parallel.hpp"
-#include "files/binary_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
-#include "scene_io/ply_header_internal.hpp"
+#include "core/text.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
-#include "scene_io/row_file_internal.hpp"
 #include "scene_io/scene_columns_internal.hpp"
 
 namespace insonify {
@@ -268,46 +265,6 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
     }
   });
   cut_polygons(raw);
-}
-
-std::optional<RowFile> find_ply_rows(const std::string& path) {
-  // Text files are checked line by line when read.
-  if (read_beginning(path, 64).find("format ascii") != std::string::npos) return std::nullopt;
-  const PlyHeader header = probe_ply(path);
-  if (header.encoding == "ascii") return std::nullopt;
-  RowFile file{path, "PLY " + header.encoding, {}, header.vertex().count, 0, header.end, false, header.tags, {}};
-  file.big_endian = header.encoding == "binary_big_endian";
-  file.comments = header.comments;
-  const bool points = header.tags.prepared && header.tags.heights;  // with the surface between them
-  for (const PlyElement& element : header.elements)
-    if (element.has_list() && element.count > 0 && !points) return std::nullopt;  // a mesh
-  for (const PlyElement& element : header.elements) {
-    if (element.has_list() && element.count > 0) return std::nullopt;
-    std::size_t stride = 0;
-    for (const PlyProperty& property : element.properties) {
-      if (element.name == "vertex") file.columns.push_back({property.name, property.type, stride});
-      stride += size_of(property.type);
-    }
-    if (element.name == "vertex") {
-      file.stride = stride;
-      return file;
-    }
-    file.begin += element.count * stride;
-  }
-  return std::nullopt;
-}
-
-RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count) {
-  const auto bytes = std::make_shared<std::vector<char>>(count * file.stride);
-  BinaryFile(file.path, BinaryFile::Mode::read).read(file.begin + first * file.stride, *bytes);
-  if (file.big_endian) {
-    for (std::size_t i = 0; i < count; ++i)
-      for (const RowTable::Column& column : file.columns) {
-        char* number = bytes->data() + i * file.stride + column.offset;
-        std::reverse(number, number + size_of(column.type));
-      }
-  }
-  return {file.columns, count, file.stride, bytes->data(), bytes, file.withheld};
 }
 
 }  // namespace insonify
