@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/asked_meaning.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -23,10 +24,7 @@ std::vector<double> numbers_of(const char* option, const std::string& text, cons
 }
 
 double parse_unit(const std::string& text) {
-  constexpr Named<double> units[] = {
-      {"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"ft", metres_per_foot}, {"us-ft", metres_per_survey_foot}};
-  if (const double* known = find_named(units, text)) return *known;
-  const std::optional<double> value = finite_number(text);
+  const std::optional<double> named = metres_per(text), value = named ? named : finite_number(text);
   if (!value || *value <= 0)
     fail(ErrorKind::argument, "--unit = '", text,
          "' must be m, mm, cm, km, ft, us-ft, or metres per unit as a number > 0");
@@ -53,6 +51,26 @@ PointClasses parse_classes(const std::string& text) {
 }
 
 }  // namespace
+
+std::optional<double> metres_per(std::string_view unit) {
+  struct Unit {
+    double metres;
+    std::vector<std::string_view> names;
+  };
+  static const std::vector<Unit> units = {
+      {1, {"m", "meter", "metre", "meters", "metres"}},
+      {1e-3, {"mm", "millimeter", "millimetre", "millimeters", "millimetres"}},
+      {1e-2, {"cm", "centimeter", "centimetre", "centimeters", "centimetres"}},
+      {1e3, {"km", "kilometer", "kilometre", "kilometers", "kilometres"}},
+      {0.3048, {"ft", "foot", "feet", "international foot", "international feet", "intl ft"}},
+      {1200.0 / 3937, {"us-ft", "us ft", "usft", "ftus", "us_ft", "us survey foot", "us survey feet", "us foot",
+                       "foot_us", "us_survey_foot", "survey foot"}},
+      {1.8288, {"fathom", "fathoms", "fm"}}};
+  const std::string name = lower_case(std::string(trimmed(unit)));
+  for (const Unit& each : units)
+    if (std::find(each.names.begin(), each.names.end(), name) != each.names.end()) return each.metres;
+  return std::nullopt;
+}
 
 AskedMeaning parse_meaning(const MeaningText& text) {
   AskedMeaning asked;

@@ -3,11 +3,14 @@
 #include <bitset>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace insonify {
 
-constexpr double metres_per_foot = 0.3048, metres_per_survey_foot = 1200.0 / 3937;
+/// Returns the metres of one unit of length, by a name that files give it: m, metres, ft, US survey foot, km, ...; case
+/// does not matter. Empty if the name is none.
+std::optional<double> metres_per(std::string_view unit);
 
 /// Classes of LAS points by their numbers.
 using PointClasses = std::bitset<256>;

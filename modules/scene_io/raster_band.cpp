@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_io/raster_band_internal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/geodesy.hpp"
+#include "core/text.hpp"
+#include "core/units.hpp"
+#include "files/child_process.hpp"
+#include "scene_io/file_probe_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double most_raster_cells = 0x1p28;
+const char* const raster_drivers[] = {"GTiff", "BAG", "netCDF", "GMT", "AAIGrid", "GSBG", "GS7BG", nullptr};
+const char* const netcdf_drivers[] = {"netCDF", nullptr};
+
+template <auto& release>
+struct Release {
+  template <typename Handle>
+  void operator()(Handle* handle) const {
+    release(handle);
+  }
+};
+using Group = std::unique_ptr<std::remove_pointer_t<GDALGroupH>, Release<GDALGroupRelease>>;
+using Variable = std::unique_ptr<std::remove_pointer_t<GDALMDArrayH>, Release<GDALMDArrayRelease>>;
+using Attribute = std::unique_ptr<std::remove_pointer_t<GDALAttributeH>, Release<GDALAttributeRelease>>;
+
+/// An attribute of a netCDF variable in lower case; empty if it has none of this name.
+std::string attribute_of(const Variable& variable, const char* name) {
+  const Attribute attribute(GDALMDArrayGetAttribute(variable.get(), name));
+  const char* const text = attribute ? GDALAttributeReadAsString(attribute.get()) : nullptr;
+  return lower_case(text ? text : "");
+}
+
+/// How well a name fits heights: 2 if it says so, 0 if it says otherwise, else 1.
+int rank_as_heights(const std::string& name) {
+  const auto says = [name = lower_case(name)](std::initializer_list<const char*> words) {
+    return std::any_of(words.begin(), words.end(), [&](const char* w) { return name.find(w) != name.npos; });
+  };
+  if (says({"uncert", "dev", "std", "err", "tvu", "thu", "qual", "count", "dens", "hits", "mask", "flag", "back",
+            "intens", "slope", "aspect", "bnds"}))
+    return 0;
+  return lower_case(name) == "z" || says({"elev", "height", "depth", "bathy", "topo", "altitude"}) ? 2 : 1;
+}
+
+/// The index of the band that is asked for by number or name, else of the first that fits best. Names it in `raw`, and
+/// the others in its notes.
+std::size_t choose(RawCloud& raw, const AskedMeaning& asked, const std::vector<std::string>& names) {
+  std::size_t chosen = 0;
+  for (std::size_t i = 1; i < names.size(); ++i)
+    if (rank_as_heights(names[i]) > rank_as_heights(names[chosen])) chosen = i;
+  const auto text = [&](std::size_t i) {
+    return std::to_string(i + 1) + (names[i].empty() ? "" : " (" + names[i] + ")");
+  };
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < names.size(); ++i) all.push_back(text(i));
+  if (!asked.band.empty()) {
+    std::size_t number = 0;
+    const auto named = std::find_if(names.begin(), names.end(),
+                                    [&](const std::string& n) { return lower_case(n) == lower_case(asked.band); });
+    const bool counted = to_number(asked.band, number) && number >= 1 && number <= names.size();
+    if (named == names.end() && !counted)
+      fail(ErrorKind::content, raw.path, ": has no band '", asked.band, "'; it has ", joined(all));
+    chosen = named != names.end() ? static_cast<std::size_t>(named - names.begin()) : number - 1;
+  } else if (names.size() > 1) {
+    raw.meaning.band = {text(chosen), MeaningOrigin::guessed,
+                        "heights are those of band " + text(chosen) + " of " + joined(all) + "; --band takes another"};
+  }
+  if (names[chosen].find("epth") != names[chosen].npos || lower_case(names[chosen]).starts_with("depth"))
+    raw.named_depth = true;
+  return chosen;
+}
+
+[[noreturn]] void refuse_degrees(const std::string& path, double longitude, double latitude) {
+  const int code = epsg_code(utm_zone_of({radians(latitude), radians(longitude), 0}));
+  fail(ErrorKind::content, path, ": is in degrees, but a scene needs metres in all directions; project it first: ",
+       "gdalwarp -t_srs EPSG:", code, " -r bilinear in.tif out.tif");
+}
+
+/// Facts about the variable of a netCDF grid and its axes, by CF conventions.
+void take_attributes(RawCloud& raw, const Variable& variable, const Variable (&axes)[2]) {
+  FileMeaning& meaning = raw.meaning;
+  if (attribute_of(variable, "positive") == "down")
+    meaning.z_down = {true, MeaningOrigin::file, "its attribute positive = down: heights are depths"};
+  if (attribute_of(variable, "standard_name").find("depth") != std::string::npos) raw.named_depth = true;
+  for (const Variable& axis : axes) {
+    if (!axis) continue;
+    const std::string units = attribute_of(axis, "units"), name = attribute_of(axis, "standard_name");
+    if (units.starts_with("degree") || name == "longitude" || name == "latitude")
+      meaning.system = {"degrees", MeaningOrigin::file, ""};
+    const std::optional<double> metres = metres_per(units);
+    if (metres && *metres != 1)
+      meaning.unit = {*metres, MeaningOrigin::file, "the axes are in " + units + ": converted to metres"};
+  }
+}
+
+/// The plane of the variable of heights of a netCDF file; nothing for other files, and for those of which GDAL finds
+/// none with two axes.
+GdalFile open_netcdf(RawCloud& raw, const AskedMeaning& asked) {
+  const GdalFile file(
+      GDALOpenEx(raw.path.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY, netcdf_drivers, nullptr, nullptr));
+  const Group group(file ? GDALDatasetGetRootGroup(file.get()) : nullptr);
+  if (!group) return nullptr;
+
+  // Variables of two axes; a time of one step and the like may stand before them.
+  std::vector<std::string> names;
+  char** const all = GDALGroupGetMDArrayNames(group.get(), nullptr);
+  for (char** name = all; name && *name; ++name) {
+    const Variable variable(GDALGroupOpenMDArray(group.get(), *name, nullptr));
+    std::size_t count = 0;
+    GDALDimensionH* const dimensions = variable ? GDALMDArrayGetDimensions(variable.get(), &count) : nullptr;
+    bool plane = count >= 2;
+    for (std::size_t d = 0; d < count; ++d) {
+      const Variable axis(GDALDimensionGetIndexingVariable(dimensions[d]));
+      plane = plane && (d + 2 < count ? GDALDimensionGetSize(dimensions[d]) == 1 : axis != nullptr);
+    }
+    GDALReleaseDimensions(dimensions, count);
+    if (plane) names.push_back(*name);
+  }
+  CSLDestroy(all);
+  if (names.empty()) return nullptr;
+
+  const std::string& name = names[choose(raw, asked, names)];
+  const Variable variable(GDALGroupOpenMDArray(group.get(), name.c_str(), nullptr));
+  std::size_t count = 0;
+  GDALDimensionH* const dimensions = GDALMDArrayGetDimensions(variable.get(), &count);
+  const Variable axes[2] = {Variable(GDALDimensionGetIndexingVariable(dimensions[count - 2])),
+                            Variable(GDALDimensionGetIndexingVariable(dimensions[count - 1]))};
+  take_attributes(raw, variable, axes);
+  GDALReleaseDimensions(dimensions, count);
+  std::string view = "[";
+  for (std::size_t d = 0; d + 2 < count; ++d) view += "0,";
+  const Variable plane(count == 2 ? nullptr : GDALMDArrayGetView(variable.get(), (view + "...]").c_str()));
+  return GdalFile(GDALMDArrayAsClassicDataset(plane ? plane.get() : variable.get(), 1, 0));
+}
+
+/// Any raster as GDAL presents it. Refinements of a BAG are resampled to one grid.
+GdalFile open_bands(RawCloud& raw) {
+  const auto open = [&](const char* const* options) {
+    return GdalFile(
+        GDALOpenEx(raw.path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, raster_drivers, options, nullptr));
+  };
+  GdalFile file = open(nullptr);
+  const char* const refined = file ? GDALGetMetadataItem(file.get(), "HAS_SUPERGRIDS", nullptr) : nullptr;
+  if (!refined || std::string_view(refined) != "TRUE") return file;
+  raw.notes.push_back("its refinements are read as one grid, of their finest resolution");
+  const char* const options[] = {"MODE=RESAMPLED_GRID", "VALUE_POPULATION=MEAN", nullptr};
+  return open(options);
+}
+
+/// Refuses a file that GDAL does not read, and one with too many cells.
+void check_raster(const std::string& path, GDALDatasetH file) {
+  const std::string reason = CPLGetLastErrorMsg();
+  if (!file)
+    fail(ErrorKind::content, path, ": is no raster that GDAL reads, or it is cut off",
+         reason.empty() ? std::string() : " (" + reason + ")", "; it looks like ", what_it_looks_like(path));
+  if (GDALGetRasterCount(file) < 1)
+    fail(ErrorKind::content, path,
+         ": holds several rasters or none; choose one: gdal_translate NETCDF:in.nc:elevation out.tif");
+  const double cells = static_cast<double>(GDALGetRasterXSize(file)) * GDALGetRasterYSize(file);
+  if (cells > most_raster_cells)
+    fail(ErrorKind::content, path, ": has ", cells,
+         " cells, must be at most 2^28; cut it out: gdal_translate -projwin WEST NORTH EAST SOUTH in.tif out.tif");
+  expect_from_file(path, file_size_of(path),
+                   {cells, "cells", 3 * sizeof(double),
+                    "cut it out, or save it as it is: gdal_translate -co COMPRESS=NONE in.tif out.tif"});
+}
+
+}  // namespace
+
+QuietGdal::QuietGdal() {
+  GDALAllRegister();
+  GDALSetCacheMax64(256 << 20);  // else a twentieth of the machine's memory, which is beyond the limits of a child
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+}
+QuietGdal::~QuietGdal() { CPLPopErrorHandler(); }
+
+HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
+  CPLErrorReset();
+  HeightBand heights{open_netcdf(raw, asked), nullptr, {0, 1, 0, 0, 0, 1}};
+  const bool netcdf = heights.file != nullptr;
+  if (!netcdf) heights.file = open_bands(raw);
+  const GDALDatasetH file = heights.file.get();
+  check_raster(raw.path, file);
+  const std::string driver = netcdf ? "netCDF" : GDALGetDriverShortName(GDALGetDatasetDriver(file));
+  int number = 1;
+  if (!netcdf) {
+    std::vector<std::string> names;
+    for (int b = 1; b <= GDALGetRasterCount(file); ++b) names.push_back(GDALGetDescription(GDALGetRasterBand(file, b)));
+    number = static_cast<int>(choose(raw, asked, names)) + 1;
+  }
+  heights.band = GDALGetRasterBand(file, number);
+  raw.format = "raster of heights, " + driver;
+  raw.fields = {{"height", GDALGetDataTypeName(GDALGetRasterDataType(heights.band))}};
+  if (GDALGetGeoTransform(file, heights.transform.data()) != CE_None)
+    fail(ErrorKind::content, raw.path,
+         ": does not say how large its cells are; give it corners: gdal_translate -a_ullr WEST ",
+         "NORTH EAST SOUTH in.tif out.tif");
+
+  // Units: of the plane by the coordinate system, unless the axes name one; of the heights by the band.
+  FileMeaning& meaning = raw.meaning;
+  const std::array<double, 6>& at = heights.transform;
+  const double x = at[0] + 0.5 * GDALGetRasterXSize(file) * at[1], y = at[3] + 0.5 * GDALGetRasterYSize(file) * at[5];
+  const OGRSpatialReferenceH system = GDALGetSpatialRef(file);
+  if (meaning.system.value == "degrees" || (system && OSRIsGeographic(system))) refuse_degrees(raw.path, x, y);
+  if (system) take_system(system, meaning);
+  const std::string unit = GDALGetRasterUnitType(heights.band);
+  if (const std::optional<double> metres = metres_per(unit); metres && *metres != meaning.unit.value)
+    meaning.unit_z = {*metres, MeaningOrigin::file, "the heights are in " + unit + ": converted to metres"};
+  int has_none = 0;
+  if (driver == "AAIGrid" && (GDALGetRasterNoDataValue(heights.band, &has_none), has_none == 0))
+    meaning.no_data = {{-9999}, MeaningOrigin::convention, ""};
+  return heights;
+}
+
+}  // namespace insonify
