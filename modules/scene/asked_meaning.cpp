@@ -63,8 +63,9 @@ std::optional<double> metres_per(std::string_view unit) {
       {1e-2, {"cm", "centimeter", "centimetre", "centimeters", "centimetres"}},
       {1e3, {"km", "kilometer", "kilometre", "kilometers", "kilometres"}},
       {0.3048, {"ft", "foot", "feet", "international foot", "international feet", "intl ft"}},
-      {1200.0 / 3937, {"us-ft", "us ft", "usft", "ftus", "us_ft", "us survey foot", "us survey feet", "us foot",
-                       "foot_us", "us_survey_foot", "survey foot"}},
+      {1200.0 / 3937,
+       {"us-ft", "us ft", "usft", "ftus", "us_ft", "us survey foot", "us survey feet", "us foot", "foot_us",
+        "us_survey_foot", "survey foot"}},
       {1.8288, {"fathom", "fathoms", "fm"}}};
   const std::string name = lower_case(std::string(trimmed(unit)));
   for (const Unit& each : units)

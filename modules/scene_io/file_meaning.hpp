@@ -59,6 +59,7 @@ struct FileMeaning {
   Meant<std::vector<double>> no_data;                 ///< heights that mark holes [units of the file]
   Meant<PointClasses> classes{PointClasses().set()};  ///< classes of points that are read
   Meant<std::string> system;  ///< coordinate system: "EPSG:32632 (WGS 84 / UTM zone 32N)", or its name
+  std::string no_lengths;     ///< why the coordinates are no lengths, and what to do; empty if they are
 
   /// Returns the axes, with all that is known.
   FileAxes axes() const;

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <memory>
+#include <string>
+
+#include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
@@ -26,6 +32,7 @@ INSONIFY_GDAL_FUNCTION(CPLPopErrorHandler);
 INSONIFY_GDAL_FUNCTION(CPLPushErrorHandler);
 INSONIFY_GDAL_FUNCTION(CPLQuietErrorHandler);
 INSONIFY_GDAL_FUNCTION(CSLDestroy);
+INSONIFY_GDAL_FUNCTION(CPLSetConfigOption);
 INSONIFY_GDAL_FUNCTION(GDALAllRegister);
 INSONIFY_GDAL_FUNCTION(GDALAttributeReadAsString);
 INSONIFY_GDAL_FUNCTION(GDALAttributeRelease);
@@ -72,16 +79,39 @@ INSONIFY_GDAL_FUNCTION(OCTTransform);
 INSONIFY_GDAL_FUNCTION(OSRAxisEnumToName);
 INSONIFY_GDAL_FUNCTION(OSRDestroySpatialReference);
 INSONIFY_GDAL_FUNCTION(OSRGetAreaOfUse);
+INSONIFY_GDAL_FUNCTION(OSRGetAuthorityCode);
+INSONIFY_GDAL_FUNCTION(OSRGetAuthorityName);
 INSONIFY_GDAL_FUNCTION(OSRGetAxis);
 INSONIFY_GDAL_FUNCTION(OSRGetLinearUnits);
 INSONIFY_GDAL_FUNCTION(OSRGetName);
+INSONIFY_GDAL_FUNCTION(OSRGetTargetLinearUnits);
 INSONIFY_GDAL_FUNCTION(OSRImportFromEPSG);
+INSONIFY_GDAL_FUNCTION(OSRImportFromWkt);
 INSONIFY_GDAL_FUNCTION(OSRIsCompound);
 INSONIFY_GDAL_FUNCTION(OSRIsGeocentric);
 INSONIFY_GDAL_FUNCTION(OSRIsGeographic);
 INSONIFY_GDAL_FUNCTION(OSRIsProjected);
 INSONIFY_GDAL_FUNCTION(OSRNewSpatialReference);
 INSONIFY_GDAL_FUNCTION(OSRSetAxisMappingStrategy);
+INSONIFY_GDAL_FUNCTION(VSIFCloseL);
+INSONIFY_GDAL_FUNCTION(VSIFileFromMemBuffer);
 #undef INSONIFY_GDAL_FUNCTION
+
+/// Keeps GDAL from printing; its last message is part of ours.
+struct QuietGdalErrors {
+  QuietGdalErrors() { CPLPushErrorHandler(CPLQuietErrorHandler), CPLErrorReset(); }
+  ~QuietGdalErrors() { CPLPopErrorHandler(); }
+  /// Returns GDAL's last message in brackets, after a blank; empty if there is none.
+  static std::string reason() {
+    const std::string text = CPLGetLastErrorMsg();
+    return text.empty() ? text : " (" + text + ")";
+  }
+};
+
+struct FreeReference {
+  void operator()(void* reference) const { OSRDestroySpatialReference(reference); }
+};
+/// A coordinate system of GDAL.
+using GdalReference = std::unique_ptr<void, FreeReference>;
 
 }  // namespace insonify

@@ -32,29 +32,14 @@ namespace {
 constexpr double beside_area_deg = 0.5;  // of a survey at the border of a system's area
 constexpr int wgs84_degrees = 4326;
 
-struct FreeReference {
-  void operator()(void* reference) const { OSRDestroySpatialReference(reference); }
-};
-using Reference = std::unique_ptr<void, FreeReference>;
-
 struct FreeTransformation {
   void operator()(void* transformation) const { OCTDestroyCoordinateTransformation(transformation); }
 };
 
-/// Keeps GDAL from printing; its last message is part of ours.
-struct QuietErrors {
-  QuietErrors() { CPLPushErrorHandler(CPLQuietErrorHandler), CPLErrorReset(); }
-  ~QuietErrors() { CPLPopErrorHandler(); }
-  static std::string reason() {
-    const std::string text = CPLGetLastErrorMsg();
-    return text.empty() ? text : " (" + text + ")";
-  }
-};
-
-Reference reference_of(int epsg, const std::string& named) {
-  Reference reference(OSRNewSpatialReference(nullptr));
+GdalReference reference_of(int epsg, const std::string& named) {
+  GdalReference reference(OSRNewSpatialReference(nullptr));
   if (OSRImportFromEPSG(reference.get(), epsg) != OGRERR_NONE)
-    fail(ErrorKind::argument, named, " is not known to PROJ", QuietErrors::reason(),
+    fail(ErrorKind::argument, named, " is not known to PROJ", QuietGdalErrors::reason(),
          "; look it up at epsg.org, e.g. EPSG:32632 for UTM zone 32N");
   OSRSetAxisMappingStrategy(reference.get(), OAMS_TRADITIONAL_GIS_ORDER);
   return reference;
@@ -62,7 +47,7 @@ Reference reference_of(int epsg, const std::string& named) {
 
 /// The transformation from longitude and latitude on WGS 84 [deg], without a guess where data for a datum are missing.
 void* transformation_to(void* reference) {
-  const Reference from = reference_of(wgs84_degrees, "EPSG:4326");
+  const GdalReference from = reference_of(wgs84_degrees, "EPSG:4326");
   const auto options = OCTNewCoordinateTransformationOptions();
   OCTCoordinateTransformationOptionsSetBallparkAllowed(options, 0);
   void* const made = OCTNewCoordinateTransformationEx(from.get(), reference, options);
@@ -75,7 +60,7 @@ void* transformation_to(void* reference) {
 struct ProjectedSystem::Parts {
   int epsg = 0;
   std::string named;
-  Reference reference;
+  GdalReference reference;
   double unit = 1;
   bool bounded = false;
   double west = -180, south = -90, east = 180, north = 90;  ///< of its area of use [deg]
@@ -100,7 +85,7 @@ ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
   p.named = std::string(option) + " EPSG:" + std::to_string(epsg);
   if (epsg < 1024 || epsg > 32766)
     fail(ErrorKind::argument, p.named, " must be within 1024 and 32766, the codes that GeoTIFF holds");
-  const QuietErrors quiet;
+  const QuietGdalErrors quiet;
   p.reference = reference_of(epsg, p.named);
   void* const reference = p.reference.get();
   const std::string name = OSRGetName(reference);
@@ -124,8 +109,8 @@ ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
   p.area = name + (area ? std::string(", for ") + area : std::string());
   p.transformation.reset(transformation_to(reference));
   if (!p.transformation)
-    fail(ErrorKind::content, p.named, " (", p.area, "): PROJ has no transformation from WGS 84", QuietErrors::reason(),
-         "; install proj-data, or leave ", option, " out for UTM");
+    fail(ErrorKind::content, p.named, " (", p.area, "): PROJ has no transformation from WGS 84",
+         QuietGdalErrors::reason(), "; install proj-data, or leave ", option, " out for UTM");
 }
 
 int ProjectedSystem::epsg() const { return parts_->epsg; }
@@ -136,11 +121,11 @@ Eigen::Vector2d ProjectedSystem::place_of(const GeoPlace& place) const {
   if (!parts_->holds(x, y))
     fail(ErrorKind::argument, parts_->named, " (", parts_->area, ") does not reach to latitude ", y, ", longitude ", x,
          "; give the system of that place, or none for UTM");
-  const QuietErrors quiet;
+  const QuietGdalErrors quiet;
   const double longitude = x, latitude = y;
   if (!OCTTransform(parts_->transformation.get(), 1, &x, &y, nullptr) || !std::isfinite(x) || !std::isfinite(y))
     fail(ErrorKind::content, parts_->named, " (", parts_->area, "): PROJ has no place for latitude ", latitude,
-         ", longitude ", longitude, QuietErrors::reason(), "; install proj-data, or leave it out for UTM");
+         ", longitude ", longitude, QuietGdalErrors::reason(), "; install proj-data, or leave it out for UTM");
   return Eigen::Vector2d(x, y) * parts_->unit;
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene_io/raster_band_internal.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +7,9 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "files/child_process.hpp"
+#include "scene_io/coordinate_system_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
+#include "scene_io/raster_band_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -75,10 +75,10 @@ std::size_t choose(RawCloud& raw, const AskedMeaning& asked, const std::vector<s
   return chosen;
 }
 
-[[noreturn]] void refuse_degrees(const std::string& path, double longitude, double latitude) {
+/// The command that projects a raster in degrees whose middle is at this place.
+std::string projection(double longitude, double latitude) {
   const int code = epsg_code(utm_zone_of({radians(latitude), radians(longitude), 0}));
-  fail(ErrorKind::content, path, ": is in degrees, but a scene needs metres in all directions; project it first: ",
-       "gdalwarp -t_srs EPSG:", code, " -r bilinear in.tif out.tif");
+  return "project it first: gdalwarp -t_srs EPSG:" + std::to_string(code) + " -r bilinear in.tif out.tif";
 }
 
 /// Facts about the variable of a netCDF grid and its axes, by CF conventions.
@@ -91,7 +91,7 @@ void take_attributes(RawCloud& raw, const Variable& variable, const Variable (&a
     if (!axis) continue;
     const std::string units = attribute_of(axis, "units"), name = attribute_of(axis, "standard_name");
     if (units.starts_with("degree") || name == "longitude" || name == "latitude")
-      meaning.system = {"degrees", MeaningOrigin::file, ""};
+      meaning.no_lengths = "is in degrees by its axes, but a scene needs metres to the east, to the north and up; ";
     const std::optional<double> metres = metres_per(units);
     if (metres && *metres != 1)
       meaning.unit = {*metres, MeaningOrigin::file, "the axes are in " + units + ": converted to metres"};
@@ -141,8 +141,7 @@ GdalFile open_netcdf(RawCloud& raw, const AskedMeaning& asked) {
 /// Any raster as GDAL presents it. Refinements of a BAG are resampled to one grid.
 GdalFile open_bands(RawCloud& raw) {
   const auto open = [&](const char* const* options) {
-    return GdalFile(
-        GDALOpenEx(raw.path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, raster_drivers, options, nullptr));
+    return GdalFile(GDALOpenEx(raw.path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, raster_drivers, options, nullptr));
   };
   GdalFile file = open(nullptr);
   const char* const refined = file ? GDALGetMetadataItem(file.get(), "HAS_SUPERGRIDS", nullptr) : nullptr;
@@ -172,15 +171,9 @@ void check_raster(const std::string& path, GDALDatasetH file) {
 
 }  // namespace
 
-QuietGdal::QuietGdal() {
+HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
   GDALAllRegister();
   GDALSetCacheMax64(256 << 20);  // else a twentieth of the machine's memory, which is beyond the limits of a child
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-}
-QuietGdal::~QuietGdal() { CPLPopErrorHandler(); }
-
-HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
-  CPLErrorReset();
   HeightBand heights{open_netcdf(raw, asked), nullptr, {0, 1, 0, 0, 0, 1}};
   const bool netcdf = heights.file != nullptr;
   if (!netcdf) heights.file = open_bands(raw);
@@ -201,13 +194,16 @@ HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
          ": does not say how large its cells are; give it corners: gdal_translate -a_ullr WEST ",
          "NORTH EAST SOUTH in.tif out.tif");
 
-  // Units: of the plane by the coordinate system, unless the axes name one; of the heights by the band.
+  // Units: of the plane by the axes, else by the coordinate system; of the heights by the band.
   FileMeaning& meaning = raw.meaning;
   const std::array<double, 6>& at = heights.transform;
-  const double x = at[0] + 0.5 * GDALGetRasterXSize(file) * at[1], y = at[3] + 0.5 * GDALGetRasterYSize(file) * at[5];
-  const OGRSpatialReferenceH system = GDALGetSpatialRef(file);
-  if (meaning.system.value == "degrees" || (system && OSRIsGeographic(system))) refuse_degrees(raw.path, x, y);
-  if (system) take_system(system, meaning);
+  const std::string remedy =
+      projection(at[0] + 0.5 * GDALGetRasterXSize(file) * at[1], at[3] + 0.5 * GDALGetRasterYSize(file) * at[5]);
+  if (!meaning.no_lengths.empty()) meaning.no_lengths += remedy;
+  const Meant<double> of_axes = meaning.unit;
+  take_system(GDALGetSpatialRef(file), remedy, meaning);
+  if (of_axes.origin == MeaningOrigin::file) meaning.unit = of_axes;
+  if (driver == "BAG") meaning.z_down = {false, MeaningOrigin::file, ""};  // elevations, whatever its system says
   const std::string unit = GDALGetRasterUnitType(heights.band);
   if (const std::optional<double> metres = metres_per(unit); metres && *metres != meaning.unit.value)
     meaning.unit_z = {*metres, MeaningOrigin::file, "the heights are in " + unit + ": converted to metres"};

@@ -11,12 +11,6 @@
 // Private to scene_io: the band of a raster that holds its heights.
 namespace insonify {
 
-/// Knows GDAL's formats, and keeps it from printing; its last message is part of ours.
-struct QuietGdal {
-  QuietGdal();
-  ~QuietGdal();
-};
-
 struct CloseGdal {
   void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
 };
@@ -29,9 +23,9 @@ struct HeightBand {
   std::array<double, 6> transform;  ///< from column and row to the plane (GDALGetGeoTransform) [units of the file]
 };
 
-/// Opens a raster and chooses the band or netCDF variable of its heights: the one asked for, else one that is named as
+/// Opens a raster, while GDAL is kept from printing, and chooses the band or netCDF variable of its heights: the one asked for, else one that is named as
 /// heights, else the first. Sets the format, field, meaning and notes of `raw`. Throws Error(content) for files that
-/// GDAL does not read, planes in degrees, cells of unknown size, and bands that do not exist.
+/// GDAL does not read, cells of unknown size, and bands that do not exist.
 HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked);
 
 }  // namespace insonify

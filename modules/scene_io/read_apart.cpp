@@ -14,18 +14,11 @@ void pass(Stream& stream, RowTable::Column& column) {
   stream(column.name, column.type, column.offset, column.scale, column.shift, column.mask);
 }
 
-template <typename Stream, typename Value>
-void pass(Stream& stream, Meant<Value>& fact) {
-  stream(fact.value, fact.origin, fact.sentence);
-}
-
 /// What a library may find out about a cloud.
 template <typename Stream>
 void pass(Stream& stream, RawCloud& raw) {
-  FileMeaning& m = raw.meaning;
   stream(raw.format, raw.fields, raw.width, raw.height, raw.triangle, raw.polygon, raw.triangles_in_file,
-         raw.bad_triangles, raw.float_coordinates, raw.notes, raw.named_depth);
-  stream(m.unit, m.unit_z, m.z_down, m.y_up, m.band, m.no_data, m.classes, m.system);
+         raw.bad_triangles, raw.float_coordinates, raw.notes, raw.named_depth, raw.meaning);
 }
 
 SentRows rows_of_doubles(const std::vector<std::string>& names, std::size_t rows) {

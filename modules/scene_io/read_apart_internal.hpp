@@ -9,6 +9,16 @@
 // Private to scene_io: clouds that a library reads in a child process.
 namespace insonify {
 
+template <typename Stream, typename Value>
+void pass(Stream& stream, Meant<Value>& fact) {
+  stream(fact.value, fact.origin, fact.sentence);
+}
+
+template <typename Stream>
+void pass(Stream& stream, FileMeaning& m) {
+  stream(m.unit, m.unit_z, m.z_down, m.y_up, m.band, m.no_data, m.classes, m.system, m.no_lengths);
+}
+
 /// The layout of the rows that a child sends. It has taken their bytes from the sender before, by take_array<char>.
 struct SentRows {
   std::vector<RowTable::Column> columns;

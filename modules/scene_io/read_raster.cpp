@@ -59,7 +59,7 @@ void for_each_height(const RawCloud& raw, const HeightBand& heights, Use&& use) 
 }
 
 SentRows read_heights(ArraySender& to, RawCloud& raw, const AskedMeaning& asked) {
-  const QuietGdal quiet;
+  const QuietGdalErrors quiet;
   const HeightBand heights = open_heights(raw, asked);
   const std::size_t cells = static_cast<std::size_t>(GDALGetRasterXSize(heights.file.get())) *
                             static_cast<std::size_t>(GDALGetRasterYSize(heights.file.get()));

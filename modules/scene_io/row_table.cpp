@@ -217,6 +217,8 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
   if (raw.points_in_file == 0) raw.points_in_file = table.rows;
   raw.meaning.override_by(options.meaning);
+  if (!raw.meaning.no_lengths.empty() && raw.meaning.unit.origin != MeaningOrigin::option)
+    fail(ErrorKind::content, raw.path, ": ", raw.meaning.no_lengths);
   find_extent(raw, table, found, options);
   if (options.origin) {
     raw.origin = *options.origin;
