@@ -3,7 +3,7 @@
 # Reads N damaged files per reader (10 000), each in a process of its own. Fails, and keeps the file in build/mutants, if one
 # ends otherwise than with 0, 2, 3, 4 or 5, takes 5 s of processor or 1 GB, or says more than one line.
 #
-#   tests/mutants.sh [READER|all] [N] [SEED]
+#   tests/mutants.sh [READER|all] [N[,M]] [SEED]     (M: of readers with damage of their own, tests/fuzz/readers.cpp)
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 bin=$root/build/dev/bin

@@ -254,11 +254,13 @@ Tally try_reader(const FuzzedReader& reader, const fs::path& seed_folder, const 
 
 int main(int argc, char** argv) {
   if (argc != 6) {
-    std::fprintf(stderr, "usage: fuzz_mutants READER|all SEEDS REGRESSIONS MUTANTS SEED\n");
+    std::fprintf(stderr, "usage: fuzz_mutants READER|all SEEDS REGRESSIONS MUTANTS[,MUTANTS] SEED\n");
     return 2;
   }
   const std::string name = argv[1];
-  const std::size_t mutants = std::strtoull(argv[4], nullptr, 10), seed = std::strtoull(argv[5], nullptr, 10);
+  char* after = nullptr;
+  const std::size_t mutants = std::strtoull(argv[4], &after, 10), seed = std::strtoull(argv[5], nullptr, 10);
+  const std::size_t with_damage = *after == ',' ? std::strtoull(after + 1, nullptr, 10) : mutants;
   char work[] = "/tmp/insonify-mutants-XXXXXX";
   if (!mkdtemp(work)) return 2;
   std::size_t bad = 0, tried = 0;
@@ -266,7 +268,7 @@ int main(int argc, char** argv) {
       "| reader | files | refused | bad | slowest [s of processor] | largest [MiB] |\n|---|---|---|---|---|---|\n");
   for (const FuzzedReader& reader : fuzzed_readers()) {
     if (name != "all" && name != reader.name) continue;
-    const Tally t = try_reader(reader, argv[2], argv[3], mutants, seed, work);
+    const Tally t = try_reader(reader, argv[2], argv[3], reader.damage ? with_damage : mutants, seed, work);
     std::printf("| %s | %zu | %zu | %zu | %.2f | %.0f |\n", reader.name.c_str(), t.read, t.refused, t.bad, t.slowest,
                 t.largest);
     std::fflush(stdout);

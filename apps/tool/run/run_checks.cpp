@@ -43,10 +43,12 @@ RunCheck check_survey(const std::string& run) {
 void write_manifest(const RunDirectory& directory, ordered_json manifest) {
   std::map<std::string, std::string> digests = manifest.value(digests_key, ordered_json::object());
   const fs::path folder = directory.file("");
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-    if (const std::string name = fs::relative(entry.path(), folder).string();
-        entry.is_regular_file() && !digests.contains(name))
-      digests[name] = sha256_of_file(entry.path().string());
+  look_at_paths([&] {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+      if (const std::string name = fs::relative(entry.path(), folder).string();
+          entry.is_regular_file() && !digests.contains(name))
+        digests[name] = sha256_of_file(entry.path().string());
+  });
   manifest.erase(digests_key);  // to the end
   manifest[digests_key] = digests;
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");
