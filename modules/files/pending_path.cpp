@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "core/error.hpp"
+#include "files/final_names.hpp"
 
 namespace insonify {
 
@@ -217,6 +218,22 @@ std::string sibling_name(const std::string& target, const char* kind, int count)
   std::string name = hidden_prefix(target).append(kind).append("-").append(std::to_string(getpid()));
   if (count > 0) name.append(".").append(std::to_string(count));
   return beside(target, name.append("@").append(host_name())).string();
+}
+
+std::string with_final_names(std::string message) {
+  const std::string mark = ".tmp-", end = "@" + host_name();
+  for (std::size_t at = message.find(mark); at != message.npos; at = message.find(mark, at)) {
+    const std::size_t number_ends = message.find_first_not_of(".0123456789", at + mark.size());
+    std::size_t begins = message.rfind('/', at) + 1;  // npos + 1 is the beginning
+    if (message[begins] != '.') begins = message.rfind(' ', at) + 1;
+    if (number_ends == message.npos || message.compare(number_ends, end.size(), end) != 0 || message[begins] != '.') {
+      at += mark.size();
+      continue;
+    }
+    message.erase(at, number_ends + end.size() - at);
+    message.erase(begins, 1);
+  }
+  return message;
 }
 
 void discard_pending_paths() {

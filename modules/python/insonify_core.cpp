@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/message.hpp"
+#include "files/final_names.hpp"
 #include "python/binding_internal.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "store/environment_file.hpp"
@@ -35,7 +36,8 @@ void add_errors(py::module_& m) {
     try {
       std::rethrow_exception(thrown);
     } catch (const insonify::Error& caught) {
-      PyErr_SetString(caught.kind() == ErrorKind::argument ? argument : error, message_line(caught.what()).c_str());
+      PyErr_SetString(caught.kind() == ErrorKind::argument ? argument : error,
+                      message_line(with_final_names(caught.what())).c_str());
     }
   });
 }

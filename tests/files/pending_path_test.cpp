@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "files/final_names.hpp"
 #include "files/pending_file.hpp"
 #include "support/test.hpp"
 
@@ -117,6 +118,18 @@ TEST(PendingFile, several_files_are_written_or_none) {
   EXPECT_EQ(text_of(own_path("a")), "old");
   write_files({{own_path("a"), "new"}, {own_path("b"), "two"}});
   EXPECT_EQ(text_of(own_path("a")) + text_of(own_path("b")), "newtwo");
+}
+
+TEST(PendingPath, messages_name_outputs_as_they_are_called_in_the_end) {
+  for (const std::string start : {"", "/tmp/", "runs/", "see runs/"})
+    for (const int count : {0, 3}) {
+      const std::string temporary = start + sibling_name("out", "tmp", count);
+      EXPECT_EQ(with_final_names(temporary + "/cube.h5: full, " + temporary),
+                start + "out/cube.h5: full, " + start + "out");
+    }
+  EXPECT_EQ(with_final_names(sibling_name("runs/my out") + ": full"), "runs/my out: full");
+  for (const char* other : {"a.tmp-1", "a.tmp-12@", ".a.tmp-12@elsewhere/b: full", ".tmp-"})
+    EXPECT_EQ(with_final_names(other), other);
 }
 
 TEST(PendingPath, refuses_names_that_no_file_may_have) {

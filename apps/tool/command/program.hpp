@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/message.hpp"
+#include "files/final_names.hpp"
 #include "tool/command/exit_code.hpp"
 
 namespace insonify::tool {
@@ -43,7 +44,7 @@ inline int run_program(const std::function<int()>& run, const char* less) {
     print_error(failed.which);
     return exit_some_failed;
   } catch (const Error& error) {
-    print_error(error.what());
+    print_error(with_final_names(error.what()));
     return exit_code_of(error.kind());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "insonify: out of memory; %s\n", less);
