@@ -46,6 +46,12 @@ void require_surfels(const PlacedPart& part, const char* who) {
     fail(ErrorKind::argument, who, ": the pose of part '", part.name, "' must be finite");
 }
 
+/// The square of a grid that holds a place.
+std::array<double, 3> square_of(const Vector2d& place, int level) {
+  const double side = std::ldexp(1.0, level);
+  return {static_cast<double>(level), std::floor(place.x() / side), std::floor(place.y() / side)};
+}
+
 /// What a surfel says of the height at a place beside it.
 struct HeightHint {
   double height, distance, noise;
@@ -75,13 +81,13 @@ struct Ground::Sheet {
     });
     mean_spacing = std::sqrt(area / static_cast<double>(place.size()));
     index = SceneIndex(flat);
+    // A search from far away would visit most of the tree.
+    const double beyond = hole_spacings * most_of_mean * mean_spacing;
+    low.array() -= beyond, high.array() += beyond;
   }
 
   std::optional<GroundPlace> at(const Vector2d& world) const {
-    // A search from far away would visit most of the tree.
-    const double beyond = hole_spacings * most_of_mean * mean_spacing;
-    if ((world.array() < low.array() - beyond).any() || (world.array() > high.array() + beyond).any())
-      return std::nullopt;
+    if ((world.array() < low.array()).any() || (world.array() > high.array()).any()) return std::nullopt;
     thread_local std::vector<Neighbour> found;
     const Vector3f query(static_cast<float>(world.x() - origin.x()), static_cast<float>(world.y() - origin.y()), 0.0f);
     index.find_nearest(query, 1, found);
@@ -141,7 +147,7 @@ struct Ground::Sheet {
   }
 
   Vector3d origin = Vector3d::Zero();
-  Vector2d low = Vector2d::Constant(1e300), high = -low;
+  Vector2d low = Vector2d::Constant(1e300), high = -low;  // of the places at which there may be ground
   std::vector<Vector3f> place, normal;
   std::vector<float> spacing, noise;
   double mean_spacing = 0;
@@ -151,21 +157,32 @@ struct Ground::Sheet {
 void Ground::add(const PlacedPart& part) {
   require_surfels(part, "Ground");
   sheets_.push_back(std::make_shared<const Sheet>(part));
+  const Sheet& sheet = *sheets_.back();
+  spacing_ = std::max(spacing_, sheet.mean_spacing);
+  const int level = std::ilogb(std::max((sheet.high - sheet.low).maxCoeff(), 1e-6)) + 1;
+  levels_.insert(level);
+  for (const auto& square : {square_of(sheet.low, level), square_of({sheet.low.x(), sheet.high.y()}, level),
+                             square_of({sheet.high.x(), sheet.low.y()}, level), square_of(sheet.high, level)})
+    if (auto& listed = squares_[square]; listed.empty() || listed.back() + 1 != sheets_.size())
+      listed.push_back(sheets_.size() - 1);
   if (!part.captured) return;
   const Bounds box = bounds(*part.cloud);
   captured_box_ = {captured_box_.min.cwiseMin(box.min), captured_box_.max.cwiseMax(box.max)};
 }
 
-double Ground::spacing() const {
-  double largest = 0;
-  for (const auto& sheet : sheets_) largest = std::max(largest, sheet->mean_spacing);
-  return largest;
-}
-
 std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
+  // The first sheet of those that are equally high.
   std::optional<GroundPlace> top;
-  for (const auto& sheet : sheets_)
-    if (const auto here = sheet->at(place); here && !(top && top->height >= here->height)) top = here;
+  std::size_t topmost = 0;
+  for (const int level : levels_) {
+    const auto listed = squares_.find(square_of(place, level));
+    if (listed == squares_.end()) continue;
+    for (const std::size_t sheet : listed->second) {
+      const auto here = sheets_[sheet]->at(place);
+      if (!here || (top && (here->height < top->height || (here->height == top->height && topmost < sheet)))) continue;
+      top = here, topmost = sheet;
+    }
+  }
   return top;
 }
 

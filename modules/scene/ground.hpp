@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,7 +32,7 @@ class Ground {
   /// True if there is no surfel.
   bool empty() const { return sheets_.empty(); }
   /// Returns the mean spacing of the surfels in the part with the widest spacing [m]; 0 if there is no surfel.
-  double spacing() const;
+  double spacing() const { return spacing_; }
   /// Returns the box of the captured parts [m, world]; min > max if there are none.
   const Bounds& captured_box() const { return captured_box_; }
   /// Returns the topmost surface at `place` [m, world]. The surface is the mean of tangent planes, weighted by
@@ -42,6 +45,11 @@ class Ground {
  private:
   struct Sheet;
   std::vector<std::shared_ptr<const Sheet>> sheets_;
+  /// Numbers of the sheets that may have ground in a square, by level, x and y of the square in units of its side, which
+  /// is 2^level m. A sheet is listed at one level, at which it reaches into two squares along x and along y at most.
+  std::map<std::array<double, 3>, std::vector<std::size_t>> squares_;
+  std::set<int> levels_;
+  double spacing_ = 0;
   Bounds captured_box_;
 };
 

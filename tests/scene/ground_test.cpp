@@ -231,3 +231,34 @@ TEST(PlaceOnGround, stands_on_parts_that_stand_there_and_refuses_holes) {
                [&] { place_on_ground(body_at(bar, pose_above(4.8, 0)), ground, PartRest::ground); });
   EXPECT_EQ(ground.captured_box().max.z(), 0);
 }
+
+// Plates of 5 cm to 20 m at random places, and far from them: the ground is that of the highest plate alone.
+TEST(Ground, of_many_parts_is_that_of_the_highest_one) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> any(-30, 30), height(-1, 1), exponent(-1.3, 1.3);
+  Ground all;
+  std::vector<Ground> alone(300);
+  for (Ground& one : alone) {
+    const double size = std::pow(10, exponent(generator)), spacing = size / 8;
+    SceneCloud plate;
+    for (int i = 0; i < 64; ++i)
+      add_surfel(plate, {spacing * (i % 8), spacing * (i / 8), 0}, Vector3d::UnitZ(), spacing * spacing);
+    const double away = any(generator) > 27 ? 1e5 : 0;
+    const PlacedPart part = body_at(plate, pose_above(any(generator) + away, any(generator), height(generator)));
+    one.add(part), all.add(part);
+  }
+  std::size_t found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector2d place(any(generator) + (i % 20 == 0 ? 1e5 : 0), any(generator));
+    std::optional<GroundPlace> expected;
+    for (const Ground& one : alone)
+      if (const auto here = one.at(place); here && !(expected && expected->height >= here->height)) expected = here;
+    const auto here = all.at(place);
+    ASSERT_EQ(here.has_value(), expected.has_value()) << place.transpose();
+    if (!here) continue;
+    ++found;
+    ASSERT_EQ(here->height, expected->height) << place.transpose();
+    ASSERT_EQ(here->normal, expected->normal) << place.transpose();
+  }
+  EXPECT_GT(found, 500u);
+}
