@@ -99,9 +99,12 @@ SurfaceTable surface_table(std::span<const Material> materials, double frequency
   std::vector<std::size_t> distinct;  // materials of laws that take time to tabulate, one of each
   for (const Material& m : materials) {
     const auto same = std::ranges::find_if(distinct, [&](std::size_t k) { return materials[k].law == m.law; });
-    const bool lambert = std::holds_alternative<LambertLaw>(m.law);
-    if (!lambert && same == distinct.end()) distinct.push_back(table.size());
-    table.push_back(lambert || same == distinct.end() ? surface_of(m, frequency, sound_speed) : table[*same]);
+    if (same != distinct.end()) {
+      table.push_back(table[*same]);
+      continue;
+    }
+    if (!std::holds_alternative<LambertLaw>(m.law)) distinct.push_back(table.size());
+    table.push_back(surface_of(m, frequency, sound_speed));
   }
   return table;
 }

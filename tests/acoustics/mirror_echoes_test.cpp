@@ -178,6 +178,6 @@ TEST(MirrorEchoes, refuse_a_head_that_does_not_face_a_wall) {
   GhostBench b({0, 0, 0}, {10, 1, 0}, {-1, 0, 0});
   b.mirrors = {{"wall", {0, 3, 0}, {0, 1, 0}}};
   expect_error(ErrorKind::argument, {"wall", "3 m behind"}, [&] { b.compute(); });
-  b.mirrors.assign(32, {"wall", {0, 3, 0}, {0, -1, 0}});
-  expect_error(ErrorKind::argument, {"32 planes", "at most 31"}, [&] { b.compute(); });
+  b.mirrors.assign(64, {"wall", {0, 3, 0}, {0, -1, 0}});
+  expect_error(ErrorKind::argument, {"64 mirrors face the head", "at most 63"}, [&] { b.compute(); });
 }
