@@ -29,6 +29,8 @@ struct AskedMeaning {
 /// AskedMeaning as text, as the command line, TOML files and Python give it. An empty text is not given.
 struct MeaningText {
   std::string unit, z, up, band, no_data, classes;
+  /// Orders by text.
+  auto operator<=>(const MeaningText&) const = default;
 };
 
 /// A row of the table of MeaningText.

@@ -4,9 +4,9 @@
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
+#include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
-#include "scene_io/vtk_checks_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -192,6 +192,9 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///<
 void check_netcdf(const std::string& path);
 RawCloud read_asc(const std::string& path, const ReadOptions& options);  ///< text, or an ESRI ASCII grid
 RawCloud read_stl(const std::string& path, const ReadOptions& options);
+/// Throws Error(content) unless `path` is a legacy VTK file of DATASET POLYDATA, and every array holds the numbers, and
+/// every cell the corners, that it announces.
+void check_legacy_vtk(const std::string& path);
 RawCloud read_vtk(const std::string& path, const ReadOptions& options);  ///< .vtk, .vtp
 
 }  // namespace insonify

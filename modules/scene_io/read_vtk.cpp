@@ -3,20 +3,127 @@
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLPolyDataReader.h>
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
-#include "scene_io/vtk_checks_internal.hpp"
-#include "scene_io/vtk_messages_internal.hpp"
 
+// VTK allocates memory for whatever a file announces, and reads beyond it: files are checked first.
 namespace insonify {
 namespace {
+
+/// Collects what VTK would print.
+class VtkReadMessages : public vtkOutputWindow {
+ public:
+  static VtkReadMessages* New() { return new VtkReadMessages; }
+  void DisplayText(const char*) override {}
+  void DisplayErrorText(const char* text) override { add(errors, text); }
+  void DisplayWarningText(const char* text) override { add(warnings, text); }
+  /// The legacy reader warns of missing numbers with a text that begins with Error.
+  void DisplayGenericWarningText(const char* text) override {
+    add(std::string_view(text).find("Error") == std::string_view::npos ? warnings : errors, text);
+  }
+  void DisplayDebugText(const char*) override {}
+  std::vector<std::string> errors, warnings;
+
+ private:
+  /// VTK's text is "ERROR: In file.cxx, line n\nvtkX (0x..): message\n\n": the message alone is kept.
+  void add(std::vector<std::string>& list, const char* text) {
+    std::string message = text;
+    message.erase(0, std::min(message.find('\n') + 1, message.size()));
+    const std::size_t head = message.find("): ");
+    if (head != message.npos) message.erase(0, head + 3);
+    list.push_back(shown(message.substr(0, message.find('\n'))));
+  }
+};
+
+/// Puts `messages` in the place of VTK's console and silences its log while it lives.
+class QuietVtk {
+ public:
+  explicit QuietVtk(vtkOutputWindow* messages) : before_(vtkOutputWindow::GetInstance()) {
+    vtkOutputWindow::SetInstance(messages);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~QuietVtk() {
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    vtkOutputWindow::SetInstance(before_);
+  }
+  QuietVtk(const QuietVtk&) = delete;
+  QuietVtk& operator=(const QuietVtk&) = delete;
+
+ private:
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
+};
+
+// Numbers that a byte of a file can stand for: zlib packs at most 1032 bytes into one.
+constexpr double unpacked_per_byte = 1032;
+
+/// A count among the attributes; 0 if absent.
+double count_in(vtkXMLDataElement* element, const char* name) {
+  double value = 0;
+  const char* text = element->GetAttribute(name);
+  return text && to_number(std::string_view(text), value) ? value : 0;
+}
+
+std::string name_of_array(vtkXMLDataElement* element) {
+  const char* name = element->GetAttribute("Name");
+  return name ? shown(name) : "without a name";
+}
+
+/// A reader of .vtp with two checks. It refuses arrays that a file of this size cannot hold before it allocates memory.
+/// It refuses arrays that end before their announced number; VTK leaves uninitialised memory there.
+class CheckedXmlReader : public vtkXMLPolyDataReader {
+ public:
+  static CheckedXmlReader* New() { VTK_STANDARD_NEW_BODY(CheckedXmlReader); }
+  /// Defect of the file; empty: none.
+  std::string problem;
+
+ protected:
+  int ReadPrimaryElement(vtkXMLDataElement* primary) override {
+    check(primary, 0, unpacked_per_byte * static_cast<double>(file_size_of(this->GetFileName())));
+    return problem.empty() ? vtkXMLPolyDataReader::ReadPrimaryElement(primary) : 0;
+  }
+
+  int ReadArrayValues(vtkXMLDataElement* element, vtkIdType at, vtkAbstractArray* array, vtkIdType first,
+                      vtkIdType count, FieldType type) override {
+    const int whole = vtkXMLPolyDataReader::ReadArrayValues(element, at, array, first, count, type);
+    if (!whole) refuse("array " + name_of_array(element) + " ends before the numbers that are announced");
+    return whole;
+  }
+
+ private:
+  void refuse(const std::string& what) {
+    if (problem.empty()) problem = what;
+  }
+
+  /// Checks an element and those below it, whose arrays have up to `rows` rows.
+  void check(vtkXMLDataElement* element, double rows, double most) {
+    for (const char* count : {"NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"}) {
+      const double value = count_in(element, count);
+      if (!(value >= 0 && value <= most))
+        refuse(std::string(count) + " = " + element->GetAttribute(count) + " is more than the file can hold");
+      rows = std::max(rows, value);
+    }
+    const double components = element->GetAttribute("NumberOfComponents") ? count_in(element, "NumberOfComponents") : 1;
+    if (!(components >= 1)) refuse("array " + name_of_array(element) + " has no components");
+    const double tuples = std::max(rows, count_in(element, "NumberOfTuples"));
+    if (!(components * std::max(1.0, tuples) <= most))
+      refuse("array " + name_of_array(element) + " announces more numbers than the file can hold");
+    for (int i = 0; i < element->GetNumberOfNestedElements(); ++i) check(element->GetNestedElement(i), rows, most);
+  }
+};
 
 void check_xml(const std::string& path) {
   if (vtk_tag(read_beginning(path, 4096)) != "<VTKFile PolyData")
@@ -24,20 +131,18 @@ void check_xml(const std::string& path) {
          what_it_looks_like(path));
 }
 
-template <typename Reader>
-vtkSmartPointer<vtkPolyData> output_of(Reader* reader, const std::string& path) {
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
-
 /// What VTK reads; what it says goes to its output window.
-vtkSmartPointer<vtkPolyData> read_polydata(const std::string& path, const std::string& extension) {
-  if (extension == ".vtk") return output_of(vtkNew<vtkPolyDataReader>().Get(), path);
-  const vtkNew<CheckedXmlReader> reader;
-  const vtkSmartPointer<vtkPolyData> data = output_of(reader.Get(), path);
-  if (!reader->problem.empty())
-    fail(ErrorKind::content, path, ": VTK cannot read it: ", reader->problem,
+vtkSmartPointer<vtkPolyData> read_polydata(const std::string& path) {
+  const vtkNew<vtkPolyDataReader> legacy;
+  const vtkNew<CheckedXmlReader> xml;
+  const auto read = [&](auto& reader) {
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    return vtkSmartPointer<vtkPolyData>(reader->GetOutput());
+  };
+  const vtkSmartPointer<vtkPolyData> data = extension_of(path) == ".vtk" ? read(legacy) : read(xml);
+  if (!xml->problem.empty())
+    fail(ErrorKind::content, path, ": VTK cannot read it: ", xml->problem,
          "; the file is damaged or cut off: copy or export it again");
   return data;
 }
@@ -97,7 +202,7 @@ SentRows send_rows(vtkPolyData* data, RawCloud& raw, ArraySender& to) {
 SentRows read_by_vtk(ArraySender& to, RawCloud& raw) {
   vtkNew<VtkReadMessages> messages;
   const QuietVtk quiet(messages);
-  const vtkSmartPointer<vtkPolyData> data = read_polydata(raw.path, extension_of(raw.path));
+  const vtkSmartPointer<vtkPolyData> data = read_polydata(raw.path);
   if (!messages->errors.empty())
     fail(ErrorKind::content, raw.path, ": VTK cannot read it: ", messages->errors.front(),
          "; the file is damaged or cut off: copy or export it again");

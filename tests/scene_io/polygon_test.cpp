@@ -204,11 +204,11 @@ TEST(Polygons, of_many_corners_are_cut) {
 }
 
 TEST(Polygons, whose_edges_cross_are_noted_with_number_and_place) {
-  const Polygon bow = {{1, 1}, {3, 3}, {3, 1}, {1, 4}},
+  const Polygon bow = {{1, 1}, {3, 3}, {3, 1}, {1, 4}}, even = {{1, 1}, {3, 3}, {3, 1}, {1, 3}},
                 spike = {{0, 0}, {4, 0}, {4, 2}, {2.1, 2}, {2, -1}, {1.9, 2}, {0, 2}};
   Polygon pentagram;
   for (int i = 0; i < 5; ++i) pentagram.emplace_back(std::cos(0.8 * M_PI * i), std::sin(0.8 * M_PI * i));
-  for (const Polygon& polygon : {bow, spike, pentagram})
+  for (const Polygon& polygon : {bow, even, spike, pentagram})
     EXPECT_TRUE(has_note(load_polygons({polygon}).report, "1 polygon whose edges cross"));
   const LoadedScene loaded = load_polygons({slip, bow, spike}, ".vtk", 0);
   EXPECT_TRUE(has_note(loaded.report, "2 polygons whose edges cross"));

@@ -77,7 +77,7 @@ SceneOptions scene_options_of(const PartFile& file) {
 
 const SceneBody& PartFiles::body_of(const PartFile& file, bool captured) {
   const SceneOptions o = scene_options_of(file);
-  const Settings settings = {o.path,      o.unit,    o.material,   o.materials_file, o.material_field,
+  const Settings settings = {o.path,      o.meaning, o.material,   o.materials_file, o.material_field,
                              o.viewpoint, file.thin, file.spacing, captured};
   const auto [known, is_new] = bodies_.try_emplace(settings);
   if (is_new) known->second = read(file, captured);

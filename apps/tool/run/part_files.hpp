@@ -40,7 +40,7 @@ class PartFiles {
 
   /// Everything that the surfels of a file depend on: the members of its SceneOptions, thin, spacing, captured.
   using Settings =
-      std::tuple<std::string, std::string, std::string, std::string, std::string, std::string, double, double, bool>;
+      std::tuple<std::string, MeaningText, std::string, std::string, std::string, std::string, double, double, bool>;
   PartsOptions options_;
   LoadReport& report_;
   bool random_ = false;
