@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "files/child_process.hpp"
+#include "files/path_status.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/number_type_internal.hpp"
@@ -107,7 +108,7 @@ std::string buffer_of(const GltfDocument& document, const json& buffer) {
   }
   const std::filesystem::path folder = std::filesystem::path(document.path).parent_path();
   const std::string plain = folder / address, decoded = folder / percent_decoded(address);
-  const std::string file = std::filesystem::exists(plain) ? plain : decoded;
+  const std::string file = path_exists(plain) ? plain : decoded;
   require_readable(file);
   expect_from_file(document.path, document.bytes + file_size_of(file),
                    {static_cast<double>(file_size_of(file)), "bytes of a buffer", 16});
