@@ -47,8 +47,8 @@ std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& 
   const std::string open = is_table ? "[" : "'", close = is_table ? "]" : "'";
   return (is_table ? "unknown table " : "unknown key ") + open + shortened(name) + close +
          (!near.empty() ? "; did you mean " + open + near + close + "?"
-          : is_table    ? "; known are [" + joined(known, "] [") + "]"
-                        : "; known are " + joined(known));
+          : is_table ? "; known are " + shortened_list(known, " ", [](const std::string& of) { return "[" + of + "]"; })
+                     : "; known are " + shortened_list(known));
 }
 
 /// "key = value unit, must be ..."
