@@ -27,10 +27,8 @@ enum OculusOffset : std::size_t {
   oculus_payload = 10,
   oculus_mode = 16,
   oculus_gamma = 19,
-  oculus_flags = 20,
   oculus_gain = 29
 };
-constexpr std::uint8_t oculus_sends_gain = 4;
 
 /// Offsets that differ between the versions of the message. Heading, pitch and roll follow each other; 0: there are none.
 struct ResultLayout {
@@ -157,14 +155,15 @@ OculusPing ping_of(const std::string& message, const std::string& where) {
     fail(ErrorKind::content, where, " has no geometry: ", beams, " beams, ", ranges, " ranges of ", bin,
          " m, sound speed ", ping.sound_speed, " m/s; must be 2 and 1 at least, > 0, and 1000 to 2000 m/s");
   ping.bits = bits_of(where, static_cast<std::uint8_t>(message[layout.size]));
-  const bool with_gain = (static_cast<std::uint8_t>(message[oculus_flags]) & oculus_sends_gain) != 0;
-  const std::size_t row = beams * static_cast<std::size_t>(ping.bits / 8) + (with_gain ? 4 : 0);
-  const std::size_t image = little_at<std::uint32_t>(message, layout.image),
+  // Recorders set the flag of gains that they do not send: the size of the image decides.
+  const std::size_t row = beams * static_cast<std::size_t>(ping.bits / 8),
+                    image = little_at<std::uint32_t>(message, layout.image),
                     bytes = little_at<std::uint32_t>(message, layout.image_bytes);
-  if (bytes != ranges * row || image < layout.bearings + 2 * beams || image > message.size() ||
+  const bool with_gain = bytes == ranges * (row + 4);
+  if ((bytes != ranges * row && !with_gain) || image < layout.bearings + 2 * beams || image > message.size() ||
       bytes > message.size() - image)
     fail(ErrorKind::content, where, " has an image of ", bytes, " bytes from ", image, " on, must have ", ranges * row,
-         " behind its bearings, in ", message.size());
+         ", or ", ranges * (row + 4), " with gains, behind its bearings, in ", message.size());
   ping.fan = oculus_fan(message, layout, beams, ping.high_frequency, where);
   ping.gate = {0, bin * static_cast<double>(ranges), bin};
   while (ping.gate.bins() > ranges) ping.gate.max_range -= 1e-6 * bin;

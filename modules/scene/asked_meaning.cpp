@@ -24,7 +24,8 @@ std::vector<double> numbers_of(const char* option, const std::string& text, cons
 }
 
 double parse_unit(const std::string& text) {
-  const std::optional<double> named = metres_per(text), value = named ? named : finite_number(text);
+  if (const std::optional<double> known = unit_named(text)) return *known;
+  const std::optional<double> value = finite_number(text);
   if (!value || *value <= 0)
     fail(ErrorKind::argument, "--unit = '", text,
          "' must be m, mm, cm, km, ft, us-ft, or metres per unit as a number > 0");
@@ -52,25 +53,39 @@ PointClasses parse_classes(const std::string& text) {
 
 }  // namespace
 
-std::optional<double> metres_per(std::string_view unit) {
-  struct Unit {
-    double metres;
-    std::vector<std::string_view> names;
-  };
-  static const std::vector<Unit> units = {
-      {1, {"m", "meter", "metre", "meters", "metres"}},
-      {1e-3, {"mm", "millimeter", "millimetre", "millimeters", "millimetres"}},
-      {1e-2, {"cm", "centimeter", "centimetre", "centimeters", "centimetres"}},
-      {1e3, {"km", "kilometer", "kilometre", "kilometers", "kilometres"}},
-      {0.3048, {"ft", "foot", "feet", "international foot", "international feet", "intl ft"}},
-      {1200.0 / 3937,
-       {"us-ft", "us ft", "usft", "ftus", "us_ft", "us survey foot", "us survey feet", "us foot", "foot_us",
-        "us_survey_foot", "survey foot"}},
-      {1.8288, {"fathom", "fathoms", "fm"}}};
-  const std::string name = lower_case(std::string(trimmed(unit)));
-  for (const Unit& each : units)
-    if (std::find(each.names.begin(), each.names.end(), name) != each.names.end()) return each.metres;
-  return std::nullopt;
+std::optional<double> unit_named(std::string_view name) {
+  constexpr double ft = metres_per_foot, us = metres_per_survey_foot;
+  constexpr Named<double> units[] = {{"m", 1},
+                                     {"metre", 1},
+                                     {"meter", 1},
+                                     {"mm", 1e-3},
+                                     {"millimetre", 1e-3},
+                                     {"millimeter", 1e-3},
+                                     {"cm", 1e-2},
+                                     {"centimetre", 1e-2},
+                                     {"centimeter", 1e-2},
+                                     {"km", 1e3},
+                                     {"kilometre", 1e3},
+                                     {"kilometer", 1e3},
+                                     {"ft", ft},
+                                     {"foot", ft},
+                                     {"feet", ft},
+                                     {"international foot", ft},
+                                     {"us ft", us},
+                                     {"us foot", us},
+                                     {"us feet", us},
+                                     {"us survey foot", us},
+                                     {"us survey feet", us},
+                                     {"usft", us},
+                                     {"ftus", us},
+                                     {"foot us", us},
+                                     {"fathom", 6 * ft}};
+  std::string plain = lower_case(std::string(name));
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return c == '_' || c == '-'; }, ' ');
+  if (plain.size() > 4 && plain.back() == 's') plain.pop_back();
+  const double* const known = find_named(units, plain);
+  return known ? std::optional(*known) : std::nullopt;
 }
 
 AskedMeaning parse_meaning(const MeaningText& text) {

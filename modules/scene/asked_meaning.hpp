@@ -8,9 +8,7 @@
 
 namespace insonify {
 
-/// Returns the metres of one unit of length, by a name that files give it: m, metres, ft, US survey foot, km, ...; case
-/// does not matter. Empty if the name is none.
-std::optional<double> metres_per(std::string_view unit);
+constexpr double metres_per_foot = 0.3048, metres_per_survey_foot = 1200.0 / 3937;
 
 /// Classes of LAS points by their numbers.
 using PointClasses = std::bitset<256>;
@@ -56,6 +54,10 @@ inline constexpr MeaningOption meaning_options[] = {
      "classes of LAS points that are read, as numbers with commas between them, or all; default: all but noise (7 and "
      "18)"},
 };
+
+/// Returns the length [m] of a unit by its name in any case, such as "mm", "ft", "us-ft" or "US survey foot"; nothing
+/// for a name that is not known.
+std::optional<double> unit_named(std::string_view name);
 
 /// Returns what a text says. Throws Error(argument) with the option, its value and what it may be.
 AskedMeaning parse_meaning(const MeaningText& text);

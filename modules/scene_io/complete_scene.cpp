@@ -20,10 +20,10 @@ void keep_only(std::vector<T>& column, const std::vector<std::uint32_t>& keep) {
   column.resize(keep.size());
 }
 
-/// Drops points that are withheld, not finite or coincide with an earlier point.
+/// Drops points that are unused or coincide with an earlier point.
 void drop_unusable(RawCloud& raw, LoadReport& report) {
   const bool search = !raw.tags.prepared;  // save_scene writes no duplicates
-  if (!search && raw.not_finite + raw.withheld + raw.holes == 0) return;
+  if (!search && raw.unused() == 0) return;
   std::vector<std::uint32_t> first(raw.point.size());
   std::iota(first.begin(), first.end(), 0u);
   if (search) first = first_at_same_place(raw.point);
@@ -110,6 +110,7 @@ LoadReport begin_report(const RawCloud& raw) {
   report.points_read = raw.points_in_file;
   report.triangles_read = raw.triangles_in_file;
   report.dropped_not_finite = raw.not_finite, report.dropped_withheld = raw.withheld;
+  report.dropped_classes = raw.other_classes;
   report.notes = raw.notes;
   report.meaning = raw.meaning;
   for (std::string& note : raw.meaning.notes()) report.notes.push_back(std::move(note));

@@ -110,9 +110,9 @@ void take_system(void* reference, const std::string& remedy, FileMeaning& meanin
   if (!(plane > 0) || !std::isfinite(plane)) return;
   meaning.unit = unit_of(plane, name, "coordinates");
   const double high = OSRIsCompound(reference) ? OSRGetTargetLinearUnits(reference, "VERT_CS", &name) : 0;
-  if (high > 0 && std::isfinite(high) && high != plane) {
-    meaning.unit_z = unit_of(high, name, "heights");
-  } else if (high != plane && plane != 1) {
+  if (high > 0 && std::isfinite(high)) {
+    if (std::abs(high - plane) > 1e-9 * plane) meaning.unit_z = unit_of(high, name, "heights");
+  } else if (plane != 1) {
     meaning.unit.sentence += "; so do heights, whose unit the file does not state";
   }
   OGRAxisOrientation up = OAO_Up;

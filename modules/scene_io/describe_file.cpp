@@ -18,7 +18,7 @@ constexpr std::size_t most_queries = 20000;
 /// The finite points without duplicates: those of `raw` themselves, or in `kept` if some are dropped.
 std::span<const Eigen::Vector3f> distinct_points(const RawCloud& raw, std::vector<Eigen::Vector3f>& kept,
                                                  std::size_t& duplicates) {
-  const bool all_finite = raw.not_finite + raw.withheld + raw.holes == 0;
+  const bool all_finite = raw.unused() == 0;
   if (all_finite && raw.tags.prepared) return raw.point;  // save_scene writes no duplicates
   const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
   for (std::uint32_t i = 0; i < first.size(); ++i) duplicates += first[i] != i;
@@ -69,7 +69,7 @@ void add_materials(RawCloud& raw, FileDescription& file) {
   std::vector<std::uint16_t> label = std::move(raw.label);
   label.resize(raw.point.size(), 0);
   std::vector<float> area = areas_of_points(raw);
-  if (raw.triangle.empty() && file.duplicates + raw.not_finite + raw.withheld + raw.holes > 0) {
+  if (raw.triangle.empty() && file.duplicates + raw.unused() > 0) {
     const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
     std::size_t kept = 0;
     for (std::uint32_t i = 0; i < first.size(); ++i) {

@@ -129,6 +129,11 @@ void settle_meaning(RawCloud& raw) {
         (meaning.no_data.sentence.empty() ? "" : "; ") + std::to_string(extent.marked[k]) +
         printed(" heights are %.10g, far from all others: holes; --nodata none keeps them", usual_marks[k]);
   }
+  if (raw.other_classes > 0 && meaning.classes.origin != MeaningOrigin::option) {
+    meaning.classes.origin = MeaningOrigin::file;
+    meaning.classes.sentence = std::to_string(raw.other_classes) + " of " + std::to_string(raw.points_in_file) +
+                               " points are of class 7 or 18, which is noise: left out; --classes all keeps them";
+  }
   if (raw.named_depth && meaning.z_down.origin == MeaningOrigin::convention && spread.median > 0)
     meaning.z_down = {true, MeaningOrigin::file,
                       "the heights are called depths: positive ones lie below 0; --z up keeps them"};

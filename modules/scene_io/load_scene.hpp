@@ -44,6 +44,7 @@ struct LoadReport {
   std::size_t triangles_read = 0;
   std::size_t dropped_not_finite = 0;      ///< points with NaN, infinite or absurd (> 1e9 m) coordinates
   std::size_t dropped_withheld = 0;        ///< points that a LAS file marks as withheld
+  std::size_t dropped_classes = 0;         ///< points of classes that were not asked for, of LAS also noise
   std::size_t dropped_duplicates = 0;      ///< points at exactly the place of an earlier one
   std::size_t dropped_degenerate = 0;      ///< triangles without area, polygons with bad indices
   std::size_t repaired_normals = 0;        ///< zero or NaN normals replaced by estimates

@@ -108,14 +108,10 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColum
   PackedRows rows;
   rows.rows = scene.size();
   rows.comments = tag_lines(scene);
-  if (columns.material != "material" || !columns.others.empty())
-    rows.comments.push_back("insonify material_field " + columns.material);
-  if (columns.heights)
-    rows.comments.push_back(std::string("insonify points heights") + (columns.own_normals ? " normals" : ""));
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
   add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
   rows.columns.push_back({"area", NumberType::float32});
-  rows.columns.push_back({columns.material, NumberType::uint32});
+  rows.columns.push_back({"", NumberType::uint32});  // named below
   // An int ends at 2^31 - 1; a double holds every id.
   const bool long_ids = ply && std::any_of(scene.id.begin(), scene.id.end(), [](auto id) { return id > 2147483647; });
   rows.columns.push_back({"id", long_ids ? NumberType::float64 : NumberType::uint32});
@@ -132,6 +128,8 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColum
     if (!scene.noise.empty()) put(out, scene.noise[i]);
   };
   add_columns(rows, columns, format);
+  if (columns.heights)
+    rows.comments.push_back(std::string("insonify points heights") + (columns.own_normals ? " normals" : ""));
   return rows;
 }
 
@@ -144,11 +142,9 @@ PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns) {
   PackedRows rows;
   rows.rows = mesh.point.size();
   rows.comments = tag_lines(tagged);
-  if (columns.material != "material" || !columns.others.empty())
-    rows.comments.push_back("insonify material_field " + columns.material);
   add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
   if (!mesh.normal.empty()) add_columns(rows, "n", {"x", "y", "z"}, NumberType::float32);
-  rows.columns.push_back({columns.material, NumberType::uint32});
+  rows.columns.push_back({"", NumberType::uint32});  // named below
   rows.write_row = [&mesh, wide](std::size_t i, char* out) {
     put_position(out, mesh.origin + mesh.point[i].cast<double>(), wide);
     if (!mesh.normal.empty())

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
+#include "scene_io/tiled_scene.hpp"
 
 namespace insonify {
 namespace {
@@ -40,6 +41,7 @@ Batch read_batch(const Survey& survey, std::size_t first) {
   Batch batch;
   batch.raw.path = survey.file.path;
   batch.raw.meaning = survey.whole.meaning;
+  batch.raw.tags = survey.whole.tags;
   fill_cloud(batch.raw, table, survey.reading);
   batch.places = read_places(batch.raw, table, survey.reading);
   return batch;
@@ -59,6 +61,7 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     const RawCloud raw = read_batch(survey, first).raw;
     add_counts(whole, raw);
     whole.float_coordinates = raw.float_coordinates;
+    whole.meaning = raw.meaning;
     whole.named_depth = raw.named_depth;
     whole.label_field = raw.label_field;
     whole.other_columns = raw.other_columns;
@@ -77,9 +80,9 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     }
     report_progress(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
   }
+  whole.points_in_file = survey.file.rows;
   settle_meaning(whole);
   require_usable_points(whole, survey.file.rows);
-  whole.points_in_file = survey.file.rows;
   if (survey.largest_area > largest_area(whole)) ++survey.bad_areas;
 }
 
@@ -135,7 +138,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   RawCloud& whole = survey.whole;
   whole.path = survey.file.path, whole.format = survey.file.format;
   whole.tags = survey.file.tags;
-  whole.meaning = survey.file.meaning;
+  whole.meaning = survey.file.meaning, whole.notes = survey.file.notes;
   whole.meaning.override_by(options.load.meaning);
   if (survey.reading.material_field.name.empty()) survey.reading.material_field.name = whole.tags.material_field;
   survey.reading.origin = Vector3d::Zero();
@@ -195,13 +198,19 @@ PreparedTiles prepare_tiles(const std::string& path, const std::string& output, 
   check_options(options.load, "prepare_tiles");
   const SceneReader& reader = reader_of(path);
   std::optional<RowFile> rows = reader.find_rows ? reader.find_rows(path) : std::nullopt;
-  if (rows && rows->rows > options.whole_points) return stream(std::move(*rows), output, options);
+  if (rows && rows->rows > options.whole_points) {
+    PreparedTiles prepared = stream(std::move(*rows), output, options);
+    const TiledScene readable(output);
+    return prepared;
+  }
   LoadedScene loaded = load_scene(path, options.load);
   TileWriterOptions writing;
   writing.memory = options.memory;
   writing.threads = options.load.threads;
   writing.progress = options.progress;
-  return {loaded.report, save_tiles(output, loaded.scene, writing), loaded.scene.normals_oriented, false};
+  const TileReport tiles = save_tiles(output, loaded.scene, writing);
+  const TiledScene readable(output);
+  return {loaded.report, tiles, loaded.scene.normals_oriented, false};
 }
 
 }  // namespace insonify

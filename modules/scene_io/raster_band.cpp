@@ -92,7 +92,7 @@ void take_attributes(RawCloud& raw, const Variable& variable, const Variable (&a
     const std::string units = attribute_of(axis, "units"), name = attribute_of(axis, "standard_name");
     if (units.starts_with("degree") || name == "longitude" || name == "latitude")
       meaning.no_lengths = "is in degrees by its axes, but a scene needs metres to the east, to the north and up; ";
-    const std::optional<double> metres = metres_per(units);
+    const std::optional<double> metres = unit_named(units);
     if (metres && *metres != 1)
       meaning.unit = {*metres, MeaningOrigin::file, "the axes are in " + units + ": converted to metres"};
   }
@@ -205,7 +205,7 @@ HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
   if (of_axes.origin == MeaningOrigin::file) meaning.unit = of_axes;
   if (driver == "BAG") meaning.z_down = {false, MeaningOrigin::file, ""};  // elevations, whatever its system says
   const std::string unit = GDALGetRasterUnitType(heights.band);
-  if (const std::optional<double> metres = metres_per(unit); metres && *metres != meaning.unit.value)
+  if (const std::optional<double> metres = unit_named(unit); metres && *metres != meaning.unit.value)
     meaning.unit_z = {*metres, MeaningOrigin::file, "the heights are in " + unit + ": converted to metres"};
   int has_none = 0;
   if (driver == "AAIGrid" && (GDALGetRasterNoDataValue(heights.band, &has_none), has_none == 0))

@@ -28,7 +28,16 @@ struct SceneTags {
   std::string material_field;  ///< name of the column of materials; empty: not stated
   bool heights = false;        ///< points of a height field, with the surface between them
   bool own_normals = false;    ///< the surface has the normals of the points
+  std::vector<std::pair<std::string, std::string>> columns;  ///< name in the file, and the one that it stands for
+
+  /// Returns the name that a column of the file stands for: its own unless the file says otherwise.
+  const std::string& meant_name(const std::string& in_file) const;
+  /// Returns the name in the file of the column that stands for a name.
+  const std::string& name_in_file(const std::string& meant) const;
 };
+
+/// Returns a text in JSON, of ASCII characters alone.
+std::string json_text(const std::string& text);
 
 /// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
 void read_tag(const std::string& path, std::string_view line, SceneTags& tags);
@@ -90,6 +99,7 @@ struct RawCloud {
   std::string surface_name;           ///< description of the surface, for the report
   std::size_t triangles_in_file = 0, bad_triangles = 0;  ///< bad: polygons with bad indices
   std::size_t withheld = 0;                              ///< points that their file marks as not to be used
+  std::size_t other_classes = 0;                         ///< points of classes that are not read
   std::size_t not_finite = 0;                            ///< points that are not finite, including too_far
   std::size_t too_far = 0;                               ///< beyond farthest_coordinate
   std::size_t holes = 0;                                 ///< points whose height marks a hole
@@ -98,16 +108,19 @@ struct RawCloud {
   bool heights = false;  ///< points of a raster: seen from above unless a viewpoint is known
   SceneTags tags;
   std::vector<std::string> notes;
+
+  std::size_t unused() const { return withheld + other_classes + not_finite + holes; }  ///< points
 };
 constexpr std::uint16_t no_label = 65535;
 constexpr double farthest_coordinate = 1e9;  ///< [m]; larger coordinates mean "no data"
 
-/// The bit that marks a row as not to be used. In a file without such a bit no row is marked.
-struct WithheldBit {
-  std::size_t offset = 0;  ///< of its byte within a row
-  std::uint8_t bit = 0;
+/// What rows say of their use: a bit that withholds them, and their class. In a file without these, bits are 0.
+struct RowMarks {
+  std::size_t withheld_at = 0, class_at = 0;  ///< offsets of their bytes within a row
+  std::uint8_t withheld_bit = 0, class_bits = 0;
 
-  bool is_set(const char* row) const { return (static_cast<unsigned char>(row[offset]) & bit) != 0; }
+  bool withheld(const char* row) const { return (static_cast<unsigned char>(row[withheld_at]) & withheld_bit) != 0; }
+  std::size_t class_of(const char* row) const { return static_cast<unsigned char>(row[class_at]) & class_bits; }
 };
 
 /// A table of packed rows in memory.
@@ -128,7 +141,7 @@ struct RowTable {
   std::size_t rows = 0, stride = 0;
   const char* bytes = nullptr;
   std::shared_ptr<const void> owner;  ///< owner of the bytes, unless they outlive the table
-  WithheldBit withheld{};
+  RowMarks marks{};
 };
 
 /// Table of doubles in row-major order, one column per name.

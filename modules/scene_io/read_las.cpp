@@ -5,6 +5,10 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/geodesy.hpp"
+#include "core/units.hpp"
+#include "files/binary_file.hpp"
+#include "scene_io/coordinate_system_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
@@ -66,17 +70,24 @@ void add_extra_columns(const Bytes& header, std::size_t begin, std::size_t lengt
       offset += options;  // bytes without a meaning, as many as the options say
       continue;
     }
-    if (type > extra_types.size())
-      fail(ErrorKind::content, file.path, ": extra bytes '", header.text(at + 4, 32), "' are of type ", int{type},
-           ", expected 0 to 10; export the file without them");
-    RowTable::Column column{header.text(at + 4, 32), extra_types[type - 1u], offset};
-    if (options & scaled) column.scale = header.at<double>(at + 112);
-    if (options & shifted) column.shift = header.at<double>(at + 136);
-    offset += size_of(column.type);
-    if (offset > file.stride)
-      fail(ErrorKind::content, file.path, ": extra bytes '", column.name, "' end beyond a point of ", file.stride,
-           " bytes; export the file again");
-    file.columns.push_back(column);
+    // Types from 11 on are pairs and triples of the others; later ones have no length.
+    const unsigned kind = (type - 1u) % 10, count = (type - 1u) / 10 + 1;
+    const std::string name = header.text(at + 4, 32);
+    if (count > 3) {
+      file.notes.push_back("extra bytes '" + name + "' are of the unknown type " + std::to_string(type) +
+                           ": they and those behind them were skipped");
+      return;
+    }
+    for (unsigned k = 0; k < count; ++k) {
+      RowTable::Column column{count == 1 ? name : name + "_" + "xyz"[k], extra_types[kind], offset};
+      if (options & scaled) column.scale = header.at<double>(at + 112 + 8 * k);
+      if (options & shifted) column.shift = header.at<double>(at + 136 + 8 * k);
+      offset += size_of(column.type);
+      if (offset > file.stride)
+        fail(ErrorKind::content, file.path, ": extra bytes '", name, "' end beyond a point of ", file.stride,
+             " bytes; export the file again");
+      file.columns.push_back(column);
+    }
   }
 }
 
@@ -92,6 +103,65 @@ void add_columns(const Bytes& header, const PointFormat& format, bool low_bits, 
   if (format.red == 0) return;
   for (std::size_t k = 0; k < 3; ++k)
     file.columns.push_back({std::array{"red", "green", "blue"}[k], NumberType::uint16, format.red + 2 * k});
+}
+
+constexpr std::size_t most_record = 1 << 16;  // of the extended ones that are read [bytes]
+
+/// Reads the variable-length records between header and points, and behind the points.
+SystemRecords read_records(const PointFormat& format, RowFile& file) {
+  SystemRecords system;
+  const auto take = [&](const Bytes& bytes, std::size_t at, std::size_t begin, std::size_t length) {
+    const std::string user = bytes.text(at + 2, 16);
+    const auto number = bytes.at<std::uint16_t>(at + 18);
+    if (length > 0) bytes.at<char>(begin + length - 1);
+    if (user == "LASF_Spec" && number == 4) add_extra_columns(bytes, begin, length, format.bytes, file);
+    if (user != "LASF_Projection") return;
+    for (const auto& [wanted, record] :
+         {std::pair{2112, &system.wkt}, {34735, &system.keys}, {34736, &system.numbers}, {34737, &system.texts}})
+      if (number == wanted) *record = bytes.all.substr(begin, length);
+  };
+  const std::string front = read_beginning(file.path, file.begin);
+  const Bytes header{file.path, front};
+  std::size_t at = header.at<std::uint16_t>(94);
+  for (std::uint32_t left = header.at<std::uint32_t>(100); left > 0; --left) {
+    const std::size_t length = header.at<std::uint16_t>(at + 20);
+    header.text(at, 54);
+    take(header, at, at + 54, length);
+    at += 54 + length;
+  }
+  // Extended records, of LAS 1.4.
+  if (header.at<std::uint8_t>(25) < 4) return system;
+  const BinaryFile all(file.path, BinaryFile::Mode::read);
+  const std::size_t size = file_size_of(file.path);
+  std::uint64_t next = header.at<std::uint64_t>(235);
+  for (std::uint32_t left = header.at<std::uint32_t>(243); left > 0 && next > 0 && next < size; --left) {
+    std::string record(60, '\0');
+    const Bytes extended{file.path, record};
+    if (size - next < record.size()) break;
+    all.read(next, std::span(record));
+    const auto length = extended.at<std::uint64_t>(20);
+    if (length > size - next - record.size()) break;
+    if (length <= most_record) {
+      record.resize(60 + static_cast<std::size_t>(length));
+      all.read(next, std::span(record));
+      take(extended, 0, 60, static_cast<std::size_t>(length));
+    }
+    next += 60 + length;
+  }
+  return system;
+}
+
+/// The command for coordinates in degrees, with the zone of the middle of the file.
+std::string project_remedy(const Bytes& header) {
+  const auto middle = [&](std::size_t at) { return 0.5 * (header.at<double>(at) + header.at<double>(at + 8)); };
+  const double longitude = middle(179), latitude = middle(195);
+  const bool on_earth = std::abs(longitude) <= 360 && std::abs(latitude) <= 90;
+  const std::string code =
+      on_earth ? std::to_string(epsg_code(utm_zone_of({radians(latitude), radians(longitude), 0}))) : "326ZZ";
+  return "export it in a projected system such as EPSG:" + code +
+         ", or as text of x y z, and project that: gdaltransform "
+         "-s_srs EPSG:4326 -t_srs EPSG:" +
+         code + " < in.xyz > out.xyz";
 }
 
 }  // namespace
@@ -126,19 +196,13 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
     fail(ErrorKind::content, path, ": cut off: the header announces ", file.rows, " points of ", file.stride,
          " bytes from byte ", file.begin, ", the file has ", size, " bytes; copy or export the file again");
   add_columns(start, layout, format < 6, file);
-  file.withheld = format < 6 ? WithheldBit{layout.classification, 0x80} : WithheldBit{layout.classification - 1, 0x04};
+  const bool old = format < 6;
+  const std::size_t at = layout.classification;
+  file.marks = old ? RowMarks{at, at, 0x80, 0x1f} : RowMarks{at - 1, at, 0x04, 0xff};
+  file.meaning.classes.value.reset(7).reset(18);
 
-  // The variable-length records between header and points.
-  const std::string front = read_beginning(path, file.begin);
-  const Bytes header{path, front};
-  std::size_t at = header.at<std::uint16_t>(94);
-  for (std::uint32_t left = header.at<std::uint32_t>(100); left > 0; --left) {
-    const std::size_t length = header.at<std::uint16_t>(at + 20), begin = at + 54;
-    header.text(at, 54 + length);
-    if (header.text(at + 2, 16) == "LASF_Spec" && header.at<std::uint16_t>(at + 18) == 4)
-      add_extra_columns(header, begin, length, layout.bytes, file);
-    at = begin + length;
-  }
+  const SystemRecords system = read_records(layout, file);
+  take_system(path, system, project_remedy(start), file.meaning);
   return file;
 }
 
@@ -148,6 +212,7 @@ RawCloud read_las(const std::string& path, const ReadOptions& options) {
   raw.path = path;
   raw.format = file.format;
   raw.meaning = file.meaning;
+  raw.notes = file.notes;
   raw.width = file.rows;
   for (const RowTable::Column& column : file.columns) raw.fields.push_back({column.name, name_of(column.type)});
   fill_cloud(raw, read_rows(file, 0, file.rows), options);

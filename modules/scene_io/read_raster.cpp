@@ -4,8 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <set>
+#include <sstream>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 
@@ -121,9 +124,12 @@ void check_ascii_grid(const std::string& path) {
 
 RawCloud read_asc(const std::string& path, const ReadOptions& options) {
   require_readable(path);
-  std::string head = read_beginning(path, 5);
-  for (char& c : head) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (head != "ncols") return read_text_cloud(path, options);
+  std::istringstream head(lower_case(read_beginning(path, 64)));
+  std::string word;
+  head >> word;
+  static const std::set<std::string> heads = {"ncols",     "nrows",    "xllcorner", "xllcenter", "yllcorner",
+                                              "yllcenter", "cellsize", "dx",        "dy"};
+  if (!heads.contains(word)) return read_text_cloud(path, options);
   check_ascii_grid(path);
   return read_raster(path, options);
 }

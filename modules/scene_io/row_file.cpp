@@ -46,7 +46,7 @@ RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count) {
         std::reverse(number, number + size_of(column.type));
       }
   }
-  return {file.columns, count, file.stride, bytes->data(), bytes, file.withheld};
+  return {file.columns, count, file.stride, bytes->data(), bytes, file.marks};
 }
 
 }  // namespace insonify

@@ -22,8 +22,9 @@ struct RowFile {
   SceneTags tags;
   std::optional<Eigen::Vector3d> viewpoint;  ///< [file units]
   std::vector<std::string> comments{};       ///< of a PLY
-  WithheldBit withheld{};
+  RowMarks marks{};
   FileMeaning meaning{};
+  std::vector<std::string> notes{};
 };
 
 /// The layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a whole.

@@ -8,6 +8,7 @@
 #include "core/message.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "scene_io/column_names_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/scene_columns_internal.hpp"
 
@@ -16,45 +17,6 @@ namespace {
 
 constexpr std::size_t block_rows = 1 << 16;
 const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-
-/// The first column whose plain name is among `names`, in the order of `names`; null if none.
-const RowTable::Column* find_column(const RowTable& table, const std::vector<std::string>& names) {
-  for (const std::string& name : names)
-    for (const RowTable::Column& column : table.columns)
-      if (plain_name(column.name) == name) return &column;
-  return nullptr;
-}
-
-std::string names_of(const RowTable& table) { return shortened_list(table.columns, " ", &RowTable::Column::name); }
-
-const RowTable::Column* find_label(const RowTable& table, const std::string& path, const std::string& name) {
-  if (name.empty()) return find_column(table, {"label", "material", "class", "classification"});
-  const RowTable::Column* found = find_column(table, {plain_name(name)});
-  if (!found)
-    fail(ErrorKind::content, path, ": no field '", name, "' to take materials from; its fields are '", names_of(table),
-         "': name one of them");
-  return found;
-}
-
-struct Columns {
-  std::array<const RowTable::Column*, 3> position, normal;
-  const RowTable::Column *area, *label, *id, *noise;
-};
-
-Columns find_columns(const RowTable& table, const std::string& path, const std::string& material_field) {
-  Columns found;
-  found.position = {find_column(table, {"x"}), find_column(table, {"y"}), find_column(table, {"z"})};
-  found.normal = {find_column(table, {"nx", "normal_x"}), find_column(table, {"ny", "normal_y"}),
-                  find_column(table, {"nz", "normal_z"})};
-  found.area = find_column(table, {"area"});
-  found.id = find_column(table, {"id"});
-  found.noise = find_column(table, {"noise"});
-  if (!found.position[0] || !found.position[1] || !found.position[2])
-    fail(ErrorKind::content, path, ": expected fields x y z, found '", names_of(table),
-         "'; rename the coordinate fields");
-  found.label = find_label(table, path, material_field);
-  return found;
-}
 
 /// Calls body(first, rows, bytes) for blocks of rows, in parallel.
 template <typename Body>
@@ -84,7 +46,7 @@ struct Places {
 
   /// The place of a row [m]; NaN if it is withheld, a hole or otherwise unusable.
   Eigen::Vector3d of(const char* row) const {
-    if (table.withheld.is_set(row)) return nowhere;
+    if (table.marks.withheld(row) || !meaning.classes.value[table.marks.class_of(row)]) return nowhere;
     const Eigen::Vector3d in_file = read_triple(found.position, row), p = axes.place(in_file);
     return usable(p) && !meaning.is_hole(in_file[axes.from[2]]) ? p : nowhere;
   }
@@ -104,8 +66,10 @@ void find_extent(RawCloud& raw, const RowTable& table, const Columns& found, con
       const Eigen::Vector3d p = read_triple(found.position, row);
       const double height = p[axes.from[2]];
       const auto mark = std::find(usual_marks.begin(), usual_marks.end(), height) - usual_marks.begin();
-      if (table.withheld.is_set(row))
+      if (table.marks.withheld(row))
         ++block.withheld;
+      else if (!raw.meaning.classes.value[table.marks.class_of(row)])
+        ++block.other_classes;
       else if (raw.meaning.is_hole(height))
         ++block.holes;
       else if (!usable(axes.place(p)))
@@ -119,6 +83,17 @@ void find_extent(RawCloud& raw, const RowTable& table, const Columns& found, con
     }
   });
   for (const RawCloud& block : blocks) add_counts(raw, block);
+}
+
+/// Decides what the numbers mean, from the file, its headings, the caller and the numbers themselves, and the origin.
+void decide_meaning(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
+  take_headings(table, found, raw);
+  raw.meaning.override_by(options.meaning);
+  if (!raw.meaning.no_lengths.empty() && raw.meaning.unit.origin != MeaningOrigin::option)
+    fail(ErrorKind::content, raw.path, ": ", raw.meaning.no_lengths);
+  find_extent(raw, table, found, options);
+  if (!options.origin) settle_meaning(raw), require_usable_points(raw, table.rows);
+  raw.origin = options.origin ? *options.origin : origin_of(raw);
 }
 
 std::uint16_t label_from(double number) {
@@ -151,8 +126,7 @@ bool holds_ids(const RowTable& table, const RowTable::Column& column, int thread
 std::vector<const RowTable::Column*> others_of(const RowTable& table, const Columns& found) {
   std::vector<const RowTable::Column*> used = {found.area, found.label, found.id, found.noise};
   used.insert(used.end(), found.position.begin(), found.position.end());
-  if (found.normal[0] && found.normal[1] && found.normal[2])
-    used.insert(used.end(), found.normal.begin(), found.normal.end());
+  if (found.normal[0]) used.insert(used.end(), found.normal.begin(), found.normal.end());
   std::vector<const RowTable::Column*> others;
   for (const RowTable::Column& column : table.columns)
     if (std::find(used.begin(), used.end(), &column) == used.end()) others.push_back(&column);
@@ -164,11 +138,14 @@ std::vector<const RowTable::Column*> others_of(const RowTable& table, const Colu
 void add_counts(RawCloud& whole, const RawCloud& part) {
   whole.extent.add(part.extent);
   whole.withheld += part.withheld, whole.not_finite += part.not_finite, whole.too_far += part.too_far;
-  whole.holes += part.holes;
+  whole.holes += part.holes, whole.other_classes += part.other_classes;
 }
 
 void require_usable_points(const RawCloud& raw, std::size_t points) {
-  if (raw.withheld + raw.not_finite + raw.holes < points) return;
+  if (raw.unused() < points) return;
+  if (raw.other_classes > 0)
+    fail(ErrorKind::content, raw.path, ": holds no usable point (", raw.other_classes, " of ", points,
+         " points are of classes that are not read); give --classes all, or those that count");
   if (raw.holes > 0)
     fail(ErrorKind::content, raw.path, ": holds no usable point (", raw.holes, " of ", points,
          " points mark holes); give --nodata none, or the heights that do mark holes");
@@ -188,7 +165,7 @@ Eigen::Vector3d origin_of(const RawCloud& raw) {
 }
 
 std::vector<Eigen::Vector3d> read_places(const RawCloud& raw, const RowTable& table, const ReadOptions& options) {
-  const Columns found = find_columns(table, raw.path, options.material_field.name);
+  const Columns found = find_columns(table, raw.path, raw.tags.name_in_file(options.material_field.name));
   const Places places{table, found, raw.meaning};
   std::vector<Eigen::Vector3d> all(table.rows);
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
@@ -213,32 +190,23 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1)
     fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, must be at most 4294967294; split it");
   const std::string& asked = options.material_field.name;
-  const Columns found = find_columns(table, raw.path, asked.empty() ? raw.tags.material_field : asked);
+  const Columns found =
+      find_columns(table, raw.path, asked.empty() ? raw.tags.material_field : raw.tags.name_in_file(asked));
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
   if (raw.points_in_file == 0) raw.points_in_file = table.rows;
-  raw.meaning.override_by(options.meaning);
-  if (!raw.meaning.no_lengths.empty() && raw.meaning.unit.origin != MeaningOrigin::option)
-    fail(ErrorKind::content, raw.path, ": ", raw.meaning.no_lengths);
-  find_extent(raw, table, found, options);
-  if (options.origin) {
-    raw.origin = *options.origin;
-  } else {
-    settle_meaning(raw);
-    require_usable_points(raw, table.rows);
-    raw.origin = origin_of(raw);
-  }
+  decide_meaning(raw, table, found, options);
   const Places places{table, found, raw.meaning};
   if (raw.viewpoint) raw.viewpoint = places.axes.place(*raw.viewpoint);
 
   // Coordinates become relative to the origin in double, then float.
   raw.point.resize(table.rows);
-  const bool normals = found.normal[0] && found.normal[1] && found.normal[2];
+  const bool normals = found.normal[0];
   if (normals) raw.normal.resize(table.rows);
   if (found.area) raw.area.resize(table.rows);
   if (found.noise) raw.noise.resize(table.rows);
   if (found.label) {
     raw.label.resize(table.rows);
-    raw.label_field = found.label->name;
+    raw.label_field = raw.tags.meant_name(found.label->name);
   }
   const auto extra = std::find_if(table.columns.begin(), table.columns.end(),
                                   [&](const RowTable::Column& c) { return c.name == options.extra_field; });
@@ -246,10 +214,10 @@ void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options
   const bool ids = found.id && holds_ids(table, *found.id, options.threads);
   if (ids) raw.id.resize(table.rows);
   for (const RowTable::Column* column : others_of(table, found)) {
-    raw.other_columns.push_back(column->name);
-    if (options.keep_columns) raw.columns.push_back(copy_of(table, *column));
+    raw.other_columns.push_back(raw.tags.meant_name(column->name));
+    if (options.keep_columns) raw.columns.push_back(copy_of(table, *column, raw.other_columns.back()));
   }
-  if (found.label && options.keep_columns) raw.columns.push_back(copy_of(table, *found.label));
+  if (found.label && options.keep_columns) raw.columns.push_back(copy_of(table, *found.label, raw.label_field));
   if (found.id && !ids)
     raw.notes.push_back("field '" + found.id->name + "' does not hold 32-bit integers: ids renumbered");
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {

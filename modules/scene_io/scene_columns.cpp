@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "scene_io/column_names_internal.hpp"
 #include "scene_io/scene_columns_internal.hpp"
 
 namespace insonify {
@@ -47,15 +48,9 @@ std::vector<char> converted(const SceneColumn& column, NumberType from, NumberTy
 
 }  // namespace
 
-std::string plain_name(std::string name) {
-  std::replace(name.begin(), name.end(), ' ', '_');
-  name = lower_case(std::move(name));
-  return name.rfind("scalar_", 0) == 0 ? name.substr(7) : name;
-}
-
-SceneColumn copy_of(const RowTable& table, const RowTable::Column& column) {
+SceneColumn copy_of(const RowTable& table, const RowTable::Column& column, const std::string& name) {
   const bool as_it_is = column.scale == 1 && column.shift == 0 && column.mask == 0xff;
-  SceneColumn copy{column.name, name_of(as_it_is ? column.type : NumberType::float64), {}};
+  SceneColumn copy{name, name_of(as_it_is ? column.type : NumberType::float64), {}};
   const std::size_t size = as_it_is ? size_of(column.type) : sizeof(double);
   copy.bytes.resize(table.rows * size);
   for (std::size_t i = 0; i < table.rows; ++i) {
@@ -75,7 +70,7 @@ void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& colum
   };
   if (!raw.label_field.empty() && !options.material && options.material_field.intervals.empty()) {
     columns.material = raw.label_field;
-    std::erase_if(columns.others, [&](const SceneColumn& column) { return column.name == columns.material; });
+    columns.others.pop_back();  // that of the labels
   } else if (has("material")) {
     columns.material = "material_index";
   }
@@ -106,22 +101,33 @@ SceneColumns columns_of(const SceneColumns& columns, std::span<const std::uint32
 }
 
 void add_columns(PackedRows& rows, const SceneColumns& columns, CloudFormat format) {
-  const auto taken = [&](const std::string& name) {
-    return std::any_of(rows.columns.begin(), rows.columns.end(),
-                       [&](const PackedRows::Column& c) { return plain_name(c.name) == plain_name(name); });
-  };
+  // Names that all readers take, and the ones that they stand for.
+  std::vector<std::string> names = {columns.material}, taken = {"area", "id", "noise"};
+  for (const SceneColumn& column : columns.others) names.push_back(column.name);
+  for (const PackedRows::Column& column : rows.columns)
+    if (!column.name.empty()) taken.push_back(column.name);
+  const std::vector<std::string> legal = legal_names(names, taken);
+  if (columns.material != "material" || !columns.others.empty())
+    rows.comments.push_back("insonify material_field " + legal[0]);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (legal[k] != names[k] && legal[k] != names[k] + "_in_file")
+      rows.comments.push_back("insonify column " + legal[k] + " " + json_text(names[k]));
+  for (PackedRows::Column& column : rows.columns)
+    if (column.name.empty()) column.name = legal[0];
+
   struct Written {
     std::vector<char> bytes;
     std::size_t size;
   };
   const auto written = std::make_shared<std::vector<Written>>();
   const std::size_t stride = rows.stride();
-  for (const SceneColumn& column : columns.others) {
+  for (std::size_t k = 0; k < columns.others.size(); ++k) {
+    const SceneColumn& column = columns.others[k];
     const NumberType type = type_of(column), to = written_type(column, type, format);
     if (column.bytes.size() != rows.rows * size_of(type))
       fail(ErrorKind::argument, "save_scene: column '", column.name, "' has ", column.bytes.size(),
            " bytes, must have a number of ", column.type, " for each of the ", rows.rows, " surfels");
-    rows.columns.push_back({taken(column.name) ? column.name + "_in_file" : column.name, to});
+    rows.columns.push_back({legal[k + 1], to});
     written->push_back({converted(column, type, to), size_of(to)});
   }
   if (written->empty()) return;

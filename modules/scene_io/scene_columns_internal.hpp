@@ -7,11 +7,8 @@
 // Private to scene_io.
 namespace insonify {
 
-/// A field's name in lower case without CloudCompare's prefix "scalar_", and with blanks as CloudCompare writes them.
-std::string plain_name(std::string name);
-
-/// Returns a copy of the numbers of a column: unchanged, or as double if the column is scaled.
-SceneColumn copy_of(const RowTable& table, const RowTable::Column& column);
+/// Returns a copy of the numbers of a column, called `name`: unchanged, or as double if the column is scaled.
+SceneColumn copy_of(const RowTable& table, const RowTable::Column& column, const std::string& name);
 
 /// Reduces a column to the listed rows, in that order.
 void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows);
@@ -20,8 +17,8 @@ void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows);
 /// are the indices of the materials.
 void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& columns);
 
-/// Adds further columns to the rows of a scene. A column whose name the scene already uses gets the suffix "_in_file".
-/// In PLY the types are int, uchar, float or double. Throws Error(argument) for a column of another length.
+/// Adds further columns to the rows of a scene, with legal_names, and comment lines that tell the names they stand for;
+/// names the column without a name, that of the materials. In PLY the types are int, uchar, float or double. Throws Error(argument) for a column of another length.
 void add_columns(PackedRows& rows, const SceneColumns& columns, CloudFormat format);
 
 }  // namespace insonify

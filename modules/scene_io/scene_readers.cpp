@@ -31,7 +31,7 @@ const std::vector<SceneReader>& scene_readers() {
       {{".vtu", ".vts", ".vtr", ".vti"}, {"<VTKFile"}, "a VTK file that is no polydata", surface_remedy(".vtu")},
       {{".glb"}, {"glTF"}, "a binary glTF file", "", read_gltf},
       {{".gltf"}, {}, "a glTF document", "", read_gltf},
-      {{".xyz", ".txt", ".csv"}, {}, "text", "", read_text_cloud},
+      {{".xyz", ".txt", ".csv"}, {}, "text", "", read_asc},
       {{".asc"}, {"ncols", "NCOLS"}, "text, or an ESRI ASCII grid", "", read_asc},
       {{".tif", ".tiff"}, {std::string("II*\0", 4), std::string("MM\0*", 4)}, "a TIFF file", "", read_raster},
       {{".bag"}, {}, "a BAG file", "", read_raster},

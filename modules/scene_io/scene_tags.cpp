@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <span>
+
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "scene_io/material_numbers_internal.hpp"
@@ -23,6 +26,20 @@ std::string exact(double value) {
 }
 
 }  // namespace
+
+std::string json_text(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+const std::string& SceneTags::meant_name(const std::string& in_file) const {
+  const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.first == in_file; });
+  return at == columns.end() ? in_file : at->second;
+}
+
+const std::string& SceneTags::name_in_file(const std::string& meant) const {
+  const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.second == meant; });
+  return at == columns.end() ? meant : at->first;
+}
 
 void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
   std::string_view rest = line;
@@ -51,6 +68,11 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
   } else if (key == "material_field") {
     if (!rest.empty()) rest.remove_prefix(1);
     tags.material_field = std::string(rest);
+  } else if (key == "column") {
+    const std::string_view name = take_word(rest);
+    const nlohmann::json meant = nlohmann::json::parse(rest, nullptr, false);
+    if (!meant.is_string()) bad();
+    tags.columns.emplace_back(name, meant.get<std::string>());
   } else if (key == "material") {
     std::size_t index = 0;
     Material material;

@@ -4,10 +4,28 @@
 #include <fstream>
 #include <vector>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "files/pending_file.hpp"
+#include "scene_io/ply_header_internal.hpp"
+#include "scene_io/row_file_internal.hpp"
 #include "scene_io/write_rows_internal.hpp"
 
 namespace insonify {
+namespace {
+
+/// Throws Error(runtime) unless the header of a written file names the columns of its rows.
+void check_header(const std::string& path, const std::string& written, bool ply, const PackedRows& rows) {
+  if (rows.rows == 0) return;
+  const std::string wanted = joined(rows.columns, " ", &PackedRows::Column::name);
+  const std::string found = ply ? joined(probe_ply(written).vertex().properties, " ", &PlyProperty::name)
+                                : joined(find_pcd_rows(written).value().columns, " ", &RowTable::Column::name);
+  if (found != wanted)
+    fail(ErrorKind::runtime, path, ": its header was written with the columns '", wanted, "' and reads back as '",
+         found, "'; rename the columns of the input");
+}
+
+}  // namespace
 
 void write_rows(const std::string& path, const std::string& header, const PackedRows& rows) {
   PendingFile pending(path);
@@ -34,6 +52,8 @@ void write_rows(const std::string& path, const std::string& header, const Packed
     }
     file.write(bytes.data(), static_cast<std::streamsize>(count * face));
   }
+  file.flush();
+  if (file) check_header(path, pending.temporary(), header.starts_with("ply"), rows);
   pending.commit(file);
 }
 

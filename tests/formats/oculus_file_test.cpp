@@ -118,11 +118,13 @@ TEST(OculusFile, gives_samples_and_where_they_are) {
   EXPECT_EQ(level_db(p)(0, 0), static_cast<float>(silence_db));
 }
 
-TEST(OculusFile, reads_both_versions_all_sizes_and_gains) {
+TEST(OculusFile, reads_both_versions_all_sizes_and_gains_by_their_size) {
   for (const int version : {1, 2})
     for (const int code : {0, 1, 3})
-      for (const bool gain : {false, true}) {
-        const std::string message = made_message({version, code, 127, gain}, 5);
+      for (const int kind : {0, 1, 2, 3}) {
+        const bool gain = kind % 2 == 1;
+        std::string message = made_message({version, code, 127, gain}, 5);
+        if (kind >= 2) message[20] = static_cast<char>(message[20] ^ 4);  // the flag is wrong, the size is right
         const OculusPing p = read_oculus_ping(own_file("v.raw", message), 0);
         EXPECT_EQ(p.bits, code == 0 ? 8 : code == 1 ? 16 : 32);
         EXPECT_EQ(p.value(1, 2), code == 1 ? 1012U : 12U) << version << code << gain;
@@ -171,7 +173,7 @@ TEST(OculusFile, refuses_what_is_damaged) {
   EXPECT_THAT(oculus_refusal(whole + std::string(16, 'x')), HasSubstr("the file is damaged, copy it again"));
   EXPECT_THAT(spoilt(97, std::uint8_t{2}), HasSubstr("the ping at byte 0 has samples of type 2, must be 0 (8 bits)"));
   EXPECT_THAT(spoilt(106, std::uint16_t{5}),
-              HasSubstr("has an image of 12 bytes from 138 on, must have 15 behind its bearings, in 150"));
+              HasSubstr("has an image of 12 bytes from 138 on, must have 15, or 35 with gains, behind its bearings"));
   EXPECT_THAT(spoilt(110, std::uint32_t{100}), HasSubstr("from 100 on, must have 12"));
   EXPECT_THAT(spoilt(110, std::uint32_t{0xffffffff}), HasSubstr("from 4294967295 on"));
   EXPECT_THAT(spoilt(85, 99.0), HasSubstr("has no geometry: 3 beams, 4 ranges of 0.25 m, sound speed 99 m/s"));

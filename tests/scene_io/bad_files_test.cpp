@@ -105,7 +105,7 @@ TEST(BadFile, a_compressed_pcd_with_padding_is_refused) {
 TEST(BadFile, text_lines_are_named_by_number) {
   expect_bad(own_file("a.xyz", "0 0 0\n1 0\n"), {":2:", "expected 3 columns", "found 2"});
   expect_bad(own_file("b.xyz", "0 0 0\n1 zero 0\n"), {":2:", "'zero'", "not a number"});
-  expect_bad(own_file("c.csv", "x;y;z\n1,5;2,5;3,5\n"), {":2:", "'1,5'", "decimal point"});
+  expect_bad(own_file("c.csv", "x;y;z\n1,5,2;2,5;3,5\n"), {":2:", "'1,5,2'", "not a number"});
   expect_bad(own_file("d.xyz", "5\n0 0 0\n1 0 0\n"), {"announces 5 points, found 2"});
   expect_bad(own_file("e.xyz", "# nothing\n"), {"holds no point"});
   expect_bad(own_file("f.csv", "x,y,z,label\n1,2,3\n"), {":2:", "expected 4 columns", "found 3"});

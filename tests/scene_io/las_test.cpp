@@ -1,89 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// LAS files, written here byte by byte from the specification.
 #include "scene_io/describe_file.hpp"
+#include "scene_io/las_file.hpp"
 #include "scene_io/prepare_tiles.hpp"
-#include "scene_io/test_files.hpp"
 #include "scene_io/tiled_scene.hpp"
 
 namespace {
-
-struct LasFile {
-  int minor = 2, format = 0;
-  double scale = 0.001;
-  Eigen::Vector3d offset = {500000, 5400000, -20};
-  bool extra =
-      false;       ///< an 'area' of uint16 in units of 1 cm2, after two bytes without a meaning, and an 'id' of uint32
-  int points = 0;  ///< announced beyond those there are
-  std::size_t withheld = 0;  ///< of each so many points the first is withheld; 0: none
-  bool normals = false;      ///< upright ones, after the others
-
-  std::size_t stride() const {
-    return std::array{20u, 28u, 26u, 34u, 57u, 63u, 30u, 36u, 38u, 59u, 67u}[format] + (extra ? 8u : 0u) +
-           (normals ? 12u : 0u);
-  }
-
-  std::string extra_record() const {
-    if (!extra && !normals) return "";
-    const auto described = [](int type, int options, const std::string& name, double factor) {
-      std::string d(192, '\0');
-      d[2] = static_cast<char>(type);
-      d[3] = static_cast<char>(options);
-      d.replace(4, name.size(), name);
-      d.replace(112, 8, bytes_of(factor));
-      return d;
-    };
-    std::string body;
-    if (extra) body = described(0, 2, "", 0) + described(3, 8, "area", 1e-4) + described(5, 0, "id", 0);
-    if (normals) body += described(9, 0, "nx", 0) + described(9, 0, "ny", 0) + described(9, 0, "nz", 0);
-    std::string head(54, '\0');
-    head.replace(2, 9, "LASF_Spec");
-    head.replace(18, 2, bytes_of(std::uint16_t{4}));
-    head.replace(20, 2, bytes_of(static_cast<std::uint16_t>(body.size())));
-    return head + body;
-  }
-
-  std::string bytes(const std::vector<Eigen::Vector3d>& places) const {
-    const std::size_t header_size = minor == 4 ? 375 : 227;
-    const std::string records = extra_record();
-    std::string h(header_size, '\0');
-    const auto put = [&](std::size_t at, const std::string& value) { h.replace(at, value.size(), value); };
-    put(0, "LASF");
-    put(24, {1, static_cast<char>(minor)});
-    put(94, bytes_of(static_cast<std::uint16_t>(header_size)));
-    put(96, bytes_of(static_cast<std::uint32_t>(header_size + records.size())));
-    put(100, bytes_of(extra || normals ? 1u : 0u));
-    put(104, std::string(1, static_cast<char>(format)));
-    put(105, bytes_of(static_cast<std::uint16_t>(stride())));
-    const auto count = static_cast<std::uint32_t>(places.size() + static_cast<std::size_t>(points));
-    if (minor == 4)
-      put(247, bytes_of(std::uint64_t{count}));
-    else
-      put(107, bytes_of(count));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      put(131 + 8 * axis, bytes_of(scale));
-      put(155 + 8 * axis, bytes_of(offset[static_cast<int>(axis)]));
-    }
-    std::string rows;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      std::string row(stride(), '\0');
-      for (int axis = 0; axis < 3; ++axis)
-        row.replace(4 * static_cast<std::size_t>(axis), 4,
-                    bytes_of(static_cast<std::int32_t>(std::lround((places[i] - offset)[axis] / scale))));
-      // Classes 0 and 2; up to format 5 their upper bits are flags.
-      row[format < 6 ? 15 : 16] = static_cast<char>((i % 2 ? 2 : 0) | (format < 6 ? 0x20 : 0));
-      // A synthetic one, as above, is none that is withheld.
-      if (format >= 6) row[15] = 1;
-      if (withheld > 0 && i % withheld == 0) row[15] = static_cast<char>(row[15] | (format < 6 ? 0x80 : 4));
-      if (extra) {
-        row.replace(stride() - 6, 2, bytes_of(static_cast<std::uint16_t>(100 + i)));
-        row.replace(stride() - 4, 4, bytes_of(static_cast<std::uint32_t>(1000 + i)));
-      }
-      if (normals) row.replace(stride() - 4, 4, bytes_of(1.0F));
-      rows += row;
-    }
-    return h + records + rows;
-  }
-};
 
 std::vector<Eigen::Vector3d> places() {
   std::vector<Eigen::Vector3d> all;
@@ -181,5 +102,80 @@ TEST(Las, cut_off_anywhere_or_of_another_kind_is_refused) {
   refused(247, bytes_of(~std::uint64_t{0}), {"cut off", "announces 18446744073709551615 points"});
   refused(375 + 20, bytes_of(std::uint16_t{65535}), {"cut off"});
   refused(375 + 54 + 2 * 192 + 2, std::string(1, '\x0a'), {"extra bytes 'id' end beyond a point of 38 bytes"});
-  refused(375 + 54 + 192 + 2, std::string(1, '\x0b'), {"are of type 11"});
+}
+
+TEST(Las, normals_have_the_names_of_pdal_and_cloudcompare) {
+  for (const char* name : {"Normal%", "n%"}) {
+    std::string upper = name;
+    LasFile las{.normals = true};
+    las.normal_name = name;
+    std::string bytes = las.bytes(places());
+    if (upper == "Normal%")
+      for (const char axis : {'x', 'y', 'z'}) {
+        const std::string was = std::string("Normal") + axis;
+        bytes = replaced(bytes, was, std::string("Normal") + static_cast<char>(axis - 'a' + 'A'));
+      }
+    const LoadedScene scene = load_scene(own_file("cloud.las", bytes));
+    EXPECT_FALSE(scene.report.normals_estimated) << name;
+    for (const Eigen::Vector3f& normal : scene.scene.normal) EXPECT_EQ(normal, Eigen::Vector3f(0, 0, 1));
+  }
+}
+
+// Whole, in batches and by `info`.
+TEST(Las, noise_is_left_out_unless_the_caller_wants_it) {
+  for (int format = 0; format <= 10; ++format) {
+    LasFile las{.minor = format >= 6 ? 4 : 2, .format = format, .normals = true};
+    las.class_of = [](std::size_t i) { return std::array{2, 7, 9, 18}[i % 4]; };
+    const std::string path = own_file("noisy.las", las.bytes(places()));
+    const auto kept = [&](const char* classes) {
+      LoadOptions options;
+      options.meaning = asked_meaning(&MeaningText::classes, classes);
+      PrepareTilesOptions tiles;
+      tiles.load = options;
+      tiles.whole_points = 0;
+      const PreparedTiles prepared = prepare_tiles(path, own_path("noisy.tiles"), tiles);
+      const LoadedScene scene = load_scene(path, options);
+      EXPECT_EQ(TiledScene(own_path("noisy.tiles")).info().surfels, scene.scene.size());
+      for (const LoadReport& report : {scene.report, prepared.report}) {
+        EXPECT_EQ(report.dropped_classes, 64 - scene.scene.size());
+        EXPECT_EQ(has_note(report, "32 of 64 points are of class 7 or 18, which is noise: left out; --classes all"),
+                  std::string(classes).empty());
+      }
+      return scene.scene.size();
+    };
+    EXPECT_EQ(kept(""), 32u) << format;
+    EXPECT_EQ(kept("all"), 64u) << format;
+    EXPECT_EQ(kept("2"), 16u) << format;
+    EXPECT_EQ(kept("7,9,18"), 48u) << format;
+    LoadOptions none;
+    none.meaning = asked_meaning(&MeaningText::classes, "5");
+    expect_error(ErrorKind::content, {"noisy.las", "64 of 64 points are of classes that are not read", "--classes all"},
+                 [&] { load_scene(path, none); });
+  }
+  LasFile las;
+  las.class_of = [](std::size_t i) { return i < 10 ? 7 : 2; };
+  const FileDescription file = describe_file(own_file("noisy.las", las.bytes(places())));
+  EXPECT_TRUE(std::any_of(file.meaning.begin(), file.meaning.end(), [](const MeaningItem& item) {
+    return item.name == "classes" && item.value == "all but 7,18" && item.sentence.starts_with("10 of 64 points");
+  }));
+  EXPECT_NEAR(file.min.z(), places()[10].z(), 1e-3) << "bounds are without noise";
+}
+
+TEST(Las, extra_bytes_of_deprecated_types_are_columns_and_unknown_ones_are_skipped) {
+  for (int type = 11; type <= 30; ++type) {
+    LasFile las{.normals = true};
+    las.pair_type = type;
+    const std::string path = own_file("pair.las", las.bytes(places()));
+    const LoadedScene scene = load_scene(path);
+    EXPECT_FALSE(scene.report.normals_estimated) << type;
+    EXPECT_EQ(scene.scene.normal[0], Eigen::Vector3f(0, 0, 1)) << type << ": the columns behind are in their places";
+    const std::vector<std::string>& others = scene.report.other_columns;
+    EXPECT_EQ(std::count(others.begin(), others.end(), "pair_y"), 1) << type;
+    EXPECT_EQ(std::count(others.begin(), others.end(), "pair_z"), type > 20 ? 1 : 0) << type;
+  }
+  LasFile las{.normals = true};
+  las.pair_type = 31;
+  const LoadedScene scene = load_scene(own_file("odd.las", las.bytes(places())));
+  EXPECT_EQ(scene.scene.size(), 64u);
+  EXPECT_TRUE(has_note(scene.report, "extra bytes 'pair' are of the unknown type 31"));
 }

@@ -32,6 +32,13 @@ inline double area_of_mesh(const LoadedScene& loaded) {
   return sum;
 }
 
+/// What a caller says of one item of a file's meaning.
+inline AskedMeaning asked_meaning(std::string MeaningText::*item, const std::string& text) {
+  MeaningText said;
+  said.*item = text;
+  return parse_meaning(said);
+}
+
 inline bool has_note(const LoadReport& report, const std::string& part) {
   return std::any_of(report.notes.begin(), report.notes.end(),
                      [&](const std::string& note) { return note.find(part) != std::string::npos; });

@@ -175,7 +175,7 @@ TEST_F(ExportProducts, says_how_to_give_what_it_misses) {
     expect_refused("export out --to " + std::string(to) + " -o product", 2,
                    {"--anchor LAT,LON[,HEADING]", "--utm ZONE"});
   expect_refused("export out --to las --anchor 54,8 -o packed.laz", 2,
-                 {"packed.laz", "LAZ is not written", "laszip -i"});
+                 {"packed.laz", "LAZ is not written", "ends in .las"});
   expect_refused("export out --to gsf --anchor 100,0 -o product", 2, {"--anchor", "latitude = 100"});
   expect_refused("export out --to gsf --utm 99N -o product", 2, {"--utm", "1 to 60"});
   expect_refused("export out --to mcap --start-utc yesterday -o product", 2, {"--start-utc 'yesterday'"});

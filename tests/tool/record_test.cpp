@@ -73,6 +73,14 @@ TEST_F(RecordRun, pictures_are_of_levels_as_recorded) {
   expect_refused("image " + oculus + " --ping 3 -o x.png", 2, {"--ping = 3, must be below 3"});
 }
 
+TEST_F(RecordRun, export_says_at_once_what_it_cannot_do_and_what_others_can) {
+  for (const std::string& file : {side_scan, oculus, aris})
+    for (const char* to : {"gsf", "csv", "xtf", "vtk", "png"})
+      expect_refused("export " + file + " --to " + to + " -o x", 3,
+                     {"is a recording of a sonar", "insonify image", "--view waterfall", "insonify compare"});
+  succeed("image " + side_scan + " --view waterfall -o proposed.png -q");
+}
+
 TEST_F(RecordRun, the_viewer_shows_them) {
   for (const std::string& target : {side_scan + " --head STARBOARD", oculus + " --ping 2", aris})
     EXPECT_EQ(std::system(

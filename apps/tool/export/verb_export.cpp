@@ -16,6 +16,7 @@
 #include "tool/command/verb.hpp"
 #include "tool/export/export_product.hpp"
 #include "tool/export/raster_plane.hpp"
+#include "tool/run/record_file.hpp"
 #include "tool/run/run_checks.hpp"
 #include "tool/run/run_pings.hpp"
 #include "view/save_vtk.hpp"
@@ -110,6 +111,11 @@ void require_soundings(const ProductOptions& o) {
 
 void export_run(const ExportOptions& options) {
   require_soundings(options.product);
+  if (const std::string& run = options.product.run; is_record(run))
+    fail(ErrorKind::content, run,
+         ": is a recording of a sonar, and export takes runs, surveys and cubes of insonify; "
+         "`insonify image` draws a recording (a side-scan with --view waterfall), `insonify view` shows it, `insonify "
+         "compare` compares it with a run");
   if (options.product.to != "vtk") return export_product(options.product, options.common);
   const ProductOptions& o = options.product;
   Progress progress(options.common, 2);

@@ -107,6 +107,7 @@ ordered_json scene_json(const LoadReport& r, const SceneCloud& scene) {
           {"surfels", scene.size()},
           {"dropped_not_finite", r.dropped_not_finite},
           {"dropped_withheld", r.dropped_withheld},
+          {"dropped_classes", r.dropped_classes},
           {"dropped_duplicates", r.dropped_duplicates},
           {"dropped_degenerate_triangles", r.dropped_degenerate},
           {"dropped_without_normal", r.dropped_without_normal},

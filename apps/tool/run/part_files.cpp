@@ -56,6 +56,7 @@ SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, 
 void add_report(const LoadReport& of, LoadReport& all) {
   all.points_read += of.points_read, all.triangles_read += of.triangles_read;
   all.dropped_not_finite += of.dropped_not_finite, all.dropped_withheld += of.dropped_withheld;
+  all.dropped_classes += of.dropped_classes;
   all.dropped_duplicates += of.dropped_duplicates, all.dropped_degenerate += of.dropped_degenerate;
   all.repaired_normals += of.repaired_normals, all.dropped_without_normal += of.dropped_without_normal;
   all.normals_estimated |= of.normals_estimated, all.areas_estimated |= of.areas_estimated;

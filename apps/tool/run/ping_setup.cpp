@@ -239,6 +239,7 @@ std::vector<std::string> loading_notes(const LoadReport& r) {
   };
   count(r.dropped_not_finite, "points dropped, whose coordinates are NaN, infinite or beyond 1e9 m");
   count(r.dropped_withheld, "points dropped, which the file marks as withheld");
+  count(r.dropped_classes, "points dropped, whose class is not read");
   count(r.dropped_duplicates, "duplicate points dropped");
   count(r.dropped_degenerate, "degenerate triangles dropped");
   count(r.repaired_normals, "zero or NaN normals replaced by estimates");

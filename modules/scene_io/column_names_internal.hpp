@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "scene_io/raw_cloud_internal.hpp"
+
+// Private to scene_io: columns by their names.
+namespace insonify {
+
+/// Returns a column's name in lower case without the prefix "scalar_" of CloudCompare, with blanks as CloudCompare
+/// writes them, and without a unit in brackets.
+std::string plain_name(const std::string& name);
+
+/// The columns of a table that a scene uses; null: absent.
+struct Columns {
+  std::array<const RowTable::Column*, 3> position{}, normal{};
+  const RowTable::Column *area = nullptr, *label = nullptr, *id = nullptr, *noise = nullptr;
+};
+
+/// Finds columns by their names. The column of labels is `material_field`, unless that is empty. Throws Error(content)
+/// if a coordinate or the material field is missing; the message lists the names looked for.
+Columns find_columns(const RowTable& table, const std::string& path, const std::string& material_field);
+
+/// Returns whether names of columns name all three coordinates.
+bool name_coordinates(const std::vector<std::string>& names);
+
+/// Sets what the names of the coordinates say: units, degrees, depths. `table` has one row at least.
+void take_headings(const RowTable& table, const Columns& found, RawCloud& raw);
+
+/// Returns names that every reader of PLY, PCD, VTK and HDF5 takes, in the same order. A name that begins with a letter
+/// or "_", goes on with letters, digits, "_", "-" or ".", has at most 64 characters, and means nothing else to such
+/// readers stays. All others become lower-case, with "_" for other characters. A name that occurs in `taken` or earlier,
+/// without regard to case and "scalar_", gets "_in_file", and a number from 2 on if that occurs too.
+std::vector<std::string> legal_names(const std::vector<std::string>& names, const std::vector<std::string>& taken);
+
+}  // namespace insonify
