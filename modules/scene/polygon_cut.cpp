@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double rounding = 1e-7;  // of the area of a polygon
+constexpr double least_area = 1e-7;  // of the area of a polygon
 
 /// Twice the area of a triangle in the plane, positive if it is counter-clockwise.
 double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
@@ -62,9 +62,9 @@ class FlatPolygon {
     double folded = 0;
     for (std::size_t i = 1; i + 1 < at_.size(); ++i) {
       folded -= std::min(0.0, turn(at_[0], at_[i], at_[i + 1]));
-      if (turn(at_[0], at_[1], at_[i + 1]) < -rounding * area2_) return false;
+      if (turn(at_[0], at_[1], at_[i + 1]) < -least_area * area2_) return false;
     }
-    return folded <= rounding * area2_;
+    return folded <= least_area * area2_;
   }
 
   /// Whether two edges cross, beyond rounding. Edges are compared with those that begin within them along the axis on
@@ -109,7 +109,7 @@ class FlatPolygon {
       }
     }
     ears.push_back({last_[i], i, next_[i]});
-    return turn(at_[last_[i]], at_[i], at_[next_[i]]) >= -rounding * area2_;
+    return turn(at_[last_[i]], at_[i], at_[next_[i]]) >= -least_area * area2_;
   }
 
  private:
@@ -117,7 +117,7 @@ class FlatPolygon {
     const std::size_t n = at_.size();
     const Vector2d &a = at_[i], &b = at_[(i + 1) % n], &c = at_[j], &d = at_[(j + 1) % n];
     const auto apart = [&](double one, double other) {
-      return std::min(one, other) < -rounding * area2_ && std::max(one, other) > rounding * area2_;
+      return std::min(one, other) < -least_area * area2_ && std::max(one, other) > least_area * area2_;
     };
     return apart(turn(a, b, c), turn(a, b, d)) && apart(turn(c, d, a), turn(c, d, b));
   }
@@ -151,7 +151,7 @@ class FlatPolygon {
       const Vector2d& p = at_[other];
       if (!left_[other] || p == a || p == b || p == c) return false;
       const double inside = std::min({turn(a, b, p), turn(b, c, p), turn(c, a, p)});
-      return touching ? inside > rounding * area2 : inside >= 0;
+      return touching ? inside > least_area * area2 : inside >= 0;
     };
     const int last_row = cell_of(a.cwiseMax(b).cwiseMax(c)).y();
     for (int row = cell_of(a.cwiseMin(b).cwiseMin(c)).y(); row <= last_row; ++row) {
@@ -197,7 +197,7 @@ PolygonCut cut_polygon(std::span<const Vector3d> corners, std::size_t& tests_lef
   const PolygonPlane plane = plane_of(corners);
   PolygonCut result;
   if (!(plane.widest > 0 && std::isfinite(plane.widest))) return result;
-  result.crosses = plane.normal.norm() <= rounding * plane.widest;
+  result.crosses = plane.normal.norm() <= least_area * plane.widest;
   if (result.crosses) return result;
   result.off_plane = plane.off;
   FlatPolygon flat(corners, plane, tests_left);
