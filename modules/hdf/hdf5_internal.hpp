@@ -94,11 +94,13 @@ void write_checked(const FileContext& place, Write&& write) {
 /// Writes a file by body(place, file), to a temporary name that is then renamed.
 template <typename Body>
 void write_hdf5(const std::string& path, Body&& body) {
-  const QuietErrors quiet;
   const FileContext place{path, ErrorKind::file};
   PendingFile pending(path);
-  write_checked(place, [&] { body(place, create_file(place, pending.temporary())); });
-  pending.commit();
+  {
+    const QuietErrors quiet;
+    write_checked(place, [&] { body(place, create_file(place, pending.temporary())); });
+  }
+  pending.commit();  // waits for the disk, without the turn
 }
 
 /// Opens an existing file for reading. Call it in a child process (read_apart), so that a crash within HDF5 ends only

@@ -169,18 +169,20 @@ void ContributorFile::write(const Contributors& band, std::size_t first_beam) {
 }
 
 void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Grid<std::uint32_t>& instance_image) {
-  const QuietErrors quiet;
   for (const auto& [rows, columns] : {std::pair(material_image.rows(), material_image.cols()),
                                       std::pair(instance_image.rows(), instance_image.cols())})
     if (static_cast<hsize_t>(rows) != open_->lists[0] || static_cast<hsize_t>(columns) != open_->lists[1])
       fail(ErrorKind::argument, "write_contributor_file: ", open_->place.path, ": labels of ", rows, " x ", columns,
            " pixels, must be of ", open_->lists[0], " x ", open_->lists[1]);
-  write_checked(open_->place, [&] {
-    open_->write_image(material_image_name, material_image);
-    open_->write_image(instance_image_name, instance_image);
-    open_->datasets.clear();
-    const Handle last = std::move(open_->file);  // a full disk shows when it is closed
-  });
+  {
+    const QuietErrors quiet;
+    write_checked(open_->place, [&] {
+      open_->write_image(material_image_name, material_image);
+      open_->write_image(instance_image_name, instance_image);
+      open_->datasets.clear();
+      const Handle last = std::move(open_->file);  // a full disk shows when it is closed
+    });
+  }
   open_->pending.commit();
 }
 
