@@ -10,7 +10,7 @@
 #include <Eigen/Dense>
 
 #include "core/error.hpp"
-#include "scene/scene_index.hpp"
+#include "scene/ground_sheet_internal.hpp"
 
 namespace insonify {
 
@@ -18,27 +18,10 @@ using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
 
 namespace {
 
-constexpr double hole_spacings = 3, reach_spacings = 1.25, weight_of_reach = 0.6;
-constexpr double most_of_mean = 4;     // a surfel's spacing counts as within a factor of the mean one
-constexpr double sheet_noises = 4;     // below the top of a sheet by a spacing and so many deviations: another sheet
-constexpr double least_rise = 0.17;    // of a normal: steeper surfels than 80 degrees have no height beside themselves
 constexpr double touching = 1e-5;      // below the ground by so much is on it [m]
 constexpr double least_support = 0.5;  // part of the footprint that must have ground
 constexpr double free_spacings = 3;    // above the ground beneath a part by so much: nothing touches
 constexpr int cells_across = 100;      // of a footprint, of which the lowest surfels are looked at
-
-/// Calls use(i, position in the world) for the surfels of a part that are there.
-template <typename Use>
-void for_each_surfel(const PlacedPart& part, const Use& use) {
-  const SceneCloud& cloud = *part.cloud;
-  const auto place = [&](std::size_t i) {
-    return Vector3d(part.world_from_part * (cloud.origin + cloud.point[i].cast<double>()));
-  };
-  if (part.surfels.empty())
-    for (std::size_t i = 0; i < cloud.size(); ++i) use(i, place(i));
-  else
-    for (const std::uint32_t i : part.surfels) use(i, place(i));
-}
 
 void require_surfels(const PlacedPart& part, const char* who) {
   if (!part.cloud || part.cloud->size() == 0) fail(ErrorKind::argument, who, ": part '", part.name, "' has no surfels");
@@ -52,107 +35,7 @@ std::array<double, 3> square_of(const Vector2d& place, int level) {
   return {static_cast<double>(level), std::floor(place.x() / side), std::floor(place.y() / side)};
 }
 
-/// What a surfel says of the height at a place beside it.
-struct HeightHint {
-  double height, distance, noise;
-  Vector3d normal;
-  bool reaches;  ///< the place is within what the surfel stands for
-};
-
 }  // namespace
-
-/// The surfels of one part, found by x and y.
-struct Ground::Sheet {
-  explicit Sheet(const PlacedPart& part) {
-    std::vector<Vector3f> flat;
-    const SceneCloud& cloud = *part.cloud;
-    double area = 0;
-    for_each_surfel(part, [&](std::size_t i, const Vector3d& world) {
-      if (place.empty()) origin = world.array().round();
-      const Vector3f p = (world - origin).cast<float>();
-      place.push_back(p);
-      flat.emplace_back(p.x(), p.y(), 0.0f);
-      low = low.cwiseMin(world.head<2>()), high = high.cwiseMax(world.head<2>());
-      const Vector3f n = part.world_from_part.linear().cast<float>() * cloud.normal[i];
-      normal.push_back(n.z() < 0 ? Vector3f(-n) : n);
-      spacing.push_back(std::sqrt(cloud.area[i]));
-      if (!cloud.noise.empty()) noise.push_back(cloud.noise[i]);
-      area += cloud.area[i];
-    });
-    mean_spacing = std::sqrt(area / static_cast<double>(place.size()));
-    index = SceneIndex(flat);
-    // A search from far away would visit most of the tree.
-    const double beyond = hole_spacings * most_of_mean * mean_spacing;
-    low.array() -= beyond, high.array() += beyond;
-  }
-
-  std::optional<GroundPlace> at(const Vector2d& world) const {
-    if ((world.array() < low.array()).any() || (world.array() > high.array()).any()) return std::nullopt;
-    thread_local std::vector<Neighbour> found;
-    const Vector3f query(static_cast<float>(world.x() - origin.x()), static_cast<float>(world.y() - origin.y()), 0.0f);
-    index.find_nearest(query, 1, found);
-    const double nearest = std::sqrt(static_cast<double>(found.front().squared_distance));
-    const double spacing_here = std::clamp(static_cast<double>(spacing[found.front().index]),
-                                           mean_spacing / most_of_mean, mean_spacing * most_of_mean);
-    if (!(nearest <= hole_spacings * spacing_here)) return std::nullopt;
-    const double off = noise.empty() ? 0 : static_cast<double>(noise[found.front().index]);
-    const double reach = std::max(reach_spacings * spacing_here + 2 * off, 1.01 * nearest);
-    index.find_within(query, static_cast<float>(reach), found);
-    return topmost(query, spacing_here, reach, found);
-  }
-
-  /// The tangent plane of a surfel holds about as far as the surfel reaches in it: of a steep one not far to the side.
-  HeightHint hint_of(const Vector3f& query, const Neighbour& neighbour) const {
-    const std::uint32_t i = neighbour.index;
-    const Vector3d d = (query - place[i]).cast<double>(), n = normal[i].cast<double>();
-    const double distance = std::sqrt(static_cast<double>(neighbour.squared_distance));
-    const double off = noise.empty() ? 0 : static_cast<double>(noise[i]);
-    const double size = std::min(static_cast<double>(spacing[i]), most_of_mean * mean_spacing);
-    const double fall = (n.x() * d.x() + n.y() * d.y()) / std::max(n.z(), least_rise);
-    const bool reaches = std::hypot(distance, fall) <= reach_spacings * size + 2 * off;
-    return {static_cast<double>(place[i].z()) - fall, distance, off, n, reaches};
-  }
-
-  std::optional<GroundPlace> topmost(const Vector3f& query, double spacing_here, double reach,
-                                     const std::vector<Neighbour>& found) const {
-    thread_local std::vector<HeightHint> hints;
-    hints.clear();
-    for (const Neighbour& neighbour : found)
-      if (const HeightHint hint = hint_of(query, neighbour); hint.reaches) hints.push_back(hint);
-    // Between the surfels of a cliff, and at the edge of a hole: heights beside them, which rise by 45 degrees at most.
-    if (hints.empty())
-      for (const Neighbour& neighbour : found) {
-        HeightHint hint = hint_of(query, neighbour);
-        const double z = static_cast<double>(place[neighbour.index].z());
-        hint.height = std::clamp(hint.height, z - hint.distance, z + hint.distance);
-        hints.push_back(hint);
-      }
-    std::sort(hints.begin(), hints.end(), [](const HeightHint& a, const HeightHint& b) { return a.height > b.height; });
-    // A single surfel above all others is a stray: the sheet below it counts.
-    const std::size_t least = std::min<std::size_t>(3, (hints.size() + 2) / 3);
-    std::size_t begin = 0, end = 0;
-    for (; begin < hints.size(); ++begin) {
-      const double lowest = hints[begin].height - spacing_here - sheet_noises * hints[begin].noise;
-      for (end = begin; end < hints.size() && hints[end].height >= lowest;) ++end;
-      if (end - begin >= least) break;
-    }
-    double sum = 0, height = 0;
-    Vector3d mean = Vector3d::Zero();
-    for (std::size_t h = begin; h < end; ++h) {
-      const double far = hints[h].distance / (weight_of_reach * reach), weight = std::exp(-far * far);
-      sum += weight, height += weight * hints[h].height, mean += weight * hints[h].normal;
-    }
-    if (!(sum > 0)) return std::nullopt;
-    return GroundPlace{origin.z() + height / sum, mean.norm() > 0 ? Vector3d(mean.normalized()) : Vector3d::UnitZ()};
-  }
-
-  Vector3d origin = Vector3d::Zero();
-  Vector2d low = Vector2d::Constant(1e300), high = -low;  // of the places at which there may be ground
-  std::vector<Vector3f> place, normal;
-  std::vector<float> spacing, noise;
-  double mean_spacing = 0;
-  SceneIndex index{std::span<const Vector3f>{}};
-};
 
 void Ground::add(const PlacedPart& part) {
   require_surfels(part, "Ground");
@@ -161,10 +44,12 @@ void Ground::add(const PlacedPart& part) {
   spacing_ = std::max(spacing_, sheet.mean_spacing);
   const int level = std::ilogb(std::max((sheet.high - sheet.low).maxCoeff(), 1e-6)) + 1;
   levels_.insert(level);
+  const auto lower = [&](std::size_t a, std::size_t b) { return sheets_[a]->highest > sheets_[b]->highest; };
+  const std::size_t number = sheets_.size() - 1;
   for (const auto& square : {square_of(sheet.low, level), square_of({sheet.low.x(), sheet.high.y()}, level),
                              square_of({sheet.high.x(), sheet.low.y()}, level), square_of(sheet.high, level)})
-    if (auto& listed = squares_[square]; listed.empty() || listed.back() + 1 != sheets_.size())
-      listed.push_back(sheets_.size() - 1);
+    if (auto& listed = squares_[square]; std::ranges::find(listed, number) == listed.end())
+      listed.insert(std::ranges::upper_bound(listed, number, lower), number);
   if (!part.captured) return;
   const Bounds box = bounds(*part.cloud);
   captured_box_ = {captured_box_.min.cwiseMin(box.min), captured_box_.max.cwiseMax(box.max)};
@@ -178,6 +63,7 @@ std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
     const auto listed = squares_.find(square_of(place, level));
     if (listed == squares_.end()) continue;
     for (const std::size_t sheet : listed->second) {
+      if (top && sheets_[sheet]->highest < top->height) break;
       const auto here = sheets_[sheet]->at(place);
       if (!here || (top && (here->height < top->height || (here->height == top->height && topmost < sheet)))) continue;
       top = here, topmost = sheet;

@@ -200,7 +200,7 @@ name = "crate"
 file = "box.obj"
 label = "box"
 material = "steel"
-spacing_m = 0.1
+spacing_m = 0.2
 position_m = [5, 1]
 rest = "bed"
 bury_m = 0.1
@@ -234,9 +234,10 @@ name = "raft"
 file = "raft.toml"
 position_m = [4, 0, -2]
 [[scatter]]
-files = ["box.obj", "raft.toml"]
-names = ["pot", "raft"]
-labels = ["pot", "raft"]
+files = ["box.obj", "box.obj"]
+names = ["pot", "tub"]
+labels = ["pot", "tub"]
+spacing_m = 0.3
 count = [1, 3]
 area_m = [[4, -2], [7, -2], [7, 2], [4, 2]]
 min_distance_m = 0.5
@@ -246,6 +247,10 @@ bury = [0, 0.2]
 scale = [0.2, 0.4]
 empty_share = 0
 rest = "bed"
+[[scatter]]
+files = ["raft.toml"]
+count = 1
+area_m = [[3, -2], [4, -2], [4, 2], [3, 2]]
 TOML
 
 # Binary, by hand.

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "scene/ground.hpp"
+#include "scene/scene_index.hpp"
+
+// Private to scene: the ground of one part.
+namespace insonify {
+
+/// Calls use(i, position in the world) for the surfels of a part that are there.
+template <typename Use>
+void for_each_surfel(const PlacedPart& part, const Use& use) {
+  const SceneCloud& cloud = *part.cloud;
+  const auto place = [&](std::size_t i) {
+    return Eigen::Vector3d(part.world_from_part * (cloud.origin + cloud.point[i].cast<double>()));
+  };
+  if (part.surfels.empty())
+    for (std::size_t i = 0; i < cloud.size(); ++i) use(i, place(i));
+  else
+    for (const std::uint32_t i : part.surfels) use(i, place(i));
+}
+
+/// What a surfel says of the height at a place beside it.
+struct HeightHint {
+  double height, distance, noise;
+  Eigen::Vector3d normal;
+  bool reaches;  ///< the place is within what the surfel stands for
+};
+
+/// The surfels of one part, found by x and y.
+struct Ground::Sheet {
+  static constexpr double hole_spacings = 3, reach_spacings = 1.25, weight_of_reach = 0.6;
+  static constexpr double most_of_mean = 4;  // a surfel's spacing counts as within a factor of the mean one
+  // Below the top of a sheet by a spacing and so many deviations: another sheet.
+  static constexpr double sheet_noises = 4;
+  // Of a normal: steeper surfels than 80 degrees have no height beside themselves.
+  static constexpr double least_rise = 0.17;
+
+  explicit Sheet(const PlacedPart& part) {
+    std::vector<Eigen::Vector3f> flat;
+    const SceneCloud& cloud = *part.cloud;
+    double area = 0;
+    for_each_surfel(part, [&](std::size_t i, const Eigen::Vector3d& world) {
+      if (place.empty()) origin = world.array().round();
+      const Eigen::Vector3f p = (world - origin).cast<float>();
+      place.push_back(p);
+      flat.emplace_back(p.x(), p.y(), 0.0f);
+      low = low.cwiseMin(world.head<2>()), high = high.cwiseMax(world.head<2>());
+      highest = std::max(highest, world.z());
+      const Eigen::Vector3f n = part.world_from_part.linear().cast<float>() * cloud.normal[i];
+      normal.push_back(n.z() < 0 ? Eigen::Vector3f(-n) : n);
+      spacing.push_back(std::sqrt(cloud.area[i]));
+      if (!cloud.noise.empty()) noise.push_back(cloud.noise[i]);
+      area += cloud.area[i];
+    });
+    mean_spacing = std::sqrt(area / static_cast<double>(place.size()));
+    index = SceneIndex(flat);
+    // A search from far away would visit most of the tree.
+    const double beyond = hole_spacings * most_of_mean * mean_spacing;
+    low.array() -= beyond, high.array() += beyond;
+    // Heights rise from those of surfels by no more than the distance from them, which at() limits.
+    const double off = noise.empty() ? 0 : static_cast<double>(std::ranges::max(noise));
+    highest += 1.02 * beyond + 2 * off;
+  }
+
+  std::optional<GroundPlace> at(const Eigen::Vector2d& world) const {
+    if ((world.array() < low.array()).any() || (world.array() > high.array()).any()) return std::nullopt;
+    thread_local std::vector<Neighbour> found;
+    const Eigen::Vector3f query(static_cast<float>(world.x() - origin.x()), static_cast<float>(world.y() - origin.y()),
+                                0.0f);
+    index.find_nearest(query, 1, found);
+    const double nearest = std::sqrt(static_cast<double>(found.front().squared_distance));
+    const double spacing_here = std::clamp(static_cast<double>(spacing[found.front().index]),
+                                           mean_spacing / most_of_mean, mean_spacing * most_of_mean);
+    if (!(nearest <= hole_spacings * spacing_here)) return std::nullopt;
+    const double off = noise.empty() ? 0 : static_cast<double>(noise[found.front().index]);
+    const double reach = std::max(reach_spacings * spacing_here + 2 * off, 1.01 * nearest);
+    index.find_within(query, static_cast<float>(reach), found);
+    return topmost(query, spacing_here, reach, found);
+  }
+
+  /// The tangent plane of a surfel holds about as far as the surfel reaches in it: of a steep one not far to the side.
+  HeightHint hint_of(const Eigen::Vector3f& query, const Neighbour& neighbour) const {
+    const std::uint32_t i = neighbour.index;
+    const Eigen::Vector3d d = (query - place[i]).cast<double>(), n = normal[i].cast<double>();
+    const double distance = std::sqrt(static_cast<double>(neighbour.squared_distance));
+    const double off = noise.empty() ? 0 : static_cast<double>(noise[i]);
+    const double size = std::min(static_cast<double>(spacing[i]), most_of_mean * mean_spacing);
+    const double fall = (n.x() * d.x() + n.y() * d.y()) / std::max(n.z(), least_rise);
+    const bool reaches = std::hypot(distance, fall) <= reach_spacings * size + 2 * off;
+    return {static_cast<double>(place[i].z()) - fall, distance, off, n, reaches};
+  }
+
+  std::optional<GroundPlace> topmost(const Eigen::Vector3f& query, double spacing_here, double reach,
+                                     const std::vector<Neighbour>& found) const {
+    thread_local std::vector<HeightHint> hints;
+    hints.clear();
+    for (const Neighbour& neighbour : found)
+      if (const HeightHint hint = hint_of(query, neighbour); hint.reaches) hints.push_back(hint);
+    // Between the surfels of a cliff, and at the edge of a hole: heights beside them, which rise by 45 degrees at most.
+    if (hints.empty())
+      for (const Neighbour& neighbour : found) {
+        HeightHint hint = hint_of(query, neighbour);
+        const double z = static_cast<double>(place[neighbour.index].z());
+        hint.height = std::clamp(hint.height, z - hint.distance, z + hint.distance);
+        hints.push_back(hint);
+      }
+    std::sort(hints.begin(), hints.end(), [](const HeightHint& a, const HeightHint& b) { return a.height > b.height; });
+    // A single surfel above all others is a stray: the sheet below it counts.
+    const std::size_t least = std::min<std::size_t>(3, (hints.size() + 2) / 3);
+    std::size_t begin = 0, end = 0;
+    for (; begin < hints.size(); ++begin) {
+      const double lowest = hints[begin].height - spacing_here - sheet_noises * hints[begin].noise;
+      for (end = begin; end < hints.size() && hints[end].height >= lowest;) ++end;
+      if (end - begin >= least) break;
+    }
+    double sum = 0, height = 0;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t h = begin; h < end; ++h) {
+      const double far = hints[h].distance / (weight_of_reach * reach), weight = std::exp(-far * far);
+      sum += weight, height += weight * hints[h].height, mean += weight * hints[h].normal;
+    }
+    if (!(sum > 0)) return std::nullopt;
+    return GroundPlace{origin.z() + height / sum,
+                       mean.norm() > 0 ? Eigen::Vector3d(mean.normalized()) : Eigen::Vector3d::UnitZ()};
+  }
+
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;  // of the places at which there may be ground
+  std::vector<Eigen::Vector3f> place, normal;
+  std::vector<float> spacing, noise;
+  double mean_spacing = 0, highest = -std::numeric_limits<double>::infinity();  // highest ground that there may be
+  SceneIndex index{std::span<const Eigen::Vector3f>{}};
+};
+
+}  // namespace insonify
