@@ -34,7 +34,7 @@ GltfDocument read_document(const std::string& path) {
     if (text.compare(0, 4, "glTF") != 0)
       fail(ErrorKind::content, path, ": not a binary glTF file: expected 'glTF', found ", what_it_looks_like(path));
     if (at(4) != 2) fail(ErrorKind::content, path, ": is glTF version ", at(4), ", expected 2; export it again");
-    if (at(8) != text.size())
+    if (at(8) > text.size())
       document.refuse("its head announces " + std::to_string(at(8)) + " bytes, the file has " +
                       std::to_string(text.size()));
     const std::uint64_t length = at(12), behind = 20 + length;

@@ -60,7 +60,7 @@ PlyHeader read_ply_header(const std::string& path) {
   header.path = path;
   std::string line;
   while (std::getline(file, line)) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
+    line.erase(line.find_last_not_of(" \t\r") + 1);
     if (++header.lines == 1 && line != "ply")
       fail(ErrorKind::content, path, ": not a PLY file: expected 'ply' in its first line, found ",
            what_it_looks_like(path));

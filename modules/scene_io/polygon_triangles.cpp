@@ -59,7 +59,7 @@ void add_strip(RawCloud& raw, const std::vector<std::int64_t>& corners, std::siz
 }
 
 void cut_polygons(RawCloud& raw) {
-  std::size_t tests_left = 1 << 28;  // a second
+  std::size_t tests_left = (std::size_t{1} << 28) + 100 * raw.triangle.size();  // a second and what most polygons take
   DefectivePolygons bent, crossed;
   std::vector<std::uint32_t> ids;
   std::vector<Vector3d> corners;

@@ -11,10 +11,12 @@
 
 namespace insonify {
 
-/// Iterates over the lines of a text; line ends are \n or \r\n.
+/// Iterates over the lines of a text, without the mark of UTF-8 before them; line ends are \n or \r\n.
 class LineReader {
  public:
-  explicit LineReader(std::string_view text, std::size_t lines_before = 0) : rest_(text), number_(lines_before) {}
+  explicit LineReader(std::string_view text, std::size_t lines_before = 0) : rest_(text), number_(lines_before) {
+    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
+  }
 
   /// False at the end of the text.
   bool next(std::string_view& line) {

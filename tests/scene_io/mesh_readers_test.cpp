@@ -33,8 +33,9 @@ std::string with_crlf(const std::string& text) {
 TEST(MeshReaders, stl_texts_of_all_programs_are_read) {
   const std::string plain = "solid bed\n" + square_facets + "endsolid bed\n", name(400, 'x');
   for (const std::string& text :
-       {plain, " " + plain, "\n" + plain, "\r\n\t" + plain, in_upper_case(plain), with_crlf(plain),
-        "solid\n" + square_facets + "endsolid", "solid " + name + "\n" + square_facets + "endsolid " + name + "\n",
+       {plain, "\xef\xbb\xbf" + plain, " " + plain, "\n" + plain, "\r\n\t" + plain, in_upper_case(plain),
+        with_crlf(plain), "solid\n" + square_facets + "endsolid",
+        "solid " + name + "\n" + square_facets + "endsolid " + name + "\n",
         "solid facet vertex\n" + square_facets + "end solid\n\n", "Solid a\n" + square_facets + "EndSolid a"})
     expect_square(load_scene(own_file("a.stl", text)), text.substr(0, 40));
   // Two solids in one file.
@@ -80,13 +81,13 @@ TEST(MeshReaders, stl_texts_that_are_damaged_are_refused_by_line) {
 }
 
 TEST(MeshReaders, obj_lines_go_on_behind_a_backslash_and_end_at_a_comment) {
-  const std::string corners = "v 0 0 -5 # first\nv 4 0 -5\nv 4 3 -5\nv 0 3 -5\n";
+  const std::string corners = "\xef\xbb\xbfv 0 0 -5 # first\nv 4 0 -5\nv 4 3 -5\nv 0 3 -5\n";
   for (const std::string& face :
        {std::string("f 1 2 3 4"), std::string("f 1 2 \\\n3 4"), std::string("f 1 \\\n 2 \\\n 3 4"),
         std::string("f 1 2 3 4 # quay"), std::string("f 1 2 3 4#quay"), std::string("f -4 -3 -2 -1"),
         std::string("f 1// 2// 3// 4//"), std::string("  f 1/9 2/9 3/9 4/9"), std::string("f 1 2 3\\ \n4")})
     for (const bool crlf : {false, true}) {
-      const std::string text = "# a comment that goes on \\\n as a line\no bed\n" + corners + face + "\n";
+      const std::string text = corners + "# a comment that goes on \\\n as a line\no bed\n" + face + "\n";
       expect_square(load_scene(own_file("a.obj", crlf ? with_crlf(text) : text)), face);
     }
 }
