@@ -47,16 +47,16 @@ TEST_F(Meaning, is_kept_by_prepare_ping_run_and_parts) {
   EXPECT_NEAR(lowest(json_of("info bed.ply")), -(20 + 0.5 * 39 + 0.01 * 39) / 10, 1e-5);
   succeed("ping bed.xyz --z down --unit 0.1" + head + " -o asked");
   succeed("ping bed.ply" + head + " -o prepared");
-  EXPECT_EQ(ping_of("asked").pressure, ping_of("prepared").pressure);
+  EXPECT_TRUE((ping_of("asked").pressure == ping_of("prepared").pressure).all());
   EXPECT_THAT(read("asked/run.toml"), testing::AllOf(HasSubstr("z = \"down\""), HasSubstr("unit = \"0.1\"")));
   succeed("ping --run asked/run.toml --no-picture -q -o again");
-  EXPECT_EQ(ping_of("asked").pressure, ping_of("again").pressure);
+  EXPECT_TRUE((ping_of("asked").pressure == ping_of("again").pressure).all());
 
-  write("scene.toml", "[[part]]\nfile = \"bed.xyz\"\nunit = \"0.1\"\nz = \"down\"\n");
-  write("plain.toml", "[[part]]\nfile = \"bed.ply\"\n");
+  write("scene.toml", "schema = 1\n[[part]]\nfile = \"bed.xyz\"\nunit = \"0.1\"\nz = \"down\"\n");
+  write("plain.toml", "schema = 1\n[[part]]\nfile = \"bed.ply\"\n");
   succeed("ping scene.toml" + head + " -o parts");
   succeed("ping plain.toml" + head + " -o plain");
-  EXPECT_EQ(ping_of("parts").pressure, ping_of("plain").pressure);
-  write("bad.toml", "[[part]]\nfile = \"bed.xyz\"\nz = \"left\"\n");
-  expect_refused("ping bad.toml" + head + " -o bad", 3, {"bad.toml:1", "--z = 'left'"});
+  EXPECT_TRUE((ping_of("parts").pressure == ping_of("plain").pressure).all());
+  write("bad.toml", "schema = 1\n[[part]]\nfile = \"bed.xyz\"\nz = \"left\"\n");
+  expect_refused("ping bad.toml" + head + " -o bad", 3, {"bad.toml:2", "--z = 'left'"});
 }
