@@ -58,6 +58,7 @@ TEST_F(Hostile, full_disk_is_one_line_and_leaves_the_old_run) {
       }
       EXPECT_EQ(result.exit_code, 4) << command << " with " << kib << " KiB: " << result.err;
       EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+      EXPECT_THAT(result.err, HasSubstr("File too large")) << command << " with " << kib << " KiB";
       EXPECT_EQ(names(), before) << command << " with " << kib << " KiB";
       EXPECT_TRUE(read("out/cube.h5") == cube);
     }

@@ -178,7 +178,7 @@ void draw_series(const ImageRun& run, const ImageOptions& o, const PictureOption
     draw_ping(run, o, picture, annotation, ping, path);
     constexpr double long_time = 5;  // [s]
     const double seconds = ping == 0 ? static_cast<double>(first.size()) * watch.lap() : 0;
-    if (seconds > long_time)
+    if (seconds > long_time && first.size() > 1)
       progress.note(fmt::format("{} pictures, which take about {}", first.size(), time_text(seconds)));
   }
 }
