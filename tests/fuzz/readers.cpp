@@ -20,6 +20,8 @@
 #ifdef INSONIFY_FUZZ_TOOL
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
+#include <sstream>
 
 #include <unistd.h>
 
@@ -51,10 +53,10 @@ void read_tiles(const std::string& path) {
 }
 
 #ifdef INSONIFY_FUZZ_TOOL
-/// Runs a verb; ends this process with its exit code unless that is 0.
-void run_verb(std::vector<std::string> words) {
-  words.insert(words.begin(), "insonify");
-  words.emplace_back("-q");
+/// Runs a verb, whose words have no blanks; ends this process with its exit code unless that is 0.
+void run_verb(const std::string& line) {
+  std::istringstream in("insonify " + line + " -q");
+  std::vector<std::string> words(std::istream_iterator<std::string>(in), {});
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   if (!std::freopen("/dev/null", "w", stdout)) std::abort();
@@ -69,41 +71,21 @@ void ping_tiles(const std::string& path) {
   const bool levels = std::hash<std::string>{}(read_text_file(path)) % 2 == 0;
   std::filesystem::remove_all(run);
   read_tiles(path);
-  run_verb({"info", path});
-  std::vector<std::string> ping = {"ping",
-                                   path,
-                                   "--sonar",
-                                   "p900-45",
-                                   "--set",
-                                   "sonar.beams=4",
-                                   "--pose=-2,0,2,0,30,0",
-                                   "--range",
-                                   "1:12",
-                                   "--scatterers-per-cell",
-                                   "0",
-                                   "--no-picture",
-                                   "-j1",
-                                   "-o",
-                                   run};
-  if (levels) ping.insert(ping.end(), {"--detail-spacing", "0.5"});
-  run_verb(ping);
+  run_verb("info " + path);
+  run_verb("ping " + path + " --sonar p900-45 --set sonar.beams=4 --pose=-2,0,2,0,30,0 --range 1:12 -j1 --no-picture " +
+           "--scatterers-per-cell 0 -o " + run + (levels ? " --detail-spacing 0.5" : ""));
   std::filesystem::remove_all(run);
 }
 
 /// A verb that reads the folder of a survey, which the file's size chooses, and then its survey, of four beams, and merge.
 void go_on_with_survey(const std::string& path) {
-  const std::string bytes = read_text_file(path), folder = path + ".folder";
+  const std::string bytes = read_text_file(path), folder = path + ".folder", run = folder + "/run";
   std::filesystem::remove_all(folder);
   unpack_folder(bytes, folder);
-  const std::string run = folder + "/run", mission = folder + "/m.toml";
-  const std::vector<std::vector<std::string>> first = {{"merge", run},
-                                                       {"info", run},
-                                                       {"info", "--verify", run},
-                                                       {"export", run, "--to", "csv", "-o", folder + "/x.csv"},
-                                                       {"survey", mission, "-o", run}};
-  run_verb(first[bytes.size() % first.size()]);
-  run_verb({"survey", mission, "-o", run, "-j1"});
-  run_verb({"merge", run});
+  const std::string survey = "survey " + folder + "/m.toml -j1 -o " + run;
+  const std::vector<std::string> first = {"merge " + run, "info " + run, "info --verify " + run,
+                                          "export " + run + " --to csv -o " + folder + "/x.csv", survey};
+  for (const std::string& line : {first[bytes.size() % first.size()], survey, "merge " + run}) run_verb(line);
   std::filesystem::remove_all(folder);
 }
 
