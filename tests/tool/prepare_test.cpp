@@ -51,7 +51,7 @@ TEST_F(Prepare, keeps_the_surface_of_a_height_field_and_of_a_mesh) {
     points +=
         fmt::format("{} {} {}\n", 0.1 * (i % 30), 0.1 * (i / 30), 0.1 * std::sin(0.5 * (i % 30) + 0.2 * (i / 30)));
   write("bed.xyz", points);
-  write("bed.obj", "v 0 0 0\nv 3 0 0\nv 3 3 0.5\nv 0 3 0\nf 1 2 3 4\n");
+  write("bed.obj", "v 0 0 0\nv 3 0 0\nv 3 3 0.5\nv 0 3 0\nf 1 2 3\nf 1 3 4\n");
   for (const std::string file : {"bed.xyz --viewpoint 1.5,1.5,9", "bed.obj"}) {
     const std::string kind = file.substr(4, 3);
     succeed("prepare " + file + " -q -o " + kind + ".ply");
