@@ -27,7 +27,7 @@ if("scene_io" IN_LIST insonify_modules)
 endif()
 if("scene_io" IN_LIST insonify_modules OR "view" IN_LIST insonify_modules)
   find_package(VTK 9.1 REQUIRED COMPONENTS
-    CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersGeometry IOGeometry IOImage IOLegacy IOPLY IOXML
+    CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersGeometry IOCore IOGeometry IOImage IOLegacy IOPLY IOXML
     RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingContextOpenGL2
     RenderingContext2D RenderingUI ChartsCore ViewsContext2D InteractionStyle InteractionWidgets)
   # VTK names MPI::MPI_C, which CMake makes for projects that enable C alone; insonify calls nothing of it.

@@ -35,7 +35,7 @@ void add_primitive(const GltfDocument& document, const json& primitive, std::siz
     const std::uint64_t type = document.number(document.entry("accessors", index), "componentType");
     const double restart = type == 5121 ? 0xff : type == 5123 ? 0xffff : 0xffffffff;
     for (const double i : document.numbers(index, "SCALAR"))
-      corners.push_back(i == restart ? -1 : i < static_cast<double>(count) ? corner(i) : -2);
+      corners.push_back(i == restart ? -1 : i >= 0 && i < static_cast<double>(count) ? corner(i) : -2);
   }
   const std::uint64_t mode = document.number(primitive, "mode", 4);
   if (mode == 5) add_strip(faces, corners, first + count);
@@ -133,7 +133,7 @@ struct Placement {
 std::vector<Placement> placements_of(const GltfDocument& document, RawCloud& raw) {
   std::vector<Placement> placements, nodes;  // of nodes: the number of a node, and the place of its parent
   std::vector<bool> seen(document.list(document.root, "nodes").size());
-  bool skinned = document.root.contains("animations");
+  bool posed = document.root.contains("animations");
   for (const json& node : roots_of(document)) nodes.push_back({node.get<std::uint64_t>(), Affine3d::Identity()});
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const json& node = document.entry("nodes", nodes[i].mesh);
@@ -141,12 +141,14 @@ std::vector<Placement> placements_of(const GltfDocument& document, RawCloud& raw
     seen[nodes[i].mesh] = true;
     const Affine3d world = nodes[i].world * transform_of(node);
     for (const json& child : document.list(node, "children")) nodes.push_back({child.get<std::uint64_t>(), world});
-    skinned = skinned || node.contains("skin") || node.contains("weights");
     if (!node.contains("mesh")) continue;
-    for (const Affine3d& copy : copies_of(document, node))
-      placements.push_back({document.number(node, "mesh"), world * copy});
+    const std::uint64_t mesh = document.number(node, "mesh");
+    const json& primitives = document.list(document.entry("meshes", mesh), "primitives");
+    posed = posed || node.contains("skin") ||
+            std::any_of(primitives.begin(), primitives.end(), [](const json& p) { return p.contains("targets"); });
+    for (const Affine3d& copy : copies_of(document, node)) placements.push_back({mesh, world * copy});
   }
-  if (skinned) raw.notes.push_back("animations, skins and morph targets are left out: the meshes are as without them");
+  if (posed) raw.notes.push_back("animations, skins and morph targets are left out: the meshes are as without them");
   return placements;
 }
 
