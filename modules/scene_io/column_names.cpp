@@ -153,6 +153,8 @@ void take_headings(const RowTable& table, const Columns& found, RawCloud& raw) {
       meaning.unit.sentence =
           "the heading " + quoted(axis) + " does not name a known unit: give --unit if it is not metres";
   }
+  for (const std::size_t axis : {0, 1})
+    if (unit[axis] == 0) unit[axis] = unit[1 - axis];
   if (unit[0] != unit[1])
     fail(ErrorKind::content, raw.path, ": columns ", quoted(0), " and ", quoted(1),
          " differ in unit; name one for both");

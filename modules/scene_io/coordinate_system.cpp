@@ -126,7 +126,10 @@ void take_system(const std::string& path, const SystemRecords& records, const st
                  FileMeaning& meaning) {
   if (records.wkt.empty() && records.keys.empty()) return;
   ArrayReceiver sent = read_in_child(path, limits_of_file(records.wkt.size()), [&](ArraySender& to) {
-    read_records(records, remedy, meaning);
+    try {
+      read_records(records, remedy, meaning);
+    } catch (const Error&) {  // GDAL is not there
+    }
     to(meaning);
   });
   sent(meaning);

@@ -42,6 +42,7 @@ Batch read_batch(const Survey& survey, std::size_t first) {
   batch.raw.path = survey.file.path;
   batch.raw.meaning = survey.whole.meaning;
   batch.raw.tags = survey.whole.tags;
+  batch.raw.points_in_file = survey.file.rows;
   fill_cloud(batch.raw, table, survey.reading);
   batch.places = read_places(batch.raw, table, survey.reading);
   return batch;
@@ -80,7 +81,6 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     }
     report_progress(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
   }
-  whole.points_in_file = survey.file.rows;
   settle_meaning(whole);
   require_usable_points(whole, survey.file.rows);
   if (survey.largest_area > largest_area(whole)) ++survey.bad_areas;
@@ -135,10 +135,7 @@ SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, con
 
 PreparedTiles stream(RowFile file, const std::string& output, const PrepareTilesOptions& options) {
   Survey survey{std::move(file), read_options(options.load), {}};
-  RawCloud& whole = survey.whole;
-  whole.path = survey.file.path, whole.format = survey.file.format;
-  whole.tags = survey.file.tags;
-  whole.meaning = survey.file.meaning, whole.notes = survey.file.notes;
+  RawCloud& whole = survey.whole = raw_of(survey.file);
   whole.meaning.override_by(options.load.meaning);
   if (survey.reading.material_field.name.empty()) survey.reading.material_field.name = whole.tags.material_field;
   survey.reading.origin = Vector3d::Zero();
@@ -149,7 +146,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
          ") are prepared in batches, which cannot estimate them: compute normals first, or run "
          "`insonify prepare` with a .ply output, not .tiles, if memory holds the cloud");
   survey.reading.origin = whole.origin = origin_of(whole);
-  if (survey.file.viewpoint) whole.viewpoint = whole.meaning.axes().place(*survey.file.viewpoint);
+  if (whole.viewpoint) whole.viewpoint = whole.meaning.axes().place(*whole.viewpoint);
   if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
 
   LoadedScene result;

@@ -38,6 +38,8 @@ struct SceneTags {
 
 /// Returns a text in JSON, of ASCII characters alone.
 std::string json_text(const std::string& text);
+/// Returns a text in UTF-8: unchanged, unless it has bytes that are none.
+std::string utf8_text(const std::string& text);
 
 /// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
 void read_tag(const std::string& path, std::string_view line, SceneTags& tags);
@@ -120,7 +122,9 @@ struct RowMarks {
   std::uint8_t withheld_bit = 0, class_bits = 0;
 
   bool withheld(const char* row) const { return (static_cast<unsigned char>(row[withheld_at]) & withheld_bit) != 0; }
-  std::size_t class_of(const char* row) const { return static_cast<unsigned char>(row[class_at]) & class_bits; }
+  bool left_out(const char* row, const PointClasses& kept) const {
+    return class_bits != 0 && !kept[static_cast<unsigned char>(row[class_at]) & class_bits];
+  }
 };
 
 /// A table of packed rows in memory.

@@ -174,11 +174,12 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
     fail(ErrorKind::content, path, ": not a LAS file: expected 'LASF', found ", what_it_looks_like(path));
   const int major = start.at<std::uint8_t>(24), minor = start.at<std::uint8_t>(25);
   if (major != 1 || minor > 4)
-    fail(ErrorKind::content, path, ": is LAS ", major, ".", minor, ", expected 1.0 to 1.4; convert it");
+    fail(ErrorKind::content, path, ": is LAS ", major, ".", minor, ", expected 1.0 to 1.4; export it as one of these");
   const unsigned format = start.at<std::uint8_t>(104);
   if (format >= 128) fail(ErrorKind::content, path, ": its points are compressed (LAZ); ", laz_remedy);
   if (format >= point_formats.size())
-    fail(ErrorKind::content, path, ": point data record format ", format, ", expected 0 to 10; convert it");
+    fail(ErrorKind::content, path, ": point data record format ", format,
+         ", expected 0 to 10; export it in one of these");
   const PointFormat& layout = point_formats[format];
 
   RowFile file;
@@ -208,13 +209,7 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
 
 RawCloud read_las(const std::string& path, const ReadOptions& options) {
   const RowFile file = *find_las_rows(path);
-  RawCloud raw;
-  raw.path = path;
-  raw.format = file.format;
-  raw.meaning = file.meaning;
-  raw.notes = file.notes;
-  raw.width = file.rows;
-  for (const RowTable::Column& column : file.columns) raw.fields.push_back({column.name, name_of(column.type)});
+  RawCloud raw = raw_of(file);
   fill_cloud(raw, read_rows(file, 0, file.rows), options);
   return raw;
 }

@@ -141,8 +141,8 @@ constexpr std::uint32_t lzf_most = 88;
 void check_compressed(const Header& header, std::size_t held) {
   // PCL unpacks such points into the wrong rows, without a message.
   if (std::any_of(header.fields.begin(), header.fields.end(), [](const Field& f) { return f.name == "_"; }))
-    fail(ErrorKind::content, header.path, ": compressed points with padding fields '_' cannot be read; save them as ",
-         "DATA binary: pcl_convert_pcd_ascii_binary in.pcd out.pcd 1");
+    fail(ErrorKind::content, header.path, ": compressed points with padding fields '_' cannot be read; export them as ",
+         "DATA binary or DATA ascii, or without these fields");
   if (held < 8) cut_off(header, 8, held);
   const std::string sizes = read_beginning(header.path, header.end + 8).substr(header.end);
   const auto packed = read_as<std::uint32_t>(sizes.data()), unpacked = read_as<std::uint32_t>(sizes.data() + 4);
@@ -234,30 +234,21 @@ RowFile row_file(const Header& header) {
   return file;
 }
 
-/// Rows that are as they are in memory; PCL reads the others.
-RowTable binary_rows(const Header& header, RawCloud& raw) {
-  const RowTable table = read_rows(row_file(header), 0, header.points);
-  for (const RowTable::Column& column : table.columns) raw.fields.push_back({column.name, name_of(column.type)});
-  const bool organised = header.width * header.height != 0;
-  raw.width = organised ? header.width : header.points, raw.height = organised ? header.height : 1;
-  return table;
-}
-
 }  // namespace
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
   const Header header = read_pcd_header(path);
   const std::size_t bytes = file_size_of(path);
   check_data(header);
-  RawCloud raw;
-  raw.path = path;
-  raw.format = "PCD " + header.data;
-  raw.tags = header.tags;
-  raw.viewpoint = viewpoint_of(header);
+  RowFile file = row_file(header);
+  file.format = "PCD " + header.data;
+  RawCloud raw = raw_of(file);
   if (header.data == "binary") {
-    fill_cloud(raw, binary_rows(header, raw), options);
+    if (header.width * header.height != 0) raw.width = header.width, raw.height = header.height;
+    fill_cloud(raw, read_rows(file, 0, header.points), options);
     return raw;
   }
+  raw.fields.clear();  // as PCL names them
   read_rows_apart(raw, bytes, options, [&](ArraySender& to, RawCloud& read) {
     expect_from_file(path, bytes, {static_cast<double>(header.points * header.stride()), "bytes of points", 1});
     const pcl::PCLPointCloud2 cloud = read_data(header, bytes);

@@ -36,6 +36,16 @@ std::optional<RowFile> find_ply_rows(const std::string& path) {
   return std::nullopt;
 }
 
+RawCloud raw_of(const RowFile& file) {
+  RawCloud raw;
+  raw.path = file.path, raw.format = file.format;
+  raw.tags = file.tags, raw.meaning = file.meaning, raw.notes = file.notes;
+  raw.viewpoint = file.viewpoint;
+  raw.width = raw.points_in_file = file.rows;
+  for (const RowTable::Column& column : file.columns) raw.fields.push_back({column.name, name_of(column.type)});
+  return raw;
+}
+
 RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count) {
   const auto bytes = std::make_shared<std::vector<char>>(count * file.stride);
   BinaryFile(file.path, BinaryFile::Mode::read).read(file.begin + first * file.stride, *bytes);

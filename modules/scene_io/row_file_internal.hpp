@@ -33,6 +33,9 @@ std::optional<RowFile> find_ply_rows(const std::string& path);
 std::optional<RowFile> find_pcd_rows(const std::string& path);
 std::optional<RowFile> find_las_rows(const std::string& path);
 
+/// What the header of the file says, without points.
+RawCloud raw_of(const RowFile& file);
+
 /// `count` rows starting at `first`, in this machine's byte order.
 RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count);
 

@@ -46,7 +46,7 @@ struct Places {
 
   /// The place of a row [m]; NaN if it is withheld, a hole or otherwise unusable.
   Eigen::Vector3d of(const char* row) const {
-    if (table.marks.withheld(row) || !meaning.classes.value[table.marks.class_of(row)]) return nowhere;
+    if (table.marks.withheld(row) || table.marks.left_out(row, meaning.classes.value)) return nowhere;
     const Eigen::Vector3d in_file = read_triple(found.position, row), p = axes.place(in_file);
     return usable(p) && !meaning.is_hole(in_file[axes.from[2]]) ? p : nowhere;
   }
@@ -58,7 +58,7 @@ void add_to(Bounds& box, const Eigen::Vector3d& p) { box = {box.min.cwiseMin(p),
 void find_extent(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
   std::vector<RawCloud> blocks((table.rows + block_rows - 1) / block_rows);  // extents and counts
   const FileAxes axes = raw.meaning.axes();
-  const std::size_t step = options.origin ? 1024 : std::max<std::size_t>(1, table.rows / 8192);
+  const std::size_t step = std::max<std::size_t>(1, raw.points_in_file / 8192);
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
     RawCloud& block = blocks[first / block_rows];
     for (std::size_t i = 0; i < rows; ++i) {
@@ -68,7 +68,7 @@ void find_extent(RawCloud& raw, const RowTable& table, const Columns& found, con
       const auto mark = std::find(usual_marks.begin(), usual_marks.end(), height) - usual_marks.begin();
       if (table.marks.withheld(row))
         ++block.withheld;
-      else if (!raw.meaning.classes.value[table.marks.class_of(row)])
+      else if (table.marks.left_out(row, raw.meaning.classes.value))
         ++block.other_classes;
       else if (raw.meaning.is_hole(height))
         ++block.holes;
@@ -185,7 +185,10 @@ RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<dou
   return table;
 }
 
-void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options) {
+void fill_cloud(RawCloud& raw, const RowTable& in_file, const ReadOptions& options) {
+  RowTable table = in_file;
+  for (RowTable::Column& column : table.columns) column.name = utf8_text(column.name);
+  for (FileDescription::Field& field : raw.fields) field.name = utf8_text(field.name);
   if (table.rows == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the cloud again");
   if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1)
     fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, must be at most 4294967294; split it");

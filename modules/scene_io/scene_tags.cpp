@@ -31,6 +31,8 @@ std::string json_text(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
+std::string utf8_text(const std::string& text) { return nlohmann::json::parse(json_text(text)).get<std::string>(); }
+
 const std::string& SceneTags::meant_name(const std::string& in_file) const {
   const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.first == in_file; });
   return at == columns.end() ? in_file : at->second;

@@ -49,7 +49,12 @@ printf "4\n$square" >xyz/count.xyz
 printf "x y z nx ny nz area label\n0 0 0 0 0 1 .1 1\n1 0 0 0 0 1 .1 1\n1 1 0 0 0 1 .1 2\n0 1 0 0 0 1 .1 2\n" >xyz/named.xyz
 printf '"x";"y";"z"\n0;0;0\n1;0;0\n1;1;0\n' >csv/quoted.csv
 printf "x,y,z\n0,0,0\n1,0,0\n1,1,0\n" >csv/plain.csv
+printf 'Easting (m);"Depth [ft]";Northing (m);a [b;\n1,5;2,5D0;0;1\n0;2;1;2\n1;2;3;4\n' >csv/headings.csv
+printf 'x,y,z,GPS time, ,x\n0,0,0,1,2,3\n1,0,0,1,2,3\n1,1,0,1,2,3\n' >csv/names.csv
+printf 'lon,lat,z\n7,54,1\n7,55,1\n8,54,1\n' >csv/degrees.csv
+printf '# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n1 0 0 0 1 2 3 .5 1 2\n2 1 0 0 1 2 3 .5\n3 0 1 0 1 2 3 .5 1 2 3 4\n' >xyz/tracks.xyz
 printf "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n-1 -1 -1\n-1 -2 -1\n-1 -1 -9999\n" >asc/grid.asc
+printf "NROWS 2\nNCOLS 3\ncellsize 1\nxllcenter 0\nyllcenter 0\n-1 -1 -1\n-1 -2 -1\n" >asc/order.asc
 printf "depth_m,sound_speed\n0,1500\n10,1490\n" >profile/speed.csv
 printf "depth_m,temperature_c,salinity_psu\n0,10,35\n10,8,35\n" >profile/ctd.csv
 printf "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n1,1,0,-3,5,10,0\n" >trajectory/track.csv
@@ -309,8 +314,20 @@ perl -e '
   my $two = $message->(2, $fire->(2, 29) . pack("VVd<8Cd<vvV4VVV", 8, 0, 2.1e6, 8, 1, 45, 2, 3, 1490, 9, 1, .25, 4, 3, 0, 0, 0, 0,
     208, 40, 248) . $bearings . join("", map { pack("f<v3", $_, 1, 2, 3) } 1 .. 4));
   put("oculus/both.raw", $one . $two);
+  # The first with the flag of gains that it does not have.
+  put("oculus/flag.raw", substr($one, 0, 20) . chr(29) . substr($one, 21));
+  # LAS 1.4 with keys of a system in feet, WKT behind the points, extra bytes of three floats, and noise.
+  my $las = sub { my ($user, $number, $body, $length) = @_; pack("va16v$length" . "x32", 0, $user, $number, length $body) . $body };
+  my $keys = $las->("LASF_Projection", 34735, pack("v12", 1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 2263), "v");
+  my $extra = $las->("LASF_Spec", 4, pack("vCCa32x4x72x80", 0, 29, 8, "normal"), "v");
+  my $rows = join("", map { pack("l<3vCCCCvvd<f<3", 1000 * $_, 1000 * ($_ & 1), 0, 0, 0, 0, $_ == 3 ? 7 : 2, 0, 0, 0, 0, 0, 0, 1) } 0 .. 4);
+  my $behind = $las->("LASF_Projection", 2112, q(LOCAL_CS["a",UNIT["foot",0.3048]]) . "\0", "Q<");
+  my $start = 375 + length($keys . $extra);
+  put("las/system.las", pack("a4x20CCx68vVVCvVx20d<6d<6x8Q<VQ<x120", "LASF", 1, 4, 375, $start, 2, 6, 42, 5, (.001) x 3, (0) x 3, 4, 0, 1, 0, 0, 0,
+    $start + length $rows, 1, 5) . $keys . $extra . $rows . $behind);
   put("oculus/log.raw", pack("VVx40", 0x11223344, 48) . pack("VVvvx4d<vx2VVx4", 0xaabbccdd, 40, 10, 1, 0, 0, length $one, length $one) . $one);
 '
+"$tool" prepare csv/names.csv -o ply/names.ply -q >/dev/null
 for kind in lawnmower orbit tunnel; do
   "$tool" make-mission $kind --scene x.ply -o mission/$kind.toml -q >/dev/null
 done

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Clouds whose columns have names that PLY and PCD cannot hold.
+#include <pcl/io/pcd_io.h>
+#include <pcl/io/ply_io.h>
+
 #include "core/text.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/prepare_tiles.hpp"
@@ -11,55 +14,16 @@ namespace {
 
 /// Names of blanks, brackets, quotes, nothing, UTF-8, newlines, 300 letters, and words that mean something in headers.
 std::string hostile_name(std::mt19937& random) {
-  static const std::vector<std::string> pieces = {" ",
-                                                  "[",
-                                                  "]",
-                                                  "(",
-                                                  ")",
-                                                  "\"",
-                                                  "'",
-                                                  "",
-                                                  "\\n",
-                                                  "\\",
-                                                  "\t",
-                                                  "\xc3\xb6",
-                                                  "\xe2\x82\xac",
-                                                  "#",
-                                                  "//",
-                                                  ":",
-                                                  "{}",
-                                                  "%s",
-                                                  std::string(300, 'a'),
-                                                  "x",
-                                                  "y",
-                                                  "z",
-                                                  "nx",
-                                                  "X",
-                                                  "id",
-                                                  "area",
-                                                  "property",
-                                                  "end_header",
-                                                  "element",
-                                                  "comment",
-                                                  "format",
-                                                  "ply",
-                                                  "vertex",
-                                                  "face",
-                                                  "list",
-                                                  "float",
-                                                  "DATA",
-                                                  "FIELDS",
-                                                  "_",
-                                                  "VERSION",
-                                                  "insonify",
-                                                  "scene",
-                                                  "material",
-                                                  "label",
-                                                  "noise",
-                                                  "1",
-                                                  "-1.5",
-                                                  "a",
-                                                  "GPS time"};
+  static const std::vector<std::string> pieces = [] {
+    std::istringstream words(
+        " |[|]|(|)|\"|'||\\n|\\|\t|\xc3\xb6|\xe2\x82\xac|#|//"
+        "|:|{}|%s|x|y|z|nx|X|id|area|property|end_header|element|comment|"
+        "format|ply|vertex|face|list|float|DATA|FIELDS|_|VERSION|insonify|scene|material|label|noise|1|-1.5|a|GPS "
+        "time");
+    std::vector<std::string> all = {std::string(300, 'a')};
+    for (std::string word; std::getline(words, word, '|');) all.push_back(word);
+    return all;
+  }();
   std::string name;
   for (std::size_t n = random() % 4; n > 0; --n) name += pieces[random() % pieces.size()];
   return name;
@@ -105,7 +69,7 @@ bool is_legal(const std::string& name) {
 TEST(ColumnNames, hostile_ones_are_written_legal_and_unique_and_come_back) {
   std::mt19937 random(7);
   const SceneCloud scene = eight_surfels();
-  for (int cloud = 0; cloud < 250; ++cloud)
+  for (int cloud = 0; cloud < 125; ++cloud)
     for (const char* name : {"a.ply", "a.pcd"}) {
       const SceneColumns columns = hostile_columns(random, scene.size());
       const std::string path = own_path(name);
@@ -116,6 +80,10 @@ TEST(ColumnNames, hostile_ones_are_written_legal_and_unique_and_come_back) {
         EXPECT_TRUE(is_legal(field.name)) << cloud << ": '" << field.name << "'";
         EXPECT_TRUE(names.insert(lower_case(field.name)).second) << cloud << ": '" << field.name << "' twice";
       }
+      pcl::PCLPointCloud2 opened;
+      const bool ply = path.ends_with("ply");
+      ASSERT_EQ(ply ? pcl::PLYReader().read(path, opened) : pcl::PCDReader().read(path, opened), 0) << cloud;
+      EXPECT_EQ(opened.fields.size(), file.fields.size()) << cloud;
       LoadOptions options;
       options.keep_columns = true;
       const LoadedScene loaded = load_scene(path, options);
@@ -127,8 +95,9 @@ TEST(ColumnNames, hostile_ones_are_written_legal_and_unique_and_come_back) {
         EXPECT_EQ(loaded.columns.others[k].bytes, columns.others[k].bytes) << cloud;
       }
       // Written again they have the same bytes.
-      save_scene(own_path("again.") + (path.ends_with("ply") ? "ply" : "pcd"), loaded.scene, loaded.columns);
-      EXPECT_EQ(file_bytes(own_path("again.") + (path.ends_with("ply") ? "ply" : "pcd")), file_bytes(path)) << cloud;
+      const std::string again = own_path(ply ? "again.ply" : "again.pcd");
+      save_scene(again, loaded.scene, loaded.columns);
+      EXPECT_EQ(file_bytes(again), file_bytes(path)) << cloud;
     }
 }
 
@@ -143,8 +112,8 @@ TEST(ColumnNames, text_with_hostile_headings_becomes_clouds_that_read_back) {
       text += "," + name;
     }
     text += "\n";
-    for (int i = 0; i < 64; ++i) {
-      text += std::to_string(0.1 * (i % 8)) + "," + std::to_string(0.1 * (i / 8)) + ",-3";
+    for (int i = 0; i < 16; ++i) {
+      text += std::to_string(0.1 * (i % 4)) + "," + std::to_string(0.1 * (i / 4)) + ",-3";
       for (std::size_t k = 0; k < others; ++k) text += "," + std::to_string((i + k) % 3);
       text += "\n";
     }
@@ -160,6 +129,12 @@ TEST(ColumnNames, text_with_hostile_headings_becomes_clouds_that_read_back) {
     prepare_tiles(path, own_path("a.tiles"), {});
     EXPECT_EQ(TiledScene(own_path("a.tiles")).info().surfels, loaded.scene.size());
   }
+}
+
+TEST(ColumnNames, bytes_that_are_no_utf8_do_not_reach_what_is_printed) {
+  const std::string path = own_file("a.csv", "x,y,z,H\xf6he\n0,0,0,1\n1,0,0,1\n0,1,0,1\n1,1,0,1\n");
+  EXPECT_EQ(describe_file(path).fields[3].name, "H\xef\xbf\xbdhe");
+  EXPECT_EQ(load_scene(path).report.other_columns, std::vector<std::string>{"H\xef\xbf\xbdhe"});
 }
 
 TEST(ColumnNames, legal_and_unique_names_keep_their_bytes) {

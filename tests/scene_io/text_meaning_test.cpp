@@ -81,6 +81,7 @@ TEST(TextMeaning, headings_of_other_programs_name_the_coordinates) {
       {"X [ft];Y [ft];Z [ft]", ";", {1 / 0.3048, 1 / 0.3048, 1 / 0.3048}},
       {"X [US survey foot],Y [US survey foot],Z [m]", ",", {3937 / 1200.0, 3937 / 1200.0, 1}},
       {"Easting (ftUS),Northing (ftUS),Depth", ",", {3937 / 1200.0, 3937 / 1200.0, -3937 / 1200.0}},
+      {"X [mm],Y,Z", ",", {1e3, 1e3, 1e3}},
       {"x,y,depth_cm", ",", {1, 1, -100}}};
   for (const Spelling& how : spellings) {
     const std::string path = own_file("a.csv", written(how));
