@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "sampling/trust_lines_of_sight.hpp"
@@ -27,20 +28,43 @@ bool seen_from_above(const RawCloud& raw) {
          });
 }
 
+/// Moves heights that show noise onto the surface among their neighbours (E160); false if none does. The noise is that
+/// of the file, else of the options, else the estimate.
+bool smooth_heights(std::vector<float> noise, const LoadOptions& options, RawCloud& raw, LoadReport& report) {
+  float largest = 0, farthest = 0;
+  std::size_t noisy = 0;
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    if (noise[i] > 0 && !raw.noise.empty())
+      noise[i] = std::isfinite(raw.noise[i]) ? raw.noise[i] : 0;
+    else if (noise[i] > 0 && options.scan_noise)
+      noise[i] = static_cast<float>(*options.scan_noise);
+    largest = std::max(largest, noise[i]), noisy += noise[i] > 0;
+  }
+  if (noisy == 0) return false;
+  raw.surface_height = smoothed_heights(raw.point, noise, options.threads);
+  for (std::size_t i = 0; i < noise.size(); ++i)
+    farthest = std::max(farthest, std::abs(raw.surface_height[i] - raw.point[i].z()));
+  std::ostringstream text;
+  text.precision(3);
+  text << noisy << " of " << noise.size() << " heights show noise, of " << largest
+       << " m standard deviation: smoothed, by at most " << farthest << " m; a scan noise of 0 leaves them as they are";
+  report.notes.push_back(text.str());
+  return true;
+}
+
 /// The surface between the points of a height field: of a raster the triangles of its cells, where most points show
 /// their relief or all are noisy; else those of the plan, if nearly all are of one height field.
-void join_heights(const SurfelShapes& shapes, std::vector<std::array<std::uint32_t, 3>> raster, int threads,
-                  RawCloud& raw) {
+void join_heights(const SurfelShapes& shapes, std::vector<std::array<std::uint32_t, 3>> raster,
+                  const LoadOptions& options, RawCloud& raw, LoadReport& report) {
   const bool one_sheet = static_cast<double>(shapes.heights) >= nearly_all * static_cast<double>(raw.point.size());
   const bool relief = 2 * shapes.height_field >= raw.point.size();
-  if (!one_sheet && !(relief && !raster.empty())) return;
   const bool is_raster = !raster.empty();
-  const bool noisy = std::find(shapes.noisy.begin(), shapes.noisy.end(), 1) != shapes.noisy.end();
-  if (!noisy || (relief && is_raster)) return set_surface(raw.point, std::move(raster), threads, raw);
-  raw.surface_height = smoothed_heights(raw.point, shapes.noisy, threads);
+  if (!one_sheet && !(relief && is_raster)) return;
+  if (relief || !smooth_heights(shapes.height_noise, options, raw, report))
+    return set_surface(raw.point, std::move(raster), options.threads, raw);
   std::vector<Eigen::Vector3f> smooth = raw.point;
   for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i].z() = raw.surface_height[i];
-  set_surface(smooth, is_raster ? raster_triangles(smooth) : std::move(raster), threads, raw);
+  set_surface(smooth, is_raster ? raster_triangles(smooth) : std::move(raster), options.threads, raw);
 }
 
 SurfelShapes shapes_of(const RawCloud& raw, const LoadOptions& options) {
@@ -69,7 +93,7 @@ void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& repo
     if (seen) raw.normal[i] = shapes.normal[i];
   }
   if (raw.heights && !raw.viewpoint) turn_up(raw.normal);
-  join_heights(shapes, std::exchange(raw.raster, {}), options.threads, raw);
+  join_heights(shapes, std::exchange(raw.raster, {}), options, raw, report);
   take_areas(shapes, options, raw, report);
 }
 
@@ -86,7 +110,7 @@ bool complete_heights(RawCloud& raw, const LoadOptions& options, LoadReport& rep
   if (!raw.area.empty() || raw.tags.prepared || !look_one_way(raw.normal)) return false;
   raw.raster = raster_triangles(raw.point);
   SurfelShapes shapes = shapes_of(raw, options);
-  join_heights(shapes, std::exchange(raw.raster, {}), options.threads, raw);
+  join_heights(shapes, std::exchange(raw.raster, {}), options, raw, report);
   if (raw.surface.empty()) return false;
   raw.surface_normals = true;
   take_areas(shapes, options, raw, report);

@@ -96,10 +96,10 @@ TEST(SmoothedHeights, lie_near_the_surface_that_noise_hides) {
   const auto wave = [](const Vector3f& p) { return 0.05f * std::sin(12 * p.x()) * std::cos(9 * p.y()); };
   const float spacing = 1.0f / 80;
   for (Vector3f& p : points) p.z() = wave(p) + 0.5f * spacing * noise(random);
-  std::vector<std::uint8_t> noisy(points.size(), 1);
-  noisy[7] = 0;
-  const auto heights = smoothed_heights(points, noisy);
-  EXPECT_EQ(smoothed_heights(points, noisy, 1), heights);
+  std::vector<float> sigma(points.size(), 0.5f * spacing);
+  sigma[7] = 0;
+  const auto heights = smoothed_heights(points, sigma);
+  EXPECT_EQ(smoothed_heights(points, sigma, 1), heights);
   EXPECT_EQ(heights[7], points[7].z());
   double before = 0, after = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -140,12 +140,51 @@ TEST(SmoothedHeights, keep_the_waves_that_rise_out_of_noise_and_no_others) {
         points.emplace_back(static_cast<float>(i) * spacing, static_cast<float>(j) * spacing,
                             truth.back() + spacing * noise(random));
       }
-    const auto heights = smoothed_heights(points, std::vector<std::uint8_t>(points.size(), 1));
+    const auto heights = smoothed_heights(points, std::vector<float>(points.size(), spacing));
     EXPECT_NEAR(slopes(heights), slopes(truth), 0.2 * slopes(truth) + 0.003) << steepness;
   }
 }
 
 TEST(SmoothedHeights, of_a_few_points_are_theirs_if_no_cubic_goes_through_them) {
   const std::vector<Vector3f> points = {{0, 0, 1}, {1, 0, 2}, {0, 1, 3}, {1, 1, 4}};
-  EXPECT_EQ(smoothed_heights(points, std::vector<std::uint8_t>(4, 1)), (std::vector<float>{1, 2, 3, 4}));
+  EXPECT_EQ(smoothed_heights(points, std::vector<float>(4, 9)), (std::vector<float>{1, 2, 3, 4}));
+}
+
+// A pole, a quay and a low wall across the grid, of which a cubic would make hills: points move by noise alone, and noise goes as
+// close to the pole and the wall as there are enough neighbours on one side.
+TEST(SmoothedHeights, leave_steps_and_objects_where_they_are) {
+  constexpr int n = 64;
+  constexpr float sigma = 0.02f;
+  std::mt19937 random(5);
+  std::normal_distribution<float> noise;
+  std::vector<Vector3f> points;
+  std::vector<float> truth;
+  const auto to_wall = [](int i, int j) {
+    return 0.9f * static_cast<float>(i - 40) + 0.4f * static_cast<float>(j - 32);
+  };
+  const auto to_pole = [](int i, int j) { return std::max(std::abs(i - 12), std::abs(j - 20)); };
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      truth.push_back(0.1f * static_cast<float>(i) + (to_wall(i, j) > 0 ? 0.3f : 0) + (j > 50 ? 8.0f : 0) +
+                      (to_pole(i, j) == 0 ? 4.0f : 0));
+      points.emplace_back(0.25f * static_cast<float>(i), 0.25f * static_cast<float>(j),
+                          truth.back() + sigma * noise(random));
+    }
+  const auto heights = smoothed_heights(points, std::vector<float>(points.size(), sigma));
+  const auto left = [&](auto&& here) {  // mean square of what is off the truth, over that of the noise
+    double sum = 0;
+    int count = 0;
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        if (!here(i, j)) continue;
+        const auto at = static_cast<std::size_t>(j * n + i);
+        sum += std::pow((heights[at] - truth[at]) / sigma, 2), ++count;
+      }
+    return sum / count;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LE(std::abs(heights[i] - points[i].z()), 2.901f * sigma) << i;
+  EXPECT_EQ(heights[20 * n + 12], points[20 * n + 12].z());
+  EXPECT_LT(left([&](int i, int j) { return to_pole(i, j) > 0 && to_pole(i, j) < 5; }), 0.2);
+  EXPECT_LT(left([&](int i, int j) { return j < 45 && std::abs(to_wall(i, j)) < 3; }), 0.8);
+  EXPECT_LT(left([&](int i, int j) { return j < 45 && i < 25 && to_pole(i, j) > 0; }), 0.1);
 }

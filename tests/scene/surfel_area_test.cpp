@@ -253,7 +253,8 @@ TEST(SurfelShapes, know_noise_on_lines_far_apart) {
         points.push_back({x, y, 0.03f * std::sin(6 * x) * std::cos(5 * y) + noise * normal(random)});
       }
     const SurfelShapes shapes = estimate_surfel_shapes(points, base_normals(points));
-    return static_cast<double>(std::count(shapes.noisy.begin(), shapes.noisy.end(), 1)) /
+    return static_cast<double>(
+               std::count_if(shapes.height_noise.begin(), shapes.height_noise.end(), [](float s) { return s > 0; })) /
            static_cast<double>(points.size());
   };
   EXPECT_LT(noisy_of(0), 0.05);

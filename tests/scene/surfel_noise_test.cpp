@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/estimate/surfel_noise.hpp"
 
+#include "scene/estimate/surfel_area.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -28,4 +29,24 @@ TEST(SurfelNoise, is_the_standard_deviation_across_the_surface) {
 TEST(SurfelNoise, of_a_smooth_surface_is_none) {
   EXPECT_LT(median_noise(0, 0), 1e-6);
   EXPECT_LT(median_noise(0, 0.1), 1e-3);  // bent by 2 mm from middle to rim of a neighbourhood
+}
+
+// Boxes and pits on a third of a raster, and a slope of 45 degrees, are no noise of its heights (E160).
+TEST(SurfelShapes, know_noise_of_heights) {
+  const auto noise_of = [&](float noise) {
+    std::mt19937 random(6);
+    std::normal_distribution<float> normal;
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 80; ++i)
+      for (int j = 0; j < 80; ++j) {
+        const bool box = i % 20 < 11 && j % 20 < 11;
+        const float x = 0.25f * static_cast<float>(i), y = 0.25f * static_cast<float>(j);
+        points.emplace_back(x, y, x + (box ? (i < 40 ? 2.0f : -1.0f) : 0) + noise * normal(random));
+      }
+    const std::vector<Eigen::Vector3f> up(points.size(), Eigen::Vector3f::UnitZ());
+    const std::vector<float> found = estimate_surfel_shapes(points, up).height_noise;
+    return *std::max_element(found.begin(), found.end());
+  };
+  EXPECT_EQ(noise_of(0), 0);
+  EXPECT_NEAR(noise_of(0.02f), 0.02, 0.001);
 }

@@ -13,14 +13,14 @@ using namespace insonify;
 
 namespace {
 
-constexpr double half = 1, spacing = 0.1;  // 21 x 21 nodes
+constexpr double half_side = 1, spacing = 0.1;  // 21 x 21 nodes
 
 double wave(double x, double y) { return 0.2 * std::sin(3 * x) * std::cos(2 * y); }
 
 LoadedScene loaded_from(const std::string& points, const LoadOptions& options = {}) {
   return load_scene(own_file("raster.xyz", points), options);
 }
-std::string raster() { return points_of(height_field({5, -3}, half, spacing, wave)); }
+std::string raster() { return points_of(height_field({5, -3}, half_side, spacing, wave)); }
 
 // The points of `text`, of which `keep(row, column)` says which, moved by `change`.
 template <typename Keep, typename Change>
@@ -66,7 +66,7 @@ TEST(Raster, has_two_triangles_in_each_cell_and_keeps_its_points) {
 TEST(Raster, is_cut_along_the_shorter_diagonals_of_its_cells) {
   // Level on one side of y = x, rising on the other.
   const auto bent = [](double x, double y) { return std::max(0.0, x - y); };
-  const LoadedScene loaded = loaded_from(points_of(height_field({0, 0}, half, spacing, bent)));
+  const LoadedScene loaded = loaded_from(points_of(height_field({0, 0}, half_side, spacing, bent)));
   ASSERT_TRUE(loaded.mesh);
   EXPECT_NEAR(area_of_mesh(*loaded.mesh), 2 + 2 * std::sqrt(3), 1e-4);
 }

@@ -59,8 +59,8 @@ std::vector<RunSetting> scene_settings(SceneOptions& o) {
        "[m] distance between surfels of a mesh or height field; 0: ping samples as finely as its beams resolve, other "
        "verbs take 200 000 surfels"},
       {"scene", "scan_noise", "--scan-noise", &o.scan_noise,
-       "[m] standard deviation of the points across the surfaces; default: the field 'noise' of the cloud, else an "
-       "estimate"},
+       "[m] standard deviation of the points across the surfaces; 0: heights are not smoothed; default: the field "
+       "'noise' of the cloud, else an estimate"},
       {"scene", "keep_strays", "--keep-strays", &o.keep_strays, "give isolated points the area of their whole cell"},
   };
   const auto behind = std::ranges::find(settings, std::string_view("material"), &RunSetting::key) + 1;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,11 +7,13 @@
 
 namespace insonify {
 
-/// Returns the heights of the points of a height field [m]. Points marked in `noisy` (one entry per point) are moved
-/// onto the surface through their neighbours on the plan. This surface is a cubic through 16 to 400 neighbours; the
-/// number is the one that best predicts points left out there. Waves that rise above the noise remain; others do not.
-/// The result does not depend on `threads` (0: all cores).
-std::vector<float> smoothed_heights(std::span<const Eigen::Vector3f> points, std::span<const std::uint8_t> noisy,
+/// Returns the heights of the points of a height field without their noise [m] (E160). `noise` is the standard deviation
+/// of each height [m]; 0 leaves the point where it is. A point moves onto a cubic through 16 to 400 neighbours on the
+/// plan, by at most 2.9 standard deviations. Steps and objects stay: neighbours off the cubic do not count, a point
+/// more than five standard deviations off it does not move, nor does one among neighbours that stray by more than their
+/// noise. Waves that rise above the noise remain; others do not. Throws Error unless there is one noise per point. The
+/// result does not depend on `threads` (0: all cores).
+std::vector<float> smoothed_heights(std::span<const Eigen::Vector3f> points, std::span<const float> noise,
                                     int threads = 0);
 
 }  // namespace insonify

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,9 +38,11 @@ struct SurfelShapes {
   std::vector<float> area;              ///< [m^2]
   std::size_t strays =
       0;  ///< cells more than 16 times as large as those around, cut down to their median; 0 with a viewpoint
-  std::size_t height_field = 0;       ///< points of height fields that show their relief, not noise
-  std::size_t heights = 0;            ///< points of height fields, noisy ones among them
-  std::vector<std::uint8_t> noisy{};  ///< 1: the point of a height field shows noise; empty: with a viewpoint
+  std::size_t height_field = 0;  ///< points of height fields that show their relief, not noise
+  std::size_t heights = 0;       ///< points of height fields, noisy ones among them
+  /// Standard deviation of the height of each point [m] (E160): the same for all points of height fields that show
+  /// noise instead of relief, 0 for others. Empty: with a viewpoint.
+  std::vector<float> height_noise{};
 };
 
 /// Returns normals and areas for points without either, consistent with each other. `base_normals` are the unit normals

@@ -135,6 +135,29 @@ std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& ba
   return looks;
 }
 
+// Noise of the heights of height fields (E160): what cubics leave where they leave least, in a quarter of the places, of
+// which those at steps, objects and relief are left out that leave more than noise does. Zero if it is no more than the
+// rounding of coordinates.
+float height_noise_of(const std::vector<Look>& looks, const std::vector<Vector3f>& positions) {
+  constexpr double most = 2;               // squares of noise, of 17 points less ten terms: 95 % of chi^2 are below
+  constexpr double quarter_of = 0.5924;    // squares of noise: the lower quartile of these
+  constexpr double float_steps = 0x1p-22;  // of the largest coordinate: four
+  std::vector<double> left;
+  float largest = 0;
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    if (looks[i].charted) left.push_back(looks[i].left_by_relief);
+    largest = std::max(largest, positions[i].cwiseAbs().maxCoeff());
+  }
+  double square = 0;
+  for (int n = 0; n < 3 && !left.empty(); ++n) {
+    const auto quarter = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 4);
+    std::nth_element(left.begin(), quarter, left.end());
+    square = *quarter / quarter_of;
+    std::erase_if(left, [&](double l) { return l > most * square; });
+  }
+  return std::sqrt(square) > float_steps * largest ? static_cast<float>(std::sqrt(square)) : 0;
+}
+
 // Relief where a cubic leaves at most half of what a plane leaves, as it does not of noise; else the mean plane around.
 // The cell on its plane becomes one on the surface (E69). Strays, cells far larger than those around, take the area
 // that is typical there unless `keep_strays`.
@@ -142,7 +165,8 @@ void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, cons
                    std::vector<Vector3f>& normals, SurfelShapes& counts) {
   constexpr double far_larger = 16;
   std::atomic<std::size_t> strays{0}, height_field{0}, heights{0};
-  counts.noisy.assign(looks.size(), 0);
+  const float noise = height_noise_of(looks, e.position);
+  counts.height_noise.assign(looks.size(), 0);
   parallel_blocks(looks.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
     std::vector<double> by_relief, by_plane, cells;
@@ -159,7 +183,7 @@ void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, cons
       const bool relief = 2 * median_of(by_relief) <= median_of(by_plane);
       height_field += look.charted && relief;
       heights += look.charted;
-      counts.noisy[i] = look.charted && !relief;
+      if (look.charted && !relief) counts.height_noise[i] = noise;
       const Vector3f found = relief ? look.relief : mean.normalized();
       normals[i] = found.dot(normals[i]) < 0 ? Vector3f(-found) : found;
       e.area[i] = look.cell / std::max<double>(least_cosine, std::abs(found.dot(look.frame)));
@@ -234,10 +258,10 @@ SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<
   limit_cells(e.area);
   shapes.area = shared_areas(e, points.size());
   for (std::size_t i = 0; i < points.size(); ++i) shapes.normal[i] = normals[e.distinct.position[i]];
-  if (shapes.noisy.empty()) return shapes;
-  std::vector<std::uint8_t> noisy;
-  for (const std::uint32_t distinct : e.distinct.position) noisy.push_back(shapes.noisy[distinct]);
-  shapes.noisy = std::move(noisy);
+  if (shapes.height_noise.empty()) return shapes;
+  std::vector<float> noise;
+  for (const std::uint32_t distinct : e.distinct.position) noise.push_back(shapes.height_noise[distinct]);
+  shapes.height_noise = std::move(noise);
   return shapes;
 }
 
