@@ -111,7 +111,7 @@ double left_of_noise(const std::vector<double>& moved, const Heights& heights, c
 LoadOptions with_noise(std::optional<double> noise, double unit = 1) {
   LoadOptions options;
   options.scan_noise = noise;
-  options.unit = unit;
+  options.meaning.unit = unit;
   return options;
 }
 

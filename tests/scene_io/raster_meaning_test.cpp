@@ -150,23 +150,23 @@ void expect_heights(const LoadedScene& loaded, std::size_t points, double from, 
   EXPECT_NEAR(box.min.z(), from, 1e-4 * std::abs(from)) << loaded.report.path;
   EXPECT_NEAR(box.max.z(), to, 1e-4 * std::abs(to)) << loaded.report.path;
 }
-const double lowest = bed_height(0, 0), highest = bed_height(wide - 1, deep - 1);
+const double bed_low = bed_height(0, 0), bed_high = bed_height(wide - 1, deep - 1);
 
 TEST(RasterMeaning, marks_of_holes_are_holes_though_undeclared) {
   for (const double mark : {-9999.0, -32768.0, -99999.0, -3.4028234e38, 3.4028234e38, 9.96921e36, 1e20}) {
     const LoadedScene loaded = load_as(write_raster({.name = "marked.tif", .bands = {{.mark = mark}}}));
-    expect_heights(loaded, cells_with_height, lowest, highest);
+    expect_heights(loaded, cells_with_height, bed_low, bed_high);
     const bool usual = mark > -1e6 && mark < 0;
     EXPECT_THAT(loaded.report.notes, Contains(HasSubstr(usual ? "16 heights are -" : "16 cells"))) << mark;
   }
-  expect_heights(load_as(write_netcdf({.name = "nan.nc", .mark = std::nan("")})), cells_with_height, lowest, highest);
+  expect_heights(load_as(write_netcdf({.name = "nan.nc", .mark = std::nan("")})), cells_with_height, bed_low, bed_high);
 }
 
 TEST(RasterMeaning, marks_of_holes_are_heights_if_asked_for_or_among_others) {
   AskedMeaning none;
   none.no_data.emplace();
   const std::string marked = write_raster({.name = "marked.tif", .bands = {{.mark = -9999}}});
-  expect_heights(load_as(marked, none), wide * deep, -9999, highest);
+  expect_heights(load_as(marked, none), wide * deep, -9999, bed_high);
   // A bed of -10000 to -8600 m, on which some cells have this height by chance.
   const LoadedScene trench = load_as(write_raster({.name = "trench.tif", .bands = {{.factor = 500, .mark = -9999}}}));
   EXPECT_EQ(trench.scene.size(), std::size_t{wide * deep});
@@ -176,17 +176,17 @@ TEST(RasterMeaning, marks_that_are_given_are_holes) {
   AskedMeaning asked;
   asked.no_data = {{7.5}};
   expect_heights(load_as(write_raster({.name = "seven.tif", .bands = {{.mark = 7.5}}}), asked), cells_with_height,
-                 lowest, highest);
+                 bed_low, bed_high);
 }
 
 TEST(RasterMeaning, grids_of_esri_without_a_mark_have_its_default) {
   const std::string path = write_raster({.driver = "AAIGrid", .name = "esri.asc", .bands = {{.mark = -9999}}});
   ASSERT_THAT(file_bytes(path), testing::Not(HasSubstr("NODATA")));
-  expect_heights(load_as(path), cells_with_height, lowest, highest);
+  expect_heights(load_as(path), cells_with_height, bed_low, bed_high);
 }
 
 TEST(RasterMeaning, masks_are_holes) {
-  expect_heights(load_as(write_raster({.name = "masked.tif", .masked = true})), cells_with_height, lowest, highest);
+  expect_heights(load_as(write_raster({.name = "masked.tif", .masked = true})), cells_with_height, bed_low, bed_high);
 }
 
 TEST(RasterMeaning, single_heights_far_from_all_others_stay_with_a_note) {
@@ -206,7 +206,7 @@ TEST(RasterMeaning, degrees_are_refused_by_units_and_doubted_by_numbers) {
 TEST(RasterMeaning, feet_become_metres) {
   constexpr double foot = 1200.0 / 3937;  // of EPSG:2227, California zone 3
   const LoadedScene loaded = load_as(write_raster({.name = "feet.tif", .epsg = 2227}));
-  expect_heights(loaded, wide * deep, foot * lowest, foot * highest);
+  expect_heights(loaded, wide * deep, foot * bed_low, foot * bed_high);
   const insonify::Bounds box = insonify::bounds(loaded.scene);
   EXPECT_NEAR(box.min.x(), foot * (west_edge + cell_size / 2), 1e-3);
   EXPECT_NEAR(box.max.y(), foot * (north_edge - cell_size / 2), 1e-3);
@@ -214,13 +214,13 @@ TEST(RasterMeaning, feet_become_metres) {
 
   // Heights have the unit of their band.
   expect_heights(load_as(write_raster({.name = "metres.tif", .bands = {{.unit = "m"}}, .epsg = 2227})), wide * deep,
-                 lowest, highest);
+                 bed_low, bed_high);
   expect_heights(load_as(write_raster({.name = "high.tif", .bands = {{.unit = "ft"}}, .epsg = 32632})), wide * deep,
-                 0.3048 * lowest, 0.3048 * highest);
+                 0.3048 * bed_low, 0.3048 * bed_high);
   // The caller knows better.
   AskedMeaning asked;
   asked.unit = 1;
-  expect_heights(load_as(write_raster({.name = "feet.tif", .epsg = 2227}), asked), wide * deep, lowest, highest);
+  expect_heights(load_as(write_raster({.name = "feet.tif", .epsg = 2227}), asked), wide * deep, bed_low, bed_high);
 }
 
 TEST(RasterMeaning, kilometres_of_axes_become_metres) {
@@ -229,13 +229,13 @@ TEST(RasterMeaning, kilometres_of_axes_become_metres) {
   const insonify::Bounds box = insonify::bounds(loaded.scene);
   EXPECT_NEAR(box.max.x() - box.min.x(), wide - 1, 1e-3);
   EXPECT_NEAR(box.max.y() - box.min.y(), deep - 1, 1e-3);
-  EXPECT_NEAR(box.min.z(), lowest, 1e-4);
+  EXPECT_NEAR(box.min.z(), bed_low, 1e-4);
 }
 
 TEST(RasterMeaning, depths_are_turned_if_they_are_called_so) {
   const auto turned = [](const std::string& path, const AskedMeaning& asked = {}) {
     const LoadedScene loaded = load_as(path, asked);
-    expect_heights(loaded, wide * deep, lowest, highest);
+    expect_heights(loaded, wide * deep, bed_low, bed_high);
     if (!asked.z_down) {
       EXPECT_THAT(loaded.report.notes, Contains(HasSubstr("depths"))) << path;
     }
@@ -246,12 +246,12 @@ TEST(RasterMeaning, depths_are_turned_if_they_are_called_so) {
       write_netcdf({.name = "cf.nc", .of_heights = {{"standard_name", "sea_floor_depth_below_geoid"}}, .factor = -1}));
   turned(write_raster({.name = "depth.tif", .bands = {{.name = "Depth", .factor = -1}}}));
   // Heights that are called depths stay below 0.
-  expect_heights(load_as(write_raster({.name = "negative.tif", .bands = {{.name = "depth"}}})), wide * deep, lowest,
-                 highest);
+  expect_heights(load_as(write_raster({.name = "negative.tif", .bands = {{.name = "depth"}}})), wide * deep, bed_low,
+                 bed_high);
   // Nothing is said.
   const std::string plain = write_raster({.name = "plain.tif", .bands = {{.factor = -1}}});
   const LoadedScene loaded = load_as(plain);
-  expect_heights(loaded, wide * deep, -highest, -lowest);
+  expect_heights(loaded, wide * deep, -bed_high, -bed_low);
   EXPECT_THAT(loaded.report.notes, Contains(HasSubstr("--z down")));
   AskedMeaning down;
   down.z_down = true;
@@ -268,12 +268,12 @@ TEST(RasterMeaning, bands_are_chosen_by_name) {
   const std::string path =
       write_raster({.name = "cube.tif", .bands = {{.name = "uncertainty", .factor = 0.01}, {.name = "elevation"}}});
   const LoadedScene loaded = load_as(path);
-  expect_heights(loaded, wide * deep, lowest, highest);
+  expect_heights(loaded, wide * deep, bed_low, bed_high);
   EXPECT_THAT(loaded.report.notes, Contains(HasSubstr("band 2 (elevation)")));
   for (const char* name : {"1", "uncertainty"}) {
     AskedMeaning asked;
     asked.band = name;
-    expect_heights(load_as(path, asked), wide * deep, 0.01 * lowest, 0.01 * highest);
+    expect_heights(load_as(path, asked), wide * deep, 0.01 * bed_low, 0.01 * bed_high);
   }
   AskedMeaning asked;
   asked.band = "backscatter";
@@ -283,7 +283,7 @@ TEST(RasterMeaning, bands_are_chosen_by_name) {
 
 TEST(RasterMeaning, grids_without_attributes_of_axes_are_read) {
   const LoadedScene loaded = load_as(write_netcdf({.name = "gmt.grd"}));
-  expect_heights(loaded, wide * deep, lowest, highest);
+  expect_heights(loaded, wide * deep, bed_low, bed_high);
   const insonify::Bounds box = insonify::bounds(loaded.scene);
   EXPECT_NEAR(box.min.x(), 600 * cell_size, 1e-3);
   EXPECT_NEAR(box.min.y(), 6000 * cell_size, 1e-3);
