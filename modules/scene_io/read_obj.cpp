@@ -12,6 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr std::int64_t no_index = -1;
+constexpr std::size_t most_corners = 65535;
 
 struct Obj {
   std::string path;
@@ -55,16 +56,21 @@ Obj parse(const std::string& path, const std::string& text) {
   std::string_view line;
   std::string whole;
   while (lines.next_filled(line)) {
-    // A backslash at the end of a line goes on in the next one; a comment may stand behind a face.
-    for (whole = trimmed(line); whole.ends_with('\\') && lines.next(line);) whole.back() = ' ', whole += trimmed(line);
-    std::string_view rest = std::string_view(whole).substr(0, whole.find('#'));
+    // A line without its comment goes on behind a backslash at its end.
+    const auto text_of = [](std::string_view l) { return trimmed(l.substr(0, l.find('#'))); };
+    for (whole = text_of(line); whole.ends_with('\\') && lines.next(line);) whole.back() = ' ', whole += text_of(line);
+    std::string_view rest = whole;
     const std::string_view key = take_word(rest);
     if (key == "v") read_numbers(obj, rest, lines.number(), obj.positions);
     if (key == "vn") read_numbers(obj, rest, lines.number(), obj.normals);
     if (key != "f") continue;
     auto& polygon = obj.polygons.emplace_back();
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
-      polygon.push_back(read_corner(obj, word, lines.number()));
+      if (polygon.size() < most_corners)
+        polygon.push_back(read_corner(obj, word, lines.number()));
+      else
+        fail(ErrorKind::content, path, ":", lines.number(), ": a face of more than ", most_corners,
+             " corners; triangulate the mesh and export it again");
   }
   return obj;
 }
