@@ -17,16 +17,17 @@ using Names = std::vector<std::string>;
 
 /// By which names columns are known; the first that a file has counts.
 const struct {
-  std::array<Names, 3> position = {{{"x", "easting", "east", "e", "x_coordinate", "xcoord", "lon", "longitude", "lng"},
-                                    {"y", "northing", "north", "n", "y_coordinate", "ycoord", "lat", "latitude"},
-                                    {"z", "height", "elevation", "elev", "altitude", "alt", "h", "z_coordinate",
-                                     "zcoord", "depth", "depths", "water_depth", "sounding"}}};
+  std::array<Names, 3> position = {
+      {{"x", "easting", "east", "e", "x_coordinate", "xcoord", "lon", "longitude", "long", "lng"},
+       {"y", "northing", "north", "n", "y_coordinate", "ycoord", "lat", "latitude"},
+       {"z", "height", "elevation", "elev", "altitude", "alt", "h", "z_coordinate", "zcoord", "depth", "depths",
+        "water_depth", "sounding"}}};
   std::array<std::array<const char*, 3>, 4> normal = {{{"nx", "ny", "nz"},
                                                        {"normal_x", "normal_y", "normal_z"},
                                                        {"normalx", "normaly", "normalz"},
                                                        {"n_x", "n_y", "n_z"}}};
   Names area = {"area"}, noise = {"noise"}, id = {"id"}, label = {"label", "material", "class", "classification"};
-  Names degrees = {"lon", "longitude", "lng", "lat", "latitude"};
+  Names degrees = {"lon", "longitude", "long", "lng", "lat", "latitude"};
   Names depths = {"depth", "depths", "water_depth", "sounding"};
 } known;
 

@@ -51,7 +51,6 @@ printf '"x";"y";"z"\n0;0;0\n1;0;0\n1;1;0\n' >csv/quoted.csv
 printf "x,y,z\n0,0,0\n1,0,0\n1,1,0\n" >csv/plain.csv
 printf 'Easting (m);"Depth [ft]";Northing (m);a [b;\n1,5;2,5D0;0;1\n0;2;1;2\n1;2;3;4\n' >csv/headings.csv
 printf 'x,y,z,GPS time, ,x\n0,0,0,1,2,3\n1,0,0,1,2,3\n1,1,0,1,2,3\n' >csv/names.csv
-printf 'lon,lat,z\n7,54,1\n7,55,1\n8,54,1\n' >csv/degrees.csv
 printf '# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n1 0 0 0 1 2 3 .5 1 2\n2 1 0 0 1 2 3 .5\n3 0 1 0 1 2 3 .5 1 2 3 4\n' >xyz/tracks.xyz
 printf "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n-1 -1 -1\n-1 -2 -1\n-1 -1 -9999\n" >asc/grid.asc
 printf "NROWS 2\nNCOLS 3\ncellsize 1\nxllcenter 0\nyllcenter 0\n-1 -1 -1\n-1 -2 -1\n" >asc/order.asc

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Coordinate systems of LAS files: units of plane and heights, degrees, and what is left out of them.
+#include <cstdlib>
+
 #include "core/geodesy.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/las_file.hpp"
@@ -150,6 +152,24 @@ TEST(LasSystem, degrees_are_refused_in_any_record_with_the_zone_to_project_to) {
     LoadOptions options;
     options.meaning = asked_meaning(&MeaningText::unit, "m");
     EXPECT_EQ(load_scene(path, options).scene.size(), 64u);
+  }
+}
+
+// What the message proposes, on the places as text.
+TEST(LasSystem, degrees_are_projected_by_the_proposed_command) {
+  if (std::system("command -v gdaltransform >/dev/null") != 0) GTEST_SKIP() << "gdal-bin is not installed";
+  const std::vector<Eigen::Vector3d> degrees = {{7.9, 54.1, -20}, {7.9001, 54.1, -20}, {7.9, 54.1001, -21}};
+  const std::string path = own_file("a.las", las_of({"", wkt_records(geographic_wkt), 1, 1, ""}).bytes(degrees));
+  const std::string said = error_of([&] { load_scene(path); }, ErrorKind::content);
+  const std::size_t begin = said.find("gdaltransform"), end = said.find("; if the numbers are metres");
+  ASSERT_TRUE(begin < end && end < said.size()) << said;
+  own_file("in.xyz", "7.9 54.1 -20\n7.9001 54.1 -20\n7.9 54.1001 -21\n");
+  ASSERT_EQ(std::system(("cd '" + own_folder() + "' && " + said.substr(begin, end - begin)).c_str()), 0) << said;
+  const LoadedScene loaded = load_scene(own_path("out.xyz"));
+  ASSERT_EQ(loaded.scene.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const UtmPlace utm = utm_place_of({radians(degrees[i].y()), radians(degrees[i].x()), 0}, {32, true});
+    EXPECT_LT((world(loaded.scene, i) - Eigen::Vector3d(utm.easting, utm.northing, degrees[i].z())).norm(), 1e-3);
   }
 }
 
