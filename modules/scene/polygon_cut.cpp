@@ -196,7 +196,7 @@ class FlatPolygon {
 PolygonCut cut_polygon(std::span<const Vector3d> corners, std::size_t& tests_left) {
   const PolygonPlane plane = plane_of(corners);
   PolygonCut result;
-  if (!(plane.widest > 0 && std::isfinite(plane.widest))) return result;
+  if (!plane.normal.allFinite() || plane.widest == 0) return result;
   result.crosses = plane.normal.norm() <= least_area * plane.widest;
   if (result.crosses) return result;
   result.off_plane = plane.off;

@@ -215,6 +215,19 @@ TEST(Polygons, whose_edges_cross_are_noted_with_number_and_place) {
   EXPECT_TRUE(has_note(loaded.report, "the first at (1.00, 1.00, -5.00) m"));
 }
 
+TEST(Polygons, with_a_corner_that_is_nowhere_keep_their_other_triangles) {
+  for (const char* corner : {"nan 5 0", "1e308 5 0", "1e10 5 0"})
+    for (int first = 0; first < 8; ++first) {
+      std::string text, face = "f";
+      for (int i = 0; i < 8; ++i)
+        text += i == 3 ? "v " + std::string(corner) + "\n"
+                       : "v " + std::to_string(slip[i].x()) + " " + std::to_string(slip[i].y()) + " 0\n";
+      for (int i = 0; i < 8; ++i) face += " " + std::to_string((first + i) % 8 + 1);
+      const std::string path = own_file("a.obj", text + face + "\nf 1 2 3\n");
+      EXPECT_GE(area_of_mesh(load_scene(path)), 0.5 * 6 * 5) << corner << first;
+    }
+}
+
 TEST(Polygons, off_their_plane_are_noted_with_number_and_place) {
   // A square whose corners lie off their plane by a height in turn; its box has a diagonal of 1.41 m.
   const auto notes = [](double height) {
