@@ -38,7 +38,7 @@ constexpr double capped_at = 3;         // what neighbours add to the mean squar
 // Noise explains a mean square above the variance by so much of it, over the root of the degrees of freedom: four
 // standard deviations.
 constexpr double misfit_doubt = 6;
-constexpr int fits_of_cubic = 4;
+constexpr int fits_of_cubic = 3;
 
 using Errors = std::array<float, widths.size()>;  // of each width, over the variance of the noise
 
@@ -60,7 +60,7 @@ class CubicFit {
     for (int n = 0; n < fits_of_cubic; ++n) {
       found = solve();
       if (!found) return {};
-      if (n == 0 && left_.maxCoeff() < counted_within * noise) break;
+      if (n + 1 == fits_of_cubic || (n == 0 && left_.maxCoeff() < counted_within * noise)) break;
       weight_ = (1 - (left_ / (counted_within * std::max(noise, spread()))).square()).max(0).square();
     }
     const double square = left_.min(capped_at * noise).square().sum() / freedom;
