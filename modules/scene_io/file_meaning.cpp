@@ -19,7 +19,7 @@ void take(Meant<Value>& fact, const Value& value, const char* option) {
   fact = {value, MeaningOrigin::option, std::string("as given by ") + option};
 }
 
-void add_to(Bounds& box, const Bounds& part) { box = {box.min.cwiseMin(part.min), box.max.cwiseMax(part.max)}; }
+void widen(Bounds& box, const Bounds& part) { box = {box.min.cwiseMin(part.min), box.max.cwiseMax(part.max)}; }
 
 std::string metres(double unit) { return printed("%.10g m", unit); }
 
@@ -103,10 +103,9 @@ HeightSpread spread_of(std::vector<double> heights) {
 }
 
 void RawExtent::add(const RawExtent& part) {
-  add_to(box, part.box);
+  widen(box, part.box);
   heights.insert(heights.end(), part.heights.begin(), part.heights.end());
-  for (std::size_t k = 0; k < marked.size(); ++k)
-    marked[k] += part.marked[k], add_to(marked_box[k], part.marked_box[k]);
+  for (std::size_t k = 0; k < marked.size(); ++k) marked[k] += part.marked[k], widen(marked_box[k], part.marked_box[k]);
 }
 
 void settle_meaning(RawCloud& raw) {
@@ -119,7 +118,7 @@ void settle_meaning(RawCloud& raw) {
   for (std::size_t k = 0; k < usual_marks.size(); ++k) {
     if (extent.marked[k] == 0) continue;
     if (!judged || std::abs(usual_marks[k] - spread.median) <= far_deviations * spread.deviation) {
-      add_to(extent.box, extent.marked_box[k]);
+      widen(extent.box, extent.marked_box[k]);
       continue;
     }
     raw.holes += extent.marked[k];
@@ -140,8 +139,8 @@ void settle_meaning(RawCloud& raw) {
   if (extent.box.min.x() > extent.box.max.x()) return;
   const FileAxes axes = meaning.axes();
   raw.box = Bounds{};
-  add_to(raw.box, {axes.place(extent.box.min), axes.place(extent.box.min)});
-  add_to(raw.box, {axes.place(extent.box.max), axes.place(extent.box.max)});
+  widen(raw.box, {axes.place(extent.box.min), axes.place(extent.box.min)});
+  widen(raw.box, {axes.place(extent.box.max), axes.place(extent.box.max)});
 }
 
 std::vector<std::string> FileMeaning::notes() const {

@@ -160,12 +160,12 @@ void check_raster(const std::string& path, GDALDatasetH file) {
   if (GDALGetRasterCount(file) < 1)
     fail(ErrorKind::content, path,
          ": holds several rasters or none; choose one: gdal_translate NETCDF:in.nc:elevation out.tif");
-  const double cells = static_cast<double>(GDALGetRasterXSize(file)) * GDALGetRasterYSize(file);
-  if (cells > most_raster_cells)
-    fail(ErrorKind::content, path, ": has ", cells,
+  const double whole = static_cast<double>(GDALGetRasterXSize(file)) * GDALGetRasterYSize(file);
+  if (whole > most_raster_cells)
+    fail(ErrorKind::content, path, ": has ", whole,
          " cells, must be at most 2^28; cut it out: gdal_translate -projwin WEST NORTH EAST SOUTH in.tif out.tif");
   expect_from_file(path, file_size_of(path),
-                   {cells, "cells", 3 * sizeof(double),
+                   {whole, "cells", 3 * sizeof(double),
                     "cut it out, or save it as it is: gdal_translate -co COMPRESS=NONE in.tif out.tif"});
 }
 
