@@ -80,14 +80,14 @@ const RowTable::Column* find_label(const RowTable& table, const std::string& pat
   return found;
 }
 
-bool is_legal(const std::string& name) {
+}  // namespace
+
+bool is_legal_name(const std::string& name) {
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto good = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.'; };
   return !name.empty() && name.size() <= 64 && letter(name.front()) && std::all_of(name.begin(), name.end(), good) &&
          name != "_" && name != "end_header";
 }
-
-}  // namespace
 
 std::string plain_name(const std::string& name) { return heading_of(name).name; }
 
@@ -178,12 +178,12 @@ std::vector<std::string> legal_names(const std::vector<std::string>& names, cons
   std::set<std::string> used;
   for (const std::string& name : taken) used.insert(key(name));
   for (std::string name : names) {
-    if (!is_legal(name)) {
+    if (!is_legal_name(name)) {
       name = lower_case(name.substr(0, 64));
       for (char& c : name)
-        if (!is_legal(std::string("a") + c)) c = '_';
+        if (!is_legal_name(std::string("a") + c)) c = '_';
       if (name.find_first_not_of('_') == name.npos) name = "column";
-      if (!is_legal(name)) name = "c_" + name.substr(0, 62);
+      if (!is_legal_name(name)) name = "c_" + name.substr(0, 62);
     }
     if (used.contains(key(name))) name += "_in_file";
     std::string numbered = name;

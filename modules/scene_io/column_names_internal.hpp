@@ -29,10 +29,13 @@ bool name_coordinates(const std::vector<std::string>& names);
 /// Sets what the names of the coordinates say: units, degrees, depths. `table` has one row at least.
 void take_headings(const RowTable& table, const Columns& found, RawCloud& raw);
 
-/// Returns names that every reader of PLY, PCD, VTK and HDF5 takes, in the same order. A name that begins with a letter
-/// or "_", goes on with letters, digits, "_", "-" or ".", has at most 64 characters, and means nothing else to such
-/// readers stays. All others become lower-case, with "_" for other characters. A name that occurs in `taken` or earlier,
-/// without regard to case and "scalar_", gets "_in_file", and a number from 2 on if that occurs too.
+/// Returns whether every reader of PLY, PCD, VTK and HDF5 takes a name: it begins with a letter or "_", goes on with
+/// letters, digits, "_", "-" or ".", has at most 64 characters, and means nothing else to such readers.
+bool is_legal_name(const std::string& name);
+
+/// Returns names that are legal and unique, in the same order. Legal names stay, all others become lower-case, with "_"
+/// for other characters. A name that occurs in `taken` or earlier, without regard to case and "scalar_", gets
+/// "_in_file", and a number from 2 on if that occurs too.
 std::vector<std::string> legal_names(const std::vector<std::string>& names, const std::vector<std::string>& taken);
 
 }  // namespace insonify

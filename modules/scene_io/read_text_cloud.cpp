@@ -129,6 +129,8 @@ void settle_columns(TextRows& rows, std::size_t cells) {
     rows.names.pop_back();
   else if (found != rows.headings.end())
     rows.names = *found;
+  for (std::string& name : rows.names)
+    if (is_legal_name(name)) name = lower_case(name);
   rows.columns = rows.names.size();
 }
 

@@ -44,7 +44,7 @@ TEST(Materials, whole_numbers_stored_as_floats_are_labels) {
   const std::string path = own_file("a.csv", "x,y,z,scalar_Classification\n0,0,0,2.0\n1,0,0,1.0\n0,1,0,2.0\n1,1,0,0\n");
   const LoadedScene loaded = load_scene(path);
   EXPECT_EQ(loaded.scene.material, (std::vector<std::uint16_t>{2, 1, 2, 0}));
-  EXPECT_EQ(loaded.report.material_field, "scalar_Classification");
+  EXPECT_EQ(loaded.report.material_field, "scalar_classification");
 }
 
 TEST(Materials, come_from_the_field_named_whatever_its_case_and_prefix) {
@@ -89,7 +89,7 @@ TEST(Materials, intervals_are_half_open_and_what_lies_outside_is_counted) {
   EXPECT_EQ(loaded.scene.materials[3].name, "outside");
   EXPECT_EQ(loaded.scene.materials[3].lambert_mu, Material{}.lambert_mu);
   EXPECT_EQ(loaded.report.outside_intervals, 2u);
-  EXPECT_TRUE(has_note(loaded.report, "2 of 7 surfels (29 %) have a 'Intensity' in none of the 2 intervals"));
+  EXPECT_TRUE(has_note(loaded.report, "2 of 7 surfels (29 %) have a 'intensity' in none of the 2 intervals"));
 }
 
 TEST(Materials, a_table_whose_intervals_hold_every_number_stays_as_it_is) {

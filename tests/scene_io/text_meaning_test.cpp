@@ -128,7 +128,7 @@ TEST(TextMeaning, degrees_are_refused_with_a_command_that_projects_them) {
     text += std::to_string(54.1 + 1e-5 * (i / 8)) + "," + std::to_string(7.9 + 1e-5 * (i % 8)) + ",12.5\n";
   const std::string path = own_file("in.csv", text);
   const std::string said = error_of([&] { load_scene(path); }, ErrorKind::content);
-  EXPECT_THAT(said, HasSubstr("'Lon' and 'Lat' are degrees"));
+  EXPECT_THAT(said, HasSubstr("'lon' and 'lat' are degrees"));
   EXPECT_THAT(said, HasSubstr("EPSG:32632"));
   for (const char* heading : {"longitude;latitude;z", "x [deg];y [deg];z", "Lon_deg;Lat_deg;z"})
     expect_error(ErrorKind::content, {"are degrees"}, [&] {
