@@ -17,6 +17,7 @@
 
 #include "core/stop_watch.hpp"
 #include "fuzz/readers.hpp"
+#include "fuzz/structured.hpp"
 #include "tool/command/program.hpp"
 
 namespace fs = std::filesystem;
@@ -31,17 +32,6 @@ double beside_others() {
   double load = 0;
   getloadavg(&load, 1);
   return std::max(5.0, 5 * load / static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN)));
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
-  return bytes.str();
-}
-
-void write_bytes(const fs::path& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 // Damage of one file.

@@ -19,18 +19,19 @@
 namespace fs = std::filesystem;
 
 namespace insonify {
-namespace {
 
-std::string bytes_at(const fs::path& path) {
+std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream bytes;
   bytes << file.rdbuf();
   return bytes.str();
 }
 
-void put_bytes(const fs::path& path, const std::string& bytes) {
+void write_bytes(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
+
+namespace {
 
 /// Puts a number that is extreme, or near the one that is there, into an array of numbers of this type.
 template <typename Number>
@@ -193,13 +194,13 @@ std::string damage_tiles(const std::string& bytes, const DamageSource& source) {
   static std::map<std::string, TileParts> known;  // by the bytes of the seed
   const std::string path = fs::temp_directory_path() / ("insonify-damaged-" + std::to_string(getpid()) + ".tiles");
   if (!known.contains(bytes)) {
-    put_bytes(path, bytes);
+    write_bytes(path, bytes);
     known.emplace(bytes, load_tile_parts(path));
   }
   TileParts parts = known.at(bytes);
   for (std::size_t left = 1 + source.below(3); left > 0; --left) damage(parts, source);
   save_tile_parts(std::move(parts), path);
-  const std::string damaged = bytes_at(path);
+  const std::string damaged = bytes_of(path);
   fs::remove(path);
   return damaged;
 }
@@ -237,7 +238,7 @@ void unpack_folder(const std::string& bytes, const std::string& folder) {
     if (!stays_below(name)) continue;
     std::error_code ignored;
     fs::create_directories((fs::path(folder) / name).parent_path(), ignored);
-    put_bytes(fs::path(folder) / name, content);
+    write_bytes(fs::path(folder) / name, content);
   }
 }
 

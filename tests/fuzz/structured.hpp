@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <string>
 
 namespace insonify {
+
+/// The bytes of a file; empty if it cannot be read.
+std::string bytes_of(const std::filesystem::path& path);
+/// Writes a file in place.
+void write_bytes(const std::filesystem::path& path, const std::string& bytes);
 
 /// Where damage comes from.
 struct DamageSource {
