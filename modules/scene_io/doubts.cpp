@@ -59,7 +59,7 @@ std::string depth_doubt(const SceneNumbers& n) {
 /// A mesh that lies on its side.
 std::string y_up_doubt(const SceneNumbers& n) {
   const bool mesh = !n.raw.triangle.empty() || n.raw.format.starts_with("OBJ");
-  if (!mesh || n.raw.meaning.y_up.origin != MeaningOrigin::convention) return "";
+  if (!mesh || n.raw.meaning.y_up.value || n.raw.meaning.y_up.origin != MeaningOrigin::convention) return "";
   if (!(n.size.y() < 0.25 * std::min(n.size.x(), n.size.z()))) return "";
   return sentence("the scene is ", n.size.x(), " m wide along x and ", n.size.z(), " m along z, but only ", n.size.y(),
                   " m along y: if its y axis points up, give --up y");

@@ -10,7 +10,7 @@
 #include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 
-// Meshes of glTF, where its nodes put them. A glTF's y axis points up: (x, y, z) becomes (x, -z, y).
+// Meshes of glTF, where its nodes put them. Its y axis points up, as its meaning says.
 namespace insonify {
 namespace {
 
@@ -172,7 +172,7 @@ SentRows send_meshes(const GltfDocument& document, ArraySender& to, RawCloud& ra
     for (std::size_t i = 0; i < mesh.points.size(); i += 3) {
       const Eigen::Vector3d local(mesh.points[i], mesh.points[i + 1], mesh.points[i + 2]), p = world * local;
       raw.float_coordinates = raw.float_coordinates || local.cwiseAbs().maxCoeff() > 1000;
-      *place++ = p.x(), *place++ = -p.z(), *place++ = p.y();
+      *place++ = p.x(), *place++ = p.y(), *place++ = p.z();
     }
     // A mirror turns triangles over, whose outside stays where it was.
     const bool mirrored = world.linear().determinant() < 0;
@@ -190,6 +190,7 @@ RawCloud read_gltf(const std::string& path, const ReadOptions& options) {
   RawCloud raw;
   raw.path = path;
   raw.format = "glTF mesh";
+  raw.meaning.y_up.value = true;
   raw.fields = {{"x", "float"}, {"y", "float"}, {"z", "float"}};
   read_rows_apart(raw, file_size_of(path), options, [&](ArraySender& to, RawCloud& read) {
     try {

@@ -52,6 +52,19 @@ TEST(Gltf, nodes_move_and_turn_their_meshes) {
   EXPECT_LT((sum - Eigen::Vector3d(30, 1, 1)).norm(), 1e-5) << sum.transpose();
 }
 
+// Corners (10, 0, 0), (10, 1, 0), (10, 0, -1) in the axes of the file.
+TEST(Gltf, another_axis_points_up_if_the_caller_says_so) {
+  const std::string path = own_file("turned.gltf", turned_triangle().dump());
+  for (const bool y_up : {true, false}) {
+    LoadOptions options;
+    options.meaning.y_up = y_up;
+    const LoadedScene loaded = load_scene(path, options);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& corner : corners_of(*loaded.mesh, 0)) sum += loaded.mesh->origin + corner;
+    EXPECT_LT((sum - (y_up ? Eigen::Vector3d(30, 1, 1) : Eigen::Vector3d(30, 1, -1))).norm(), 1e-5) << sum.transpose();
+  }
+}
+
 TEST(Gltf, cut_off_at_any_byte_is_refused) {
   const std::string glb = file_bytes(meshes + "/wedge.glb"), text = turned_triangle().dump(),
                     bin = file_bytes(meshes + "/wedge_0.bin");
