@@ -4,11 +4,10 @@
 #include <set>
 
 #include "core/error.hpp"
-#include "core/geodesy.hpp"
 #include "core/message.hpp"
 #include "core/text.hpp"
-#include "core/units.hpp"
 #include "scene_io/column_names_internal.hpp"
+#include "scene_io/coordinate_system_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -136,13 +135,12 @@ void take_headings(const RowTable& table, const Columns& found, RawCloud& raw) {
       return std::to_string(found.position[axis] - table.columns.data() + 1);
     };
     const double x = found.position[0]->value(table.bytes), y = found.position[1]->value(table.bytes);
-    const bool on_earth = std::abs(x) <= 360 && std::abs(y) <= 90;
-    const std::string zone = on_earth ? std::to_string(epsg_code(utm_zone_of({radians(y), radians(x), 0}))) : "326ZZ";
     meaning.no_lengths =
         "columns " + quoted(0) + " and " + quoted(1) +
         " are degrees, but a scene needs metres; project them: awk -F '[,;[:space:]]+' 'NR > 1 {print $" + number(0) +
-        ", $" + number(1) + ", $" + number(2) + "}' in.csv | gdaltransform -s_srs EPSG:4326 -t_srs EPSG:" + zone +
-        " > out.xyz" + (raw.named_depth ? ", and give --z down" : "");
+        ", $" + number(1) + ", $" + number(2) +
+        "}' in.csv | gdaltransform -s_srs EPSG:4326 -t_srs EPSG:" + utm_code(x, y) + " > out.xyz" +
+        (raw.named_depth ? ", and give --z down" : "");
     return;
   }
   // Units: heights have those of the plane unless they have their own.

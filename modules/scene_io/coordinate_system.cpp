@@ -2,7 +2,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/geodesy.hpp"
 #include "core/text.hpp"
+#include "core/units.hpp"
 #include "scene_io/coordinate_system_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 
@@ -11,6 +13,11 @@
 #endif
 
 namespace insonify {
+
+std::string utm_code(double longitude, double latitude) {
+  if (!(std::abs(longitude) <= 360 && std::abs(latitude) <= 90)) return "326ZZ";
+  return std::to_string(epsg_code(utm_zone_of({radians(latitude), radians(longitude), 0})));
+}
 
 #ifndef INSONIFY_GDAL
 
@@ -100,7 +107,7 @@ void take_system(void* reference, const std::string& remedy, FileMeaning& meanin
   const bool degrees = OSRIsGeographic(reference);
   if (degrees || OSRIsGeocentric(reference)) {
     meaning.no_lengths = "is in " + std::string(degrees ? "degrees" : "earth-centred coordinates") +
-                         " by its coordinate " + "system, " + meaning.system.value +
+                         " by its coordinate system, " + meaning.system.value +
                          ", but a scene needs metres to the east, to the north and up; " + remedy +
                          "; if the numbers are metres all the same, give --unit m";
     return;

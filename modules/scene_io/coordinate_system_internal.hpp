@@ -13,6 +13,9 @@ struct SystemRecords {
   std::string wkt, keys, numbers, texts;
 };
 
+/// Returns the EPSG code of the UTM zone of a place in degrees; "326ZZ" if the numbers are no place on the earth.
+std::string utm_code(double longitude, double latitude);
+
 /// Sets unit, unit of the heights and name of `meaning` to those of a coordinate system, an OGRSpatialReferenceH; null
 /// says nothing. If its coordinates are no lengths, meaning.no_lengths says so, with `remedy`. Only with GDAL.
 void take_system(void* reference, const std::string& remedy, FileMeaning& meaning);

@@ -3,9 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/geodesy.hpp"
 #include "core/text.hpp"
-#include "core/units.hpp"
 #include "files/child_process.hpp"
 #include "scene_io/coordinate_system_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
@@ -70,15 +68,8 @@ std::size_t choose(RawCloud& raw, const AskedMeaning& asked, const std::vector<s
     raw.meaning.band = {text(chosen), MeaningOrigin::guessed,
                         "heights are those of band " + text(chosen) + " of " + joined(all) + "; --band takes another"};
   }
-  if (names[chosen].find("epth") != names[chosen].npos || lower_case(names[chosen]).starts_with("depth"))
-    raw.named_depth = true;
+  if (lower_case(names[chosen]).find("depth") != std::string::npos) raw.named_depth = true;
   return chosen;
-}
-
-/// The command that projects a raster in degrees whose middle is at this place.
-std::string projection(double longitude, double latitude) {
-  const int code = epsg_code(utm_zone_of({radians(latitude), radians(longitude), 0}));
-  return "project it first: gdalwarp -t_srs EPSG:" + std::to_string(code) + " -r bilinear in.tif out.tif";
 }
 
 /// Facts about the variable of a netCDF grid and its axes, by CF conventions.
@@ -173,6 +164,7 @@ void check_raster(const std::string& path, GDALDatasetH file) {
 
 HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
   GDALAllRegister();
+  CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");  // else the vertical system of a GeoTIFF 1.0 is hidden
   GDALSetCacheMax64(256 << 20);  // else a twentieth of the machine's memory, which is beyond the limits of a child
   HeightBand heights{open_netcdf(raw, asked), nullptr, {0, 1, 0, 0, 0, 1}};
   const bool netcdf = heights.file != nullptr;
@@ -197,8 +189,9 @@ HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
   // Units: of the plane by the axes, else by the coordinate system; of the heights by the band.
   FileMeaning& meaning = raw.meaning;
   const std::array<double, 6>& at = heights.transform;
-  const std::string remedy =
-      projection(at[0] + 0.5 * GDALGetRasterXSize(file) * at[1], at[3] + 0.5 * GDALGetRasterYSize(file) * at[5]);
+  const std::string zone =
+      utm_code(at[0] + 0.5 * GDALGetRasterXSize(file) * at[1], at[3] + 0.5 * GDALGetRasterYSize(file) * at[5]);
+  const std::string remedy = "project it first: gdalwarp -t_srs EPSG:" + zone + " -r bilinear in.tif out.tif";
   if (!meaning.no_lengths.empty()) meaning.no_lengths += remedy;
   const Meant<double> of_axes = meaning.unit;
   take_system(GDALGetSpatialRef(file), remedy, meaning);

@@ -5,8 +5,6 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/geodesy.hpp"
-#include "core/units.hpp"
 #include "files/binary_file.hpp"
 #include "scene_io/coordinate_system_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
@@ -154,14 +152,10 @@ SystemRecords read_records(const PointFormat& format, RowFile& file) {
 /// The command for coordinates in degrees, with the zone of the middle of the file.
 std::string project_remedy(const Bytes& header) {
   const auto middle = [&](std::size_t at) { return 0.5 * (header.at<double>(at) + header.at<double>(at + 8)); };
-  const double longitude = middle(179), latitude = middle(195);
-  const bool on_earth = std::abs(longitude) <= 360 && std::abs(latitude) <= 90;
-  const std::string code =
-      on_earth ? std::to_string(epsg_code(utm_zone_of({radians(latitude), radians(longitude), 0}))) : "326ZZ";
+  const std::string code = utm_code(middle(179), middle(195));
   return "export it in a projected system such as EPSG:" + code +
-         ", or as text of x y z, and project that: gdaltransform "
-         "-s_srs EPSG:4326 -t_srs EPSG:" +
-         code + " < in.xyz > out.xyz";
+         ", or as text of x y z, and project that: gdaltransform -s_srs EPSG:4326 -t_srs EPSG:" + code +
+         " < in.xyz > out.xyz";
 }
 
 }  // namespace

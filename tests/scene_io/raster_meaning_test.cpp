@@ -2,6 +2,7 @@
 // What rasters say about holes, units, signs and bands. Files are written by GDAL; right values follow from bed_height.
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_string.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
@@ -35,8 +36,9 @@ struct Band {
 struct RasterFile {
   std::string driver = "GTiff", name;
   std::vector<Band> bands{Band{}};
-  int epsg = 0;
+  std::string system{};  ///< such as "EPSG:32632"
   bool masked = false;
+  std::vector<std::string> options{};  ///< of the driver
 };
 
 /// Writes a raster by CreateCopy of one in memory.
@@ -46,9 +48,9 @@ std::string write_raster(const RasterFile& file) {
       GDALCreate(GDALGetDriverByName("MEM"), "", wide, deep, static_cast<int>(file.bands.size()), GDT_Float32, nullptr);
   double transform[6] = {west_edge, cell_size, 0, north_edge, 0, -cell_size};
   GDALSetGeoTransform(memory, transform);
-  if (file.epsg > 0) {
+  if (!file.system.empty()) {
     const OGRSpatialReferenceH system = OSRNewSpatialReference(nullptr);
-    OSRImportFromEPSG(system, file.epsg);
+    OSRSetFromUserInput(system, file.system.c_str());
     GDALSetSpatialRef(memory, system);
     OSRDestroySpatialReference(system);
   }
@@ -71,8 +73,11 @@ std::string write_raster(const RasterFile& file) {
   }
   const std::string path = own_path(file.name.c_str());
   CPLSetConfigOption("GDAL_TIFF_INTERNAL_MASK", "YES");
+  char** options = nullptr;
+  for (const std::string& option : file.options) options = CSLAddString(options, option.c_str());
   const GDALDatasetH copy =
-      GDALCreateCopy(GDALGetDriverByName(file.driver.c_str()), path.c_str(), memory, FALSE, nullptr, nullptr, nullptr);
+      GDALCreateCopy(GDALGetDriverByName(file.driver.c_str()), path.c_str(), memory, FALSE, options, nullptr, nullptr);
+  CSLDestroy(options);
   GDALClose(memory);
   if (!copy) throw std::runtime_error("GDAL cannot write " + path);
   GDALClose(copy);
@@ -205,7 +210,7 @@ TEST(RasterMeaning, degrees_are_refused_by_units_and_doubted_by_numbers) {
 
 TEST(RasterMeaning, feet_become_metres) {
   constexpr double foot = 1200.0 / 3937;  // of EPSG:2227, California zone 3
-  const LoadedScene loaded = load_as(write_raster({.name = "feet.tif", .epsg = 2227}));
+  const LoadedScene loaded = load_as(write_raster({.name = "feet.tif", .system = "EPSG:2227"}));
   expect_heights(loaded, wide * deep, foot * bed_low, foot * bed_high);
   const insonify::Bounds box = insonify::bounds(loaded.scene);
   EXPECT_NEAR(box.min.x(), foot * (west_edge + cell_size / 2), 1e-3);
@@ -213,14 +218,26 @@ TEST(RasterMeaning, feet_become_metres) {
   EXPECT_THAT(loaded.report.notes, Contains(HasSubstr("heights")));
 
   // Heights have the unit of their band.
-  expect_heights(load_as(write_raster({.name = "metres.tif", .bands = {{.unit = "m"}}, .epsg = 2227})), wide * deep,
-                 bed_low, bed_high);
-  expect_heights(load_as(write_raster({.name = "high.tif", .bands = {{.unit = "ft"}}, .epsg = 32632})), wide * deep,
-                 0.3048 * bed_low, 0.3048 * bed_high);
+  expect_heights(load_as(write_raster({.name = "metres.tif", .bands = {{.unit = "m"}}, .system = "EPSG:2227"})),
+                 wide * deep, bed_low, bed_high);
+  expect_heights(load_as(write_raster({.name = "high.tif", .bands = {{.unit = "ft"}}, .system = "EPSG:32632"})),
+                 wide * deep, 0.3048 * bed_low, 0.3048 * bed_high);
   // The caller knows better.
   AskedMeaning asked;
   asked.unit = 1;
-  expect_heights(load_as(write_raster({.name = "feet.tif", .epsg = 2227}), asked), wide * deep, bed_low, bed_high);
+  expect_heights(load_as(write_raster({.name = "feet.tif", .system = "EPSG:2227"}), asked), wide * deep, bed_low,
+                 bed_high);
+}
+
+TEST(RasterMeaning, heights_have_the_unit_of_a_vertical_system) {
+  // NAVD88 height in feet, of which a GeoTIFF 1.0 says less.
+  for (const char* version : {"1.0", "1.1"}) {
+    const LoadedScene loaded = load_as(write_raster(
+        {.name = "compound.tif", .system = "EPSG:32632+8228", .options = {std::string("GEOTIFF_VERSION=") + version}}));
+    expect_heights(loaded, wide * deep, 0.3048 * bed_low, 0.3048 * bed_high);
+    const insonify::Bounds box = insonify::bounds(loaded.scene);
+    EXPECT_NEAR(box.min.x(), west_edge + cell_size / 2, 1e-3) << version;
+  }
 }
 
 TEST(RasterMeaning, kilometres_of_axes_become_metres) {
@@ -298,7 +315,8 @@ TEST(RasterMeaning, grids_without_attributes_of_axes_are_read) {
 }
 
 TEST(RasterMeaning, is_told_by_info) {
-  const std::string path = write_raster({.name = "feet.tif", .bands = {{.name = "depth", .factor = -1}}, .epsg = 2227});
+  const std::string path =
+      write_raster({.name = "feet.tif", .bands = {{.name = "depth", .factor = -1}}, .system = "EPSG:2227"});
   std::string all;
   for (const insonify::MeaningItem& item : insonify::describe_file(path).meaning)
     all += item.name + "=" + item.value + " " + item.origin + "\n";
