@@ -7,7 +7,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t most_quoted = 200, most_in_line = 2000;   // [bytes]
-constexpr std::size_t longest_name = 255, longest_path = 4096;  // of POSIX file systems
+constexpr std::size_t longest_name = 255, longest_path = 4096;  // lengths in POSIX file systems [bytes]
 constexpr std::size_t punctuation = 5;                          // beside a name in a message
 constexpr std::string_view left_out = " ... ";
 

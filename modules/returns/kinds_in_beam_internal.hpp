@@ -62,7 +62,7 @@ class KindsInBeam {
  private:
   struct Span {
     std::int64_t begin = std::numeric_limits<std::int64_t>::max(), end = 0;
-    std::size_t at = 0;  // of its first bin in here_
+    std::size_t at = 0;  // index of its first bin in here_
   };
   std::int64_t bins() const { return static_cast<std::int64_t>(bins_); }
 

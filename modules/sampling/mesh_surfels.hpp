@@ -39,7 +39,7 @@ struct MeshSurfels {
 MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, const BeamFan& fan,
                          const SamplingOptions& options = {}, std::size_t most_surfels = default_mesh_surfels);
 
-/// What evenly spaced surfels may take.
+/// Limit of a sample of evenly spaced surfels.
 struct EvenLimit {
   std::string where = "even_surfels";                       ///< with which messages begin: a path
   double memory = std::numeric_limits<double>::infinity();  ///< [bytes]

@@ -54,7 +54,7 @@ PointClasses parse_classes(const std::string& text) {
 }  // namespace
 
 std::optional<double> unit_named(std::string_view name) {
-  constexpr double ft = metres_per_foot, us = metres_per_survey_foot;
+  constexpr double ft = 0.3048, us = 1200.0 / 3937;
   constexpr Named<double> units[] = {{"m", 1},
                                      {"metre", 1},
                                      {"meter", 1},

@@ -8,13 +8,11 @@
 
 namespace insonify {
 
-constexpr double metres_per_foot = 0.3048, metres_per_survey_foot = 1200.0 / 3937;
-
 /// Classes of LAS points by their numbers.
 using PointClasses = std::bitset<256>;
 
-/// What a caller says about the meaning of a scene file. An empty member means: as the file says, else as its format
-/// has it.
+/// Statements of a caller about the meaning of a scene file. Where a member is empty, the file decides, else the
+/// convention of its format.
 struct AskedMeaning {
   std::optional<double> unit;  ///< [m] of one unit of all coordinates
   std::optional<bool> z_down;  ///< z is a depth: it counts downwards
@@ -44,9 +42,8 @@ inline constexpr MeaningOption meaning_options[] = {
     {"z", "--z", &MeaningText::z, "sign of z: up, or down for depths; default: as the file says, else up"},
     {"up", "--up", &MeaningText::up, "axis of the file that points up: y or z; default: y of glTF, else z"},
     {"band", "--band", &MeaningText::band,
-     "number or name of the band or variable of a raster that holds the heights; default: the one that is named as "
-     "one, "
-     "else 1"},
+     "number or name of the band or variable of a raster that holds the heights; default: the one that is named "
+     "as one, else 1"},
     {"nodata", "--nodata", &MeaningText::no_data,
      "heights that mark holes, as numbers with commas between them, or none; default: those of the file, and numbers "
      "such as -9999 that stand far from all others"},
@@ -59,7 +56,7 @@ inline constexpr MeaningOption meaning_options[] = {
 /// for a name that is not known.
 std::optional<double> unit_named(std::string_view name);
 
-/// Returns what a text says. Throws Error(argument) with the option, its value and what it may be.
+/// Returns the statements of a text. Throws Error(argument) with the option, its value and what it may be.
 AskedMeaning parse_meaning(const MeaningText& text);
 
 }  // namespace insonify

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include "core/text.hpp"
 #include "sampling/trust_lines_of_sight.hpp"
 #include "scene/estimate/height_triangles.hpp"
 #include "scene/estimate/smoothed_heights.hpp"
@@ -44,11 +44,10 @@ bool smooth_heights(std::vector<float> noise, const LoadOptions& options, RawClo
   raw.surface_height = smoothed_heights(raw.point, noise, options.threads);
   for (std::size_t i = 0; i < noise.size(); ++i)
     farthest = std::max(farthest, std::abs(raw.surface_height[i] - raw.point[i].z()));
-  std::ostringstream text;
-  text.precision(3);
-  text << noisy << " of " << noise.size() << " heights show noise, of " << largest
-       << " m standard deviation: smoothed, by at most " << farthest << " m; a scan noise of 0 leaves them as they are";
-  report.notes.push_back(text.str());
+  report.notes.push_back(printed(
+      "%zu of %zu heights show noise, of %.3g m standard deviation: smoothed, by at most %.3g m; a scan noise of "
+      "0 leaves them as they are",
+      noisy, noise.size(), static_cast<double>(largest), static_cast<double>(farthest)));
   return true;
 }
 

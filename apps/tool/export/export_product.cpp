@@ -121,9 +121,8 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
       *std::find_if(std::begin(products), std::end(products), [&](const Product& each) { return o.to == each.name; });
   if (o.to == "las" && o.output.ends_with(".laz"))
     fail(ErrorKind::argument, "--output ", o.output,
-         ": LAZ is not written, since Debian 12 has no library for it; give a name that ends in .las, which every "
-         "reader "
-         "of LAZ takes too");
+         ": LAZ is not written, since Debian 12 has no library for it; give a name that ends in .las, "
+         "which every reader of LAZ takes too");
   const bool raster = o.to == "geotiff";
   if (!o.crs.empty() && !raster)
     fail(ErrorKind::argument, "--crs goes with --to geotiff; --to ", o.to, " is in ",

@@ -22,7 +22,7 @@ nlohmann::ordered_json info_of_folder(const std::string& path);
 /// Throws as the reader of each.
 nlohmann::ordered_json info_of_toml(const std::string& path);
 
-/// Of a cloud, mesh, raster or tiles. `asked` says what the file means; tiles are prepared and need no such options.
+/// Facts of a cloud, mesh, raster or tiles. `asked` overrules the meaning of the file; tiles are prepared and ignore it.
 nlohmann::ordered_json info_of_scene(const std::string& path, MeaningText asked);
 
 /// Commands that go on from a scene with this box: a ping from before and above it that looks at its middle, and a

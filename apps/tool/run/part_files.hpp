@@ -14,7 +14,7 @@ namespace insonify::tool {
 
 /// How a scene of parts is loaded.
 struct PartsOptions {
-  std::uint64_t seed = 1;   ///< of draws, and of samples of meshes
+  std::uint64_t seed = 1;   ///< seed of draws, and of samples of meshes
   int threads = 0;          ///< 0: all cores
   bool drawn_anew = false;  ///< scatters are drawn for every ping, not once
 };

@@ -22,7 +22,7 @@ inline constexpr int terms_of = (Degree + 1) * (Degree + 2) / 2;
 template <int Degree>
 using Terms = Eigen::Matrix<double, terms_of<Degree>, 1>;
 
-inline constexpr double least_pivot = 1e-7;  // of a well-determined fit, over the largest
+inline constexpr double least_pivot = 1e-7;  // smallest pivot of a well-determined fit, over the largest
 
 // The terms of a polynomial at a place.
 template <int Degree>

@@ -31,7 +31,7 @@ constexpr std::size_t blended = 4;                                              
 constexpr double next_narrower = 0.4;                                                // the next cubic that is tried
 
 // In standard deviations of the noise:
-constexpr double farthest_move = 2.9;   // of a point; it is three if the noise is estimated 3 % too large
+constexpr double farthest_move = 2.9;   // move of a point; three if the noise is estimated 3 % too large
 constexpr double off_object = 5;        // a point farther off the cubic belongs to something else
 constexpr double counted_within = 4.7;  // of the cubic, neighbours count (Tukey: 95 % efficient for a normal law)
 constexpr double capped_at = 3;         // what neighbours add to the mean square of what the cubic leaves
