@@ -17,6 +17,9 @@ constexpr double least_grazing_deg = 0.001, largest_exponent = 40;
 /// 1 / (1 + e^x): what is left of one model where another takes over.
 double fade(double x) { return 1 / (1 + std::exp(std::clamp(x, -largest_exponent, largest_exponent))); }
 
+/// Cross-section per area of a Lambert surface that returns all it receives: more is no diffuse part's.
+double most_diffuse(double cos_in, double cos_out) { return cos_in * cos_out / pi; }
+
 class SeabedModel {
  public:
   SeabedModel(const Sediment& sediment, double frequency, double sound_speed, const char* who)
@@ -147,7 +150,7 @@ class SeabedSurface final : public SurfaceScattering {
   static constexpr int limits = 12;
 
   double diffuse(const PathAngles& path) const {
-    return std::min(diffuse_(path.cos_in) * diffuse_(path.cos_out), path.cos_in * path.cos_out / pi);
+    return std::min(diffuse_(path.cos_in) * diffuse_(path.cos_out), most_diffuse(path.cos_in, path.cos_out));
   }
   double lobe(const PathAngles& path) const {
     const HalfVector half = half_vector(path);
@@ -183,6 +186,12 @@ class SeabedSurface final : public SurfaceScattering {
 
 SeabedStrength seabed_strength(const Sediment& sediment, double frequency, double sound_speed, double grazing) {
   return SeabedModel(sediment, frequency, sound_speed, "seabed_strength").at(grazing);
+}
+
+double seabed_cut_db(const Sediment& sediment, double frequency, double sound_speed, double grazing) {
+  const auto [diffuse, lobe] = SeabedModel(sediment, frequency, sound_speed, "seabed_cut_db").at(grazing);
+  return db_from_power((diffuse + lobe) /
+                       (std::min(diffuse, most_diffuse(std::sin(grazing), std::sin(grazing))) + lobe));
 }
 
 std::shared_ptr<const SurfaceScattering> surface_of(const SeabedLaw& law, double frequency, double sound_speed) {

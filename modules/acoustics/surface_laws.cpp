@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 #include "acoustics/tabulated_surface_internal.hpp"
@@ -53,6 +54,34 @@ struct ValidityOf {
     return {law.frequency.front(), law.frequency.back(), "its table", 10};
   }
 };
+
+/// What a note says of a bed whose diffuse part is cut at Lambert's limit; empty if that costs less than 0.5 dB from 5
+/// degrees of grazing on.
+std::string cut_note(const Sediment& bed, double frequency, double sound_speed) {
+  constexpr double noted_db = 0.5;
+  constexpr int least_deg = 5;
+  const auto cut_db = [&](double deg) { return seabed_cut_db(bed, frequency, sound_speed, radians(deg)); };
+  int to_deg = 90;
+  while (to_deg >= least_deg && cut_db(to_deg) < noted_db) --to_deg;
+  if (to_deg < least_deg) return "";
+
+  std::ostringstream text;
+  text << " stays below TR 9407, which returns more than arrives: at " << frequency * 1e-3 << " kHz by " << std::fixed
+       << std::setprecision(1) << cut_db(10) << ", " << cut_db(20) << " and " << cut_db(45)
+       << " dB at 10, 20 and 45 deg of grazing, and by " << noted_db << " dB or more up to " << to_deg << " deg";
+  return text.str();
+}
+
+/// What a note says of a law that is not known at `frequency`; empty if it is.
+std::string validity_note(const SurfaceLaw& law, double frequency) {
+  const Validity v = std::visit(ValidityOf{frequency}, law);
+  if (frequency >= v.least * (1 - 1e-9) && frequency <= v.most * (1 + 1e-9)) return "";
+
+  std::ostringstream text;
+  text << " is known from " << v.least * 1e-3 << " to " << v.most * 1e-3 << " kHz (" << v.of << "), not at "
+       << frequency * 1e-3 << " kHz: its level may be off by " << v.off_db << " dB";
+  return text.str();
+}
 
 }  // namespace
 
@@ -127,16 +156,13 @@ void require_energy(const Material& material, const char* who, ErrorKind kind) {
   }
 }
 
-std::vector<std::string> surface_notes(std::span<const Material> materials, double frequency) {
+std::vector<std::string> surface_notes(std::span<const Material> materials, double frequency, double sound_speed) {
   std::vector<std::string> notes;
   for (const Material& m : materials) {
-    const Validity v = std::visit(ValidityOf{frequency}, m.law);
-    if (frequency >= v.least * (1 - 1e-9) && frequency <= v.most * (1 + 1e-9)) continue;
-    std::ostringstream text;
-    text << "material '" << m.name << "': law " << name_of(m.law) << " is known from " << v.least * 1e-3 << " to "
-         << v.most * 1e-3 << " kHz (" << v.of << "), not at " << frequency * 1e-3 << " kHz: its level may be off by "
-         << v.off_db << " dB";
-    notes.push_back(text.str());
+    std::vector<std::string> of_law = {validity_note(m.law, frequency)};
+    if (const auto* bed = std::get_if<SeabedLaw>(&m.law)) of_law.push_back(cut_note(*bed, frequency, sound_speed));
+    for (const std::string& text : of_law)
+      if (!text.empty()) notes.push_back("material '" + m.name + "': law " + name_of(m.law) + text);
   }
   return notes;
 }

@@ -23,6 +23,12 @@ struct SeabedStrength {
 /// sediment, frequency [Hz] or sound speed [m/s].
 SeabedStrength seabed_strength(const Sediment& sediment, double frequency, double sound_speed, double grazing);
 
+/// Returns by how much law `seabed` (E140) is weaker straight back than TR 9407 (E139) [dB, >= 0]: its diffuse part is cut
+/// at Lambert's limit, cos^2 / pi, since the report's rock would return more than it receives. Grazing angle [rad] within
+/// 0 and pi/2. Within 0.15 dB of the law as it is computed, whose lobe loses to shadow and energy as well. Throws Error
+/// as seabed_strength does.
+double seabed_cut_db(const Sediment& sediment, double frequency, double sound_speed, double grazing);
+
 /// Returns I(p) of the small-slope approximation: integral of J0(u) exp(-p u^(2 alpha)) u du over u > 0, for 0 < alpha
 /// < 1, to 1e-5. As a mean over one-sided stable numbers (Kanter 1975), which does not oscillate; by its series where p
 /// is small.
@@ -52,7 +58,9 @@ std::shared_ptr<const SurfaceScattering> surface_of(const Material& material, do
 /// incidences, at frequencies of 10 kHz to 1 MHz and those of a table. Lambert's law may.
 void require_energy(const Material& material, const char* who, ErrorKind kind = ErrorKind::argument);
 
-/// Returns one sentence for each material whose law is not validated at `frequency`, with its possible error [dB].
-std::vector<std::string> surface_notes(std::span<const Material> materials, double frequency);
+/// Returns sentences on laws at `frequency` [Hz] in water of `sound_speed` [m/s]: for each material whose law is not
+/// validated there, its possible error [dB]; for each bed whose law is cut by 0.5 dB or more (seabed_cut_db) at 5
+/// degrees of grazing or above, by how much and where.
+std::vector<std::string> surface_notes(std::span<const Material> materials, double frequency, double sound_speed);
 
 }  // namespace insonify

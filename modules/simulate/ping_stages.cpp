@@ -154,7 +154,8 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   if (wanted.paths > 0) result.outputs.paths = paths_of(scene, ping, parts, patches);
 
   if (ping.view.sampling.kind == SamplingKind::rays) report.notes = gap_notes(scene, ping.view, patches);
-  for (std::string& note : surface_notes(materials_in(scene), ping.head.pulse.centre_frequency))
+  for (std::string& note :
+       surface_notes(materials_in(scene), ping.head.pulse.centre_frequency, ping.sent.medium.sound_speed))
     report.notes.push_back(std::move(note));
   for (std::string& note : sparse_notes(report.sampling, ping.view.fan.beams()))
     report.notes.push_back(std::move(note));

@@ -96,14 +96,15 @@ void print_material_files(const std::vector<MaterialFile>& files, bool as_table)
       fmt::print("  {:<22} {:>10}  {:<9} {}\n", n.key, n.value, n.status, n.source);
     for (const double frequency : {30e3, 100e3, 400e3, 900e3}) {
       fmt::print("\n  at {:3.0f} kHz, {} deg grazing:", frequency * 1e-3, "10 20 30 45 60 90");
-      const auto surface = surface_of(m, frequency, 1500);
+      const auto surface = surface_of(m, frequency, material_sound_speed);
       for (const double deg : {10, 20, 30, 45, 60, 90}) {
         const double sine = std::sin(radians(deg));
         fmt::print(" {:6.1f}", db_from_power(surface->back(sine) * sine));
       }
       fmt::print(" dB");
-      for (const std::string& note : surface_notes({&m, 1}, frequency))
-        fmt::print("; {}", note.substr(note.find("its level")));
+      const std::string subject = fmt::format("material '{}': law {} ", m.name, name_of(m.law));
+      for (const std::string& note : surface_notes({&m, 1}, frequency, material_sound_speed))
+        fmt::print("\n    {}", note.substr(subject.size()));
     }
     fmt::print("\n");
   }

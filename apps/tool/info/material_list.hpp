@@ -12,6 +12,9 @@
 /// Materials as the tool lists them: names, numbers and sources of a table, shares of a scene.
 namespace insonify::tool {
 
+/// Sound speed [m/s] of the strengths that are listed and drawn.
+inline constexpr double material_sound_speed = 1500;
+
 /// Path of the table that is part of insonify.
 std::string built_in_materials();
 

@@ -21,8 +21,6 @@
 namespace insonify::tool {
 namespace {
 
-constexpr double sound_speed = 1500;
-
 struct MaterialsOptions {
   CommonOptions common;
   std::string name;
@@ -70,7 +68,7 @@ void draw(const MaterialsOptions& o, const std::vector<Material>& materials) {
   chart.low_x = 0, chart.high_x = 90, chart.low_y = -60, chart.high_y = 15;
   for (const Material& m : materials)
     for (const double f : khz) {
-      const auto surface = surface_of(m, 1e3 * f, sound_speed);
+      const auto surface = surface_of(m, 1e3 * f, material_sound_speed);
       ChartLine line;
       for (double deg = 1; deg <= 90; deg += 0.5) {
         const double sine = std::sin(radians(deg)), db = db_from_power(surface->back(sine) * sine);
