@@ -18,6 +18,30 @@ namespace {
 
 double number(const std::map<std::string, std::string>& row, const char* name) { return std::stod(row.at(name)); }
 
+/// Fails unless the bands of accepted soundings are those of the map without rejected ones, whose bands count them all.
+void expect_rejected_apart(const insonify::decode::GeotiffContent& kept, const insonify::decode::GeotiffContent& all,
+                           double rejected) {
+  ASSERT_EQ(kept.bands.size() + 2, all.bands.size());
+  EXPECT_GT(all.columns, kept.columns);
+  const auto shift = [](double from, double to, double cell) {
+    return static_cast<std::size_t>(std::lround((to - from) / cell));
+  };
+  const std::size_t left = shift(all.west, kept.west, kept.cell), down = shift(kept.north, all.north, kept.cell);
+  double counted = 0, seen = 0;
+  for (const float count : all.bands[kept.bands.size()]) counted += static_cast<double>(count);
+  for (std::size_t row = 0; row < kept.rows; ++row)
+    for (std::size_t column = 0; column < kept.columns; ++column)
+      for (std::size_t k = 0; k < kept.bands.size(); ++k) {
+        const float is = all.bands[k][(row + down) * all.columns + column + left],
+                    was = kept.bands[k][row * kept.columns + column];
+        EXPECT_THAT(is, testing::NanSensitiveFloatEq(was));
+        seen += k == 2 ? static_cast<double>(is) : 0;
+      }
+  for (const float count : all.bands[2]) seen -= static_cast<double>(count);
+  EXPECT_EQ(seen, 0);  // no accepted sounding lies beyond the smaller map
+  EXPECT_EQ(counted, rejected);
+}
+
 }  // namespace
 
 // A swath of the built-in river, whose bed ends 8 m to either side: the outer beams hear side lobes alone.
@@ -95,7 +119,7 @@ TEST_F(JudgedExport, leaves_rejected_soundings_out_or_flags_them) {
   EXPECT_EQ(in_clouds, rejected);
 
   exported("geotiff", "", "kept.tif"), exported("geotiff", keep, "all.tif");
-  EXPECT_GT(decode::read_geotiff(read("all.tif")).columns, decode::read_geotiff(read("kept.tif")).columns);
+  expect_rejected_apart(decode::read_geotiff(read("kept.tif")), decode::read_geotiff(read("all.tif")), rejected);
 }
 
 TEST_F(JudgedExport, leaves_out_what_is_faint_or_uncertain_on_request) {

@@ -42,6 +42,23 @@ TEST(SoundingMap, has_bands_of_height_level_number_deviation_and_extremes) {
     EXPECT_NEAR(static_cast<double>(bands[k].values(0, 0)), expected[k], 1e-4) << bands[k].name;
 }
 
+// A rejected sounding far from the bed moves no band of the bed, and has its own.
+TEST(SoundingMap, keeps_rejected_soundings_apart) {
+  SoundingMap map(1);
+  map.add({0.5, 0.5, -7}, 100);
+  map.add_rejected({0.5, 0.5, -13});
+  map.add_rejected({0.5, 0.5, -12});
+  map.add_rejected({1.5, 0.5, -20});
+  EXPECT_EQ(map.bands().size(), 6U);
+  const std::vector<GeoBand> bands = map.bands(true);
+  ASSERT_EQ(bands.size(), 8U);
+  const double first[] = {-7, 20, 1, NAN, -7, -7, 2, -12.5}, second[] = {NAN, NAN, 0, NAN, NAN, NAN, 1, -20};
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_THAT(bands[k].values(0, 0), testing::NanSensitiveFloatEq(static_cast<float>(first[k]))) << bands[k].name;
+    EXPECT_THAT(bands[k].values(0, 1), testing::NanSensitiveFloatEq(static_cast<float>(second[k]))) << bands[k].name;
+  }
+}
+
 namespace {
 
 /// A section of the page of exports: heading, first cell of the head, and rows of name, unit, type and meaning.

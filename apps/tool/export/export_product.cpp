@@ -143,10 +143,12 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   nlohmann::ordered_json summary = {
       {"output", o.output}, {"to", o.to}, {"soundings", count.soundings}, {"rejected", count.rejected}};
   if (!o.processing_profile.empty()) summary["processing_profile"] = profile_name(o);
-  print_summary(
-      common, summary,
-      fmt::format("{}: {} soundings as {}; {} rejected {} {}", o.output, count.soundings, o.to, count.rejected,
-                  count.rejected == 1 ? "one" : "ones", o.keep_rejected ? "are among them, flagged" : "are left out"));
+  const char* what_of_rejected = !o.keep_rejected ? "are left out"
+                                 : raster         ? "are among them, in the bands rejected and rejected_height"
+                                                  : "are among them, flagged";
+  print_summary(common, summary,
+                fmt::format("{}: {} soundings as {}; {} rejected {} {}", o.output, count.soundings, o.to,
+                            count.rejected, count.rejected == 1 ? "one" : "ones", what_of_rejected));
 }
 
 }  // namespace insonify::tool

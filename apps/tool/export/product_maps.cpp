@@ -72,14 +72,18 @@ SoundingCount geotiff_product(const PlacedRun& run) {
   const RasterPlane plane(run.options.crs, run.place);
   SoundingMap map(run.options.cell);
   const auto count = each_swath(run, [&](const Cube&, const Ping&, const BottomSoundings& found) {
-    for (std::size_t i = 0; i < found.size(); ++i)
-      map.add(plane.place(found.position[i]),
-              power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i])));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const Eigen::Vector3d place = plane.place(found.position[i]);
+      if (found.reject[i] != 0)
+        map.add_rejected(place);
+      else
+        map.add(place, power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i])));
+    }
   });
   if (map.empty()) fail(ErrorKind::content, run.options.run, ": has no soundings, so there is nothing to map");
   GeoGrid grid = plane.in_system(map.grid());
   grid.remark = profile_remark(run.options);
-  write_geotiff(run.options.output, map.bands(), grid);
+  write_geotiff(run.options.output, map.bands(run.options.keep_rejected), grid);
   return count;
 }
 

@@ -19,8 +19,12 @@ std::int64_t cell_of(double coordinate, double cell) {
   return static_cast<std::int64_t>(std::floor((coordinate + on_edge) / cell));
 }
 
+SoundingMap::Cell& SoundingMap::cell_at(const Eigen::Vector3d& place) {
+  return cells_[{cell_of(place.y(), cell_), cell_of(place.x(), cell_)}];
+}
+
 void SoundingMap::add(const Eigen::Vector3d& place, double intensity) {
-  Cell& cell = cells_[{cell_of(place.y(), cell_), cell_of(place.x(), cell_)}];
+  Cell& cell = cell_at(place);
   const double z = place.z();
   cell.least = cell.count == 0 ? z : std::min(cell.least, z);
   cell.most = cell.count == 0 ? z : std::max(cell.most, z);
@@ -29,6 +33,12 @@ void SoundingMap::add(const Eigen::Vector3d& place, double intensity) {
   cell.mean += off / cell.count;
   cell.squares += off * (z - cell.mean);
   cell.intensity += intensity;
+}
+
+void SoundingMap::add_rejected(const Eigen::Vector3d& place) {
+  Cell& cell = cell_at(place);
+  cell.rejected += 1;
+  cell.rejected_mean += (place.z() - cell.rejected_mean) / cell.rejected;
 }
 
 SoundingMap::Extent SoundingMap::extent() const {
@@ -41,19 +51,28 @@ SoundingMap::Extent SoundingMap::extent() const {
   return {west, south, columns, rows};
 }
 
-std::vector<GeoBand> SoundingMap::bands() const {
+std::vector<GeoBand> SoundingMap::bands(bool with_rejected) const {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto [west, south, columns, rows] = extent();
-  const Grid<float> none = Grid<float>::Constant(rows, columns, std::numeric_limits<float>::quiet_NaN());
   std::vector<GeoBand> bands;
-  for (const BandMeaning& meaning : sounding_bands) bands.push_back({meaning.name, meaning.unit, none});
+  for (const BandMeaning& meaning : sounding_bands)
+    bands.push_back({meaning.name, meaning.unit, Grid<float>::Constant(rows, columns, static_cast<float>(none))});
   bands[2].values.setZero();
+  bands[6].values.setZero();
   for (const auto& [at, cell] : cells_) {
-    const std::int64_t row = at.first - south, column = at.second - west;
-    const double of_cell[] = {cell.mean,  db_from_power(cell.intensity / cell.count),
-                              cell.count, cell.count > 1 ? std::sqrt(cell.squares / (cell.count - 1)) : std::nan(""),
-                              cell.least, cell.most};
-    for (std::size_t k = 0; k < bands.size(); ++k) bands[k].values(row, column) = static_cast<float>(of_cell[k]);
+    const bool any = cell.count > 0;
+    const double of_cell[] = {any ? cell.mean : none,
+                              any ? db_from_power(cell.intensity / cell.count) : none,
+                              cell.count,
+                              cell.count > 1 ? std::sqrt(cell.squares / (cell.count - 1)) : none,
+                              any ? cell.least : none,
+                              any ? cell.most : none,
+                              cell.rejected,
+                              cell.rejected > 0 ? cell.rejected_mean : none};
+    for (std::size_t k = 0; k < bands.size(); ++k)
+      bands[k].values(at.first - south, at.second - west) = static_cast<float>(of_cell[k]);
   }
+  if (!with_rejected) bands.resize(bands.size() - rejected_bands);
   return bands;
 }
 

@@ -20,14 +20,18 @@ std::int64_t cell_of(double coordinate, double cell);
 struct BandMeaning {
   const char *name, *unit, *meaning;
 };
-/// The bands in the order of the file.
+/// The bands in the order of the file. All but the last two are of accepted soundings; the last two are written with
+/// --keep-rejected.
 inline constexpr BandMeaning sounding_bands[] = {
     {"height", "m", "mean height of the soundings, positive up"},
     {"level", "dB re 1 uPa at 1 m", "mean intensity, with a gain of 30 log r"},
     {"soundings", "", "number of soundings in the cell; 0: none"},
     {"deviation", "m", "standard deviation of the heights; NaN for fewer than two soundings"},
     {"lowest", "m", "least height"},
-    {"highest", "m", "greatest height"}};
+    {"highest", "m", "greatest height"},
+    {"rejected", "", "with --keep-rejected: number of rejected soundings in the cell, which no band before counts"},
+    {"rejected_height", "m", "with --keep-rejected: their mean height; NaN if there are none"}};
+inline constexpr std::size_t rejected_bands = 2;  ///< how many of them are of rejected soundings
 
 /// The columns of soundings as CSV, in the order of the file; the last two only with a place on the globe.
 inline constexpr BandMeaning csv_columns[] = {
@@ -54,11 +58,13 @@ class SoundingMap {
 
   /// Adds a sounding at easting, northing and height [m], of an intensity [Pa^2 at 1 m].
   void add(const Eigen::Vector3d& place, double intensity);
+  /// Adds a rejected sounding, which counts in bands of its own alone.
+  void add_rejected(const Eigen::Vector3d& place);
   bool empty() const { return cells_.empty(); }
 
-  /// The bands of a raster: mean height, level, number of soundings, standard deviation, least and largest height, and
-  /// where it lies, without its zone. Throws Error(argument) for more than 2^26 cells.
-  std::vector<GeoBand> bands() const;
+  /// The bands of a raster (sounding_bands), those of rejected soundings on request, and where it lies, without its
+  /// zone. Throws Error(argument) for more than 2^26 cells.
+  std::vector<GeoBand> bands(bool with_rejected = false) const;
   GeoGrid grid() const;
 
  private:
@@ -66,7 +72,9 @@ class SoundingMap {
     double count = 0, intensity = 0;
     double mean = 0, squares = 0;  ///< of heights; squares: of their differences from the mean, summed
     double least = 0, most = 0;
+    double rejected = 0, rejected_mean = 0;
   };
+  Cell& cell_at(const Eigen::Vector3d& place);
   struct Extent {
     std::int64_t west, south, columns, rows;
   };

@@ -50,7 +50,8 @@ void add_options(OptionList list, ExportOptions& o) {
   list.add("--cell", &p.cell, "[m] size of the cells of a geotiff", {.positive = true});
   list.add("--per-beam", &p.per_beam, "most soundings of a beam, the strongest first",
            {.within = std::pair(1, 100), .shown_as = "INT"});
-  list.add("--keep-rejected", &p.keep_rejected, "write rejected soundings too, with a flag");
+  list.add("--keep-rejected", &p.keep_rejected,
+           "write rejected soundings too, with a flag; in geotiff in bands of their own");
   list.add("--min-level", &p.min_level, "[dB re 1 uPa] least level of a sounding");
   list.add("--max-deviation", &p.max_deviation, "[m] greatest predicted standard deviation of a sounding",
            {.positive = true});
