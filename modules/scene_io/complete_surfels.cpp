@@ -19,15 +19,6 @@ constexpr double nearly_all = 0.98;  // of the points
 /// An organised cloud with a viewpoint: one view, of which every line of sight is known.
 bool seen_at_once(const RawCloud& raw) { return raw.height > 1 && raw.viewpoint; }
 
-/// True if all points were seen steeply from above, from within 10 degrees of the vertical: as a height field is.
-bool seen_from_above(const RawCloud& raw) {
-  constexpr double steepest = 0.17633;  // tangent of 10 degrees
-  return raw.viewpoint && std::all_of(raw.point.begin(), raw.point.end(), [&](const Eigen::Vector3f& p) {
-           const Eigen::Vector3d up = *raw.viewpoint - raw.origin - p.cast<double>();
-           return up.z() > 0 && up.head<2>().norm() <= steepest * up.z();
-         });
-}
-
 /// Moves heights that show noise onto the surface among their neighbours (E160); false if none does. The noise is that
 /// of the file, else of the options, else the estimate.
 bool smooth_heights(std::vector<float> noise, const LoadOptions& options, RawCloud& raw, LoadReport& report) {
@@ -68,8 +59,8 @@ void join_heights(const SurfelShapes& shapes, std::vector<std::array<std::uint32
 
 SurfelShapes shapes_of(const RawCloud& raw, const LoadOptions& options) {
   ShapeOptions shaping{.threads = options.threads, .keep_strays = options.keep_strays};
-  shaping.height_fields = !raw.viewpoint || raw.height > 1 || !raw.raster.empty() || seen_from_above(raw);
-  if (seen_at_once(raw)) shaping.viewpoint = *raw.viewpoint - raw.origin;
+  if (raw.viewpoint) shaping.viewpoint = *raw.viewpoint - raw.origin;
+  if (!seen_at_once(raw)) shaping.evenness_of_view = 4;
   return estimate_surfel_shapes(raw.point, raw.normal, shaping);
 }
 

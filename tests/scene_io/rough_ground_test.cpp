@@ -288,7 +288,19 @@ TEST(RoughGround, is_no_height_field_where_walls_stand_on_it_or_surfaces_lie_abo
   const std::size_t one = points.size();
   for (std::size_t i = 0; i < one; ++i) points.push_back(points[i] + Eigen::Vector3d(0.004, 0.003, 0.8));
   EXPECT_FALSE(load_scene(own_file("twice.xyz", text_of(points)), from_above()).mesh);
-  LoadOptions from_a_side;
+}
+
+// A viewpoint says which side of a surface reflects, and nothing about its shape.
+TEST(RoughGround, is_the_same_surface_whatever_the_viewpoint) {
+  LoadOptions from_a_side, from_nowhere;
   from_a_side.viewpoint = Eigen::Vector3d(-3, 0, 1);
-  EXPECT_FALSE(drawn({.jitter = 0.35}, from_a_side).mesh);
+  const LoadedScene seen = drawn({.jitter = 0.35}, from_a_side), above = drawn({.jitter = 0.35}),
+                    unknown = drawn({.jitter = 0.35}, from_nowhere);
+  ASSERT_TRUE(seen.mesh && above.mesh && unknown.mesh);
+  EXPECT_EQ(seen.mesh->triangle, above.mesh->triangle);
+  EXPECT_EQ(seen.mesh->triangle, unknown.mesh->triangle);
+  EXPECT_EQ(seen.scene.area, above.scene.area);
+  EXPECT_EQ(seen.scene.area, unknown.scene.area);
+  EXPECT_EQ(seen.mesh->point, above.mesh->point);
+  EXPECT_TRUE(seen.scene.normals_oriented && !unknown.scene.normals_oriented);
 }

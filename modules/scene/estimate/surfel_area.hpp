@@ -27,9 +27,11 @@ struct ShapeOptions {
   int neighbours =
       16;           ///< nearest points that bound a cell in a view from one place (otherwise twice as many); at least 6
   int threads = 0;  ///< 0: all cores
-  bool height_fields = true;  ///< search for height fields; not for a view from one side, whose steps look like slopes
-  std::optional<Eigen::Vector3d> viewpoint{};  ///< all points were seen from here [m]; empty: there is no such place
-  bool keep_strays = false;                    ///< points far from all others keep the areas of their cells
+  /// Where points were seen from [m]; empty: unknown. They count as one view, all seen at once, if their cells among the
+  /// directions from there are at least `evenness_of_view` times as even as on the plan; else it changes nothing.
+  std::optional<Eigen::Vector3d> viewpoint{};
+  double evenness_of_view = 1;
+  bool keep_strays = false;  ///< points far from all others keep the areas of their cells
 };
 
 /// Normals and areas of points, with counts of strays and of points in height fields.
@@ -61,8 +63,8 @@ struct SurfelShapes {
 ///
 /// Points that were all seen from `viewpoint` keep the base normals, because steps in range are not relief. Their area
 /// is that of their cell of solid angle, divided by the cosine between normal and line of sight, at least 0.1 (E73).
-/// This holds for a scanner. If the cells are more alike on the plan, the cloud is a raster of heights, and the
-/// viewpoint changes nothing.
+/// This holds for a scanner. Elsewhere cells are less even than `evenness_of_view` asks for, and the viewpoint changes
+/// nothing. At most 20 000 of them are compared.
 ///
 /// Array lengths and degenerate input are treated as in estimate_surfel_areas.
 SurfelShapes estimate_surfel_shapes(std::span<const Eigen::Vector3f> points,

@@ -19,6 +19,7 @@ constexpr double least_cosine = 0.1;           // between a surface and the plan
 constexpr double least_seen_cosine = 0.1;      // and between a surface and the direction in which it was seen
 constexpr std::size_t neighbours_fitted = 16;  // by a cubic, which has ten terms
 constexpr std::size_t around = 17;             // points that decide together
+constexpr std::size_t compared_cells = 20000;  // at most some that decide whether a cloud was seen at once
 constexpr double flat_chart = 100;             // rise of a neighbour on a chart, which has none but for rounding
 
 double median_of(std::vector<double>& values) {
@@ -111,8 +112,7 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
 std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& base, const AreaEstimator& estimator,
                               const ShapeOptions& options) {
   std::vector<Look> looks(e.position.size());
-  Plan plan{{}, std::vector<std::uint8_t>(looks.size())};
-  if (options.height_fields) plan = find_height_fields(e.position, options.threads);
+  const Plan plan = find_height_fields(e.position, options.threads);
   std::vector<Vector3f> flat, raised;
   for (const std::uint32_t p : plan.points) {
     raised.push_back(e.position[p]);
@@ -204,14 +204,14 @@ void estimate_around(const ShapeOptions& options, Estimate& e, std::vector<Vecto
   choose_shapes(look_at_all(e, normals, estimator, options), estimator.index(), options, e, normals, counts);
 }
 
-// Voronoi cells among `places`, unit vectors or points of a plan, whose tangent planes have the normals `up`.
-std::vector<double> cells_among(const std::vector<Vector3f>& places, const std::vector<Vector3f>& up,
-                                const AreaOptions& options) {
-  const AreaEstimator estimator(places, places, options.neighbours, flat_chart);
-  std::vector<double> cells(places.size());
-  parallel_blocks(cells.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
+// Voronoi cells among `places`, unit vectors or points of a plan, of every `step`th, whose tangent planes have the
+// normals `up`.
+std::vector<double> cells_among(const AreaEstimator& estimator, const std::vector<Vector3f>& up, std::size_t step,
+                                int threads) {
+  std::vector<double> cells(up.size() / step);
+  parallel_blocks(cells.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
     Workspace work;
-    for (std::size_t i = begin; i < end; ++i) cells[i] = estimator.area(i, up[i], work);
+    for (std::size_t i = begin; i < end; ++i) cells[i] = estimator.area(i * step, up[i * step], work);
   });
   return cells;
 }
@@ -224,17 +224,23 @@ double spread_of(std::vector<double> cells) {
 }
 
 // Areas of points that were all seen from one place: their cells among the directions in which they were seen (E73).
-// False if the cells are more alike on the plan: then the cloud is a raster of heights, whatever `viewpoint` is.
-bool estimate_seen(const Vector3d& viewpoint, const std::vector<Vector3f>& normals, const AreaOptions& options,
-                   Estimate& e) {
+// False if the cells are not `evenness` times as even there as on the plan: then the cloud is a raster of heights, or
+// was not seen at once.
+bool estimate_seen(const Vector3d& viewpoint, double evenness, const std::vector<Vector3f>& normals,
+                   const AreaOptions& options, Estimate& e) {
   std::vector<Vector3f> direction, flat;
   for (const Vector3f& p : e.position) {
     direction.push_back((p.cast<double>() - viewpoint).normalized().cast<float>());
     flat.push_back(on_plan(p));
   }
-  const std::vector<double> solid_angles = cells_among(direction, direction, options);
   const std::vector<Vector3f> up(flat.size(), Vector3f::UnitZ());
-  if (spread_of(cells_among(flat, up, options)) < spread_of(solid_angles)) return false;
+  const AreaEstimator seen(direction, direction, options.neighbours, flat_chart);
+  const AreaEstimator charted(flat, flat, options.neighbours, flat_chart);
+  const std::size_t step = 1 + flat.size() / compared_cells;
+  if (spread_of(cells_among(charted, up, step, options.threads)) <
+      evenness * spread_of(cells_among(seen, direction, step, options.threads)))
+    return false;
+  const std::vector<double> solid_angles = cells_among(seen, direction, 1, options.threads);
   for (std::size_t i = 0; i < e.area.size(); ++i) {
     const double cosine = std::max<double>(least_seen_cosine, std::abs(normals[i].dot(direction[i])));
     e.area[i] = solid_angles[i] * (e.position[i].cast<double>() - viewpoint).squaredNorm() / cosine;
@@ -253,7 +259,7 @@ SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<
   Estimate e = distinct_points(points);
   std::vector<Vector3f> normals;
   for (const std::uint32_t first : e.distinct.first) normals.push_back(base_normals[first]);
-  if (!options.viewpoint || !estimate_seen(*options.viewpoint, normals, area_options, e))
+  if (!options.viewpoint || !estimate_seen(*options.viewpoint, options.evenness_of_view, normals, area_options, e))
     estimate_around(options, e, normals, shapes);
   limit_cells(e.area);
   shapes.area = shared_areas(e, points.size());
