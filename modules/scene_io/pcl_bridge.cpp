@@ -4,6 +4,7 @@
 #include <array>
 #include <sstream>
 
+#include <pcl/console/print.h>
 #include <pcl/conversions.h>
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/io/pcd_io.h>
@@ -13,7 +14,6 @@
 #include "core/parallel.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"
-#include "scene_io/pcl_rows_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -41,6 +41,51 @@ pcl::PCLPointCloud2 empty_cloud(const PackedRows& rows) {
   }
   cloud.row_step = cloud.width * cloud.point_step;
   return cloud;
+}
+
+/// Suppresses PCL's output during its lifetime.
+class QuietPcl {
+ public:
+  QuietPcl() : before_(pcl::console::getVerbosityLevel()) { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
+  ~QuietPcl() { pcl::console::setVerbosityLevel(before_); }
+  QuietPcl(const QuietPcl&) = delete;
+  QuietPcl& operator=(const QuietPcl&) = delete;
+
+ private:
+  pcl::console::VERBOSITY_LEVEL before_;
+};
+
+/// The rows of a PCL cloud, which must outlive the table; sets fields, width and height of `raw`. Throws Error(content)
+/// naming raw.path if the cloud's sizes are inconsistent.
+RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {
+  // In the order of PCLPointField's datatypes from 1 on.
+  static const std::array types = {NumberType::int8,  NumberType::uint8,  NumberType::int16,   NumberType::uint16,
+                                   NumberType::int32, NumberType::uint32, NumberType::float32, NumberType::float64,
+                                   NumberType::int64, NumberType::uint64};
+  RowTable table;
+  table.stride = cloud.point_step;
+  table.rows = static_cast<std::size_t>(cloud.width) * cloud.height;
+  if (cloud.is_bigendian)
+    fail(ErrorKind::content, raw.path, ": is_bigendian is set; turn the bytes of the numbers and clear it");
+  if (table.rows * table.stride > cloud.data.size())
+    fail(ErrorKind::content, raw.path, ": width x height x point_step = ", table.rows * table.stride,
+         " bytes, the cloud holds ", cloud.data.size(), "; fill the cloud completely");
+  if (cloud.height > 1 && cloud.row_step != cloud.width * cloud.point_step)
+    fail(ErrorKind::content, raw.path, ": row_step = ", cloud.row_step,
+         ", must be width x point_step = ", cloud.width * cloud.point_step, "; pack the rows");
+  for (const pcl::PCLPointField& field : cloud.fields) {
+    if (field.name == "_" || field.datatype < 1 || field.datatype > types.size()) continue;
+    const NumberType type = types[field.datatype - 1];
+    if (field.offset + size_of(type) > table.stride)
+      fail(ErrorKind::content, raw.path, ": field '", field.name, "' ends beyond point_step = ", table.stride,
+           " bytes; correct its offset");
+    table.columns.push_back({field.name, type, field.offset});
+    raw.fields.push_back({field.name, name_of(type)});
+  }
+  raw.width = cloud.width;
+  raw.height = cloud.height;
+  table.bytes = reinterpret_cast<const char*>(cloud.data.data());
+  return table;
 }
 
 RawCloud raw_from(const pcl::PCLPointCloud2& cloud, const LoadOptions& options) {
@@ -150,37 +195,6 @@ std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>
     normals[i] = n / n.norm();
   }
   return normals;
-}
-
-RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {
-  // In the order of PCLPointField's datatypes from 1 on.
-  static const std::array types = {NumberType::int8,  NumberType::uint8,  NumberType::int16,   NumberType::uint16,
-                                   NumberType::int32, NumberType::uint32, NumberType::float32, NumberType::float64,
-                                   NumberType::int64, NumberType::uint64};
-  RowTable table;
-  table.stride = cloud.point_step;
-  table.rows = static_cast<std::size_t>(cloud.width) * cloud.height;
-  if (cloud.is_bigendian)
-    fail(ErrorKind::content, raw.path, ": is_bigendian is set; turn the bytes of the numbers and clear it");
-  if (table.rows * table.stride > cloud.data.size())
-    fail(ErrorKind::content, raw.path, ": width x height x point_step = ", table.rows * table.stride,
-         " bytes, the cloud holds ", cloud.data.size(), "; fill the cloud completely");
-  if (cloud.height > 1 && cloud.row_step != cloud.width * cloud.point_step)
-    fail(ErrorKind::content, raw.path, ": row_step = ", cloud.row_step,
-         ", must be width x point_step = ", cloud.width * cloud.point_step, "; pack the rows");
-  for (const pcl::PCLPointField& field : cloud.fields) {
-    if (field.name == "_" || field.datatype < 1 || field.datatype > types.size()) continue;
-    const NumberType type = types[field.datatype - 1];
-    if (field.offset + size_of(type) > table.stride)
-      fail(ErrorKind::content, raw.path, ": field '", field.name, "' ends beyond point_step = ", table.stride,
-           " bytes; correct its offset");
-    table.columns.push_back({field.name, type, field.offset});
-    raw.fields.push_back({field.name, name_of(type)});
-  }
-  raw.width = cloud.width;
-  raw.height = cloud.height;
-  table.bytes = reinterpret_cast<const char*>(cloud.data.data());
-  return table;
 }
 
 }  // namespace insonify

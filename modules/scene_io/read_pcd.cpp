@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 
-#include <pcl/io/pcd_io.h>
+#include <pcl/io/lzf.h>
 
 #include "core/error.hpp"
 #include "scene_io/file_probe_internal.hpp"
-#include "scene_io/pcl_rows_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/text_lines_internal.hpp"
 
+// A reader of our own: PCL 1.13 takes words that are not numbers, and rows that are too short or too long, without a message.
 namespace insonify {
 namespace {
 
@@ -85,6 +84,7 @@ void check_header(const Header& header) {
   for (const Field& field : header.fields) {
     if (field.name != "_") type_of(header, field);
     if (field.size > 8 || field.count > 1000000) bad_header(header, field.name, "a size of 1, 2, 4 or 8");
+    if (field.count == 0) bad_header(header, field.name + " with COUNT 0", "at least one number per field");
   }
   if (header.width > (1ull << 40) || header.height > (1ull << 20))
     bad_header(header, "WIDTH or HEIGHT", "less than 2^40");
@@ -139,7 +139,7 @@ constexpr std::uint32_t lzf_most = 88;
 
 /// Byte counts of the compressed block against the file and the header.
 void check_compressed(const Header& header, std::size_t held) {
-  // PCL unpacks such points into the wrong rows, without a message.
+  // Writers do not agree on whether the block holds them.
   if (std::any_of(header.fields.begin(), header.fields.end(), [](const Field& f) { return f.name == "_"; }))
     fail(ErrorKind::content, header.path, ": compressed points with padding fields '_' cannot be read; export them as ",
          "DATA binary or DATA ascii, or without these fields");
@@ -156,24 +156,14 @@ void check_compressed(const Header& header, std::size_t held) {
          packed, ", which holds at most ", lzf_most, " times its size; copy or export the file again");
 }
 
-void check_text(const Header& header) {
-  std::vector<NumberType> columns;
-  for (const Field& f : header.fields)
-    columns.resize(columns.size() + f.count, f.name == "_" ? NumberType::float64 : type_of(header, f));
-  const std::string text = read_whole_file(header.path);
-  LineReader lines(std::string_view(text).substr(header.end), header.lines);
-  check_number_rows(lines, header.points, columns, "point", header.path);
-}
-
-/// What the header announces against the file, before PCL reads the data.
+/// What the header announces against the file.
 void check_data(const Header& header) {
   const std::size_t held = file_size_of(header.path) - header.end, stride = header.stride();
   if (header.data == "ascii") {
-    // A number takes two bytes with the blank that follows; which row lacks some, check_text() says.
+    // A number takes two bytes with the blank that follows; which row lacks some, read_text_rows() says.
     std::size_t row = 0;
     for (const Field& f : header.fields) row += 2 * f.count;
     if (header.points > held || row > held + 1) cut_off(header, std::max(header.points, row), held);
-    check_text(header);
   } else if (header.data == "binary_compressed") {
     check_compressed(header, held);
   } else if (stride == 0 || header.points > held / stride) {
@@ -181,39 +171,64 @@ void check_data(const Header& header) {
   }
 }
 
-// PCL gets the bytes in memory: it would map the file, and die if another program cuts that off meanwhile.
-pcl::PCLPointCloud2 read_data(const Header& header, std::size_t checked_bytes) {
-  const QuietPcl quiet;
-  pcl::PCLPointCloud2 cloud;
-  Eigen::Vector4f origin;
-  Eigen::Quaternionf orientation;
-  int version = 0, result = -1, type = 0;
-  unsigned int begin = 0;
+/// Points of text as the rows of a binary file, whose padding is 0.
+std::shared_ptr<const std::string> read_text_rows(const Header& header) {
+  struct Number {
+    NumberType type;
+    std::size_t padding;  ///< bytes of it, instead of a number
+  };
+  std::vector<Number> columns;
+  for (const Field& f : header.fields)
+    columns.resize(columns.size() + f.count,
+                   f.name == "_" ? Number{NumberType::float64, f.size} : Number{type_of(header, f), 0});
+  const std::string text = read_whole_file(header.path);
+  LineReader lines(std::string_view(text).substr(header.end), header.lines);
+  std::string_view line;
+  std::string rows;
+  const auto refuse = [&](const auto&... what) {
+    fail(ErrorKind::content, header.path, ":", lines.number(), ": expected ", what...,
+         "'; correct the line, or export the file again if it is cut off");
+  };
+  for (std::size_t row = 0; row < header.points; ++row) {
+    if (!lines.next(line))
+      fail(ErrorKind::content, header.path, ": cut off: the header announces ", header.points, " point rows, found ",
+           row, "; copy or export the file again");
+    std::string_view rest = line;
+    for (const auto& [type, padding] : columns) {
+      const std::string_view word = take_word(rest);
+      double value = 0;
+      // A missing word is reported with both counts.
+      if (!word.empty() && (!to_number(word, value) || !fits(value, type)))
+        refuse("a number in this point row that fits ", name_of(type), ", found '", shown(word));
+      rows.append(padding, '\0');
+      if (padding == 0) append_number(rows, type, value);
+    }
+    if (const std::size_t found = count_words(line); found != columns.size())
+      refuse(columns.size(), " numbers as the header says, found ", found, " words in '", shown(line));
+  }
+  return std::make_shared<const std::string>(std::move(rows));
+}
+
+/// Unpacks points, which stand field by field, into rows.
+void unpack(const Header& header, std::size_t checked_bytes, char* rows) {
   const std::string bytes = read_whole_file(header.path);
   if (bytes.size() != checked_bytes)
     fail(ErrorKind::content, header.path, ": changed while it was read; wait until it is complete");
-  pcl::PCDReader reader;
-  try {
-    // The header alone: PCL takes data that look like a header for one.
-    std::istringstream head(bytes.substr(0, header.end));
-    result = reader.readHeader(head, cloud, origin, orientation, version, type, begin);
-    std::istringstream data(bytes);
-    data.seekg(static_cast<std::streamoff>(header.end));
-    if (begin != header.end) result = -1;
-    if (result == 0 && type == 0) result = reader.readBodyASCII(data, cloud, version);
-    if (result == 0 && type != 0)
-      result =
-          reader.readBodyBinary(reinterpret_cast<const unsigned char*>(bytes.data()), cloud, version, type == 2, begin);
-  } catch (const std::exception&) {
-    result = -1;
+  const char* const packed = bytes.data() + header.end + 8;
+  const std::size_t stride = header.stride();
+  std::vector<char> fields(header.points * stride);
+  const auto size = static_cast<unsigned>(fields.size());
+  if (pcl::lzfDecompress(packed, read_as<std::uint32_t>(packed - 8), fields.data(), size) != size)
+    fail(ErrorKind::content, header.path, ": PCL cannot unpack the compressed points; the file is damaged: copy or ",
+         "export it again");
+  const char* from = fields.data();
+  std::size_t offset = 0;
+  for (const Field& field : header.fields) {
+    const std::size_t length = field.size * field.count;
+    for (std::size_t i = 0; i < header.points; ++i, from += length)
+      std::copy_n(from, length, rows + i * stride + offset);
+    offset += length;
   }
-  cloud.row_step = cloud.width * cloud.point_step;  // PCL leaves it out if WIDTH stands before SIZE
-  const std::size_t points = std::size_t{cloud.width} * cloud.height;
-  if (result < 0 || points != header.points || cloud.point_step != header.stride())
-    fail(ErrorKind::content, header.path, ": PCL cannot ",
-         header.data == "binary_compressed" ? "unpack the compressed points" : "read the points",
-         "; the file is damaged: copy or export it again");
-  return cloud;
 }
 
 std::optional<Eigen::Vector3d> viewpoint_of(const Header& header) {
@@ -222,7 +237,7 @@ std::optional<Eigen::Vector3d> viewpoint_of(const Header& header) {
   return Eigen::Vector3d(header.viewpoint[0], header.viewpoint[1], header.viewpoint[2]);
 }
 
-/// Where the rows of a binary file are.
+/// Where the rows of a binary file are, and how those of others are read.
 RowFile row_file(const Header& header) {
   RowFile file{header.path, "PCD binary", {},          header.points,       header.stride(),
                header.end,  false,        header.tags, viewpoint_of(header)};
@@ -238,24 +253,24 @@ RowFile row_file(const Header& header) {
 
 RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
   const Header header = read_pcd_header(path);
-  const std::size_t bytes = file_size_of(path);
+  const std::size_t bytes = file_size_of(path), stride = header.stride();
   check_data(header);
   RowFile file = row_file(header);
   file.format = "PCD " + header.data;
   RawCloud raw = raw_of(file);
+  if (header.width * header.height != 0) raw.width = header.width, raw.height = header.height;
   if (header.data == "binary") {
-    if (header.width * header.height != 0) raw.width = header.width, raw.height = header.height;
     fill_cloud(raw, read_rows(file, 0, header.points), options);
-    return raw;
+  } else if (header.data == "ascii") {
+    const auto rows = read_text_rows(header);
+    fill_cloud(raw, {file.columns, header.points, stride, rows->data(), rows}, options);
+  } else {
+    read_rows_apart(raw, bytes, options, [&](ArraySender& to, RawCloud&) {
+      expect_from_file(path, bytes, {static_cast<double>(header.points * stride), "bytes of points", 1});
+      unpack(header, bytes, to.take_array<char>(header.points * stride));
+      return SentRows{file.columns, header.points, stride};
+    });
   }
-  raw.fields.clear();  // as PCL names them
-  read_rows_apart(raw, bytes, options, [&](ArraySender& to, RawCloud& read) {
-    expect_from_file(path, bytes, {static_cast<double>(header.points * header.stride()), "bytes of points", 1});
-    const pcl::PCLPointCloud2 cloud = read_data(header, bytes);
-    const RowTable table = table_of(cloud, read);
-    std::copy_n(table.bytes, table.rows * table.stride, to.take_array<char>(table.rows * table.stride));
-    return SentRows{table.columns, table.rows, table.stride};
-  });
   return raw;
 }
 

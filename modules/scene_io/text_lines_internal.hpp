@@ -67,9 +67,4 @@ inline std::size_t count_words(std::string_view line) {
 /// Excerpt of a line for a message: at most 60 characters, control characters as '?'.
 std::string shown(std::string_view line);
 
-/// Refuses rows that PCL 1.13 silently misreads: words that are not numbers or do not fit the types of their columns;
-/// short, long and blank rows. Throws Error(content) naming `path`, the line and the kind of rows, `what`.
-void check_number_rows(LineReader& lines, std::size_t rows, const std::vector<NumberType>& columns,
-                       const std::string& what, const std::string& path);
-
 }  // namespace insonify
