@@ -11,8 +11,8 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
+#include "files/input_file.hpp"
 #include "returns/soundings.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 
 namespace insonify {

@@ -10,8 +10,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "files/input_file.hpp"
 #include "files/pending_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 

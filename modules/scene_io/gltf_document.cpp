@@ -10,12 +10,13 @@
 #include <vtkBase64Utilities.h>
 
 #include "core/error.hpp"
+#include "core/text_lines.hpp"
 #include "files/child_process.hpp"
+#include "files/input_file.hpp"
 #include "files/path_status.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/number_type_internal.hpp"
-#include "scene_io/text_lines_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe_internal.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/write_rows_internal.hpp"

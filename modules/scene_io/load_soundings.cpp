@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "files/input_file.hpp"
 #include "returns/sounding_columns.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/row_file_internal.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe_internal.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 
 // The classic netCDF formats (CDF-1, -2 and -5; NetCDF User's Guide, appendix B) do not say how long a file is, and its

@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
-#include "scene_io/tiled_scene.hpp"
+#include "tiles/tiled_scene.hpp"
 
 namespace insonify {
 namespace {

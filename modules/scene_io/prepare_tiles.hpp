@@ -5,7 +5,7 @@
 #include <string>
 
 #include "scene_io/load_scene.hpp"
-#include "scene_io/tile_writer.hpp"
+#include "tiles/tile_writer.hpp"
 
 namespace insonify {
 

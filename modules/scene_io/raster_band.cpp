@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "files/child_process.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/coordinate_system_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raster_band_internal.hpp"

@@ -15,36 +15,10 @@
 #include "scene_io/file_meaning.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/number_type_internal.hpp"
+#include "tiles/scene_tags.hpp"
 
 // Private to scene_io: output of the readers, input of complete_scene and describe_file.
 namespace insonify {
-
-/// Contents of save_scene's comment lines, so that a prepared scene reads back unchanged.
-struct SceneTags {
-  bool prepared = false;  ///< written by save_scene: clean, complete, unique
-  bool oriented = true;
-  std::optional<Eigen::Vector3d> origin;
-  std::vector<Material> materials;
-  std::string material_field;  ///< name of the column of materials; empty: not stated
-  bool heights = false;        ///< points of a height field, with the surface between them
-  bool own_normals = false;    ///< the surface has the normals of the points
-  std::vector<std::pair<std::string, std::string>> columns;  ///< name in the file, and the one that it stands for
-
-  /// Returns the name that a column of the file stands for: its own unless the file says otherwise.
-  const std::string& meant_name(const std::string& in_file) const;
-  /// Returns the name in the file of the column that stands for a name.
-  const std::string& name_in_file(const std::string& meant) const;
-};
-
-/// Returns a text in JSON, of ASCII characters alone.
-std::string json_text(const std::string& text);
-/// Returns a text in UTF-8: unchanged, unless it has bytes that are none.
-std::string utf8_text(const std::string& text);
-
-/// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
-void read_tag(const std::string& path, std::string_view line, SceneTags& tags);
-/// The comment lines of a scene, without "comment " or "# ".
-std::vector<std::string> tag_lines(const SceneCloud& scene);
 
 /// Heights that mark holes by custom, although their files do not say so [units of the file].
 inline constexpr std::array<double, 3> usual_marks = {-9999, -32768, -99999};

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe_internal.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 

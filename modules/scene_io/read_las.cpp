@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "files/binary_file.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/coordinate_system_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/row_file_internal.hpp"

@@ -3,9 +3,10 @@
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "core/text_lines.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
-#include "scene_io/text_lines_internal.hpp"
 
 // A reader of our own, since PCL's and VTK's keep OBJ coordinates as float: 0.5 m steps at a UTM northing.
 namespace insonify {

@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "scene_io/file_probe_internal.hpp"
+#include "core/text_lines.hpp"
 #include "scene_io/ply_header_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
-#include "scene_io/text_lines_internal.hpp"
 
 // A reader of our own: PCL's takes no strips and no lists of vertices, and ends at counts with a sign.
 namespace insonify {

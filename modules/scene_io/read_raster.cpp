@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "scene_io/file_probe_internal.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/read_apart_internal.hpp"
 
 #ifdef INSONIFY_GDAL

@@ -7,9 +7,10 @@
 #include <boost/container_hash/hash.hpp>
 
 #include "core/error.hpp"
+#include "core/text_lines.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
-#include "scene_io/text_lines_internal.hpp"
 
 // A reader of our own: VTK's keeps coordinates of text as float, and takes neither a blank before 'solid' nor long names.
 namespace insonify {

@@ -3,10 +3,11 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/text_lines.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/column_names_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
-#include "scene_io/text_lines_internal.hpp"
 
 namespace insonify {
 namespace {

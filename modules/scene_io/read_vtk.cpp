@@ -15,9 +15,10 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include "core/error.hpp"
+#include "core/text_lines.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
-#include "scene_io/text_lines_internal.hpp"
 
 // VTK allocates memory for whatever a file announces, and reads beyond it: files are checked first.
 namespace insonify {

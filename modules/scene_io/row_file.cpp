@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "files/binary_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/ply_header_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 

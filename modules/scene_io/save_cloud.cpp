@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "files/input_file.hpp"
 #include "files/pending_file.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"

@@ -2,11 +2,12 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "files/input_file.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/scene_readers_internal.hpp"
-#include "scene_io/tiled_scene.hpp"
+#include "tiles/tiled_scene.hpp"
 
 namespace insonify {
 

@@ -9,7 +9,6 @@
 #include "sampling/scene_cut.hpp"
 #include "scene_io/describe_file.hpp"
 #include "scene_io/load_scene.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "store/contributor_file.hpp"
 #include "store/csv_tables.hpp"
 #include "store/cube.hpp"
@@ -17,6 +16,7 @@
 #include "store/materials_file.hpp"
 #include "store/mission_file.hpp"
 #include "store/sonar_file.hpp"
+#include "tiles/tiled_scene.hpp"
 #ifdef INSONIFY_FUZZ_TOOL
 #include <cstdio>
 #include <filesystem>

@@ -17,7 +17,7 @@ use File::Find;
 
 # Internal headers, or all of a module, and who else may include them, separated by blanks.
 my %lent = (
-  'hdf/*' => 'scene_io store',                       # both read and write HDF5 files
+  'hdf/*' => 'tiles store',                          # both read and write HDF5 files
   'view/*' => 'viewer',                              # the viewer is built from the parts of still pictures
   'view/line_chart_internal.hpp' => 'apps',          # charts of sweeps and of the thesis
   'view/axes_internal.hpp' => 'apps',                #

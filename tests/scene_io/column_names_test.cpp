@@ -8,7 +8,7 @@
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/test_files.hpp"
-#include "scene_io/tiled_scene.hpp"
+#include "tiles/tiled_scene.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "scene_io/describe_file.hpp"
 #include "scene_io/las_file.hpp"
 #include "scene_io/prepare_tiles.hpp"
-#include "scene_io/tiled_scene.hpp"
+#include "tiles/tiled_scene.hpp"
 
 namespace {
 

@@ -3,9 +3,10 @@
 
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "support/test.hpp"
+#include "support/tile_parts.hpp"
 #include "test_files.hpp"
+#include "tiles/tiled_scene.hpp"
 
 namespace {
 
@@ -192,4 +193,13 @@ TEST(PrepareTiles, giving_up_leaves_nothing) {
   const auto before = files();
   EXPECT_THROW(prepare_tiles(cloud, own_path("a.tiles"), options), Stop);
   EXPECT_EQ(files(), before);
+}
+
+TEST(PrepareTiles, a_damaged_row_is_named_when_tiles_are_loaded_as_a_scene) {
+  save_tiles(own_path("good.tiles"), harbour(2000));
+  TileParts parts = load_tile_parts(own_path("good.tiles"));
+  parts.rows.area[1234] = -2;
+  save_tile_parts(parts, own_path("bad.tiles"));
+  expect_error(ErrorKind::content, {"bad.tiles: row 1234: area = -2 m^2, must be"},
+               [] { load_scene(own_path("bad.tiles")); });
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "scene_io/tile_file_internal.hpp"
+#include "tiles/tile_file_internal.hpp"
 
 namespace insonify {
 

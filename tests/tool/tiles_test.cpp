@@ -4,10 +4,10 @@
 #include <sys/wait.h>
 
 #include "scene_io/load_scene.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "store/contributor_file.hpp"
 #include "support/test.hpp"
 #include "support/tile_parts.hpp"
+#include "tiles/tiled_scene.hpp"
 #include "tool/survey_fixture.hpp"
 
 namespace {

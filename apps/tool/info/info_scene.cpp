@@ -9,7 +9,7 @@
 #include "core/units.hpp"
 #include "files/memory_limit.hpp"
 #include "scene_io/describe_file.hpp"
-#include "scene_io/tiled_scene.hpp"
+#include "tiles/tiled_scene.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
 #include "tool/info/material_list.hpp"

@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "files/sha256.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "store/scene_file.hpp"
+#include "tiles/tiled_scene.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/run/parts_scene.hpp"
 #include "tool/run/ping_setup.hpp"

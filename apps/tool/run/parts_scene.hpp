@@ -10,10 +10,10 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "scene_io/load_scene.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "store/scene_file.hpp"
 #include "survey/scene_parts.hpp"
+#include "tiles/tiled_scene.hpp"
 #include "tool/run/part_files.hpp"
 
 namespace insonify::tool {

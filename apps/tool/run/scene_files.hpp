@@ -10,7 +10,7 @@
 #include "returns/label_objects.hpp"
 #include "scene/prepared_scene.hpp"
 #include "scene_io/load_scene.hpp"
-#include "scene_io/tiled_scene.hpp"
+#include "tiles/tiled_scene.hpp"
 #include "tool/command/options.hpp"
 #include "tool/run/any_scene.hpp"
 #include "tool/run/ping_setup.hpp"

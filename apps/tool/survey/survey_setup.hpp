@@ -7,10 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene_io/tiled_scene.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 #include "survey/simulate_survey.hpp"
+#include "tiles/tiled_scene.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/run/parts_of_pings.hpp"
 #include "tool/run/ping_setup.hpp"

@@ -27,13 +27,13 @@
 #include "sampling/find_scatterers.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
-#include "scene_io/tile_writer.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/sonar_file.hpp"
 #include "support/height_field.hpp"
 #include "support/rough_field.hpp"
 #include "support/scene_for_ping.hpp"
+#include "tiles/tile_writer.hpp"
 
 using namespace insonify;
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tiles/scene_tags.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -7,9 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "scene_io/material_numbers_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
-#include "scene_io/text_lines_internal.hpp"
+#include "core/text_lines.hpp"
 
 namespace insonify {
 namespace {
@@ -17,6 +17,7 @@ namespace {
 /// A material stands in one line with its first number, and in a second one, "surface", with the others if any of them
 /// is not the default; a law other than Lambert's in a third one, "law".
 constexpr std::span surface_numbers = std::span(material_numbers).subspan(1);
+constexpr std::size_t first_surface_numbers = 2;  // that every such line has: those of the first version of the formats
 
 /// Shortest text that reads back as the same double.
 std::string exact(double value) {
@@ -115,13 +116,14 @@ std::vector<std::string> tag_lines(const SceneCloud& scene) {
     const Material& material = scene.materials[m];
     const std::string index = std::to_string(m);
     lines.push_back("insonify material " + index + " " + exact(material.*material_numbers[0].member) + " " + name);
+    // Numbers up to the last one that is not the default.
+    std::size_t said = 0;
     std::string surface = "insonify surface " + index;
-    bool plain = true;
-    for (const MaterialNumber& n : surface_numbers.first(numbers_said({&material, 1}) - 1)) {
+    for (std::size_t k = 0; k < surface_numbers.size(); ++k)
+      if (material.*surface_numbers[k].member != Material{}.*surface_numbers[k].member) said = k + 1;
+    for (const MaterialNumber& n : surface_numbers.first(std::max(said, first_surface_numbers)))
       surface += " " + exact(material.*n.member);
-      plain = plain && material.*n.member == Material{}.*n.member;
-    }
-    if (!plain) lines.push_back(surface);
+    if (said > 0) lines.push_back(surface);
     if (material.law != SurfaceLaw{}) lines.push_back("insonify law " + index + " " + law_to_text(material.law));
   }
   return lines;

@@ -3,10 +3,10 @@
 #include <functional>
 #include <vector>
 
-#include "scene_io/tile_file_internal.hpp"
-#include "scene_io/tile_writer.hpp"
+#include "tiles/tile_file_internal.hpp"
+#include "tiles/tile_writer.hpp"
 
-// Private to scene_io: surfel areas of a scene that is larger than memory.
+// Private to tiles: surfel areas of a scene that is larger than memory.
 namespace insonify {
 
 /// Computes the Voronoi area (E15) of every surfel of the tiles in a file, a few tiles at a time with all their

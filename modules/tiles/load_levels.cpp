@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "scene_io/tile_levels_internal.hpp"
+#include "tiles/tile_levels_internal.hpp"
 
 namespace insonify {
 namespace {

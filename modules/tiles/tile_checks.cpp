@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "scene/surfel_fault.hpp"
-#include "scene_io/tile_file_internal.hpp"
+#include "tiles/tile_file_internal.hpp"
 
 namespace insonify {
 namespace {

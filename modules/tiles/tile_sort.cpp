@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "core/parallel.hpp"
-#include "scene_io/tile_sort_internal.hpp"
+#include "tiles/tile_sort_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/built_in_scenes.hpp"
-#include "scene_io/tile_writer.hpp"
-#include "scene_io/tiled_scene.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
+#include "support/scenes.hpp"
 #include "support/test.hpp"
-#include "test_files.hpp"
+#include "tiles/tile_writer.hpp"
+#include "tiles/tiled_scene.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "scene_io/tile_levels_internal.hpp"
+#include "tiles/tile_levels_internal.hpp"
 
 namespace insonify {
 namespace {

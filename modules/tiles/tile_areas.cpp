@@ -7,7 +7,7 @@
 
 #include "core/units.hpp"
 #include "scene/estimate/surfel_area.hpp"
-#include "scene_io/tile_areas_internal.hpp"
+#include "tiles/tile_areas_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene_io/tiled_scene.hpp"
+#include "tiles/tiled_scene.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 #include "core/parallel.hpp"
 #include "core/radix_sort.hpp"
 #include "files/memory_limit.hpp"
-#include "scene_io/tile_levels_internal.hpp"
+#include "tiles/tile_levels_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "files/binary_file.hpp"
 
-// Private to scene_io: external sorting of surfels along a Morton curve.
+// Private to tiles: external sorting of surfels along a Morton curve.
 namespace insonify {
 
 /// One surfel before it is stored in a tile.

@@ -10,7 +10,7 @@
 //   6. add_directory    tiles and facts, with checksums; then the file gets its name
 // Cost: about five passes over the records on the disk and O(n log n) comparisons. The bytes do not depend on threads;
 // the memory allowed changes the division into tiles, not the surfels.
-#include "scene_io/tile_writer.hpp"
+#include "tiles/tile_writer.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -23,9 +23,9 @@
 #include "core/parallel.hpp"
 #include "files/path_status.hpp"
 #include "files/pending_file.hpp"
-#include "scene_io/tile_areas_internal.hpp"
-#include "scene_io/tile_levels_internal.hpp"
-#include "scene_io/tile_sort_internal.hpp"
+#include "tiles/tile_areas_internal.hpp"
+#include "tiles/tile_levels_internal.hpp"
+#include "tiles/tile_sort_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sampling/scene_cut.hpp"
-#include "scene_io/tile_file_internal.hpp"
+#include "tiles/tile_file_internal.hpp"
 
-// Private to scene_io: levels of detail (E137) of the surfels of a .tiles file, from coarse to fine.
+// Private to tiles: levels of detail (E137) of the surfels of a .tiles file, from coarse to fine.
 namespace insonify {
 
 /// Makes the levels of all surfels in `columns`, a few forests at a time, and appends nodes and children to these files.

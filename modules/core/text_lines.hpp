@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "core/text.hpp"
-#include "scene_io/number_type_internal.hpp"
 
 namespace insonify {
 
 /// Iterates over the lines of a text, without the mark of UTF-8 before them; line ends are \n or \r\n.
 class LineReader {
  public:
+  /// lines_before   lines of the file before the text
   explicit LineReader(std::string_view text, std::size_t lines_before = 0) : rest_(text), number_(lines_before) {
     if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
   }
 
-  /// False at the end of the text.
+  /// Takes the next line; returns false at the end of the text.
   bool next(std::string_view& line) {
     if (rest_.empty()) return false;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -28,14 +28,15 @@ class LineReader {
     ++number_;
     return true;
   }
-  /// Next line that is not blank.
+  /// Takes the next line that is not blank.
   bool next_filled(std::string_view& line) {
     while (next(line)) {
       if (line.find_first_not_of(" \t") != std::string_view::npos) return true;
     }
     return false;
   }
-  std::size_t number() const { return number_; }  ///< of the current line, from 1
+  /// Returns the number of the current line in its file, from 1.
+  std::size_t number() const { return number_; }
 
  private:
   std::string_view rest_;
@@ -52,19 +53,21 @@ inline std::string_view take_word(std::string_view& rest) {
   return word;
 }
 
+/// Returns the words of a line.
 inline std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> words;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) words.emplace_back(word);
   return words;
 }
 
+/// Returns the number of words of a line.
 inline std::size_t count_words(std::string_view line) {
   std::size_t words = 0;
   while (!take_word(line).empty()) ++words;
   return words;
 }
 
-/// Excerpt of a line for a message: at most 60 characters, control characters as '?'.
+/// Returns an excerpt of a line for a message: at most 60 characters, control characters as '?'.
 std::string shown(std::string_view line);
 
 }  // namespace insonify

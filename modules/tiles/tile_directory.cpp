@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "files/input_file.hpp"
 #include "hdf/hdf5_internal.hpp"
-#include "scene_io/file_probe_internal.hpp"
-#include "scene_io/raw_cloud_internal.hpp"
-#include "scene_io/tile_file_internal.hpp"
+#include "tiles/scene_tags.hpp"
+#include "tiles/tile_file_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -174,7 +174,8 @@ void require_new_format(const std::string& path) {
     fail(ErrorKind::content, path, ": has the format of .tiles before they were HDF5, which is not read any more; ",
          "make it anew: insonify prepare SCENE -o ", path);
   if (head != "\x89HDF\r\n\x1a\n")
-    fail(ErrorKind::content, path, ": not a .tiles file: expected an HDF5 file, found ", what_it_looks_like(path));
+    fail(ErrorKind::content, path, ": not a .tiles file: expected an HDF5 file, found ", beginning_of(path),
+         "; make one by: insonify prepare SCENE -o ", path);
 }
 
 }  // namespace

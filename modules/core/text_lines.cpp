@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cctype>
+#include "core/text_lines.hpp"
 
-#include "scene_io/text_lines_internal.hpp"
+#include <cctype>
 
 namespace insonify {
 

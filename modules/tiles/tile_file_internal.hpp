@@ -9,9 +9,9 @@
 
 #include "files/binary_file.hpp"
 #include "scene/detail_levels.hpp"
-#include "scene_io/tiled_scene.hpp"
+#include "tiles/tiled_scene.hpp"
 
-// Private to scene_io: a .tiles file as it lies on the disk (docs/scene-files.md).
+// Private to tiles: a .tiles file as it lies on the disk (docs/scene-files.md).
 namespace insonify {
 
 static_assert(std::endian::native == std::endian::little, "a .tiles file holds numbers as they lie in memory");
