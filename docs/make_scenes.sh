@@ -101,7 +101,7 @@ scatterers_per_cell = 2
 keep = ["contributors"]
 SCENE
 steps "insonify survey mission.toml -o survey" \
-  "insonify dataset survey -o set --stuff shadow,coral_sand,reef_rock,coral --split 100:0:0 --least-pixels 60"
+  "insonify dataset survey -o set --stuff coral_sand,reef_rock,coral --split 100:0:0 --least-pixels 60"
 picture sheet "Its sheet: boxes of drums and pots, in the colours of their classes." "cp set/sheet.png sheet.png"
 sed -i "s#$work/##g" "$page"
 echo "docs/results/scenes.md written"

@@ -173,13 +173,13 @@ TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
   // Ultralytics demands train and val, and looks from the folder of the file unless there is a path.
   EXPECT_THAT(
       read("set/fan/data.yaml"),
-      testing::StartsWith("train: train.txt\nval: train.txt  # there is no image of val\nnames:\n  0: \"shadow\"\n"));
+      testing::StartsWith("train: train.txt\nval: train.txt  # there is no image of val\nnames:\n  0: \"sand\"\n"));
   EXPECT_THAT(read("set/fan/train.txt"), HasSubstr("./images/000_000003.png\n"));
 }
 
-// Only classes that have boxes are named; shadow can be left to the masks, and outlines stand beside run lengths.
+// Only classes that have boxes are named; shadow is left to the masks, and outlines stand beside run lengths.
 TEST_F(DatasetRun, names_classes_with_boxes_and_draws_their_outlines) {
-  succeed("dataset survey -o set --stuff sand,shadow --polygons");
+  succeed("dataset survey -o set --stuff sand --polygons");
   const auto manifest = manifest_of("set");
   const auto names = manifest["boxed_classes"].get<std::vector<std::string>>();
   EXPECT_EQ(std::count(names.begin(), names.end(), "shadow") + std::count(names.begin(), names.end(), "sand"), 0);
@@ -213,6 +213,37 @@ TEST_F(DatasetRun, names_classes_with_boxes_and_draws_their_outlines) {
     }
   }
   expect_refused("dataset survey -o none --stuff gold", 2, {"--stuff = gold", "shadow"});
+}
+
+TEST_F(DatasetRun, shadow_has_boxes_only_if_it_is_a_thing) {
+  succeed("dataset survey -o set");
+  const auto without = manifest_of("set")["boxed_classes"].get<std::vector<std::string>>();
+  EXPECT_THAT(without, testing::Contains("sand"));
+  EXPECT_THAT(without, testing::Not(testing::Contains("shadow")));
+  EXPECT_THAT(read("set/README.md"), HasSubstr("In masks alone: shadow."));
+  succeed("dataset survey -o set --things shadow --force");
+  EXPECT_THAT(manifest_of("set")["boxed_classes"].get<std::vector<std::string>>(), testing::Contains("shadow"));
+  EXPECT_THAT(read("set/README.md"), HasSubstr("In masks alone: none."));
+  expect_refused("dataset survey -o none --things sand", 2, {"--things", "shadow"});
+}
+
+// The first image looks up, into water and its noise: white is what one sample in 1000 of all images exceeds, at most 5 dB
+// above it.
+TEST_F(DatasetRun, has_the_window_of_all_its_images) {
+  have("up",
+       "ping harbour.ply --sonar p900-45 --set sonar.beams=48 --pose=0,0,-3,0,-80,0 --range 2:15 --noise "
+       "--keep contributors");
+  succeed("dataset up survey -o set --split 100:0:0");
+  const nlohmann::json c = coco("polar");
+  ASSERT_EQ(c["images"].size(), 5U);
+  double white = 0, bright = 0, samples = 0;
+  for (const auto& image : c["images"]) {
+    const Grid<std::uint16_t> value = png("polar/images/" + image["file_name"].get<std::string>()).value;
+    white += static_cast<double>((value == 65535).count()), samples += static_cast<double>(value.size());
+    bright += static_cast<double>((value >= 60000).count());  // 5 of the 60 dB below white
+  }
+  EXPECT_LE(white / samples, 0.001);
+  EXPECT_GE(bright / samples, 0.0009);
 }
 
 TEST_F(DatasetRun, meta_says_pose_seed_mapping_and_what_was_randomised) {

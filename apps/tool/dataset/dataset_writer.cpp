@@ -85,12 +85,18 @@ const FanRaster& DatasetWriter::raster_of(const Ping& ping) {
   return at->second;
 }
 
+bool DatasetWriter::is_thing(std::size_t category) const {
+  const auto names = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), classes_[category]) != list.end();
+  };
+  return category == shadow_class ? names(options_.things) : !names(options_.stuff);
+}
+
 void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image) {
   const Grid<float> level = dataset_levels(ping, options_);
   std::set<std::uint8_t> stuff;
   for (std::size_t k = 1; k < classes_.size(); ++k)
-    if (std::find(options_.stuff.begin(), options_.stuff.end(), classes_[k]) != options_.stuff.end())
-      stuff.insert(static_cast<std::uint8_t>(k));
+    if (!is_thing(k)) stuff.insert(static_cast<std::uint8_t>(k));
   const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, options_.share, classes_), level,
                                                     parse_min_level(options_.min_level, window_.min_db));
   const Grid<std::uint16_t> object =
@@ -203,10 +209,11 @@ std::string DatasetWriter::card() const {
       "insonify {}.\n\nSonars:\n{}\n## Images\n\n`polar/images`: 16 bits, a column for each beam from port to "
       "starboard, the first row is the farthest bin. `fan/images`: 8 bits, true geometry, forward up, starboard right; "
       "`fan_mapping.json` says where. Grey is linear in dB: black {:g} dB or below, white {:g} dB or above, {}. All "
-      "images have this one mapping.\n\n",
+      "images have this one mapping{}.\n\n",
       images_, polar_.boxes, fan_.boxes, INSONIFY_VERSION, sonars_, window_.min_db, window_.max_db,
       options_.raw ? "levels as received (re 1 uPa)"
-                   : fmt::format("levels with a time-varied gain of {:g} log r + 2 a r", options_.tvg));
+                   : fmt::format("levels with a time-varied gain of {:g} log r + 2 a r", options_.tvg),
+      options_.window.empty() ? ": 60 dB below a multiple of 5 dB that one sample in 1000 of all images exceeds" : "");
   const std::optional<double> least = parse_min_level(options_.min_level, window_.min_db);
   text += fmt::format(
       "## Labels\n\nA pixel has the class of a material if visible surface of it lies in the pixel's own cell "
@@ -217,13 +224,16 @@ std::string DatasetWriter::card() const {
       "nothing{}.\n\n| value | class | polar pixels | fan pixels |\n|---|---|---|---|\n",
       options_.share, options_.least_pixels,
       least ? fmt::format(", and so do surfaces in pixels below {:g} dB", *least) : "");
-  for (std::size_t k = 0; k < classes_.size(); ++k)
+  std::vector<std::string> in_masks_alone;
+  for (std::size_t k = 0; k < classes_.size(); ++k) {
     text += fmt::format("| {} | {} | {} | {} |\n", k, classes_[k], polar_.pixels[k], fan_.pixels[k]);
+    if (k > 0 && !is_thing(k)) in_masks_alone.push_back(classes_[k]);
+  }
   text += fmt::format(
       "\n`masks`: class; `colours`: the same in the colours of `palette.json`; `instances`: number of the object, 16 "
       "bits; `annotations`: COCO with run lengths; `labels`: YOLO, the classes that have boxes counted from 0 "
       "(`data.yaml`). In masks alone: {}.\n\n",
-      options_.stuff.empty() ? "none" : joined(options_.stuff));
+      in_masks_alone.empty() ? "none" : joined(in_masks_alone));
   const SplitUnit& by = *std::find_if(split_units().begin(), split_units().end(),
                                       [&](const SplitUnit& each) { return options_.split_by == each.name; });
   text += fmt::format(

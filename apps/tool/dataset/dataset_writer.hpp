@@ -32,6 +32,7 @@ struct DatasetOptions {
   double tvg = 40;                   ///< [dB per decade of range]
   bool raw = false;                  ///< no TVG
   std::vector<std::string> stuff;    ///< classes that are in masks alone
+  std::vector<std::string> things;   ///< classes that have boxes although they have none by default: shadow
   bool polygons = false;             ///< outlines beside the masks of COCO
   std::string row;                   ///< of heads with several rows of beams: a number, all, or empty: the middle one
   std::string split = "80:10:10", split_by = "scene";
@@ -86,6 +87,8 @@ class DatasetWriter {
   std::string card() const;
   std::string yolo_yaml(const Form& form, const std::vector<std::size_t>& boxed) const;
   const FanRaster& raster_of(const Ping& ping);
+  /// Whether objects of a class have boxes.
+  bool is_thing(std::size_t category) const;
 
   const RunDirectory& directory_;
   const DatasetOptions& options_;

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,8 +27,10 @@ void add_options(OptionList list, DatasetOptions& o) {
            "runs, surveys or cubes made with --keep contributors (missions: keep = [\"contributors\"] under [ping])",
            {.required = true});
   list.add("-o,--output", &o.output, "folder that is made", {.required = true});
-  list.add("--window", &o.window,
-           "MIN:MAX [dB] of black and white in all images; default: from 60 dB below the top of the first image");
+  list.add(
+      "--window", &o.window,
+      "MIN:MAX [dB] of black and white in all images; default: 60 dB that end where one sample in 1000 of all images "
+      "is brighter");
   list.add("--tvg", &o.tvg, "[dB per decade of range] time-varied gain, to which absorption is added");
   list.add("--raw", &o.raw, "take levels as received, without time-varied gain",
            {.excludes = "--tvg", .shown_as = " "});
@@ -37,8 +41,10 @@ void add_options(OptionList list, DatasetOptions& o) {
   list.add("--least-pixels", &o.least_pixels, "least number of pixels of an object in the polar image",
            {.within = std::pair(1, 1 << 30), .shown_as = "INT"});
   list.add("--columns", &o.columns, "[pixels] width of fan images", {.within = std::pair(16, 8192), .shown_as = "INT"});
-  list.add("--stuff", &o.stuff, "classes without boxes, separated by commas, e.g. sand,shadow",
+  list.add("--stuff", &o.stuff, "classes without boxes, separated by commas, e.g. sand; shadow has none at all",
            {.comma_separated = true});
+  list.add("--things", &o.things, "shadow: draw boxes round shadows, too",
+           {.words = {"shadow"}, .comma_separated = true});
   list.add("--polygons", &o.polygons, "write COCO with outlines too, holes filled: annotations/polygons_SPLIT.json");
   list.add("--row", &o.row,
            "row of beams of a head with several rows: its number from 0 at the bottom, or all for an image of each; "
@@ -80,40 +86,57 @@ std::vector<std::size_t> chosen_rows(const Ping& ping, const DatasetOptions& o) 
   return chosen;
 }
 
-/// All classes in the order of the sources, and the window of the first ping.
-struct DatasetPlan {
-  std::vector<std::string> classes{"nothing", "shadow"};
-  GreyWindow window;
+/// How many samples have which level, in steps of 0.25 dB.
+class LevelCounts {
+ public:
+  void add(const Grid<float>& level_db) {
+    for (const float level : level_db.reshaped())
+      if (std::isfinite(level)) ++counts_[static_cast<std::int32_t>(std::floor(level / step_db))], ++samples_;
+  }
+  /// The level that a share of the samples exceeds; 0 without samples.
+  double exceeded_by(double share) const {
+    auto left = static_cast<double>(samples_) * share;
+    for (auto at = counts_.rbegin(); at != counts_.rend(); ++at)
+      if ((left -= static_cast<double>(at->second)) < 0) return step_db * (at->first + 1);
+    return 0;
+  }
+
+ private:
+  static constexpr double step_db = 0.25;
+  std::map<std::int32_t, std::size_t> counts_;
+  std::size_t samples_ = 0;
 };
 
-DatasetPlan plan_of(const std::vector<DatasetSource>& sources, const DatasetOptions& o) {
-  DatasetPlan plan;
-  if (!o.window.empty()) plan.window = parse_window("--window", o.window);
+/// The window of 60 dB whose top, a multiple of 5 dB, one sample in 1000 of all images exceeds.
+GreyWindow window_of(const std::vector<DatasetSource>& sources, const DatasetOptions& o) {
+  LevelCounts levels;
+  for (const DatasetSource& source : sources)
+    for_each_labelled_ping(source, [&](const Cube&, const Ping& ping, std::size_t) {
+      for (const std::size_t row : chosen_rows(ping, o)) levels.add(dataset_levels(row_of(ping, row), o));
+    });
+  const double max_db = 5 * std::ceil(levels.exceeded_by(0.001) / 5);
+  return {max_db - 60, max_db};
+}
+
+/// All classes in the order of the sources; shadow and nothing come first.
+std::vector<std::string> classes_of_runs(const std::vector<DatasetSource>& sources, const DatasetOptions& o) {
+  std::vector<std::string> classes{"nothing", "shadow"};
   for (const DatasetSource& source : sources) {
     if (source.cubes.empty()) continue;
     DatasetSource first = source;
     first.cubes.resize(1);
     bool begun = false;
     for_each_labelled_ping(first, [&](const Cube&, const Ping& ping, std::size_t) {
-      if (begun) return;
-      begun = true;
+      if (std::exchange(begun, true)) return;
       for (const std::string& name : ping.labels.names)
-        if (std::find(plan.classes.begin(), plan.classes.end(), name) == plan.classes.end())
-          plan.classes.push_back(name);
-      if (plan.window.max_db > plan.window.min_db) return;
-      const Grid<float> level = dataset_levels(row_of(ping, chosen_rows(ping, o).front()), o);
-      std::vector<float> sorted(level.data(), level.data() + level.size());
-      const auto top = sorted.begin() + static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(sorted.size() - 1));
-      std::nth_element(sorted.begin(), top, sorted.end());
-      const double max_db = 5 * std::ceil(static_cast<double>(*top) / 5);
-      plan.window = {max_db - 60, max_db};
+        if (std::find(classes.begin(), classes.end(), name) == classes.end()) classes.push_back(name);
     });
   }
   for (const std::string& name : o.stuff)
-    if (std::find(plan.classes.begin() + 1, plan.classes.end(), name) == plan.classes.end())
+    if (std::find(classes.begin() + 1, classes.end(), name) == classes.end())
       fail(ErrorKind::argument, "--stuff = ", name, " is no class of the runs; they have ",
-           shortened_list(std::span(plan.classes).subspan(1)));
-  return plan;
+           shortened_list(std::span(classes).subspan(1)));
+  return classes;
 }
 
 void dataset(const DatasetOptions& o) {
@@ -124,9 +147,10 @@ void dataset(const DatasetOptions& o) {
   split_pings(sources, o.split_by, shares);
   Progress progress(o.common, static_cast<int>(sources.size()) + 2);
   progress.step("reading");
-  const DatasetPlan plan = plan_of(sources, o);
+  const std::vector<std::string> classes = classes_of_runs(sources, o);
+  const GreyWindow window = o.window.empty() ? window_of(sources, o) : parse_window("--window", o.window);
   RunDirectory directory(o.output, o.force, o.runs);
-  DatasetWriter writer(directory, o, plan.classes, plan.window);
+  DatasetWriter writer(directory, o, classes, window);
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const DatasetSource& source = sources[s];
     progress.step("writing images of " + source.run + (source.head.empty() ? "" : ", head " + source.head));
@@ -157,12 +181,12 @@ void dataset(const DatasetOptions& o) {
       {"splits", splits},
       {"notes", notes},
       {"boxes", {{"polar", writer.boxes_of_polar()}, {"fan", writer.boxes_of_fan()}}},
-      {"classes", plan.classes},
-      {"window_db", {plan.window.min_db, plan.window.max_db}},
+      {"classes", classes},
+      {"window_db", {window.min_db, window.max_db}},
       {"peak_memory_mib", peak_memory_mib()}};
   print_summary(o.common, result,
                 fmt::format("{}: {} images ({}) with {} polar and {} fan boxes; classes {}", o.output, writer.images(),
-                            counts, writer.boxes_of_polar(), writer.boxes_of_fan(), shortened_list(plan.classes)));
+                            counts, writer.boxes_of_polar(), writer.boxes_of_fan(), shortened_list(classes)));
 }
 
 }  // namespace
