@@ -28,12 +28,14 @@ struct SmoothShapes {
 };
 
 /// Returns the shapes of the surfels within `radius` [m] of `centre` (world) whose materials have is_smooth: mirrors
-/// for flat parts of materials with `mirror`; cylinders (with their ends as plates), spheres or plates, whichever fits,
-/// for connected parts of materials with `coherent`. Least squares, weighted by area.
+/// for flat parts of materials with `mirror`; for each connected part of a material with `coherent` the simplest shape
+/// that noise, rounding and facets explain (E161): one plane, a cylinder with its ends as plates or a sphere, planes.
+/// Least squares, weighted by area.
 ///
-/// A plane ends half a spacing outside the convex outline of its surfels. Surfels are connected if they are within
-/// three spacings of the largest surfel of each other. Planes of fewer than twelve surfels are left out. Throws
-/// Error(content) for a coherent part that fits no shape, and for a plane that fills less than half of its outline.
+/// A plane ends where the area of its surfels puts the edges of their convex outline (E162). Surfels are connected if
+/// they are within three spacings of the largest surfel of each other. Planes of fewer than twelve surfels are left
+/// out. Throws Error(content) for a coherent part of which no shape holds 95 % of the area, and for a plane that fills
+/// less than half of its outline.
 SmoothShapes fit_shapes(const SceneCloud& scene, const Eigen::Vector3d& centre, double radius);
 
 }  // namespace insonify

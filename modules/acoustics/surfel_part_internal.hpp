@@ -56,6 +56,13 @@ struct SurfelPart {
   }
 };
 
+/// Those of `all` that are not in `taken`.
+inline Members without(const Members& all, const Members& taken) {
+  Members rest;
+  std::set_difference(all.begin(), all.end(), taken.begin(), taken.end(), std::back_inserter(rest));
+  return rest;
+}
+
 /// Parts whose surfels lie within `link` [m] of each other: cells of that size that touch.
 std::vector<SurfelPart> connected_parts(const SurfelPart& all, double link);
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "acoustics/surfel_part_internal.hpp"
+
+// Private to acoustics: planes and round bodies through surfels, and what their residuals may be (E161).
+namespace insonify {
+
+inline constexpr std::size_t fewest_surfels = 12;  // of a plane
+inline constexpr double explained_share = 0.95;    // of the area of a part, at least, by a shape
+
+/// What strays from the surface of a part without being its shape.
+struct SurfelNoise {
+  double deviation = 0;  ///< standard deviation across the surface [m], of what quadratics through 24 neighbours leave
+  double rounding = 0;   ///< of coordinates as float32, and 2e-5 of the part's size [m]
+
+  /// How far a surfel of a shape may stand off it [m].
+  double reach() const { return 3.5 * std::hypot(deviation, rounding); }
+  /// Whether noise explains a mean square residual [m^2] of surfels that count as `count`: up to 1.15 times its
+  /// variance and two and a half standard errors more (E161).
+  bool explains(double mean_square, double count) const {
+    return mean_square <= deviation * deviation * (1.15 + 2.5 * std::sqrt(5 / count)) + rounding * rounding;
+  }
+};
+/// Returns the noise of a part by at most 2000 of its neighbourhoods: the median of what their quadratics leave.
+SurfelNoise noise_of(const SurfelPart& part);
+
+/// As many surfels of equal area would count as these: (sum of areas)^2 / sum of their squares.
+double effective_count(const SurfelPart& part);
+
+/// A plane by least squares: its normal on the side of those of the surfels.
+struct FittedPlane {
+  Eigen::Vector3d place, normal;
+  double mean_square;  ///< of the distances, by area [m^2]
+};
+FittedPlane plane_through(const SurfelPart& part);
+/// Returns the plane of nearly all surfels of a part, and these; nothing if they are too few or noise does not explain
+/// how they stray.
+std::optional<std::pair<FittedPlane, SurfelPart>> flat_part(const SurfelPart& part, const SurfelNoise& noise);
+
+/// A sphere, or a cylinder about `axis`.
+struct RoundBody {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();  ///< axis: zero of a sphere
+  double radius = 0;
+  double mean_square = 0;  ///< of the distances of its surfels, by area [m^2]
+
+  /// From the centre or axis to a place, across the axis.
+  Eigen::Vector3d away(const Eigen::Vector3d& place) const {
+    const Eigen::Vector3d from = place - centre;
+    return from - axis * axis.dot(from);
+  }
+};
+/// Returns the sphere, or the cylinder about an axis near `axis`, of nearly all surfels of a part; nothing if they do not
+/// lie on one that is convex. Gauss and Newton's method on the distances, from the linear fit of the squared ones.
+std::optional<RoundBody> round_body(const SurfelPart& part, const SurfelNoise& noise,
+                                    const Eigen::Vector3d& axis = Eigen::Vector3d::Zero());
+
+}  // namespace insonify
