@@ -5,7 +5,8 @@
 //                         where it is 0 nothing else is done
 //   2. place_of           depth and horizontal distance of every scatterer: the problem has two dimensions
 //   3. RefractionTable    eigenrays on a grid of patches over these two, stored less their first order
-//   4. table.apparent          range and elevation of every scatterer, interpolated, or solved where a patch is not smooth
+//   4. table.apparent     range, elevation, spreading and arrival of every scatterer, interpolated, or solved where a
+//                         patch is not smooth
 // Cost: some thousand eigenrays for the table, whatever the number of scatterers, and an interpolation for each; for
 // few scatterers one eigenray each. Blocks of scatterers run in parallel and are independent.
 #include "acoustics/bend_paths.hpp"
@@ -123,13 +124,26 @@ DepthBox box_of(const std::vector<Place>& places) {
   return {depth.low, depth.high, horizontal.low, horizontal.high, places.size()};
 }
 
-// The direction in head axes whose world elevation is that of `seen`, in the vertical plane through `direction`.
-Direction apparent_direction(const Pose& pose, const Eigen::Vector3d& direction, const ApparentPosition& seen) {
-  const Eigen::Vector3d world = pose.linear() * direction;
-  const double across = std::hypot(world.x(), world.y());
-  if (across == 0) return direction_of(direction);
-  const double stretch = seen.horizontal / across;
-  return direction_of(pose.linear().transpose() * Eigen::Vector3d(stretch * world.x(), stretch * world.y(), seen.up));
+// A vertical plane through the head in which a ray runs, and the straight way to its end; world axes.
+struct RayPlane {
+  Eigen::Vector3d straight;
+  Eigen::Vector3d ahead = Eigen::Vector3d::Zero();  // level; zero if the straight way is vertical
+
+  RayPlane(const Pose& pose, const Eigen::Vector3d& direction) : straight(pose.linear() * direction) {
+    const double across = std::hypot(straight.x(), straight.y());
+    if (across > 0) ahead = {straight.x() / across, straight.y() / across, 0};
+  }
+  bool is_vertical() const { return ahead.isZero(0); }
+  Eigen::Vector3d at(double horizontal, double up) const { return horizontal * ahead + up * Eigen::Vector3d::UnitZ(); }
+};
+
+// What a bent ray makes of the cosine of incidence on a surface: the factor, 0 on its back.
+double incidence_factor(const SceneCloud& scene, std::uint32_t surfel, const RayPlane& plane, double arrival) {
+  constexpr double least_cosine = 1e-3;
+  const Eigen::Vector3d normal = scene.normal[surfel].cast<double>();
+  double straight = -normal.dot(plane.straight), bent = -normal.dot(plane.at(std::cos(arrival), std::sin(arrival)));
+  if (!scene.oriented(surfel)) straight = std::abs(straight), bent = std::abs(bent);
+  return straight < least_cosine ? 1 : std::clamp(bent / straight, 0.0, 1 / straight);
 }
 
 }  // namespace
@@ -159,39 +173,50 @@ RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_d
   return {far * std::max(early, late), std::min(far * span.gradient / span.slowest, snell)};
 }
 
-std::size_t bend_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, Scatterers& s,
-                       int threads) {
+BentPaths bend_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, Scatterers& s,
+                     const BendOptions& options) {
   constexpr const char* who = "bend_paths";
   require_valid_call(who, profile, head_depth, world_from_head);
   for (std::size_t i = 0; i < s.size(); ++i) checked_range(who, s, i);
   const RefractionBound bound = refraction_bound(profile, head_depth, world_from_head, s);
-  if (bound.range == 0 && bound.elevation == 0) return 0;
+  if (bound.range == 0 && bound.elevation == 0) return {};
 
   // Where the scatterers are, and the rays that get there.
   std::vector<Place> places(s.size());
-  parallel_blocks(s.size(), echoes_at_once, threads, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(s.size(), echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       places[i] = place_of(world_from_head, head_depth, s.range[i], unit_vector({s.azimuth[i], s.elevation[i]}));
   });
-  const RefractionTable table(profile, head_depth, box_of(places), threads);
+  const RefractionTable table(profile, head_depth, box_of(places), options.threads);
 
-  std::atomic<std::size_t> silenced{0};
-  parallel_blocks(s.size(), echoes_at_once, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto seen = table.apparent(places[i].depth, places[i].horizontal);
-      if (!seen) {
-        s.projected_area[i] = 0;
-        ++silenced;
-        continue;
-      }
-      const Direction direction =
-          apparent_direction(world_from_head, unit_vector({s.azimuth[i], s.elevation[i]}), *seen);
-      s.range[i] = seen->range;
-      s.azimuth[i] = direction.azimuth;
-      s.elevation[i] = direction.elevation;
+  const double lost = 4 * options.absorption;  // of intensity, per metre both ways
+  std::atomic<std::size_t> silenced{0}, focused{0};
+  const auto bend = [&](std::size_t i) {
+    const auto seen = table.apparent(places[i].depth, places[i].horizontal);
+    if (!seen) {
+      s.projected_area[i] = 0;
+      ++silenced;
+      return;
     }
+    const RayPlane plane(world_from_head, unit_vector({s.azimuth[i], s.elevation[i]}));
+    if (seen->gain > 0.999 * std::log(most_focusing)) ++focused;
+    double factor = std::exp(2 * seen->gain - lost * (s.range[i] - seen->range));  // (E167)
+    if (options.scene) {
+      const double turned = incidence_factor(*options.scene, s.surfel[i], plane, seen->arrival);
+      s.cos_incidence[i] = static_cast<float>(std::min(1.0, s.cos_incidence[i] * turned));
+      factor *= turned;
+    }
+    s.projected_area[i] = static_cast<float>(s.projected_area[i] * factor);
+    s.range[i] = seen->range;
+    if (plane.is_vertical()) return;
+    const Direction direction =
+        direction_of(world_from_head.linear().transpose() * plane.at(seen->horizontal, seen->up));
+    s.azimuth[i] = direction.azimuth, s.elevation[i] = direction.elevation;
+  };
+  parallel_blocks(s.size(), echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) bend(i);
   });
-  return silenced;
+  return {silenced, focused};
 }
 
 RefractionBound bending_in_view(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
@@ -210,13 +235,15 @@ RefractionBound bending_in_view(const SoundSpeedProfile& profile, double head_de
   }
   // How far they seem to move.
   Scatterers bent = straight;
-  bend_paths(profile, head_depth, world_from_head, bent, threads);
+  bend_paths(profile, head_depth, world_from_head, bent, {.threads = threads});
   RefractionBound most;
   for (std::size_t i = 0; i < bent.size(); ++i) {
     const Eigen::Vector3d from = unit_vector({straight.azimuth[i], straight.elevation[i]});
     const double turned = (unit_vector({bent.azimuth[i], bent.elevation[i]}) - from).norm();
     most.range = std::max(most.range, std::abs(bent.range[i] - straight.range[i]));
     most.elevation = std::max(most.elevation, 2 * std::asin(std::min(1.0, 0.5 * turned)));
+    const double spread = bent.projected_area[i] * std::pow(straight.range[i] / bent.range[i], 4);
+    if (spread > 0) most.level_db = std::max(most.level_db, std::abs(db_from_power(spread)));
   }
   return most;
 }

@@ -5,6 +5,7 @@
 #include "acoustics/sound_speed_profile.hpp"
 #include "core/pose.hpp"
 #include "sampling/scatterers.hpp"
+#include "scene/scene_cloud.hpp"
 #include "sonar/beam_fan.hpp"
 #include "sonar/range_gate.hpp"
 
@@ -32,22 +33,33 @@ Eigenray find_eigenray(const SoundSpeedProfile& profile, double depth_from, doub
 RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
                                  const Scatterers& scatterers);
 
-/// Moves every scatterer to its apparent place: at half the two-way travel time times the sound speed at the head, in
-/// the direction from which its ray arrives (E43), within the vertical plane that holds it. Only range, azimuth and
-/// elevation change: visibility, incidence and area stay those of straight rays. World z points up, depth = head_depth
-/// - (z_world - z_head). Scatterers in a shadow zone are silenced (projected area 0) and left in place.
-///
-/// returns   number of silenced scatterers
-///
-/// More than some 8000 scatterers are interpolated over depth and distance: within 1e-6 m and 1e-5 rad of
-/// find_eigenray, and where points tried show that this would not hold each ray is solved. (A profile of more than 150
-/// entries within the scene's depths: 3e-6 m and 2e-5 rad.) Independent of `threads`. Throws Error(argument) for an
-/// invalid profile, head_depth or pose that is not finite, or a range that is not finite and > 0.
-std::size_t bend_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
-                       Scatterers& scatterers, int threads = 0);
+/// Options of bend_paths.
+struct BendOptions {
+  const SceneCloud* scene = nullptr;  ///< whose surfels the scatterers are; none: their incidence stays
+  double absorption = 0;              ///< of amplitude [Np/m]: over the true distance, not over the apparent range
+  int threads = 0;                    ///< 0: all cores; the result does not depend on it
+};
 
-/// Returns the largest changes by bend_paths to the scatterers inside sector and gate, in range and in angle at the
-/// head, from about 1000 of them. Errors as bend_paths.
+/// Most that rays raise the intensity at a place over that of straight ones: where they cross on a caustic it would be
+/// infinite, while waves of sonar raise it by a few decibels.
+inline constexpr double most_focusing = 10;
+
+/// Moves every scatterer to its apparent place: at half the two-way travel time times the sound speed at the head, in
+/// the direction from which its ray arrives (E43), within the vertical plane that holds it. Its projected area takes
+/// what the tube of rays makes of spherical spreading, both ways, at most most_focusing each (E167), and the absorption
+/// over the true distance. With `scene` its incidence is that of the bent ray, by the normal of its surfel. Visibility
+/// stays that of straight rays. World z points up, depth = head_depth - (z_world - z_head). Scatterers in a shadow zone
+/// are silenced (projected area 0) and left in place.
+///
+/// More than some 8000 scatterers are interpolated over depth and distance: within 1e-6 m, 1e-5 rad and 0.05 dB of
+/// find_eigenray and shoot_tube, and where points tried show that this would not hold each ray is solved. (A profile of
+/// more than 150 entries within the scene's depths: 3e-6 m and 2e-5 rad.) Throws Error(argument) for an invalid profile,
+/// head_depth or pose that is not finite, or a range that is not finite and > 0.
+BentPaths bend_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
+                     Scatterers& scatterers, const BendOptions& options = {});
+
+/// Returns the largest changes by bend_paths to the scatterers inside sector and gate, in range, in angle at the head and in
+/// level but for incidence, from about 1000 of them. Errors as bend_paths.
 RefractionBound bending_in_view(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
                                 const Scatterers& scatterers, const Sector& sector, const RangeGate& gate,
                                 int threads = 0);

@@ -4,6 +4,7 @@
 
 #include "acoustics/ray_families_internal.hpp"
 #include "acoustics/refraction_table_internal.hpp"
+#include "acoustics/shoot_ray.hpp"
 #include "core/parallel.hpp"
 
 namespace insonify {
@@ -11,7 +12,7 @@ namespace {
 
 constexpr std::size_t columns = 32;  ///< of patches over distance, and about as many rows over depth
 /// In the middle of a patch's quarters; a quarter of what is promised, since other points may be worse.
-constexpr double tolerated_range = 0.25e-6, tolerated_angle = 2.5e-6;
+constexpr double tolerated_range = 0.25e-6, tolerated_angle = 2.5e-6, tolerated_gain = 1.5e-3, tolerated_arrival = 1e-3;
 /// Of entries of the profile that rows are fitted to; finer layers are smooth enough.
 constexpr std::size_t most_fitted_entries = 150;
 /// A patch is worth quartering if so many points fall in it.
@@ -87,7 +88,7 @@ double FirstOrderRays::lead(double height, double speed, double gradient) const 
 
 ApparentPosition FirstOrderRays::apparent(double depth, double horizontal) const {
   const double height = depth - head_depth_, distance = std::hypot(height, horizontal);
-  if (distance == 0) return {0, 1, 0};
+  if (distance == 0) return {0, 1, 0, 0, 0};
 
   // Reckoned from the end of the layer that is nearer to the head.
   const std::size_t last = depth_.size() - 1;
@@ -102,7 +103,7 @@ ApparentPosition FirstOrderRays::apparent(double depth, double horizontal) const
   const double slowness = 1 / head_speed_ - tilt * height;
   const double across = horizontal / distance * slowness, down = height / distance * slowness + distance * tilt;
   const double norm = std::hypot(across, down);
-  return {head_speed_ * distance * slowness, across / norm, -down / norm};
+  return {head_speed_ * distance * slowness, across / norm, -down / norm, 0, std::atan2(-height, horizontal)};
 }
 
 RefractionTable::Frame RefractionTable::Frame::quarter(std::size_t q) const {
@@ -151,7 +152,11 @@ void RefractionTable::fill(const DepthBox& box, int threads) {
 std::optional<ApparentPosition> RefractionTable::solve(double depth, double horizontal) const {
   const auto ray = eigenray_between(profile_, head_depth_, depth, horizontal);
   if (!ray) return std::nullopt;
-  return ApparentPosition{head_speed_ * ray->travel_time, std::cos(ray->elevation), std::sin(ray->elevation)};
+  const double range = head_speed_ * ray->travel_time;
+  const RayTube tube = shoot_tube(profile_, head_depth_, ray->elevation, ray->travel_time);
+  const double focusing = range > 0 ? range * range * tube.spreading(head_speed_, sound_speed_at(profile_, depth)) : 1;
+  return ApparentPosition{range, std::cos(ray->elevation), std::sin(ray->elevation),
+                          std::log(std::min(focusing, most_focusing)), tube.end.elevation};
 }
 
 RefractionTable::Rest RefractionTable::rest(const Frame& frame, double down, double out) const {
@@ -161,16 +166,18 @@ RefractionTable::Rest RefractionTable::rest(const Frame& frame, double down, dou
   const ApparentPosition guess = first_order_.apparent(depth, horizontal);
   const double sine = seen->up * guess.horizontal - seen->horizontal * guess.up;
   const double cosine = seen->horizontal * guess.horizontal + seen->up * guess.up;
-  return {seen->range - guess.range, std::atan2(sine, cosine), true};
+  return {seen->range - guess.range, std::atan2(sine, cosine), seen->gain, seen->arrival - guess.arrival, true};
 }
 
 RefractionTable::Rest RefractionTable::between(const Patch& patch, double down, double out) {
   const auto over_rows = parabolas(down), over_columns = parabolas(out);
-  Rest sum{0, 0, true};
+  Rest sum{0, 0, 0, 0, true};
   for (std::size_t i = 0; i < 9; ++i) {
     const double weight = over_rows[i / 3] * over_columns[i % 3];
     sum.range += weight * patch.rest[i].range;
     sum.angle += weight * patch.rest[i].angle;
+    sum.gain += weight * patch.rest[i].gain;
+    sum.arrival += weight * patch.rest[i].arrival;
     sum.reachable = sum.reachable && patch.rest[i].reachable;
   }
   return sum;
@@ -186,7 +193,9 @@ void RefractionTable::decide(Patch& patch, const Frame& frame, int levels) const
     any_reachable = any_reachable || middles[q].reachable;
     all_close = all_close && middles[q].reachable && guess.reachable &&
                 std::abs(guess.range - middles[q].range) <= tolerated_range &&
-                std::abs(guess.angle - middles[q].angle) <= tolerated_angle;
+                std::abs(guess.angle - middles[q].angle) <= tolerated_angle &&
+                std::abs(guess.gain - middles[q].gain) <= tolerated_gain &&
+                std::abs(guess.arrival - middles[q].arrival) <= tolerated_arrival;
   }
   patch.use = !any_reachable ? Use::shadow : all_close ? Use::interpolate : levels > 0 ? Use::quarter : Use::solve;
   if (patch.use == Use::quarter) quarter(patch, frame, middles, levels - 1);
@@ -230,7 +239,7 @@ std::optional<ApparentPosition> RefractionTable::apparent(double depth, double h
   const ApparentPosition guess = first_order_.apparent(depth, horizontal);
   const double c = std::cos(rest.angle), s = std::sin(rest.angle);
   return ApparentPosition{guess.range + rest.range, c * guess.horizontal - s * guess.up,
-                          c * guess.up + s * guess.horizontal};
+                          c * guess.up + s * guess.horizontal, rest.gain, guess.arrival + rest.arrival};
 }
 
 }  // namespace insonify

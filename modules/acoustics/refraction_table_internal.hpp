@@ -14,6 +14,8 @@ namespace insonify {
 struct ApparentPosition {
   double range = 0;
   double horizontal = 0, up = 0;
+  double gain = 0;     ///< log of the tube's spreading (E167) times range^2, at most log(most_focusing)
+  double arrival = 0;  ///< elevation of the ray at the point [rad]
 };
 
 /// The depths [m] and horizontal distances [m] of a scene, and how many points it has.
@@ -48,9 +50,9 @@ class RefractionTable {
   std::optional<ApparentPosition> apparent(double depth, double horizontal) const;
 
  private:
-  /// Eigenray less first order.
+  /// Eigenray less first order; its arrival less the straight way's.
   struct Rest {
-    double range = 0, angle = 0;
+    double range = 0, angle = 0, gain = 0, arrival = 0;
     bool reachable = false;
   };
   enum class Use : char { interpolate, shadow, solve, quarter };

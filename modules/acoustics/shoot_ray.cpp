@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/require.hpp"
 #include "core/units.hpp"
@@ -62,9 +63,20 @@ double time_to_leave(const RayState& ray, double sound_speed, const RayLayer& la
   return (ray.slope + sign * std::acosh(1 / back)) / layer.gradient;
 }
 
+/// How a tube of rays widens over its way: `rate` is the change of its width.
+struct TubeState {
+  double way = 0, width = 0, rate = 1;
+  void go(double by) { way += by, width += rate * by; }
+  /// Where the gradient changes by `jump` (down over depth) on a ray of slope `sine`, positive down.
+  void cross(double jump, double sine, double speed) {
+    if (jump != 0 && sine != 0) rate -= width * (1 - sine * sine) / sine * jump / (speed * speed);  // (E167)
+  }
+};
+
 /// Straight up or down: the sum over layers, whose times are logarithms of the ratio of sound speeds.
-RayEnd shoot_vertically(const SoundSpeedProfile& profile, double depth, bool down, double time) {
+RayTube shoot_vertically(const SoundSpeedProfile& profile, double depth, bool down, double time) {
   const double sign = down ? 1 : -1;
+  RayTube tube;
   while (true) {
     const RayLayer layer = layer_at(profile, depth, down);
     const double c = sound_speed_at(profile, depth), g = sign * layer.gradient;
@@ -72,8 +84,11 @@ RayEnd shoot_vertically(const SoundSpeedProfile& profile, double depth, bool dow
     const double needed = std::abs(g) * way < 1e-9 * c ? way / c : std::log1p(g * way / c) / g;
     if (needed >= time) {
       const double far = std::abs(g) * time < 1e-9 ? c * time : c * std::expm1(g * time) / g;
-      return {0, depth + sign * far, -sign * pi / 2};
+      tube.way += far * (c + 0.5 * g * far);
+      tube.width = tube.way, tube.end = {0, depth + sign * far, -sign * pi / 2};
+      return tube;
     }
+    tube.way += way * (c + 0.5 * g * way);
     time -= needed;
     depth = down ? layer.bottom : layer.top;
   }
@@ -81,7 +96,15 @@ RayEnd shoot_vertically(const SoundSpeedProfile& profile, double depth, bool dow
 
 }  // namespace
 
+double RayTube::spreading(double speed_at_start, double speed_at_end) const {
+  return speed_at_start * speed_at_end / (way * std::abs(width));
+}
+
 RayEnd shoot_ray(const SoundSpeedProfile& profile, double depth, double elevation, double time) {
+  return shoot_tube(profile, depth, elevation, time).end;
+}
+
+RayTube shoot_tube(const SoundSpeedProfile& profile, double depth, double elevation, double time) {
   require_valid(profile, shoot_call);
   require(std::isfinite(depth), shoot_call, "depth", depth, "m", "finite");
   require(std::abs(elevation) <= pi / 2, shoot_call, "elevation", elevation, "rad", "within -pi/2 and pi/2");
@@ -89,22 +112,33 @@ RayEnd shoot_ray(const SoundSpeedProfile& profile, double depth, double elevatio
   if (pi / 2 - std::abs(elevation) < 1e-9) return shoot_vertically(profile, depth, elevation < 0, time);
 
   RayState ray{0, depth, std::asinh(std::tan(-elevation))};
+  const double invariant = std::cos(elevation) / sound_speed_at(profile, depth);  // Snell's
+  TubeState tube;
+  std::optional<double> gradient;
   for (int standing = 0; standing < 4;) {
     // A level ray bends towards lower sound speed.
     const bool down = ray.slope > 0 || (ray.slope == 0 && layer_at(profile, ray.depth, true).gradient < 0);
     const RayLayer layer = layer_at(profile, ray.depth, down);
-    const double c = sound_speed_at(profile, ray.depth);
+    const double c = sound_speed_at(profile, ray.depth), from = ray.horizontal;
+    if (gradient) tube.cross(layer.gradient - *gradient, std::tanh(ray.slope), c);
+    gradient = layer.gradient;
     const double leave = time_to_leave(ray, c, layer);
     if (!(leave < time)) {
       ray = after(ray, c, layer.gradient, time);
-      return {ray.horizontal, ray.depth, -std::atan(std::sinh(ray.slope))};
+      tube.go((ray.horizontal - from) / invariant);
+      return {{ray.horizontal, ray.depth, -std::atan(std::sinh(ray.slope))}, tube.way, tube.width};
     }
     standing = leave > 0 ? 0 : standing + 1;
-    if (leave > 0) ray = after(ray, c, layer.gradient, leave), time -= leave;
+    if (leave > 0) {
+      ray = after(ray, c, layer.gradient, leave), time -= leave;
+      tube.go((ray.horizontal - from) / invariant);
+    }
     ray.depth = std::abs(ray.depth - layer.bottom) < std::abs(ray.depth - layer.top) ? layer.bottom : layer.top;
   }
   // Level along the axis of a duct.
-  return {ray.horizontal + sound_speed_at(profile, ray.depth) * time, ray.depth, 0};
+  const double far = sound_speed_at(profile, ray.depth) * time;
+  tube.go(far / invariant);
+  return {{ray.horizontal + far, ray.depth, 0}, tube.way, tube.width};
 }
 
 }  // namespace insonify

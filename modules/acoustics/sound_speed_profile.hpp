@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <vector>
 
 namespace insonify {
@@ -21,6 +22,13 @@ double sound_speed_at(const SoundSpeedProfile& profile, double depth);
 struct RefractionBound {
   double range = 0;      ///< error of the apparent range when rays are taken as straight [m]
   double elevation = 0;  ///< and of the angle at the head [rad]
+  double level_db = 0;   ///< and of the level [dB], by bending_in_view alone
+};
+
+/// What bend_paths could not do by rays.
+struct BentPaths {
+  std::size_t silenced = 0;  ///< scatterers in a shadow zone
+  std::size_t focused = 0;   ///< scatterers near a caustic, whose level is limited
 };
 
 }  // namespace insonify

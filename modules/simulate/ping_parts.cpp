@@ -18,21 +18,21 @@ MovingScene motion_of(const SceneCloud& scene, const ResolvedPing& ping) {
   return {ping.event.motion, moves(scene)};
 }
 
-/// Bends the rays to the patches if the options say so, and returns how many fall silent.
-std::size_t bend(const ResolvedPing& ping, Scatterers& patches) {
-  if (!ping.environment.profile || ping.options.effects.refraction != Choice::always) return 0;
+/// Bends the rays to the patches if the options say so.
+BentPaths bend(const SceneCloud& scene, const ResolvedPing& ping, Scatterers& patches) {
+  if (!ping.environment.profile || ping.options.effects.refraction != Choice::always) return {};
   return bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, patches,
-                    ping.options.threads);
+                    {&scene, ping.sent.medium.absorption.a0, ping.options.threads});
 }
 
 /// The same, with a report.
-RefractionReport refract(const ResolvedPing& ping, Scatterers& patches) {
+RefractionReport refract(const SceneCloud& scene, const ResolvedPing& ping, Scatterers& patches) {
   if (!ping.environment.profile) return {};
   const Sector sector = insonified_sector(ping.head.fan, sampling_in_view(ping));
   const RefractionBound bound =
       bending_in_view(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, patches,
                       sector, ping.head.gate, ping.options.threads);
-  return {bound, ping.options.effects.refraction == Choice::always, bend(ping, patches)};
+  return {bound, ping.options.effects.refraction == Choice::always, bend(scene, ping, patches)};
 }
 
 /// Whether some stage asks for all patches, or for a synthesis that takes all echoes at once.
@@ -62,7 +62,7 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
     if (parts.stored) parts.sampling.scatterers = make_parts(prepared.scene(), view.world_from_head, parts.visible);
   }
   if (parts.stored)
-    report.refraction = refract(ping, parts.sampling.scatterers);
+    report.refraction = refract(prepared.scene(), ping, parts.sampling.scatterers);
   else
     widen_bounds(prepared.scene(), motion_of(prepared.scene(), ping), prepared.whole().fastest,
                  ping.sent.medium.sound_speed, parts.visible);
@@ -90,7 +90,7 @@ void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingPa
     std::vector<std::uint32_t> surfels = parts.visible.surfel;
     std::sort(surfels.begin(), surfels.end());
     seen = split_seen(prepared, view.world_from_head, view.fan, view.gate, surfels, view.sampling);
-    bend(ping, seen);
+    bend(scene, ping, seen);
   }
   if (multipath) {
     parts.multipath = multipath_echoes(scene, seen, ping.environment, view, ping.sent);

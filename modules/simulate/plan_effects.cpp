@@ -83,7 +83,7 @@ double bent_rays_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   Scatterers bent = facts.sample.places;
   bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
-             ping.options.threads);
+             {&facts.sample.scene, ping.sent.medium.absorption.a0, ping.options.threads});
   return difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent));
 }
 

@@ -22,9 +22,9 @@ struct StageSeconds {
 
 /// Effect of refraction on this scene.
 struct RefractionReport {
-  RefractionBound bound;     ///< error of straight rays, from at most some 1000 scatterers in view
-  bool bent = false;         ///< true: the scatterers are at their apparent positions
-  std::size_t silenced = 0;  ///< scatterers in a shadow zone
+  RefractionBound bound;  ///< error of straight rays, from at most some 1000 scatterers in view
+  bool bent = false;      ///< true: the scatterers are at their apparent positions
+  BentPaths paths;        ///< scatterers that no ray reaches, or too many
 };
 
 /// Number of echoes in a layer.

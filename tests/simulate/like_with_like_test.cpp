@@ -63,7 +63,7 @@ TEST(LikeWithLike, no_stage_splits_what_is_in_view_in_another_way) {
     for (const char* stage : {"outer-elevations", "outer-azimuths", "absorption-slope", "refraction", "motion",
                               "multipath", "true-delays"}) {
       const SimulatedPing more = ping(beams, stage);
-      ASSERT_EQ(more.report.refraction.silenced, 0U);
+      ASSERT_EQ(more.report.refraction.paths.silenced, 0U);
       const auto with = areas_of(more.outputs.scatterers);
       std::size_t others = 0;
       for (const auto& [id, area] : alone) {

@@ -21,10 +21,14 @@ namespace {
 std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
   const auto beyond_rounding = [](double x) { return x < 1e-9 ? 0 : x; };
   const std::string bound = fmt::format(
-      "straight rays to the scatterers in view are wrong by up to {:.2g} m in range and {:.2g} deg in angle",
-      beyond_rounding(r.bound.range), degrees(beyond_rounding(r.bound.elevation)));
+      "straight rays to the scatterers in view are wrong by up to {:.2g} m in range, {:.2g} deg in angle and {:.2g} dB "
+      "in level",
+      beyond_rounding(r.bound.range), degrees(beyond_rounding(r.bound.elevation)), beyond_rounding(r.bound.level_db));
   if (!r.bent) return fmt::format("refraction is left out: {} (bin {:.3g} m)", bound, gate.bin_size);
-  return fmt::format("the sound-speed profile bends rays: {}; {} scatterers are in shadow zones", bound, r.silenced);
+  return fmt::format(
+      "the sound-speed profile bends rays: {}; {} scatterers are in shadow zones, {} near caustics, whose "
+      "level is limited to 20 dB above that of straight rays",
+      bound, r.paths.silenced, r.paths.focused);
 }
 
 /// States why multipath gave no echo: most often the sea is too rough.
