@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "acoustics/collect_echoes_internal.hpp"
+#include "acoustics/find_legs_internal.hpp"
 #include "acoustics/image_ways_internal.hpp"
 #include "acoustics/reflection.hpp"
 #include "core/parallel.hpp"
@@ -129,6 +130,13 @@ std::pair<std::vector<Boundary>, std::size_t> all_boundaries(const SmoothShapes&
   return {std::move(all), first};
 }
 
+/// The directions that legs by mirrors may have: the azimuths of the surfels, and elevations down to -80 dB one way.
+SectorBounds directions_of_legs(const View& view, const Transmission& sent) {
+  SamplingOptions sampling = view.sampling;
+  sampling.elevation_half_extent = extent_of_legs(sent.echo_options);
+  return SectorBounds(insonified_sector(view.fan, sampling));
+}
+
 }  // namespace
 
 Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const Environment& environment,
@@ -149,9 +157,11 @@ Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const E
   const std::vector<Boundary> planes = boundaries_of(plates, view.world_from_head, sent, glints);
   for (const Boundary& plane : planes)
     for (ImageWay& way : image_ways({&plane, 1}, 0, 1)) ways.push_back(std::move(way));
+  const SectorBounds sector = directions_of_legs(view, sent);
   std::erase_if(ways, [&](const ImageWay& way) {
     const double range = 0.5 * way.sent.norm();
-    return range < view.gate.min_range - margin || range > view.gate.max_range + margin;
+    return range < view.gate.min_range - margin || range > view.gate.max_range + margin || !sector.holds(way.sent) ||
+           !sector.holds(way.heard);
   });
 
   Echoes echoes;

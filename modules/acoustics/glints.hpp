@@ -33,9 +33,10 @@ struct GlintOptions {
 /// surface without the waves of its shadow's edge, by stationary phase across the curved directions. Targets are not
 /// mirrors: echoes of other surfaces by way of targets are left out, and so are echoes of targets by way of mirrors.
 ///
-/// A way is left out that surfels block that belong neither to its mirrors nor to its target, that is shorter or longer
-/// than twice the gate and a pulse, or of which reflections, edges and patterns leave less than -80 dB; a target's, if
-/// it has no surfel where it would reflect. The mirrors are those that mirror_echoes takes; with `with_levels` surface
+/// A way is left out that leaves or arrives outside of the sector of surfels (insonified_sector of the view, with all
+/// elevations in which the pattern of one way leaves -80 dB), that surfels block that belong neither to its mirrors nor
+/// to its target, that is shorter or longer than twice the gate and a pulse, or of which reflections, edges and patterns
+/// leave less than -80 dB; a target's, if it has no surfel where it would reflect. The mirrors are those that mirror_echoes takes; with `with_levels` surface
 /// and bottom are mirrors too, but each way has at least one of `shapes`.
 Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const Environment& environment,
                     bool with_levels, const View& view, const Transmission& transmission,

@@ -19,7 +19,7 @@ struct Bench {
   SmoothShapes shapes;
   Environment environment;
   bool with_levels = false;
-  View view{Pose::Identity(), make_fan(1, 1, 1, 1), {0.1, 1e5, 1}, {}};
+  View view{Pose::Identity(), make_fan(181, radians(360), radians(2), radians(180)), {0.1, 1e5, 1}, {}};
   Transmission sent{pulse_900k, {1500, {}}, {}};
   GlintOptions options;
 
@@ -195,6 +195,63 @@ TEST(Glints, of_a_box_are_the_lattice_of_its_images) {
       EXPECT_NEAR(std::abs(e.amplitude[k]) * length / source_pressure(pulse_900k), 1, 1e-5) << length;
     }
   }
+}
+
+// A closed room about a head that turns, pitches and rolls: every image of the lattice that is ahead, within the fan and
+// 1.5 beam widths beyond it, has the level of the head's pattern; the others, behind the head too, are absent.
+TEST(Glints, of_a_room_follow_the_heads_pattern_and_are_absent_behind_it) {
+  const Vector3d size(6, 4, 3), head(2.1, 1.7, 1.3);
+  const double lobe = radians(50), shot = radians(70), half_fan = radians(60), beam = radians(2);
+  Bench b(head);
+  b.view.fan = make_fan(121, 2 * half_fan, beam, lobe);
+  b.sent.echo_options.elevation_width = lobe, b.sent.echo_options.transmit_width = shot;
+  b.shapes.mirrors = mirrors_of(Tank{size, {0, 0, 0}, 1});
+  b.shapes.mirrors.back().reflection = 1;
+  std::size_t heard = 0, absent = 0;
+  for (int step = 0; step < 36; ++step) {
+    const double tilt = radians(step % 3 == 0 ? 4 : step % 3 == 1 ? 23 : -37), roll = radians(7 * (step % 5) + 1);
+    const Eigen::Matrix3d turn =
+        (Eigen::AngleAxisd(radians(10 * step + 3), Vector3d::UnitZ()) * Eigen::AngleAxisd(tilt, Vector3d::UnitY()) *
+         Eigen::AngleAxisd(roll, Vector3d::UnitX()))
+            .toRotationMatrix();
+    b.view.world_from_head.linear() = turn;
+    const Echoes e = b.echoes();
+    std::vector<std::uint8_t> found(e.size(), 0);
+    for (int i = -3; i <= 3; ++i)
+      for (int j = -3; j <= 3; ++j)
+        for (int k = -3; k <= 3; ++k) {
+          const int n[] = {i, j, k}, order = std::abs(i) + std::abs(j) + std::abs(k);
+          if (order < 1 || order > 3) continue;
+          // Sound that met two walls that face each other comes back from the side away from which it left.
+          Vector3d image, last;
+          for (int a = 0; a < 3; ++a) {
+            image[a] = n[a] * size[a] + (n[a] % 2 == 0 ? 0 : size[a] - 2 * head[a]);
+            last[a] = n[a] % 2 == 0 ? -image[a] : image[a];
+          }
+          const Vector3d out = turn.transpose() * image.normalized(), back = turn.transpose() * last.normalized();
+          const double aside = std::atan2(out.y(), out.x());
+          const auto up = [&](const Vector3d& leg) { return std::pow(std::asin(leg.z()) / lobe, 2); };
+          const double level = std::exp2(-up(out) - up(back) - 2 * std::pow(aside / shot, 2));
+          const auto in_fan = [&](const Vector3d& leg) {
+            return leg.x() > 0 && std::abs(leg.y()) < std::sin(b.view.fan.azimuth.back()) + 1.5 * beam;
+          };
+          const bool ahead = in_fan(out) && in_fan(back);
+          bool is_there = false;
+          for (std::size_t s = 0; s < e.size(); ++s) {
+            if (std::abs(1500 * e.delay[s] - image.norm()) > 1e-6 || std::abs(e.u[s] - back.y()) > 1e-9 ||
+                std::abs(e.v[s] - back.z()) > 1e-9)
+              continue;
+            is_there = true, found[s] = 1;
+            const double amplitude = std::abs(e.amplitude[s]) * image.norm() / source_pressure(pulse_900k);
+            EXPECT_NEAR(db_from_amplitude(amplitude / level), 0, 0.1);
+          }
+          EXPECT_EQ(is_there, ahead && level > 1e-4) << step << ": " << out.transpose();
+          ++(is_there ? heard : absent);
+        }
+    EXPECT_EQ(std::count(found.begin(), found.end(), 0), 0) << step;
+  }
+  EXPECT_GT(heard, 300u);
+  EXPECT_GT(absent, 800u);
 }
 
 TEST(Glints, count_surface_and_bottom_with_a_mirror_only) {

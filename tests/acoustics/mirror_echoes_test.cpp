@@ -181,3 +181,14 @@ TEST(MirrorEchoes, refuse_a_head_that_does_not_face_a_wall) {
   b.mirrors.assign(64, {"wall", {0, 3, 0}, {0, -1, 0}});
   expect_error(ErrorKind::argument, {"64 mirrors face the head", "at most 63"}, [&] { b.compute(); });
 }
+
+// A wall behind the head shows nothing to a fan ahead; one beside the head does.
+TEST(MirrorEchoes, have_no_legs_outside_of_the_fan) {
+  GhostBench b({0, 0, 0}, {10, 1, 0}, {-1, 0.3, 0});
+  b.mirrors = {{"astern", {-2, 0, 0}, {1, 0, 0}}};
+  EXPECT_EQ(b.compute().echoes.size(), 3u);
+  b.view.fan = make_fan(121, radians(120), radians(2), radians(180));
+  EXPECT_EQ(b.compute().echoes.size(), 0u);
+  b.mirrors = {{"beside", {0, 3, 0}, {0, -1, 0}}};
+  EXPECT_EQ(b.compute().echoes.size(), 3u);
+}

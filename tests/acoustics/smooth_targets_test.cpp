@@ -47,9 +47,10 @@ struct TargetBench {
   SceneCloud scene;
   double frequency = 400e3, range = 20;
   Vector3d from = Vector3d(-1, 0, 0);
+  double fan = 2 * pi;  ///< about +x
 
   Echoes echoes() const {
-    View view{Pose::Identity(), make_fan(1, 1, 1, 1), {0.01, 3000, 1}, {}};
+    View view{Pose::Identity(), make_fan(181, fan, radians(2), radians(180)), {0.01, 3000, 1}, {}};
     view.world_from_head.translation() = range * from;
     Pulse pulse = pulse_900k;
     pulse.centre_frequency = frequency;
@@ -219,5 +220,15 @@ TEST(SmoothTargets, are_silent_where_they_were_not_captured_and_when_hidden) {
   EXPECT_EQ(b.echoes().size(), 1u);
   b.scene.materials.push_back({"weed", 0.1});
   add_surfel(b.scene, {3, 0, 0}, {1, 0, 0}, 0.04, 1);
+  EXPECT_EQ(b.echoes().size(), 0u);
+}
+
+TEST(SmoothTargets, behind_the_head_are_absent) {
+  TargetBench b{sphere_scene(0.3), 400e3, 5};
+  b.fan = radians(120);
+  EXPECT_EQ(b.echoes().size(), 1u);
+  b.from = Vector3d(1, 0, 0);
+  EXPECT_EQ(b.echoes().size(), 0u);
+  b.from = Vector3d(-0.1, 1, 0).normalized();  // 84 degrees to starboard
   EXPECT_EQ(b.echoes().size(), 0u);
 }
