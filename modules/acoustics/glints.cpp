@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "acoustics/collect_echoes_internal.hpp"
+#include "acoustics/edge_waves_internal.hpp"
 #include "acoustics/find_legs_internal.hpp"
 #include "acoustics/image_ways_internal.hpp"
 #include "acoustics/reflection.hpp"
@@ -26,27 +26,23 @@ constexpr const char* glints = "glint_echoes";
 constexpr double same_image = 1e-6;  // [m]
 constexpr std::size_t surfels_at_once = 4096;
 
-/// The way to a sphere or cylinder and back (E152). False if the head is not in front of it.
-bool find_way(const SmoothTarget& target, const Pose& to_head, double wavenumber, ImageWay& way) {
+/// Adds the ways to a sphere or cylinder and back, if the head is in front of it.
+void add_ways_to(const SmoothTarget& target, const Pose& to_head, double wavenumber, std::vector<ImageWay>& ways) {
   const Vector3d middle = to_head * target.surface.place, axis = to_head.linear() * target.axis;
-  const double beside = axis.dot(middle);  // of the middle from where a cylinder would reflect, along it
-  const Vector3d centre = middle - beside * axis;
-  const double d = centre.norm() - target.radius, a = target.radius;
-  if (!(d > 0)) return false;
-  const Vector3d reflects = d / centre.norm() * centre;
-  way.sent = way.heard = 2 * reflects;
-  way.target = &target;
-  way.factor = target.surface.reflection * coherent_reflection_loss(wavenumber, target.surface.rms_height, pi / 2);
+  const auto add = [&](const Vector3d& heard, const Vector3d& reflects, complex factor, double grazing) {
+    factor *=
+        target.surface.reflection * coherent_reflection_loss(wavenumber, target.surface.rms_height, grazing);  // (E152)
+    ways.push_back({2 * heard, 2 * heard, factor, {reflects}, {}, &target, edge_floor});
+  };
   if (target.length > 0) {
-    const double scale = std::sqrt(2 * wavenumber / (pi * d)), half = 0.5 * target.length;
-    way.factor *= (fresnel_integral(scale * (beside + half)) - fresnel_integral(scale * (beside - half))) /
-                  complex(1, 1) / std::sqrt(1 + d / a);
-    way.bounces = {reflects + std::clamp(0.0, beside - half, beside + half) * axis};
-  } else {
-    way.factor /= 1 + d / a;  // (E152)
-    way.bounces = {reflects};
+    for (const BodyArrival& a : cylinder_arrivals(middle, axis, target.length, target.radius, wavenumber))
+      add(a.apparent, a.place, a.factor, a.grazing);
+    return;
   }
-  return true;
+  const double d = middle.norm() - target.radius;
+  if (!(d > 0)) return;
+  const Vector3d reflects = d / middle.norm() * middle;
+  add(reflects, reflects, 1 / (1 + d / target.radius), pi / 2);
 }
 
 /// What surfels do to ways: block them, or cover the place at which a target reflects.
@@ -83,7 +79,9 @@ class SurfelTests {
       if (mirror->holds(mirror->distance(p), mirror->normal.dot(n))) return false;
     const double reach_2 = footprint_ * footprint_ * scene_.area[s];
     Vector3d from = Vector3d::Zero();
-    for (std::size_t k = 0; k <= way.bounces.size(); ++k) {
+    // By one bounce the way back is the way out.
+    const std::size_t legs = way.bounces.size() == 1 ? 1 : way.bounces.size() + 1;
+    for (std::size_t k = 0; k < legs; ++k) {
       const Vector3d to = k < way.bounces.size() ? way.bounces[k] : Vector3d::Zero(), leg = to - from;
       const double fall = n.dot(leg), part = n.dot(p - from) / fall;
       // Its own surface does not hide a target.
@@ -148,11 +146,10 @@ Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const E
   std::vector<ImageWay> ways = image_ways(mirrors, first, options.most_bounces);
   std::vector<Mirror> plates;
   for (const SmoothTarget& target : shapes.targets) {
-    ImageWay way;
     if (target.radius == 0)
       plates.push_back(target.surface);
-    else if (find_way(target, view.world_from_head.inverse(), 2 * pi * frequency / c, way))
-      ways.push_back(std::move(way));
+    else
+      add_ways_to(target, view.world_from_head.inverse(), 2 * pi * frequency / c, ways);
   }
   const std::vector<Boundary> planes = boundaries_of(plates, view.world_from_head, sent, glints);
   for (const Boundary& plane : planes)
@@ -172,7 +169,7 @@ Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const E
     const Vector3d out = way.sent / length, back = way.heard / length;
     const complex gain = one_way_pattern(sent.echo_options, out.z()) * one_way_pattern(sent.echo_options, back.z()) *
                          transmit_pattern(sent.echo_options, std::atan2(out.y(), out.x())) * way.factor;
-    if (!(std::norm(gain) >= echo_floor * echo_floor)) continue;
+    if (!(std::norm(gain) >= way.least * way.least)) continue;
     const double phase = 2 * pi * reduced_cycles(frequency / c * length);
     add_echo(echoes, length / c, back.y(), back.z(),
              source_pressure(sent.pulse) * gain * std::polar(1 / length, phase));

@@ -22,22 +22,26 @@ struct GlintOptions {
 /// edges (E150), of the polygon in which the mirrors overlap across the line. Two mirrors that meet at a right angle
 /// are a corner: its image lies on the edge, and each order, A before B and B before A, has the half of the aperture
 /// where it meets A first. Of a mirror without edges, the part in front of the others on the way counts. Ways of one
-/// image add up and are one echo.
+/// image add up and are one echo. Of one mirror with edges, the specular point, each edge and each corner are echoes of
+/// their own, with their own delays, directions and patterns (E164, E165). The edge along which two mirrors meet is one of
+/// these: it coincides with the image of the corner, and is weak beside it.
 ///
 /// A target at its least distance d has (E152)
 ///
 ///   amplitude = sqrt2 p0 b^2 R exp(-2 (k H)^2) F exp(2 i k d) / (2 d sqrt((1 + d / a1) (1 + d / a2)))
 ///
-/// with a1 and a2 its radii of curvature there: both that of a sphere, one of them infinite for a cylinder, of which F
-/// are the edges of its length, both for a plate, with the F of its corners. It is the integral of Kirchhoff over the
-/// surface without the waves of its shadow's edge, by stationary phase across the curved directions. Targets are not
-/// mirrors: echoes of other surfaces by way of targets are left out, and so are echoes of targets by way of mirrors.
+/// with a1 and a2 its radii of curvature there: both that of a sphere, one of them infinite for a cylinder, both for a
+/// plate. Edges and corners of plates (E164) and ends of cylinders (E166) are echoes of their own. It is the integral of
+/// Kirchhoff over the surface without the waves of its shadow's edge, by stationary phase across the curved directions.
+/// Targets are not mirrors: echoes of other surfaces by way of targets are left out, and so are echoes of targets by way
+/// of mirrors.
 ///
 /// A way is left out that leaves or arrives outside of the sector of surfels (insonified_sector of the view, with all
 /// elevations in which the pattern of one way leaves -80 dB), that surfels block that belong neither to its mirrors nor
 /// to its target, that is shorter or longer than twice the gate and a pulse, or of which reflections, edges and patterns
-/// leave less than -80 dB; a target's, if it has no surfel where it would reflect. The mirrors are those that mirror_echoes takes; with `with_levels` surface
-/// and bottom are mirrors too, but each way has at least one of `shapes`.
+/// leave less than -80 dB (-120 dB of one plate or target); a target's, if it has no surfel where it would reflect. The
+/// mirrors are those that mirror_echoes takes; with `with_levels` surface and bottom are mirrors too, but each way has at
+/// least one of `shapes`.
 Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const Environment& environment,
                     bool with_levels, const View& view, const Transmission& transmission,
                     const GlintOptions& options = {});

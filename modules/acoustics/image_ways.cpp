@@ -7,6 +7,7 @@
 
 #include <Eigen/LU>
 
+#include "acoustics/edge_waves_internal.hpp"
 #include "acoustics/image_ways_internal.hpp"
 
 namespace insonify {
@@ -101,6 +102,16 @@ bool find_way(const Chain& chain, ImageWay& way) {
   return std::norm(way.factor) >= echo_floor * echo_floor;
 }
 
+/// The ways by one mirror with edges: by its specular point, its edges and its corners.
+void add_ways_of_plate(const Boundary& plate, std::vector<ImageWay>& ways) {
+  for (const BodyArrival& arrival : plate_arrivals(plate.corners, plate.normal, plate.wavenumber)) {
+    const Vector3d image = 2 * arrival.apparent;
+    ImageWay way{image, image, arrival.factor * plate.reflection(arrival.grazing), {arrival.place}, {&plate}};
+    way.least = edge_floor;
+    if (std::norm(way.factor) >= edge_floor * edge_floor) ways.push_back(std::move(way));
+  }
+}
+
 void add_ways(std::span<const Boundary> mirrors, std::size_t first, int most, Chain& chain, bool counts,
               std::vector<ImageWay>& ways) {
   for (std::size_t m = 0; m < mirrors.size() && most > 0; ++m) {
@@ -108,7 +119,10 @@ void add_ways(std::span<const Boundary> mirrors, std::size_t first, int most, Ch
     chain.push_back(&mirrors[m]);
     const bool with_it = counts || m >= first;
     ImageWay way;
-    if (with_it && find_way(chain, way)) ways.push_back(std::move(way));
+    if (with_it && chain.size() == 1 && !mirrors[m].corners.empty())
+      add_ways_of_plate(mirrors[m], ways);
+    else if (with_it && find_way(chain, way))
+      ways.push_back(std::move(way));
     add_ways(mirrors, first, most - 1, chain, with_it, ways);
     chain.pop_back();
   }

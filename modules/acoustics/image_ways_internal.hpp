@@ -16,10 +16,16 @@ struct ImageWay {
   std::vector<Eigen::Vector3d> bounces{};  ///< places at which it bounces
   std::vector<const Boundary*> by{};       ///< off these
   const SmoothTarget* target = nullptr;    ///< or off this
+  double least = echo_floor;               ///< least factor with patterns that counts
 };
 
+/// Least factor of an edge or a corner re the image of the head: -120 dB. A plate turned by 40 degrees still has it.
+inline constexpr double edge_floor = 1e-6;
+
 /// Returns the paths by up to `most` mirrors one after the other (E151), at least one of them at index `first` or
-/// later, on which reflections and edges leave at least -80 dB.
+/// later, on which reflections and edges leave at least -80 dB. By one mirror with edges these are paths by its specular
+/// point, by each edge and by each corner (E164, E165), down to -120 dB; by several, edges change the level of the
+/// image alone (E150).
 std::vector<ImageWay> image_ways(std::span<const Boundary> mirrors, std::size_t first, int most);
 
 }  // namespace insonify

