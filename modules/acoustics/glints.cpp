@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "acoustics/bent_legs_internal.hpp"
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/edge_waves_internal.hpp"
 #include "acoustics/find_legs_internal.hpp"
@@ -135,6 +136,52 @@ SectorBounds directions_of_legs(const View& view, const Transmission& sent) {
   return SectorBounds(insonified_sector(view.fan, sampling));
 }
 
+/// What ways become in a profile.
+class BentWays {
+ public:
+  BentWays(const Environment& environment, const View& view, const Transmission& sent)
+      : direct_(*environment.profile, environment.water.depth, view.world_from_head, sent.medium.absorption.a0) {}
+
+  /// Bends a way; false if no ray has it.
+  bool bend(ImageWay& way) const {
+    constexpr double specular = 1e-6;  // part of the way: an image is twice as far as the place that reflects it
+    const bool one_place = way.bounces.size() == 1;
+    const bool to_image =
+        one_place && !way.target && (way.sent - 2 * way.bounces[0]).norm() < specular * way.sent.norm();
+    if (one_place && !to_image) return bend_to_place(way);
+
+    std::optional<BentLegs> by_level;
+    for (const Boundary* boundary : way.by) {
+      const BoundaryTilt tilt = tilt_of(*boundary);
+      if (tilt == BoundaryTilt::tilted || (tilt == BoundaryTilt::level && by_level)) return true;
+      if (tilt == BoundaryTilt::level)
+        by_level.emplace(direct_.mirrored(boundary->head_distance, boundary->plane.normal().z() < 0));
+    }
+    const BentLegs& rays = by_level ? *by_level : direct_;
+    const auto out = rays.to(way.sent), back = rays.to(way.heard);
+    if (!out || !back) return false;
+    way.sent = out->apparent, way.heard = back->apparent;
+    way.factor *= out->pressure;
+    return true;
+  }
+
+ private:
+  /// Both legs are the ray to the place; what the way is longer than that, its phase, stays.
+  bool bend_to_place(ImageWay& way) const {
+    const Vector3d place = way.bounces[0];
+    const auto leg = direct_.to(place);
+    if (!leg) return false;
+    const double longer = 2 * (leg->apparent.norm() - place.norm());
+    const Vector3d turned = leg->apparent.normalized() - place.normalized();
+    for (Vector3d* end : {&way.sent, &way.heard})
+      *end = (end->norm() + longer) * (end->normalized() + turned).normalized();
+    way.factor *= leg->pressure * leg->pressure;
+    return true;
+  }
+
+  BentLegs direct_;
+};
+
 }  // namespace
 
 Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const Environment& environment,
@@ -164,7 +211,12 @@ Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const E
   Echoes echoes;
   const std::vector<std::uint8_t> open =
       SurfelTests(scene, view, ways).open_ways(view.sampling.occlusion, sent.echo_options.threads);
-  for (const ImageWay& way : joined(ways, open)) {
+  std::vector<ImageWay> heard = joined(ways, open);
+  if (options.refraction && environment.profile) {
+    const BentWays bent(environment, view, sent);
+    std::erase_if(heard, [&](ImageWay& way) { return !bent.bend(way); });
+  }
+  for (const ImageWay& way : heard) {
     const double length = way.sent.norm();
     const Vector3d out = way.sent / length, back = way.heard / length;
     const complex gain = one_way_pattern(sent.echo_options, out.z()) * one_way_pattern(sent.echo_options, back.z()) *

@@ -10,6 +10,9 @@ namespace insonify {
 /// Options of glint_echoes.
 struct GlintOptions {
   int most_bounces = 3;  ///< off mirrors, surface and bottom, one after the other
+  /// Whether ways run through the profile of the environment, if it has one (E43, E167): to targets and to edges as two
+  /// rays to the place; by upright mirrors and one level boundary as the ray to the image. Other ways stay straight.
+  bool refraction = false;
 };
 
 /// Returns the echoes of a head's own image: sound that returns by way of one to `most_bounces` mirrors, and by way of

@@ -18,6 +18,7 @@
 #include "acoustics/boundary_internal.hpp"
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/find_legs_internal.hpp"
+#include "acoustics/patch_legs_internal.hpp"
 #include "core/error.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
@@ -32,17 +33,6 @@ using complex = std::complex<double>;
 constexpr const char* me = "multipath_echoes";
 constexpr std::size_t patches_per_block = 4096;
 
-/// One leg between head and patch, in the axes of the head.
-struct Leg {
-  double range;      ///< [m]
-  double u, v;       ///< direction cosines
-  double cosine;     ///< at the patch
-  Vector3d towards;  ///< unit vector from the patch along it
-  complex gain;      ///< one-way pattern times reflection
-  complex sent;      ///< gain of the leg out: with the transmitter's pattern in azimuth too
-  std::uint8_t by;   ///< 0: direct; k: by the k-th boundary
-};
-
 /// Where the echoes of one block came from, echo by echo.
 struct Origins {
   std::vector<std::uint32_t> surfel;
@@ -53,14 +43,13 @@ struct Origins {
 class PathBuilder {
  public:
   PathBuilder(const SceneCloud& scene, const std::vector<Boundary>& boundaries, std::size_t first,
-              const FoundLegs& found, const View& view, const Transmission& sent)
+              const FoundLegs& found, const View& view, const Transmission& sent, const Environment* through)
       : scene_(scene),
         first_(first),
-        boundaries_(boundaries),
+        patch_legs_(scene, boundaries, view, sent, through),
         found_(found),
         echo_options_(sent.echo_options),
         surfaces_(surfaces_of(sent, scene.materials)),
-        to_head_(view.world_from_head.linear().transpose()),
         source_(source_pressure(sent.pulse)),
         sound_speed_(sent.medium.sound_speed),
         cycles_per_m_(sent.pulse.centre_frequency / sent.medium.sound_speed) {
@@ -72,7 +61,8 @@ class PathBuilder {
   /// Adds the echoes of `patches` to `result`.
   /// parts        of each surfel, how many patches it was split into
   /// cosines      true if those of `patches` hold for the direct leg
-  void add(const Scatterers& patches, const std::vector<std::uint32_t>& parts, bool cosines, Multipath& result) const {
+  void add(const Scatterers& patches, const std::vector<std::uint32_t>& parts, bool cosines, Multipath& result) {
+    patch_legs_.prepare(patches);
     std::atomic<std::size_t> two_bounces{0};
     std::vector<Echoes> echoes(1);
     std::vector<Origins> origins((patches.size() + patches_per_block - 1) / patches_per_block);
@@ -84,7 +74,7 @@ class PathBuilder {
                                  for (std::size_t i = begin; i < end; ++i) {
                                    const std::uint32_t surfel = patches.surfel[i];
                                    if (!(found_.legs[surfel] & ~direct_leg)) continue;
-                                   find_legs_to(patches, i, cosines, legs);
+                                   patch_legs_.find(patches, i, found_.legs[surfel], cosines, legs);
                                    if (legs.empty()) continue;
                                    const double area = static_cast<double>(scene_.area[surfel]) / parts[surfel];
                                    add_paths(legs, patches, i, area, out, from);
@@ -103,48 +93,6 @@ class PathBuilder {
   }
 
  private:
-  /// Sets `legs` to the legs to one patch, the direct one first.
-  void find_legs_to(const Scatterers& patches, std::size_t i, bool cosines, std::vector<Leg>& legs) const {
-    const std::uint32_t surfel = patches.surfel[i];
-    const LegSet open = found_.legs[surfel];
-    const Vector3d place = patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
-    const Vector3d normal = to_head_ * scene_.normal[surfel].cast<double>();
-    legs.clear();
-    const auto add = [&legs](const Leg& leg) {
-      if (leg.cosine > 0) legs.push_back(leg);
-    };
-    if (open & direct_leg) {
-      Leg leg = leg_to(surfel, place, normal, 1);
-      leg.by = 0;
-      if (cosines) leg.cosine = patches.cos_incidence[i];
-      add(leg);
-    }
-    for (std::size_t b = 0; b < boundaries_.size(); ++b) {
-      const Boundary& boundary = boundaries_[b];
-      if (!(open & leg_by(b)) || boundary.distance(place) <= 0) continue;
-      const Vector3d image = boundary.mirrored(place);
-      const double sine = std::min(1.0, std::abs(boundary.normal.dot(image)) / image.norm());
-      Leg leg = leg_to(surfel, image, boundary.mirrored_direction(normal),
-                       boundary.reflection(std::asin(sine)) * boundary.edges(image));
-      leg.towards = boundary.mirrored_direction(leg.towards);
-      leg.by = static_cast<std::uint8_t>(b + 1);
-      add(leg);
-    }
-  }
-
-  Leg leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal, complex reflection) const {
-    Leg leg{};
-    leg.range = place.norm();
-    leg.u = place.y() / leg.range;
-    leg.v = place.z() / leg.range;
-    leg.towards = -place / leg.range;
-    const double cosine = -normal.dot(place) / leg.range;
-    leg.cosine = std::min(1.0, scene_.oriented(surfel) ? cosine : std::abs(cosine));
-    leg.gain = reflection * one_way_pattern(echo_options_, leg.v);
-    leg.sent = leg.gain * transmit_pattern(echo_options_, std::atan2(place.y(), place.x()));
-    return leg;
-  }
-
   void add_paths(const std::vector<Leg>& legs, const Scatterers& patches, std::size_t patch, double area, Echoes& out,
                  Origins& from) const {
     const std::size_t material = patches.material[patch];
@@ -167,11 +115,10 @@ class PathBuilder {
 
   const SceneCloud& scene_;
   std::size_t first_;  // number of the first boundary without which an echo does not count
-  const std::vector<Boundary>& boundaries_;
+  PatchLegs patch_legs_;
   const FoundLegs& found_;
   const EchoOptions& echo_options_;
   SurfaceTable surfaces_;
-  Eigen::Matrix3d to_head_;
   double source_, sound_speed_, cycles_per_m_, least_leg_ = 0, longest_leg_ = 0;
 };
 
@@ -201,9 +148,17 @@ std::vector<std::uint32_t> surfels_beside(const FoundLegs& found, const std::vec
   return list;
 }
 
-/// The echoes by `boundaries`, of whose legs at least one is by the boundary number `first` or a later one.
-Multipath bounced_echoes(const SceneCloud& scene, const Scatterers& direct, const std::vector<Boundary>& boundaries,
-                         std::size_t first, double longest, const View& view, const Transmission& sent) {
+/// Boundaries; echoes count of which one leg at least is by the boundary number `first` or a later one.
+struct Bounces {
+  const std::vector<Boundary>& boundaries;
+  std::size_t first;
+  double longest;              ///< leg [m]
+  const Environment* through;  ///< of rays; none: straight legs
+};
+
+Multipath bounced_echoes(const SceneCloud& scene, const Scatterers& direct, const Bounces& bounces, const View& view,
+                         const Transmission& sent) {
+  const auto& [boundaries, first, longest, through] = bounces;
   if (boundaries.size() > most_boundaries)
     fail(ErrorKind::argument, me, ": ", boundaries.size(), " planes, must be at most ", most_boundaries);
   Multipath result;
@@ -218,7 +173,7 @@ Multipath bounced_echoes(const SceneCloud& scene, const Scatterers& direct, cons
   result.blocked = found.hidden;
 
   // Paths, patch by patch: first those seen directly, then those that only a boundary shows.
-  const PathBuilder builder(scene, boundaries, first, found, view, sent);
+  PathBuilder builder(scene, boundaries, first, found, view, sent, through);
   if (!rays) builder.add(direct, parts, true, result);
   const Scatterers beside = split_listed(scene, view.world_from_head, view.fan, view.gate,
                                          surfels_beside(found, seen_directly), view.sampling);
@@ -244,8 +199,10 @@ Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, co
   require_arguments(scene, environment, view, transmission, options);
   const auto boundaries =
       boundaries_of(environment, view.world_from_head, transmission, options.boundary_tolerance, me);
-  return bounced_echoes(scene, direct, boundaries, 1, longest_leg(environment, {}, view, transmission), view,
-                        transmission);
+  return bounced_echoes(
+      scene, direct,
+      {boundaries, 1, longest_leg(environment, {}, view, transmission), options.refraction ? &environment : nullptr},
+      view, transmission);
 }
 
 Multipath mirror_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,
@@ -259,8 +216,10 @@ Multipath mirror_echoes(const SceneCloud& scene, const Scatterers& direct, const
   const std::size_t first = boundaries.size() + 1;
   for (Boundary& boundary : boundaries_of(mirrors, view.world_from_head, transmission, me))
     boundaries.push_back(std::move(boundary));
-  return bounced_echoes(scene, direct, boundaries, first, longest_leg(environment, mirrors, view, transmission), view,
-                        transmission);
+  return bounced_echoes(scene, direct,
+                        {boundaries, first, longest_leg(environment, mirrors, view, transmission),
+                         options.refraction ? &environment : nullptr},
+                        view, transmission);
 }
 
 void append(Echoes& echoes, const Echoes& more) {

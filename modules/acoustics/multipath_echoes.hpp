@@ -51,6 +51,9 @@ struct MultipathOptions {
   /// Captured surfels along a boundary (within 60 degrees) that are nearer to it than this [m], and than three times
   /// its rms relief, count as the boundary itself: they neither block a bounce off it nor give an echo by one.
   double boundary_tolerance = 0.3;
+  /// Whether legs run through the profile of the environment, if it has one (E43, E167): direct ones, those by level
+  /// boundaries and those by upright mirrors, each within one degree. By tilted mirrors they stay straight.
+  bool refraction = false;
 };
 
 /// Returns the echoes whose leg out, leg back or both touch the surface or the bottom of `environment` once (E48). They
@@ -75,7 +78,9 @@ struct MultipathOptions {
 ///          those seen only by a boundary are found and split here. With rays it is not used: patches are surfels then,
 ///          whose xi is not that of the rays.
 ///
-/// Legs by a boundary are straight also where direct ones were bent, and take the smooth surfel for the facet.
+/// With `refraction` a leg is the ray to the place or to its image: by a level boundary through the profile and its image
+/// in the boundary, by an upright mirror through the profile itself. `direct` holds straight places all the same.
+/// Visibility is that of straight legs. Legs take the smooth surfel for the facet.
 /// Does not depend on the thread count. Throws Error if there is no boundary, the head is not in the water, or an
 /// invalid environment, pulse or medium is met.
 Multipath multipath_echoes(const SceneCloud& scene, const Scatterers& direct, const Environment& environment,

@@ -90,17 +90,19 @@ void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingPa
     std::vector<std::uint32_t> surfels = parts.visible.surfel;
     std::sort(surfels.begin(), surfels.end());
     seen = split_seen(prepared, view.world_from_head, view.fan, view.gate, surfels, view.sampling);
-    bend(scene, ping, seen);
   }
+  const bool refraction = ping.options.effects.refraction == Choice::always;
+  const MultipathOptions legs{.refraction = refraction};
   if (multipath) {
-    parts.multipath = multipath_echoes(scene, seen, ping.environment, view, ping.sent);
+    parts.multipath = multipath_echoes(scene, seen, ping.environment, view, ping.sent, legs);
     layers.add("multipath", parts.multipath.echoes);
   }
   if (!mirrors) return;
   if (!ping.smooth.mirrors.empty())
-    parts.mirrors = mirror_echoes(scene, seen, ping.environment, ping.smooth.mirrors, multipath, view, ping.sent);
+    parts.mirrors = mirror_echoes(scene, seen, ping.environment, ping.smooth.mirrors, multipath, view, ping.sent, legs);
   Echoes all = parts.mirrors.echoes;
-  append(all, glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent));
+  append(all,
+         glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent, {.refraction = refraction}));
   layers.add("mirrors", all);
 }
 

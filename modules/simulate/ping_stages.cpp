@@ -6,6 +6,7 @@
 #include "acoustics/surface_laws.hpp"
 #include "acoustics/trace_paths.hpp"
 #include "core/stop_watch.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "returns/beam_bands.hpp"
 #include "returns/find_contributors.hpp"
@@ -120,6 +121,18 @@ bool hears_all_ahead(const ResolvedPing& ping) {
 
 }  // namespace
 
+namespace {
+
+/// What stays straight though rays are bent, if straight rays are off by more than a centimetre.
+std::vector<std::string> straight_notes(const ResolvedPing& ping, const RefractionReport& refraction) {
+  constexpr double least_error = 0.01;  // [m]
+  if (!refraction.bent || refraction.bound.range < least_error || !(ping.options.effects.double_echoes > 0)) return {};
+  return {printed("double echoes run along straight rays, which are off by up to %.2g m and %.2g deg in this profile",
+                  refraction.bound.range, degrees(refraction.bound.elevation))};
+}
+
+}  // namespace
+
 std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping) {
   const Environment& e = ping.environment;
   const auto& [pose, fan, gate, sampling] = ping.view;
@@ -159,6 +172,7 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
     report.notes.push_back(std::move(note));
   for (std::string& note : sparse_notes(report.sampling, ping.view.fan.beams()))
     report.notes.push_back(std::move(note));
+  for (std::string& note : straight_notes(ping, report.refraction)) report.notes.push_back(std::move(note));
   if (wanted.scatterers) result.outputs.scatterers = std::move(parts.sampling.scatterers);
 }
 

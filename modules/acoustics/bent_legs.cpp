@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/bent_legs_internal.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The water's side of a level boundary and its image on the other side.
+SoundSpeedProfile mirrored_at(const SoundSpeedProfile& profile, double depth, bool above) {
+  SoundSpeedProfile half{{depth}, {sound_speed_at(profile, depth)}};  // from the boundary into the water
+  const auto add = [&](std::size_t k) {
+    if (above ? profile.depth[k] > depth : profile.depth[k] < depth)
+      half.depth.push_back(profile.depth[k]), half.sound_speed.push_back(profile.sound_speed[k]);
+  };
+  const std::size_t n = profile.depth.size();
+  for (std::size_t k = 0; k < n; ++k) add(above ? k : n - 1 - k);
+  std::vector<std::pair<double, double>> both;
+  for (std::size_t k = 0; k < half.depth.size(); ++k) {
+    both.emplace_back(half.depth[k], half.sound_speed[k]);
+    if (k > 0) both.emplace_back(2 * depth - half.depth[k], half.sound_speed[k]);
+  }
+  std::sort(both.begin(), both.end());
+  SoundSpeedProfile whole;
+  for (const auto& [z, c] : both) whole.depth.push_back(z), whole.sound_speed.push_back(c);
+  return whole;
+}
+
+}  // namespace
+
+BentLegs::BentLegs(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, double absorption)
+    : profile_(profile), head_depth_(head_depth), absorption_(absorption), world_from_head_(world_from_head) {
+  prepare({}, 1);
+}
+
+BentLegs BentLegs::mirrored(double distance, bool above) const {
+  const double depth = above ? head_depth_ - distance : head_depth_ + distance;
+  return {mirrored_at(profile_, depth, above), head_depth_, world_from_head_, absorption_};
+}
+
+void BentLegs::prepare(std::span<const Vector3d> places, int threads) {
+  DepthBox box{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, places.size()};
+  for (const Vector3d& place : places) {
+    const Vector3d way = world_from_head_.linear() * place;
+    const double depth = head_depth_ - way.z(), out = std::hypot(way.x(), way.y());
+    box.min_depth = std::min(box.min_depth, depth), box.max_depth = std::max(box.max_depth, depth);
+    box.min_horizontal = std::min(box.min_horizontal, out), box.max_horizontal = std::max(box.max_horizontal, out);
+  }
+  table_ = std::make_unique<RefractionTable>(profile_, head_depth_, box, threads);
+}
+
+std::optional<BentLeg> BentLegs::to(const Vector3d& place) const {
+  const Vector3d way = world_from_head_.linear() * place;
+  const double out = std::hypot(way.x(), way.y()), straight = place.norm();
+  const auto seen = table_->apparent(head_depth_ - way.z(), out);
+  if (!seen || !(straight > 0)) return std::nullopt;
+  BentLeg leg{seen->range / straight * place, place / straight, 1};
+  leg.pressure = std::exp(0.5 * seen->gain - absorption_ * (straight - seen->range));  // (E167)
+  if (out == 0) return leg;
+  const Vector3d ahead(way.x() / out, way.y() / out, 0);
+  const auto in_head = [&](double horizontal, double up) -> Vector3d {
+    return world_from_head_.linear().transpose() * (horizontal * ahead + up * Vector3d::UnitZ());
+  };
+  leg.apparent = seen->range * in_head(seen->horizontal, seen->up);
+  leg.arrival = in_head(std::cos(seen->arrival), std::sin(seen->arrival));
+  return leg;
+}
+
+double BentLegs::grazing_at(double depth, const Vector3d& apparent) const {
+  const double up = world_from_head_.linear().row(2).dot(apparent.normalized());
+  const double cosine = std::sqrt(std::max(0.0, (1 - up) * (1 + up))) * sound_speed_at(profile_, depth) /
+                        sound_speed_at(profile_, head_depth_);  // Snell's law
+  return std::acos(std::min(1.0, cosine));
+}
+
+BoundaryTilt tilt_of(const Boundary& boundary) {
+  constexpr double one_degree = 0.01745;
+  const double up = std::abs(boundary.plane.normal().z());
+  if (up < one_degree) return BoundaryTilt::upright;
+  return up > 1 - 0.5 * one_degree * one_degree ? BoundaryTilt::level : BoundaryTilt::tilted;
+}
+
+double depth_of(const Boundary& boundary, double head_depth) {
+  return head_depth + (boundary.plane.normal().z() < 0 ? -1 : 1) * boundary.head_distance;
+}
+
+}  // namespace insonify

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <complex>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "acoustics/boundary_internal.hpp"
+#include "acoustics/refraction_table_internal.hpp"
+#include "acoustics/sound_speed_profile.hpp"
+#include "core/pose.hpp"
+
+// Private to acoustics: legs of sound through a profile, to places and to their images in boundaries. Head axes [m].
+namespace insonify {
+
+/// Where a leg seems to come from, how it arrives, and what it makes of spherical spreading over the apparent range.
+struct BentLeg {
+  Eigen::Vector3d apparent;  ///< place at the apparent range, in the direction at the head
+  Eigen::Vector3d arrival;   ///< unit vector along the ray at the place
+  double pressure = 1;       ///< factor on 1 / apparent range: tube (E167), and absorption of the true distance
+};
+
+/// Legs from a head through a profile, and through its image in a level boundary.
+class BentLegs {
+ public:
+  /// `head_depth` [m] of the head's origin; `absorption` of amplitude [Np/m].
+  BentLegs(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, double absorption);
+
+  /// The same through water whose profile is mirrored in a level boundary at `distance` [m] from the head, which is above
+  /// the head or below it.
+  BentLegs mirrored(double distance, bool above) const;
+
+  /// Readies a table for legs to many places; without it each ray is solved.
+  void prepare(std::span<const Eigen::Vector3d> places, int threads);
+
+  /// Returns the leg to a place; none in a shadow zone.
+  std::optional<BentLeg> to(const Eigen::Vector3d& place) const;
+
+  /// Grazing angle [rad] on a level boundary at this depth of the ray that leaves the head towards `apparent`.
+  double grazing_at(double depth, const Eigen::Vector3d& apparent) const;
+  double head_depth() const { return head_depth_; }
+
+ private:
+  SoundSpeedProfile profile_;
+  double head_depth_, absorption_;
+  Pose world_from_head_;
+  std::unique_ptr<RefractionTable> table_;
+};
+
+/// How legs by a boundary run through a profile.
+enum class BoundaryTilt { upright, level, tilted };
+/// Upright and level within one degree.
+BoundaryTilt tilt_of(const Boundary& boundary);
+/// Depth [m] of a level boundary under or over a head.
+double depth_of(const Boundary& boundary, double head_depth);
+
+}  // namespace insonify

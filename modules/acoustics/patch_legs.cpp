@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "acoustics/patch_legs_internal.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+using Eigen::Vector3d;
+using complex = std::complex<double>;
+
+Vector3d place_of_patch(const Scatterers& patches, std::size_t i) {
+  return patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
+}
+
+}  // namespace
+
+PatchLegs::PatchLegs(const SceneCloud& scene, const std::vector<Boundary>& boundaries, const View& view,
+                     const Transmission& sent, const Environment* through)
+    : scene_(scene),
+      boundaries_(boundaries),
+      echo_options_(sent.echo_options),
+      to_head_(view.world_from_head.linear().transpose()) {
+  if (!through || !through->profile) return;
+  const auto add_rays = [&] {
+    return &*rays_.emplace_back(std::in_place, *through->profile, through->water.depth, view.world_from_head,
+                                sent.medium.absorption.a0);
+  };
+  add_rays();
+  for (const Boundary& boundary : boundaries) {
+    const BoundaryTilt tilt = tilt_of(boundary);
+    if (tilt == BoundaryTilt::tilted) {
+      rays_.emplace_back();
+      continue;
+    }
+    BentLegs* rays = add_rays();
+    if (tilt == BoundaryTilt::level) *rays = rays->mirrored(boundary.head_distance, boundary.plane.normal().z() < 0);
+  }
+}
+
+void PatchLegs::prepare(const Scatterers& patches) {
+  std::vector<Vector3d> places(patches.size());
+  for (std::size_t k = 0; k < rays_.size(); ++k) {
+    if (!rays_[k]) continue;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const Vector3d place = place_of_patch(patches, i);
+      places[i] = k == 0 ? place : boundaries_[k - 1].mirrored(place);
+    }
+    rays_[k]->prepare(places, echo_options_.threads);
+  }
+}
+
+void PatchLegs::find(const Scatterers& patches, std::size_t i, LegSet open, bool cosines,
+                     std::vector<Leg>& legs) const {
+  const std::uint32_t surfel = patches.surfel[i];
+  const Vector3d place = place_of_patch(patches, i);
+  const Vector3d normal = to_head_ * scene_.normal[surfel].cast<double>();
+  legs.clear();
+  const auto add = [&legs](const Leg& leg) {
+    if (leg.cosine > 0) legs.push_back(leg);
+  };
+  if (open & direct_leg) {
+    Leg leg = leg_to(surfel, place, normal, 0);
+    if (cosines && rays_.empty()) leg.cosine = patches.cos_incidence[i];
+    add(leg);
+  }
+  for (std::size_t b = 0; b < boundaries_.size(); ++b) {
+    const Boundary& boundary = boundaries_[b];
+    if (!(open & leg_by(b)) || boundary.distance(place) <= 0) continue;
+    Leg leg = leg_to(surfel, boundary.mirrored(place), boundary.mirrored_direction(normal), b + 1);
+    leg.towards = boundary.mirrored_direction(leg.towards);
+    add(leg);
+  }
+}
+
+/// Reflection of the leg by a boundary to an image; `rays` if it is bent, and then `apparent` is where it seems to end.
+complex PatchLegs::reflection(const Boundary& boundary, const Vector3d& image, const BentLegs* rays,
+                              const Vector3d& apparent) const {
+  const bool level = rays && tilt_of(boundary) == BoundaryTilt::level;
+  const double sine = std::min(1.0, std::abs(boundary.normal.dot(image)) / image.norm());
+  const double grazing = level ? rays->grazing_at(depth_of(boundary, rays->head_depth()), apparent) : std::asin(sine);
+  return boundary.reflection(grazing) * boundary.edges(image);
+}
+
+/// The leg to a place, by boundary `by` to its image; silent in a shadow zone.
+Leg PatchLegs::leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal, std::size_t by) const {
+  const BentLegs* rays = by < rays_.size() && rays_[by] ? &*rays_[by] : nullptr;
+  BentLeg way{place, place.normalized(), 1};
+  if (rays) {
+    const auto bent = rays->to(place);
+    if (!bent) return {};
+    way = *bent;
+  }
+  Leg leg{};
+  leg.range = way.apparent.norm();
+  leg.u = way.apparent.y() / leg.range;
+  leg.v = way.apparent.z() / leg.range;
+  leg.towards = -way.arrival;
+  const double cosine = -normal.dot(way.arrival);
+  leg.cosine = std::min(1.0, scene_.oriented(surfel) ? cosine : std::abs(cosine));
+  leg.gain = way.pressure * one_way_pattern(echo_options_, leg.v);
+  if (by > 0) leg.gain *= reflection(boundaries_[by - 1], place, rays, way.apparent);
+  leg.sent = leg.gain * transmit_pattern(echo_options_, std::atan2(way.apparent.y(), way.apparent.x()));
+  leg.by = static_cast<std::uint8_t>(by);
+  return leg;
+}
+
+}  // namespace insonify

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "acoustics/bent_legs_internal.hpp"
+#include "acoustics/boundary_internal.hpp"
+#include "acoustics/find_legs_internal.hpp"
+#include "sampling/scatterers.hpp"
+
+// Private to acoustics: legs between a head and patches, directly and by boundaries, straight or through a profile.
+namespace insonify {
+
+/// One leg between head and patch, in the axes of the head.
+struct Leg {
+  double range;               ///< [m]
+  double u, v;                ///< direction cosines
+  double cosine;              ///< at the patch
+  Eigen::Vector3d towards;    ///< unit vector from the patch along it
+  std::complex<double> gain;  ///< one-way pattern times reflection
+  std::complex<double> sent;  ///< gain of the leg out: with the transmitter's pattern in azimuth too
+  std::uint8_t by;            ///< 0: direct; k: by the k-th boundary
+};
+
+/// The legs of a view's patches. Refers to its arguments.
+class PatchLegs {
+ public:
+  /// With `through` legs run through its profile, if it has one: rays to places, and to their images in level boundaries and
+  /// upright mirrors.
+  PatchLegs(const SceneCloud& scene, const std::vector<Boundary>& boundaries, const View& view,
+            const Transmission& sent, const Environment* through);
+
+  /// Readies rays to many patches.
+  void prepare(const Scatterers& patches);
+
+  /// Sets `legs` to those of `open` to one patch that reach its front, the direct one first.
+  /// cosines      true if the cosine of the patch holds for a straight direct leg
+  void find(const Scatterers& patches, std::size_t i, LegSet open, bool cosines, std::vector<Leg>& legs) const;
+
+ private:
+  std::complex<double> reflection(const Boundary& boundary, const Eigen::Vector3d& image, const BentLegs* rays,
+                                  const Eigen::Vector3d& apparent) const;
+  Leg leg_to(std::uint32_t surfel, const Eigen::Vector3d& place, const Eigen::Vector3d& normal, std::size_t by) const;
+
+  const SceneCloud& scene_;
+  const std::vector<Boundary>& boundaries_;
+  const EchoOptions& echo_options_;
+  Eigen::Matrix3d to_head_;
+  std::vector<std::optional<BentLegs>> rays_;  // to places, 0, and to images, k by the k-th boundary; none: straight
+};
+
+}  // namespace insonify

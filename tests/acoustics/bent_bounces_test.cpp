@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Echoes by boundaries, mirrors and targets in a profile, against rays that are integrated over distance.
+#include "acoustics/glints.hpp"
+#include "core/text.hpp"
+#include "support/heads.hpp"
+#include "support/point_targets.hpp"
+#include "support/ray_tube.hpp"
+#include "support/scenes.hpp"
+#include "support/test.hpp"
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// A thermocline of 53 m/s over 4 m, and one of 10 m/s.
+const SoundSpeedProfile thermoclines[] = {{{0, 6, 10, 30}, {1530, 1530, 1477, 1477}},
+                                          {{0, 5, 9, 30}, {1500, 1500, 1490, 1490}}};
+
+struct Bench {
+  Environment environment;
+  View view;
+  Transmission sent;
+  double head_depth, speed;
+
+  Bench(const SoundSpeedProfile& profile, double depth, double yaw, double pitch, double roll) : head_depth(depth) {
+    environment.profile = profile;
+    environment.water.depth = depth;
+    view.world_from_head = pose_from_yaw_pitch_roll({300, -70, -depth}, yaw, pitch, roll);
+    view.fan = make_fan(64, radians(170), radians(2), radians(150));
+    view.gate = {0.5, 120, 0.1};
+    view.sampling.elevation_half_extent = pi / 2;
+    speed = sound_speed_at(profile, depth);
+    sent.pulse = pulse_900k;
+    sent.medium = {speed, {}};
+    sent.echo_options.amplitude = SurfaceAmplitude::coherent;
+  }
+  Vector3d head() const { return view.world_from_head.translation(); }
+  traced::Water water() const { return {environment.profile->depth, environment.profile->sound_speed}; }
+  /// The water and, above the surface at depth 0, its image.
+  traced::Water with_surface() const {
+    traced::Water both = water();
+    for (std::size_t k = 1; k < environment.profile->depth.size(); ++k) {
+      both.depth.insert(both.depth.begin(), -environment.profile->depth[k]);
+      both.speed.insert(both.speed.begin(), environment.profile->sound_speed[k]);
+    }
+    return both;
+  }
+  traced::Arrival ray(const traced::Water& in, const Vector3d& place) const {
+    const Vector3d way = place - head();
+    return traced::fastest_arrival(in, head_depth, head_depth - way.z(), std::hypot(way.x(), way.y())).value();
+  }
+  /// Direction cosines at the head of a ray that leaves in the vertical plane of a place.
+  Vector3d heard(const Vector3d& place, double launch) const {
+    const Vector3d way = place - head();
+    const double out = std::hypot(way.x(), way.y());
+    return view.world_from_head.linear().transpose() *
+           Vector3d(std::cos(launch) * way.x() / out, std::cos(launch) * way.y() / out, std::sin(launch));
+  }
+};
+
+SceneCloud patch_at(const Vector3d& place, const Vector3d& normal) {
+  SceneCloud scene;
+  scene.origin = place;
+  scene.materials = {Material{}};
+  add_surfel(scene, place, normal, 1e-4);
+  return scene;
+}
+
+/// Demands the echo that went out directly and came back by an image, as rays have it.
+void expect_mixed(const Bench& b, const Multipath& found, const SceneCloud& scene, const traced::Water& to_image,
+                  const Vector3d& image, const Vector3d& image_normal, const std::string& what) {
+  const Vector3d place = scene.origin;
+  const traced::Arrival direct = b.ray(b.water(), place), bounced = b.ray(to_image, image);
+  ASSERT_EQ(found.one_bounce, 2u) << what;
+  for (std::size_t k = 0; k < found.legs.size(); ++k) {
+    if (found.legs[k].out != 0 || found.legs[k].back == 0) continue;
+    EXPECT_NEAR(found.echoes.delay[k], direct.time + bounced.time, 0.01 / b.speed) << what;
+    const Vector3d from = b.heard(image, bounced.launch);
+    EXPECT_NEAR(found.echoes.u[k], from.y(), radians(0.1)) << what;
+    EXPECT_NEAR(found.echoes.v[k], from.z(), radians(0.1)) << what;
+    const auto along = [&](const Vector3d& to, double arrival) -> Vector3d {
+      const Vector3d way = to - b.head();
+      const Vector3d level = Vector3d(way.x(), way.y(), 0).normalized();
+      return std::cos(arrival) * level + std::sin(arrival) * Vector3d::UnitZ();
+    };
+    const double cosines = scene.normal[0].cast<double>().dot(along(place, direct.arrival)) *
+                           image_normal.dot(along(image, bounced.arrival));
+    const double expected = source_pressure(b.sent.pulse) *
+                            std::sqrt(Material{}.lambert_mu * 1e-4 * cosines * direct.intensity * bounced.intensity);
+    EXPECT_NEAR(db_from_amplitude(std::abs(found.echoes.amplitude[k]) / expected), 0, 0.1) << what;
+  }
+}
+
+}  // namespace
+
+TEST(BentBounces, ghosts_in_a_wall_and_echoes_by_the_surface_are_where_rays_put_them) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const SoundSpeedProfile& profile : thermoclines)
+    for (int k = 0; k < 12; ++k) {
+      Bench b(profile, 2 + 12 * unit(random), 6 * unit(random), 0.4 * unit(random) - 0.2, 0.6 * unit(random) - 0.3);
+      const double bearing = 1.2 * unit(random) - 0.6, out = 12 + 14 * unit(random), depth = 1 + 20 * unit(random);
+      const Vector3d ahead = b.view.world_from_head.linear().col(0);
+      const double to = std::atan2(ahead.y(), ahead.x()) + bearing;
+      const Vector3d place = b.head() + Vector3d(out * std::cos(to), out * std::sin(to), b.head_depth - depth);
+      const SceneCloud scene = patch_at(place, (b.head() - place).normalized());
+      const Scatterers direct = scatterers_at({b.view.world_from_head.inverse() * place}, 1e-4F);
+      const std::string what = printed("head %.3g m deep, place %.3g m deep and %.3g m off", b.head_depth, depth, out);
+      const Vector3d normal = scene.normal[0].cast<double>();
+
+      // A wall to one side, upright but turned.
+      const Vector3d side(-std::sin(to + 0.2), std::cos(to + 0.2), 0);
+      Mirror wall;
+      wall.place = b.head() - 5 * side, wall.normal = side;
+      const MirrorPlane plane(side, wall.place);
+      const auto mirrored = [&](const Vector3d& p) -> Vector3d { return p - 2 * plane.signedDistance(p) * side; };
+      if (plane.signedDistance(place) > 1)
+        expect_mixed(
+            b, mirror_echoes(scene, direct, b.environment, {&wall, 1}, false, b.view, b.sent, {.refraction = true}),
+            scene, b.water(), mirrored(place), normal - 2 * normal.dot(side) * side, "wall, " + what);
+
+      Environment sea = b.environment;
+      sea.surface = SeaSurface{};
+      sea.surface->height = 0, sea.surface->rms_height = 0;
+      const Vector3d image(place.x(), place.y(), -place.z()), image_normal(normal.x(), normal.y(), -normal.z());
+      expect_mixed(b, multipath_echoes(scene, direct, sea, b.view, b.sent, {.refraction = true}), scene,
+                   b.with_surface(), image, image_normal, "surface, " + what);
+    }
+}
+
+TEST(BentBounces, targets_and_glints_are_where_rays_put_them) {
+  for (const SoundSpeedProfile& profile : thermoclines)
+    for (const double depth : {3.0, 8.0}) {
+      Bench b(profile, depth, 0.3, 0.1, -0.2);
+      const Vector3d ahead = b.view.world_from_head.linear().col(0);
+      const Vector3d middle = b.head() + 35 * Vector3d(ahead.x(), ahead.y(), 0).normalized() + Vector3d(1, 2, -6);
+      SceneCloud scene;
+      scene.materials = {Material{"steel"}};
+      scene.materials[0].coherent = 1;
+      add_sphere(scene, middle, 0.3, 4000);
+      const Echoes straight =
+          glint_echoes(scene, fit_shapes(scene, b.head(), 100), b.environment, false, b.view, b.sent);
+      const Echoes sphere = glint_echoes(scene, fit_shapes(scene, b.head(), 100), b.environment, false, b.view, b.sent,
+                                         {.refraction = true});
+      ASSERT_EQ(sphere.size(), 1u);
+      const traced::Arrival ray = b.ray(b.water(), middle);
+      const double at = 0.5 * b.speed * sphere.delay[0],
+                   expected = b.speed * (ray.time - 0.3 / sound_speed_at(profile, -middle.z()));
+      EXPECT_NEAR(at, expected, 0.01);
+      const Vector3d from = b.heard(middle, ray.launch);
+      EXPECT_NEAR(sphere.u[0], from.y(), radians(0.1));
+      EXPECT_NEAR(sphere.v[0], from.z(), radians(0.1));
+      const double change_db = db_from_amplitude(std::abs(sphere.amplitude[0] / straight.amplitude[0]));
+      EXPECT_NEAR(change_db, db_from_amplitude(ray.intensity * (middle - b.head()).squaredNorm()), 0.15);  // both ways
+
+      // A wall ahead shows the head's own image, at its depth.
+      Mirror wall;
+      const Vector3d level = Vector3d(ahead.x(), ahead.y(), 0).normalized();
+      wall.place = b.head() + 15 * level, wall.normal = -level;
+      SceneCloud none;
+      none.materials = {Material{}};
+      const Echoes glint = glint_echoes(none, {{wall}, {}}, b.environment, false, b.view, b.sent, {.refraction = true});
+      ASSERT_EQ(glint.size(), 1u);
+      const Vector3d image = b.head() + 30 * level;
+      const traced::Arrival there = b.ray(b.water(), image);
+      EXPECT_NEAR(glint.delay[0], there.time, 0.01 / b.speed);
+      EXPECT_NEAR(glint.v[0], b.heard(image, there.launch).z(), radians(0.1));
+    }
+}
