@@ -5,13 +5,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "core/error.hpp"
-#include "files/input_file.hpp"
 #include "returns/soundings.hpp"
 #include "scene_io/row_file_internal.hpp"
 
@@ -19,10 +16,9 @@ namespace insonify {
 namespace {
 
 RowFile returns_file(const std::string& path) {
-  require_readable(path);
-  std::optional<RowFile> file = find_ply_rows(path);
-  if (!file || file->big_endian || file->rows == 0) fail(ErrorKind::content, path, ": holds no returns");
-  return std::move(*file);
+  RowFile file = rows_of_ply(path, "holds no returns");
+  if (file.rows == 0) fail(ErrorKind::content, path, ": holds no returns");
+  return file;
 }
 
 /// Place, level and range of every row that comes from a surfel, batch after batch: false alarms lie on no bed.
@@ -31,22 +27,17 @@ void each_return(const RowFile& file, const Take& take) {
   constexpr std::array<const char*, 6> names = {"x", "y", "z", "scalar_level_db", "scalar_range", "scalar_true_surfel"};
   std::array<const RowTable::Column*, 6> columns{};
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const auto found = std::find_if(file.columns.begin(), file.columns.end(),
-                                    [&](const RowTable::Column& column) { return column.name == names[k]; });
-    if (found == file.columns.end())
-      fail(ErrorKind::content, file.path, ": has no column '", names[k], "', so it holds no returns");
-    columns[k] = &*found;
+    columns[k] = column_named(file.columns, names[k]);
+    if (!columns[k]) fail(ErrorKind::content, file.path, ": has no column '", names[k], "', so it holds no returns");
   }
-  constexpr std::size_t batch = 1 << 16;
-  for (std::size_t first = 0; first < file.rows; first += batch) {
-    const RowTable rows = read_rows(file, first, std::min(batch, file.rows - first));
+  each_batch(file, [&](const RowTable& rows) {
     for (std::size_t i = 0; i < rows.rows; ++i) {
       const char* row = rows.bytes + i * rows.stride;
       const auto value = [&](std::size_t k) { return columns[k]->value(row); };
       if (value(5) == Soundings::none || value(5) == -1) continue;  // of an older version, or of this one
       take(Eigen::Vector3d(value(0), value(1), value(2)), value(3), value(4));
     }
-  }
+  });
 }
 
 Eigen::AlignedBox2d extent_of(const RowFile& file) {

@@ -40,20 +40,9 @@ void drop_unusable(RawCloud& raw, LoadReport& report) {
 }
 
 /// True if no number occurs twice.
-bool unique(const std::vector<std::uint32_t>& ids) {
-  if (ids.empty()) return true;
-  const std::size_t largest = *std::max_element(ids.begin(), ids.end());
-  if (largest / 64 > ids.size()) {
-    std::vector<std::uint32_t> sorted = ids;
-    std::sort(sorted.begin(), sorted.end());
-    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
-  }
-  std::vector<bool> seen(largest + 1, false);
-  for (const std::uint32_t id : ids) {
-    if (seen[id]) return false;
-    seen[id] = true;
-  }
-  return true;
+bool unique(std::vector<std::uint32_t> ids) {
+  if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
+  return std::adjacent_find(ids.begin(), ids.end()) == ids.end();
 }
 
 /// Uses the file's ids if they are unique, else its row numbers, so that dropping a point renumbers no other.

@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "files/input_file.hpp"
 #include "files/pending_file.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
@@ -18,6 +17,7 @@
 namespace insonify {
 namespace {
 
+constexpr const char* no_coverage = "is not the coverage of a survey";
 constexpr std::size_t joined_bytes = 64 << 20;  // of all parts together
 
 const std::vector<PackedRows::Column>& coverage_columns() {
@@ -57,15 +57,9 @@ CoveredSurfel row_at(const char* row) {
 /// Surfels of a part, one after the other, read in batches.
 class CoverageReader {
  public:
-  CoverageReader(const std::string& path, std::size_t batch) : batch_(std::max<std::size_t>(64, batch)) {
-    require_readable(path);
-    std::optional<RowFile> file = find_ply_rows(path);
-    const auto same = [](const auto& a, const auto& b) { return same_column(a, b); };
-    if (!file || file->big_endian ||
-        !std::equal(file->columns.begin(), file->columns.end(), coverage_columns().begin(), coverage_columns().end(),
-                    same))
-      fail(ErrorKind::content, path, ": is not the coverage of a survey");
-    file_ = std::move(*file);
+  CoverageReader(const std::string& path, std::size_t batch)
+      : file_(rows_of_ply(path, no_coverage)), batch_(std::max<std::size_t>(64, batch)) {
+    if (!same_columns(file_.columns, coverage_columns())) fail(ErrorKind::content, path, ": ", no_coverage);
   }
   std::optional<CoveredSurfel> next() {
     if (next_ == file_.rows) return std::nullopt;

@@ -2,15 +2,14 @@
 #include "scene_io/insonification_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <optional>
+#include <span>
 
 #include "core/error.hpp"
-#include "files/input_file.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
-#include "scene_io/write_rows_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -37,21 +36,22 @@ std::size_t offset_of(const std::string& name) {
 class MapRows {
  public:
   explicit MapRows(const std::string& path) {
-    require_readable(path);
-    std::optional<RowFile> file = find_ply_rows(path);
-    const auto same = [](const auto& a, const auto& b) { return same_column(a, b); };
-    if (!file || file->big_endian || file->columns.size() != map_columns().size() + 3 ||
-        !std::equal(map_columns().begin(), map_columns().end(), file->columns.begin() + 3, same))
-      fail(ErrorKind::content, path, ": is not an insonification.ply of a ping");
-    wide_ = file->columns.front().type == NumberType::float64;
-    stride_ = file->stride;
-    const RowTable rows = read_rows(*file, 0, file->rows);
-    bytes_.assign(rows.bytes, rows.bytes + file->rows * stride_);
+    const char* const otherwise = "is not an insonification.ply of a ping";
+    const RowFile file = rows_of_ply(path, otherwise);
+    if (file.columns.size() < 3 || !same_columns(std::span(file.columns).subspan(3), map_columns()))
+      fail(ErrorKind::content, path, ": ", otherwise);
+    wide_ = file.columns.front().type == NumberType::float64;
+    stride_ = file.stride;
+    const RowTable rows = read_rows(file, 0, file.rows);
+    bytes_.assign(rows.bytes, rows.bytes + file.rows * stride_);
   }
   std::size_t rows() const { return bytes_.size() / stride_; }
   bool wide() const { return wide_; }
   const char* row(std::size_t i) const { return bytes_.data() + i * stride_; }
-  std::size_t stride() const { return stride_; }
+  Eigen::Vector3d place(std::size_t i) const {
+    if (wide_) return Eigen::Vector3d(read_as<std::array<double, 3>>(row(i)).data());
+    return Eigen::Vector3f(read_as<std::array<float, 3>>(row(i)).data()).cast<double>();
+  }
 
   /// Whether `other` is of the same scene: as many surfels, at the same places.
   bool same_scene(const MapRows& other) const {
@@ -93,22 +93,18 @@ class MapRows {
 /// The rows of a map as one of the two formats.
 PackedRows rows_of(const MapRows& map, CloudFormat format) {
   PackedRows rows = rows_of(SceneCloud{}, std::vector<CoveredSurfel>{}, format);
-  const bool wide = map.wide() && format == CloudFormat::ply;
-  for (std::size_t k = 0; k < 3; ++k) rows.columns[k].type = wide ? NumberType::float64 : NumberType::float32;
+  PackedRows places;
+  add_places(places, map.wide() && format == CloudFormat::ply, [&map](std::size_t i) { return map.place(i); });
+  std::move(places.columns.begin(), places.columns.end(), rows.columns.begin());
   rows.rows = map.rows();
-  rows.write_row = [&map, wide](std::size_t i, char* out) {
-    const char* row = map.row(i);
-    for (int k = 0; k < 3; ++k) {
-      if (map.wide() && !wide)
-        put(out, static_cast<float>(read_as<double>(row + 8 * k)));
-      else if (wide)
-        put(out, read_as<double>(row + 8 * k));
-      else
-        put(out, read_as<float>(row + 4 * k));
-    }
-    const std::size_t before = map.wide() ? 24 : 12;
-    std::memcpy(out, row + before, map.stride() - before);
-  };
+  std::size_t at = map.wide() ? 24 : 12;
+  for (auto column = rows.columns.begin() + 3; column != rows.columns.end(); ++column) {
+    column->write = [&map, at, size = size_of(column->type)](std::size_t first, std::size_t count, char* out,
+                                                             std::size_t stride) {
+      for (std::size_t i = first; i < first + count; ++i, out += stride) std::memcpy(out, map.row(i) + at, size);
+    };
+    at += size_of(column->type);
+  }
   return rows;
 }
 

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-
 #include "core/error.hpp"
-#include "files/input_file.hpp"
 #include "returns/sounding_columns.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/row_file_internal.hpp"
@@ -23,31 +20,24 @@ Value from_file(double value) {
 class ReturnsTable {
  public:
   explicit ReturnsTable(const std::string& path) : path_(path) {
-    require_readable(path);
-    const std::optional<RowFile> file = find_ply_rows(path);
-    if (!file || file->big_endian)
-      fail(ErrorKind::content, path,
-           ": is not a binary little-endian PLY of points, so it was not written by save_soundings");
-    table_ = read_rows(*file, 0, file->rows);
+    const RowFile file =
+        rows_of_ply(path, "is not a binary little-endian PLY of points, so it was not written by save_soundings");
+    table_ = read_rows(file, 0, file.rows);
   }
   std::size_t rows() const { return table_.rows; }
-  bool has(const std::string& name) const { return find(name) != table_.columns.end(); }
+  bool has(const std::string& name) const { return column_named(table_.columns, name); }
 
   /// Appends a column.
   template <typename Value>
   void append(const std::string& name, std::vector<Value>& values) const {
-    const auto column = find(name);
-    if (column == table_.columns.end())
+    const RowTable::Column* const column = column_named(table_.columns, name);
+    if (!column)
       fail(ErrorKind::content, path_, ": has no column '", name, "', so it was not written by save_soundings");
     for (std::size_t i = 0; i < table_.rows; ++i)
       values.push_back(from_file<Value>(column->value(table_.bytes + i * table_.stride)));
   }
 
  private:
-  std::vector<RowTable::Column>::const_iterator find(const std::string& name) const {
-    return std::find_if(table_.columns.begin(), table_.columns.end(),
-                        [&](const RowTable::Column& c) { return c.name == name; });
-  }
   std::string path_;
   RowTable table_;
 };

@@ -5,30 +5,50 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 namespace insonify {
 
 /// Number types of cloud files.
 enum class NumberType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
+/// A number of any of these types, in the same order.
+using AnyNumber = std::variant<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t, std::uint32_t,
+                               std::int64_t, std::uint64_t, float, double>;
+
+template <typename Number>
+constexpr NumberType type_of_number() {
+  return static_cast<NumberType>(AnyNumber(Number{}).index());
+}
+
+/// Calls use(zero) with a zero of a type.
+template <typename Use>
+constexpr auto with_type(NumberType type, const Use& use) {
+  constexpr std::array<AnyNumber, 10> zeros = {std::int8_t{},  std::uint8_t{},  std::int16_t{}, std::uint16_t{},
+                                               std::int32_t{}, std::uint32_t{}, std::int64_t{}, std::uint64_t{},
+                                               float{},        double{}};
+  return std::visit(use, zeros[static_cast<std::size_t>(type)]);
+}
+
 constexpr std::size_t size_of(NumberType type) {
-  constexpr std::array<std::size_t, 10> sizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
-  return sizes[static_cast<std::size_t>(type)];
+  return with_type(type, [](auto zero) { return sizeof zero; });
 }
 
-constexpr const char* name_of(NumberType type) {
-  constexpr std::array<const char*, 10> names = {"int8",   "uint8", "int16",  "uint16",  "int32",
-                                                 "uint32", "int64", "uint64", "float32", "float64"};
-  return names[static_cast<std::size_t>(type)];
-}
+constexpr std::array<const char*, 10> number_types = {"int8",   "uint8", "int16",  "uint16",  "int32",
+                                                      "uint32", "int64", "uint64", "float32", "float64"};
 
-/// The size of a type by its name, 0 of another name.
-inline std::size_t size_named(std::string_view name) {
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(NumberType::float64); ++k)
-    if (const auto type = static_cast<NumberType>(k); name == name_of(type)) return size_of(type);
-  return 0;
+constexpr const char* name_of(NumberType type) { return number_types[static_cast<std::size_t>(type)]; }
+
+/// The type of a name.
+inline std::optional<NumberType> type_named(std::string_view name) {
+  for (std::size_t k = 0; k < number_types.size(); ++k)
+    if (name == number_types[k]) return static_cast<NumberType>(k);
+  return std::nullopt;
 }
 
 template <typename T>
@@ -36,33 +56,6 @@ T read_as(const char* bytes) {
   T value;
   std::memcpy(&value, bytes, sizeof(T));
   return value;
-}
-
-/// Calls use(zero) with a zero of a type.
-template <typename Use>
-auto with_type(NumberType type, const Use& use) {
-  switch (type) {
-    case NumberType::int8:
-      return use(std::int8_t{});
-    case NumberType::uint8:
-      return use(std::uint8_t{});
-    case NumberType::int16:
-      return use(std::int16_t{});
-    case NumberType::uint16:
-      return use(std::uint16_t{});
-    case NumberType::int32:
-      return use(std::int32_t{});
-    case NumberType::uint32:
-      return use(std::uint32_t{});
-    case NumberType::int64:
-      return use(std::int64_t{});
-    case NumberType::uint64:
-      return use(std::uint64_t{});
-    case NumberType::float32:
-      return use(float{});
-    default:
-      return use(double{});
-  }
 }
 
 /// The number at `bytes`, in this machine's byte order.
@@ -80,11 +73,12 @@ inline void append_number(std::string& bytes, NumberType type, double value) {
 
 /// True if a variable of that type can hold the value.
 inline bool fits(double value, NumberType type) {
-  if (type >= NumberType::float32) return true;
-  const bool has_sign =
-      type == NumberType::int8 || type == NumberType::int16 || type == NumberType::int32 || type == NumberType::int64;
-  const double end = std::ldexp(1.0, static_cast<int>(8 * size_of(type)) - (has_sign ? 1 : 0));
-  return value == std::floor(value) && value < end && value >= (has_sign ? -end : 0);
+  return with_type(type, [&](auto zero) {
+    using Limits = std::numeric_limits<decltype(zero)>;
+    const double end = std::ldexp(1.0, Limits::digits);
+    return !Limits::is_integer ||
+           (value == std::floor(value) && value < end && value >= (Limits::is_signed ? -end : 0));
+  });
 }
 
 }  // namespace insonify

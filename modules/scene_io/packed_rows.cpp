@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
+#include <memory>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -13,18 +15,24 @@
 namespace insonify {
 namespace {
 
-void put_position(char*& out, const Eigen::Vector3d& position, bool wide) {
-  for (const double coordinate : position) {
-    if (wide)
-      put(out, coordinate);
-    else
-      put(out, static_cast<float>(coordinate));
-  }
+void add_normals(PackedRows& rows, const std::string& prefix, const std::vector<Eigen::Vector3f>& normals) {
+  for (int axis = 0; axis < 3; ++axis)
+    rows.add(prefix + "xyz"[axis], [&normals, axis](std::size_t i) { return normals[i][axis]; });
 }
 
-void add_columns(PackedRows& rows, const std::string& prefix, std::initializer_list<const char*> names,
-                 NumberType type) {
-  for (const char* name : names) rows.columns.push_back({prefix + name, type});
+/// The columns x y z of a scene or a mesh: double in a PLY, unless the origin is zero.
+template <typename Scene>
+void add_points(PackedRows& rows, const Scene& scene, CloudFormat format) {
+  rows.rows = scene.point.size();
+  add_places(rows, format == CloudFormat::ply && !scene.origin.isZero(0), [&scene](std::size_t i) -> Eigen::Vector3d {
+    return scene.origin + scene.point[i].template cast<double>();
+  });
+}
+
+/// The column of the materials of a scene or a mesh.
+template <typename Scene>
+void add_material(PackedRows& rows, const std::string& name, const Scene& scene) {
+  rows.add(name, [&scene](std::size_t i) { return std::uint32_t{scene.material[i]}; });
 }
 
 /// What a PLY calls a type. Open3D skips columns of uint and ushort: uint32 is "int", whose bits are the same.
@@ -49,84 +57,56 @@ std::string ply_header(const PackedRows& rows) {
   return header + "end_header\n";
 }
 
-PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who) {
+PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who,
+                   const Eigen::Vector3d& origin) {
   const std::size_t n = soundings.size();
-  const bool ply = !prefix.empty();
   PackedRows rows;
   rows.rows = n;
-  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
+  add_places(rows, wide,
+             [&soundings, origin](std::size_t i) -> Eigen::Vector3d { return soundings.position[i] - origin; });
   for (const char* axis : {"x", "y", "z"}) rows.comments.push_back(std::string("unit ") + axis + " m");
   each_column(
       [&](const SoundingColumn& about, const auto& column) {
         if (column.size() != n)
           fail(ErrorKind::argument, who, ": soundings have ", n, " positions but a column of length ", column.size(),
                ", must be the same; fill every column");
-        const bool real = std::is_same_v<decltype(column.front()), const float&>;
-        rows.columns.push_back({prefix + about.name, real ? NumberType::float32 : NumberType::uint32});
-        rows.comments.push_back("unit " + prefix + about.name + " " + (ply ? signed_unit(about) : about.unit));
+        rows.add(prefix + about.name, [&column](std::size_t i) { return column[i]; });
+        rows.comments.push_back("unit " + prefix + about.name + " " +
+                                (prefix.empty() ? about.unit : signed_unit(about)));
       },
       soundings);
-  rows.write_row = [&soundings, wide](std::size_t i, char* out) {
-    put_position(out, soundings.position[i], wide);
-    each_column([&](const SoundingColumn&, const auto& column) { put(out, column[i]); }, soundings);
-  };
   return rows;
 }
 
 PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin, const char* who) {
-  PackedRows rows = rows_of(soundings, false, "", who);
+  PackedRows rows = rows_of(soundings, false, "", who, origin);
   rows.origin = origin;
-  rows.columns.push_back({"intensity", NumberType::float32});
-  rows.columns.push_back({"label", NumberType::uint32});
+  rows.add("intensity", [&soundings](std::size_t i) { return soundings.level_db[i]; });
+  rows.add("label", [&soundings](std::size_t i) { return soundings.true_material[i]; });
   rows.comments.emplace_back("intensity is level_db, label is true_material");
-  const std::size_t last = rows.stride() - sizeof(float) - sizeof(std::uint32_t);
-  rows.write_row = [&soundings, origin, last, write_row = rows.write_row](std::size_t i, char* out) {
-    write_row(i, out);
-    char* place = out;
-    put_position(place, soundings.position[i] - origin, false);
-    out += last;
-    put(out, soundings.level_db[i]);
-    put(out, soundings.true_material[i]);
-  };
   return rows;
 }
 
 PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format) {
-  const bool wide = format == CloudFormat::ply && !scene.origin.isZero(0);
   PackedRows rows;
-  rows.rows = scene.size();
-  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
-  rows.write_row = [&scene, wide](std::size_t i, char* out) {
-    put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
-  };
+  add_points(rows, scene, format);
   return rows;
 }
 
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns) {
   const bool ply = format == CloudFormat::ply;
-  const bool wide = ply && !scene.origin.isZero(0);
   PackedRows rows;
-  rows.rows = scene.size();
   rows.comments = tag_lines(scene);
-  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
-  add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
-  rows.columns.push_back({"area", NumberType::float32});
-  rows.columns.push_back({"", NumberType::uint32});  // named below
+  add_points(rows, scene, format);
+  add_normals(rows, ply ? "n" : "normal_", scene.normal);
+  rows.add("area", [&scene](std::size_t i) { return scene.area[i]; });
+  add_material(rows, "", scene);  // named below
   // An int ends at 2^31 - 1; a double holds every id.
-  const bool long_ids = ply && std::any_of(scene.id.begin(), scene.id.end(), [](auto id) { return id > 2147483647; });
-  rows.columns.push_back({"id", long_ids ? NumberType::float64 : NumberType::uint32});
-  if (!scene.noise.empty()) rows.columns.push_back({"noise", NumberType::float32});
-  rows.write_row = [&scene, wide, long_ids](std::size_t i, char* out) {
-    put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
-    for (const float n : scene.normal[i]) put(out, n);
-    put(out, scene.area[i]);
-    put(out, std::uint32_t{scene.material[i]});
-    if (long_ids)
-      put(out, static_cast<double>(scene.id[i]));
-    else
-      put(out, scene.id[i]);
-    if (!scene.noise.empty()) put(out, scene.noise[i]);
-  };
+  if (ply && std::any_of(scene.id.begin(), scene.id.end(), [](auto id) { return id > 2147483647; }))
+    rows.add("id", [&scene](std::size_t i) { return static_cast<double>(scene.id[i]); });
+  else
+    rows.add("id", [&scene](std::size_t i) { return scene.id[i]; });
+  if (!scene.noise.empty()) rows.add("noise", [&scene](std::size_t i) { return scene.noise[i]; });
   add_columns(rows, columns, format);
   if (columns.heights)
     rows.comments.push_back(std::string("insonify points heights") + (columns.own_normals ? " normals" : ""));
@@ -134,23 +114,15 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColum
 }
 
 PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns) {
-  const bool wide = !mesh.origin.isZero(0);
   SceneCloud tagged;
   tagged.origin = mesh.origin;
   tagged.materials = mesh.materials;
   tagged.normals_oriented = mesh.normals_oriented;
   PackedRows rows;
-  rows.rows = mesh.point.size();
   rows.comments = tag_lines(tagged);
-  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
-  if (!mesh.normal.empty()) add_columns(rows, "n", {"x", "y", "z"}, NumberType::float32);
-  rows.columns.push_back({"", NumberType::uint32});  // named below
-  rows.write_row = [&mesh, wide](std::size_t i, char* out) {
-    put_position(out, mesh.origin + mesh.point[i].cast<double>(), wide);
-    if (!mesh.normal.empty())
-      for (const float n : mesh.normal[i]) put(out, n);
-    put(out, std::uint32_t{mesh.material[i]});
-  };
+  add_points(rows, mesh, CloudFormat::ply);
+  if (!mesh.normal.empty()) add_normals(rows, "n", mesh.normal);
+  add_material(rows, "", mesh);  // named below
   rows.triangles = mesh.triangle;
   add_columns(rows, columns, CloudFormat::ply);
   return rows;
@@ -158,31 +130,29 @@ PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns) {
 
 PackedRows rows_of(const SceneCloud& scene, const std::vector<CoveredSurfel>& covered, CloudFormat format) {
   const bool ply = format == CloudFormat::ply;
-  const bool wide = ply && !scene.origin.isZero(0);
   const std::string prefix = ply ? "scalar_" : "";
   PackedRows rows;
-  rows.rows = scene.size();
-  add_columns(rows, "", {"x", "y", "z"}, wide ? NumberType::float64 : NumberType::float32);
-  add_columns(rows, ply ? "n" : "normal_", {"x", "y", "z"}, NumberType::float32);
-  add_columns(rows, prefix, {"level_db", "scattering_db", "cell_level_db", "grazing_deg", "range"},
-              NumberType::float32);
-  add_columns(rows, prefix, {"hits", "material", "id"}, NumberType::uint32);
-  rows.write_row = [&scene, &covered, wide](std::size_t i, char* out) {
-    constexpr float never = std::numeric_limits<float>::quiet_NaN();
+  add_points(rows, scene, format);
+  add_normals(rows, ply ? "n" : "normal_", scene.normal);
+  const auto found = std::make_shared<std::vector<const CoveredSurfel*>>(scene.size());
+  for (std::size_t i = 0; i < scene.size(); ++i) {
     const auto at = std::lower_bound(covered.begin(), covered.end(), scene.id[i],
                                      [](const CoveredSurfel& s, std::uint32_t id) { return s.id < id; });
-    const bool there = at != covered.end() && at->id == scene.id[i];
-    put_position(out, scene.origin + scene.point[i].cast<double>(), wide);
-    for (const float n : scene.normal[i]) put(out, n);
-    for (const float CoveredSurfel::*level :
-         {&CoveredSurfel::level_db, &CoveredSurfel::scattering_db, &CoveredSurfel::cell_level_db})
-      put(out, there ? *at.*level : never);
-    put(out, there ? static_cast<float>(degrees(at->grazing_angle)) : never);
-    put(out, there ? at->range : never);
-    put(out, there ? at->pings : 0);
-    put(out, std::uint32_t{scene.material[i]});
-    put(out, scene.id[i]);
+    if (at != covered.end() && at->id == scene.id[i]) (*found)[i] = &*at;
+  }
+  const auto add = [&](const char* name, auto value, auto never) {
+    rows.add(prefix + name, [=](std::size_t i) { return (*found)[i] ? std::invoke(value, *(*found)[i]) : never; });
   };
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  add("level_db", &CoveredSurfel::level_db, nan);
+  add("scattering_db", &CoveredSurfel::scattering_db, nan);
+  add("cell_level_db", &CoveredSurfel::cell_level_db, nan);
+  add(
+      "grazing_deg", [](const CoveredSurfel& s) { return static_cast<float>(degrees(s.grazing_angle)); }, nan);
+  add("range", &CoveredSurfel::range, nan);
+  add("hits", &CoveredSurfel::pings, std::uint32_t{0});
+  add_material(rows, prefix + "material", scene);
+  rows.add(prefix + "id", [&scene](std::size_t i) { return scene.id[i]; });
   return rows;
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "returns/coverage.hpp"
@@ -21,27 +23,48 @@ struct PackedRows {
   struct Column {
     std::string name;
     NumberType type;
+    /// Writes the numbers of `count` rows from `first` on, `stride` bytes apart.
+    std::function<void(std::size_t first, std::size_t count, char* out, std::size_t stride)> write{};
   };
   std::vector<Column> columns;
   std::size_t rows = 0;
   std::vector<std::string> comments;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of a PCD, that its VIEWPOINT gives [m]
-  std::function<void(std::size_t row, char* out)> write_row;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();           ///< of a PCD, that its VIEWPOINT gives [m]
   std::span<const std::array<std::uint32_t, 3>> triangles{};  ///< of rows, in a PLY
+
+  /// Adds a column of the numbers value(row), of their type.
+  template <typename Value>
+  void add(const std::string& name, Value value) {
+    using Number = std::decay_t<decltype(value(std::size_t{}))>;
+    columns.push_back(
+        {name, type_of_number<Number>(), [value](std::size_t first, std::size_t count, char* out, std::size_t stride) {
+           for (std::size_t i = first; i < first + count; ++i, out += stride) {
+             const Number number = value(i);
+             std::memcpy(out, &number, sizeof number);
+           }
+         }});
+  }
 
   std::size_t stride() const {
     std::size_t bytes = 0;
     for (const Column& c : columns) bytes += size_of(c.type);
     return bytes;
   }
+
+  /// Writes `count` rows from `first` on.
+  void write(std::size_t first, std::size_t count, char* out) const {
+    const std::size_t row = stride();
+    for (const Column& c : columns) c.write(first, count, out, row), out += size_of(c.type);
+  }
 };
 
-/// Returns whether two columns have the same name and their numbers the same bits. A PLY calls a uint32 int; older
-/// files call it uint.
-template <typename Column, typename Other>
-bool same_column(const Column& a, const Other& b) {
+/// Returns whether columns have the same names and their numbers the same bits. A PLY calls a uint32 int; older files call
+/// it uint.
+template <typename Columns, typename Others>
+bool same_columns(const Columns& columns, const Others& others) {
   const auto bits = [](NumberType type) { return type == NumberType::int32 ? NumberType::uint32 : type; };
-  return a.name == b.name && bits(a.type) == bits(b.type);
+  return std::equal(columns.begin(), columns.end(), others.begin(), others.end(),
+                    [&](const auto& a, const auto& b) { return a.name == b.name && bits(a.type) == bits(b.type); });
 }
 
 /// Copies a number to `out` and advances `out`.
@@ -51,10 +74,23 @@ void put(char*& out, T value) {
   out += sizeof(T);
 }
 
-/// x y z (double if `wide`) level_db range azimuth elevation (float32) ping beam bin (uint32) true_elevation (float32)
-/// true_surfel true_material (uint32, -1 in a PLY for none); all but the coordinates named `prefix` + name, which a PLY
-/// has. Throws Error(argument) unless all columns have one length.
-PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who);
+/// Adds the columns x y z of place(row): double if `wide`, else float32.
+template <typename Place>
+void add_places(PackedRows& rows, bool wide, const Place& place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name(1, "xyz"[axis]);
+    if (wide)
+      rows.add(name, [place, axis](std::size_t i) -> double { return place(i)[axis]; });
+    else
+      rows.add(name, [place, axis](std::size_t i) { return static_cast<float>(place(i)[axis]); });
+  }
+}
+
+/// x y z less an origin (double if `wide`) level_db range azimuth elevation (float32) ping beam bin (uint32)
+/// true_elevation (float32) true_surfel true_material (uint32, -1 in a PLY for none); all but the coordinates named
+/// `prefix` + name, which a PLY has. Throws Error(argument) unless all columns have one length.
+PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who,
+                   const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// The same for a PCD, of float32 less an origin, with intensity (level_db, float32) and label (true_material, uint32),
 /// the names by which PCL's own point types know them.
@@ -80,5 +116,8 @@ std::string ply_header(const PackedRows& rows);
 
 /// Header of a binary PCD, including its DATA line (written by PCL); comments become "# " lines.
 std::string pcd_header(const PackedRows& rows);
+
+/// Writes header and rows to a temporary file, then renames it to `path`; leaves nothing behind on failure.
+void write_rows(const std::string& path, const std::string& header, const PackedRows& rows);
 
 }  // namespace insonify

@@ -137,8 +137,7 @@ pcl::PCLPointCloud2 to_pcl(const Soundings& soundings) {
   const PackedRows rows = rows_of(soundings, false, "", "to_pcl");
   pcl::PCLPointCloud2 cloud = empty_cloud(rows);
   cloud.data.resize(rows.rows * rows.stride());
-  for (std::size_t i = 0; i < rows.rows; ++i)
-    rows.write_row(i, reinterpret_cast<char*>(cloud.data.data()) + i * rows.stride());
+  rows.write(0, rows.rows, reinterpret_cast<char*>(cloud.data.data()));
   return cloud;
 }
 

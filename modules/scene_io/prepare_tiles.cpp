@@ -155,8 +155,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   if (survey.bad_areas > 0)
     report.notes.push_back("at least " + share(survey.bad_areas, survey.file.rows, "areas") +
                            " were negative, NaN or larger than the cloud: all were estimated");
-  if (!survey.ids_ascend && std::any_of(survey.file.columns.begin(), survey.file.columns.end(),
-                                        [](const auto& c) { return c.name == "id" || c.name == "scalar_id"; }))
+  if (!survey.ids_ascend && (column_named(survey.file.columns, "id") || column_named(survey.file.columns, "scalar_id")))
     report.notes.push_back("the ids in the file do not ascend: renumbered by row");
   const std::vector<std::uint16_t> material = plan_materials(survey, options.load, result);
 

@@ -122,6 +122,9 @@ struct RowTable {
   RowMarks marks{};
 };
 
+/// The column of a name; null if there is none.
+const RowTable::Column* column_named(const std::vector<RowTable::Column>& columns, const std::string& name);
+
 /// Table of doubles in row-major order, one column per name.
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers);
 

@@ -70,12 +70,8 @@ void read_header_line(Header& header, const std::vector<std::string>& words, con
 }
 
 NumberType type_of(const Header& header, const Field& field) {
-  for (const NumberType type :
-       {NumberType::int8, NumberType::uint8, NumberType::int16, NumberType::uint16, NumberType::int32,
-        NumberType::uint32, NumberType::int64, NumberType::uint64, NumberType::float32, NumberType::float64}) {
-    const char letter = type >= NumberType::float32 ? 'F' : name_of(type)[0] == 'u' ? 'U' : 'I';
-    if (letter == field.type && size_of(type) == field.size) return type;
-  }
+  const char* const kind = field.type == 'F' ? "float" : field.type == 'I' ? "int" : field.type == 'U' ? "uint" : "";
+  if (const auto type = type_named(kind + std::to_string(8 * field.size))) return *type;
   bad_header(header, field.name + " of type " + field.type + " and size " + std::to_string(field.size),
              "type F, I or U of size 1, 2, 4 or 8");
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/error.hpp"
 #include "files/binary_file.hpp"
 #include "files/input_file.hpp"
 #include "scene_io/ply_header_internal.hpp"
@@ -34,6 +35,13 @@ std::optional<RowFile> find_ply_rows(const std::string& path) {
     file.begin += element.count * stride;
   }
   return std::nullopt;
+}
+
+RowFile rows_of_ply(const std::string& path, const char* otherwise) {
+  require_readable(path);
+  std::optional<RowFile> file = find_ply_rows(path);
+  if (!file || file->big_endian) fail(ErrorKind::content, path, ": ", otherwise);
+  return std::move(*file);
 }
 
 RawCloud raw_of(const RowFile& file) {

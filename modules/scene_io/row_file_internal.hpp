@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -33,10 +34,22 @@ std::optional<RowFile> find_ply_rows(const std::string& path);
 std::optional<RowFile> find_pcd_rows(const std::string& path);
 std::optional<RowFile> find_las_rows(const std::string& path);
 
+/// The rows of a binary little-endian PLY of points. Throws Error(file) if it cannot be read, Error(content) "path:
+/// `otherwise`" for any other file.
+RowFile rows_of_ply(const std::string& path, const char* otherwise);
+
 /// What the header of the file says, without points.
 RawCloud raw_of(const RowFile& file);
 
 /// `count` rows starting at `first`, in this machine's byte order.
 RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count);
+
+/// Reads a file in batches, and calls use(RowTable) for each.
+template <typename Use>
+void each_batch(const RowFile& file, const Use& use) {
+  constexpr std::size_t batch = 1 << 16;
+  for (std::size_t first = 0; first < file.rows; first += batch)
+    use(read_rows(file, first, std::min(batch, file.rows - first)));
+}
 
 }  // namespace insonify

@@ -174,6 +174,11 @@ std::vector<Eigen::Vector3d> read_places(const RawCloud& raw, const RowTable& ta
   return all;
 }
 
+const RowTable::Column* column_named(const std::vector<RowTable::Column>& columns, const std::string& name) {
+  const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; });
+  return at == columns.end() ? nullptr : &*at;
+}
+
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers) {
   RowTable table;
   for (const std::string& name : names) table.columns.push_back({name, NumberType::float64, 8 * table.columns.size()});
@@ -211,9 +216,8 @@ void fill_cloud(RawCloud& raw, const RowTable& in_file, const ReadOptions& optio
     raw.label.resize(table.rows);
     raw.label_field = raw.tags.meant_name(found.label->name);
   }
-  const auto extra = std::find_if(table.columns.begin(), table.columns.end(),
-                                  [&](const RowTable::Column& c) { return c.name == options.extra_field; });
-  if (extra != table.columns.end()) raw.extra.resize(table.rows);
+  const RowTable::Column* const extra = column_named(table.columns, options.extra_field);
+  if (extra) raw.extra.resize(table.rows);
   const bool ids = found.id && holds_ids(table, *found.id, options.threads);
   if (ids) raw.id.resize(table.rows);
   for (const RowTable::Column* column : others_of(table, found)) {
@@ -233,7 +237,7 @@ void fill_cloud(RawCloud& raw, const RowTable& in_file, const ReadOptions& optio
       if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * places.axes.area_factor(normal));
       if (found.noise) raw.noise[first + i] = static_cast<float>(number(*found.noise) * raw.meaning.unit.value);
       if (found.label) raw.label[first + i] = label_from(number(*found.label), options.material_field.intervals);
-      if (extra != table.columns.end()) raw.extra[first + i] = number(*extra);
+      if (extra) raw.extra[first + i] = number(*extra);
       if (ids) raw.id[first + i] = static_cast<std::uint32_t>(number(*found.id));
     }
   });

@@ -5,7 +5,6 @@
 #include <bit>
 #include <cerrno>
 #include <fstream>
-#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -14,7 +13,6 @@
 #include "scene_io/file_probe_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
-#include "scene_io/write_rows_internal.hpp"
 
 static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers in memory order");
 
@@ -106,16 +104,9 @@ void save_survey_returns(const std::string& path, const Soundings& soundings, co
     fail(ErrorKind::argument, who, ": ", path, " must be a .ply, with a time for each of the ", soundings.size(),
          " soundings");
   PackedRows rows = rows_of(soundings, true, "scalar_", who);
-  const std::size_t stride = rows.stride();
-  rows.columns.push_back({"scalar_time", NumberType::float64});
-  rows.columns.push_back({"scalar_head", NumberType::uint32});
+  rows.add("scalar_time", [&time](std::size_t i) { return time[i]; });
+  rows.add("scalar_head", [head](std::size_t) { return head; });
   rows.comments.insert(rows.comments.end(), {"unit scalar_time s", "unit scalar_head number in the mission, from 0"});
-  rows.write_row = [&time, head, stride, write_row = rows.write_row](std::size_t i, char* out) {
-    write_row(i, out);
-    out += stride;
-    put(out, time[i]);
-    put(out, head);
-  };
   write_rows(path, ply_header(rows), rows);
 }
 
@@ -125,29 +116,24 @@ void join_clouds(const std::string& path, const std::vector<std::string>& parts)
   PackedRows all;
   std::vector<RowFile> files;
   for (const std::string& part : parts) {
-    require_readable(part);
-    std::optional<RowFile> file = find_ply_rows(part);
-    if (!file || file->big_endian) fail(ErrorKind::content, part, ": is not a binary little-endian PLY of points");
+    RowFile file = rows_of_ply(part, "is not a binary little-endian PLY of points");
     if (files.empty()) {
-      all.comments = file->comments;
-      for (const auto& column : file->columns) all.columns.push_back({column.name, column.type});
+      all.comments = file.comments;
+      for (const auto& column : file.columns) all.columns.push_back({column.name, column.type});
     }
-    const auto same = [](const auto& a, const auto& b) { return same_column(a, b); };
-    if (!std::equal(file->columns.begin(), file->columns.end(), all.columns.begin(), all.columns.end(), same))
+    if (!same_columns(file.columns, all.columns))
       fail(ErrorKind::content, part, ": has other columns than ", parts.front());
-    all.rows += file->rows;
-    files.push_back(std::move(*file));
+    all.rows += file.rows;
+    files.push_back(std::move(file));
   }
   PendingFile pending(path);
   errno = 0;
   std::ofstream out(pending.temporary(), std::ios::binary);
   out << ply_header(all);
-  constexpr std::size_t batch = 1 << 16;
   for (const RowFile& file : files)
-    for (std::size_t first = 0; first < file.rows && out; first += batch) {
-      const RowTable rows = read_rows(file, first, std::min(batch, file.rows - first));
+    each_batch(file, [&](const RowTable& rows) {
       out.write(rows.bytes, static_cast<std::streamsize>(rows.rows * rows.stride));
-    }
+    });
   pending.commit(out);
 }
 

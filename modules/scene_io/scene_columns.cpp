@@ -14,8 +14,7 @@ namespace insonify {
 namespace {
 
 NumberType type_of(const SceneColumn& column) {
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(NumberType::float64); ++k)
-    if (const auto type = static_cast<NumberType>(k); column.type == name_of(type)) return type;
+  if (const auto type = type_named(column.type)) return *type;
   fail(ErrorKind::argument, "save_scene: column '", column.name, "' has type '", column.type,
        "', must be one of int8 to float64");
 }
@@ -77,7 +76,7 @@ void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& colum
 }
 
 void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows) {
-  const std::size_t size = size_named(column.type);
+  const std::size_t size = size_of(type_of(column));
   std::vector<char> bytes(rows.size() * size);
   for (std::size_t i = 0; i < rows.size(); ++i)
     std::memcpy(bytes.data() + i * size, column.bytes.data() + rows[i] * size, size);
@@ -115,30 +114,20 @@ void add_columns(PackedRows& rows, const SceneColumns& columns, CloudFormat form
   for (PackedRows::Column& column : rows.columns)
     if (column.name.empty()) column.name = legal[0];
 
-  struct Written {
-    std::vector<char> bytes;
-    std::size_t size;
-  };
-  const auto written = std::make_shared<std::vector<Written>>();
-  const std::size_t stride = rows.stride();
   for (std::size_t k = 0; k < columns.others.size(); ++k) {
     const SceneColumn& column = columns.others[k];
     const NumberType type = type_of(column), to = written_type(column, type, format);
     if (column.bytes.size() != rows.rows * size_of(type))
       fail(ErrorKind::argument, "save_scene: column '", column.name, "' has ", column.bytes.size(),
            " bytes, must have a number of ", column.type, " for each of the ", rows.rows, " surfels");
-    rows.columns.push_back({legal[k + 1], to});
-    written->push_back({converted(column, type, to), size_of(to)});
+    const auto bytes = std::make_shared<const std::vector<char>>(converted(column, type, to));
+    rows.columns.push_back(
+        {legal[k + 1], to,
+         [bytes, size = size_of(to)](std::size_t first, std::size_t count, char* out, std::size_t stride) {
+           for (std::size_t i = first; i < first + count; ++i, out += stride)
+             std::memcpy(out, bytes->data() + i * size, size);
+         }});
   }
-  if (written->empty()) return;
-  rows.write_row = [written, stride, write_row = rows.write_row](std::size_t i, char* out) {
-    write_row(i, out);
-    out += stride;
-    for (const Written& column : *written) {
-      std::memcpy(out, column.bytes.data() + i * column.size, column.size);
-      out += column.size;
-    }
-  };
 }
 
 }  // namespace insonify

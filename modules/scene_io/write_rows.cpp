@@ -7,9 +7,9 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "files/pending_file.hpp"
+#include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/ply_header_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
-#include "scene_io/write_rows_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -32,12 +32,12 @@ void write_rows(const std::string& path, const std::string& header, const Packed
   errno = 0;
   std::ofstream file(pending.temporary(), std::ios::binary);
   file << header;
-  constexpr std::size_t block = 1 << 15;
+  constexpr std::size_t block = 1 << 12;  // fits into a cache
   const std::size_t stride = rows.stride();
   std::vector<char> bytes(block * stride);
   for (std::size_t first = 0; first < rows.rows && file; first += block) {
     const std::size_t count = std::min(block, rows.rows - first);
-    for (std::size_t i = 0; i < count; ++i) rows.write_row(first + i, bytes.data() + i * stride);
+    rows.write(first, count, bytes.data());
     file.write(bytes.data(), static_cast<std::streamsize>(count * stride));
   }
   // The faces of a PLY: how many corners, and which.

@@ -17,8 +17,6 @@ using Eigen::Vector3d;
 constexpr std::size_t tiles_at_once = 32;
 constexpr double halo_spacings = 10;  // the 64 nearest neighbours on a plane lie within 5
 
-Vector3d centre_of(const TileEntry& tile) { return Eigen::Map<const Vector3d>(tile.centre); }
-
 // Largest distance to neighbours of a tile's surfels, from their spacing if they filled the disc of the bounding
 // sphere.
 double halo_of(const TileEntry& tile) {
@@ -30,7 +28,7 @@ void append(const ColumnFile& columns, const TileEntry& tile, const Vector3d& mi
   const std::size_t first = all.size();
   resize(all, first + tile.count);
   columns.read(tile.first, rows_of(all, first, tile.count));
-  const Vector3d offset = Eigen::Map<const Vector3d>(tile.reference) - middle;
+  const Vector3d offset = vector_in(tile.reference) - middle;
   if (offset.isZero(0)) return;
   for (std::size_t i = first; i < all.size(); ++i) all.point[i] = (all.point[i].cast<double>() + offset).cast<float>();
 }
@@ -40,11 +38,12 @@ void append_halo(const ColumnFile& columns, const std::vector<TileEntry>& tiles,
                  const Vector3d& middle, SceneCloud& all) {
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     if (t >= begin && t < end) continue;
-    const bool near = std::any_of(tiles.begin() + static_cast<std::ptrdiff_t>(begin),
-                                  tiles.begin() + static_cast<std::ptrdiff_t>(end), [&](const TileEntry& mine) {
-                                    const double reach = mine.radius + halo_of(mine) + tiles[t].radius;
-                                    return (centre_of(mine) - centre_of(tiles[t])).squaredNorm() <= reach * reach;
-                                  });
+    const bool near =
+        std::any_of(tiles.begin() + static_cast<std::ptrdiff_t>(begin),
+                    tiles.begin() + static_cast<std::ptrdiff_t>(end), [&](const TileEntry& mine) {
+                      const double reach = mine.radius + halo_of(mine) + tiles[t].radius;
+                      return (vector_in(mine.centre) - vector_in(tiles[t].centre)).squaredNorm() <= reach * reach;
+                    });
     if (near) append(columns, tiles[t], middle, all);
   }
 }
@@ -67,7 +66,7 @@ double fill_areas(ColumnFile& columns, std::vector<TileEntry>& tiles, const Tile
   double total = 0;
   for (std::size_t begin = 0; begin < tiles.size(); begin += tiles_at_once) {
     const std::size_t end = std::min(tiles.size(), begin + tiles_at_once);
-    const Vector3d middle = Eigen::Map<const Vector3d>(tiles[begin].reference);
+    const Vector3d middle = vector_in(tiles[begin].reference);
     SceneCloud all;
     for (std::size_t t = begin; t < end; ++t) append(columns, tiles[t], middle, all);
     append_halo(columns, tiles, begin, end, middle, all);
@@ -87,7 +86,7 @@ double sum_of_areas(const ColumnFile& columns, const std::vector<TileEntry>& til
   double total = 0;
   for (const TileEntry& tile : tiles) {
     SceneCloud rows;
-    append(columns, tile, Eigen::Map<const Vector3d>(tile.reference), rows);
+    append(columns, tile, vector_in(tile.reference), rows);
     total = std::accumulate(rows.area.begin(), rows.area.end(), total);
   }
   return total;
