@@ -70,9 +70,8 @@ const RowTable::Column* find_column(const RowTable& table, const Names& names) {
 
 const RowTable::Column* find_label(const RowTable& table, const std::string& path, const std::string& name) {
   if (name.empty()) return find_column(table, known.label);
-  for (const RowTable::Column& column : table.columns)
-    if (column.name == name) return &column;
-  const RowTable::Column* found = find_column(table, {plain_name(name)});
+  const RowTable::Column* found = column_named(table.columns, name);
+  if (!found) found = find_column(table, {plain_name(name)});
   if (!found)
     fail(ErrorKind::content, path, ": no field '", name, "' to take materials from; its fields are '",
          shortened_list(table.columns, " ", &RowTable::Column::name), "': name one of them");
@@ -140,7 +139,7 @@ void take_headings(const RowTable& table, const Columns& found, RawCloud& raw) {
         " are degrees, but a scene needs metres; project them: awk -F '[,;[:space:]]+' 'NR > 1 {print $" + number(0) +
         ", $" + number(1) + ", $" + number(2) +
         "}' in.csv | gdaltransform -s_srs EPSG:4326 -t_srs EPSG:" + utm_code(x, y) + " > out.xyz" +
-        (raw.named_depth ? ", and give --z down" : "");
+        (raw.named_depth ? ", and give --z down" : "") + if_metres;
     return;
   }
   // Units: heights have those of the plane unless they have their own.

@@ -108,8 +108,7 @@ void take_system(void* reference, const std::string& remedy, FileMeaning& meanin
   if (degrees || OSRIsGeocentric(reference)) {
     meaning.no_lengths = "is in " + std::string(degrees ? "degrees" : "earth-centred coordinates") +
                          " by its coordinate system, " + meaning.system.value +
-                         ", but a scene needs metres to the east, to the north and up; " + remedy +
-                         "; if the numbers are metres all the same, give --unit m";
+                         ", but a scene needs metres to the east, to the north and up; " + remedy + if_metres;
     return;
   }
   char* name = nullptr;

@@ -13,6 +13,9 @@ struct SystemRecords {
   std::string wkt, keys, numbers, texts;
 };
 
+/// End of a message about coordinates in degrees.
+inline constexpr const char* if_metres = "; if the numbers are metres all the same, give --unit m";
+
 /// Returns the EPSG code of the UTM zone of a place in degrees; "326ZZ" if the numbers are no place on the earth.
 std::string utm_code(double longitude, double latitude);
 

@@ -72,7 +72,7 @@ void FileMeaning::override_by(const AskedMeaning& asked) {
   if (asked.z_down) take(z_down, *asked.z_down, "--z");
   if (asked.y_up) take(y_up, *asked.y_up, "--up");
   if (!asked.band.empty()) take(band, asked.band, "--band");
-  if (asked.no_data) take(no_data, *asked.no_data, "--nodata");
+  if (asked.no_data) take(no_data, *asked.no_data, "--nodata"), valid = {};
   if (asked.classes) take(classes, *asked.classes, "--classes");
 }
 
@@ -87,9 +87,9 @@ std::vector<MeaningItem> FileMeaning::items() const {
   add("z", z_down.value ? "down" : "up", z_down, true);
   add("up", y_up.value ? "y" : "z", y_up);
   add("band", band.value, band);
-  add("nodata",
-      no_data.value.empty() ? "none" : joined(no_data.value, ",", [](double v) { return printed("%.10g", v); }),
-      no_data);
+  const auto number = [](double v) { return printed("%.10g", v); };
+  add("nodata", no_data.value.empty() ? "none" : joined(no_data.value, ",", number), no_data);
+  add("valid", joined(valid.value, " to ", number), valid);
   add("classes", names_of(classes.value), classes);
   add("system", system.value, system);
   return items;

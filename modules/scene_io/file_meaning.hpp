@@ -57,6 +57,7 @@ struct FileMeaning {
   Meant<bool> y_up;                                   ///< the y axis points up
   Meant<std::string> band;                            ///< band or variable of a raster that holds the heights
   Meant<std::vector<double>> no_data;                 ///< heights that mark holes [units of the file]
+  Meant<std::vector<double>> valid;                   ///< lowest and highest number that is no hole; empty: any
   Meant<PointClasses> classes{PointClasses().set()};  ///< classes of points that are read
   Meant<std::string> system;  ///< coordinate system: "EPSG:32632 (WGS 84 / UTM zone 32N)", or its name
   std::string no_lengths;     ///< why the coordinates are no lengths, and what to do; empty if they are

@@ -35,6 +35,27 @@ std::string attribute_of(const Variable& variable, const char* name) {
   return lower_case(text ? text : "");
 }
 
+/// The numbers of an attribute; none if there is no such attribute.
+std::vector<double> numbers_of(const Variable& variable, const char* name) {
+  const Attribute attribute(GDALMDArrayGetAttribute(variable.get(), name));
+  std::size_t count = 0;
+  double* const numbers = attribute ? GDALAttributeReadAsDoubleArray(attribute.get(), &count) : nullptr;
+  const std::vector<double> all(numbers, numbers + (numbers ? count : 0));
+  VSIFree(numbers);
+  return all;
+}
+
+/// The lowest and the highest number that a variable calls valid, as stored; none if it does not say so.
+std::vector<double> valid_range_of(const Variable& variable) {
+  std::vector<double> range = numbers_of(variable, "valid_range");
+  if (range.size() != 2) {
+    const std::vector<double> low = numbers_of(variable, "valid_min"), high = numbers_of(variable, "valid_max");
+    if (low.empty() && high.empty()) return {};
+    range = {low.empty() ? -HUGE_VAL : low[0], high.empty() ? HUGE_VAL : high[0]};
+  }
+  return range[0] <= range[1] ? range : std::vector<double>();
+}
+
 /// How well a name fits heights: 2 if it says so, 0 if it says otherwise, else 1.
 int rank_as_heights(const std::string& name) {
   const auto says = [name = lower_case(name)](std::initializer_list<const char*> words) {
@@ -79,6 +100,8 @@ void take_attributes(RawCloud& raw, const Variable& variable, const Variable (&a
   if (attribute_of(variable, "positive") == "down")
     meaning.z_down = {true, MeaningOrigin::file, "its attribute positive = down: heights are depths"};
   if (attribute_of(variable, "standard_name").find("depth") != std::string::npos) raw.named_depth = true;
+  if (std::vector<double> range = valid_range_of(variable); !range.empty())
+    meaning.valid = {std::move(range), MeaningOrigin::file};
   for (const Variable& axis : axes) {
     if (!axis) continue;
     const std::string units = attribute_of(axis, "units"), name = attribute_of(axis, "standard_name");
@@ -193,7 +216,7 @@ HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
   const std::string zone =
       utm_code(at[0] + 0.5 * GDALGetRasterXSize(file) * at[1], at[3] + 0.5 * GDALGetRasterYSize(file) * at[5]);
   const std::string remedy = "project it first: gdalwarp -t_srs EPSG:" + zone + " -r bilinear in.tif out.tif";
-  if (!meaning.no_lengths.empty()) meaning.no_lengths += remedy;
+  if (!meaning.no_lengths.empty()) meaning.no_lengths += remedy + if_metres;
   const Meant<double> of_axes = meaning.unit;
   take_system(GDALGetSpatialRef(file), remedy, meaning);
   if (of_axes.origin == MeaningOrigin::file) meaning.unit = of_axes;

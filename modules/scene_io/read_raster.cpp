@@ -31,9 +31,10 @@ RawCloud read_raster(const std::string& path, const ReadOptions&) {
 
 namespace {
 
-/// Calls use(x, y, z) for the cells with a height, row by row [units of the file].
+/// Calls use(x, y, z) for the cells with a height, row by row [units of the file]. Returns the number of cells outside the
+/// valid range.
 template <typename Use>
-void for_each_height(const RawCloud& raw, const HeightBand& heights, Use&& use) {
+std::size_t for_each_height(const RawCloud& raw, const HeightBand& heights, Use&& use) {
   const GDALRasterBandH band = heights.band;
   const auto& at = heights.transform;
   int has_offset = 0, has_scale = 0, has_none = 0;
@@ -47,6 +48,9 @@ void for_each_height(const RawCloud& raw, const HeightBand& heights, Use&& use) 
       fail(ErrorKind::content, raw.path, ": row ", r, " of ", rows, " cannot be read (", CPLGetLastErrorMsg(),
            "); copy or export the file again");
   };
+  const std::vector<double>& valid = raw.meaning.valid.value;
+  const auto less = [](double a, double b) { return a < b && static_cast<float>(a) < static_cast<float>(b); };
+  std::size_t outside = 0;
   for (int r = 0; r < rows; ++r) {
     read(band, r, row);
     if (masked) read(GDALGetMaskBand(band), r, mask);
@@ -54,11 +58,16 @@ void for_each_height(const RawCloud& raw, const HeightBand& heights, Use&& use) 
       double z = row[static_cast<std::size_t>(c)];
       if (masked && mask[static_cast<std::size_t>(c)] == 0) continue;
       if (!std::isfinite(z) || (has_none && (z == none || static_cast<float>(z) == static_cast<float>(none)))) continue;
+      if (!valid.empty() && (less(z, valid[0]) || less(valid[1], z))) {
+        ++outside;
+        continue;
+      }
       z = (has_scale ? scale : 1) * z + (has_offset ? offset : 0);
       if (std::abs(z) <= farthest_coordinate && !raw.meaning.is_hole(z))
         use(at[0] + (c + 0.5) * at[1] + (r + 0.5) * at[2], at[3] + (c + 0.5) * at[4] + (r + 0.5) * at[5], z);
     }
   }
+  return outside;
 }
 
 SentRows read_heights(ArraySender& to, RawCloud& raw, const AskedMeaning& asked) {
@@ -68,7 +77,12 @@ SentRows read_heights(ArraySender& to, RawCloud& raw, const AskedMeaning& asked)
                             static_cast<std::size_t>(GDALGetRasterYSize(heights.file.get()));
   auto* const numbers = reinterpret_cast<double*>(to.take_array<char>(3 * sizeof(double) * cells));
   double* next = numbers;
-  for_each_height(raw, heights, [&](double x, double y, double z) { *next++ = x, *next++ = y, *next++ = z; });
+  if (asked.no_data) raw.meaning.valid = {};
+  const std::size_t outside =
+      for_each_height(raw, heights, [&](double x, double y, double z) { *next++ = x, *next++ = y, *next++ = z; });
+  if (outside > 0)
+    raw.meaning.valid.sentence =
+        std::to_string(outside) + " cells lie outside the valid range of the file: holes; --nodata none keeps them";
   if (next == numbers)
     fail(ErrorKind::content, raw.path, ": none of its ", cells, " cells has a height: all are no data");
   raw.width = static_cast<std::size_t>(next - numbers) / 3;

@@ -91,6 +91,7 @@ struct NetcdfFile {
   Texts of_heights{}, of_axes{};  ///< attributes
   double step = cell_size, factor = 1, mark = 0;
   const char *x = "x", *y = "y";
+  std::vector<std::pair<std::string, std::vector<double>>> numbers{};  ///< attributes of the heights
 };
 
 void set_attributes(GDALMDArrayH array, const Texts& texts) {
@@ -133,6 +134,12 @@ std::string write_netcdf(const NetcdfFile& file) {
       heights.push_back(file.mark != 0 && in_hole(column, row) ? file.mark : file.factor * bed_height(column, row));
   const GDALMDArrayH array = GDALGroupCreateMDArray(root, file.variable.c_str(), 2, axes, number, nullptr);
   set_attributes(array, file.of_heights);
+  for (const auto& [name, values] : file.numbers) {
+    const GUInt64 count = values.size();
+    const GDALAttributeH attribute = GDALMDArrayCreateAttribute(array, name.c_str(), 1, &count, number, nullptr);
+    GDALAttributeWriteDoubleArray(attribute, values.data(), count);
+    GDALAttributeRelease(attribute);
+  }
   write(array, heights, {deep, wide});
   for (const GDALDimensionH axis : axes) GDALDimensionRelease(axis);
   GDALExtendedDataTypeRelease(number);
@@ -202,7 +209,7 @@ TEST(RasterMeaning, single_heights_far_from_all_others_stay_with_a_note) {
 
 TEST(RasterMeaning, degrees_are_refused_by_units_and_doubted_by_numbers) {
   for (const Texts& axes : {Texts{{"units", "degrees_east"}}, Texts{{"standard_name", "longitude"}}})
-    insonify::expect_error(insonify::ErrorKind::content, {"degrees", "gdalwarp -t_srs EPSG:32"},
+    insonify::expect_error(insonify::ErrorKind::content, {"degrees", "gdalwarp -t_srs EPSG:32", "give --unit m"},
                            [&] { load_as(write_netcdf({.name = "degrees.nc", .of_axes = axes, .step = 1e-3})); });
   const LoadedScene loaded = load_as(write_netcdf({.name = "maybe.nc", .step = 1e-3}));
   EXPECT_THAT(loaded.report.notes, Contains(HasSubstr("degrees?")));
@@ -323,6 +330,39 @@ TEST(RasterMeaning, is_told_by_info) {
   EXPECT_THAT(all, HasSubstr("unit=0.3048006096 m file"));
   EXPECT_THAT(all, HasSubstr("z=down file"));
   EXPECT_THAT(all, HasSubstr("system=EPSG:2227"));
+}
+
+/// The item of the meaning that says which numbers are valid.
+std::string valid_numbers(const std::string& path) {
+  for (const insonify::MeaningItem& item : insonify::describe_file(path).meaning)
+    if (item.name == "valid") return item.value + " " + item.origin + " " + item.sentence;
+  return "";
+}
+
+TEST(RasterMeaning, numbers_outside_the_valid_range_of_a_netcdf_are_holes_and_are_counted) {
+  const std::string counted = "16 cells lie outside the valid range";
+  for (const auto& [said, numbers] : std::vector<std::pair<std::string, decltype(NetcdfFile::numbers)>>{
+           {"-100 to 0 file ", {{"valid_range", {-100, 0}}}},
+           {"-inf to 12 file ", {{"valid_max", {12}}}},
+           {"-30 to inf file ", {{"valid_min", {-30}}}}}) {
+    const double mark = numbers[0].first == "valid_min" ? -50 : 50;
+    const std::string path = write_netcdf({.name = "valid.nc", .mark = mark, .numbers = numbers});
+    EXPECT_THAT(valid_numbers(path), HasSubstr(said + counted)) << path;
+    const LoadedScene loaded = load_as(path);
+    expect_heights(loaded, cells_with_height, bed_low, bed_high);
+    EXPECT_THAT(loaded.report.notes, Contains(HasSubstr(counted)));
+    AskedMeaning all;
+    all.no_data.emplace();
+    EXPECT_EQ(load_as(path, all).scene.size(), static_cast<std::size_t>(wide * deep));
+  }
+  // All within: nothing to say. Of packed numbers the range is that of the numbers as stored.
+  EXPECT_EQ(valid_numbers(write_netcdf({.name = "all.nc", .numbers = {{"valid_range", {-100, 0}}}})),
+            "-100 to 0 file ");
+  expect_heights(load_as(write_netcdf({.name = "packed.nc",
+                                       .factor = 100,
+                                       .mark = 5000,
+                                       .numbers = {{"scale_factor", {0.01}}, {"valid_range", {-3000, 0}}}})),
+                 cells_with_height, bed_low, bed_high);
 }
 
 }  // namespace
