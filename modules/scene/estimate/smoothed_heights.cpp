@@ -71,27 +71,51 @@ class CubicFit {
  private:
   void set_places(std::span<const Place> places) {
     const auto count = static_cast<Eigen::Index>(places.size());
-    powers_.resize(terms_of<3>, count);
+    power_.resize(count, terms_of<3>);
     rise_.resize(count);
     weight_.setOnes(count);
-    double reach = 0;
-    for (const Place& p : places) reach = std::max(reach, p.flat.norm());
+    double square = 0;
+    for (const Place& p : places) square = std::max(square, p.flat.squaredNorm());
+    const double per_reach = 1 / std::sqrt(square);
+    power_.col(0).setOnes();
     for (Eigen::Index n = 0; n < count; ++n) {
       const Place& p = places[static_cast<std::size_t>(n)];
-      powers_.col(n) = terms_at<3>(p.flat.x() / reach, p.flat.y() / reach);
+      power_.block<1, 2>(n, 1) = p.flat.transpose() * per_reach;
       rise_[n] = p.offset.z();
+    }
+    // As terms_at: x times each term of one degree less, then y times the last of these.
+    for (int degree = 2, t = 3; degree <= 3; t += ++degree) {
+      for (int k = 0; k < degree; ++k) power_.col(t + k) = power_.col(1) * power_.col(t - degree + k);
+      power_.col(t + degree) = power_.col(2) * power_.col(t - 1);
     }
   }
 
-  /// Weighted least squares; sets what is left of the rises.
+  /// Weighted least squares; sets what is left of the rises. The products of two terms are powers, of which many are
+  /// equal: their sums are found once.
   std::optional<Foretold> solve() {
-    Eigen::Matrix<double, terms_of<3>, terms_of<3>> normal = decltype(normal)::Zero();
-    weighted_ = powers_ * weight_.sqrt().matrix().asDiagonal();
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(weighted_);
+    weighted_ = power_.colwise() * weight_;
+    std::array<std::array<double, 7>, 7> moment{};  // of x^i y^j
+    for (std::size_t t = 0; t < terms_of<3>; ++t) {
+      const auto [i, j] = exponents[t];
+      moment[i][j] = weighted_.col(static_cast<Eigen::Index>(t)).sum();
+    }
+    // Powers beyond the third are a term of degree 3 (from number 6 on) times one of degree `rest`.
+    for (std::size_t rest = 1; rest <= 3; ++rest)
+      for (std::size_t j = 0; j <= rest + 3; ++j) {
+        const std::size_t in_first = std::min<std::size_t>(j, 3);  // of the y
+        const auto first = static_cast<Eigen::Index>(6 + in_first);
+        const auto second = static_cast<Eigen::Index>(rest * (rest + 1) / 2 + j - in_first);
+        moment[rest + 3 - j][j] = weighted_.col(first).matrix().dot(power_.col(second).matrix());
+      }
+    Eigen::Matrix<double, terms_of<3>, terms_of<3>> normal;
+    for (std::size_t a = 0; a < terms_of<3>; ++a)
+      for (std::size_t b = 0; b <= a; ++b)
+        normal(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
+            moment[exponents[a][0] + exponents[b][0]][exponents[a][1] + exponents[b][1]];
     const Eigen::LDLT<decltype(normal), Eigen::Lower> solver(normal);
     if (!(solver.vectorD().minCoeff() > least_pivot * solver.vectorD().maxCoeff())) return {};
-    const Terms<3> cubic = solver.solve(powers_ * (weight_ * rise_).matrix());
-    left_ = (rise_.matrix() - powers_.transpose() * cubic).array().abs();
+    const Terms<3> cubic = solver.solve(Terms<3>(weighted_.matrix().transpose() * rise_.matrix()));
+    left_ = (rise_.matrix() - power_.matrix() * cubic).array().abs();
     return Foretold{cubic[0], solver.solve(Terms<3>::Unit(0))[0]};
   }
 
@@ -103,9 +127,50 @@ class CubicFit {
     return 1.4826 * *middle;
   }
 
-  Eigen::Matrix<double, terms_of<3>, Eigen::Dynamic> powers_, weighted_;
+  static constexpr std::array<std::array<std::size_t, 2>, terms_of<3>> exponents = {
+      {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1}, {1, 2}, {0, 3}}};  // of x and y in each term
+  Eigen::Array<double, Eigen::Dynamic, terms_of<3>> power_, weighted_;                    // a row for each neighbour
   Eigen::ArrayXd rise_, weight_, left_;
   std::vector<double> sorted_;
+};
+
+/// The neighbours of points. A search begins with the radius of the one before: far from a border it finds few too many.
+class Neighbourhood {
+ public:
+  Neighbourhood(std::span<const Vector3f> points, std::span<const Vector3f> flat, const SceneIndex& index)
+      : points_(points), flat_(flat), index_(index) {}
+
+  /// The `count` neighbours nearest to a point, or all others; equal distances by index. In no order unless `sorted`.
+  std::span<const Place> look_around(std::size_t i, std::size_t count, bool sorted = false) {
+    const std::size_t wanted = std::min(count + 1, flat_.size());
+    auto radius = static_cast<float>(1.02 * std::sqrt(area_per_point_ * static_cast<double>(wanted)));
+    index_.find_within(flat_[i], radius, found_);
+    for (int n = 0; n < widenings && radius > 0 && found_.size() < wanted; ++n)
+      index_.find_within(flat_[i], radius *= 1.15F, found_);
+    if (found_.size() < wanted) index_.find_nearest(flat_[i], wanted, found_);
+    const auto before = [](const Neighbour& a, const Neighbour& b) {
+      return a.squared_distance < b.squared_distance || (a.squared_distance == b.squared_distance && a.index < b.index);
+    };
+    const auto last = found_.begin() + static_cast<std::ptrdiff_t>(wanted) - 1;
+    std::nth_element(found_.begin(), last, found_.end(), before);
+    if (sorted) std::sort(found_.begin(), last, before);
+    area_per_point_ = last->squared_distance / static_cast<double>(wanted);
+    places_.clear();
+    for (auto n = found_.begin(); n <= last; ++n)
+      if (n->index != i) {
+        const Vector3d offset = (points_[n->index] - points_[i]).cast<double>();
+        places_.push_back({offset.head<2>(), offset});
+      }
+    return places_;
+  }
+
+ private:
+  static constexpr int widenings = 8;
+  std::span<const Vector3f> points_, flat_;
+  const SceneIndex& index_;
+  double area_per_point_ = 0;  // over pi
+  std::vector<Neighbour> found_;
+  std::vector<Place> places_;
 };
 
 class Heights {
@@ -114,15 +179,16 @@ class Heights {
       : points_(points), noise_(noise), flat_(plan_of(points)), index_(flat_) {}
 
   const Vector3f& flat(std::size_t i) const { return flat_[i]; }
+  Neighbourhood neighbourhood() const { return {points_, flat_, index_}; }
 
   /// The mean square error of cubics at a point, over its variance, of each width: capped, as objects are no error.
-  Errors errors_at(std::size_t i, Workspace& work, CubicFit& fit) const {
-    look_around(i, widths.back(), work);
+  Errors errors_at(std::size_t i, Neighbourhood& near, CubicFit& fit) const {
+    const std::span<const Place> places = near.look_around(i, widths.back(), true);
     const double noise = noise_[i];
     Errors errors;
     double error = off_object * off_object;
     for (std::size_t w = 0; w < widths.size(); ++w) {
-      if (const auto found = fit(nearest(work, widths[w]), noise))
+      if (const auto found = fit(places.first(std::min(widths[w], places.size())), noise))
         error = std::min(std::pow(found->rise / noise, 2), off_object * off_object);
       errors[w] = static_cast<float>(error);
     }
@@ -130,34 +196,18 @@ class Heights {
   }
 
   /// How far a point is to be raised onto the cubic of a width, or of a narrower one [m] (E160).
-  double rise_at(std::size_t i, std::size_t width, Workspace& work, CubicFit& fit) const {
-    look_around(i, width, work);
+  double rise_at(std::size_t i, std::size_t width, Neighbourhood& near, CubicFit& fit) const {
     const double noise = noise_[i];
-    std::optional<Foretold> found = fit(work.places, noise);
+    std::optional<Foretold> found = fit(near.look_around(i, width), noise);
     while (!found && width > widths.front()) {
       width = std::max(widths.front(), static_cast<std::size_t>(next_narrower * static_cast<double>(width)));
-      found = fit(nearest(work, width), noise);
+      found = fit(near.look_around(i, width), noise);
     }
     if (!found || std::abs(found->rise) > off_object * noise * std::sqrt(1 + found->variance)) return 0;
     return std::clamp(found->rise / (1 + found->variance), -farthest_move * noise, farthest_move * noise);
   }
 
  private:
-  /// The neighbours of a point, nearest first.
-  void look_around(std::size_t i, std::size_t count, Workspace& work) const {
-    index_.find_nearest(flat_[i], count + 1, work.found);
-    work.places.clear();
-    for (const Neighbour& n : work.found)
-      if (n.index != i) {
-        const Vector3d offset = (points_[n.index] - points_[i]).cast<double>();
-        work.places.push_back({offset.head<2>(), offset});
-      }
-  }
-
-  static std::span<const Place> nearest(const Workspace& work, std::size_t count) {
-    return std::span(work.places).first(std::min(count, work.places.size()));
-  }
-
   std::span<const Vector3f> points_;
   std::span<const float> noise_;
   std::vector<Vector3f> flat_;
@@ -171,9 +221,9 @@ class Widths {
       : places_(places_of(heights, asked)), index_(places_), log_width_(asked.size()) {
     std::vector<Errors> errors(asked.size());
     parallel_blocks(asked.size(), 128, threads, [&](std::size_t begin, std::size_t end) {
-      Workspace work;
+      Neighbourhood near = heights.neighbourhood();
       CubicFit fit;
-      for (std::size_t a = begin; a < end; ++a) errors[a] = heights.errors_at(asked[a], work, fit);
+      for (std::size_t a = begin; a < end; ++a) errors[a] = heights.errors_at(asked[a], near, fit);
     });
     parallel_blocks(asked.size(), 128, threads, [&](std::size_t begin, std::size_t end) {
       std::vector<Neighbour> found;
@@ -228,12 +278,13 @@ std::vector<float> smoothed_heights(std::span<const Vector3f> points, std::span<
   const Heights heights(points, noise);
   const Widths widths_around(heights, asked, threads);
   parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
-    Workspace work;
+    Neighbourhood near = heights.neighbourhood();
     CubicFit fit;
+    std::vector<Neighbour> asked_near;
     for (std::size_t i = begin; i < end; ++i) {
       if (!(noise[i] > 0)) continue;
-      const std::size_t width = widths_around.at(heights.flat(i), work.found);
-      smooth[i] += static_cast<float>(heights.rise_at(i, width, work, fit));
+      const std::size_t width = widths_around.at(heights.flat(i), asked_near);
+      smooth[i] += static_cast<float>(heights.rise_at(i, width, near, fit));
     }
   });
   return smooth;
