@@ -5,6 +5,7 @@
 #include <ogr_srs_api.h>
 
 #include "core/stop_watch.hpp"
+#include "scene_io/bounds_of_file.hpp"
 #include "scene_io/load_scene.hpp"
 #include "support/test.hpp"
 
@@ -95,6 +96,15 @@ TEST(RasterFiles, of_every_kind_are_the_same_bed) {
     ++read;
     expect_plane(path, 2e-3);
   }
+  EXPECT_GE(read, 3);
+}
+
+TEST(RasterFiles, have_the_bounds_that_other_readers_find) {
+  int read = 0;
+  for (const RasterKind& kind : {RasterKind{"GTiff", "a.tif"}, RasterKind{"AAIGrid", "a.asc"},
+                                 RasterKind{"netCDF", "a.nc"}, RasterKind{"BAG", "a.bag", 32632, 1e6}})
+    if (const std::string path = raster_file(kind); !path.empty()) read += has_bounds_of_other_reader(path);
+  if (read == 0) GTEST_SKIP() << "/usr/bin/python3 is not there";
   EXPECT_GE(read, 3);
 }
 
