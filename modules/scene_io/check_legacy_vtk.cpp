@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include "core/error.hpp"
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 
@@ -81,8 +81,8 @@ class LegacyWalk {
   }
 
   /// Passes over the numbers of an array, and gives each to `use` if there is one.
-  template <typename Use>
-  void take_numbers(const std::string& of, const std::string& type, std::size_t rows, std::size_t columns, Use use) {
+  void take_numbers(const std::string& of, const std::string& type, std::size_t rows, std::size_t columns,
+                    const std::function<void(std::int64_t)>& use = {}) {
     const std::size_t bits = bits_of(type);
     if (binary_) line();
     // Even a bit takes an eighth of a byte; so products of what passes do not overflow.
@@ -92,20 +92,13 @@ class LegacyWalk {
     const std::size_t numbers = rows * columns,
                       bytes = binary_ ? (numbers * bits + 7) / 8 : 2 * numbers - (numbers > 0);
     if (bytes > text_.size() - at_) refuse(of, " announces ", numbers, " numbers, the file ends before");
-    for (std::size_t i = 0; i < numbers; ++i) {
-      if (binary_) {
-        if constexpr (std::is_same_v<Use, std::nullptr_t>)
-          break;
-        else
-          use(big_endian(at_ + i * bits / 8, bits / 8));
-      } else {
-        const std::string number = word();
-        double value = 0;
-        if (!to_number(number, value))
-          refuse(of, " announces ", numbers, " numbers; number ", i, " is '", shown(number), "'");
-        if constexpr (!std::is_same_v<Use, std::nullptr_t>)
-          use(static_cast<std::int64_t>(std::clamp(value, -9e18, 9e18)));
-      }
+    for (std::size_t i = 0; i < numbers && binary_ && use; ++i) use(big_endian(at_ + i * bits / 8, bits / 8));
+    for (std::size_t i = 0; i < numbers && !binary_; ++i) {
+      const std::string number = word();
+      double value = 0;
+      if (!to_number(number, value))
+        refuse(of, " announces ", numbers, " numbers; number ", i, " is '", shown(number), "'");
+      if (use) use(static_cast<std::int64_t>(std::clamp(value, -9e18, 9e18)));
     }
     if (binary_) at_ += bytes;
   }
@@ -114,10 +107,6 @@ class LegacyWalk {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < bytes; ++i) value = value << 8 | static_cast<unsigned char>(text_[at + i]);
     return bytes == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
-  }
-
-  void take_array(const std::string& of, const std::string& type, std::size_t rows, std::size_t columns) {
-    take_numbers(of, type, rows, columns, nullptr);
   }
 
   /// Cells as VTK wrote them before version 9: a count and that many corners each.
@@ -149,7 +138,7 @@ class LegacyWalk {
     });
     if (!good || static_cast<std::uint64_t>(last) != corners) refuse(of, " has OFFSETS that do not fit its corners");
     if (lower_case(word()) != "connectivity") refuse(of, " has no CONNECTIVITY");
-    take_array(of, word(), corners, 1);
+    take_numbers(of, word(), corners, 1);
   }
 
   void take_field() {
@@ -161,7 +150,7 @@ class LegacyWalk {
       if (name.empty()) refuse("FIELD announces ", arrays, " arrays, found ", i);
       if (name == "NULL_ARRAY") continue;
       const std::size_t columns = count("components"), rows = count("tuples");
-      take_array("array " + shown(name), word(), rows, columns);
+      take_numbers("array " + shown(name), word(), rows, columns);
     }
   }
 
@@ -180,17 +169,17 @@ class LegacyWalk {
       if (!rest.empty() && !to_number(rest, columns)) refuse("SCALARS ", name, " has '", shown(rest), "' components");
       if (lower_case(word()) != "lookup_table") refuse("SCALARS ", name, " names no LOOKUP_TABLE");
       word();
-      take_array(name, type, rows_, columns);
+      take_numbers(name, type, rows_, columns);
     } else if (key == "color_scalars") {
       const std::string name = shown(word());
-      take_array(name, binary_ ? "unsigned_char" : "float", rows_, count("colours"));
+      take_numbers(name, binary_ ? "unsigned_char" : "float", rows_, count("colours"));
     } else if (key == "lookup_table") {
       const std::string name = shown(word());
-      take_array(name, binary_ ? "unsigned_char" : "float", count("colours"), 4);
+      take_numbers(name, binary_ ? "unsigned_char" : "float", count("colours"), 4);
     } else if (key == "texture_coordinates") {
       const std::string name = shown(word());
       const std::size_t columns = count("texture coordinates");
-      take_array(name, word(), rows_, columns);
+      take_numbers(name, word(), rows_, columns);
     } else {
       static const std::map<std::string, std::size_t> columns = {
           {"vectors", 3},    {"normals", 3},      {"tensors", 9},   {"tensors6", 6},
@@ -198,7 +187,7 @@ class LegacyWalk {
       const auto found = columns.find(key);
       if (found == columns.end()) return false;
       const std::string name = shown(word());
-      take_array(name, word(), rows_, found->second);
+      take_numbers(name, word(), rows_, found->second);
     }
     return true;
   }
@@ -206,7 +195,7 @@ class LegacyWalk {
   void take_section(const std::string& key) {
     if (key == "points") {
       const std::size_t points = count("points");
-      take_array("POINTS", word(), points, 3);
+      take_numbers("POINTS", word(), points, 3);
     } else if (key == "vertices" || key == "lines" || key == "polygons" || key == "triangle_strips") {
       const std::size_t cells = count("cells"), numbers = count("numbers");
       modern_ ? take_cells(key, cells, numbers) : take_old_cells(key, cells, numbers);

@@ -20,25 +20,6 @@ void keep_only(std::vector<T>& column, const std::vector<std::uint32_t>& keep) {
   column.resize(keep.size());
 }
 
-/// Drops points that are unused or coincide with an earlier point.
-void drop_unusable(RawCloud& raw, LoadReport& report) {
-  const bool search = !raw.tags.prepared;  // save_scene writes no duplicates
-  if (!search && raw.unused() == 0) return;
-  std::vector<std::uint32_t> first(raw.point.size());
-  std::iota(first.begin(), first.end(), 0u);
-  if (search) first = first_at_same_place(raw.point);
-  std::vector<std::uint32_t> keep;
-  keep.reserve(raw.point.size());
-  for (std::uint32_t i = 0; i < first.size(); ++i) {
-    if (!raw.point[i].allFinite()) continue;
-    if (first[i] == i)
-      keep.push_back(i);
-    else
-      ++report.dropped_duplicates;
-  }
-  keep_points(raw, keep);
-}
-
 /// True if no number occurs twice.
 bool unique(std::vector<std::uint32_t> ids) {
   if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
@@ -160,6 +141,26 @@ std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> 
   return first;
 }
 
+std::size_t drop_unusable(RawCloud& raw) {
+  const bool search = !raw.tags.prepared;  // save_scene writes no duplicates
+  if (!search && raw.unused() == 0) return 0;
+  std::vector<std::uint32_t> first(raw.point.size());
+  std::iota(first.begin(), first.end(), 0u);
+  if (search) first = first_at_same_place(raw.point);
+  std::size_t duplicates = 0;
+  std::vector<std::uint32_t> keep;
+  keep.reserve(raw.point.size());
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    if (!raw.point[i].allFinite()) continue;
+    if (first[i] == i)
+      keep.push_back(i);
+    else
+      ++duplicates;
+  }
+  keep_points(raw, keep);
+  return duplicates;
+}
+
 void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep) {
   if (keep.size() == raw.point.size()) return;
   keep_only(raw.point, keep);
@@ -184,7 +185,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
            " polygons, all with corners that do not exist); export the mesh again");
     complete_ids(raw, result.report);
     find_viewpoint(raw, options, result.report.notes);
-    drop_unusable(raw, result.report);
+    result.report.dropped_duplicates = drop_unusable(raw);
     complete_normals(raw, options, result);
     complete_areas(raw, options, result.report);
     scene.point = std::move(raw.point);

@@ -85,6 +85,9 @@ std::string label_problem(const RawCloud& raw, const std::vector<Material>& tabl
 /// result.scene.material to indices into it.
 void complete_materials(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);
 
+/// Drops points that are unused or coincide with an earlier point. Returns the number of the latter.
+std::size_t drop_unusable(RawCloud& raw);
+
 /// Drops all points not listed in `keep` (ascending).
 void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep);
 

@@ -15,20 +15,6 @@ namespace {
 
 constexpr std::size_t most_queries = 20000;
 
-/// The finite points without duplicates: those of `raw` themselves, or in `kept` if some are dropped.
-std::span<const Eigen::Vector3f> distinct_points(const RawCloud& raw, std::vector<Eigen::Vector3f>& kept,
-                                                 std::size_t& duplicates) {
-  const bool all_finite = raw.unused() == 0;
-  if (all_finite && raw.tags.prepared) return raw.point;  // save_scene writes no duplicates
-  const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
-  for (std::uint32_t i = 0; i < first.size(); ++i) duplicates += first[i] != i;
-  if (all_finite && duplicates == 0) return raw.point;
-  kept.reserve(first.size());
-  for (std::uint32_t i = 0; i < first.size(); ++i)
-    if (first[i] == i && raw.point[i].allFinite()) kept.push_back(raw.point[i]);
-  return kept;
-}
-
 /// Median distance to the nearest neighbour of up to 20 000 points spread over the cloud.
 double median_spacing(std::span<const Eigen::Vector3f> points) {
   if (points.size() < 2) return 0;
@@ -63,29 +49,14 @@ std::vector<float> areas_of_points(RawCloud& raw) {
   return area;
 }
 
-/// Shares of the materials, or a problem if the labels cannot stand for materials. Takes labels and areas.
-void add_materials(RawCloud& raw, FileDescription& file) {
-  if (!file.has_materials) return;
-  std::vector<std::uint16_t> label = std::move(raw.label);
-  label.resize(raw.point.size(), 0);
-  std::vector<float> area = areas_of_points(raw);
-  if (raw.triangle.empty() && file.duplicates + raw.unused() > 0) {
-    const std::vector<std::uint32_t> first = first_at_same_place(raw.point);
-    std::size_t kept = 0;
-    for (std::uint32_t i = 0; i < first.size(); ++i) {
-      if (first[i] != i || !raw.point[i].allFinite()) continue;
-      label[kept] = label[i];
-      if (!area.empty()) area[kept] = area[i];
-      ++kept;
-    }
-    label.resize(kept);
-    if (!area.empty()) area.resize(kept);
-  }
-  const std::uint16_t largest = label.empty() ? 0 : *std::max_element(label.begin(), label.end());
-  if (std::string problem = label_problem(raw, raw.tags.materials, largest); !problem.empty())
-    file.problems.push_back(std::move(problem));
-  else
-    file.materials = material_shares(raw.tags.materials, label, area);
+/// Sets the shares of the materials. Returns a problem if the labels cannot stand for materials.
+std::string add_materials(RawCloud& raw, FileDescription& file) {
+  if (!file.has_materials) return {};
+  raw.label.resize(raw.point.size(), 0);
+  const std::uint16_t largest = raw.label.empty() ? 0 : *std::max_element(raw.label.begin(), raw.label.end());
+  std::string problem = label_problem(raw, raw.tags.materials, largest);
+  if (problem.empty()) file.materials = material_shares(raw.tags.materials, raw.label, areas_of_points(raw));
+  return problem;
 }
 
 /// Lists what load_scene would drop, repair or assume.
@@ -131,17 +102,20 @@ FileDescription describe_file(const std::string& path, const AskedMeaning& asked
   file.meaning = raw.meaning.items();
   file.min = raw.box.min;
   file.max = raw.box.max;
-  std::vector<Eigen::Vector3f> kept;
-  const std::span<const Eigen::Vector3f> distinct = distinct_points(raw, kept, file.duplicates);
-  file.median_spacing = median_spacing(distinct);
   file.has_normals = !raw.normal.empty();
   file.has_area = !raw.area.empty();
   file.has_materials = !raw.label.empty() || !raw.tags.materials.empty();
   const std::optional<Eigen::Vector3d> seen_from = viewpoint_by_rows(raw);
   file.viewpoint = raw.viewpoint ? raw.viewpoint : seen_from;
-  if (!file.has_normals && !file.viewpoint && raw.triangle.empty()) raw.raster = raster_triangles(distinct);
+  // Surfels have the materials of the points that are kept, those of a mesh the ones of all corners.
+  const bool mesh = !raw.triangle.empty();
+  std::string bad_labels = mesh ? add_materials(raw, file) : "";
+  file.duplicates = drop_unusable(raw);
+  if (!mesh) bad_labels = add_materials(raw, file);
+  file.median_spacing = median_spacing(raw.point);
+  if (!file.has_normals && !file.viewpoint && !mesh) raw.raster = raster_triangles(raw.point);
   add_problems(raw, seen_from.has_value(), file);
-  add_materials(raw, file);
+  if (!bad_labels.empty()) file.problems.push_back(std::move(bad_labels));
   return file;
 }
 

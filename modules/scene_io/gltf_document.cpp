@@ -14,9 +14,9 @@
 #include "files/child_process.hpp"
 #include "files/input_file.hpp"
 #include "files/path_status.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/number_type_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 namespace insonify {
 namespace {

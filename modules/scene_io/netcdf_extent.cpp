@@ -17,49 +17,47 @@ class NetcdfHeader {
  public:
   NetcdfHeader(const std::string& path, const std::string& bytes) : path_(path), bytes_(bytes) {}
 
-  std::uint64_t number(int size) {
+  std::uint64_t number(int size = 4) {
     need(static_cast<std::size_t>(size));
     std::uint64_t value = 0;
     for (int i = 0; i < size; ++i) value = value << 8 | static_cast<unsigned char>(bytes_[at_++]);
     return value;
   }
-  void skip(std::uint64_t size) {
-    need(size);
-    at_ += size;
+  std::uint64_t count() { return number(bytes_[3] == 5 ? 8 : 4); }
+  std::uint64_t place() { return number(bytes_[3] == 1 ? 4 : 8); }
+  /// The bytes of a number of the type that follows.
+  std::uint64_t bytes_of_type() {
+    constexpr std::uint64_t bytes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
+    const std::uint64_t type = number();
+    if (type == 0 || type >= std::size(bytes))
+      fail(ErrorKind::content, path_, ": has a netCDF variable of type ", type, ", expected 1 to 11; export it again");
+    return bytes[type];
   }
-  void skip_name(int count_size) { skip_padded(number(count_size)); }
-  void skip_padded(std::uint64_t size) { skip((size + 3) / 4 * 4); }
-  [[noreturn]] void cut_off() const {
-    fail(ErrorKind::content, path_, ": cut off: the header of a netCDF file ends at byte ", bytes_.size(),
-         "; copy or export the file again");
+  void skip_name() { skip(count()); }
+  void skip_attributes() {
+    number();
+    for (std::uint64_t n = count(); n > 0; --n) {
+      skip_name();
+      const std::uint64_t bytes = bytes_of_type(), values = count();
+      skip(values > bytes_.size() ? values : bytes * values);
+    }
   }
 
  private:
+  /// Passes over bytes that are filled up to a multiple of four.
+  void skip(std::uint64_t size) {
+    need(size);
+    at_ += (size + 3) / 4 * 4;
+  }
   void need(std::uint64_t size) const {
-    if (size > bytes_.size() || at_ > bytes_.size() - size) cut_off();
+    if (size > bytes_.size() || at_ > bytes_.size() - size)
+      fail(ErrorKind::content, path_, ": cut off: the header of a netCDF file ends at byte ", bytes_.size(),
+           "; copy or export the file again");
   }
   const std::string& path_;
   const std::string& bytes_;
   std::size_t at_ = 4;
 };
-
-/// Bytes of a number of a netCDF type.
-std::uint64_t netcdf_bytes(const std::string& path, std::uint64_t type) {
-  constexpr std::uint64_t bytes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
-  if (type == 0 || type >= std::size(bytes))
-    fail(ErrorKind::content, path, ": has a netCDF variable of type ", type, ", expected 1 to 11; export it again");
-  return bytes[type];
-}
-
-void skip_attributes(NetcdfHeader& header, const std::string& path, int count_size) {
-  header.number(4);
-  for (std::uint64_t n = header.number(count_size); n > 0; --n) {
-    header.skip_name(count_size);
-    const std::uint64_t bytes = netcdf_bytes(path, header.number(4)), values = header.number(count_size);
-    if (values > std::uint64_t{1} << 40) header.cut_off();
-    header.skip_padded(bytes * values);
-  }
-}
 
 }  // namespace
 
@@ -68,26 +66,25 @@ void check_netcdf(const std::string& path) {
   if (bytes.size() < 4 || bytes.compare(0, 3, "CDF") != 0) return;
   const int version = bytes[3];
   if (version != 1 && version != 2 && version != 5) return;
-  const int count_size = version == 5 ? 8 : 4, place_size = version == 1 ? 4 : 8;
   NetcdfHeader header(path, bytes);
-  const std::uint64_t records = header.number(count_size);
-  header.number(4);
+  const std::uint64_t records = header.count();
+  header.number();
   std::vector<std::uint64_t> dimensions;
-  for (std::uint64_t n = header.number(count_size); n > 0; --n) {
-    header.skip_name(count_size);
-    dimensions.push_back(header.number(count_size));  // 0: the records
+  for (std::uint64_t n = header.count(); n > 0; --n) {
+    header.skip_name();
+    dimensions.push_back(header.count());  // 0: the records
   }
-  skip_attributes(header, path, count_size);
+  header.skip_attributes();
 
   // The end of each variable; those of records stand one record after the other.
-  header.number(4);
+  header.number();
   std::uint64_t end = 0, record_bytes = 0, record_end = 0;
-  for (std::uint64_t n = header.number(count_size); n > 0; --n) {
-    header.skip_name(count_size);
+  for (std::uint64_t n = header.count(); n > 0; --n) {
+    header.skip_name();
     std::uint64_t values = 1;
     bool of_records = false;
-    for (std::uint64_t d = header.number(count_size); d > 0; --d) {
-      const std::uint64_t dimension = header.number(count_size);
+    for (std::uint64_t d = header.count(); d > 0; --d) {
+      const std::uint64_t dimension = header.count();
       if (dimension >= dimensions.size())
         fail(ErrorKind::content, path, ": has a netCDF variable of a dimension that is not there; export it again");
       if (dimensions[dimension] == 0)
@@ -95,10 +92,10 @@ void check_netcdf(const std::string& path) {
       else
         values *= dimensions[dimension];
     }
-    skip_attributes(header, path, count_size);
-    const std::uint64_t size = values * netcdf_bytes(path, header.number(4));
-    header.number(count_size);  // the same, padded
-    const std::uint64_t begin = header.number(place_size);
+    header.skip_attributes();
+    const std::uint64_t size = values * header.bytes_of_type();
+    header.count();  // the same, padded
+    const std::uint64_t begin = header.place();
     if (of_records)
       record_bytes += (size + 3) / 4 * 4, record_end = std::max(record_end, begin + size);
     else

@@ -5,8 +5,8 @@
 #include "core/error.hpp"
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/ply_header_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -7,8 +7,8 @@
 #include "files/child_process.hpp"
 #include "files/input_file.hpp"
 #include "scene_io/coordinate_system_internal.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raster_band_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 namespace insonify {
 namespace {

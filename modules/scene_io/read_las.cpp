@@ -8,7 +8,6 @@
 #include "files/binary_file.hpp"
 #include "files/input_file.hpp"
 #include "scene_io/coordinate_system_internal.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 

@@ -5,8 +5,8 @@
 #include "core/error.hpp"
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 // A reader of our own, since PCL's and VTK's keep OBJ coordinates as float: 0.5 m steps at a UTM northing.
 namespace insonify {

@@ -7,9 +7,9 @@
 #include "core/error.hpp"
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 // A reader of our own: PCL 1.13 takes words that are not numbers, and rows that are too short or too long, without a message.
 namespace insonify {

@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 // A reader of our own: VTK's keeps coordinates of text as float, and takes neither a blank before 'solid' nor long names.
 namespace insonify {

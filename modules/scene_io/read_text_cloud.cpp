@@ -6,8 +6,8 @@
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
 #include "scene_io/column_names_internal.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 namespace insonify {
 namespace {

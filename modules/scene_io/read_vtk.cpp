@@ -17,8 +17,8 @@
 #include "core/error.hpp"
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 // VTK allocates memory for whatever a file announces, and reads beyond it: files are checked first.
 namespace insonify {

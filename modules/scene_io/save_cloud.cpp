@@ -10,9 +10,9 @@
 #include "core/error.hpp"
 #include "files/input_file.hpp"
 #include "files/pending_file.hpp"
-#include "scene_io/file_probe_internal.hpp"
 #include "scene_io/packed_rows_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
+#include "scene_io/scene_readers_internal.hpp"
 
 static_assert(std::endian::native == std::endian::little, "save_cloud.cpp writes numbers in memory order");
 

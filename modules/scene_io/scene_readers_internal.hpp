@@ -38,4 +38,15 @@ RawCloud read_cloud(const std::string& path, const ReadOptions& options);
 /// A .tiles file as a whole.
 LoadedScene load_all_tiles(const std::string& path, const LoadOptions& options);
 
+/// Extension in lower case, with its dot.
+std::string extension_of(const std::string& path);
+
+/// The tag by which the first bytes tell a VTK file of XML: "<VTKFile PolyData", "<VTKFile" for another kind of data, or
+/// nothing.
+std::string vtk_tag(const std::string& head);
+
+/// Guess of the format from the first bytes ("a PLY file; rename it to .ply", "text", "binary data", ...), for
+/// messages.
+std::string what_it_looks_like(const std::string& path);
+
 }  // namespace insonify
