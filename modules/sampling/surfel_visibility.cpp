@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <numeric>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -21,7 +25,8 @@
 //             3. surfels in front of the buffer are visible; apply `cover` to the others with each footprint that
 //                overlaps their cell; wide surfels are tested against all.
 // Cost: O(n log n) by KD-trees, O(n x cells per footprint) by the raster; parallel over surfels or tiles. The exact
-// decision is always that of `cover` and `hides`, so both methods and all thread counts give the same bytes.
+// decision is always that of `cover` and `hides`, so both methods and all thread counts give the same bytes. Of surfels
+// that coincide, as where a part of a scene stands many times in one place, one hides for all.
 namespace insonify {
 namespace {
 
@@ -66,6 +71,19 @@ struct HidingDepth {
   bool before(const CubePoint& q) const { return q.depth * (constant + along_x * q.x + along_y * q.y) >= 1; }
 };
 
+// The inverse of the least hiding depth in each cell of a row of a tile: its value at the centre of the cell plus half a
+// cell along the gradient.
+struct LeastDepth {
+  float row, step;
+
+  LeastDepth(const HidingDepth& depth, const DirectionTile& tile, std::size_t y) : step(depth.along_x * tile.cell_x) {
+    const float step_y = depth.along_y * tile.cell_y, most = 0.5f * (std::abs(step) + std::abs(step_y));
+    const float corner = depth.constant + most + depth.along_x * tile.x + 0.5f * step;
+    row = corner + depth.along_y * tile.y + step_y * (static_cast<float>(y) + 0.5f);
+  }
+  float inverse_at(std::size_t x) const { return row + step * static_cast<float>(x); }
+};
+
 // Depth buffer of one tile: for each cell the inverse of the least depth at which a surfel may be hidden. Surfels in
 // front of it are visible; only those behind it are tested one by one.
 class DepthTile {
@@ -81,17 +99,26 @@ class DepthTile {
     for (const TileBox& box : tile.boxes) {
       const HidingDepth depth(surfels_, box.surfel, tile.face);
       for (std::size_t y = box.y0; y <= box.y1; ++y) {
+        // Between the first and the last cell with a query that is deep enough.
+        const LeastDepth least(depth, tile, y);
+        const float* const deepest = deepest_.data() + y * side;
+        std::size_t x0 = box.x0, x1 = box.x1;
+        while (x0 < x1 && !(least.inverse_at(x0) * deepest[x0] >= 1)) ++x0;
+        while (x0 < x1 && !(least.inverse_at(x1) * deepest[x1] >= 1)) --x1;
         // Those of a row stand side by side; few of them are behind.
         std::size_t found = 0;
-        for (std::uint32_t i = first_[y * side + box.x0]; i < first_[y * side + box.x1 + 1]; ++i) {
+        for (std::uint32_t i = first_[y * side + x0]; i < first_[y * side + x1 + 1]; ++i) {
           behind_[found] = i;
           found += depth.before(places_[i]);
         }
         for (std::size_t k = 0; k < found; ++k) {
           Open& behind = open_[behind_[k]];
-          if (!hides(behind.so_far)) behind.so_far |= cover(surfels_, box.surfel, behind.line);
+          if (hides(behind.so_far)) continue;
+          behind.so_far |= cover(surfels_, box.surfel, behind.line);
+          hidden_ += hides(behind.so_far);
         }
       }
+      if (2 * hidden_ > open_.size()) drop_hidden(covers);
     }
     for (const Open& o : open_) covers[o.surfel] = o.so_far;
   }
@@ -114,9 +141,13 @@ class DepthTile {
       found.emplace_back(cell, query);
       ++first_[cell];
     }
+    deepest_.fill(0);
     std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0U);
     std::vector<std::uint32_t> sorted(found.size());
-    for (const auto& [cell, query] : found) sorted[first_[cell]++] = query;
+    for (const auto& [cell, query] : found) {
+      sorted[first_[cell]++] = query;
+      deepest_[cell] = std::max(deepest_[cell], queries_[query].depth);
+    }
     std::shift_right(first_.begin(), first_.end(), 1);
     first_[0] = 0;
     for (const std::uint32_t query : sorted) {
@@ -126,27 +157,43 @@ class DepthTile {
     behind_.resize(open_.size() + 1);
   }
 
+  /// Takes those that are hidden off the list, in which each other box would meet them.
+  void drop_hidden(std::vector<Cover>& covers) {
+    std::uint32_t kept = 0;
+    for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+      deepest_[cell] = 0;
+      for (std::uint32_t i = std::exchange(first_[cell], kept); i < first_[cell + 1]; ++i) {
+        if (hides(open_[i].so_far)) {
+          covers[open_[i].surfel] = open_[i].so_far;
+          continue;
+        }
+        deepest_[cell] = std::max(deepest_[cell], places_[i].depth);
+        open_[kept] = open_[i], places_[kept++] = places_[i];
+      }
+    }
+    first_.back() = kept, hidden_ = 0;
+    open_.erase(open_.begin() + kept, open_.end());
+    places_.resize(kept);
+  }
+
   void draw(const DirectionTile& tile, const TileBox& box) {
     const HidingDepth depth(surfels_, box.surfel, tile.face);
-    // Maximum over a cell: the value at its centre plus half a cell along the gradient.
-    const float step = depth.along_x * tile.cell_x, step_y = depth.along_y * tile.cell_y;
-    const float most = 0.5f * (std::abs(step) + std::abs(step_y));
-    const float corner = depth.constant + most + depth.along_x * tile.x + 0.5f * step;
     for (std::size_t y = box.y0; y <= box.y1; ++y) {
-      const float row = corner + depth.along_y * tile.y + step_y * (static_cast<float>(y) + 0.5f);
+      const LeastDepth least(depth, tile, y);
       float* const cells = nearest_.data() + y * side;
-      for (int x = box.x0; x <= box.x1; ++x) cells[x] = std::max(cells[x], row + step * static_cast<float>(x));
+      for (std::size_t x = box.x0; x <= box.x1; ++x) cells[x] = std::max(cells[x], least.inverse_at(x));
     }
   }
 
   const GatedSurfels& surfels_;
   std::span<const std::uint32_t> asked_;
   std::span<const CubePoint> queries_;
-  std::array<float, side * side> nearest_;
+  std::array<float, side * side> nearest_, deepest_;  // inverse depth of occluders; depth of those open
   std::vector<Open> open_;                            // by cells
   std::vector<CubePoint> places_;                     // of these
   std::array<std::uint32_t, side * side + 1> first_;  // of each cell
   std::vector<std::uint32_t> behind_;
+  std::size_t hidden_ = 0;  // of those open
 };
 
 std::vector<Cover> covers_by_raster(const GatedSurfels& surfels, int threads) {
@@ -171,9 +218,7 @@ std::vector<Cover> covers_by_raster(const GatedSurfels& surfels, int threads) {
   return covers;
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> find_hidden(const GatedSurfels& surfels, Projection projection, int threads) {
+std::vector<std::uint8_t> find_hidden_of(const GatedSurfels& surfels, Projection projection, int threads) {
   const std::vector<Cover> covers =
       projection == Projection::raster
           ? covers_by_raster(surfels, threads)
@@ -181,6 +226,57 @@ std::vector<std::uint8_t> find_hidden(const GatedSurfels& surfels, Projection pr
   std::vector<std::uint8_t> hidden(surfels.size());
   std::transform(covers.begin(), covers.end(), hidden.begin(), [](Cover c) { return hides(c); });
   return hidden;
+}
+
+// What a surfel is as an occluder: its numbers up to the noise, and those of its facet.
+struct OccluderBytes {
+  std::string_view disc, facet;
+
+  OccluderBytes(const GatedSurfels& surfels, std::size_t s)
+      : disc(reinterpret_cast<const char*>(&surfels[s]), offsetof(GatedSurfel, surfel)) {
+    if (!surfels.facet.empty()) facet = {reinterpret_cast<const char*>(&surfels.facet[s]), sizeof(GatedFacet)};
+  }
+  bool operator==(const OccluderBytes&) const = default;
+  std::size_t hash() const {
+    const std::hash<std::string_view> of;
+    return of(disc) ^ (facet.empty() ? 0 : 3 * of(facet));
+  }
+};
+
+// True if two coincide of as many surfels as find nearly every scene in which so many coincide that tests take long.
+// They are taken from all over the list.
+bool some_coincide(const GatedSurfels& surfels) {
+  constexpr std::size_t samples = 1024, few = 8 * samples, steps = 0x9e3779b97f4a7c15;
+  if (surfels.size() < few) return false;
+  std::vector<std::pair<std::size_t, std::size_t>> hashes;  // and the surfel
+  for (std::size_t k = 0; k < samples; ++k) {
+    const std::size_t s = k * steps % surfels.size();
+    hashes.emplace_back(OccluderBytes(surfels, s).hash(), s);
+  }
+  std::ranges::sort(hashes);
+  return std::ranges::adjacent_find(hashes, [](const auto& a, const auto& b) {
+           return a.first == b.first && a.second != b.second;
+         }) != hashes.end();
+}
+
+// The surfels, of which those that coincide with one before them hide nothing.
+GatedSurfels with_one_occluder_each(const GatedSurfels& surfels) {
+  const auto hash = [&](std::uint32_t s) { return OccluderBytes(surfels, s).hash(); };
+  const auto same = [&](std::uint32_t a, std::uint32_t b) {
+    return OccluderBytes(surfels, a) == OccluderBytes(surfels, b);
+  };
+  std::unordered_set<std::uint32_t, decltype(hash), decltype(same)> first(surfels.size(), hash, same);
+  GatedSurfels thinned = surfels;
+  for (std::uint32_t s = 0; s < surfels.size(); ++s)
+    if (!first.insert(s).second) thinned[s].radius = 0;
+  return thinned;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_hidden(const GatedSurfels& surfels, Projection projection, int threads) {
+  if (some_coincide(surfels)) return find_hidden_of(with_one_occluder_each(surfels), projection, threads);
+  return find_hidden_of(surfels, projection, threads);
 }
 
 }  // namespace insonify

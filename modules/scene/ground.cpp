@@ -39,7 +39,16 @@ std::array<double, 3> square_of(const Vector2d& place, int level) {
 
 void Ground::add(const PlacedPart& part) {
   require_surfels(part, "Ground");
-  sheets_.push_back(std::make_shared<const Sheet>(part));
+  if (part.captured) {
+    const Bounds box = bounds(*part.cloud);
+    captured_box_ = {captured_box_.min.cwiseMin(box.min), captured_box_.max.cwiseMax(box.max)};
+  }
+  // A part that stands where another one does adds no ground.
+  auto added = std::make_shared<const Sheet>(part);
+  std::vector<std::size_t>& alike = by_hash_[added->hash()];
+  if (std::ranges::any_of(alike, [&](std::size_t other) { return sheets_[other]->coincides(*added); })) return;
+  alike.push_back(sheets_.size());
+  sheets_.push_back(std::move(added));
   const Sheet& sheet = *sheets_.back();
   spacing_ = std::max(spacing_, sheet.mean_spacing);
   const int level = std::ilogb(std::max((sheet.high - sheet.low).maxCoeff(), 1e-6)) + 1;
@@ -50,9 +59,6 @@ void Ground::add(const PlacedPart& part) {
                              square_of({sheet.high.x(), sheet.low.y()}, level), square_of(sheet.high, level)})
     if (auto& listed = squares_[square]; std::ranges::find(listed, number) == listed.end())
       listed.insert(std::ranges::upper_bound(listed, number, lower), number);
-  if (!part.captured) return;
-  const Bounds box = bounds(*part.cloud);
-  captured_box_ = {captured_box_.min.cwiseMin(box.min), captured_box_.max.cwiseMax(box.max)};
 }
 
 std::optional<GroundPlace> Ground::at(const Vector2d& place) const {

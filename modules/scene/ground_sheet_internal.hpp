@@ -2,8 +2,10 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -63,7 +65,7 @@ struct Ground::Sheet {
     mean_spacing = std::sqrt(area / static_cast<double>(place.size()));
     index = SceneIndex(flat);
     // A search from far away would visit most of the tree.
-    const double beyond = hole_spacings * most_of_mean * mean_spacing;
+    const double beyond = 1.1 * hole_spacings * spacing_that_counts(std::ranges::max(spacing));
     low.array() -= beyond, high.array() += beyond;
     // Heights rise from those of surfels by no more than the distance from them, which at() limits.
     const double off = noise.empty() ? 0 : static_cast<double>(std::ranges::max(noise));
@@ -77,13 +79,16 @@ struct Ground::Sheet {
                                 0.0f);
     index.find_nearest(query, 1, found);
     const double nearest = std::sqrt(static_cast<double>(found.front().squared_distance));
-    const double spacing_here = std::clamp(static_cast<double>(spacing[found.front().index]),
-                                           mean_spacing / most_of_mean, mean_spacing * most_of_mean);
+    const double spacing_here = spacing_that_counts(spacing[found.front().index]);
     if (!(nearest <= hole_spacings * spacing_here)) return std::nullopt;
     const double off = noise.empty() ? 0 : static_cast<double>(noise[found.front().index]);
     const double reach = std::max(reach_spacings * spacing_here + 2 * off, 1.01 * nearest);
     index.find_within(query, static_cast<float>(reach), found);
     return topmost(query, spacing_here, reach, found);
+  }
+
+  double spacing_that_counts(float own) const {
+    return std::clamp(static_cast<double>(own), mean_spacing / most_of_mean, mean_spacing * most_of_mean);
   }
 
   /// The tangent plane of a surfel holds about as far as the surfel reaches in it: of a steep one not far to the side.
@@ -130,6 +135,20 @@ struct Ground::Sheet {
     if (!(sum > 0)) return std::nullopt;
     return GroundPlace{origin.z() + height / sum,
                        mean.norm() > 0 ? Eigen::Vector3d(mean.normalized()) : Eigen::Vector3d::UnitZ()};
+  }
+
+  /// Both give the same ground everywhere: their surfels coincide.
+  bool coincides(const Sheet& other) const {
+    return origin == other.origin && place == other.place && normal == other.normal && spacing == other.spacing &&
+           noise == other.noise;
+  }
+  /// Equal for sheets that coincide.
+  std::size_t hash() const {
+    const auto of = [](const auto& list) {
+      return std::hash<std::string_view>{}(
+          {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list.front())});
+    };
+    return of(place) ^ (3 * of(normal));
   }
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();

@@ -117,12 +117,12 @@ void ping_materials(const std::string& path) {
 
 void ping_mirrors(const std::string& path) { ping_with_four_beams(wall_of({Material{}}), load_environment(path)); }
 
-/// Scenes with more surfels than a ping takes in a few seconds are only read.
+/// Scenes with more surfels than a ping takes in a few seconds, as of a box of 1 m sampled each 2 mm, are only read.
 void ping_parts(const std::string& path) {
   const tool::PartsScene scene(path, {.threads = 1});
   std::size_t surfels = 0;
   for (const PlacedPart& part : scene.placed_at(0)) surfels += part.absent ? 0 : part.cloud->size();
-  if (surfels < 100'000) ping_with_four_beams(scene.whole_at(0).scene);
+  if (surfels < 1'000'000) ping_with_four_beams(scene.whole_at(0).scene);
 }
 #endif
 

@@ -220,3 +220,39 @@ TEST(Visibility, without_occlusion_shows_everything_that_faces_the_head) {
   options.occlusion = false;
   EXPECT_EQ(find_scatterers(scene, at(0, 0, 0), wide_fan(), long_gate(), options).report.visible, 800u);
 }
+
+// 60 bodies that reach through one another: of the methods each drops other tests on its way.
+TEST(Visibility, of_a_heap_of_bodies_is_the_same_by_all_methods) {
+  SceneCloud scene;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(-0.6, 0.6);
+  for (int k = 0; k < 60; ++k)
+    add_sphere(scene, {5 + any(random), any(random), any(random)}, 0.2 + 0.3 * std::abs(any(random)), 150);
+  add_wall(scene, 9, 2, 2, 0.1);
+  SamplingOptions options = unsplit();
+  options.projection = Projection::brute_force;
+  const auto expected = seen(scene, at(0, 0, 0), wide_fan(), options);
+  EXPECT_GT(std::count(expected.begin(), expected.end(), true), 500);
+  EXPECT_LT(std::count(expected.begin(), expected.end(), true), 6000);
+  for (const Projection projection : {Projection::raster, Projection::kdtree}) {
+    options.projection = projection;
+    EXPECT_EQ(seen(scene, at(0, 0, 0), wide_fan(), options), expected);
+  }
+}
+
+// 50 times the same two bodies, of which one stands in the shadow of the other: each copy is seen as the first one is.
+TEST(Visibility, of_copies_in_one_place_is_that_of_one) {
+  SceneCloud one, many;
+  for (int k = -1; k < 50; ++k) {
+    add_sphere(k < 0 ? one : many, {4, 0.1, 0}, 0.4, 200);
+    add_sphere(k < 0 ? one : many, {6, 0, 0.2}, 0.9, 400);
+  }
+  for (const Projection projection : {Projection::raster, Projection::kdtree, Projection::brute_force}) {
+    SamplingOptions options = unsplit();
+    options.projection = projection;
+    const auto expected = seen(one, at(0, 0, 0), wide_fan(), options);
+    const auto of_many = seen(many, at(0, 0, 0), wide_fan(), options);
+    EXPECT_GT(std::count(expected.begin(), expected.end(), true), 100);
+    for (std::size_t i = 0; i < many.size(); ++i) ASSERT_EQ(of_many[i], expected[i % one.size()]) << i;
+  }
+}

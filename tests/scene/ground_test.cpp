@@ -262,3 +262,26 @@ TEST(Ground, of_many_parts_is_that_of_the_highest_one) {
   }
   EXPECT_GT(found, 500u);
 }
+
+// Others stand beside the bed where copies do; a copy turned about its normal has other surfels there.
+TEST(Ground, of_copies_in_one_place_is_that_of_one) {
+  const PlacedPart bed = captured_part(sloped_bed(radians(10), 0.1, 0.05));
+  PlacedPart copy = body_at(*bed.cloud, Pose::Identity()), turned = copy, above = copy;
+  turned.world_from_part.rotate(Eigen::AngleAxisd(pi, Vector3d::UnitY()));
+  above.world_from_part.translation().z() += 1e-3;
+  Ground one, copies, others;
+  one.add(bed), copies.add(bed), others.add(bed);
+  for (int k = 0; k < 5; ++k) copies.add(copy);
+  others.add(turned), others.add(above);
+  std::size_t differ = 0;
+  for (double x = -4; x < 4; x += 0.37)
+    for (double y = -4; y < 4; y += 0.41) {
+      const auto here = one.at({x, y}), same = copies.at({x, y}), other = others.at({x, y});
+      ASSERT_TRUE(here && same && other);
+      ASSERT_EQ(here->height, same->height);
+      ASSERT_EQ(here->normal, same->normal);
+      ASSERT_GE(other->height, here->height + 0.9e-3);
+      differ += other->height > here->height + 1.1e-3;
+    }
+  EXPECT_GT(differ, 20U) << "where the turned bed is higher";
+}

@@ -199,6 +199,23 @@ TEST_F(Cost, of_many_parts_of_one_file) {
       "");
 }
 
+// Boxes of 150 surfels, which stand and which move, all in one place; on the first of them others rest.
+TEST_F(Cost, of_many_parts_in_one_place) {
+  write("box.obj",
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  have("bed.ply", "make-scene plane --points 2000 --size 20,20 --seed 1");
+  const std::string files = "file = \"box.obj\"\nspacing_m = 0.2\n";
+  std::string parts = "schema = 1\n[[part]]\nfile = \"bed.ply\"\n";
+  for (int i = 0; i < 3000; ++i)
+    parts += "[[part]]\nname = \"p" + std::to_string(i) + "\"\n" + files + "position_m = [4, 0, 1]\n" +
+             (i % 3 == 0 ? "velocity_mps = [0.1, 0.2, 0]\n" : "");
+  write("parts.toml", parts + "[[scatter]]\nfiles = [\"box.obj\"]\nspacing_m = 0.2\n" +
+                          "names = [\"pot\"]\ncount = 12\nscale = [0.2, 0.2]\nmin_distance_m = 0.01\nrest = \"bed\"\n"
+                          "area_m = [[4, 0], [5, 0], [5, 1], [4, 1]]\n");
+  expect_cheap("ping parts.toml -q --sonar p900-45 --set sonar.beams=4 --pose=0,0,3,0,20,0 --range 1:10 -o out", 0, "");
+}
+
 // The data of a ping is kept where there is no memory for its picture, and no limit ends the tool by a signal.
 TEST_F(Cost, under_a_limit_of_memory) {
   if (sanitized) GTEST_SKIP() << "shadow memory is beyond any limit";
