@@ -18,6 +18,7 @@ declare -A parts=(
   [docs]="insonify insonify-view:docs:docs\.commands_of_survey_work"
   [survey]="insonify insonify-view:docs\.commands_of_survey_work"
   [view]="view_test viewer_test:view|viewer"
+  [python]="_insonify _insonify_io insonify:"
 )
 if [[ $# != 2 || -z ${parts[${2:-}]:-} || ! ${1:-} =~ ^(address|thread)$ ]]; then
   echo "usage: tests/sanitize.sh address|thread PART, of: ${!parts[*]}" >&2
@@ -28,6 +29,7 @@ preset=asan
 IFS=: read -r targets suites others <<<"${parts[$2]}"
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+[[ $2 == python ]] && launcher+=(-DINSONIFY_PYTHON=ON)
 cmake --preset $preset "${launcher[@]}" >/dev/null
 cmake --build --preset $preset -j "${JOBS:-2}" --target $targets
 # Libraries that are not instrumented keep memory for the life of the process, and run threads of their own; a program that
@@ -37,5 +39,16 @@ export TSAN_OPTIONS="suppressions=$PWD/tests/support/thread_suppressions.txt his
 # OpenMP, which PCL uses, joins its threads in ways that ThreadSanitizer does not see: none of them.
 [[ $1 == thread ]] && export OMP_THREAD_LIMIT=1
 started=$SECONDS
+if [[ $2 == python ]]; then
+  # Calls of all kinds from eight threads; Python itself is not instrumented.
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+  build/$preset/bin/insonify make-scene poles --points 2000 -q -o "$work/poles.ply" >/dev/null
+  build/$preset/bin/insonify prepare "$work/poles.ply" -q -o "$work/poles.tiles" >/dev/null
+  LD_PRELOAD=$(c++ -print-file-name=lib$preset.so) PYTHONPATH=build/$preset/python \
+    /usr/bin/python3 tests/python/mixed_calls.py "$work" "${CALLS:-6}"
+  echo "tests/sanitize.sh $1 $2: clean, $((SECONDS - started)) s of calls"
+  exit
+fi
 ctest --preset $preset -R "^($suites)(\.|\$)" -E "^(${others:-none})\$" --timeout 3000
 echo "tests/sanitize.sh $1 $2: clean, $((SECONDS - started)) s of tests"

@@ -52,7 +52,7 @@ LevelPairs pairs_of(const Grid<float>& a, const Grid<float>& b, const std::optio
       if (gate) pairs.decades.push_back(std::log10(gate->centre(static_cast<std::size_t>(n))));
     }
   if (pairs.a.empty())
-    fail(ErrorKind::argument,
+    fail(ErrorKind::content,
          "compare_level_images: no pixel has a level in both images: they are silent, clipped or apart");
   return pairs;
 }

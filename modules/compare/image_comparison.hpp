@@ -58,8 +58,8 @@ struct ImageComparison {
 /// Returns the levels of an image, NaN where the image is silent or at an end of its scale.
 Grid<float> unclipped_levels(const ComparedImage& image);
 
-/// Compares images of the same size, pixel by pixel (E120 to E124). Throws Error(argument) if sizes differ, or if no
-/// pixel has a level in both.
+/// Compares images of the same size, pixel by pixel (E120 to E124). Throws Error(argument) if sizes differ,
+/// Error(content) if no pixel has a level in both.
 ImageComparison compare_level_images(const ComparedImage& a, const ComparedImage& b,
                                      const ComparisonOptions& options = {});
 

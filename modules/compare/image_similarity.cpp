@@ -76,7 +76,7 @@ ImageSimilarity image_similarity(const Grid<float>& a, const Grid<float>& b, con
     const double difference = da(i) - db(i);
     if (!std::isnan(difference)) sum += difference * difference, ++result.pixels;
   }
-  if (result.pixels == 0) fail(ErrorKind::argument, "image_similarity: no pixel has a level in both images");
+  if (result.pixels == 0) fail(ErrorKind::content, "image_similarity: no pixel has a level in both images");
   const double span = window.max_db - window.min_db;
   result.mse = sum / static_cast<double>(result.pixels);
   result.psnr_db = psnr_db(result.mse, span);

@@ -89,7 +89,7 @@ Grid<float> resampled(const ComparedImage& image, const BeamFan& fan, const Rang
     }
   }
   if (!any)
-    fail(ErrorKind::argument, "resampled: beams and ranges of the images do not overlap: ", image.gate->min_range,
+    fail(ErrorKind::content, "resampled: beams and ranges of the images do not overlap: ", image.gate->min_range,
          " to ", image.gate->max_range, " m and ", gate.min_range, " to ", gate.max_range, " m");
   return level;
 }
@@ -102,8 +102,8 @@ Grid<float> resampled_in_range(const ComparedImage& image, const RangeGate& gate
     for (Eigen::Index p = 0; p < level.rows(); ++p) level(p, n) = level_between(image, p, from, from + gate.bin_size);
   }
   if (level.isNaN().all())
-    fail(ErrorKind::argument, "resampled_in_range: ranges of the images do not overlap: ", image.gate->min_range,
-         " to ", image.gate->max_range, " m and ", gate.min_range, " to ", gate.max_range, " m");
+    fail(ErrorKind::content, "resampled_in_range: ranges of the images do not overlap: ", image.gate->min_range, " to ",
+         image.gate->max_range, " m and ", gate.min_range, " to ", gate.max_range, " m");
   return level;
 }
 

@@ -24,11 +24,11 @@ struct ComparedImage {
 /// Returns the level of `image` at every pixel of another fan and gate: the mean intensity of its samples whose centre
 /// lies in the bin, or the nearest sample if there is none, of the nearest beam; NaN where the pixel is beyond its
 /// outermost beam or bin by more than half a step. Beams are matched by azimuth, of planar arrays by elevation too.
-/// Throws Error(argument) if `image` has no geometry, or if nothing overlaps.
+/// Throws Error(argument) if `image` has no geometry, Error(content) if nothing overlaps.
 Grid<float> resampled(const ComparedImage& image, const BeamFan& fan, const RangeGate& gate);
 
 /// Returns the same for range alone, row by row, for waterfalls of pings x bins. Throws Error(argument) if the image
-/// has no ranges, or if nothing overlaps.
+/// has no ranges, Error(content) if nothing overlaps.
 Grid<float> resampled_in_range(const ComparedImage& image, const RangeGate& gate);
 
 /// Returns the beam whose direction is nearest to that of `p` (head axes): for a line array by the azimuth of its cone,

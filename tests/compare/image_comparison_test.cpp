@@ -159,7 +159,7 @@ TEST(ImageComparison, resamples_by_mean_intensity_where_it_looked) {
   EXPECT_TRUE(std::isnan(half(1, 3)));  // beyond the last bin
   EXPECT_TRUE(std::isnan(half(2, 0)));  // beyond the last beam
   expect_error(ErrorKind::argument, {"no geometry"}, [&] { resampled({image.level_db}, *image.fan, *image.gate); });
-  expect_error(ErrorKind::argument, {"do not overlap", "1 to 1.6 m and 5 to 6 m"}, [&] {
+  expect_error(ErrorKind::content, {"do not overlap", "1 to 1.6 m and 5 to 6 m"}, [&] {
     resampled(image, *image.fan, RangeGate{5, 6, 0.1});
   });
 }
@@ -170,6 +170,6 @@ TEST(ImageComparison, refuses_other_sizes_and_silence) {
   expect_error(ErrorKind::argument, {"80 x 400 and 160 x 400"}, [&] { compare_level_images(small, speckled(1)); });
   ComparedImage silent = speckled(1);
   silent.level_db.setConstant(-200);
-  expect_error(ErrorKind::argument, {"no pixel has a level in both"},
+  expect_error(ErrorKind::content, {"no pixel has a level in both"},
                [&] { compare_level_images(silent, speckled(1)); });
 }

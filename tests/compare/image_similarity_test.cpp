@@ -66,7 +66,7 @@ TEST(ImageSimilarity, refuses_other_sizes_windows_and_empty_images) {
     image_similarity(ripples_a, ripples_b, {60, 0});
   });
   const Grid<float> nothing = Grid<float>::Constant(64, 80, std::numeric_limits<float>::quiet_NaN());
-  expect_error(ErrorKind::argument, {"no pixel has a level in both"}, [&] {
+  expect_error(ErrorKind::content, {"no pixel has a level in both"}, [&] {
     image_similarity(ripples_a, nothing, {0, 60});
   });
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <wordexp.h>
@@ -43,7 +44,9 @@ Ended run_apart(const std::string& command, double kill_after = -1) {
                     printed = outside + "/printed";
   const pid_t child = fork();
   if (child == 0) {
-    alarm(120);
+    const rlimit seconds{120, 120};
+    setrlimit(RLIMIT_CPU, &seconds);
+    alarm(1200);  // if it waits: beside others it may take long
     wordexp_t words;
     if (wordexp(("insonify " + command + (command.find(" -q") == command.npos ? " -q" : "")).c_str(), &words,
                 WRDE_NOCMD) != 0)

@@ -171,7 +171,9 @@ TEST_F(CompareRun, refuses_records_that_do_not_fit) {
   expect_refused("compare one notes.txt", 4, {"notes.txt: no such run or record"});
   write("notes.txt", "x");
   expect_refused("compare one notes.txt", 2, {"notes.txt", "must be a run directory"});
+  have("far", "ping plane.ply --sonar p900-45 --set sonar.beams=8 --pose=0,0,3,0,15,0 --range 10:11 --no-picture -q ");
+  expect_refused("compare one far", 3, {"one, far: ", "do not overlap: 4 to 9 m and 10 to 11 m"});
   expect_refused("compare one two --ping 3", 2, {"--ping = 3", "below 1"});
   write_npy(path("silent.npy"), Grid<float>::Constant(64, static_cast<Eigen::Index>(ping_of("one").gate.bins()), -200));
-  expect_refused("compare one silent.npy", 2, {"no pixel has a level in both"});
+  expect_refused("compare one silent.npy", 3, {"one, silent.npy: ", "no pixel has a level in both"});
 }

@@ -70,6 +70,9 @@ TEST_F(RecordRun, pictures_are_of_levels_as_recorded) {
   EXPECT_EQ(size_of("grey.png"), 48 * 2000);
   expect_refused("image " + side_scan + " --layer noise -o x.png", 2, {"is a recording, which has none"});
   expect_refused("image " + side_scan + " -o x.png", 2, {"--view fan shows beams by bearing", "take --view waterfall"});
+  for (const std::string& file : {side_scan, oculus, aris})
+    expect_refused("image " + file + " --view spectrum -o x.png", 2,
+                   {"--view spectrum shows frequencies, which the levels of a recording", "take --view ascan"});
   expect_refused("image " + oculus + " --ping 3 -o x.png", 2, {"--ping = 3, must be below 3"});
 }
 

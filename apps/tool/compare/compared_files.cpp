@@ -202,7 +202,8 @@ void match(ComparedFile& a, ComparedFile& b, const CompareOptions& options) {
   const bool same_size =
       a.image.level_db.rows() == b.image.level_db.rows() && a.image.level_db.cols() == b.image.level_db.cols();
   if (a.waterfall && b.waterfall) {
-    if (!(*a.image.gate == *b.image.gate)) a.image.level_db = resampled_in_range(a.image, *b.image.gate);
+    if (!(*a.image.gate == *b.image.gate))
+      a.image.level_db = naming_both(options, [&] { return resampled_in_range(a.image, *b.image.gate); });
     a.image.gate = b.image.gate;
     const Eigen::Index pings = std::min(a.image.level_db.rows(), b.image.level_db.rows());
     for (ComparedFile* file : {&a, &b}) file->image.level_db = Grid<float>(file->image.level_db.topRows(pings));
@@ -210,7 +211,7 @@ void match(ComparedFile& a, ComparedFile& b, const CompareOptions& options) {
   }
   if (a.image.fan && b.image.fan) {
     if (same_size && same_geometry(a.image, b.image)) return;
-    a.image.level_db = resampled(a.image, *b.image.fan, *b.image.gate);
+    a.image.level_db = naming_both(options, [&] { return resampled(a.image, *b.image.fan, *b.image.gate); });
     a.image.fan = b.image.fan, a.image.gate = b.image.gate;
     return;
   }

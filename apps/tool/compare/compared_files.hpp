@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "compare/resample_image.hpp"
+#include "core/error.hpp"
 #include "core/pose.hpp"
 #include "tool/command/options.hpp"
 
@@ -52,8 +53,20 @@ bool is_waterfall(const std::string& path);
 /// Error(content) for the waterfall of a run of several beams; and as the readers.
 ComparedFile load_compared(const std::string& path, int ping, const CompareOptions& options, bool waterfall = false);
 
+/// Returns what `body` gives; adds the names of both files to what it finds wrong with their content.
+template <typename Body>
+auto naming_both(const CompareOptions& options, const Body& body) {
+  try {
+    return body();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::content) throw;
+    fail(ErrorKind::content, options.a, ", ", options.b, ": ", error.what());
+  }
+}
+
 /// Brings two images to one grid: of one size as they are, beams of pictures in the order of the other's fan; of two
-/// geometries A as resampled to B; of two waterfalls as many pings as both have, from the first on. Throws Error(content) naming sizes and remedy if neither is possible.
+/// geometries A as resampled to B; of two waterfalls as many pings as both have, from the first on. Throws Error(content) naming
+/// sizes and remedy if neither is possible, and both files if they have nothing in common.
 void match(ComparedFile& a, ComparedFile& b, const CompareOptions& options);
 
 /// Levels predicted by a run at the points of a cloud, against their strengths.

@@ -266,7 +266,7 @@ void compare(const CompareOptions& o) {
   ComparisonOptions options;
   if (!o.window.empty()) options.window = parse_window("--window", o.window);
   options.seed = o.common.seed;
-  ImageComparison comparison = compare_level_images(a.image, b.image, options);
+  ImageComparison comparison = naming_both(o, [&] { return compare_level_images(a.image, b.image, options); });
   ordered_json aligned;
   if (o.align) {
     const ImageShift shift = comparison.shift;

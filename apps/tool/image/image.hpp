@@ -114,6 +114,7 @@ struct ViewSpec {
   BeamChoice default_choice = BeamChoice::one;  ///< without --beam
   bool of_levels = false;                       ///< shows title, levels and marks of a ping, and nothing else
   bool of_bearings = false;  ///< shows beams by bearing, which the sides of a recorded side-scan have not
+  bool of_phases = false;    ///< shows what follows from phases, which recordings of levels have not
   /// Set for a view that reads what it draws by itself, in place of `draw`.
   void (*draw_alone)(const ImageOptions& options) = nullptr;
 };

@@ -235,6 +235,9 @@ void image(const ImageOptions& o) {
   if (run.side_scan && view_of(o).of_bearings)
     fail(ErrorKind::argument, "--view ", o.view, " shows beams by bearing, which the sides of a side-scan (", o.run,
          ") have not; take --view waterfall");
+  if (!run.unit.empty() && view_of(o).of_phases)
+    fail(ErrorKind::argument, "--view ", o.view, " shows frequencies, which the levels of a recording (", o.run,
+         ") have not; take --view ascan");
   choose_beam(o, run.cube.pings.front().fan);
 
   if (o.animate) return animate(run, o, o.picture, annotation);

@@ -56,7 +56,8 @@ ViewSpec spectrum_view() {
           .max_db = max_db_of_spectrum,
           .beam_word = "all",
           .beam_choice = BeamChoice::mean,
-          .default_choice = BeamChoice::mean};
+          .default_choice = BeamChoice::mean,
+          .of_phases = true};
 }
 
 }  // namespace insonify::tool
