@@ -13,7 +13,7 @@ constexpr const char* extremes[] = {"0",      "-0.0",   "1",     "-1",         "
                                     "1e-308", "5e-324", "nan",   "inf",        "-inf",  "1e9",
                                     "-1e9",   "1e-9",   "65535", "4294967296", "89.9",  "-89.99",
                                     "1e-16",  "100000", "180",   "0.5",        "1e5",   "9223372036854775807"};
-constexpr std::size_t counts[] = {2, 3, 10, 60, 300, 3000, 30'000};
+constexpr std::size_t counts[] = {2, 3, 5, 10, 30, 60, 100, 300, 1000, 30'000};
 
 using Lines = std::vector<std::string>;
 

@@ -89,13 +89,13 @@ void go_on_with_survey(const std::string& path) {
   std::filesystem::remove_all(folder);
 }
 
-/// Pings a scene as it is at time 0 with four beams, 5 m ahead of them.
+/// Pings a scene as it is at time 0 with four beams, 5 m ahead of them; who contributes to a pixel only if surfels are few.
 void ping_with_four_beams(const SceneCloud& scene, const Environment& environment = {}) {
   SonarSpec spec = find_sonar("p900-45").spec;
   spec.beams = 4, spec.min_range = 1, spec.max_range = 10;
   SimulationOptions options;
   options.threads = 1;
-  options.outputs.contributors = 2;
+  options.outputs.contributors = scene.size() < 100'000 ? 2 : 0;
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
   simulate_ping(scene, make_head(spec, slowest_sound(environment)), pose, environment, options);
 }
@@ -117,12 +117,12 @@ void ping_materials(const std::string& path) {
 
 void ping_mirrors(const std::string& path) { ping_with_four_beams(wall_of({Material{}}), load_environment(path)); }
 
-/// Scenes with more surfels than a ping takes in a few seconds, as of a box of 1 m sampled each 2 mm, are only read.
+/// Scenes with more surfels than a ping takes in a few seconds, as of a box of 1 m sampled each 3 mm, are only read.
 void ping_parts(const std::string& path) {
   const tool::PartsScene scene(path, {.threads = 1});
   std::size_t surfels = 0;
   for (const PlacedPart& part : scene.placed_at(0)) surfels += part.absent ? 0 : part.cloud->size();
-  if (surfels < 1'000'000) ping_with_four_beams(scene.whole_at(0).scene);
+  if (surfels < 700'000) ping_with_four_beams(scene.whole_at(0).scene);
 }
 #endif
 
