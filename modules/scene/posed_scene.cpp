@@ -169,10 +169,11 @@ void require_valid(const PlacedPart& part, const char* who) {
       refuse("surfels[", k, "] = ", part.surfels[k], ", must ascend and be below ", part.cloud->size());
 }
 
-SceneCloud merge_parts(std::span<const PlacedPart> parts) {
+SceneCloud merge_parts(std::span<const PlacedPart> parts, std::span<const Material> materials) {
   constexpr const char* who = "merge_parts";
   const PartList list = by_name(parts, who);
   SceneCloud scene = empty_scene(origin_of(list));
+  for (const Material& material : materials) index_of(material, scene.materials, who);
   reserve(surfels_of(list), scene);
   WholeScene whole;
   bool is_part = false;
@@ -228,11 +229,8 @@ struct PosedScene::State {
   }
 };
 
-PosedScene::PosedScene(std::span<const PlacedPart> resting, std::vector<Material> others_materials, int threads) {
-  auto scene = std::make_shared<SceneCloud>(merge_parts(resting));
-  if (resting.empty()) scene->materials.clear();
-  for (const Material& material : others_materials) index_of(material, scene->materials, "PosedScene");
-  if (scene->materials.empty()) scene->materials = {Material{}};
+PosedScene::PosedScene(std::span<const PlacedPart> resting, std::span<const Material> materials, int threads) {
+  auto scene = std::make_shared<SceneCloud>(merge_parts(resting, materials));
   state_ = std::make_unique<State>(std::move(scene), threads);
 }
 

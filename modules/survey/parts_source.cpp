@@ -37,14 +37,7 @@ std::unique_ptr<PosedScene> PartsSource::take() const {
       return scene;
     }
   }
-  return std::make_unique<PosedScene>(resting_ ? *resting_ : parts_->resting(), parts_->others_materials(), threads_);
-}
-
-std::vector<PlacedPart> PartsSource::others_at(const SceneMoment& moment) const {
-  std::vector<PlacedPart> others = parts_->others_at(moment.time, moment.draw);
-  // Only where pings differ by their draws it matters that the parts of all have the same numbers.
-  if (rule_.pings_per_draw == 0) std::erase_if(others, [](const PlacedPart& part) { return part.absent; });
-  return others;
+  return std::make_unique<PosedScene>(resting_ ? *resting_ : parts_->resting(), parts_->materials(), threads_);
 }
 
 /// A scene that is out; it goes back to the pool with the last of its owners.
@@ -72,7 +65,7 @@ std::shared_ptr<const PreparedScene> PartsSource::scene_at(const SceneMoment& mo
       if (of == differs)
         if (std::shared_ptr<const PreparedScene> there = scene.lock()) return there;
   }
-  const std::vector<PlacedPart> others = others_at(moment);
+  const std::vector<PlacedPart> others = parts_->others_at(moment.time, moment.draw);
   const auto loan = std::make_shared<Loan>(pool_, take());
   loan->scene = loan->posed->pose(others);
   std::shared_ptr<const PreparedScene> scene(loan, loan->scene.get());

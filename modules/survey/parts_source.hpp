@@ -54,7 +54,6 @@ class PartsSource : public SceneSource {
   };
   struct Loan;
   std::unique_ptr<PosedScene> take() const;
-  std::vector<PlacedPart> others_at(const SceneMoment& moment) const;
 
   std::shared_ptr<const SceneParts> parts_;
   std::optional<std::vector<PlacedPart>> resting_;

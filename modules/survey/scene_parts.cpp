@@ -99,6 +99,7 @@ Setting set_down(const Draws& draws, std::uint64_t number, const ScatterRule& ru
 SceneParts::SceneParts(std::vector<PartDefinition> parts, std::vector<SceneScatter> scatters, std::uint64_t seed,
                        bool drawn_anew)
     : seed_(seed), drawn_anew_(drawn_anew && !scatters.empty()) {
+  number_classes(parts, scatters);
   for (PartDefinition& part : parts) {
     names_.push_back(part.body.name);
     place(part);
@@ -112,6 +113,29 @@ SceneParts::SceneParts(std::vector<PartDefinition> parts, std::vector<SceneScatt
     for (PlacedPart& part : drawn(0))
       if (!part.absent) resting_.push_back(std::move(part));
   if (!drawn_anew_) ground_ = {};
+}
+
+void SceneParts::number_classes(const std::vector<PartDefinition>& parts, const std::vector<SceneScatter>& scatters) {
+  std::vector<const SceneBody*> bodies;
+  for (const PartDefinition& part : parts) bodies.push_back(&part.body);
+  for (const SceneScatter& scatter : scatters)
+    for (const SceneBody& body : scatter.bodies) bodies.push_back(&body);
+  std::vector<Material> all;
+  for (const SceneBody* body : bodies)
+    if (body->cloud) all.insert(all.end(), body->cloud->materials.begin(), body->cloud->materials.end());
+  const auto add = [this](const Material& material) {
+    if (std::ranges::find(materials_, material) == materials_.end()) materials_.push_back(material);
+  };
+  // Classes first: labels, and the materials of bodies without one.
+  for (const SceneBody* body : bodies) {
+    if (!body->label.empty()) {
+      const auto real = std::ranges::find(all, body->label, &Material::name);
+      add(real != all.end() ? *real : Material{.name = body->label});
+    } else if (body->cloud) {
+      std::ranges::for_each(body->cloud->materials, add);
+    }
+  }
+  std::ranges::for_each(all, add);
 }
 
 void SceneParts::place(const PartDefinition& part) {
@@ -266,18 +290,6 @@ double SceneParts::begin() const {
 void SceneParts::require_times(double first, double last) const {
   for (const auto& [part, at_begin] : moving_)
     for (const double time : {first, last}) axes_at(part.placement, part.body.name, time);
-}
-
-std::vector<Material> SceneParts::others_materials() const {
-  std::vector<Material> all;
-  const auto add = [&](const SceneCloud& cloud) {
-    all.insert(all.end(), cloud.materials.begin(), cloud.materials.end());
-  };
-  for (const auto& [part, at_begin] : moving_) add(*part.body.cloud);
-  if (drawn_anew_)
-    for (const Strewn& strewn : strewn_)
-      for (const Drawable& body : strewn.bodies) add(*body.body.cloud);
-  return all;
 }
 
 }  // namespace insonify

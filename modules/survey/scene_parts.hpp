@@ -65,8 +65,11 @@ class SceneParts {
 
   /// Returns the names that parts may have, in the order of parts and scatters: those of bodies are NAME-1, NAME-2, ...
   const std::vector<std::string>& names() const { return names_; }
-  /// Returns the materials of the parts that are not in resting().
-  std::vector<Material> others_materials() const;
+  /// Returns the table of materials of all parts, there or not, in the order of parts and scatters. Its places are the
+  /// numbers of the classes at all times and in all draws. A body with a label has a material of that name, one without
+  /// has those of its cloud; materials that are no classes come last. Where no cloud has a material of the name of a
+  /// label, the table has one that no surfel has.
+  const std::vector<Material>& materials() const { return materials_; }
 
  private:
   /// A body that is drawn, with the number from which its copies count.
@@ -79,6 +82,8 @@ class SceneParts {
     std::vector<Drawable> bodies;
     ScatterRule rule;
   };
+  /// Fills materials_.
+  void number_classes(const std::vector<PartDefinition>& parts, const std::vector<SceneScatter>& scatters);
   void place(const PartDefinition& part);
   void prepare_scatter(const SceneScatter& scatter);
   /// Lists the bodies of a scatter that are not among the parts of a draw.
@@ -92,6 +97,7 @@ class SceneParts {
   std::vector<std::pair<PartDefinition, PlacedPart>> moving_;  ///< with the part at time 0
   std::vector<Strewn> strewn_;
   std::vector<std::string> names_;
+  std::vector<Material> materials_;
   Ground ground_;
   mutable std::mutex guard_;
   mutable std::vector<std::pair<std::uint64_t, std::shared_ptr<const std::vector<PlacedPart>>>> kept_draws_;

@@ -126,7 +126,7 @@ TEST(PosedScene, has_the_surfels_of_the_merged_parts_at_every_pose) {
     others.resize(x < 0 ? 1 : 2);
     const auto scene = posed.pose(others);
     others.push_back(bed);
-    const SceneCloud merged = merge_parts(others);
+    const SceneCloud merged = merge_parts(others, ball_cloud()->materials);
     expect_same_surfels(scene->scene(), merged);
     require_valid(scene->scene(), "test");
     EXPECT_EQ(scene->whole().surfels, merged.size());

@@ -111,7 +111,8 @@ TEST(PingOfParts, has_the_same_bytes_in_any_order_and_with_one_more_part_out_of_
   EXPECT_FALSE(same_bytes(one, event_ping(merge_parts(std::vector{a, b}))));
 
   // And where all but the bed is placed anew for the ping.
-  PosedScene posed(std::vector{a}, {b.cloud->materials[0], c.cloud->materials[0], beyond.cloud->materials[0]});
+  PosedScene posed(std::vector{a},
+                   std::vector{b.cloud->materials[0], c.cloud->materials[0], beyond.cloud->materials[0]});
   const PingSimulator simulator(head(), Environment{});
   posed.pose(std::vector{placed("box", box(), {3, 1, -4})});
   EXPECT_TRUE(same_bytes(one, simulator.ping(*posed.pose(std::vector{beyond, c, b}), from_above)));

@@ -73,6 +73,37 @@ bool same(const std::vector<PlacedPart>& a, const std::vector<PlacedPart>& b) {
 
 }  // namespace
 
+// The file's order, not that of names; what one draw does not have keeps its number.
+TEST(SceneParts, number_classes_alike_at_all_times_and_in_all_draws) {
+  PartDefinition bed = level_bed();
+  auto sand = std::make_shared<SceneCloud>(*bed.body.cloud);
+  sand->materials = {Material{.name = "sand"}, Material{.name = "gravel"}};
+  bed.body.cloud = sand, bed.body.label.clear();
+  ScatterRule one = strewn(1, 1);
+  const auto named = [](const char* name) {
+    SceneBody body = ball_named(name, 0.2);
+    auto steel = std::make_shared<SceneCloud>(*body.cloud);
+    steel->materials = {Material{.name = "steel", .lambert_mu = 0.01}};
+    body.cloud = steel;
+    return body;
+  };
+  const auto parts = std::make_shared<const SceneParts>(
+      std::vector{bed}, std::vector<SceneScatter>{{{named("tyre"), named("mine"), named("anchor")}, one}}, 3, true);
+  const std::vector<std::string> expected{"sand", "gravel", "tyre", "mine", "anchor", "steel"};
+  const PartsSource source(parts);
+  std::set<std::string> drawn;
+  for (std::uint64_t draw = 0; draw < 12; ++draw) {
+    const auto scene = source.scene_at({0, draw});
+    std::vector<std::string> names, part_names;
+    for (const Material& material : scene->scene().materials) names.push_back(material.name);
+    EXPECT_EQ(names, expected);
+    for (const ScenePart& part : scene->scene().parts) part_names.push_back(part.name);
+    EXPECT_EQ(part_names, (std::vector<std::string>{"bed", "anchor-1", "mine-1", "tyre-1"}));
+    drawn.insert(present(parts->others_at(0, draw)).front().name);
+  }
+  EXPECT_EQ(drawn.size(), 3U);
+}
+
 TEST(SceneParts, draws_a_thousand_bodies_that_rest_in_their_area_apart) {
   ScatterRule rule = strewn(15, 25);
   rule.min_distance = 0.3;

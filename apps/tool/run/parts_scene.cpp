@@ -163,13 +163,13 @@ std::vector<PlacedPart> PartsScene::resting_with_tiles() const {
 LoadedScene PartsScene::whole_at(double time, std::uint64_t draw) const {
   std::vector<PlacedPart> all = resting_with_tiles();
   for (PlacedPart& part : others_at(time, draw)) all.push_back(std::move(part));
-  return {merge_parts(all), report_};
+  return {merge_parts(all, parts_->materials()), report_};
 }
 
 LoadedScene PartsScene::scene_of(const PingSimulator& simulator, const PingEvent& event, std::uint64_t draw,
                                  double memory) const {
   std::vector<PlacedPart> all = placed_at(event.time, draw);
-  if (!has_tiles()) return {merge_parts(all), report_};
+  if (!has_tiles()) return {merge_parts(all, parts_->materials()), report_};
   // The reach of a ping is that of its largest surfels, wherever they are.
   WholeScene whole = all.empty() ? WholeScene{} : whole_of(merge_parts(all));
   for (const auto& [name, tiled] : tiles_) whole = together(whole, tiled.info().whole);
@@ -184,7 +184,7 @@ LoadedScene PartsScene::scene_of(const PingSimulator& simulator, const PingEvent
     all.push_back({name, "", std::make_shared<const SceneCloud>(std::move(cloud)), true});
     all.back().absent = none;
   }
-  LoadedScene loaded{merge_parts(all), report_};
+  LoadedScene loaded{merge_parts(all, parts_->materials()), report_};
   loaded.scene.part_of = whole;
   loaded.report.notes.insert(loaded.report.notes.end(), notes.begin(), notes.end());
   return loaded;
