@@ -155,8 +155,8 @@ std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
       {"randomise", "salinity_psu", "psu", number(r.salinity_psu, not_negative),
        "half width of the draw added to the salinity of the water"},
       {"randomise", "position_m", "m", number(r.position, not_negative),
-       "half width of the draw added to each coordinate of the head. Files store the poses of the mission; `insonify "
-       "dataset` writes the draws"},
+       "half width of the draw added to each coordinate of the head. Cubes store the drawn poses; `insonify dataset` "
+       "writes the draws, too"},
       {"randomise", "heading_deg", "deg", angle(r.heading, not_negative),
        "half width of the draw added to the yaw of the head"},
       {"randomise", "attitude_deg", "deg", angle(r.attitude, not_negative),

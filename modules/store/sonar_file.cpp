@@ -16,8 +16,7 @@ constexpr int sonar_schema = 1;
 std::vector<Key> keys_of_file(SonarFile& file) {
   std::vector<Key> keys = sonar_keys(file.spec);
   keys.push_back({"", "description", "", text(file.description), "what it is"});
-  keys.push_back({"", "mounting_deg", "deg", vector(file.mounting, "yaw, pitch, roll", in_degrees),
-                  "attitude of the head on a vehicle: yaw to port, pitch nose down, roll starboard down"});
+  keys.push_back(mounting_key(file));
   return keys;
 }
 
@@ -48,6 +47,11 @@ void require_valid_in_file(const SonarFile& file, const TomlValue& table) {
 }
 
 }  // namespace
+
+Key mounting_key(SonarFile& file) {
+  return {"", "mounting_deg", "deg", vector(file.mounting, "yaw, pitch, roll", in_degrees),
+          "attitude of the head on a vehicle: yaw to port, pitch nose down, roll starboard down"};
+}
 
 SonarFile load_sonar_file(const std::string& path) {
   const TomlValue document = load_toml(path);

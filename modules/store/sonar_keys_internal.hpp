@@ -4,6 +4,7 @@
 
 #include "sonar/sonar_spec.hpp"
 #include "store/key_table_internal.hpp"
+#include "store/sonar_file.hpp"
 
 namespace insonify {
 
@@ -11,5 +12,8 @@ namespace insonify {
 /// azimuths_deg sets beams and field of view. beams or field_of_view_deg restore an evenly spaced fan, elevation_deg a
 /// single row. require_valid checks rules that involve several keys.
 std::vector<Key> sonar_keys(SonarSpec& spec);
+
+/// Returns the key mounting_deg of a sonar's file.
+Key mounting_key(SonarFile& file);
 
 }  // namespace insonify
