@@ -14,6 +14,7 @@ namespace {
 struct PartBounds {
   Annotation annotation;
   int right = 0, bottom = 0;
+  std::array<std::size_t, 256> pixels{};  // of each category
 };
 
 // Run lengths down the columns, one column after the other.
@@ -103,12 +104,9 @@ std::vector<Annotation> annotations_of(const LabelMap& map) {
       const std::uint16_t number = map.instance(row, column);
       if (number == 0) continue;
       const int x = static_cast<int>(column), y = static_cast<int>(row);
-      const auto [at, first] =
-          parts.try_emplace(number, PartBounds{{number, map.category(row, column), 0, x, y, 0, 0, {}}, x, y});
+      const auto [at, first] = parts.try_emplace(number, PartBounds{{number, 0, 0, x, y, 0, 0, {}}, x, y});
       PartBounds& part = at->second;
-      if (map.category(row, column) != part.annotation.category)
-        fail(ErrorKind::argument, "annotations_of: instance ", number, " has pixels of categories ",
-             int{part.annotation.category}, " and ", int{map.category(row, column)}, ", must be of one");
+      ++part.pixels[map.category(row, column)];
       ++part.annotation.area;
       part.annotation.left = std::min(part.annotation.left, x), part.right = std::max(part.right, x);
       part.bottom = y;
@@ -116,6 +114,7 @@ std::vector<Annotation> annotations_of(const LabelMap& map) {
   std::vector<Annotation> annotations;
   for (auto& [number, part] : parts) {
     Annotation& a = annotations.emplace_back(part.annotation);
+    a.category = static_cast<std::uint8_t>(std::ranges::max_element(part.pixels) - part.pixels.begin());
     a.width = part.right - a.left + 1, a.height = part.bottom - a.top + 1;
     a.counts = run_lengths(map.instance, number);
   }

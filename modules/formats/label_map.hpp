@@ -24,8 +24,8 @@ struct Annotation {
       counts;  ///< run lengths of the mask, column by column, beginning with pixels outside the object
 };
 
-/// Returns the objects that have a pixel in the picture, by ascending instance. Throws Error(argument) if the maps
-/// differ in size, or if an instance has pixels of two categories.
+/// Returns the objects that have a pixel in the picture, by ascending instance. The category of an object is that of
+/// most of its pixels, of equals the lowest. Throws Error(argument) if the maps differ in size.
 std::vector<Annotation> annotations_of(const LabelMap& map);
 
 /// Returns the outlines of an object in a picture, one for each part that is connected along sides of pixels. An

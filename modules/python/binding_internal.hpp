@@ -29,7 +29,8 @@ struct Keywords {
   std::vector<Key> keys;
   std::string main;  ///< the section whose keys need no prefix
 };
-Keywords keywords(SonarSpec& spec);
+struct Sonar;
+Keywords keywords(Sonar& sonar);
 Keywords keywords(Environment& environment);
 Keywords keywords(tool::SceneOptions& options);
 /// Returns the keywords of a simulator, or of one of its pings.

@@ -8,8 +8,10 @@
 #include "core/message.hpp"
 #include "files/final_names.hpp"
 #include "python/binding_internal.hpp"
+#include "returns/looks.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "store/environment_file.hpp"
+#include "store/sonar_keys_internal.hpp"
 
 namespace insonify::python {
 namespace {
@@ -43,15 +45,18 @@ void add_errors(py::module_& m) {
 }
 
 void add_heads(py::module_& m) {
-  SonarSpec any_sonar;
+  Sonar any_sonar;
   Environment any_environment;
   py::class_<Sonar> sonar(m, "Sonar", "A sonar head; made by sonar().");
   add(sonar, "name", "str, of the preset or file", [](const Sonar& s) { return s.spec.name; });
-  add(sonar, "toml", "str: all keys, as a file", [](const Sonar& s) { return sonar_as_toml(s.spec); });
+  add(sonar, "toml", "str: all keys, as a file", [](const Sonar& s) {
+    Sonar written = s;
+    return sonar_as_toml(s.spec) + (s.file.mounting.isZero() ? "" : keys_as_toml({mounting_key(written.file)}));
+  });
   const auto find = [](const Path& name, const py::kwargs& keys) {
     Sonar found{find_sonar(name.string()), {}};
     found.spec = found.file.spec;
-    set_keywords(keywords(found.spec), keys, "sonar");
+    set_keywords(keywords(found), keys, "sonar");
     require_valid(found.spec, "sonar");
     return found;
   };
@@ -87,16 +92,20 @@ void add_scene(py::module_& m) {
                       "normals: float (n, 3), of any length; None: estimated\n"
                       "areas: float (n,) [m^2]; None: estimated\n"
                       "material: int (n,) labels, or the name of one material for all; None: the default one\n"
-                      "instance: int (n,), the object of each surfel, for Ping.instance_image",
+                      "instance: int (n,), the object of each surfel, for Ping.instance_image; 0: none",
                       keywords(any)));
   scene.def("__len__", [](const Scene& s) { return s.prepared->scene().size(); });
   add(scene, "origin", "float64 (3,) [m]: world place from which points count in single precision",
       [](const Scene& s) { return s.prepared->scene().origin; });
-  add(scene, "material_names", "list of str, by the numbers of Ping.material_image", [](const Scene& s) {
-    std::vector<std::string> names;
-    for (const Material& material : s.prepared->scene().materials) names.push_back(material.name);
-    return names;
-  });
+  add(scene, "material_names",
+      "list of str, by the numbers of Ping.material_image and of true_material: the same for all pings of a scene",
+      [](const Scene& s) {
+        std::vector<std::string> names;
+        for (const Material& material : s.prepared->scene().materials) names.push_back(material.name);
+        return names;
+      });
+  add(scene, "given_instances", "dict of int: the id given to an object, by the number that stands for it",
+      [](const Scene& s) { return s.instances.renumbered; });
   add(scene, "notes", "list of str: what was dropped, repaired or assumed on loading",
       [](const Scene& s) { return tool::loading_notes(s.loaded->report); });
   const auto load = [](const Path& path, const py::kwargs& keys) { return io("load_scene")(path, **keys); };
@@ -178,12 +187,20 @@ void add_pictures(py::class_<MadePing, std::shared_ptr<MadePing>>& type) {
       &picture_of<&Ping::intensity>);
   add(type, "unknown", "uint8 (beams, bins), 1 at holes of the scan; None unless keep has mask",
       &picture_of<&Ping::unknown>);
-  const auto level = [](const MadePing& p, double floor_db) { return level_db(p.made.ping, floor_db); };
-  type.def("level_db", level, "floor_db"_a = silence_db,
-           "float32 (beams, bins) [dB re 1 uPa rms]; floor_db: float [dB], of what is less");
-  add(type, "material_image", "uint16 (beams, bins): material of every pixel; 65535: no surface, 65534: shadow",
+  const auto level = [](const MadePing& p, double floor_db) { return shown_level_db(p.made.ping, floor_db); };
+  type.def(
+      "level_db", level, "floor_db"_a = silence_db,
+      "float32 (beams, bins) [dB re 1 uPa rms], of intensity if there are looks, as pictures of the tool show it;\n"
+      "floor_db: float [dB], of what is less");
+  add(type, "material_image", "uint16 (beams, bins): class of every pixel; 65535: no surface, 65534: shadow",
       [](const MadePing& p) { return material_image(labels_of(p, "material_image")); });
-  add(type, "instance_image", "uint32 (beams, bins): object of every pixel, from 1; 0: none",
+  add(type, "class_names", "list of str, by the numbers of material_image, as label_names of the cube",
+      [](const MadePing& p) { return labels_of(p, "class_names").names; });
+  add(type, "part_names", "list of str: the part whose number in instance_image is its place + 1; empty: no parts",
+      [](const MadePing& p) { return labels_of(p, "part_names").part_names; });
+  add(type, "instance_image",
+      "uint32 (beams, bins): object of every pixel; 0: none. The number of an object is the same in all pings of a\n"
+      "scene; connected pixels without a given object have numbers above all these",
       [](const MadePing& p) { return instance_image(labels_of(p, "instance_image"), p.scene->instances); });
 }
 
@@ -206,8 +223,8 @@ void add_ping(py::module_& m) {
   add(type, "time", "float [s], of transmission", [](const MadePing& p) { return p.event.time; });
   add(type, "seed", "int, of all random numbers", [](const MadePing& p) { return p.simulation.seed; });
   add(type, "sound_speed", "float [m/s], at the head", [](const MadePing& p) { return p.made.ping.sound_speed; });
-  add(type, "notes", "list of str: what limits the accuracy of this ping",
-      [](const MadePing& p) { return p.made.report.notes; });
+  add(type, "notes", "list of str: what the tool notes on the same ping: limits of its accuracy, silence",
+      [](const py::object& p) { return io("notes")(p); });
   const auto save = [](const py::object& self, const Path& path, bool force, bool picture) {
     io("save")(self, path, force, picture);
   };

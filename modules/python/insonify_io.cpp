@@ -9,9 +9,11 @@
 #include "scene_io/pcl_bridge.hpp"
 #include "store/scene_file.hpp"
 #include "tool/command/run_settings.hpp"
+#include "tool/ping/ping_report.hpp"
 #include "tool/ping/ping_run.hpp"
 #include "tool/run/parts_of_pings.hpp"
 #include "tool/run/scene_files.hpp"
+#include "tool/run/scene_reach.hpp"
 #include "view/ping_record.hpp"
 
 namespace insonify::python {
@@ -83,6 +85,34 @@ void complete(const py::capsule& capsule) {
   arrays.loaded = from_pcl(cloud, arrays.options);
 }
 
+/// The head of a ping as the tool sets it up at its depth.
+tool::HeadSetup head_of(const MadePing& ping) {
+  const Simulator& by = *ping.by;
+  const double z = ping.event.world_from_head.translation().z();
+  return tool::set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
+}
+
+/// What the tool notes on the same ping, but for what it notes on loading.
+std::vector<std::string> notes(const MadePing& ping) {
+  const py::gil_scoped_release release;
+  const Scene& scene = *ping.scene;
+  const PingSimulator simulator = ping.by->simulator->with(ping.simulation);
+  const auto pinged = surfels_of(ping, simulator);
+  const SceneCloud& whole = scene.moving ? pinged->scene() : scene.loaded->scene;
+  const auto draw = static_cast<std::uint64_t>(ping.options.draw);
+  const Bounds box =
+      scene.moving ? scene.moving->parts->scene().box_at(ping.event.time, draw) : bounds(scene.loaded->scene);
+  const tool::PingSetup setup{ping.event, head_of(ping), ping.simulation};
+  std::vector<std::string> all = setup.head.notes;
+  const auto add = [&](std::vector<std::string> more) {
+    for (std::string& note : more) all.push_back(std::move(note));
+  };
+  add(tool::fit_notes(whole, box, setup));
+  const auto places = tool::sampled_places(whole, ping.event.world_from_head);
+  add(tool::ping_notes(ping.made, setup, places, !ping.options.mount.empty()));
+  return all;
+}
+
 void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   const py::gil_scoped_release release;
   const Simulator& by = *ping.by;
@@ -91,8 +121,7 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   o.common.quiet = true;
   o.scene = scene.options;
   o.run.output = path.string(), o.run.force = force, o.run.no_picture = !picture;
-  const double z = ping.event.world_from_head.translation().z();
-  const auto head = tool::set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
+  const tool::HeadSetup head = head_of(ping);
   const PingSimulator simulator = by.simulator->with(ping.simulation);
   const auto pinged = surfels_of(ping, simulator);
   const SceneCloud& whole = scene.moving ? pinged->scene() : scene.loaded->scene;
@@ -125,6 +154,7 @@ PYBIND11_MODULE(_insonify_io, m) {
   const PictureOptions usual;
   m.def("load_scene", &load, "path"_a);
   m.def("complete", &complete, "arrays"_a);
+  m.def("notes", &notes, "ping"_a);
   m.def("save", &save, "ping"_a, "path"_a, "force"_a, "picture"_a);
   m.def("draw_fan", &draw, "ping"_a, "path"_a, py::kw_only(), "width"_a = usual.width, "height"_a = usual.height,
         "title"_a = py::none(), "colour_map"_a = usual.colour_map, "min_db"_a = usual.min_db, "max_db"_a = usual.max_db,

@@ -74,7 +74,11 @@ std::vector<TomlValue> meanings_of(const TomlValue& value) {
 
 }  // namespace
 
-Keywords keywords(SonarSpec& spec) { return {sonar_keys(spec), ""}; }
+Keywords keywords(Sonar& sonar) {
+  Keywords of{sonar_keys(sonar.spec), ""};
+  of.keys.push_back(mounting_key(sonar.file));
+  return of;
+}
 Keywords keywords(Environment& environment) { return {environment_keys(environment), "water"}; }
 Keywords keywords(tool::SceneOptions& options) {
   const auto settings = tool::scene_settings(options);

@@ -156,10 +156,10 @@ std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::objec
     how.material = py::cast<std::string>(material);
   else if (!material.is_none())
     arrays.label = whole_numbers<std::uint16_t>(material, "Scene: material", n, 65533);
-  SceneInstances instances;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> given;
   if (!instance.is_none())
     for (const auto of : whole_numbers<std::uint32_t>(instance, "Scene: instance", n, 4294967294.0))
-      instances.emplace(static_cast<std::uint32_t>(instances.size()), of);
+      given.emplace_back(static_cast<std::uint32_t>(given.size()), of);
   arrays.options = tool::load_options({}, how);
   if (arrays.normal.empty() || arrays.area.empty())
     io("complete")(py::capsule(&arrays));
@@ -167,7 +167,7 @@ std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::objec
     complete(arrays);
   arrays.loaded.report.format = "arrays";
   const py::gil_scoped_release release;
-  return std::make_shared<Scene>(std::move(arrays.loaded), std::move(how), std::move(instances));
+  return std::make_shared<Scene>(std::move(arrays.loaded), std::move(how), number_instances(given));
 }
 
 std::shared_ptr<MadePing> next_of(Pings& pings) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -34,17 +35,27 @@ Grid<std::uint32_t> connected_parts(const Grid<std::uint32_t>& key, std::size_t 
   return number;
 }
 
-Grid<std::uint32_t> numbered_keys(const Grid<std::uint32_t>& key, std::size_t least_pixels) {
-  std::map<std::uint32_t, std::size_t> pixels;
-  for (const std::uint32_t k : key.reshaped())
-    if (k != 0) ++pixels[k];
-  std::map<std::uint32_t, std::uint32_t> number;
-  for (const auto& [k, count] : pixels)
-    if (count >= least_pixels) number.emplace(k, static_cast<std::uint32_t>(number.size() + 1));
-  return key.unaryExpr([&](std::uint32_t k) {
-    const auto found = number.find(k);
-    return found == number.end() ? 0U : found->second;
-  });
+SceneInstances number_instances(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& given) {
+  constexpr std::uint32_t most_kept = 65534;
+  std::set<std::uint32_t> ids;
+  for (const auto& [surfel, id] : given)
+    if (id != 0) ids.insert(id);
+  // Ids that are too large take the lowest numbers that no other object has.
+  SceneInstances all;
+  std::unordered_map<std::uint32_t, std::uint32_t> number_of;
+  std::uint32_t next = 1;
+  for (auto id = ids.upper_bound(most_kept); id != ids.end(); ++id, ++next) {
+    while (next <= most_kept && ids.contains(next)) ++next;
+    number_of[*id] = next, all.renumbered[next] = *id;
+    all.most = std::max(all.most, next);
+  }
+  for (const auto& [surfel, id] : given) {
+    if (id == 0) continue;
+    const std::uint32_t number = id <= most_kept ? id : number_of.at(id);
+    all.of_surfel[surfel] = number;
+    all.most = std::max(all.most, number);
+  }
+  return all;
 }
 
 Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<std::uint32_t>& id,
@@ -52,26 +63,27 @@ Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<s
   if (kind.rows() != id.rows() || kind.cols() != id.cols())
     fail(ErrorKind::argument, "number_objects: kinds of ", kind.rows(), " x ", kind.cols(), " pixels and ids of ",
          id.rows(), " x ", id.cols(), ", must be of one size");
-  // Instances of the scene are kept apart by kind; the rest by what touches.
-  Grid<std::uint32_t> keys = Grid<std::uint32_t>::Zero(kind.rows(), kind.cols()), parts = kind;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> key_of;
+  // Instances of the scene keep their numbers; the rest is of what touches.
+  Grid<std::uint32_t> objects = Grid<std::uint32_t>::Zero(kind.rows(), kind.cols()), rest = kind;
+  std::unordered_map<std::uint32_t, std::size_t> pixels;
   for (Eigen::Index i = 0; i < kind.size(); ++i) {
-    const auto found = kind(i) == 0 ? instances.end() : instances.find(id(i));
-    if (found == instances.end()) continue;
-    keys(i) = key_of.try_emplace({kind(i), found->second}, static_cast<std::uint32_t>(key_of.size() + 1)).first->second;
-    parts(i) = 0;
+    const auto found = kind(i) == 0 ? instances.of_surfel.end() : instances.of_surfel.find(id(i));
+    if (found == instances.of_surfel.end()) continue;
+    objects(i) = found->second, rest(i) = 0;
+    ++pixels[found->second];
   }
-  Grid<std::uint32_t> objects = numbered_keys(keys, least_pixels);
-  const std::uint32_t named = objects.size() > 0 ? objects.maxCoeff() : 0;
-  const Grid<std::uint32_t> connected = connected_parts(parts, least_pixels);
-  return (connected > 0).select(connected + named, objects);
+  for (std::uint32_t& number : objects.reshaped())
+    if (number != 0 && pixels.at(number) < least_pixels) number = 0;
+  const Grid<std::uint32_t> connected = connected_parts(rest, least_pixels);
+  return (connected > 0).select(connected + instances.most, objects);
 }
 
 ObjectKeys object_keys(const PixelLabels& labels, const SceneInstances& of_scene, double least_share) {
   if (labels.part.size() == 0) return {id_image(labels, least_share), of_scene};
   ObjectKeys keys{part_image(labels, least_share).cast<std::uint32_t>(), {}};
+  keys.instances.most = static_cast<std::uint32_t>(labels.part_labels.size());
   for (std::uint32_t p = 0; p < labels.part_labels.size(); ++p)
-    if (!labels.part_labels[p].empty()) keys.instances[p] = p;
+    if (!labels.part_labels[p].empty()) keys.instances.of_surfel[p] = p + 1;
   return keys;
 }
 

@@ -34,6 +34,7 @@ struct Bearings {
 // Fills the pixels of a raster whose scale and head are known; beams show to `margin` beyond the outermost ones.
 void fill_raster(FanRaster& raster, Eigen::Index rows, Eigen::Index columns, const Bearings& bearings, double margin,
                  const RangeGate& gate) {
+  raster.margin = margin;
   raster.beam = raster.bin = Grid<std::int32_t>::Constant(rows, columns, -1);
   for (Eigen::Index row = 0; row < rows; ++row)
     for (Eigen::Index column = 0; column < columns; ++column) {

@@ -29,6 +29,7 @@ Grid<Value> polar_picture(const Grid<Value>& samples, const BeamFan& fan) {
 struct FanRaster {
   Grid<std::int32_t> beam, bin;  ///< rows from the top; -1 outside the fan
   double metres_per_pixel = 0;
+  double margin = 0;                     ///< [rad] to which the outermost beams show beyond their axes
   double head_column = 0, head_row = 0;  ///< where the head is [pixels], from the corner of the first pixel
 };
 

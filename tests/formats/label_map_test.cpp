@@ -46,9 +46,16 @@ TEST(LabelMap, refuses_maps_that_do_not_fit) {
   expect_error(ErrorKind::argument, {"annotations_of", "one size"}, [] {
     annotations_of({Grid<std::uint8_t>::Zero(4, 5), Grid<std::uint16_t>::Zero(5, 4)});
   });
-  expect_error(ErrorKind::argument, {"instance 1 has pixels of categories"}, [] {
-    annotations_of({four_objects().category, Grid<std::uint16_t>::Ones(4, 5)});
-  });
+}
+
+TEST(LabelMap, an_object_of_two_categories_is_one_of_the_category_of_most_pixels) {
+  LabelMap map{Grid<std::uint8_t>::Constant(4, 5, 3), Grid<std::uint16_t>::Constant(4, 5, 9)};
+  map.category.leftCols(2).setConstant(2);  // 8 of 20 pixels
+  ASSERT_EQ(annotations_of(map).size(), 1U);
+  EXPECT_EQ(annotations_of(map)[0].category, 3);
+  EXPECT_EQ(annotations_of(map)[0].area, 20U);
+  map.category.leftCols(3).setConstant(2);
+  EXPECT_EQ(annotations_of(map)[0].category, 2);
 }
 
 TEST(LabelMap, outlines_follow_the_sides_of_pixels) {

@@ -72,6 +72,39 @@ def test_pings_along_a_way_have_the_times_and_draws_of_each(parts, simulator):
     assert not np.array_equal(made[2].pressure, first.pressure)
 
 
+classes = """schema = 1
+[[part]]
+file = "harbour.ply"
+[[scatter]]
+files = ["ball.ply", "ball.ply", "ball.ply"]
+names = ["tyre", "mine", "cinder_block"]
+count = [1, 1]
+area_m = [[4, -2], [8, -2], [8, 2], [4, 2]]
+"""
+
+
+def test_class_and_object_numbers_are_the_same_in_all_draws(parts, folder, simulator):
+    """Each draw has one of three bodies; its number means the same class in all of them."""
+    (folder / "classes.toml").write_text(classes)
+    scene = iy.load_scene(folder / "classes.toml")
+    labels = ["tyre", "mine", "cinder_block"]
+    assert [name for name in scene.material_names if name in labels] == labels  # the order of the file
+    shown = {}
+    poses = np.tile((0, 0, -2, 0, 10, 0), (8, 1))
+    for ping in simulator.pings(scene, poses, draw=np.arange(8), keep="contributors"):
+        assert ping.class_names == scene.material_names
+        assert ping.part_names == ["harbour", "cinder_block-1", "mine-1", "tyre-1"]
+        for number, name in enumerate(ping.part_names):
+            if name == "harbour":
+                continue
+            mask = ping.instance_image == number + 1
+            if mask.any():
+                shown[name] = {ping.class_names[k] for k in np.unique(ping.material_image[mask])}
+        assert not (ping.instance_image == 1).any()  # a part without a label is no object
+    assert len(shown) >= 2
+    assert all(found == {name[:-2]} for name, found in shown.items())
+
+
 @pytest.mark.parametrize("keys, said", [({"time": [0, 1]}, r"pings: time .*shape \(3,\)"), ({"draw": [0, 1, -2]}, r"pings: draw\[2\]"),
                                         ({"draw": -1}, "draw")])
 def test_times_and_draws_are_checked(parts, simulator, keys, said):

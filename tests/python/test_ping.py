@@ -146,7 +146,15 @@ def test_materials_and_instances_of_arrays(head, tmp_path):
     assert set(np.unique(ping.material_image[port])) <= {1, 65534, 65535}
     assert (ping.material_image[port] == 1).any() and (ping.material_image[ping.azimuth < -0.05] == 0).any()
     assert ping.material_image.shape == ping.instance_image.shape == ping.pressure.shape
-    assert set(np.unique(ping.instance_image)) == {0, 1, 2}
+    assert set(np.unique(ping.instance_image)) == {0, 3, 5}  # as given
+    assert ping.class_names == scene.material_names and ping.part_names == [] and scene.given_instances == {}
+    turned = iy.PingSimulator(head).ping(scene, (-2, 3, 3), yaw=25, pitch=30, keep="contributors")
+    assert set(np.unique(turned.instance_image)) <= {0, 3, 5}
+    instance[instance == 5] = 70000
+    large = iy.Scene(points, normals=up, areas=areas, material=label, instance=instance)
+    assert large.given_instances == {1: 70000}
+    ping = iy.PingSimulator(head).ping(large, (-2, 0, 3), pitch=30, keep="contributors")
+    assert set(np.unique(ping.instance_image)) == {0, 1, 3}
     sand = iy.Scene(points, normals=up, areas=areas, material="sand")
     assert "sand" in sand.material_names
     ping.save(tmp_path / "run")
@@ -170,6 +178,35 @@ def test_a_mounted_head_looks_as_its_file_says(scene, tmp_path, folder, tool):
     assert ping.world_from_head[2, 0] < -0.9  # down
     ping.save(tmp_path / "python")
     assert digests(tmp_path / "tool")["cube.h5"] == digests(tmp_path / "python")["cube.h5"]
+
+
+def test_a_mounting_is_a_key_of_a_sonar(scene, tmp_path, folder):
+    down = iy.sonar("p900-45", beams=32, min_range=1, max_range=12, mounting_deg=(0, 90, 0))
+    assert "mounting_deg = [0.0, 90.0, 0.0]" in down.toml and "mounting_deg" not in iy.sonar("p900-45").toml
+    assert iy.PingSimulator(down).ping(scene, (20, 0, -1)).world_from_head[2, 0] < -0.99
+    (tmp_path / "down.toml").write_text(down.toml)
+    again = iy.PingSimulator(iy.sonar(tmp_path / "down.toml")).ping(scene, (20, 0, -1))
+    assert np.array_equal(again.pressure, iy.PingSimulator(down).ping(scene, (20, 0, -1)).pressure)
+
+
+def test_levels_of_looks_are_of_the_intensity(head, scene):
+    ping = iy.PingSimulator(head, looks_range=4).ping(scene, (0, 0, -3), pitch=10)
+    loud = ping.intensity > 1e-6
+    expected = 10 * np.log10(ping.intensity[loud])
+    difference = ping.level_db()[loud] - expected
+    assert np.ptp(difference) < 1e-3
+    plain = 20 * np.log10(np.abs(ping.pressure[loud]))
+    assert np.std(ping.level_db()[loud] - plain) > 1
+
+
+def test_notes_are_those_of_the_tool(head, scene, folder, tool, tmp_path):
+    tool("ping", "harbour.ply", "--sonar", "p900-45", "--pose=0,0,-3,0,-89,0", "--range", "1:4", "--set",
+         "sonar.beams=32", "-o", tmp_path / "away", folder=folder)
+    by_tool = json.loads((tmp_path / "away" / "manifest.json").read_text())["notes"]
+    away = iy.sonar("p900-45", beams=32, min_range=1, max_range=4)
+    notes = iy.PingSimulator(away).ping(scene, (0, 0, -3), pitch=-89).notes
+    assert notes and all(note in by_tool for note in notes)
+    assert [note for note in by_tool if note not in notes + scene.notes] == []
 
 
 def test_pictures(simulator, scene, tmp_path):

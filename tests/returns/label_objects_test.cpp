@@ -30,27 +30,33 @@ TEST(LabelObjects, parts_are_connected_by_sides_and_corners) {
   EXPECT_EQ(large(3, 0), 3U);
 }
 
-TEST(LabelObjects, keys_are_numbered_in_their_order) {
-  const Grid<std::uint32_t> number = numbered_keys(three_parts_of_two() * 100, 1);
-  EXPECT_EQ(number(0, 1), 1U);
-  EXPECT_EQ(number(3, 4), 1U);
-  EXPECT_EQ(number(0, 4), 2U);
-  EXPECT_EQ(numbered_keys(three_parts_of_two(), 3).maxCoeff(), 1U);  // key 3 has two pixels
+TEST(LabelObjects, given_ids_stay_and_larger_ones_have_the_lowest_free_numbers) {
+  const SceneInstances all =
+      number_instances({{5, 1}, {6, 65534}, {7, 4000000000}, {8, 65535}, {9, 3}, {10, 0}, {11, 65535}});
+  EXPECT_EQ(all.of_surfel,
+            (std::unordered_map<std::uint32_t, std::uint32_t>{{5, 1}, {6, 65534}, {7, 4}, {8, 2}, {9, 3}, {11, 2}}));
+  EXPECT_EQ(all.renumbered, (std::map<std::uint32_t, std::uint32_t>{{2, 65535}, {4, 4000000000}}));
+  EXPECT_EQ(all.most, 65534U);
+  EXPECT_EQ(number_instances({}), SceneInstances{});
 }
 
-TEST(LabelObjects, instances_of_the_scene_come_before_connected_parts) {
-  Grid<std::uint32_t> id(4, 5);  // surfels 10 and 11 are of instance 0, 12 of instance 7
+TEST(LabelObjects, keep_the_ids_of_the_scene_and_connected_parts_come_above_all_of_them) {
+  Grid<std::uint32_t> id(4, 5);  // surfels 10 and 11 are of object 42, 12 of object 7; 13 of 100 is in no pixel
   id << 0, 10, 12, 0, 12,        //
       0, 11, 0, 99, 0,           //
       0, 0, 0, 0, 0,             //
       10, 99, 0, 0, 98;
   Grid<std::uint32_t> expected(4, 5);
-  expected << 0, 1, 2, 0, 3,  // instance 7 is of two kinds, and so two objects
-      0, 1, 0, 4, 0,          //
-      0, 0, 0, 0, 0,          //
-      1, 5, 0, 0, 6;
-  EXPECT_TRUE((number_objects(three_parts_of_two(), id, {{10, 0}, {11, 0}, {12, 7}}) == expected).all());
+  expected << 0, 42, 7, 0, 7,  // object 7 is of two kinds, and one nevertheless
+      0, 42, 0, 101, 0,        //
+      0, 0, 0, 0, 0,           //
+      42, 102, 0, 0, 103;
+  const SceneInstances instances = number_instances({{10, 42}, {11, 42}, {12, 7}, {13, 100}});
+  EXPECT_TRUE((number_objects(three_parts_of_two(), id, instances) == expected).all());
   EXPECT_TRUE((number_objects(three_parts_of_two(), id, {}) == connected_parts(three_parts_of_two(), 1)).all());
+  const Grid<std::uint32_t> large = number_objects(three_parts_of_two(), id, instances, 3);
+  EXPECT_EQ(large.maxCoeff(), 42U);  // of three pixels
+  EXPECT_EQ(large(0, 2), 0U);
   expect_error(ErrorKind::argument, {"number_objects", "one size"},
                [] { number_objects(three_parts_of_two(), Grid<std::uint32_t>::Zero(5, 4), {}); });
 }
@@ -63,7 +69,7 @@ TEST(LabelObjects, shadow_and_weak_labels_are_of_no_object) {
   labels.share << 0.9F, 0.4F, 0, 0, 0.9F;
   Grid<std::uint32_t> apart(1, 5), joined(1, 5);
   apart << 1, 0, 0, 0, 2;
-  joined << 1, 0, 0, 0, 1;
+  joined << 3, 0, 0, 0, 3;
   EXPECT_TRUE((instance_image(labels) == apart).all());
-  EXPECT_TRUE((instance_image(labels, {{4, 3}}) == joined).all());
+  EXPECT_TRUE((instance_image(labels, number_instances({{4, 3}})) == joined).all());
 }

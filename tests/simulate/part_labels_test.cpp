@@ -73,8 +73,8 @@ TEST(PartLabels, name_class_and_part_of_every_pixel) {
     EXPECT_GT(classes[pot]["pot"], 3) << pot;
   }
   // Objects: the two pots by their parts, all else by what touches.
-  const ObjectKeys keys = object_keys(labels, {{7, 7}}, 0.5);
-  EXPECT_EQ(keys.instances, (SceneInstances{{2, 2}, {3, 3}}));
+  const ObjectKeys keys = object_keys(labels, number_instances({{7, 7}}), 0.5);
+  EXPECT_EQ(keys.instances, (SceneInstances{{{2, 3}, {3, 4}}, {}, 4}));
 }
 
 TEST(PartLabels, have_the_extents_of_a_sphere_and_all_of_its_share) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "tool/dataset/dataset_split.hpp"
 #include "tool/dataset_fixture.hpp"
 
 namespace {
@@ -54,7 +55,7 @@ bool lies_in(const nlohmann::json& box, const nlohmann::json& whole, int more) {
 
 TEST_F(DatasetOfParts, has_each_part_as_an_object_with_its_class_pose_and_boxes) {
   survey_of("", "scene = \"ping\"\n");
-  succeed("dataset survey -o set --split 100:0:0 --least-pixels 4");
+  succeed("dataset survey -o set --split 100:0:0 --least-pixels 4 --min-contrast=-1000");
   std::map<std::string, nlohmann::json> meta_of;
   std::set<std::string> layouts;
   for (const nlohmann::json& image : meta()) {
@@ -134,4 +135,52 @@ TEST_F(DatasetOfParts, has_empty_images_and_splits_by_draws) {
   EXPECT_EQ(used, (std::set<std::string>{"test", "train", "val"}));
   EXPECT_GE(empty, 1U);
   EXPECT_LE(empty, 7U);
+}
+
+// What the shares ask of images they ask of classes, too: none is in train alone.
+TEST(DatasetSplit, divides_classes_by_the_shares) {
+  std::vector<insonify::tool::DatasetSource> sources(40);
+  for (std::size_t d = 0; d < sources.size(); ++d) {
+    sources[d].run = "run" + std::to_string(d), sources[d].run_index = d;
+    sources[d].draw_key = "scene 1 " + std::to_string(d);
+    sources[d].track.resize(1);
+    sources[d].shows = {{d % 10 == 0 ? "rare" : d % 2 == 0 ? "even" : "odd"}};
+  }
+  insonify::tool::split_pings(sources, "draw", {50, 25, 25});
+  std::map<std::string, std::map<std::string, int>> count;
+  for (const auto& source : sources) ++count[*source.shows[0].begin()][source.split.at(0)];
+  EXPECT_EQ(count["rare"], (std::map<std::string, int>{{"train", 2}, {"val", 1}, {"test", 1}}));
+  EXPECT_EQ(count["odd"], (std::map<std::string, int>{{"train", 10}, {"val", 5}, {"test", 5}}));
+  EXPECT_EQ(count["even"], (std::map<std::string, int>{{"train", 8}, {"val", 4}, {"test", 4}}));
+}
+
+// Runs of single pings are of the draws that they were made with.
+TEST_F(DatasetOfParts, splits_single_pings_by_their_draws) {
+  survey_of("", "scene = \"ping\"\n");
+  std::string runs;
+  for (const int run : {0, 1, 2, 3}) {
+    const std::string name = "draw" + std::to_string(run);
+    succeed("ping scene.toml --sonar p900-45 --set sonar.beams=48 --pose=0," + std::to_string(run % 2) +
+            ",4,0,25,0 --range 2:14 --no-picture -q --keep contributors --draw " + std::to_string(run / 2) + " -o " +
+            name);
+    runs += name + " ";
+  }
+  const auto said = nlohmann::json::parse(
+      succeed("dataset " + runs + "-o set --split 50:50:0 --split-by draw --least-pixels 4 --json -q"));
+  const std::vector<nlohmann::json> images = meta();
+  EXPECT_EQ(images[0]["split"], images[1]["split"]);
+  EXPECT_EQ(images[2]["split"], images[3]["split"]);
+  EXPECT_NE(images[0]["split"], images[2]["split"]);
+  std::size_t polar = 0;
+  for (const auto& [name, parts] : said["boxes_by_class"].items())
+    for (const auto& [split, forms] : parts.items()) polar += forms["polar"].get<std::size_t>();
+  EXPECT_EQ(polar, said["boxes"]["polar"].get<std::size_t>());
+  EXPECT_GT(polar, 0U);
+  // What the numbers of images and objects mean is beside them.
+  EXPECT_EQ(images[0]["azimuths_deg"].size(), 48U);
+  EXPECT_NEAR(images[0]["field_of_view_deg"].get<double>(), 45, 1.5);
+  EXPECT_GT(images[0]["elevation_width_deg"].get<double>(), 5);
+  std::vector<std::string> names;
+  for (const auto& part : images[0]["parts"]) names.push_back(part["part"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"plane", "ball-1", "ball-2", "ball-3", "pot-1", "pot-2", "pot-3"}));
 }

@@ -32,7 +32,7 @@ TEST_F(PartsOfTool, prepare_writes_one_cloud_with_the_part_of_each_surfel) {
   // In the order of names: crate, diver, harbour. The diver moved by 3 m along y, all else rests.
   std::array<std::size_t, 3> count{};
   for (std::size_t i = 0; i < surfels; ++i) {
-    const auto part = static_cast<std::size_t>(field.value[i]);
+    const auto part = static_cast<std::size_t>(field.value[i]) - 1;
     ++count.at(part);
     const Eigen::Vector3d by = later.scene.origin + later.scene.point[i].cast<double>() - start.scene.origin -
                                start.scene.point[i].cast<double>();

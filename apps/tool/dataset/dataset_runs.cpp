@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "core/error.hpp"
 #include "files/path_status.hpp"
 #include "files/sha256.hpp"
 #include "store/survey_run.hpp"
+#include "tool/run/parts_of_pings.hpp"
 #include "tool/run/ping_setup.hpp"
 #include "tool/run/run_pings.hpp"
 #include "tool/run/scene_files.hpp"
@@ -65,7 +68,10 @@ std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs)
     } else {
       DatasetSource& source = sources.emplace_back();
       source.run = run, source.cubes = {run_cube_path(run)};
-      find_scene(source, is_folder(run) ? run : fs::path(run).parent_path().string());
+      const std::string folder = is_folder(run) ? run : fs::path(run).parent_path().string();
+      find_scene(source, folder);
+      const RunDraws draws = draws_of_run(folder);
+      source.draw_key = source.scene_digest + fmt::format(" {} {}", draws.seed, draws.rule.draw);
     }
     for (std::size_t s = before; s < sources.size(); ++s) {
       sources[s].run_index = r;

@@ -49,15 +49,62 @@ std::vector<std::string> parts_of(std::size_t units, const std::vector<double>& 
   return parts;
 }
 
+/// The parts of units by the classes that they show: each class, the rarest first, is divided by the shares as well as it
+/// goes (iterative stratification: Sechidis, Tsoumakas, Vlahavas 2011). As many units are in each part as of parts_of.
+std::vector<std::string> stratified(const std::vector<std::set<std::string>>& shown,
+                                    const std::vector<double>& shares) {
+  std::array<std::size_t, 3> room = counts_of(shown.size(), shares);
+  std::map<std::string, std::vector<std::size_t>> units_of;
+  for (std::size_t u = 0; u < shown.size(); ++u)
+    for (const std::string& name : shown[u]) units_of[name].push_back(u);
+  std::vector<std::string> parts(shown.size());
+  std::map<std::string, std::array<std::size_t, 3>> given;  // units of a class in each part
+  const auto assign = [&](std::size_t unit, std::size_t part) {
+    parts[unit] = split_names[part], --room[part];
+    for (const std::string& name : shown[unit]) ++given[name][part];
+  };
+  std::vector<std::pair<std::size_t, std::string>> rarest;
+  for (const auto& [name, units] : units_of) rarest.emplace_back(units.size(), name);
+  std::sort(rarest.begin(), rarest.end());
+  for (const auto& [count, name] : rarest) {
+    const auto wanted = counts_of(count, shares);
+    for (const std::size_t unit : units_of[name]) {
+      if (!parts[unit].empty()) continue;
+      const auto lack = [&](std::size_t k) {
+        return static_cast<double>(wanted[k]) - static_cast<double>(given[name][k]);
+      };
+      std::optional<std::size_t> best;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (room[k] > 0 && (!best || lack(k) > lack(*best))) best = k;
+      assign(unit, *best);
+    }
+  }
+  std::size_t part = 0;
+  for (std::size_t unit = 0; unit < parts.size(); ++unit) {
+    if (!parts[unit].empty()) continue;
+    while (room[part] == 0) ++part;
+    assign(unit, part);
+  }
+  return parts;
+}
+
 /// A ping, and the key of its unit; units are in the order of their keys.
+///
+/// by_class   the classes that pings show are divided by the shares, too; else units stay in order
 template <typename Key>
-void split_by(std::vector<DatasetSource>& sources, const std::vector<double>& shares, const Key& key) {
-  std::map<std::string, std::string> part_of;
+void split_by(std::vector<DatasetSource>& sources, const std::vector<double>& shares, bool by_class, const Key& key) {
+  std::map<std::string, std::set<std::string>> shown;
   for (const DatasetSource& source : sources)
-    for (const TrackPoint& ping : source.track) part_of[key(source, ping)];
-  const std::vector<std::string> parts = parts_of(part_of.size(), shares);
+    for (std::size_t p = 0; p < source.track.size(); ++p) {
+      std::set<std::string>& of_unit = shown[key(source, source.track[p])];
+      if (by_class && p < source.shows.size()) of_unit.insert(source.shows[p].begin(), source.shows[p].end());
+    }
+  std::vector<std::set<std::string>> of_units;
+  for (const auto& [name, classes] : shown) of_units.push_back(classes);
+  const std::vector<std::string> parts = stratified(of_units, shares);
+  std::map<std::string, std::string> part_of;
   std::size_t unit = 0;
-  for (auto& [name, part] : part_of) part = parts[unit++];
+  for (const auto& [name, classes] : shown) part_of[name] = parts[unit++];
   for (DatasetSource& source : sources)
     for (const TrackPoint& ping : source.track) source.split.push_back(part_of.at(key(source, ping)));
 }
@@ -70,7 +117,7 @@ void split_by_leg(std::vector<DatasetSource>& sources, const std::vector<double>
   for (const DatasetSource& source : sources)
     if (is_survey_run(source.run) && !legs.contains(source.run_index))
       legs[source.run_index] = load_mission((fs::path(source.run) / "mission.toml").string()).mission.legs;
-  split_by(sources, shares, [&](const DatasetSource& source, const TrackPoint& ping) {
+  split_by(sources, shares, false, [&](const DatasetSource& source, const TrackPoint& ping) {
     return run_key(source) + fmt::format("{:08}", leg_at(legs[source.run_index], ping.time));
   });
 }
@@ -93,10 +140,12 @@ void split_by_region(std::vector<DatasetSource>& sources, const std::vector<doub
 /// Draws of a scene's bodies in a random order, the same one each time.
 void split_by_draw(std::vector<DatasetSource>& sources, const std::vector<double>& shares) {
   for (const DatasetSource& source : sources)
-    if (!source.randomisation || source.randomisation->spread.scene_pings == 0)
+    if (source.draw_key.empty() && (!source.randomisation || source.randomisation->spread.scene_pings == 0))
       fail(ErrorKind::argument, "--split-by draw: ", source.run,
-           " is no survey that draws its scene anew; give [randomise] scene in its mission, or split by another unit");
-  split_by(sources, shares, [](const DatasetSource& source, const TrackPoint& ping) {
+           " is a survey that does not draw its scene anew; give [randomise] scene in its mission, or split by another "
+           "unit");
+  split_by(sources, shares, true, [](const DatasetSource& source, const TrackPoint& ping) {
+    if (!source.draw_key.empty()) return sha256_of(source.draw_key);
     return sha256_of(run_key(source) + fmt::format("{}", ping.number / source.randomisation->spread.scene_pings));
   });
 }
@@ -118,7 +167,8 @@ const std::vector<SplitUnit>& split_units() {
        "a leg of a mission, or a run without a mission, is in one part; neighbouring legs see the same bed"},
       {"region", "stretches of track",
        "each run's track is cut into one stretch for each part; images near a cut see the same bed"},
-      {"draw", "draws", "scenes are drawn anew ([randomise] scene); what one draw shows is in one part"},
+      {"draw", "draws",
+       "scenes are drawn anew ([randomise] scene, or runs of several draws); what one draw shows is in one part"},
       {"ping", "pings", "pings are drawn; an image and the one after it show nearly the same"}};
   return all;
 }
@@ -131,7 +181,7 @@ void split_pings(std::vector<DatasetSource>& sources, const std::string& unit, c
     return sha256_of(run_key(source) + source.head + fmt::format(" {} {:a}", ping.number, ping.time));
   };
   if (unit == "draw") return split_by_draw(sources, shares);
-  unit == "ping" ? split_by(sources, shares, drawn) : split_by(sources, shares, scene);
+  unit == "ping" ? split_by(sources, shares, true, drawn) : split_by(sources, shares, true, scene);
 }
 
 void SplitTally::add(const std::string& split, const std::string& scene_digest, const Eigen::Vector3d& place,

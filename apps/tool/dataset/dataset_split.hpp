@@ -25,7 +25,9 @@ const std::vector<SplitUnit>& split_units();
 /// Gives every ping of the sources to train, val or test: `unit` names what stays together, `shares` are those of units
 /// (of regions: of the pings of each run). Each share above 0 gets a unit as long as there are units: train first, then
 /// val. Scenes go by their digests, legs in the order of runs and missions, a region is one stretch of a run's track
-/// for each part, the same for all its heads, and pings are drawn, the same ones each time. Throws as load_mission.
+/// for each part, the same for all its heads, and pings are drawn, the same ones each time. Scenes, draws and pings are
+/// given so that each class that DatasetSource::shows lists is in the parts by their shares, as well as it goes. A
+/// run that is no survey is of the draw in its run.toml. Throws as load_mission.
 void split_pings(std::vector<DatasetSource>& sources, const std::string& unit, const std::vector<double>& shares);
 
 /// Counts images by part, and those that may show what training shows.

@@ -13,8 +13,10 @@
 #include "core/units.hpp"
 #include "files/pending_file.hpp"
 #include "files/sha256.hpp"
+#include "returns/fan_areas.hpp"
 #include "returns/looks.hpp"
 #include "store/run_manifest.hpp"
+#include "tool/dataset/box_contrast.hpp"
 #include "tool/dataset/label_pictures.hpp"
 #include "tool/run/run_checks.hpp"
 #include "view/grey_file.hpp"
@@ -26,17 +28,16 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The objects of a picture of samples: by the scene's own instances, else connected parts of a class. `stuff` has
-/// none.
-Grid<std::uint16_t> objects_of(const DatasetSource& source, const PixelLabels& labels, double share,
-                               const Grid<std::uint8_t>& category, const std::set<std::uint8_t>& stuff,
-                               std::size_t least_pixels) {
+/// The objects of a ping's samples: by the scene's own instances, else connected parts of a class. `stuff` has none.
+Grid<std::uint16_t> objects_of(const ObjectKeys& keys, const Grid<std::uint8_t>& category,
+                               const std::set<std::uint8_t>& stuff, std::size_t least_pixels) {
   const Grid<std::uint32_t> kind = category.unaryExpr(
       [&](std::uint8_t value) { return value != 0 && !stuff.contains(value) ? std::uint32_t{value} : 0; });
-  const ObjectKeys keys = object_keys(labels, source.instances, share);
   const Grid<std::uint32_t> objects = number_objects(kind, keys.id, keys.instances, least_pixels);
   if (objects.size() > 0 && objects.maxCoeff() > 65535)
-    fail(ErrorKind::content, "an image has more than 65535 objects; ask for more with --least-pixels");
+    fail(ErrorKind::content, "an image has an object with the number ", objects.maxCoeff(),
+         ", above 65535: objects without an instance count from the largest instance, ", keys.instances.most,
+         "; give smaller instances, or ask for larger objects with --least-pixels");
   return objects.cast<std::uint16_t>();
 }
 
@@ -50,6 +51,18 @@ ordered_json pose_json(const Pose& pose) {
   return rows;
 }
 
+std::vector<double> degrees_of(const std::vector<double>& angles) {
+  std::vector<double> all;
+  for (const double angle : angles) all.push_back(degrees(angle));
+  return all;
+}
+
+/// Between the outermost sides of the beams.
+double field_of_view_deg(const BeamFan& fan) {
+  const auto [least, most] = std::ranges::minmax(fan.azimuth);
+  return degrees(most - least + fan.beam_width);
+}
+
 ordered_json randomised_json(const RandomisedPing& by) {
   return {{"source_level_db", by.source_level_db},
           {"noise_db", by.noise_db},
@@ -57,6 +70,19 @@ ordered_json randomised_json(const RandomisedPing& by) {
           {"salinity_psu", by.salinity_psu},
           {"position_m", {by.position.x(), by.position.y(), by.position.z()}},
           {"yaw_pitch_roll_deg", {degrees(by.angles[0]), degrees(by.angles[1]), degrees(by.angles[2])}}};
+}
+
+/// Adds the contrasts in both forms to objects of parts, where they have pixels.
+ordered_json with_contrasts(ordered_json objects, const std::map<std::uint16_t, std::optional<double>>& polar,
+                            const std::map<std::uint16_t, std::optional<double>>& fan) {
+  const auto of = [](const ordered_json& object, const auto& contrasts) -> ordered_json {
+    if (object["instance"].is_null()) return nullptr;
+    const auto found = contrasts.find(object["instance"].template get<std::uint16_t>());
+    return found == contrasts.end() || !found->second ? ordered_json() : ordered_json(*found->second);
+  };
+  for (ordered_json& object : objects)
+    object["polar_contrast_db"] = of(object, polar), object["fan_contrast_db"] = of(object, fan);
+  return objects;
 }
 
 }  // namespace
@@ -97,33 +123,62 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
   std::set<std::uint8_t> stuff;
   for (std::size_t k = 1; k < classes_.size(); ++k)
     if (!is_thing(k)) stuff.insert(static_cast<std::uint8_t>(k));
-  const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, options_.share, classes_), level,
-                                                    parse_min_level(options_.min_level, window_.min_db));
-  const Grid<std::uint16_t> object =
-      objects_of(source, ping.labels, options_.share, category, stuff, static_cast<std::size_t>(options_.least_pixels));
+  const std::optional<double> least = parse_min_level(options_.min_level, window_.min_db);
+  const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, options_.share, classes_), level, least);
+  const ObjectKeys keys = object_keys(ping.labels, source.instances, options_.share);
+  const Grid<std::uint16_t> object = objects_of(keys, category, stuff, static_cast<std::size_t>(options_.least_pixels));
+  ObjectsOf objects{parts_of_objects(ping.labels, options_.share, object), keys.instances.most};
 
-  // The same labels in both forms.
+  // The same samples in both forms: each in one pixel, or all that a pixel covers.
   const FanRaster& raster = raster_of(ping);
-  save_grey_png(directory_.file("polar/images/" + image.name + ".png"),
-                polar_picture(quantise_16(level, window_), ping.fan));
-  const Grid<std::uint8_t> shown = fan_picture(quantise_8(level, window_), raster, std::uint8_t{0});
+  const FormOf polar{{ping},
+                     {polar_picture(category, ping.fan), polar_picture(object, ping.fan)},
+                     polar_picture(level, ping.fan),
+                     objects};
+  for (const Annotation& a : annotations_of(polar.map)) objects.classes[a.instance] = a.category;
+  const FanPixels seen = pixels_above(fan_pixels({level, category, object}, ping.fan, ping.gate, raster), least);
+  const FormOf fan{{ping, &raster}, {seen.category, seen.instance}, seen.level_db, objects};
+  const Grid<std::uint8_t> shown = quantise_8(fan.level_db, window_);
+  save_grey_png(directory_.file("polar/images/" + image.name + ".png"), quantise_16(polar.level_db, window_));
   save_grey_png(directory_.file("fan/images/" + image.name + ".png"), shown);
-  const LabelMap polar{polar_picture(category, ping.fan), polar_picture(object, ping.fan)};
-  const LabelMap fan{fan_picture(category, raster, std::uint8_t{0}), fan_picture(object, raster, std::uint16_t{0})};
   ++images_;
-  const FormOf of_polar{{ping}, parts_of_objects(ping.labels, options_.share, object)};
-  const FormOf of_fan{{ping, &raster}, of_polar.parts};
-  add_form(polar_, image, polar, of_polar);
-  add_form(fan_, image, fan, of_fan);
-  sheet_.add(shown, annotations_of(fan));
-  ordered_json meta = meta_of(source, cube, ping, image, polar);
+  ordered_json meta = meta_of(source, cube, ping, image, polar.map);
+  const Contrasts of_polar = add_form(polar_, image, polar), of_fan = add_form(fan_, image, fan);
+  sheet_.add(shown, boxed_of_sheet_);
   if (!ping.labels.views.empty())
-    meta["objects"] = part_objects_json(ping.labels, of_polar.parts, of_polar.picture, of_fan.picture);
+    meta["objects"] = with_contrasts(part_objects_json(ping.labels, objects.parts, polar.picture, fan.picture),
+                                     of_polar.of, of_fan.of);
+  meta["unboxed"] = {{"polar", of_polar.unboxed}, {"fan", of_fan.unboxed}};
   meta_ += meta.dump() + "\n";
   tally_.add(image.split, source.scene_digest, ping.world_from_head.translation(), ping.gate.max_range);
 }
 
-void DatasetWriter::add_form(Form& form, const DatasetImage& image, const LabelMap& map, const FormOf& of) {
+ordered_json DatasetWriter::annotation_of(const Annotation& a, const FormOf& of, std::optional<double> contrast) {
+  const bool connected = a.instance > of.objects.most_given;
+  ordered_json annotation = {
+      {"id", annotations_},
+      {"image_id", images_},
+      {"category_id", a.category},
+      {"instance", a.instance},
+      {"bbox", {a.left, a.top, a.width, a.height}},
+      {"area", a.area},
+      {"iscrowd", 0},
+      {"segmentation", {{"size", {of.map.category.rows(), of.map.category.cols()}}, {"counts", a.counts}}},
+      {"found_by", connected                                   ? "connection"
+                   : of.picture.ping.labels.part_names.empty() ? "instance"
+                                                               : "part"},
+      {"contrast_db", contrast ? ordered_json(*contrast) : ordered_json()}};
+  if (const auto part = of.objects.parts.find(a.instance); part != of.objects.parts.end()) {
+    const PartView& view = of.picture.ping.labels.views.at(part->second);
+    annotation["part"] = of.picture.ping.labels.part_names[part->second];
+    annotation["visible_share"] = view.visible_share;
+    if (const auto box = whole_box(view, of.picture)) annotation["bbox_whole"] = *box;
+  }
+  return annotation;
+}
+
+DatasetWriter::Contrasts DatasetWriter::add_form(Form& form, const DatasetImage& image, const FormOf& of) {
+  const LabelMap& map = of.map;
   const auto path = [&](const char* folder, const char* ending) {
     return directory_.file(form.name + "/" + folder + "/" + image.name + ending);
   };
@@ -133,34 +188,39 @@ void DatasetWriter::add_form(Form& form, const DatasetImage& image, const LabelM
   for (const std::uint8_t category : map.category.reshaped()) ++form.pixels[category];
 
   ordered_json& coco = form.coco.try_emplace(image.split, empty_coco()).first->second;
-  const auto rows = map.category.rows(), columns = map.category.cols();
-  coco["images"].push_back({{"id", images_}, {"file_name", image.name + ".png"}, {"width", columns}, {"height", rows}});
-  for (const Annotation& a : annotations_of(map)) {
-    ++annotations_, ++form.boxes;
-    ordered_json annotation = {{"id", annotations_},
-                               {"image_id", images_},
-                               {"category_id", a.category},
-                               {"instance", a.instance},
-                               {"bbox", {a.left, a.top, a.width, a.height}},
-                               {"area", a.area},
-                               {"iscrowd", 0},
-                               {"segmentation", {{"size", {rows, columns}}, {"counts", a.counts}}}};
-    if (const auto part = of.parts.find(a.instance); part != of.parts.end()) {
-      const PartView& view = of.picture.ping.labels.views.at(part->second);
-      annotation["part"] = of.picture.ping.labels.part_names[part->second];
-      annotation["visible_share"] = view.visible_share;
-      if (const auto box = whole_box(view, of.picture)) annotation["bbox_whole"] = *box;
+  coco["images"].push_back({{"id", images_},
+                            {"file_name", image.name + ".png"},
+                            {"width", map.category.cols()},
+                            {"height", map.category.rows()}});
+  Contrasts contrasts;
+  boxed_of_sheet_.clear();
+  for (Annotation a : annotations_of(map)) {
+    if (const auto known = of.objects.classes.find(a.instance); known != of.objects.classes.end())
+      a.category = known->second;
+    const std::optional<double> contrast = contrast_db(of.level_db, map.instance, a, of.picture.fan);
+    contrasts.of[a.instance] = contrast;
+    if (contrast && *contrast < options_.min_contrast) {
+      ++form.unboxed;
+      contrasts.unboxed.push_back(
+          {{"instance", a.instance}, {"class", classes_[a.category]}, {"contrast_db", *contrast}});
+      continue;
     }
-    coco["annotations"].push_back(std::move(annotation));
+    ++annotations_, ++form.boxes;
+    coco["annotations"].push_back(annotation_of(a, of, contrast));
     if (options_.polygons) form.outlines[image.split].push_back(outlines_of(map.instance, a.instance));
+    boxed_of_sheet_.push_back(std::move(a));
   }
   form.lists[image.split] += "./images/" + image.name + ".png\n";
+  return contrasts;
 }
 
 ordered_json DatasetWriter::meta_of(const DatasetSource& source, const Cube& cube, const Ping& ping,
                                     const DatasetImage& image, const LabelMap& map) {
   std::vector<std::size_t> pixels(classes_.size());
   for (const std::uint8_t category : map.category.reshaped()) ++pixels[category];
+  if (!source.instances.renumbered.empty())
+    for (const auto& [number, given] : source.instances.renumbered)
+      renumbered_[source.scene_digest][std::to_string(number)] = given;
   ordered_json meta = {{"name", image.name},
                        {"split", image.split},
                        {"run", fs::path(source.run).filename().string()},
@@ -177,7 +237,13 @@ ordered_json DatasetWriter::meta_of(const DatasetSource& source, const Cube& cub
                        {"sound_speed", ping.sound_speed},
                        {"absorption_db_per_m", ping.absorption_db_per_m},
                        {"seed", cube.seed},
+                       {"azimuths_deg", degrees_of(ping.fan.azimuth)},
+                       {"elevations_deg", degrees_of(ping.fan.elevation)},
+                       {"field_of_view_deg", field_of_view_deg(ping.fan)},
+                       {"beam_width_deg", degrees(ping.fan.beam_width)},
+                       {"elevation_width_deg", degrees(ping.fan.elevation_width)},
                        {"min_range_m", ping.gate.min_range},
+                       {"max_range_m", ping.gate.max_range},
                        {"bin_size_m", ping.gate.bin_size},
                        {"mapping",
                         {{"min_db", window_.min_db},
@@ -185,6 +251,13 @@ ordered_json DatasetWriter::meta_of(const DatasetSource& source, const Cube& cub
                          {"tvg_db_per_decade", options_.raw ? ordered_json() : ordered_json(options_.tvg)}}},
                        {"polar_pixels", pixels}};
   if (image.row) meta["row"] = *image.row, meta["row_elevation_deg"] = degrees(ping.fan.elevation.front());
+  for (std::size_t p = 0; p < ping.labels.views.size(); ++p) {
+    const Pose& pose = ping.labels.views[p].world_from_part;
+    meta["parts"].push_back({{"part", ping.labels.part_names[p]},
+                             {"class", ping.labels.part_labels[p]},
+                             {"number", p + 1},
+                             {"world_from_part", pose.matrix().isIdentity(0) ? ordered_json() : pose_json(pose)}});
+  }
   if (source.randomisation && source.randomisation->spread.any())
     meta["randomised"] = randomised_json(randomised(source.randomisation->spread, source.randomisation->seed,
                                                     {.head = source.head_index, .number = ping.number}));
@@ -219,10 +292,15 @@ std::string DatasetWriter::card() const {
       "## Labels\n\nA pixel has the class of a material if visible surface of it lies in the pixel's own cell "
       "(half-power widths of beam and pulse) and at least {:g} of the energy heard there is of it, within the main "
       "lobe; it is shadow if surface of the scene lies there but none is visible from the head; else nothing (water, "
-      "or side lobes and multipath stronger than what is there). Objects are the scene's field `instance`, or without "
-      "it connected parts of a class, of {} pixels of the polar image at least. Holes of a scan count as "
-      "nothing{}.\n\n| value | class | polar pixels | fan pixels |\n|---|---|---|---|\n",
-      options_.share, options_.least_pixels,
+      "or side lobes and multipath stronger than what is there). A pixel of a fan image covers several samples: its "
+      "level "
+      "is that of their mean intensity by area, its class the one that most of the energy comes from. Objects are the "
+      "labelled parts of the scene or its field `instance`, with the same number in all images of a scene; the rest "
+      "are connected parts of a class, with larger numbers (`found_by`). They have {} pixels of the polar image at "
+      "least, and a box if they are {:g} dB above what is around them (`--min-contrast`): `unboxed` in `meta.jsonl` "
+      "lists the others, which stay in the masks. Holes of a scan count as nothing{}.\n\n| value | class | polar "
+      "pixels | fan pixels |\n|---|---|---|---|\n",
+      options_.share, options_.least_pixels, options_.min_contrast,
       least ? fmt::format(", and so do surfaces in pixels below {:g} dB", *least) : "");
   std::vector<std::string> in_masks_alone;
   for (std::size_t k = 0; k < classes_.size(); ++k) {
@@ -246,6 +324,19 @@ std::string DatasetWriter::card() const {
          "\n`meta.jsonl` has pose, sonar, water, seed and mapping of every image, and by how much it was randomised. "
          "`SHA256SUMS` checks the files: `sha256sum -c SHA256SUMS`.\n\nLevels are those of the simulation; scenes and "
          "their licences are the user's.\n";
+}
+
+ordered_json DatasetWriter::boxes_by_class() const {
+  ordered_json boxes = ordered_json::object();
+  for (const std::size_t k : boxed_classes())
+    for (const std::string& split : split_names)
+      for (const Form* form : {&polar_, &fan_}) {
+        if (!form->coco.contains(split)) continue;
+        std::size_t count = 0;
+        for (const auto& a : form->coco.at(split)["annotations"]) count += a["category_id"].get<std::size_t>() == k;
+        boxes[classes_[k]][split][form->name] = count;
+      }
+  return boxes;
 }
 
 // The classes that a box of either form has, by their values in masks; YOLO numbers them in this order from 0.
@@ -334,8 +425,11 @@ void DatasetWriter::finish() {
                               {"images", images_},
                               {"annotations", annotations_},
                               {"boxes", {{"polar", polar_.boxes}, {"fan", fan_.boxes}}},
+                              {"unboxed", {{"polar", polar_.unboxed}, {"fan", fan_.unboxed}}},
                               {"boxed_classes", boxed_names},
+                              {"boxes_by_class", boxes_by_class()},
                               {"classes", classes_},
+                              {"renumbered_instances", renumbered_},
                               {digests_key, digests}});
 }
 

@@ -28,6 +28,7 @@ struct DatasetOptions {
   double share = least_label_share;  ///< of a pixel's energy, at least, for its class
   std::string min_level;             ///< [dB] or black, below which surfaces have no class; empty: none
   int least_pixels = 20;             ///< of an object
+  double min_contrast = 3;           ///< [dB] of an object to what is around it, for a box
   int columns = 512;                 ///< of fan pictures
   double tvg = 40;                   ///< [dB per decade of range]
   bool raw = false;                  ///< no TVG
@@ -61,7 +62,12 @@ class DatasetWriter {
   /// Boxes of a form, polar or fan.
   std::size_t boxes_of_polar() const { return polar_.boxes; }
   std::size_t boxes_of_fan() const { return fan_.boxes; }
+  /// Objects without a box, since their contrast is too small.
+  std::size_t unboxed_of_polar() const { return polar_.unboxed; }
+  std::size_t unboxed_of_fan() const { return fan_.unboxed; }
   const SplitTally& tally() const { return tally_; }
+  /// Boxes by class, part and form, of all parts that have images.
+  nlohmann::ordered_json boxes_by_class() const;
 
  private:
   /// One of the two forms of the images, polar or fan.
@@ -69,16 +75,30 @@ class DatasetWriter {
     std::string name;
     std::map<std::string, nlohmann::ordered_json> coco{};  ///< of each split
     std::map<std::string, std::string> lists{};
-    std::vector<std::size_t> pixels{};  ///< of each class
-    std::size_t boxes = 0;
+    std::vector<std::size_t> pixels{};                         ///< of each class
+    std::size_t boxes = 0, unboxed = 0;                        ///< unboxed: objects of too little contrast
     std::map<std::string, nlohmann::ordered_json> outlines{};  ///< of each split: polygons of its annotations, in order
   };
-  /// How a form shows a ping, and the parts of its objects.
+  /// The objects of a ping, in either form.
+  struct ObjectsOf {
+    std::map<std::uint16_t, std::size_t> parts;       ///< of a scene of parts
+    std::uint32_t most_given = 0;                     ///< objects of larger numbers are connected pixels
+    std::map<std::uint16_t, std::uint8_t> classes{};  ///< that of most pixels of the polar image
+  };
+  /// How a form shows a ping.
   struct FormOf {
     PictureOf picture;
-    std::map<std::uint16_t, std::size_t> parts;
+    LabelMap map;
+    Grid<float> level_db;
+    const ObjectsOf& objects;
   };
-  void add_form(Form& form, const DatasetImage& image, const LabelMap& map, const FormOf& of);
+  /// Writes one image; returns the contrasts of its objects, and what has no box for it.
+  struct Contrasts {
+    std::map<std::uint16_t, std::optional<double>> of{};
+    nlohmann::ordered_json unboxed = nlohmann::ordered_json::array();
+  };
+  Contrasts add_form(Form& form, const DatasetImage& image, const FormOf& of);
+  nlohmann::ordered_json annotation_of(const Annotation& a, const FormOf& of, std::optional<double> contrast);
   nlohmann::ordered_json meta_of(const DatasetSource& source, const Cube& cube, const Ping& ping,
                                  const DatasetImage& image, const LabelMap& map);
   nlohmann::ordered_json empty_coco() const;
@@ -97,7 +117,9 @@ class DatasetWriter {
   std::size_t images_ = 0, annotations_ = 0;
   Form polar_{"polar"}, fan_{"fan"};
   std::string meta_, sonars_;
-  ContactSheet sheet_;  ///< of fan images
+  ContactSheet sheet_;                                                    ///< of fan images
+  std::vector<Annotation> boxed_of_sheet_;                                ///< of the image that was added last
+  nlohmann::ordered_json renumbered_ = nlohmann::ordered_json::object();  ///< ids given to instances, by scene
   std::map<std::string, FanRaster> rasters_;
   SplitTally tally_;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,6 +41,9 @@ void add_options(OptionList list, DatasetOptions& o) {
   list.add("--min-level", &o.min_level, min_level_help);
   list.add("--least-pixels", &o.least_pixels, "least number of pixels of an object in the polar image",
            {.within = std::pair(1, 1 << 30), .shown_as = "INT"});
+  list.add("--min-contrast", &o.min_contrast,
+           "[dB] least level of an object over that of the ring around it, for a box; masks keep all; below 0: darker "
+           "objects have boxes, too");
   list.add("--columns", &o.columns, "[pixels] width of fan images", {.within = std::pair(16, 8192), .shown_as = "INT"});
   list.add("--stuff", &o.stuff, "classes without boxes, separated by commas, e.g. sand; shadow has none at all",
            {.comma_separated = true});
@@ -107,13 +111,33 @@ class LevelCounts {
   std::size_t samples_ = 0;
 };
 
-/// The window of 60 dB whose top, a multiple of 5 dB, one sample in 1000 of all images exceeds.
-GreyWindow window_of(const std::vector<DatasetSource>& sources, const DatasetOptions& o) {
+/// Classes that a ping may have boxes of: those of as many pixels as an object must have.
+std::set<std::string> shown_classes(const Ping& ping, const DatasetOptions& o) {
+  std::vector<int> pixels(ping.labels.names.size());
+  const Grid<std::uint16_t> image = material_image(ping.labels, o.share);
+  for (const std::uint16_t material : image.reshaped())
+    if (material < PixelLabels::shadow) ++pixels.at(material);
+  std::set<std::string> shown;
+  for (std::size_t k = 0; k < pixels.size(); ++k)
+    if (pixels[k] >= o.least_pixels && std::ranges::find(o.stuff, ping.labels.names[k]) == o.stuff.end())
+      shown.insert(ping.labels.names[k]);
+  return shown;
+}
+
+/// Lists the classes that pings show, and returns the window of 60 dB whose top, a multiple of 5 dB, one sample in 1000
+/// of all images exceeds, or that of the options.
+GreyWindow survey_images(std::vector<DatasetSource>& sources, const DatasetOptions& o) {
   LevelCounts levels;
-  for (const DatasetSource& source : sources)
+  for (DatasetSource& source : sources)
     for_each_labelled_ping(source, [&](const Cube&, const Ping& ping, std::size_t) {
-      for (const std::size_t row : chosen_rows(ping, o)) levels.add(dataset_levels(row_of(ping, row), o));
+      std::set<std::string>& shown = source.shows.emplace_back();
+      for (const std::size_t row : chosen_rows(ping, o)) {
+        const Ping image = row_of(ping, row);
+        shown.merge(shown_classes(image, o));
+        if (o.window.empty()) levels.add(dataset_levels(image, o));
+      }
     });
+  if (!o.window.empty()) return parse_window("--window", o.window);
   const double max_db = 5 * std::ceil(levels.exceeded_by(0.001) / 5);
   return {max_db - 60, max_db};
 }
@@ -139,16 +163,30 @@ std::vector<std::string> classes_of_runs(const std::vector<DatasetSource>& sourc
   return classes;
 }
 
+/// A line for each class: its boxes in the fan images of each part.
+std::string class_counts(const nlohmann::ordered_json& boxes) {
+  std::string lines;
+  for (const auto& [name, parts] : boxes.items()) {
+    std::string counts;
+    for (const auto& [split, forms] : parts.items())
+      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", forms["fan"].get<std::size_t>(), split);
+    lines += fmt::format("\n  boxes of {}: {}", name, counts);
+  }
+  return lines;
+}
+
 void dataset(const DatasetOptions& o) {
   if (!(o.share > 0 && o.share <= 1)) fail(ErrorKind::argument, "--share = ", o.share, ", must be > 0 and at most 1");
   const std::vector<double> shares = parse_split(o.split);
+  if (!std::isfinite(o.min_contrast)) fail(ErrorKind::argument, "--min-contrast must be a finite number [dB]");
   (void)parse_min_level(o.min_level, 0);  // before any work
+  if (!o.window.empty()) (void)parse_window("--window", o.window);
   std::vector<DatasetSource> sources = dataset_sources(o.runs);
-  split_pings(sources, o.split_by, shares);
   Progress progress(o.common, static_cast<int>(sources.size()) + 2);
   progress.step("reading");
   const std::vector<std::string> classes = classes_of_runs(sources, o);
-  const GreyWindow window = o.window.empty() ? window_of(sources, o) : parse_window("--window", o.window);
+  const GreyWindow window = survey_images(sources, o);
+  split_pings(sources, o.split_by, shares);
   RunDirectory directory(o.output, o.force, o.runs);
   DatasetWriter writer(directory, o, classes, window);
   for (std::size_t s = 0; s < sources.size(); ++s) {
@@ -181,12 +219,15 @@ void dataset(const DatasetOptions& o) {
       {"splits", splits},
       {"notes", notes},
       {"boxes", {{"polar", writer.boxes_of_polar()}, {"fan", writer.boxes_of_fan()}}},
+      {"boxes_by_class", writer.boxes_by_class()},
+      {"unboxed", {{"polar", writer.unboxed_of_polar()}, {"fan", writer.unboxed_of_fan()}}},
       {"classes", classes},
       {"window_db", {window.min_db, window.max_db}},
       {"peak_memory_mib", peak_memory_mib()}};
   print_summary(o.common, result,
-                fmt::format("{}: {} images ({}) with {} polar and {} fan boxes; classes {}", o.output, writer.images(),
-                            counts, writer.boxes_of_polar(), writer.boxes_of_fan(), shortened_list(classes)));
+                fmt::format("{}: {} images ({}) with {} polar and {} fan boxes; classes {}{}", o.output,
+                            writer.images(), counts, writer.boxes_of_polar(), writer.boxes_of_fan(),
+                            shortened_list(classes), class_counts(writer.boxes_by_class())));
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 
 #include "core/error.hpp"
 #include "files/pending_file.hpp"
-#include "returns/picture_grid.hpp"
+#include "returns/fan_areas.hpp"
 #include "store/output_rules.hpp"
+#include "tool/dataset/box_contrast.hpp"
 #include "tool/dataset/label_pictures.hpp"
 #include "tool/image/image.hpp"
 #include "view/colour_maps_internal.hpp"
@@ -30,14 +31,16 @@ void draw_labels(const PictureRequest& job) {
   const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, least_label_share, classes), level,
                                                     parse_min_level(job.options.min_level, scale.min_db));
   const FanRaster raster = fan_raster(ping.fan, ping.gate, job.picture.width);
+  const Grid<std::uint16_t> no_objects = Grid<std::uint16_t>::Zero(category.rows(), category.cols());
+  const FanPixels shown = pixels_above(fan_pixels({level, category, no_objects}, ping.fan, ping.gate, raster),
+                                       parse_min_level(job.options.min_level, scale.min_db));
   nlohmann::ordered_json palette{{"least_share", least_label_share},
                                  {"metres_per_pixel", raster.metres_per_pixel},
                                  {"head_column", raster.head_column},
                                  {"head_row", raster.head_row},
                                  {"classes", palette_json(classes)}};
   for (auto& row : palette["classes"]) row["samples"] = (category == row["value"].get<std::uint8_t>()).count();
-  write_files({{json, palette.dump(2) + "\n"},
-               {job.path, label_png(job.path, fan_picture(category, raster, std::uint8_t{0}))}});
+  write_files({{json, palette.dump(2) + "\n"}, {job.path, label_png(job.path, shown.category)}});
 }
 
 }  // namespace

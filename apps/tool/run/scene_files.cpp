@@ -2,6 +2,7 @@
 #include "tool/run/scene_files.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,11 +22,11 @@ using nlohmann::ordered_json;
 SceneInstances instances_of_scene(const std::string& path) {
   if (is_tiles(path) || is_scene_file(path) || !has_cloud_field(path, "instance")) return {};
   const CloudField field = load_cloud_field(path, "instance");
-  SceneInstances instances;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> given;
   for (std::size_t i = 0; i < field.value.size(); ++i)
-    if (const double value = field.value[i]; value >= 0 && value < 4294967295.0 && value == std::floor(value))
-      instances[field.id[i]] = static_cast<std::uint32_t>(value);
-  return instances;
+    if (const double value = field.value[i]; value >= 1 && value < 4294967295.0 && value == std::floor(value))
+      given.emplace_back(field.id[i], static_cast<std::uint32_t>(value));
+  return number_instances(given);
 }
 
 PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, const PingEvent& event,

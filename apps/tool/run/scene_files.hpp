@@ -17,7 +17,8 @@
 
 namespace insonify::tool {
 
-/// The instances of a scene's surfels, where its file is a cloud with a field `instance`: whole numbers from 0.
+/// The instances of a scene's surfels, where its file is a cloud with a field `instance`: whole numbers from 1; all
+/// else is no object.
 SceneInstances instances_of_scene(const std::string& path);
 
 /// The scene of a ping: a whole cloud or mesh, a scene of parts as it is at the time of the ping, or the tiles of a .tiles file within the region of the ping.

@@ -49,10 +49,11 @@ void add_options(OptionList list, PrepareOptions& o) {
   add_work(list, o.common);
 }
 
-/// One cloud of a scene of parts, its surfels numbered through, with a column for the part of each.
+/// One cloud of a scene of parts, its surfels numbered through, with a column for the number of the part of each, from 1.
 LoadedScene parts_as_cloud(LoadedScene loaded) {
   SceneCloud& scene = loaded.scene;
   SceneColumn instance{"instance", "uint16"};
+  for (std::uint16_t& part : scene.part) ++part;
   const char* const bytes = reinterpret_cast<const char*>(scene.part.data());
   instance.bytes.assign(bytes, bytes + scene.part.size() * sizeof(scene.part[0]));
   loaded.columns.others.push_back(std::move(instance));

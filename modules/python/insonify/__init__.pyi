@@ -29,6 +29,7 @@ class Environment:
 class Scene:
     origin: Final[NDArray[np.float64]]
     material_names: Final[list[str]]
+    given_instances: Final[dict[int, int]]
     notes: Final[list[str]]
     def __init__(self, points: ArrayLike, *, normals: ArrayLike | None = None, areas: ArrayLike | None = None,
                  material: ArrayLike | str | None = None, instance: ArrayLike | None = None,
@@ -45,6 +46,8 @@ class Ping:
     unknown: Final[NDArray[np.uint8] | None]
     material_image: Final[NDArray[np.uint16]]
     instance_image: Final[NDArray[np.uint32]]
+    class_names: Final[list[str]]
+    part_names: Final[list[str]]
     range: Final[NDArray[np.float64]]
     azimuth: Final[NDArray[np.float64]]
     elevation: Final[NDArray[np.float64]]
