@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/noise.hpp"
 #include "acoustics/shoot_ray.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -36,6 +37,9 @@ void require_bottom_options(const Ping& ping, const BottomOptions& o) {
           "above 0 and below 1");
   require(o.per_beam >= 1, bottom_call, "per_beam", o.per_beam, "", ">= 1");
   require(o.sound_speed > 0, bottom_call, "sound_speed", o.sound_speed, "m/s", "> 0");
+  require(o.noise_floor_db < std::numeric_limits<double>::infinity(), bottom_call, "noise_floor_db", o.noise_floor_db,
+          "dB", "finite, or -infinity for none");
+  require(o.tolerance >= 0 && o.tolerance < 1, bottom_call, "tolerance", o.tolerance, "", "at least 0 and below 1");
   require(o.range_resolution >= 0, bottom_call, "range_resolution", o.range_resolution, "m", ">= 0");
   if (o.profile) require_valid(*o.profile, bottom_call);
   if (ping.split_phase.size() > 0 &&
@@ -48,6 +52,13 @@ void require_bottom_options(const Ping& ping, const BottomOptions& o) {
 }
 
 }  // namespace
+
+double thermal_floor_db(const Pulse& pulse, const BeamFan& fan) {
+  const auto gain_db = [](double width) {
+    return width > 0 ? std::max(0.0, db_from_power(2 * half_power_of_line / width)) : 0;
+  };
+  return thermal_noise_level_db(pulse) - gain_db(fan.beam_width) - gain_db(fan.row_width);  // (E18)
+}
 
 BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
   require_bottom_options(ping, options);

@@ -16,9 +16,9 @@ namespace {
 constexpr double gaussian_width = 2.354820045;  // full width at half maximum of a Gaussian
 constexpr double steepest_view = 1.3;           // [rad] from the vertical, of the footprint that is assumed at first
 constexpr int neighbours = 3;                   // beams on either side whose ranges give dr/du
-constexpr double half_power_of_line = 0.8859;   // length of a uniform line in wavelengths times its -3 dB width [rad]
 constexpr double turn_of_width = 1.2 * half_power_of_line * pi;  // of the phase across a line's -3 dB width [rad]
-constexpr std::size_t fewest_slopes = 5;                         // beams whose phases say how it turns in this ping
+constexpr double part_of_noise = 0.25;    // of the floor, below which a beam holds no noise of the receiver
+constexpr std::size_t fewest_slopes = 5;  // beams whose phases say how it turns in this ping
 constexpr double reference_intensity = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
 
 }  // namespace
@@ -69,11 +69,14 @@ BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
     intensity_.row(b) = ping.pressure.row(b).cast<std::complex<double>>().abs2();
     all_ += intensity_.row(b), strongest = strongest.max(intensity_.row(b));
   }
-  floor_ = side_lobe_floor(strongest);
+  const double beams = std::max(1.0, static_cast<double>(intensity_.rows()));
+  floor_ = side_lobe_floor(strongest).max(all_ * (options.tolerance * options.tolerance / beams));
+  const double receiver = power_from_db(options.noise_floor_db) * reference_intensity;  // (E18)
   noise_.resize(ping.fan.beams());
   parallel_for(noise_.size(), options.threads, [&](std::size_t b) {
     const double* row = intensity_.row(static_cast<Eigen::Index>(b)).data();
     noise_[b] = noise_of({row, row + intensity_.cols()});
+    if (noise_[b] < part_of_noise * receiver) noise_[b] = receiver;
   });
   for (std::size_t b = 0; b < ping.fan.beams(); ++b) {
     threshold_.push_back(factor * noise_[b]);

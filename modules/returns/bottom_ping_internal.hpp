@@ -8,6 +8,9 @@
 
 namespace insonify {
 
+/// Length of a uniform line in wavelengths times its -3 dB width [rad].
+inline constexpr double half_power_of_line = 0.8859;
+
 /// A found echo of a beam.
 struct BottomFind {
   double range = 0, energy = 0;

@@ -3,6 +3,7 @@
 
 #include "acoustics/bend_paths.hpp"
 #include "core/random.hpp"
+#include "core/units.hpp"
 #include "returns/bottom_fits_internal.hpp"
 #include "support/test.hpp"
 
@@ -223,6 +224,48 @@ TEST(DetectBottom, unbends_the_ray_of_a_profile) {
   }
 }
 
+// Beams beside the bed hold what a synthesis leaves where nothing is: any echo is far above it, and none is heard by a
+// receiver. With the floor of its noise they have no sounding, and those of the bed stay.
+TEST(DetectBottom, takes_nothing_below_the_noise_of_the_receiver_for_the_bed) {
+  constexpr std::size_t beams = 24, of_bed = 8;
+  const Pulse pulse{4e5, 2.5e4, 200};
+  Ping ping = silent_swath(beams);
+  const double floor_db = thermal_floor_db(pulse, ping.fan);
+  const double noise = std::sqrt(2 * power_from_db(floor_db)) * micropascal;  // amplitude [Pa]
+  for (std::size_t b = 0; b < beams; ++b)
+    add_echo(ping, b, b < of_bed ? 7 : 10, (b < of_bed ? 1e3 : 0.3) * noise, 0.03);
+  const auto count = [&](double floor) {
+    const BottomSoundings found = detect_bottom(ping, {.range_resolution = 0.03, .noise_floor_db = floor});
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found.range[i], found.beam[i] < of_bed ? 7 : 10, 2e-3);
+    return found.size();
+  };
+  EXPECT_EQ(count(-std::numeric_limits<double>::infinity()), beams);
+  EXPECT_EQ(count(floor_db), of_bed);
+  EXPECT_EQ(count(floor_db - 60), beams);
+}
+
+// The floor stands for noise that is not simulated: where a beam holds noise, that alone counts.
+TEST(DetectBottom, measures_noise_where_it_is_simulated) {
+  Ping ping = silent_swath(32);
+  add_white_noise(ping, 1);
+  for (std::size_t b = 0; b < 32; ++b) add_echo(ping, b, 7, 30, 0.03);
+  const BottomSoundings measured = detect_bottom(ping, {.range_resolution = 0.03});
+  const BottomSoundings below = detect_bottom(ping, {.range_resolution = 0.03, .noise_floor_db = 117});
+  EXPECT_EQ(measured.range, below.range);
+  EXPECT_EQ(measured.deviation, below.deviation);
+}
+
+// What a bin of the synthesis may be wrong by is no echo in it.
+TEST(DetectBottom, takes_nothing_below_the_tolerance_of_the_synthesis_for_the_bed) {
+  Ping ping = silent_swath(32);
+  for (std::size_t b = 0; b < 32; ++b) add_echo(ping, b, 7, b < 16 ? 1 : 0.1, 0.03);
+  const auto count = [&](double tolerance) {
+    return detect_bottom(ping, {.range_resolution = 0.03, .tolerance = tolerance, .side_lobe_margin_db = 60}).size();
+  };
+  EXPECT_EQ(count(1e-2), 32U);
+  EXPECT_EQ(count(0.3), 16U);
+}
+
 TEST(DetectBottom, does_not_depend_on_threads) {
   Ping ping = silent_swath(32);
   add_white_noise(ping, 1);
@@ -240,6 +283,8 @@ TEST(DetectBottom, refuses_what_it_cannot_judge) {
   EXPECT_EQ(error_of([&] { detect_bottom(ping, {.false_alarm_rate = 0}); }),
             "detect_bottom: false_alarm_rate = 0, must be above 0 and below 1");
   EXPECT_EQ(error_of([&] { detect_bottom(ping, {.per_beam = 0}); }), "detect_bottom: per_beam = 0, must be >= 1");
+  EXPECT_THAT(error_of([&] { detect_bottom(ping, {.noise_floor_db = std::nan("")}); }), HasSubstr("noise_floor_db"));
+  EXPECT_THAT(error_of([&] { detect_bottom(ping, {.tolerance = 1}); }), HasSubstr("tolerance = 1"));
   Ping expected = ping;
   expected.expected_level = true;
   EXPECT_THAT(error_of([&] { detect_bottom(expected, {}); }), HasSubstr("is an expected level"));

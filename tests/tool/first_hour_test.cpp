@@ -94,6 +94,10 @@ TEST_F(FirstHour, a_mission_to_begin_with_reaches_to_the_end_of_the_scene_and_ha
   const std::string mission = read("m.toml");
   EXPECT_THAT(mission, HasSubstr("range = \"0.5:8.9\""));  // from x = 2 to the corner: sqrt(6^2 + 4^2 + 5^2) = 8.77
   EXPECT_THAT(mission, HasSubstr("split = true"));
+  EXPECT_THAT(mission, HasSubstr("noise = true"));
+  // A metre above it, its beams meet the bed within 2.5 m.
+  succeed("make-mission lawnmower --scene plane.ply --sonar em2040 --centre 4,0,1 --size 4,0 -q -o low.toml");
+  EXPECT_THAT(read("low.toml"), HasSubstr("range = \"0.5:2.6\""));
   succeed("make-mission lawnmower --scene plane.ply --sonar p900-45 --centre 4,0,5 --size 4,0 -q -o ahead.toml");
   EXPECT_THAT(read("ahead.toml"), Not(HasSubstr("[ping]")));
   succeed("make-mission orbit --scene plane.ply --labels -q -o labels.toml");

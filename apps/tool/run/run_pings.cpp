@@ -193,7 +193,10 @@ BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environme
   BottomOptions options;
   options.sound_speed = ping.sound_speed;
   options.centre_frequency = cube.centre_frequency;
-  options.range_resolution = range_resolution({cube.centre_frequency, cube.bandwidth, 0}, ping.sound_speed);
+  const Pulse pulse{cube.centre_frequency, cube.bandwidth, 0};
+  options.range_resolution = range_resolution(pulse, ping.sound_speed);
+  options.noise_floor_db = thermal_floor_db(pulse, ping.fan);
+  options.tolerance = cube.tolerance;
   options.absorption_db_per_m = ping.absorption_db_per_m;
   options.per_beam = per_beam;
   options.profile = environment.profile;

@@ -41,9 +41,10 @@ void add_options(OptionList list, MakeMissionOptions& o) {
   list.add("-o,--output", &o.output, "mission that is written, .toml", {.required = true});
   list.add("--scene", &o.scene, "scene of the survey", {.required = true});
   list.add("--sonar", &o.sonar, "preset or .toml file of the sonar; default: gemini-720im, or ping360 in a tunnel");
-  list.add("--range", &o.range,
-           "min:max [m]; default: to the end of the scene from every place of the way, at most to the sonar's greatest "
-           "range");
+  list.add(
+      "--range", &o.range,
+      "min:max [m]; default: to the end of the scene from every place of the way, of a swath at most 2.5 times the "
+      "depth below it, at most to the sonar's greatest range");
   list.add("--centre", &o.centre, "x,y,z [m] of the middle of the way");
   list.add("--size", &o.size, "x,y [m] extent of the lines; x is the length of a tunnel");
   list.add("--spacing", &o.spacing, "[m] distance between lines", {.positive = true});
@@ -119,8 +120,16 @@ MissionShape tunnel(const Eigen::Vector3d& centre, const std::vector<double>& si
           ""};
 }
 
-/// The range of a sonar that holds the scene from every point of the way.
-std::string range_over(const std::string& scene, const SonarSpec& sonar, const std::vector<Eigen::Vector3d>& way) {
+/// Whether a sonar is mounted to look down with several beams.
+bool is_swath(const SonarFile& sonar) {
+  return sonar.spec.beams > 1 && sonar.mounting.x() == 0 && sonar.mounting.y() > radians(45);
+}
+
+/// The range of a sonar that holds the scene from every point of the way; of a swath not beyond the beams that see a
+/// level bed, 66 degrees from the vertical.
+std::string range_over(const std::string& scene, const SonarFile& file, const std::vector<Eigen::Vector3d>& way) {
+  constexpr double depths = 2.5;
+  const SonarSpec& sonar = file.spec;
   Bounds box;
   if (is_tiles(scene)) {
     box = TiledScene(scene).info().box;
@@ -128,19 +137,24 @@ std::string range_over(const std::string& scene, const SonarSpec& sonar, const s
     const PartsScene parts(scene);
     box = parts.box_at(parts.parts()->begin());
   } else {
-    const FileDescription file = describe_file(scene);
-    box = {file.min, file.max};
+    const FileDescription cloud = describe_file(scene);
+    box = {cloud.min, cloud.max};
   }
-  double reach = 0;
-  for (const Eigen::Vector3d& p : way) reach = std::max(reach, reach_of(box, p, {}));
+  double reach = 0, deepest = 0;
+  for (const Eigen::Vector3d& p : way)
+    reach = std::max(reach, reach_of(box, p, {})), deepest = std::max(deepest, p.z() - box.min.z());
+  if (is_swath(file) && deepest > 0) reach = std::min(reach, depths * deepest);
   return range_text(sonar.min_range,
                     reach > sonar.min_range ? std::min(sonar.max_range, end_of_range(reach)) : sonar.max_range);
 }
 
-/// [ping]: of heads that look down with several beams the phase, by which the bottom is detected; labels if asked for.
+/// [ping]: of swaths the phase, by which the bottom is detected, and the noise, above which; labels if asked for.
 std::string ping_as_toml(const MakeMissionOptions& o, const SonarFile& sonar) {
-  const bool swath = sonar.spec.beams > 1 && sonar.mounting.x() == 0 && sonar.mounting.y() > radians(45);
-  std::string keys = swath ? "split = true  # for soundings: insonify export run --to csv, gsf, las or geotiff\n" : "";
+  std::string keys;
+  if (is_swath(sonar))
+    keys =
+        "noise = true  # the soundings are those that stand above it\n"
+        "split = true  # for soundings: insonify export run --to csv, gsf, las or geotiff\n";
   if (o.labels) keys += "keep = [\"contributors\"]  # for labels: insonify dataset run\n";
   return keys.empty() ? "" : "\n[ping]\n" + keys;
 }
@@ -167,7 +181,7 @@ void make_mission(const MakeMissionOptions& o) {
   const std::string sonar = !o.sonar.empty() ? o.sonar : o.name == "tunnel" ? "ping360" : "gemini-720im";
   const SonarFile file = find_sonar(sonar);
   std::string range = o.range;
-  if (range.empty() && path_exists(o.scene)) range = range_over(o.scene, file.spec, shape.points);
+  if (range.empty() && path_exists(o.scene)) range = range_over(o.scene, file, shape.points);
   write_file(o.output,
              fmt::format("# {}; docs/reference/keys.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = "
                          "1\n\n[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}{}",
