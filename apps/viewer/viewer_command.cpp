@@ -93,6 +93,9 @@ void open_cubes(const std::vector<CubeOfPings>& cubes, LoadedView& view) {
   const Cube first = read_cube(cubes.front().cube, 0, 1);
   view.data.title = first.sonar;
   view.data.pings = lazy_pings_of(cubes);
+  std::vector<PingNote> notes;
+  for (const CubeOfPings& one : cubes) gather(notes, read_cube(one.cube, 0, 0).notes);
+  for (const PingNote& note : notes) view.notes.push_back(sentence(note, view.data.pings.size() == 1));
 }
 
 // The contributors of all pings, where the run has them and they fit into memory.

@@ -104,11 +104,36 @@ std::vector<Material> materials_in(const SceneCloud& scene) {
 }
 
 /// Beams that meet too few surfels, if any, with a remedy.
-std::vector<std::string> sparse_notes(const SamplingReport& report, std::size_t beams) {
+std::string sparse_note(const SamplingReport& report, std::size_t beams) {
   if (report.sparse_beams == 0) return {};
-  return {"the scene is too coarse for " + std::to_string(report.sparse_beams) + " of " + std::to_string(beams) +
-          " beams: their main lobes hold fewer than four surfels; levels of these beams are wrong by 2 dB or more, and "
-          "some may be silent; give a denser cloud, or a mesh without --mesh-spacing"};
+  return "the scene is too coarse for " + std::to_string(report.sparse_beams) + " of " + std::to_string(beams) +
+         " beams: their main lobes hold fewer than four surfels; levels of these beams are wrong by 2 dB or more, and "
+         "some may be silent; give a denser cloud, or a mesh without --mesh-spacing";
+}
+
+/// What stays straight though rays are bent, if straight rays are off by more than a centimetre.
+std::string straight_note(const ResolvedPing& ping, const RefractionReport& refraction) {
+  constexpr double least_error = 0.01;  // [m]
+  if (!refraction.bent || refraction.bound.range < least_error || !(ping.options.effects.double_echoes > 0)) return "";
+  return printed("double echoes run along straight rays, which are off by up to %.2g m and %.2g deg in this profile",
+                 refraction.bound.range, degrees(refraction.bound.elevation));
+}
+
+/// What limits the accuracy of a ping by its scene: too few rays, laws out of their range, too few surfels.
+std::vector<PingNote> scene_notes(const SceneCloud& scene, const ResolvedPing& ping, const Scatterers& patches,
+                                  const PingReport& report) {
+  std::vector<PingNote> notes;
+  const auto add = [&](std::string kind, std::string text) {
+    if (!text.empty()) notes.push_back({std::move(kind), std::move(text), 1, ping.event.number});
+  };
+  if (ping.view.sampling.kind == SamplingKind::rays)
+    add("few rays", joined(gap_notes(scene, ping.view, patches), "; "));
+  for (const Material& m : materials_in(scene))
+    add("law of " + m.name,
+        joined(surface_notes({&m, 1}, ping.head.pulse.centre_frequency, ping.sent.medium.sound_speed), "; "));
+  add("sparse beams", sparse_note(report.sampling, ping.view.fan.beams()));
+  add("straight double echoes", straight_note(ping, report.refraction));
+  return notes;
 }
 
 /// Whether beams formed over the whole band hear beside their sector as in main lobes, at its upper end.
@@ -117,18 +142,6 @@ bool hears_all_ahead(const ResolvedPing& ping) {
   if (method != SynthesisMethod::true_delays && method != SynthesisMethod::element_exact) return false;
   const double highest = ping.head.pulse.centre_frequency + spectrum_nodes(ping.head.pulse).back().frequency;
   return has_further_lobes(ping.head, ping.sent.medium.sound_speed / highest);
-}
-
-}  // namespace
-
-namespace {
-
-/// What stays straight though rays are bent, if straight rays are off by more than a centimetre.
-std::vector<std::string> straight_notes(const ResolvedPing& ping, const RefractionReport& refraction) {
-  constexpr double least_error = 0.01;  // [m]
-  if (!refraction.bent || refraction.bound.range < least_error || !(ping.options.effects.double_echoes > 0)) return {};
-  return {printed("double echoes run along straight rays, which are off by up to %.2g m and %.2g deg in this profile",
-                  refraction.bound.range, degrees(refraction.bound.elevation))};
 }
 
 }  // namespace
@@ -166,13 +179,7 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   }
   if (wanted.paths > 0) result.outputs.paths = paths_of(scene, ping, parts, patches);
 
-  if (ping.view.sampling.kind == SamplingKind::rays) report.notes = gap_notes(scene, ping.view, patches);
-  for (std::string& note :
-       surface_notes(materials_in(scene), ping.head.pulse.centre_frequency, ping.sent.medium.sound_speed))
-    report.notes.push_back(std::move(note));
-  for (std::string& note : sparse_notes(report.sampling, ping.view.fan.beams()))
-    report.notes.push_back(std::move(note));
-  for (std::string& note : straight_notes(ping, report.refraction)) report.notes.push_back(std::move(note));
+  report.notes = scene_notes(scene, ping, patches, report);
   if (wanted.scatterers) result.outputs.scatterers = std::move(parts.sampling.scatterers);
 }
 

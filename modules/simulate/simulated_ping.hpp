@@ -9,6 +9,7 @@
 #include "beamforming/reference/element_series.hpp"
 #include "returns/contributors.hpp"
 #include "returns/ping.hpp"
+#include "returns/ping_note.hpp"
 #include "returns/soundings.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "simulate/simulation_options.hpp"
@@ -57,7 +58,7 @@ struct PingReport {
   std::vector<LayerReport> layers;  ///< in the order in which they were added
   double noise_floor_db = 0;        ///< of a beam, used by the detection [dB re 1 uPa]
   StageSeconds seconds;
-  std::vector<std::string> notes;  ///< limits of this ping's accuracy, one sentence each, with a remedy
+  std::vector<PingNote> notes;  ///< what limits the accuracy of this ping
 };
 
 /// The result of a simulation: the ping, its soundings, the outputs asked for, and the report.

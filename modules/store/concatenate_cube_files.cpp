@@ -46,6 +46,7 @@ struct JoinedCube {
   Extent extent;  ///< of /pressure
   std::vector<Part> parts;
   std::vector<std::string> images;
+  std::vector<PingNote> notes{};
   std::vector<Track> tracks = {{time_name, false},
                                {pose_name, false},
                                {ping_name, true},
@@ -109,6 +110,7 @@ void add_part(JoinedCube& joined, const std::string& path) {
   const Handle file = open_file(place);
   const Extent extent = extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3);
   const std::string sonar = read_text(place, file, "sonar");
+  if (H5Aexists(file, notes_attribute) > 0) gather(joined.notes, notes_in(read_text(place, file, notes_attribute)));
   const std::vector<std::string> images = images_of(place, file);
   if (joined.parts.empty()) {
     joined.sonar = sonar, joined.extent = extent, joined.images = images;
@@ -134,7 +136,7 @@ struct Copy {
 
 /// Copies an attribute of a number or text.
 herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to) try {
-  if (names_dimensions(name)) return 0;
+  if (names_dimensions(name) || name == std::string(notes_attribute)) return 0;
   const Copy& copy = *static_cast<const Copy*>(to);
   const Handle attribute(H5Aopen(from, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose),
       space(H5Aget_space(attribute), H5Sclose);
@@ -256,9 +258,8 @@ void write_image(const FileContext& place, const JoinedCube& joined, const std::
 
 /// A file that is kept in memory, and lost; its name, which HDF5 looks for, cannot be there.
 Handle create_in_memory(const FileContext& place) {
-  constexpr std::size_t step = 1 << 20;
   const Handle access(place.checked(H5Pcreate(H5P_FILE_ACCESS), "file"), H5Pclose);
-  place.checked(H5Pset_fapl_core(access, step, false), "file");
+  place.checked(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "file");
   return {place.checked(H5Fcreate((place.path + "/tried").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "file"),
           H5Fclose};
 }
@@ -271,6 +272,7 @@ void join_parts(const std::string& path, const std::vector<std::string>& parts, 
   const Handle first = open_file(from);
   const auto write = [&](const FileContext& place, hid_t file) {
     copy_axes(place, from, first, file);
+    if (!joined.notes.empty()) write_attribute(place, file, notes_attribute, as_lines(joined.notes));
     write_tracks(place, file, joined, from, first);
     const auto is_layer = [](const std::string& image) { return image.starts_with(layers_group); };
     if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
@@ -289,10 +291,7 @@ void concatenate_cube_files(const std::string& path, const std::vector<std::stri
   if (parts.empty()) fail(ErrorKind::argument, "concatenate_cube_files: ", path, ": no parts, must be at least one");
   // A child makes every call of HDF5 on the parts first, so that none can end this process.
   std::size_t bytes = 0;
-  for (const std::string& part : parts) {
-    require_regular_file(part);
-    bytes += size_of_file(part);
-  }
+  for (const std::string& part : parts) require_regular_file(part), bytes += size_of_file(part);
   try_in_child(parts.front(), limits_of_file(bytes), [&] { join_parts(path, parts, {copy, true}); });
   join_parts(path, parts, {copy});
 }

@@ -9,6 +9,7 @@
 
 #include "core/geodesy.hpp"
 #include "returns/ping.hpp"
+#include "returns/ping_note.hpp"
 #include "simulate/simulation_options.hpp"
 #include "sonar/sonar_head.hpp"
 
@@ -31,6 +32,7 @@ struct Cube {
   std::string insonify_version;
   std::string head{}, start_utc{};  ///< for a survey: name of the head, and date of time 0 if it is known
   std::optional<Anchor> anchor{};   ///< for a survey: place of its world on the globe, if it is known
+  std::vector<PingNote> notes{};    ///< what limits the accuracy of the pings, by kind; of all pings of the file
 };
 
 /// Returns a cube without pings for `head` in `medium` (SimulatedPing::medium, or medium_of at the centre frequency)
@@ -58,6 +60,7 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 ///   expected_level                    attribute of cubes of expected levels
 ///   head, start_utc, anchor_latitude_deg, anchor_longitude_deg, anchor_heading_deg
 ///                                     attributes of a survey, as the members of Cube
+///   notes                             attribute: a line for each kind (as_lines)
 ///   /sound_speed [m/s], /absorption_db_per_m [dB/m]
 ///                                     per ping, if the water differs between pings; a ping that does not know its
 ///                                     water

@@ -18,12 +18,17 @@ void pass(Stream& stream, TrackPoint& point) {
          point.motion.velocity, point.motion.turn_rate);
 }
 
+template <typename Stream>
+void pass(Stream& stream, PingNote& note) {
+  stream(note.kind, note.text, note.count, note.first);
+}
+
 /// Every member but the pings.
 template <typename Stream>
 void pass(Stream& stream, Cube& cube) {
   stream(cube.sound_speed, cube.absorption_db_per_m, cube.centre_frequency, cube.bandwidth, cube.source_level_db,
          cube.seed, cube.tolerance, cube.keep_bits, cube.sonar, cube.insonify_version, cube.head, cube.start_utc,
-         cube.anchor);
+         cube.anchor, cube.notes);
 }
 
 /// Facts about the pings of a cube without their images.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "hdf/hdf5_internal.hpp"
+#include "returns/ping_note.hpp"
 
 // Private to store.
 namespace insonify::hdf5 {

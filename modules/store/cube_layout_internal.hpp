@@ -38,6 +38,8 @@ constexpr DatasetName part_views_name{
     "sees, least and most azimuth [rad], elevation [rad] and range [m] of all of it; NaN: not in view"};
 /// Root attributes: names of the parts, and their labels, which may be empty, one a line.
 constexpr const char *part_names_attribute = "part_names", *part_labels_attribute = "part_labels";
+/// Root attribute: notes of the pings, one a line (as_lines); absent without notes.
+constexpr const char* notes_attribute = "notes";
 /// Root attribute: significant bits of the pressures, if they are rounded.
 constexpr const char* keep_bits_attribute = "keep_bits";
 /// Root attribute that marks a cube whose pressures are roots of expected intensities.

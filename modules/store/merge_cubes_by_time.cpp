@@ -68,6 +68,21 @@ void drop_unlike_parts(std::vector<Ping>& pings) {
       [](Ping& ping) { ping.labels = {}; });
 }
 
+/// Gathers the notes of all cubes, whose first pings have the numbers that they have in the merged one.
+std::vector<PingNote> merged_notes(std::vector<std::vector<PingNote>> of_cubes, const MergedCube& merged) {
+  std::vector<PingNote> all;
+  for (std::size_t c = 0; c < of_cubes.size(); ++c) {
+    for (PingNote& note : of_cubes[c])
+      for (std::size_t p = 0; p < merged.origins.size(); ++p)
+        if (merged.origins[p].cube == c && merged.origins[p].number == note.first) {
+          note.first = merged.cube.pings[p].number;
+          break;
+        }
+    gather(all, of_cubes[c]);
+  }
+  return all;
+}
+
 }  // namespace
 
 MergedCube merge_cubes_by_time(std::vector<NamedCube> cubes) {
@@ -89,6 +104,8 @@ MergedCube merge_cubes_by_time(std::vector<NamedCube> cubes) {
     }
   std::stable_sort(traced.begin(), traced.end(),
                    [](const Traced& a, const Traced& b) { return a.ping.time < b.ping.time; });
+  std::vector<std::vector<PingNote>> notes;
+  for (NamedCube& one : cubes) notes.push_back(std::move(one.cube.notes));
   MergedCube merged;
   merged.cube = std::move(cubes.front().cube);
   std::vector<Ping>& pings = merged.cube.pings;
@@ -98,6 +115,7 @@ MergedCube merge_cubes_by_time(std::vector<NamedCube> cubes) {
     merged.origins.push_back(one.origin);
   }
   count_up_unless_unique(pings);
+  merged.cube.notes = merged_notes(std::move(notes), merged);
   drop_unlike_parts(pings);
   return merged;
 }

@@ -141,6 +141,7 @@ Cube read_attributes(const FileContext& place, hid_t file) {
   if (H5Aexists(file, keep_bits_attribute) > 0)
     cube.keep_bits = static_cast<int>(read_integer(place, file, keep_bits_attribute));
   if (H5Aexists(file, head_attribute) > 0) cube.head = read_text(place, file, head_attribute);
+  if (H5Aexists(file, notes_attribute) > 0) cube.notes = notes_in(read_text(place, file, notes_attribute));
   if (H5Aexists(file, start_utc_attribute) > 0) cube.start_utc = read_text(place, file, start_utc_attribute);
   if (H5Aexists(file, anchor_latitude_attribute) > 0)
     cube.anchor = {read_number(place, file, anchor_latitude_attribute),

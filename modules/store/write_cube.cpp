@@ -238,8 +238,7 @@ void write_scan(const FileContext& place, hid_t file, const std::vector<Ping>& p
   std::vector<double> time, pose, angle;
   std::vector<std::int64_t> sweep;
   for (const Ping& ping : pings) {
-    angle.push_back(ping.scan->angle);
-    sweep.push_back(ping.scan->sweep);
+    angle.push_back(ping.scan->angle), sweep.push_back(ping.scan->sweep);
     for (std::size_t beam = 0; beam < beams; ++beam) {
       time.push_back(ping.time);
       append_pose(pose, ping.world_from_head);
@@ -272,6 +271,7 @@ void write_root_attributes(const FileContext& place, hid_t file, const Cube& cub
   write_attribute(place, file, "max_range", ping.gate.max_range);
   write_attribute(place, file, "bin_size", ping.gate.bin_size);
   if (!cube.head.empty()) write_attribute(place, file, head_attribute, cube.head);
+  if (!cube.notes.empty()) write_attribute(place, file, notes_attribute, as_lines(cube.notes));
   if (!cube.start_utc.empty()) write_attribute(place, file, start_utc_attribute, cube.start_utc);
   if (!cube.anchor) return;
   write_attribute(place, file, anchor_latitude_attribute, cube.anchor->latitude_deg);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "simulate/ping_notes.hpp"
 #include "survey/make_blocks_internal.hpp"
 
 namespace insonify {
@@ -54,7 +55,10 @@ PingOutcome Survey::simulate(const SurveyPing& ping, const SceneSource& scene) c
   if (settings_.coverage)
     covered = coverage_of(prepared->scene(), simulated.outputs.scatterers, simulator.head(), simulated.report.medium,
                           {.threads = 1});
+  std::vector<PingNote> notes = notes_of(simulated, simulator.environment(), simulator.head().gate);
+  for (PingNote& note : notes) note.first = ping.number;
   PingOutcome outcome = outcome_of(std::move(simulated), mission_, ping);
+  outcome.notes = std::move(notes);
   outcome.covered = std::move(covered);
   return outcome;
 }

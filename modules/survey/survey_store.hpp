@@ -6,6 +6,7 @@
 
 #include "returns/coverage.hpp"
 #include "returns/ping.hpp"
+#include "returns/ping_note.hpp"
 #include "returns/soundings.hpp"
 #include "survey/survey_pings.hpp"
 
@@ -18,6 +19,7 @@ struct PingOutcome {
   std::string failure{};                 ///< empty: none
   std::size_t scatterers = 0;            ///< of the ping; 0: it is silent
   std::vector<CoveredSurfel> covered{};  ///< if the survey asks for coverage
+  std::vector<PingNote> notes{};         ///< what limits its accuracy; a resumed ping may have those of others, too
 };
 
 /// The outcomes of the pings of a block, in their order; empty while a ping is not done.

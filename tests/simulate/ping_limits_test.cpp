@@ -208,11 +208,11 @@ TEST(PingLimits, rays_too_few_for_a_grazing_plane_are_noted_with_the_number_it_t
     for (int j = 0; j < 200; ++j) add_surfel(scene, {4 + 0.04 * i, 0.04 * j - 4, -3}, {0, 0, 1}, 0.0016);
   const SimulatedPing few = ping_of(scene, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 64}});
   ASSERT_EQ(few.report.notes.size(), 1U);
-  EXPECT_THAT(few.report.notes[0], HasSubstr("rays are too few"));
-  EXPECT_THAT(few.report.notes[0], HasSubstr("rays per beam"));
+  EXPECT_THAT(few.report.notes[0].text, HasSubstr("rays are too few"));
+  EXPECT_THAT(few.report.notes[0].text, HasSubstr("rays per beam"));
   // 20 000 rays leave 1.2 % of the cells empty, 46 of 3850; above 1 % the ping says so.
   const SimulatedPing enough = ping_of(scene, {.sampling = {.kind = SamplingKind::rays, .rays_per_beam = 30000}});
-  EXPECT_TRUE(enough.report.notes.empty()) << enough.report.notes[0];
+  EXPECT_TRUE(enough.report.notes.empty()) << enough.report.notes[0].text;
   EXPECT_TRUE(ping_of(scene).report.notes.empty());
   EXPECT_TRUE(all_finite(few));
 }

@@ -64,6 +64,13 @@ TEST(MergeCubes, keeps_the_order_given_for_pings_of_one_time_and_counts_numbers_
   EXPECT_THAT(numbers(merged), ElementsAre(0, 1, 2));
 }
 
+TEST(MergeCubes, gathers_notes_under_the_numbers_of_the_merged_pings) {
+  NamedCube late = run_of("late", 5, 20, 3), early = run_of("early", 1, 10, 3);
+  late.cube.notes = {{"silent", "late", 1, 3}}, early.cube.notes = {{"silent", "early", 1, 3}, {"backs", "all", 1, 3}};
+  const std::vector<PingNote> expected = {{"backs", "all", 1, 0}, {"silent", "early", 2, 0}};
+  EXPECT_EQ(merge_cubes_by_time({late, early}).cube.notes, expected);
+}
+
 TEST(MergeCubes, keeps_layers_only_if_all_pings_have_the_same) {
   NamedCube second = run_of("b", 1, 2);
   second.cube.pings[0].layers.pop_back();

@@ -153,6 +153,24 @@ TEST(JoinCubes, refers_to_the_parts_or_copies_them) {
   }
 }
 
+TEST(JoinCubes, gathers_the_notes_of_the_parts) {
+  const auto noted = [](Cube cube, std::vector<PingNote> notes) {
+    cube.notes = std::move(notes);
+    return cube;
+  };
+  write_cube(own_path("0.h5"), cube_of(0, 2, {"direct"}, false));
+  write_cube(own_path("1.h5"), noted(cube_of(2, 2, {"direct"}, false), {{"silent", "no surfel", 2, 2}}));
+  write_cube(own_path("2.h5"),
+             noted(cube_of(4, 1, {"direct"}, false), {{"backs", "97 %", 1, 4}, {"silent", "no", 1, 4}}));
+  const std::vector<PingNote> expected = {{"silent", "no surfel", 3, 2}, {"backs", "97 %", 1, 4}};
+  for (const bool copy : {false, true}) {
+    concatenate_cube_files(own_path("all.h5"), {own_path("0.h5"), own_path("1.h5"), own_path("2.h5")}, copy);
+    EXPECT_EQ(read_cube(own_path("all.h5")).notes, expected);
+    concatenate_cube_files(own_path("all.h5"), {own_path("2.h5"), own_path("0.h5"), own_path("1.h5")}, copy);
+    EXPECT_EQ(read_cube(own_path("all.h5")).notes, expected);
+  }
+}
+
 // The first part has one water, which its attributes say; the second has another in each ping.
 TEST(JoinCubes, keeps_the_water_of_each_ping) {
   const auto in_water = [](Cube cube, std::size_t from) {

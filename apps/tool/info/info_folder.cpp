@@ -15,6 +15,7 @@
 #include "store/survey_run.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
+#include "tool/run/run_files.hpp"
 #include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
@@ -43,6 +44,22 @@ PingOptions settings_of(const std::string& run, const std::string& head) {
   return path_exists(file) ? load_ping_settings(file.string()) : PingOptions{};
 }
 
+/// Notes of the pings of a head that are done, of its merged cube or of its blocks.
+std::vector<PingNote> notes_of_head(const std::string& run, const SurveyRun& survey, const SurveyRunHead& head) {
+  const fs::path merged = fs::path(run) / head.name / "cube.h5";
+  if (path_exists(merged)) return read_cube(merged.string(), 0, 0).notes;
+  std::vector<PingNote> notes;
+  for (const StoredBlock& block : stored_blocks(run, survey, head))
+    if (!block.mark.cube_sha256.empty()) gather(notes, read_cube(block.files.cube, 0, 0).notes);
+  return notes;
+}
+
+ordered_json notes_json(const std::vector<PingNote>& notes, const std::string& head = "") {
+  ordered_json json = ordered_json::array();
+  for (const PingNote& note : notes) json.push_back(note_json(note, head));
+  return json;
+}
+
 bool keeps_contributors(const PingOptions& settings) {
   return std::find(settings.keep.begin(), settings.keep.end(), "contributors") != settings.keep.end();
 }
@@ -61,12 +78,13 @@ std::vector<std::string> products_of(const std::string& target, const PingOption
 
 ordered_json survey_info(const std::string& run) {
   const SurveyRun survey = load_survey_run(run);
-  ordered_json heads = ordered_json::array();
+  ordered_json heads = ordered_json::array(), notes = ordered_json::array();
   bool done = true, merged = true, labelled = false;
   for (const SurveyRunHead& head : survey.heads) {
     const HeadState state = state_of(run, survey, head);
     done &= state.done == head.blocks(), merged &= state.merged;
     labelled |= keeps_contributors(settings_of(run, head.name));
+    for (const ordered_json& note : notes_json(notes_of_head(run, survey, head), head.name)) notes.push_back(note);
     heads.push_back({{"name", head.name},
                      {"pings", head.pings},
                      {"blocks", head.blocks()},
@@ -92,6 +110,7 @@ ordered_json survey_info(const std::string& run) {
                     : merged ? "merged"
                              : "done, not merged"},
           {"heads", heads},
+          {"notes", notes},
           {"mosaic", path_exists(fs::path(run) / "mosaic.vti")},
           {"next", next}};
 }
@@ -109,6 +128,7 @@ ordered_json head_info(const std::string& run, const SurveyRun& survey, const Su
           {"blocks_done", state.done},
           {"failed_pings", state.failed},
           {"merged", state.merged},
+          {"notes", notes_json(notes_of_head(run, survey, head))},
           {"next",
            {done ? "insonify merge " + word
                  : "insonify survey MISSION -o " + word + "  # the mission that it was begun with",
@@ -195,6 +215,7 @@ ordered_json info_of_cube(const std::string& path) {
           {"absorption_db_per_m", water(&Ping::absorption_db_per_m)},
           {"seed", cube.seed},
           {"peak_level_db", peak},
+          {"notes", notes_json(cube.notes)},
           {"insonify_version", cube.insonify_version},
           {"next", next_of_run(path)}};
 }

@@ -15,10 +15,12 @@
 #include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/concatenate_cube_files.hpp"
+#include "store/cube.hpp"
 #include "store/survey_run.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/merge/survey_mosaic.hpp"
 #include "tool/merge/survey_places.hpp"
+#include "tool/run/run_files.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -67,6 +69,7 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
 /// What joining the blocks of all heads gave.
 struct JoinedHeads {
   ordered_json heads = ordered_json::array(), failed = ordered_json::array();  ///< for the manifest
+  ordered_json notes = ordered_json::array();                                  ///< of the pings, for the manifest
   std::vector<std::string> clouds, coverages;                                  ///< of the blocks
   std::vector<HeadCubes> cubes;                                                ///< of the blocks
   std::vector<HeadCube> joined_cubes;
@@ -92,6 +95,10 @@ JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const st
     if (!of_head.empty()) {
       concatenate_cube_files(cube, of_head, copy);
       all.joined_cubes.push_back({head.name, cube});
+      for (const PingNote& note : read_cube(cube, 0, 0).notes) {
+        progress.note(head.name + ": " + sentence(note));
+        all.notes.push_back(note_json(note, head.name));
+      }
     }
     all.heads.push_back({{"name", head.name},
                          {"pings", head.pings},
@@ -122,7 +129,7 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
                [&](std::size_t b) { require_unchanged(finished[b].files, finished[b].mark); });
 
   const JoinedHeads joined_heads = join_heads(folder, run, finished, copy, progress);
-  const auto& [heads, failed, clouds, coverages, cubes, joined_cubes] = joined_heads;
+  const auto& [heads, failed, notes, clouds, coverages, cubes, joined_cubes] = joined_heads;
   progress.step("joining returns");
   const std::string returns = (fs::path(folder) / "returns.ply").string();
   ordered_json manifest = {{"schema", 1},
@@ -146,6 +153,7 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
     join_coverage(coverage, coverages);
     manifest["coverage_sha256"] = sha256_of_file(coverage);
   }
+  manifest["notes"] = notes;
   manifest["failed"] = failed;
   write_file((fs::path(folder) / "manifest.json").string(), manifest.dump(2) + "\n");
   print_summary(common, manifest,

@@ -115,6 +115,7 @@ void merge(const MergeOptions& o) {
   progress.step("writing " + o.output);
   write_cube(directory.file("cube.h5"), merged.cube);
   for (const std::string& note : merge_companions(directory, o.runs, merged, manifest)) notes.push_back(note);
+  for (const PingNote& note : merged.cube.notes) notes.push_back(sentence(note));
   for (const std::string& note : notes) progress.note(note);
   manifest["notes"] = notes;
   const std::filesystem::path settings = std::filesystem::path(o.runs.front()) / "run.toml";

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "acoustics/reflection.hpp"
 #include "core/units.hpp"
+#include "simulate/ping_notes.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/run/scene_reach.hpp"
 
@@ -16,29 +16,6 @@ namespace insonify::tool {
 using nlohmann::ordered_json;
 
 namespace {
-
-/// States the effect of refraction, and whether it was left out.
-std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
-  const auto beyond_rounding = [](double x) { return x < 1e-9 ? 0 : x; };
-  const std::string bound = fmt::format(
-      "straight rays to the scatterers in view are wrong by up to {:.2g} m in range, {:.2g} deg in angle and {:.2g} dB "
-      "in level",
-      beyond_rounding(r.bound.range), degrees(beyond_rounding(r.bound.elevation)), beyond_rounding(r.bound.level_db));
-  if (!r.bent) return fmt::format("refraction is left out: {} (bin {:.3g} m)", bound, gate.bin_size);
-  return fmt::format(
-      "the sound-speed profile bends rays: {}; {} scatterers are in shadow zones, {} near caustics, whose "
-      "level is limited to 20 dB above that of straight rays",
-      bound, r.paths.silenced, r.paths.focused);
-}
-
-/// States why multipath gave no echo: most often the sea is too rough.
-std::string no_multipath_note(const Environment& environment) {
-  const double waves = environment.surface ? rms_wave_height(environment) : 0;
-  const std::string sea =
-      waves > 0 ? fmt::format("waves of {:.2g} m rms scatter the sound that a smooth surface would reflect", waves)
-                : std::string("both are out of reach, hidden or outside the pattern");
-  return "surface and bottom reflect no echo: " + sea;
-}
 
 /// The options with which a head that hears nothing looks at the scene.
 std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& centre,
@@ -78,14 +55,6 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places, const Sampl
       "deg to {} and {:.0f} deg {} the axis of the head: {}",
       centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard", std::abs(degrees(d.elevation)),
       d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup, mounted));
-}
-
-/// States that the head sees nearly only backs.
-std::string backs_note(const SamplingReport& s) {
-  return fmt::format(
-      "{:.0f} % of the surfels in fan and range gate face away from the head and give no echo; the head may be below "
-      "the ground or inside a body: check --pose, or orient the normals by --viewpoint",
-      100.0 * static_cast<double>(s.back_facing) / static_cast<double>(s.in_gate));
 }
 
 std::string bound_text(const PlannedStage& stage) {
@@ -154,19 +123,10 @@ ordered_json motion_json(const Motion& motion) {
 
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
                                     const std::vector<Eigen::Vector3d>& places, bool mounted) {
-  std::vector<std::string> notes = ping.report.notes;
-  const Environment& environment = setup.head.environment;
-  const SamplingReport& sampling = ping.report.sampling;
-  constexpr double nearly_all = 0.95;
-  const bool backs = sampling.in_gate > 0 &&
-                     static_cast<double>(sampling.back_facing) >= nearly_all * static_cast<double>(sampling.in_gate);
-  if (backs)
-    notes.push_back(backs_note(sampling));
-  else if (sampling.scatterers == 0)
-    notes.push_back(silence_note(places, sampling, setup, mounted));
-  for (const LayerReport& layer : ping.report.layers)
-    if (layer.name == "multipath" && layer.echoes == 0) notes.push_back(no_multipath_note(environment));
-  if (environment.profile) notes.push_back(refraction_note(ping.report.refraction, setup.head.head.gate));
+  std::vector<std::string> notes;
+  for (PingNote& note : notes_of(ping, setup.head.environment, setup.head.head.gate))
+    notes.push_back(note.kind == silent_note_kind ? silence_note(places, ping.report.sampling, setup, mounted)
+                                                  : std::move(note.text));
   return notes;
 }
 

@@ -10,6 +10,7 @@
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "scene_io/save_cloud.hpp"
+#include "simulate/ping_notes.hpp"
 #include "store/element_file.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/ping/ping_report.hpp"
@@ -85,8 +86,9 @@ ordered_json write_ping_run(RunDirectory& directory, const PingRun& run, Simulat
   write_kept(directory, o, run.scene, setup, ping, manifest);
   describe(ping, setup.simulation, setup.event.motion, manifest);
   PingOptions written = o;
-  write_run(directory, o.common, o.run, setup.head, std::move(ping.ping), settings_as_toml(all_settings(written)),
-            manifest, progress);
+  std::vector<PingNote> notes = notes_of(ping, setup.head.environment, setup.head.head.gate);
+  write_run(directory, o.common, o.run, setup.head, {std::move(ping.ping), std::move(notes)},
+            settings_as_toml(all_settings(written)), manifest, progress);
   manifest["seconds"] = seconds_json(run.load_seconds, ping.report.seconds, watch.lap());
   write_manifest(directory, manifest);
   return manifest;

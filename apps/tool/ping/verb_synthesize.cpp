@@ -101,7 +101,7 @@ void synthesize(const SynthesizeOptions& o) {
     manifest["notes"].push_back(note);
   }
   manifest["peak_level_db"] = std::max(silence_db, pressure_level_db(pressure.abs().maxCoeff()));
-  write_run(directory, common, o.run, setup, std::move(ping), settings_of(o), manifest, progress);
+  write_run(directory, common, o.run, setup, {std::move(ping)}, settings_of(o), manifest, progress);
   manifest["seconds"] = {{"synthesis", seconds}};
   write_manifest(directory, manifest);
   directory.commit();

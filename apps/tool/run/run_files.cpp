@@ -72,13 +72,20 @@ Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOpti
   return cube;
 }
 
+ordered_json note_json(const PingNote& note, const std::string& head) {
+  ordered_json json = {{"kind", note.kind}, {"pings", note.count}, {"first_ping", note.first}, {"text", note.text}};
+  if (!head.empty()) json["head"] = head;
+  return json;
+}
+
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
-               const HeadSetup& setup, Ping only_ping, const std::string& settings, ordered_json& manifest,
+               const HeadSetup& setup, NotedPing noted, const std::string& settings, ordered_json& manifest,
                Progress& progress) {
   // The cube is written while the picture is drawn.
   std::vector<Ping> pings;
-  pings.push_back(std::move(only_ping));
-  const Cube cube = cube_of(std::move(pings), common, run, setup);
+  pings.push_back(std::move(noted.ping));
+  Cube cube = cube_of(std::move(pings), common, run, setup);
+  cube.notes = std::move(noted.notes);
   const Ping& ping = cube.pings.front();
   std::future<std::string> digest = std::async(std::launch::async, [&, path = directory.file("cube.h5")] {
     write_cube(path, cube);

@@ -20,10 +20,19 @@
 
 namespace insonify::tool {
 
+/// A note of pings for a machine: kind, text, pings, first_ping; of a survey the name of its head, too.
+nlohmann::ordered_json note_json(const PingNote& note, const std::string& head = "");
+
+/// A ping and its notes, as a cube stores them.
+struct NotedPing {
+  Ping ping;
+  std::vector<PingNote> notes{};
+};
+
 /// Writes cube.h5, run.toml with `settings` (settings_as_toml), and fan.png (unless refused) into `directory`. Adds
 /// sonar, water, peak memory and the cube's digest to `manifest`.
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
-               const HeadSetup& setup, Ping ping, const std::string& settings, nlohmann::ordered_json& manifest,
+               const HeadSetup& setup, NotedPing noted, const std::string& settings, nlohmann::ordered_json& manifest,
                Progress& progress);
 
 /// Draws a picture that a run may lack: where there is no OpenGL, or no memory for it, the data are written all the

@@ -62,6 +62,9 @@ BlockOutcomes SurveyBlocks::resume(const SurveyBlock& block) const {
         append(outcome.soundings, soundings, static_cast<std::uint32_t>(ping.number));
         outcome.ping = std::move(ping);
       }
+      // Counts of the whole file: with its first ping they go back into the block.
+      const auto first = std::find_if(outcomes.begin(), outcomes.end(), [](const auto& o) { return o.has_value(); });
+      if (first != outcomes.end()) (*first)->notes = std::move(cube.notes);
     } catch (const std::exception&) {  // cut short or damaged: made again
       outcomes.assign(outcomes.size(), std::nullopt);
     }
@@ -76,6 +79,7 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const
   std::vector<double> time;
   Soundings soundings;
   std::vector<CoveredSurfel> covered;
+  std::vector<PingNote> notes;
   bool whole = true;
   for (std::optional<PingOutcome>& outcome : outcomes) {
     whole &= outcome.has_value();
@@ -86,6 +90,7 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const
     }
     append(soundings, outcome->soundings, static_cast<std::uint32_t>(outcome->ping.number));
     time.resize(soundings.size(), outcome->ping.time);
+    gather(notes, outcome->notes);
     add(covered, outcome->covered);
     outcome->covered = {};
     pings.push_back(std::move(outcome->ping));
@@ -96,6 +101,7 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const
     drop_unlike_layers(pings);
     Cube cube = cube_of(std::move(pings), head.options.common, head.options.run, head.setup.head);
     cube.head = setup_.file.mission.heads[block.head].name;
+    cube.notes = std::move(notes);
     cube.start_utc = setup_.file.start_utc, cube.anchor = setup_.file.anchor;
     write_cube(whole ? files.cube : files.partial_cube, cube);
     save_survey_returns(whole ? files.returns : files.partial_returns, soundings, time,

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -13,10 +14,12 @@
 #include "core/message.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "simulate/ping_notes.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
+#include "tool/run/run_files.hpp"
 #include "tool/survey/survey_blocks.hpp"
 #include "tool/survey/survey_status.hpp"
 
@@ -205,7 +208,11 @@ class FolderStore : public SurveyStore {
   FolderStore(const SurveyBlocks& blocks, SurveyStatus& status) : blocks_(blocks), status_(status) {}
 
   BlockOutcomes resume(const SurveyBlock& block) override { return blocks_.resume(block); }
-  void keep(const SurveyBlock& block, BlockOutcomes& outcomes) override { blocks_.keep(block, outcomes); }
+  void keep(const SurveyBlock& block, BlockOutcomes& outcomes) override {
+    for (const std::optional<PingOutcome>& outcome : outcomes)
+      if (outcome) gather(notes_[block.head], outcome->notes);
+    blocks_.keep(block, outcomes);
+  }
   void ping_done(const PingOutcome* made) override {
     silent_ += made && made->failure.empty() && made->scatterers == 0;
     status_.ping_done(made);
@@ -213,11 +220,14 @@ class FolderStore : public SurveyStore {
   bool stopped() override { return is_interrupted(); }
   /// Pings made that hear nothing.
   std::size_t silent() const { return silent_; }
+  /// Notes of the pings that were kept, by the number of their head.
+  const std::map<std::size_t, std::vector<PingNote>>& notes() const { return notes_; }
 
  private:
   const SurveyBlocks& blocks_;
   SurveyStatus& status_;
   std::atomic<std::size_t> silent_ = 0;
+  std::map<std::size_t, std::vector<PingNote>> notes_;  // one thread at a time keeps
 };
 
 /// What is still to be made by a shard.
@@ -251,6 +261,19 @@ std::vector<std::string> failures_of(const SurveyOptions& o, const SurveySetup& 
   return failures;
 }
 
+/// Prints the notes of the pings made, but of silence, which make_pings says with a remedy.
+ordered_json say_notes(const SurveySetup& s, const FolderStore& made, Progress& progress) {
+  ordered_json notes = ordered_json::array();
+  for (const auto& [number, of_head] : made.notes()) {
+    const std::string& head = s.file.mission.heads[number].name;
+    for (const PingNote& note : of_head) {
+      if (note.kind != silent_note_kind) progress.note(head + ": " + sentence(note));
+      notes.push_back(note_json(note, head));
+    }
+  }
+  return notes;
+}
+
 void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard, Progress& progress) {
   // A scene that does not fit is refused before there is a folder; of a survey that is done it is not read at all.
   std::optional<SurveyScene> scene;
@@ -268,6 +291,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
 
   bool whole = true;
   std::size_t silent = 0;
+  ordered_json notes = ordered_json::array();
   if (!todo.blocks.empty()) {
     if (!scene) load();
     progress.step("pinging");
@@ -275,6 +299,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
     finish_on_interrupt("finished pings are kept; the same command goes on from there");
     whole = simulate_survey(*s.survey, todo.blocks, *scene, folder, o.common.threads);
     silent = folder.silent();
+    notes = say_notes(s, folder, progress);
   }
   const std::vector<std::string> failures = failures_of(o, s, shard);
   status.write(whole ? "done" : "interrupted");
@@ -287,8 +312,9 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
         "{} of {} pings are silent: no surfel is inside fan and range; `insonify image {} --ping N` shows such a ping; "
         "turn the head, lengthen its range, or make these parts of the way a transit (active = false)",
         silent, status.made(), o.output));
-  const ordered_json result = {{"folder", o.output}, {"pings", todo.pings}, {"made", status.made()},
-                               {"silent", silent},   {"failed", failures},  {"seconds", status.seconds()}};
+  const ordered_json result = {{"folder", o.output},         {"pings", todo.pings}, {"made", status.made()},
+                               {"silent", silent},           {"failed", failures},  {"notes", notes},
+                               {"seconds", status.seconds()}};
   print_summary(o.common, result,
                 fmt::format("{}: {} of {} pings made in {:.1f} s; join them with: insonify merge {}", o.output,
                             status.made(), todo.pings, status.seconds(), o.output));
