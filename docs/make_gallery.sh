@@ -90,7 +90,7 @@ steps "printf 'v %s 24 -8\nv %s 12 -20\nv %s -8 -20\nv %s -8 -19\nv %s -45 -19\n
 picture soundings "Soundings of one ping across the track." "insonify image groove --view soundings --size 1000x500 -o soundings.png"
 
 chapter "A survey" "A multibeam along the wreck and a scanning head, from one mission; the viewer plays it from its blocks, merged or not."
-steps "printf 'schema = 1\n[survey]\nscene = \"harbour.ply\"\n[trajectory]\nwaypoints_m = [[0, -4, -3], [18, -4, -3], [18, 5, -3]]\nspeed_m_s = 1\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=128\"]\nrange = \"1:15\"\nangles_deg = [0, 15, 0]\nrate_hz = 2\n[[head]]\nname = \"turning\"\nsonar = \"ping360\"\nrange = \"0.75:15\"\n[head.scan]\nstep_deg = 5\ndwell_s = 0.2\n' > two.toml" \
+steps "printf 'schema = 1\n[survey]\nscene = \"harbour.ply\"\n[trajectory]\nwaypoints_m = [[0, -4, -3], [18, -4, -3], [18, 5, -3]]\nspeed_m_s = 1\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=128\"]\nrange = \"1:15\"\npitch_deg = -15\nrate_hz = 2\n[[head]]\nname = \"turning\"\nsonar = \"ping360\"\nrange = \"0.75:15\"\n[head.scan]\nstep_deg = 5\ndwell_s = 0.2\n' > two.toml" \
   "insonify survey two.toml -o two"
 picture survey "The viewer (insonify view two): the ping, head and way in the scene, a waterfall of one beam; a slider and every key have their place." \
   "insonify view two --ping 30 --beam 64 --size 1400x900 --screenshot survey.png"

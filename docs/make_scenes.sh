@@ -90,7 +90,7 @@ name = "fls"
 sonar = "oculus-m750d"
 set = ["sonar.beams=256"]
 range = "1:8"
-angles_deg = [0, 18, 0]
+pitch_deg = -18
 rate_hz = 1
 [randomise]
 scene = "ping"

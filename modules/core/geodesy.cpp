@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <complex>
 #include <vector>
@@ -162,7 +163,14 @@ GeoPlace geo_place_of(const UtmPlace& place, const UtmZone& zone) {
 
 int epsg_code(const UtmZone& zone) { return (zone.north ? 32600 : 32700) + zone.number; }
 
+std::optional<UtmZone> utm_zone_with(int epsg) {
+  const int number = epsg % 100, family = epsg / 100;
+  if ((family != 326 && family != 327) || number < 1 || number > 60) return {};
+  return UtmZone{number, family == 326};
+}
+
 GeoPlace geo_from_world(const Georeference& reference, const Eigen::Vector3d& world) {
+  if (!reference.zone && reference.system.epsg > 0) return reference.system.place_of(world);
   if (!reference.zone) return geo_from_world(reference.anchor, world);
   GeoPlace place = geo_place_of(UtmPlace{world.x(), world.y()}, *reference.zone);
   place.height = world.z();
@@ -193,13 +201,31 @@ Anchor parse_anchor(const std::string& text, const std::string& option) {
   return anchor;
 }
 
+void require_plausible(const Georeference& reference, const Eigen::Vector3d& world, const std::string& option) {
+  constexpr double highest = 9e3;  // [m], of mountains
+  if (const double away = world.head<2>().norm(); !reference.is_projected() && away > farthest_from_anchor)
+    fail(ErrorKind::argument, option, ": the world has (", std::llround(world.x()), ", ", std::llround(world.y()),
+         "), ", std::llround(away / 1000),
+         " km from its origin, and an anchor serves worlds within 100 km of theirs: such ",
+         "coordinates are projected; give --utm ZONE, e.g. 32N, or --system EPSG:N of the scene instead");
+  if (const double height = geo_from_world(reference, world).height; height > highest)
+    fail(ErrorKind::argument, option, ": a height of ", std::llround(height), " m, must be at most 9000 m; z of the ",
+         "world is ", world.z(), " m");
+}
+
 UtmZone parse_utm_zone(const std::string& text, const std::string& option) {
   UtmZone zone;
   const char side = text.empty() ? ' ' : text.back();
   zone.north = side == 'N' || side == 'n';
   const bool known = zone.north || side == 'S' || side == 's';
-  if (!known || !to_number(std::string_view(text).substr(0, text.size() - 1), zone.number) || zone.number < 1 ||
-      zone.number > 60)
+  const bool numbered = !text.empty() && to_number(std::string_view(text).substr(0, text.size() - 1), zone.number) &&
+                        zone.number >= 1 && zone.number <= 60;
+  const char band = static_cast<char>(std::toupper(static_cast<unsigned char>(side)));
+  if (numbered && !known && band >= 'C' && band <= 'X' && band != 'I' && band != 'O')
+    fail(ErrorKind::argument, option, " '", text, "': ", band,
+         " is a band of MGRS, but a zone ends in its hemisphere, ", "N or S; this band is in zone ", zone.number,
+         band < 'N' ? "S" : "N");
+  if (!known || !numbered)
     fail(ErrorKind::argument, option, " '", text, "', must be a number from 1 to 60 and N or S, e.g. 32N");
   return zone;
 }

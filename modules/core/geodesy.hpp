@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -59,13 +60,25 @@ UtmPlace utm_place_of(const GeoPlace& place, const UtmZone& zone);
 GeoPlace geo_place_of(const UtmPlace& place, const UtmZone& zone);
 /// Returns the EPSG code of the zone on WGS 84: 32601 to 32660 north, 32701 to 32760 south.
 int epsg_code(const UtmZone& zone);
+/// Returns the zone on WGS 84 with this EPSG code, the inverse of epsg_code; absent for any other code.
+std::optional<UtmZone> utm_zone_with(int epsg);
 
-/// Relation of the world's axes to the globe: the zone of a world in UTM, else an anchor.
+/// A system in which a world has its coordinates, other than a zone on WGS 84: x is easting, y northing, in metres.
+struct WorldSystem {
+  int epsg = 0;
+  std::function<GeoPlace(const Eigen::Vector3d&)> place_of{};  ///< of a point of the world; its height is z
+};
+
+/// Relation of the world's axes to the globe: the zone of a world in UTM, else its projected system, else an anchor.
 struct Georeference {
   std::optional<UtmZone> zone{};  ///< world x is easting, y northing; `anchor` does not count
   Anchor anchor{};
+  WorldSystem system{};  ///< used if it has a code; `anchor` does not count
+
+  /// Returns whether the world's coordinates are those of a projected system.
+  bool is_projected() const { return zone || system.epsg > 0; }
 };
-/// Returns the place of a point of the world [m]; in a zone, the height is z.
+/// Returns the place of a point of the world [m]; in a zone or another projected system, the height is z.
 GeoPlace geo_from_world(const Georeference& reference, const Eigen::Vector3d& world);
 /// Returns the angle of a horizontal direction of the world at one of its points, clockwise from north [rad, 0 to 2
 /// pi). The angle follows from the places of two points 1 m apart; in a zone, it includes the convergence of the
@@ -75,7 +88,14 @@ double heading_of(const Georeference& reference, const Eigen::Vector3d& world, c
 /// Returns the anchor that a text LAT,LON[,HEADING] in degrees gives. Throws Error(argument) with `option` and the
 /// rule.
 Anchor parse_anchor(const std::string& text, const std::string& option);
-/// Returns the zone that a text such as 32N or 19S gives. Throws Error(argument) with `option` and the rule.
+/// The plane of an anchor touches the ellipsoid: at this distance from the origin it is 780 m above it [m].
+inline constexpr double farthest_from_anchor = 100e3;
+
+/// Throws Error(argument) naming `option` if a point of the world [m] cannot be where the reference has it: more than
+/// 100 km from the anchor, since the coordinates of such a world are projected; or more than 9 km above the ellipsoid.
+void require_plausible(const Georeference& reference, const Eigen::Vector3d& world, const std::string& option);
+/// Returns the zone that a text such as 32N or 19S gives, whose letter is the hemisphere. Throws Error(argument) with
+/// `option` and the rule; for a letter of the bands of MGRS, with the zone of that band.
 UtmZone parse_utm_zone(const std::string& text, const std::string& option);
 
 }  // namespace insonify

@@ -56,17 +56,34 @@ void read_trajectory(const std::string& path, const TomlValue& table, const Miss
   }
 }
 
+/// The attitude of a head on its vehicle: that of its sonar file (yaw, pitch, roll), turned by the mounting of the
+/// mission, Rz(heading) Ry(pitch) Rx(roll) in ship axes. Either alone gives its own numbers, to the last bit.
+Pose vehicle_from_head(const MissionTables& t, const Vector3d& of_sonar) {
+  const double mirrored = t.starboard ? -1 : 1;
+  // Ship axes are half a turn about x from vehicle axes (x forward, y port, z up).
+  const Vector3d turn(mirrored * -t.heading + 0.0, -t.pitch + 0.0, mirrored * t.roll + 0.0);
+  const Vector3d own = of_sonar.cwiseProduct(Vector3d(mirrored, 1, mirrored));
+  const Vector3d first = turn.isZero(0) ? own : turn;
+  const Pose turned = pose_from_yaw_pitch_roll(t.offset, first[0], first[1], first[2]);
+  if (turn.isZero(0) || own.isZero(0)) return turned;
+  return turned * pose_from_yaw_pitch_roll(Vector3d::Zero(), own[0], own[1], own[2]);
+}
+
 void read_head(const std::string& path, const TomlValue& table, MissionFile& m) {
   MissionTables t;
+  if (const TomlValue* angles = table.find("angles_deg"))
+    fail_in_file(
+        path, angles->line, "head.angles_deg: state the mounting by roll_deg (starboard side down), pitch_deg ",
+        "(bow up) and heading_deg (clockwise), which turn the head after mounting_deg of the sonar file; for a ",
+        "sonar without mounting_deg, angles_deg = [y, p, r] is heading_deg = -y, pitch_deg = -p, roll_deg = r");
   read_keys(path, table, mission_keys(t, m), "head");
   if (t.head.name.empty()) t.head.name = t.sonar.sonar;
   if (table.find("scan")) t.head.scan = t.scan;
   if (t.rate > 0 && t.dwell > 0)
     fail_in_file(path, table.line, "rate_hz and dwell_s say the same thing; leave one out");
   if (t.rate > 0 || t.dwell > 0) t.head.interval = t.rate > 0 ? 1 / t.rate : t.dwell;
-  if (!table.find("angles_deg")) at_line(path, table.line, [&] { t.angles = find_sonar(t.sonar.sonar).mounting; });
-  const Vector3d angles = t.starboard ? t.angles.cwiseProduct(Vector3d(-1, 1, -1)) : t.angles;
-  t.head.vehicle_from_head = pose_from_yaw_pitch_roll(t.offset, angles[0], angles[1], angles[2]);
+  at_line(path, table.line,
+          [&] { t.head.vehicle_from_head = vehicle_from_head(t, find_sonar(t.sonar.sonar).mounting); });
   m.mission.heads.push_back(t.head);
   m.sonars.push_back(t.sonar);
   at_line(path, table.line, [&] { require_valid_head(m.mission, m.mission.heads.size() - 1, "mission"); });
@@ -124,7 +141,12 @@ const TomlValue& required_table(const std::string& path, const TomlValue& docume
 void read_tables(const std::string& path, const TomlValue& document, MissionTables& t, MissionFile& m) {
   const TomlValue& survey = required_table(path, document, "survey");
   read_keys(path, document, mission_keys(t, m), "", {"schema", "head", "leg", "template", "scene", "ping"});
-  if (survey.find("anchor")) m.anchor = t.anchor;
+  const TomlValue* anchor = survey.find("anchor");
+  if (anchor) m.anchor = t.anchor;
+  if (anchor && !m.system.empty())
+    fail_in_file(path, anchor->line,
+                 "anchor is the place of a world with its own origin, and system that of projected ",
+                 "coordinates; leave one out");
 }
 
 }  // namespace
@@ -133,7 +155,7 @@ SurveyFrame load_survey_frame(const std::string& path) {
   MissionTables t;
   MissionFile m;
   read_tables(path, load_toml(path), t, m);
-  return {m.start_utc, m.anchor};
+  return {m.start_utc, m.anchor, m.system};
 }
 
 SurveyRandomisation load_survey_randomisation(const std::string& path) {

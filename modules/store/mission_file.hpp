@@ -35,6 +35,7 @@ struct MissionFile {
   bool coverage = false;      ///< the survey writes the coverage of each surfel
   std::string start_utc;      ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
   std::optional<Anchor> anchor;
+  std::string system;                ///< of the world's coordinates, "EPSG:25832", or empty
   std::string trajectory;            ///< path, or empty: waypoints
   double position_deviation = 0;     ///< standard deviation of nav_noise in each coordinate [m]
   Mission mission;                   ///< listening times are 0: they follow from sonar and water
@@ -45,9 +46,10 @@ struct MissionFile {
 struct SurveyFrame {
   std::string start_utc;         ///< date of time 0, or empty
   std::optional<Anchor> anchor;  ///< place and heading of the world's axes
+  std::string system{};          ///< projected system of the world's coordinates, or empty
 };
 
-/// Returns only start_utc and anchor of a mission; errors as load_mission.
+/// Returns only start_utc, anchor and system of a mission; errors as load_mission.
 SurveyFrame load_survey_frame(const std::string& path);
 
 /// Random differences between the pings of a survey.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "files/utc.hpp"
@@ -24,6 +25,13 @@ bool is_utc(const std::string& text) {
 bool is_datum(const std::string& text) {
   const bool printable = std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 127; });
   return !text.empty() && text.size() <= 32 && printable;
+}
+
+/// EPSG:N.
+bool is_epsg(const std::string& text) {
+  constexpr std::string_view begin = "EPSG:";
+  return text.starts_with(begin) && text.size() > begin.size() && text.size() <= begin.size() + 5 &&
+         text.find_first_not_of("0123456789", begin.size()) == std::string::npos;
 }
 
 constexpr Named<bool> frames[] = {{"z-up", false}, {"ned", true}};
@@ -67,6 +75,9 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
        "true: the survey stores for each surfel of a cloud or of tiles how it was insonified "
        "([survey.md](survey.md#coverage))"},
       {"survey", "start_utc", "", text(given(m.start_utc), utc_rule, is_utc), "time of day at the mission's time 0"},
+      {"survey", "system", "", text(given(m.system), "EPSG:N, such as EPSG:32632", is_epsg),
+       "projected system of the world's coordinates; default: the system that the scene's file states, which it must "
+       "not contradict"},
       {"survey.anchor", "latitude_deg", "deg", number(t.anchor.latitude_deg, latitude),
        "latitude of the world's origin on the WGS 84 ellipsoid. `merge` writes anchor and time into `manifest.json`, "
        "and the track into `track.geojson` (E90)"},
@@ -109,10 +120,13 @@ std::vector<Key> head_keys(MissionTables& t) {
       {"head", "set", "", texts(t.sonar.settings), "changes to the sonar, such as `\"sonar.beams=128\"`"},
       {"head", "offset_m", "m", vector(t.offset, "x, y, z"),
        "position of the head in vehicle axes (x forward, y port, z up)"},
-      {"head", "angles_deg", "deg", vector(t.angles, "yaw, pitch, roll", in_degrees),
-       "attitude of the head on the vehicle: yaw to port, pitch nose down, roll starboard down; default: "
-       "`mounting_deg` of the sonar file"},
-      {"head", "side", "", word(t.starboard, sides), "starboard mirrors the angles: yaw and roll change their signs"},
+      {"head", "roll_deg", "deg", angle(t.roll),
+       "roll of the mounting, starboard side down, after the `mounting_deg` of the sonar file "
+       "([picture](../survey.md#mounting))"},
+      {"head", "pitch_deg", "deg", angle(t.pitch), "pitch of the mounting, bow up"},
+      {"head", "heading_deg", "deg", angle(t.heading), "heading of the mounting, clockwise from the bow"},
+      {"head", "side", "", word(t.starboard, sides),
+       "starboard mirrors the mounting with that of the sonar file: headings and rolls change their signs"},
       {"head", "rate_hz", "Hz", number(given(t.rate), positive),
        "pings per second; give only one of `rate_hz`, `every_m` and `times_s`"},
       {"head", "every_m", "m", number(given(t.head.distance), positive),

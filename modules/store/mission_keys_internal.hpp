@@ -19,7 +19,8 @@ struct MissionTables {
   MissionHead head{};
   MissionSonar sonar{};
   HeadScan scan{0, 2 * pi, radians(1)};
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero(), angles = Eigen::Vector3d::Zero();
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  double roll = 0, pitch = 0, heading = 0;  ///< of the mounting, in ship axes: x forward, y starboard, z down [rad]
   bool starboard = false;
   double rate = 0, dwell = 0;  ///< 0: not given
   MissionLeg leg{};

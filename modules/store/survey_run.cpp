@@ -105,7 +105,7 @@ bool is_survey_run(const std::string& folder) { return path_exists(description_p
 bool is_of_survey(const std::string& folder, const std::string& name) {
   const fs::path path(name);
   if (path.has_parent_path()) return is_folder(fs::path(folder) / *path.begin() / "blocks");
-  constexpr std::array stems = {"survey", "mission", "manifest", "returns", "coverage", "mosaic", "track"};
+  constexpr std::array stems = {"survey", "mission", "manifest", "returns", "coverage", "mosaic", "track", "scene"};
   return name.starts_with("status") || std::find(stems.begin(), stems.end(), path.stem().string()) != stems.end();
 }
 

@@ -59,6 +59,24 @@ TEST(Geodesy, the_world_lies_along_the_anchors_heading) {
     EXPECT_LT((world_from_geo(anchor, geo_from_world(anchor, p)) - p).norm(), 2e-8);
 }
 
+TEST(Geodesy, worlds_far_from_their_anchor_and_heights_beyond_mountains_are_refused) {
+  const Georeference anchored{{}, {54.1, 7.9, 30}}, zone{zone_32n};
+  EXPECT_NO_THROW(require_plausible(anchored, {70e3, 70e3, -20}, "--anchor"));
+  EXPECT_THAT(error_of([&] {
+                require_plausible(anchored, {71e3, 71e3, -20}, "--anchor");
+              }),
+              HasSubstr("100 km from its origin"));
+  EXPECT_NO_THROW(require_plausible(zone, {500000, 6e6, 8999}, "--utm"));
+  EXPECT_NO_THROW(require_plausible(zone, {500000, 6e6, -10900}, "--utm"));
+  EXPECT_THAT(error_of([&] {
+                require_plausible(zone, {500000, 6e6, 9001}, "--utm");
+              }),
+              HasSubstr("--utm: a height of 9001 m, must be at most 9000 m"));
+  EXPECT_EQ(utm_zone_with(32632), zone_32n);
+  EXPECT_EQ(utm_zone_with(32719), (UtmZone{19, false}));
+  for (const int other : {0, 25832, 32600, 32661, 32761, 4326}) EXPECT_FALSE(utm_zone_with(other)) << other;
+}
+
 TEST(Geodesy, the_middle_of_a_zone_is_a_scaled_meridian) {
   for (const double latitude : {-80.0, -1.0, 0.0, 33.0, 54.1, 84.0}) {
     const UtmPlace north = utm_place_of({radians(latitude), radians(9), 0}, zone_32n);
@@ -128,8 +146,11 @@ TEST(Geodesy, refuses_what_is_no_place) {
             "--anchor: latitude = 91 deg, must be within -90 and 90");
   EXPECT_EQ(parse_utm_zone("32N", "--utm"), zone_32n);
   EXPECT_EQ(parse_utm_zone("19s", "--utm"), (UtmZone{19, false}));
-  for (const char* text : {"", "N", "0N", "61S", "32", "32X", "N32"})
+  for (const char* text : {"", "N", "0N", "61S", "32", "32A", "N32"})
     EXPECT_THAT(error_of([&] { parse_utm_zone(text, "--utm"); }),
                 HasSubstr("must be a number from 1 to 60 and N or S"));
+  EXPECT_THAT(error_of([] { parse_utm_zone("12T", "--utm"); }), HasSubstr("T is a band of MGRS"));
+  EXPECT_THAT(error_of([] { parse_utm_zone("12T", "--utm"); }), HasSubstr("zone 12N"));
+  EXPECT_THAT(error_of([] { parse_utm_zone("19k", "--utm"); }), HasSubstr("zone 19S"));
   EXPECT_THAT(error_of([] { utm_place_of({0.5, 2.0, 0}, zone_32n); }), HasSubstr("must be within 60 deg"));
 }

@@ -21,7 +21,7 @@ sonar = "gemini-720im"
 range = "0.5:10"
 set = ["sonar.beams=64"]
 offset_m = [1, 0, -0.2]
-angles_deg = [0, 15, 0]
+pitch_deg = -15
 rate_hz = 4
 [[head]]
 sonar = "ping360"
@@ -86,7 +86,7 @@ TEST(MissionFile, reads_survey_trajectory_heads_and_legs) {
 TEST(MissionFile, mounts_heads_as_their_sonars_are_and_mirrors_those_to_starboard) {
   const auto axes = [](const std::string& sonar, const std::string& more) -> Eigen::Matrix3d {
     const std::string text = replaced(whole, "\"gemini-720im\"", "\"" + sonar + "\"\n" + more);
-    return load_mission(own_file("m.toml", replaced(text, "angles_deg = [0, 15, 0]\n", "")))
+    return load_mission(own_file("m.toml", replaced(text, "pitch_deg = -15\n", "")))
         .mission.heads[0]
         .vehicle_from_head.linear();
   };
@@ -100,6 +100,38 @@ TEST(MissionFile, mounts_heads_as_their_sonars_are_and_mirrors_those_to_starboar
   EXPECT_TRUE(starboard.isApprox(Eigen::Vector3d(0, -std::sqrt(0.75), -0.5), 1e-12));
   EXPECT_THAT(refusal("rate_hz = 4", "side = \"left\""),
               HasSubstr("head.side = \"left\", must be one of port, starboard"));
+}
+
+// Against rotations in ship axes (x forward, y starboard, z down), each by its own right-hand rule.
+TEST(MissionFile, mountings_are_stated_in_ship_axes) {
+  const auto axes = [](const std::string& sonar, const std::string& more) -> Eigen::Matrix3d {
+    const std::string text = replaced(whole, "\"gemini-720im\"", "\"" + sonar + "\"");
+    return load_mission(own_file("m.toml", replaced(text, "pitch_deg = -15\n", more)))
+        .mission.heads[0]
+        .vehicle_from_head.linear();
+  };
+  using Eigen::AngleAxisd, Eigen::Vector3d;
+  const Eigen::Matrix3d flip = Vector3d(1, -1, -1).asDiagonal(), down = axes("em2040", "");
+  const Eigen::Matrix3d turn = (AngleAxisd(radians(30), Vector3d::UnitZ()) *
+                                AngleAxisd(radians(-7), Vector3d::UnitY()) * AngleAxisd(radians(2), Vector3d::UnitX()))
+                                   .toRotationMatrix();
+  const std::string keys = "roll_deg = 2\npitch_deg = -7\nheading_deg = 30\n";
+  EXPECT_TRUE(axes("gemini-720im", keys).isApprox(flip * turn * flip, 1e-12));
+  EXPECT_TRUE(axes("em2040", keys).isApprox(flip * turn * flip * down, 1e-12)) << "after that of the sonar";
+  // A roll offset of 1 degree lowers the starboard side, so that the middle of the swath moves to port.
+  const Vector3d middle = axes("em2040", "roll_deg = 1\n").col(0);
+  EXPECT_TRUE(middle.isApprox(Vector3d(0, std::sin(radians(1)), -std::cos(radians(1))), 1e-12));
+  EXPECT_TRUE(axes("gemini-720im", "heading_deg = 90\n").col(0).isApprox(Vector3d(0, -1, 0), 1e-12)) << "starboard";
+  EXPECT_NEAR(axes("gemini-720im", "pitch_deg = 10\n")(2, 0), std::sin(radians(10)), 1e-12) << "bow up";
+  // The sides of a fish tilt alike.
+  const Eigen::Matrix3d port = axes("starfish-450", "roll_deg = -5\nheading_deg = 3\n");
+  const Eigen::Matrix3d starboard = axes("starfish-450", "roll_deg = -5\nheading_deg = 3\nside = \"starboard\"\n");
+  const Eigen::Matrix3d mirror = Vector3d(1, -1, 1).asDiagonal();
+  EXPECT_TRUE(starboard.isApprox(mirror * port * mirror, 1e-12));
+  EXPECT_GT(-port(2, 0), std::sin(radians(34)));
+  EXPECT_EQ(axes("em2040", "heading_deg = 0\n"), down);
+  EXPECT_THAT(refusal("pitch_deg = -15", "angles_deg = [0, 90, 1]"),
+              HasSubstr("head.angles_deg: state the mounting by roll_deg"));
 }
 
 TEST(MissionFile, reads_trajectories_of_other_programs) {
@@ -209,6 +241,9 @@ TEST(MissionFile, reads_navigation_noise_and_where_the_survey_is) {
   const SurveyFrame frame = load_survey_frame(own_path("m.toml"));
   EXPECT_EQ(frame.start_utc, "2026-05-01T08:30:00Z");
   EXPECT_EQ(frame.anchor.value().heading_deg, 30);
+  EXPECT_EQ(frame.system, "");
+  EXPECT_THAT(refusal("seed = 7", "seed = 7\nsystem = \"EPSG:32632\""), HasSubstr("leave one out"));
+  EXPECT_THAT(refusal("seed = 7", "seed = 7\nsystem = \"32N\""), HasSubstr("EPSG:N, such as EPSG:32632"));
   EXPECT_THAT(refusal("speed_m_s = 2", "speed_m_s = 2\nnav_noise = { position_m = -1 }"),
               HasSubstr("trajectory.nav_noise.position_m = -1 m, must be a number at least 0"));
 }

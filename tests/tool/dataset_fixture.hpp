@@ -18,7 +18,7 @@ class DatasetRun : public ToolTest {
            "-3]]\n"
            "speed_m_s = 1\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=48\"]\nrange = "
            "\"2:15\"\n"
-           "angles_deg = [0, 10, 0]\nrate_hz = 1\n[randomise]\nsource_level_db = 3\ntemperature_c = 4\nposition_m = "
+           "pitch_deg = -10\nrate_hz = 1\n[randomise]\nsource_level_db = 3\ntemperature_c = 4\nposition_m = "
            "0.2\n"
            "heading_deg = 5\n[ping]\n" +
            keep;

@@ -34,7 +34,7 @@ class DatasetOfParts : public DatasetRun {
           "schema = 1\n[survey]\nscene = \"scene.toml\"\nseed = 4\n[trajectory]\nwaypoints_m = [[0, 0, 4], [0.008, 0, "
           "4]]\n"
           "speed_m_s = 0.001\n[[head]]\nname = \"fls\"\nsonar = \"p900-45\"\nset = [\"sonar.beams=96\"]\nrange = "
-          "\"2:14\"\nangles_deg = [0, 25, 0]\nrate_hz = 1\n[randomise]\n" +
+          "\"2:14\"\npitch_deg = -25\nrate_hz = 1\n[randomise]\n" +
               randomise + "[ping]\nkeep = [\"contributors\"]\n");
     succeed("survey mission.toml -q -o survey");
   }

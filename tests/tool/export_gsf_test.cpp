@@ -68,7 +68,8 @@ set = ["sonar.beams=32", "sonar.field_of_view_deg=90"]
 range = "6:20"
 times_s = [0, 0.7, 1.4, 2.1, 2.8]
 offset_m = [0, 0, -0.2]
-angles_deg = [0, 89, 4]
+pitch_deg = 1
+roll_deg = 4
 [ping]
 split = true
 )");
@@ -104,7 +105,8 @@ TEST_F(ExportGsf, soundings_follow_from_times_angles_and_profile) {
 TEST_F(ExportGsf, soundings_lie_where_the_table_has_them) {
   succeed("export run --to csv -q -o ship.csv");
   std::vector<std::vector<std::array<double, 3>>> expected(5);  // across, along, depth of each ping
-  const Pose ship_from_head = pose_from_yaw_pitch_roll({0, 0, -0.2}, 0, radians(89), radians(4));
+  const Pose ship_from_head = pose_from_yaw_pitch_roll({0, 0, -0.2}, 0, radians(-1), radians(4)) *
+                              pose_from_yaw_pitch_roll({0, 0, 0}, 0, radians(90), 0);
   for (const auto& row : rows_of(read("ship.csv"))) {
     const auto number = [&](const char* column) { return std::stod(row.at(column)); };
     const auto p = static_cast<std::size_t>(number("ping"));
@@ -179,7 +181,8 @@ TEST_F(ExportGsf, depth_of_the_head_height_and_place_are_those_of_the_track) {
   succeed("merge -q run");
   const auto track = read_json("run/track.geojson")["features"][0]["geometry"]["coordinates"];
   const decode::GsfContent gsf = content();
-  const Pose ship_from_head = pose_from_yaw_pitch_roll({0, 0, -0.2}, 0, radians(89), radians(4));
+  const Pose ship_from_head = pose_from_yaw_pitch_roll({0, 0, -0.2}, 0, radians(-1), radians(4)) *
+                              pose_from_yaw_pitch_roll({0, 0, 0}, 0, radians(90), 0);
   for (std::size_t p = 0; p < 5; ++p) {
     const decode::GsfSwath& s = gsf.swaths[p];
     const double z = (Ship{ping_step * static_cast<double>(p)}.pose() * ship_from_head).translation().z();

@@ -116,14 +116,16 @@ name = "left"
 sonar = "p900-45"
 range = "2:10"
 set = ["sonar.beams=16"]
-angles_deg = [20, 20, 0]
+heading_deg = -20
+pitch_deg = -20
 rate_hz = 1
 [[head]]
 name = "right"
 sonar = "p900-45"
 range = "2:10"
 set = ["sonar.beams=16"]
-angles_deg = [-20, 20, 0]
+heading_deg = 20
+pitch_deg = -20
 rate_hz = 2
 [ping]
 noise = true

@@ -50,7 +50,7 @@ name = "turning"
 sonar = "ping360"
 range = "1:8"
 set = ["sonar.range_resolution_m=0.1"]
-angles_deg = [0, 30, 0]
+pitch_deg = -30
 [head.scan]
 start_deg = -90
 stop_deg = 90

@@ -116,7 +116,7 @@ speed_m_s = {2}
 [[head]]
 name = "fls"
 sonar = "p900-45"
-angles_deg = [0, 20, 0]
+pitch_deg = -20
 {3}
 [ping]
 scatterers_per_cell = 0

@@ -19,7 +19,7 @@ name = "fls"
 sonar = "p900-45"
 range = "1:6"
 set = ["sonar.beams=16"]
-angles_deg = [0, 20, 0]
+pitch_deg = -20
 rate_hz = 2
 [[head]]
 name = "turning"

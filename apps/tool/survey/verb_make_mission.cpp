@@ -88,7 +88,7 @@ MissionShape lawnmower(const MakeMissionOptions& o, const Eigen::Vector3d& centr
     shape.legs += fmt::format("\n[[leg]]\nname = \"line-{}\"\nfrom_s = {:.4f}\n", k + 1, from);
     if (k + 1 < lines) shape.legs += fmt::format("to_s = {:.4f}\n", from + size[0] / o.speed);
   }
-  shape.angles = fmt::format("angles_deg = [0, {:g}, 0]\n", o.down_deg);
+  shape.angles = fmt::format("pitch_deg = {:g}\n", -o.down_deg + 0.0);
   shape.head = fmt::format("rate_hz = {:g}\n", o.rate);
   return shape;
 }
@@ -105,7 +105,7 @@ MissionShape orbit(const MakeMissionOptions& o, const Eigen::Vector3d& centre) {
     shape.points.push_back(centre + outside * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0));
   }
   shape.points.push_back(shape.points.front());
-  shape.angles = fmt::format("angles_deg = [90, {:g}, 0]\n", o.down_deg);
+  shape.angles = fmt::format("heading_deg = -90\npitch_deg = {:g}\n", -o.down_deg + 0.0);
   shape.head = fmt::format("rate_hz = {:g}\n", o.rate);
   return shape;
 }
@@ -115,7 +115,7 @@ MissionShape tunnel(const Eigen::Vector3d& centre, const std::vector<double>& si
   const Eigen::Vector3d half(size[0] / 2, 0, 0);
   return {{centre - half, centre + half},
           1,
-          "angles_deg = [0, 90, 0]\n",
+          "pitch_deg = -90\n",
           "\n[head.scan]\nstart_deg = 0\nstop_deg = 360\nstep_deg = 1.8\n",
           ""};
 }
