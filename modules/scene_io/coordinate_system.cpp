@@ -41,8 +41,9 @@ Meant<double> unit_of(double metres, const char* name, const std::string& noun) 
 
 std::string name_of_system(OGRSpatialReferenceH reference) {
   const char* name = OSRGetName(reference);
-  const char* const authority = OSRGetAuthorityName(reference, nullptr);
-  const char* const code = OSRGetAuthorityCode(reference, nullptr);
+  const char* const part = OSRIsProjected(reference) && OSRIsCompound(reference) ? "PROJCS" : nullptr;  // of its plane
+  const char* const authority = OSRGetAuthorityName(reference, part);
+  const char* const code = OSRGetAuthorityCode(reference, part);
   if (!authority || !code) return name ? name : "unnamed";
   return std::string(authority) + ":" + code + " (" + (name ? name : "unnamed") + ")";
 }

@@ -2,6 +2,7 @@
 // Projected coordinate systems through GDAL and PROJ. Without GDAL all are refused, with a remedy.
 #include "scene_io/projected_system.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -24,6 +25,7 @@ ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
 int ProjectedSystem::epsg() const { return 0; }
 double ProjectedSystem::unit() const { return 1; }
 Eigen::Vector2d ProjectedSystem::place_of(const GeoPlace&) const { return {0, 0}; }
+GeoPlace ProjectedSystem::geo_place_of(const Eigen::Vector3d&) const { return {}; }
 
 #else
 
@@ -45,12 +47,11 @@ GdalReference reference_of(int epsg, const std::string& named) {
   return reference;
 }
 
-/// The transformation from longitude and latitude on WGS 84 [deg], without a guess where data for a datum are missing.
-void* transformation_to(void* reference) {
-  const GdalReference from = reference_of(wgs84_degrees, "EPSG:4326");
+/// A transformation without a guess where data for a datum are missing.
+void* transformation_between(void* from, void* to) {
   const auto options = OCTNewCoordinateTransformationOptions();
   OCTCoordinateTransformationOptionsSetBallparkAllowed(options, 0);
-  void* const made = OCTNewCoordinateTransformationEx(from.get(), reference, options);
+  void* const made = OCTNewCoordinateTransformationEx(from, to, options);
   OCTDestroyCoordinateTransformationOptions(options);
   return made;
 }
@@ -65,7 +66,7 @@ struct ProjectedSystem::Parts {
   bool bounded = false;
   double west = -180, south = -90, east = 180, north = 90;  ///< of its area of use [deg]
   std::string area;
-  std::unique_ptr<void, FreeTransformation> transformation;
+  std::unique_ptr<void, FreeTransformation> transformation, back;  ///< from longitude and latitude [deg], and to them
 
   bool holds(double longitude, double latitude) const {
     if (!bounded) return true;
@@ -107,8 +108,10 @@ ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
   const char* area = nullptr;
   p.bounded = OSRGetAreaOfUse(reference, &p.west, &p.south, &p.east, &p.north, &area) && p.west > -1000;
   p.area = name + (area ? std::string(", for ") + area : std::string());
-  p.transformation.reset(transformation_to(reference));
-  if (!p.transformation)
+  const GdalReference globe = reference_of(wgs84_degrees, "EPSG:4326");
+  p.transformation.reset(transformation_between(globe.get(), reference));
+  p.back.reset(transformation_between(reference, globe.get()));
+  if (!p.transformation || !p.back)
     fail(ErrorKind::content, p.named, " (", p.area, "): PROJ has no transformation from WGS 84",
          QuietGdalErrors::reason(), "; install proj-data, or leave ", option, " out for UTM");
 }
@@ -129,6 +132,38 @@ Eigen::Vector2d ProjectedSystem::place_of(const GeoPlace& place) const {
   return Eigen::Vector2d(x, y) * parts_->unit;
 }
 
+GeoPlace ProjectedSystem::geo_place_of(const Eigen::Vector3d& place) const {
+  const QuietGdalErrors quiet;
+  double x = place.x() / parts_->unit, y = place.y() / parts_->unit;
+  if (!OCTTransform(parts_->back.get(), 1, &x, &y, nullptr) || !std::isfinite(x) || !std::isfinite(y))
+    fail(ErrorKind::content, parts_->named, " (", parts_->area, "): PROJ has no place for (", place.x(), ", ",
+         place.y(), ") m", QuietGdalErrors::reason(), "; is the world in another system?");
+  if (!parts_->holds(x, y))
+    fail(ErrorKind::argument, parts_->named, " (", parts_->area, ") does not reach to latitude ", y, ", longitude ", x,
+         ", where it has (", place.x(), ", ", place.y(), ") m; is the world in another system?");
+  return {radians(y), radians(x), place.z()};
+}
+
 #endif
+
+int epsg_of_system(const std::string& system) {
+  constexpr std::size_t digits = 5;  // behind "EPSG:"
+  int code = 0;
+  if (system.size() <= digits || (system.compare(0, digits, "EPSG:") != 0 && system.compare(0, digits, "epsg:") != 0))
+    return 0;
+  const char* const end = system.data() + system.size();
+  const char* const stopped = std::from_chars(system.data() + digits, end, code).ptr;
+  return stopped == end || *stopped == ' ' ? code : 0;
+}
+
+Georeference georeference_in(int epsg, const char* option) {
+  Georeference reference;
+  reference.zone = utm_zone_with(epsg);
+  if (!reference.zone)
+    reference.system = {epsg, [system = ProjectedSystem(epsg, option)](const Eigen::Vector3d& world) {
+                          return system.geo_place_of(world);
+                        }};
+  return reference;
+}
 
 }  // namespace insonify

@@ -20,17 +20,15 @@ namespace {
 
 constexpr double shown_span_db = 80;  // of images in 8 bits
 
-/// Where the world is, if options or mission say so.
-std::optional<Georeference> georeference_of(const ProductOptions& o, const RunPings& pings) {
-  Georeference reference;
-  if (!o.utm.empty()) reference.zone = parse_utm_zone(o.utm, "--utm");
-  if (!o.anchor.empty())
-    reference.anchor = parse_anchor(o.anchor, "--anchor");
-  else if (pings.anchor)
-    reference.anchor = *pings.anchor;
-  else if (o.utm.empty())
+/// Where the world is, if options, mission or scene say so. What needs no place is written without a system that GDAL
+/// cannot serve.
+std::optional<Georeference> place_of_run(const ProductOptions& o, const RunPings& pings, bool needed) {
+  try {
+    return georeference_of(o.place, {o.run, pings.system, pings.anchor}, ends_of(pings));
+  } catch (const Error&) {
+    if (needed || !o.place.empty()) throw;
     return {};
-  return reference;
+  }
 }
 
 /// A product: its writer, and whether it needs a place on the globe.
@@ -107,7 +105,6 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   progress.step("reading " + o.run);
   PlacedRun run = placed_run(o);
   run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
-  run.place = georeference_of(o, run.pings);
   if (!o.processing_profile.empty()) run.processing_profile = load_sound_speed_profile(o.processing_profile);
   if (o.to == "png") {
     RunDirectory directory(o.output, o.force, {o.run});
@@ -127,11 +124,14 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   if (!o.crs.empty() && !raster)
     fail(ErrorKind::argument, "--crs goes with --to geotiff; --to ", o.to, " is in ",
          product.placed ? "the UTM zone or the degrees of its place" : "the axes of the world", ": leave --crs out");
+  run.place = place_of_run(o, run.pings, product.placed && !RasterPlane::is_local(o.crs));
   if (product.placed && !run.place && !RasterPlane::is_local(o.crs))
     fail(ErrorKind::argument, o.run, ": does not say where on the globe it is, which --to ", o.to,
          " needs; give --anchor LAT,LON[,HEADING] of the origin and x axis of its world, anchor in the mission, or ",
-         "--utm ZONE of a world in UTM", raster ? "; or --crs local for a grid of the world's own plane" : "");
+         "--utm ZONE of a world in UTM, or --system EPSG:N of one in another projected system",
+         raster ? "; or --crs local for a grid of the world's own plane" : "");
   require_free_file(o.output, o.force, {o.run});
+  if (const std::string note = utm_note(o.place, {o.run, run.pings.system}); !note.empty()) progress.note(note);
   progress.step("writing " + o.output);
   const SoundingCount count = product.write(run);
   if (const std::string note = o.to == "mcap" ? compression_note(o) : ""; !note.empty()) progress.note(note);

@@ -4,14 +4,16 @@
 #include <string>
 
 #include "tool/command/options.hpp"
+#include "tool/run/world_place.hpp"
 
 namespace insonify::tool {
 
 /// Options of `export`.
 struct ProductOptions {
   std::string to = "vtk", run, output;
-  std::string head;                                                ///< of a survey with several
-  std::string anchor, utm, start_utc;                              ///< where and when; empty: as the mission says
+  std::string head;  ///< of a survey with several
+  AskedPlace place;
+  std::string start_utc;                                           ///< empty: as the mission says
   std::string crs;                                                 ///< of a raster: EPSG:N, local, or empty: UTM
   double cell = 0.5;                                               ///< of a raster [m]
   int per_beam = 1;                                                ///< soundings of a beam
@@ -26,7 +28,8 @@ struct ProductOptions {
 };
 
 /// Writes the pings of a run, one after the other, as a file (png: a directory of them) of another program. Throws
-/// Error(argument) for a product with coordinates of the globe if neither options nor mission say where the world is,
+/// Error(argument) for a product with coordinates of the globe if neither options, mission nor scene say where the world
+/// is, or if they contradict each other,
 /// Error(content) for a survey that is not complete or has several heads, as read_cube for damaged cubes, and
 /// Error(file) if it cannot write.
 void export_product(const ProductOptions& options, const CommonOptions& common);

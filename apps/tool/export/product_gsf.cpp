@@ -136,8 +136,9 @@ SoundSpeedProfile whole_profile(const PlacedRun& run, const Ping& ping) {
 /// The command of the export as far as it shapes the soundings, without paths.
 std::string command_of(const ProductOptions& o) {
   std::string command = "insonify export --to gsf";
-  for (const auto& [option, value] : {std::pair("--anchor", o.anchor), std::pair("--utm", o.utm),
-                                      std::pair("--start-utc", o.start_utc), std::pair("--head", o.head)})
+  for (const auto& [option, value] :
+       {std::pair("--anchor", o.place.anchor), std::pair("--utm", o.place.utm), std::pair("--system", o.place.system),
+        std::pair("--start-utc", o.start_utc), std::pair("--head", o.head)})
     if (!value.empty()) command += fmt::format(" {} {}", option, value);
   if (o.per_beam > 1) command += fmt::format(" --per-beam {}", o.per_beam);
   if (o.keep_rejected) command += " --keep-rejected";

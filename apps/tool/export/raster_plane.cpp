@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tool/export/raster_plane.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include <Eigen/LU>
@@ -12,13 +11,9 @@ namespace insonify::tool {
 namespace {
 
 /// The number of EPSG:N.
-int epsg_of(const std::string& crs) {
-  constexpr std::size_t digits = 5;  // behind "EPSG:"
-  int code = 0;
-  const bool named =
-      crs.size() > digits && (crs.compare(0, digits, "EPSG:") == 0 || crs.compare(0, digits, "epsg:") == 0);
-  const char* const end = crs.data() + crs.size();
-  if (!named || std::from_chars(crs.data() + digits, end, code).ptr != end)
+int epsg_of_crs(const std::string& crs) {
+  const int code = crs.find(' ') == std::string::npos ? epsg_of_system(crs) : 0;
+  if (code == 0)
     fail(ErrorKind::argument, "--crs '", crs, "', must be EPSG:N of a projected system, e.g. EPSG:25832, or local");
   return code;
 }
@@ -27,19 +22,21 @@ int epsg_of(const std::string& crs) {
 
 RasterPlane::RasterPlane(const std::string& crs, const std::optional<Georeference>& place) : reference_(place) {
   if (is_local(crs)) return;
-  const int code = crs.empty() ? 0 : epsg_of(crs);
+  const int code = crs.empty() ? 0 : epsg_of_crs(crs);
   if (!place)
     fail(ErrorKind::argument,
          "a raster needs a place on the globe; give --anchor LAT,LON[,HEADING] of the origin and x "
-         "axis of its world, or --crs local");
-  if (code > 0)
-    system_ = ProjectedSystem(code, "--crs");
+         "axis of its world, --utm ZONE or --system EPSG:N of a world in projected coordinates, or --crs local");
+  const int own = place->zone ? 0 : place->system.epsg;
+  if (code > 0 || own > 0)
+    system_ = ProjectedSystem(code > 0 ? code : own, "--crs");
   else
     system_ = place->zone.value_or(utm_zone_of(geo_from_world(*place, Eigen::Vector3d::Zero())));
 }
 
 Eigen::Vector3d RasterPlane::place(const Eigen::Vector3d& world) const {
   if (const auto* system = std::get_if<ProjectedSystem>(&system_)) {
+    if (!reference_->zone && reference_->system.epsg == system->epsg()) return world;
     const Eigen::Vector2d at = system->place_of(geo_from_world(*reference_, world));
     return {at.x(), at.y(), world.z()};
   }

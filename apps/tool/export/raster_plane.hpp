@@ -15,13 +15,12 @@ namespace insonify::tool {
 /// What --crs may say.
 inline constexpr const char* crs_help =
     "projected system of a geotiff, as EPSG:25832 (by GDAL and PROJ), or local: the plane of the world; default: the "
-    "UTM "
-    "zone of the place";
+    "system of the world, or the UTM zone of its place";
 
 /// The plane that the cells of a raster lie in: a UTM zone, any projected system, or that of the world.
 class RasterPlane {
  public:
-  /// crs    as --crs: EPSG:N, local, or "" for UTM
+  /// crs    as --crs: EPSG:N, local, or "" for the projected system of the world, else UTM
   /// place  where the world is on the globe; only the local plane needs none
   /// Throws Error(argument) for another crs, or without a place, and as ProjectedSystem.
   RasterPlane(const std::string& crs, const std::optional<Georeference>& place);

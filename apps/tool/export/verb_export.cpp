@@ -39,10 +39,7 @@ void add_options(OptionList list, ExportOptions& o) {
       "(LAS 1.4 in UTM), geotiff (a grid in UTM or another projected system) or csv (a table). mcap: images, points "
       "and poses as messages of ROS 2. png: bare pictures. xtf: the samples of side-scans and scanning heads",
       {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png", "xtf"}});
-  list.add("--anchor", &p.anchor,
-           "LAT,LON[,HEADING] [deg] of the world's origin and x axis (clockwise from north); default: anchor of the "
-           "mission");
-  list.add("--utm", &p.utm, "zone of a world in UTM, e.g. 32N", {.excludes = "--anchor"});
+  add_place_options(list, p.place);
   list.add("--start-utc", &p.start_utc,
            "time of day at time 0, as 2026-05-01T08:30:00Z; default: that of the mission, else 1970");
   list.add("--head", &p.head, "name of the head, in a survey of several heads; an xtf takes both heads of two");

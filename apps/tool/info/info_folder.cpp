@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "files/path_status.hpp"
 #include "returns/looks.hpp"
+#include "scene_io/projected_system.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
@@ -16,6 +17,7 @@
 #include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
 #include "tool/run/run_files.hpp"
+#include "tool/run/run_pings.hpp"
 #include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
@@ -64,14 +66,28 @@ bool keeps_contributors(const PingOptions& settings) {
   return std::find(settings.keep.begin(), settings.keep.end(), "contributors") != settings.keep.end();
 }
 
+/// The option of `export` by which a run gets its place, with a blank before it: none if mission or scene say it, that
+/// of projected coordinates far from the origin, else an anchor.
+std::string place_option(const std::string& run, const std::string& head) {
+  try {
+    const RunPings pings = find_run_pings(run, head);
+    if (pings.anchor || epsg_of_system(pings.system) > 0) return "";
+    for (const Eigen::Vector3d& place : ends_of(pings))
+      if (place.head<2>().norm() > farthest_from_anchor) return " --utm ZONE";
+  } catch (const Error&) {
+    // Where files of its mission are gone, its place is unknown.
+  }
+  return " --anchor LAT,LON,HEADING";
+}
+
 /// How a finished head goes on; `target` is what `export` takes.
-std::vector<std::string> products_of(const std::string& target, const PingOptions& settings) {
+std::vector<std::string> products_of(const std::string& target, const std::string& run, const std::string& head,
+                                     const PingOptions& settings) {
   std::vector<std::string> next;
-  if (settings.split)
-    for (const char* kind : {"csv", "gsf"})
-      next.push_back(
-          fmt::format("insonify export {} --to {} --anchor LAT,LON,HEADING -o soundings.{}", target, kind, kind));
-  if (settings.split) next.front() = fmt::format("insonify export {} --to csv -o soundings.csv", target);
+  if (settings.split) {
+    next.push_back("insonify export " + target + " --to csv -o soundings.csv");
+    next.push_back("insonify export " + target + " --to gsf" + place_option(run, head) + " -o soundings.gsf");
+  }
   next.push_back("insonify export " + target + " -o vtk");
   return next;
 }
@@ -100,7 +116,8 @@ ordered_json survey_info(const std::string& run) {
     next.push_back("insonify image " + word + " --view track -o track.png");
     const std::string name = survey.heads.front().name;
     const std::string target = survey.heads.size() == 1 ? word : word + " --head " + name;
-    for (std::string& command : products_of(target, settings_of(run, name))) next.push_back(std::move(command));
+    for (std::string& command : products_of(target, run, name, settings_of(run, name)))
+      next.push_back(std::move(command));
   }
   if (done && labelled) next.push_back("insonify dataset " + word + " -o dataset");
   next.push_back("insonify view " + word);
@@ -164,7 +181,7 @@ std::vector<std::string> next_of_run(const std::string& path) {
   std::vector<std::string> next = {"insonify image " + word + " -o picture.png"};
   const PingOptions settings = is_folder(run) && path_exists(run / "run.toml") ? settings_of(path, ".") : PingOptions{};
   if (is_folder(run)) next.push_back("insonify view " + word);
-  for (std::string& command : products_of(word, settings)) next.push_back(std::move(command));
+  for (std::string& command : products_of(word, path, "", settings)) next.push_back(std::move(command));
   if (keeps_contributors(settings)) next.push_back("insonify dataset " + word + " -o dataset");
   return next;
 }

@@ -108,11 +108,32 @@ JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const st
   return all;
 }
 
+/// Where the world is: as asked, else as mission or scene say; absent if none says it. Without a mosaic, a system that
+/// GDAL cannot serve gives none.
+std::optional<Georeference> place_of_survey(const std::string& folder, const SurveyFrame& frame,
+                                            const MosaicOptions& mosaic, const std::vector<Finished>& finished) {
+  std::vector<Eigen::Vector3d> places;
+  for (const Finished& block : finished)
+    if (places.empty() && !block.mark.cube_sha256.empty())
+      places.push_back(read_track(block.files.cube).front().world_from_head.translation());
+  try {
+    return georeference_of(mosaic.place, {folder, frame.system, frame.anchor}, places);
+  } catch (const Error&) {
+    if (mosaic.cell > 0) throw;
+    return {};
+  }
+}
+
+/// Mission and scene say where the world of a survey is.
+SurveyFrame frame_of(const std::string& folder) {
+  SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
+  if (const std::string system = recorded_system(folder); !system.empty()) frame.system = system;
+  return frame;
+}
+
 /// The plane of mosaic.tif; absent if none is made.
-std::optional<RasterPlane> plane_of(const MosaicOptions& mosaic, const SurveyFrame& frame) {
-  if (mosaic.cell == 0 || (mosaic.crs.empty() && !frame.anchor)) return {};
-  std::optional<Georeference> place;
-  if (frame.anchor) place = Georeference{{}, *frame.anchor};
+std::optional<RasterPlane> plane_of(const MosaicOptions& mosaic, const std::optional<Georeference>& place) {
+  if (mosaic.cell == 0 || (mosaic.crs.empty() && !place)) return {};
   return RasterPlane(mosaic.crs, place);
 }
 
@@ -121,8 +142,9 @@ std::optional<RasterPlane> plane_of(const MosaicOptions& mosaic, const SurveyFra
 void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common) {
   const SurveyRun run = load_survey_run(folder);
   const std::vector<Finished> finished = finished_blocks(folder, run);
-  const SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
-  const std::optional<RasterPlane> plane = plane_of(mosaic, frame);
+  const SurveyFrame frame = frame_of(folder);
+  const std::optional<Georeference> place = place_of_survey(folder, frame, mosaic, finished);
+  const std::optional<RasterPlane> plane = plane_of(mosaic, place);
   Progress progress(common, 2 + static_cast<int>(run.heads.size()) + (mosaic.cell > 0));
   progress.step("checking " + folder);
   parallel_for(finished.size(), common.threads,
@@ -138,8 +160,9 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
                            {"blocks", finished.size()},
                            {"heads", heads}};
   manifest.update(frame_json(frame));
-  if (frame.anchor)
-    write_file((fs::path(folder) / "track.geojson").string(), track_geojson(frame, joined_cubes).dump(1) + "\n");
+  if (place)
+    write_file((fs::path(folder) / "track.geojson").string(),
+               track_geojson(*place, frame.start_utc, joined_cubes).dump(1) + "\n");
   if (!clouds.empty()) {
     join_clouds(returns, clouds);
     if (mosaic.cell > 0) {

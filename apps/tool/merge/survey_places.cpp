@@ -13,8 +13,8 @@ namespace {
 using nlohmann::ordered_json;
 
 /// Longitude and latitude to 1e-9 degrees, which is a tenth of a millimetre, and height to a millimetre.
-ordered_json coordinates_of(const Anchor& anchor, const Pose& world_from_head) {
-  const GeoPlace place = geo_from_world(anchor, world_from_head.translation());
+ordered_json coordinates_of(const Georeference& world, const Pose& world_from_head) {
+  const GeoPlace place = geo_from_world(world, world_from_head.translation());
   return {std::round(1e9 * degrees(place.longitude)) / 1e9, std::round(1e9 * degrees(place.latitude)) / 1e9,
           std::round(1e3 * place.height) / 1e3};
 }
@@ -28,20 +28,22 @@ ordered_json frame_json(const SurveyFrame& frame) {
     json["anchor"] = {{"latitude_deg", frame.anchor->latitude_deg},
                       {"longitude_deg", frame.anchor->longitude_deg},
                       {"heading_deg", frame.anchor->heading_deg}};
+  if (!frame.system.empty()) json["system"] = frame.system;
   return json;
 }
 
-ordered_json track_geojson(const SurveyFrame& frame, const std::vector<HeadCube>& heads) {
+ordered_json track_geojson(const Georeference& place, const std::string& start_utc,
+                           const std::vector<HeadCube>& heads) {
   ordered_json features = ordered_json::array();
   for (const HeadCube& head : heads) {
     ordered_json line = ordered_json::array(), times = ordered_json::array(), numbers = ordered_json::array();
     for (const TrackPoint& point : read_track(head.path)) {
-      line.push_back(coordinates_of(*frame.anchor, point.world_from_head));
+      line.push_back(coordinates_of(place, point.world_from_head));
       numbers.push_back(point.number);
-      if (frame.start_utc.empty())
+      if (start_utc.empty())
         times.push_back(point.time);
       else
-        times.push_back(utc_after(frame.start_utc, point.time));
+        times.push_back(utc_after(start_utc, point.time));
     }
     const bool single = line.size() == 1;
     features.push_back(

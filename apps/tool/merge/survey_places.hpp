@@ -9,7 +9,7 @@
 
 namespace insonify::tool {
 
-/// For the manifest of a survey: start_utc and anchor, null if unknown.
+/// For the manifest of a survey: start_utc and anchor, null if unknown, and the system of its world if it is known.
 nlohmann::ordered_json frame_json(const SurveyFrame& frame);
 
 /// A head of a merged survey and its cube.
@@ -19,7 +19,9 @@ struct HeadCube {
 
 /// The ways of the heads as GeoJSON: for each a LineString of longitude, latitude and height (WGS 84, E90), with its
 /// name, the numbers of its pings, and their times: UTC, or [s] without start_utc. Heads of one ping give a Point.
-/// `frame` has an anchor.
-nlohmann::ordered_json track_geojson(const SurveyFrame& frame, const std::vector<HeadCube>& heads);
+/// place      where the world is
+/// start_utc  of time 0, or ""
+nlohmann::ordered_json track_geojson(const Georeference& place, const std::string& start_utc,
+                                     const std::vector<HeadCube>& heads);
 
 }  // namespace insonify::tool

@@ -41,13 +41,14 @@ void add_options(OptionList list, MergeOptions& o) {
   list.add("--copy", &o.copy, "survey: copy the blocks into the cubes; without it, the cubes refer to the blocks");
   list.add("--mosaic", &o.mosaic.cell,
            "[m] survey: lay the images of all heads on the bed, on a grid with cells of this size: .vti, .png, and "
-           "GeoTIFF if the mission has an anchor",
+           "GeoTIFF if mission, scene or options say where the world is",
            {.positive = true});
   list.add("--bottom", &o.mosaic.bottom, "[m] z of a level bed for the mosaic; default: the surface of the returns");
   list.add("--mosaic-by", &o.mosaic.by,
            "value of a cell: mean of all pings that hear it, or best: that of the ping with the narrowest beam there",
            {.words = {"mean", "best"}});
   list.add("--crs", &o.mosaic.crs, crs_help);
+  add_place_options(list, o.mosaic.place);
   list.add("--force", &o.force, "replace an existing run directory");
   add_common(list, o.common);
 }
@@ -84,9 +85,11 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
 }
 
 void merge(const MergeOptions& o) {
-  if (o.mosaic.cell == 0 && (!o.mosaic.bottom.empty() || o.mosaic.by != "mean" || !o.mosaic.crs.empty()))
+  if (o.mosaic.cell == 0 &&
+      (!o.mosaic.bottom.empty() || o.mosaic.by != "mean" || !o.mosaic.crs.empty() || !o.mosaic.place.empty()))
     fail(ErrorKind::argument,
-         !o.mosaic.crs.empty()     ? "--crs"
+         !o.mosaic.place.empty()   ? "a place of the world (--anchor, --utm, --system)"
+         : !o.mosaic.crs.empty()   ? "--crs"
          : o.mosaic.bottom.empty() ? "--mosaic-by"
                                    : "--bottom",
          " goes with --mosaic");

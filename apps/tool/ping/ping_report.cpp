@@ -73,24 +73,26 @@ ordered_json number(double value) { return std::isfinite(value) ? ordered_json(v
 }  // namespace
 
 ordered_json scene_json(const LoadReport& r, const SceneCloud& scene) {
-  return {{"path", r.path},
-          {"format", r.format},
-          {"points_read", r.points_read},
-          {"triangles_read", r.triangles_read},
-          {"surfels", scene.size()},
-          {"dropped_not_finite", r.dropped_not_finite},
-          {"dropped_withheld", r.dropped_withheld},
-          {"dropped_classes", r.dropped_classes},
-          {"dropped_duplicates", r.dropped_duplicates},
-          {"dropped_degenerate_triangles", r.dropped_degenerate},
-          {"dropped_without_normal", r.dropped_without_normal},
-          {"repaired_normals", r.repaired_normals},
-          {"normals", r.normals_estimated ? "estimated" : "from file"},
-          {"normals_oriented", scene.normals_oriented},
-          {"material_field", r.material_field},
-          {"outside_intervals", r.outside_intervals},
-          {"areas", r.areas_estimated ? "estimated" : "from file"},
-          {"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}}};
+  ordered_json json = {{"path", r.path},
+                       {"format", r.format},
+                       {"points_read", r.points_read},
+                       {"triangles_read", r.triangles_read},
+                       {"surfels", scene.size()},
+                       {"dropped_not_finite", r.dropped_not_finite},
+                       {"dropped_withheld", r.dropped_withheld},
+                       {"dropped_classes", r.dropped_classes},
+                       {"dropped_duplicates", r.dropped_duplicates},
+                       {"dropped_degenerate_triangles", r.dropped_degenerate},
+                       {"dropped_without_normal", r.dropped_without_normal},
+                       {"repaired_normals", r.repaired_normals},
+                       {"normals", r.normals_estimated ? "estimated" : "from file"},
+                       {"normals_oriented", scene.normals_oriented},
+                       {"material_field", r.material_field},
+                       {"outside_intervals", r.outside_intervals},
+                       {"areas", r.areas_estimated ? "estimated" : "from file"},
+                       {"origin", {scene.origin.x(), scene.origin.y(), scene.origin.z()}}};
+  if (!r.meaning.system.value.empty()) json["system"] = r.meaning.system.value;
+  return json;
 }
 
 ordered_json layers_json(const std::vector<LayerReport>& layers) {

@@ -15,6 +15,7 @@
 #include "store/survey_run.hpp"
 #include "store/toml_tree_internal.hpp"
 #include "tool/command/parse_values.hpp"
+#include "tool/run/world_place.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -35,6 +36,7 @@ void add_mission(const std::string& path, const std::string& head, RunPings& pin
   const auto found = std::find_if(file.mission.heads.begin(), file.mission.heads.end(),
                                   [&](const MissionHead& each) { return each.name == head; });
   pings.anchor = file.anchor;
+  if (pings.system.empty()) pings.system = file.system;
   pings.start_utc = file.start_utc;
   pings.legs = file.mission.legs;
   if (found == file.mission.heads.end()) return;
@@ -98,6 +100,7 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
     if (path_exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
     if (path_exists(files.returns)) pings.returns.push_back(files.returns);
   }
+  pings.system = recorded_system(run);
   const std::string settings = run + "/" + head.name + "/run.toml";
   if (path_exists(settings)) pings.environment = load_environment(settings);
   add_mission(run + "/mission.toml", head.name, pings);
@@ -112,11 +115,13 @@ RunPings pings_of_directory(const std::string& run) {
   const std::string settings = run + "/run.toml";
   if (is_folder(run) && path_exists(settings)) pings.environment = load_environment(settings);
   if (!is_folder(run)) return pings;
+  pings.system = recorded_system(run);
   const fs::path folder = real_path(run), survey = folder.parent_path();
   if (!is_survey_run(survey.string())) {
     if (path_exists(settings)) pings.vehicle_from_head = mounting_of_ping(settings), pings.settings = settings;
     return pings;
   }
+  pings.system = recorded_system(survey.string());
   try {
     add_mission((survey / "mission.toml").string(), folder.filename().string(), pings);
   } catch (const Error&) {
@@ -165,6 +170,18 @@ std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping) {
   if (!run.vehicle_from_head) return {};
   const Eigen::AngleAxisd turn(ping.scan ? ping.scan->angle : 0, Eigen::Vector3d::UnitZ());
   return ping.world_from_head * (*run.vehicle_from_head * turn).inverse();
+}
+
+std::vector<Eigen::Vector3d> ends_of(const RunPings& run) {
+  std::vector<Eigen::Vector3d> ends;
+  for (const std::string* path :
+       {run.cubes.empty() ? nullptr : &run.cubes.front(), run.cubes.size() < 2 ? nullptr : &run.cubes.back()}) {
+    if (!path) continue;
+    const std::vector<TrackPoint> track = read_track(*path);
+    if (track.empty()) continue;
+    for (const TrackPoint& point : {track.front(), track.back()}) ends.push_back(point.world_from_head.translation());
+  }
+  return ends;
 }
 
 std::optional<Trajectory> way_of(const RunPings& run) {

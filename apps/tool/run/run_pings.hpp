@@ -21,6 +21,7 @@ struct RunPings {
   std::vector<std::string> returns;  ///< paths of the returns of its pings, if it has any
   Environment environment{};         ///< of its run.toml, if it has one
   std::optional<Anchor> anchor{};    ///< of its mission
+  std::string system{};              ///< projected system of its world, as FileMeaning has it; empty: unknown
   std::string start_utc;
   std::optional<Pose> vehicle_from_head{};     ///< of its mission or --mount, at scan angle 0; absent: unknown
   std::optional<Trajectory> trajectory{};      ///< world_from_vehicle, of its mission
@@ -57,6 +58,9 @@ std::optional<double> water_level(const RunPings& run);
 /// Where the vehicle was when a head pinged: world_from_vehicle; absent if the run does not say how the head is
 /// mounted.
 std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping);
+
+/// Places of the head at the begin and the end of its first and last cube [m].
+std::vector<Eigen::Vector3d> ends_of(const RunPings& run);
 
 /// The way of the vehicle: that of the mission; else of the trajectory or velocity that the run.toml of a ping names,
 /// if it leads through all pings; else through the places of the pings, head by head as they are stored, in the order

@@ -12,6 +12,7 @@
 #include "tool/command/run_settings.hpp"
 #include "tool/run/scene_files.hpp"
 #include "tool/run/scene_reach.hpp"
+#include "tool/run/world_place.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -68,6 +69,15 @@ void at_scene_file(const std::string& path, const Body& body) {
   }
 }
 
+/// Throws Error(content) for a mission whose anchor cannot be that of its way.
+void require_anchored(const SurveySetup& s) {
+  if (!s.file.anchor) return;
+  at_scene_file(s.file.path, [&] {
+    for (const Pose& pose : {s.file.mission.trajectory.pose.front(), s.file.mission.trajectory.pose.back()})
+      require_plausible(Georeference{{}, *s.file.anchor}, pose.translation(), "[survey.anchor]");
+  });
+}
+
 void require_in_water(const SurveySetup& s) {
   for (const SurveyPing& ping : s.survey->pings()) {
     const Environment& environment = s.heads[ping.head].setup.head.environment;
@@ -122,6 +132,7 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   } catch (const Error& error) {
     fail(ErrorKind::content, s.file.path, ": ", error.what());
   }
+  require_anchored(s);
   require_in_water(s);
   for (const SurveyHead& head : s.heads)
     if (s.file.randomise.noise_db > 0 && !(head.options.noise && head.setup.head.environment.self_noise_db))
@@ -187,6 +198,7 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
     if (!loaded_.mesh) prepared_ = std::make_shared<PreparedScene>(loaded_.scene, common.threads);
     box = bounds(loaded_.scene);
   }
+  require_same_system(setup.file.path, setup.file.anchor, setup.file.system, system());
   std::vector<double> farthest(setup.heads.size());
   for (const SurveyPing& ping : setup.survey->pings()) {
     const Eigen::Vector3d at = event_of(setup.file.mission, ping).world_from_head.translation();
@@ -201,6 +213,10 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
   for (std::size_t h = 0; h < setup.heads.size(); ++h)
     if (const std::string note = far_range_note(setup.heads[h].setup.head, farthest[h]); !note.empty())
       progress.note("head " + setup.file.mission.heads[h].name + ": " + note);
+}
+
+const std::string& SurveyScene::system() const {
+  return (parts_ ? parts_->scene().report() : loaded_.report).meaning.system.value;
 }
 
 std::shared_ptr<const PreparedScene> SurveyScene::scene_for(const PingSimulator& simulator,

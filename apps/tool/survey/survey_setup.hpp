@@ -60,6 +60,8 @@ class SurveyScene : public SceneSource {
   std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator, const PingEvent& event) const override;
   /// Whether all pings have the same scene.
   bool is_shared() const { return prepared_ != nullptr; }
+  /// Coordinate system that the scene's file states, as FileMeaning has it; empty: none.
+  const std::string& system() const;
 
  private:
   /// Loads a scene of parts; returns its box at the first ping.

@@ -15,11 +15,13 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "simulate/ping_notes.hpp"
+#include "scene_io/projected_system.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/run/run_files.hpp"
+#include "tool/run/world_place.hpp"
 #include "tool/survey/survey_blocks.hpp"
 #include "tool/survey/survey_status.hpp"
 
@@ -280,6 +282,8 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
   const auto load = [&] {
     progress.step("loading " + s.file.scene);
     scene.emplace(s, o.common, progress);
+    if (epsg_of_system(scene->system()) > 0)
+      progress.note("the world is in " + scene->system() + ", which exports take");
   };
   if (!is_survey_run(o.output)) load();
   open_survey_run(o.output, s.run);
@@ -294,6 +298,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
   ordered_json notes = ordered_json::array();
   if (!todo.blocks.empty()) {
     if (!scene) load();
+    record_system(o.output, scene->system());
     progress.step("pinging");
     FolderStore folder(store, status);
     finish_on_interrupt("finished pings are kept; the same command goes on from there");

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geodesy.hpp"
+#include "tool/command/option_list.hpp"
+
+namespace insonify::tool {
+
+/// What is asked for the place of a world on the globe; empty: as its run says.
+struct AskedPlace {
+  std::string anchor, utm, system;
+
+  /// Returns whether nothing is asked.
+  bool empty() const { return anchor.empty() && utm.empty() && system.empty(); }
+};
+
+/// Adds --anchor, --utm and --system.
+void add_place_options(OptionList list, AskedPlace& asked);
+
+/// What a run knows of the place of its world.
+struct KnownPlace {
+  std::string run;                 ///< its path, for messages
+  std::string system;              ///< of its mission or of the file of its scene, as FileMeaning has it; or empty
+  std::optional<Anchor> anchor{};  ///< of its mission
+};
+
+/// Returns the system that a run recorded: of a survey in its scene.json, of a ping in its manifest.json; empty if the
+/// file of the scene stated none.
+std::string recorded_system(const std::string& run);
+/// Writes scene.json into the folder of a survey, if the system of its scene is known.
+void record_system(const std::string& folder, const std::string& system);
+
+/// Throws Error(content) "path: ..." if a mission with this anchor or system contradicts the system of its scene.
+void require_same_system(const std::string& path, const std::optional<Anchor>& anchor, const std::string& system,
+                         const std::string& of_scene);
+
+/// Returns where the world is, as asked or as the run says; absent if neither says it. Throws Error(argument) if what is
+/// asked contradicts the run, and if one of `places`, points of the world [m], cannot be there (require_plausible).
+std::optional<Georeference> georeference_of(const AskedPlace& asked, const KnownPlace& known,
+                                            const std::vector<Eigen::Vector3d>& places);
+
+/// Returns what to say of --utm: that S is the hemisphere and not the band of MGRS; else nothing.
+std::string utm_note(const AskedPlace& asked, const KnownPlace& known);
+
+}  // namespace insonify::tool
