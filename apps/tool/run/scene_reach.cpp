@@ -84,6 +84,7 @@ void end_range_with_scene(HeadSetup& setup, const Bounds& box, const Pose& pose)
 std::string far_range_note(const HeadSetup& setup, double reach) {
   const RangeGate& gate = setup.head.gate;
   constexpr double far = 2;
+  if (!mirrors_of(setup.environment).empty()) return {};  // echoes by way of walls fill any range
   if (setup.environment.volume_scattering_db || !(reach > gate.min_range) || gate.max_range < far * end_of_range(reach))
     return {};
   const double end = end_of_range(reach), bytes = 8.0 * static_cast<double>(gate.bins() * setup.head.fan.beams());

@@ -79,7 +79,7 @@ struct PlannedPing {
 struct HeadTrial {
   std::size_t pings = 0, tried = 0;
   std::vector<PlannedPing> planned;  ///< the most typical first
-  double cpu = 0, first_cpu = 0, scatterers = 0, soundings = 0;
+  double cpu = 0, first_cpu = 0, scatterers = 0, soundings = 0, image_bytes = 0;
 
   /// All pings over those tried, by a number of their plans.
   double part(double PlannedPing::*number) const {
@@ -134,6 +134,17 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene)
   return trials;
 }
 
+/// Bytes of the images of a ping in a cube. Labels are packed: a pixel that shows a surface has some 6 bytes of them.
+double stored_bytes(const Ping& ping) {
+  constexpr double label_bytes = 6;
+  const auto size = [](const auto& image) { return static_cast<double>(image.size()); };
+  double bytes = 8 * size(ping.pressure) + 4 * (size(ping.intensity) + size(ping.split_phase));
+  for (const Layer& layer : ping.layers) bytes += 8 * size(layer.pressure);
+  if (ping.labels.id.size() > 0)
+    bytes += label_bytes * static_cast<double>((ping.labels.id != PixelLabels::no_id).count());
+  return bytes;
+}
+
 /// Makes a ping of each head, then more, as long as the plan takes at most a twentieth of the survey. `begun` is the
 /// CPU time when the scene began to be loaded.
 void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double begun,
@@ -154,6 +165,7 @@ void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double
       if (trial.tried == 0) trial.first_cpu = trial.cpu;
       trial.scatterers += static_cast<double>(made.scatterers);
       trial.soundings += static_cast<double>(made.soundings.size());
+      trial.image_bytes += stored_bytes(made.ping);
       ++trial.tried, more = true;
     }
 }
@@ -161,13 +173,15 @@ void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double
 ordered_json cost_of_head(const SurveySetup& s, const HeadTrial& trial, std::size_t h) {
   constexpr double row_bytes = 76;  // of returns.ply
   const double n = static_cast<double>(trial.pings), part = trial.part(&PlannedPing::scatterers);
+  const double images = trial.image_bytes > 0  // else the pings failed
+                            ? trial.image_bytes / static_cast<double>(trial.tried)
+                            : static_cast<double>(pressure_bytes(s.heads[h].setup.head.head));
   return {{"name", s.file.mission.heads[h].name},
           {"pings", trial.pings},
           {"pings_tried", trial.tried},
           {"echoes", std::llround(trial.scatterers * part)},
           {"returns", std::llround(trial.soundings * part)},
-          {"bytes", std::llround(n * static_cast<double>(pressure_bytes(s.heads[h].setup.head.head)) +
-                                 trial.soundings * part * row_bytes)},
+          {"bytes", std::llround(n * images + trial.soundings * part * row_bytes)},
           {"cpu_hours", trial.cpu_of_all() / 3600}};
 }
 
@@ -207,7 +221,9 @@ void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene
 /// Writes the blocks of a survey into its folder, and says how far it is.
 class FolderStore : public SurveyStore {
  public:
-  FolderStore(const SurveyBlocks& blocks, SurveyStatus& status) : blocks_(blocks), status_(status) {}
+  /// mirrors  walls echo where no surfel does: a ping is silent if its image is empty, too
+  FolderStore(const SurveyBlocks& blocks, SurveyStatus& status, bool mirrors)
+      : blocks_(blocks), status_(status), mirrors_(mirrors) {}
 
   BlockOutcomes resume(const SurveyBlock& block) override { return blocks_.resume(block); }
   void keep(const SurveyBlock& block, BlockOutcomes& outcomes) override {
@@ -216,7 +232,8 @@ class FolderStore : public SurveyStore {
     blocks_.keep(block, outcomes);
   }
   void ping_done(const PingOutcome* made) override {
-    silent_ += made && made->failure.empty() && made->scatterers == 0;
+    silent_ +=
+        made && made->failure.empty() && made->scatterers == 0 && (!mirrors_ || (made->ping.pressure == 0).all());
     status_.ping_done(made);
   }
   bool stopped() override { return is_interrupted(); }
@@ -228,6 +245,7 @@ class FolderStore : public SurveyStore {
  private:
   const SurveyBlocks& blocks_;
   SurveyStatus& status_;
+  bool mirrors_;
   std::atomic<std::size_t> silent_ = 0;
   std::map<std::size_t, std::vector<PingNote>> notes_;  // one thread at a time keeps
 };
@@ -300,7 +318,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
     if (!scene) load();
     record_system(o.output, scene->system());
     progress.step("pinging");
-    FolderStore folder(store, status);
+    FolderStore folder(store, status, !mirrors_of(s.heads.front().setup.head.environment).empty());
     finish_on_interrupt("finished pings are kept; the same command goes on from there");
     whole = simulate_survey(*s.survey, todo.blocks, *scene, folder, o.common.threads);
     silent = folder.silent();
