@@ -18,6 +18,7 @@ struct PartView {
     double least = std::numeric_limits<double>::quiet_NaN(), most = std::numeric_limits<double>::quiet_NaN();
     bool operator==(const Extent&) const = default;
   };
+  /// Of the axes of the part's file, as a scene of parts places them.
   Eigen::Isometry3d world_from_part = Eigen::Isometry3d::Identity();
   /// Visible fraction of the part: the solid angle that the head sees of it, over the solid angle that it would see of
   /// the part alone. NaN: it would see nothing.

@@ -29,6 +29,11 @@ struct PlacedPart {
   /// pings the same numbers. An absent part needs only a name and a label.
   bool absent = false;
 
+  /// Origin of the axes of the part's file, in the part's own axes, which begin near its surfels [m].
+  Eigen::Vector3d file_origin = Eigen::Vector3d::Zero();
+
+  /// Returns the pose of the axes of the part's file.
+  Pose world_from_file() const { return world_from_part * Eigen::Translation3d(file_origin); }
   /// Returns whether the part moves.
   bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }
 };

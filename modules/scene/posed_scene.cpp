@@ -70,7 +70,8 @@ ScenePart scene_part(const PlacedPart& placed) {
           .world_from_part = placed.world_from_part,
           .velocity = placed.velocity,
           .turn_rate = placed.turn_rate,
-          .own = placed.captured ? nullptr : placed.cloud};
+          .own = placed.captured ? nullptr : placed.cloud,
+          .file_origin = placed.file_origin};
 }
 
 /// From the part's coordinates, relative to its cloud's origin, to those of the scene.

@@ -25,6 +25,8 @@ struct ScenePart {
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< rotation vector per second, in the world [rad/s]
   /// The part in its own axes; surfel `id` of the scene is number `id` in it. Null: its own axes are the world's.
   std::shared_ptr<const SceneCloud> own{};
+  /// Origin of the axes of the part's file, in the part's own axes [m].
+  Eigen::Vector3d file_origin = Eigen::Vector3d::Zero();
 
   /// Returns whether the part moves.
   bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }

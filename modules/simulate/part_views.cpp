@@ -15,6 +15,9 @@ struct SeenSurfel {
   double range, solid_angle;  ///< [m], [sr]
 };
 
+/// The pose of the axes of the part's file.
+Pose pose_of_file(const ScenePart& part) { return part.world_from_part * Eigen::Translation3d(part.file_origin); }
+
 class PartViewer {
  public:
   explicit PartViewer(const ResolvedPing& ping) : ping_(ping), head_from_world_(ping.view.world_from_head.inverse()) {
@@ -25,7 +28,7 @@ class PartViewer {
   /// View of a part, of a scene without the other parts.
   /// seen   1 of each surfel that the head sees among all parts
   PartView view_of(const ScenePart& part, const SceneCloud& alone, const std::vector<std::uint8_t>& seen) const {
-    PartView view{part.world_from_part};
+    PartView view{pose_of_file(part)};
     const View& look = ping_.view;
     const auto visibility = find_visibility(alone, look.world_from_head, look.fan, look.gate,
                                             std::vector<std::uint8_t>(alone.size(), 1), look.sampling);
@@ -82,7 +85,7 @@ std::vector<PartView> part_views(const SceneCloud& scene, const std::vector<std:
   const PartViewer viewer(ping);
   std::vector<PartView> views;
   for (std::size_t p = 0; p < rows.size(); ++p) {
-    views.push_back({scene.parts[p].world_from_part});
+    views.push_back({pose_of_file(scene.parts[p])});
     if (rows[p].empty()) continue;
     SceneCloud alone = subset(bodies, rows[p]);
     alone.parts = {scene.parts[p]}, alone.part.assign(alone.size(), 0);

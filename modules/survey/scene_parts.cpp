@@ -36,6 +36,7 @@ PlacedPart placed_at(const SceneBody& body, const MovingAxes& axes, double scale
   part.world_from_part.translation() += arm;
   part.velocity = axes.motion.velocity + axes.motion.turn_rate.cross(arm);
   part.turn_rate = axes.motion.turn_rate;
+  part.file_origin = -scale * body.centre;
   return part;
 }
 
@@ -213,6 +214,7 @@ std::vector<PlacedPart> SceneParts::drawn_of(std::size_t scatter, std::uint64_t 
     const double scale = between(what[1], rule.least_scale, rule.most_scale);
     PlacedPart part{body.body.name + "-" + std::to_string(body.numbers_from + ++so_far[body.body.name]),
                     body.body.label, scaled(body.body.cloud, scale)};
+    part.file_origin = -scale * body.body.centre;
     part.world_from_part = pose_from_yaw_pitch_roll(Vector3d::Zero(), within(turn[0], rule.yaw),
                                                     within(turn[1], rule.tilt), within(turn[2], rule.tilt));
     const double bury = between(what[2], rule.least_bury, rule.most_bury) * height_of(part);

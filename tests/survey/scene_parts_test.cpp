@@ -217,6 +217,8 @@ TEST(SceneParts, move_along_trajectories_and_with_constant_velocity) {
   EXPECT_TRUE(at_3[0].turn_rate.isApprox(Vector3d(0, 0, pi / 4)));
   // After 3 s its axes are turned by 270 degrees, so that the body 1 m before them is at -y of them and moves to +x.
   EXPECT_TRUE(at_3[1].world_from_part.translation().isApprox(Vector3d(1, 6 - 1, 0)));
+  EXPECT_TRUE(at_3[1].world_from_file().isApprox(pose_from_yaw_pitch_roll({1, 6, 0}, 1.5 * pi, 0, 0)))
+      << "the axes of its file";
   EXPECT_TRUE(at_3[1].velocity.isApprox(Vector3d(pi / 2, 2, 0)));
   // Velocities are the derivatives of the poses.
   const auto before = parts.others_at(3 - 1e-4, 0), after = parts.others_at(3 + 1e-4, 0);

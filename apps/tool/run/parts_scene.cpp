@@ -204,12 +204,13 @@ ordered_json PartsScene::parts_json(double time, std::uint64_t draw) const {
     if (part.captured) {
       json["placed"] = "captured";
     } else {
-      const HeadPlace at = head_place(part.world_from_part);
+      const HeadPlace at = head_place(part.world_from_file());
       json["position_m"] = vector_json(at.position);
       json["yaw_pitch_roll_deg"] = vector_json(Vector3d(degrees(1) * Vector3d(at.yaw, at.pitch, at.roll)));
     }
     if (part.moves()) {
-      json["velocity_mps"] = vector_json(part.velocity);
+      const Vector3d arm = part.world_from_part.linear() * part.file_origin;
+      json["velocity_mps"] = vector_json(part.velocity + part.turn_rate.cross(arm));
       json["turn_deg_per_s"] = vector_json(degrees(1) * part.turn_rate);
     }
     list.push_back(std::move(json));
