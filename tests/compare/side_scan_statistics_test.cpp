@@ -98,8 +98,10 @@ TEST(ResampledInRange, takes_the_mean_intensity_of_finer_bins) {
     EXPECT_NEAR(level(1, n), 3, 1e-5);
   }
   EXPECT_TRUE(std::isnan(level(0, 3)) && std::isnan(level(1, 4)));
-  EXPECT_THAT(error_of([&] {
-                resampled_in_range(fine, {5, 6, 0.2});
-              }),
+  EXPECT_THAT(error_of(
+                  [&] {
+                    resampled_in_range(fine, {5, 6, 0.2});
+                  },
+                  ErrorKind::content),
               HasSubstr("do not overlap: 1 to 1.6 m and 5 to 6 m"));
 }

@@ -132,7 +132,8 @@ TEST_F(DatasetRun, boxes_are_of_objects_that_stand_out) {
   const auto boxes = [&](const std::string& run, const std::string& options) {
     succeed("dataset " + run + " -o set --force --share 0.01 --split 100:0:0 " + options);
     std::size_t of_ball = 0;
-    for (const auto& a : coco("fan")["annotations"]) of_ball += a["instance"] == 3;
+    const nlohmann::json all = coco("fan");
+    for (const auto& a : all["annotations"]) of_ball += a["instance"] == 3;
     return of_ball;
   };
   EXPECT_EQ(boxes("heard", ""), 1U);

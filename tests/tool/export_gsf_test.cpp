@@ -36,7 +36,7 @@ constexpr double entry_step = 0.1, ping_step = 0.7;  // [s]
 
 class ExportGsf : public ToolTest {
  protected:
-  /// The survey of a sloping bed with an em2040 that is tilted by 1 degree and turned by 4, below the ship's origin: at a
+  /// The survey of a sloping bed with an em2040 that is pitched by 1 degree and rolled by 4, below the ship's origin: at a
   /// depth of 2.2 m to some millimetres.
   void SetUp() override {
     write("bed.obj", "v -24 -24 -12\nv 24 -24 -12\nv 24 24 -11\nv -24 24 -11\nf 1 2 3\nf 1 3 4\n");
@@ -221,9 +221,10 @@ TEST_F(ExportGsf, names_sonar_versions_and_how_the_head_is_mounted) {
     EXPECT_NEAR(s.of_sensor.at("receive_beam_width_deg"), 1, 0.051);
   }
   EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_OFFSET"), "+00.00,+00.00,+00.20");
-  // The head's z axis, ahead of a swath, is (sin 89 cos 4, -sin 4, cos 89 cos 4) in ship axes.
+  // As the mission states it.
   EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_PITCH_OFFSET"), "+01.00");
-  EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_HEADING_OFFSET"), "+04.00");
+  EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_ROLL_OFFSET"), "+04.00");
+  EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_HEADING_OFFSET"), "+00.00");
   EXPECT_EQ(gsf.parameter.at("PLATFORM_TYPE"), "AUV");
   EXPECT_EQ(gsf.parameter.at("TIDE_COMPENSATED"), "YES");
   EXPECT_NEAR(std::stod(gsf.parameter.at("APPLIED_DRAFT")), gsf.swaths[0].depth_corrector, 0.0051);

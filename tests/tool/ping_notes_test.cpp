@@ -15,7 +15,7 @@ class PingNotes : public ToolTest {
                          .way = "[8, 0, 2], [" + std::to_string(8 + pings) + ", 0, 2]",
                          .sonar = "p900-45",
                          .range = "1:12",
-                         .head = "name = \"fls\"\nset = [\"sonar.beams=16\"]\nangles_deg = [0, 20, 0]\nevery_m = 1"}));
+                         .head = "name = \"fls\"\nset = [\"sonar.beams=16\"]\npitch_deg = -20\nevery_m = 1"}));
   }
   static const nlohmann::json& sparse_in(const nlohmann::json& notes) {
     for (const auto& note : notes)

@@ -102,7 +102,8 @@ class ProposedMission : public ToolTest {
   /// Runs what `info` proposes for a scene, and exports the soundings. `viewpoint` is what the user knows.
   Judged judged(const std::string& scene, const RiverBed& bed, const std::string& viewpoint) const {
     std::string mission;
-    for (const nlohmann::json& line : json_of("info " + scene)["next"]) {
+    const nlohmann::json described = json_of("info " + scene);
+    for (const nlohmann::json& line : described["next"]) {
       std::string command = line.get<std::string>().substr(0, line.get<std::string>().find("  #"));
       if (const std::size_t at = command.find("x,y,z"); at != command.npos) command.replace(at, 5, viewpoint);
       if (command.starts_with("insonify prepare") || command.starts_with("insonify make-mission"))

@@ -199,7 +199,7 @@ DatasetWriter::Contrasts DatasetWriter::add_form(Form& form, const DatasetImage&
       a.category = known->second;
     const std::optional<double> contrast = contrast_db(of.level_db, map.instance, a, of.picture.fan);
     contrasts.of[a.instance] = contrast;
-    if (contrast && *contrast < options_.min_contrast) {
+    if (contrast && a.category != shadow_class && *contrast < options_.min_contrast) {
       ++form.unboxed;
       contrasts.unboxed.push_back(
           {{"instance", a.instance}, {"class", classes_[a.category]}, {"contrast_db", *contrast}});
