@@ -11,7 +11,7 @@ namespace insonify {
 namespace {
 
 using complex = std::complex<double>;
-constexpr complex j(0, 1);
+constexpr complex imaginary(0, 1);
 constexpr double far_off = 1e5;  // what an edge there takes off is below 1 / (pi far_off)
 constexpr double far_along = 5;  // from there on the series of the end of a side is good to 1e-5
 
@@ -48,14 +48,14 @@ complex part_of_side(double h, double along) {
       // 1 - exp(2 j half) = -2 j sin(half) exp(j half), j the imaginary unit
       sum += rule.weight[k] * std::sin(half) / square * std::polar(1.0, half);
     }
-    return -2.0 * j * (along * h * sum);
+    return -2.0 * imaginary * (along * h * sum);
   }
-  const complex whole = pi / 2 * (1.0 - 2.0 / (1.0 + j) * fresnel_integral(h));
+  const complex whole = pi / 2 * (1.0 - 2.0 / (1.0 + imaginary) * fresnel_integral(h));
   if (along > far_off) return angle - whole;
   // By parts from `along` to infinity.
   const double square = h * h + along * along;
-  const complex per_phase = 1.0 / (j * pi * along), first = h / square * per_phase,
-                second = -h * (1 / (square * along * along) + 2 / (square * square)) / (j * pi) * per_phase;
+  const complex per_phase = 1.0 / (imaginary * pi * along), first = h / square * per_phase,
+                second = -h * (1 / (square * along * along) + 2 / (square * square)) / (imaginary * pi) * per_phase;
   return angle - whole - std::polar(1.0, std::remainder(pi / 2 * square, 2 * pi)) * (first - second);
 }
 
@@ -73,7 +73,7 @@ complex fresnel_integral(double x) {
     complex term = size;
     for (int n = 0; n < 60 && std::abs(term) > 1e-17; ++n) {
       integral += term / (2.0 * n + 1);
-      term *= j * (square / 2) / (n + 1.0);
+      term *= imaginary * (square / 2) / (n + 1.0);
     }
   } else {
     complex b(1, -square), c = 1e300, d = 1.0 / b, fraction = d;

@@ -15,6 +15,8 @@ constexpr double least_cosine_in_group = 0.866;        // of a normal with the m
 constexpr double least_fill = 0.65, most_fill = 1.75;  // a square has 1, half of one 0.75, three squares in a row 0.6
 constexpr float of_square = 6;                         // area of a square over the mean square distance from its centre
 constexpr float most_thickness = 0.1f;                 // in extents
+constexpr float uneven_noise = 1.1f;                   // of a piece, in that of the node
+constexpr float least_noise = 0.003f;                  // in widths of the node: less than this makes no difference
 constexpr float half_diagonal = 0.70710678f;           // of a square, in its widths
 
 /// n n^T.
@@ -80,8 +82,10 @@ std::optional<DetailNode> MergedPieces::merged(const Group& group, std::span<con
   Vector3d point = Vector3d::Zero();
   std::array<double, 6> normals{};
   double noise = 0;
+  float most_noise = 0;
   for (const std::uint8_t m : group.all()) {
     const Piece p = piece(cell[m]);
+    most_noise = std::max(most_noise, p.noise);
     for (std::size_t k = 0; k < normals.size(); ++k) normals[k] += p.area * p.normals[k];
     point += p.area * p.point.cast<double>();
     noise += p.area * p.noise * p.noise;
@@ -92,6 +96,8 @@ std::optional<DetailNode> MergedPieces::merged(const Group& group, std::span<con
   node.area = static_cast<float>(group.area);
   node.resultant = static_cast<float>(std::min(1.0, group.normals.norm() / group.area));
   node.noise = static_cast<float>(std::sqrt(noise / group.area));
+  // A scan knows that nothing stood before surfels of large noise: the mean would hide what they do not.
+  if (most_noise > uneven_noise * node.noise + least_noise * std::sqrt(node.area)) return {};
   for (std::size_t k = 0; k < normals.size(); ++k) node.normals[k] = static_cast<float>(normals[k] / group.area);
   node.material = group.material;
   node.children = group.members;

@@ -63,6 +63,28 @@ TEST(DetailLevels, hold_every_surfel_once_within_blocks_and_nodes) {
   EXPECT_LT(levels.root.size(), scene.size() / 4);
 }
 
+// In a view from one place noise is raised where lines of sight pass an edge: nodes do not spread it, and do not lose it.
+TEST(DetailLevels, keep_surfels_of_uneven_noise_apart) {
+  SceneCloud scene;
+  add_grid(scene, {0, 0, 0}, ahead, aside, 64, 64, 0.01);
+  scene.noise.assign(scene.size(), 0.001F);
+  const std::size_t even = levels_of(scene).root.size();
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    if (i % 64 < 5) scene.noise[i] = 0.2F;  // a strip
+  const DetailLevels levels = levels_of(scene);
+  std::size_t raised = 0;
+  for (std::uint32_t n = 0; n < levels.node.size(); ++n) {
+    const DetailNode& node = levels.node[n];
+    float most = 0;
+    for (const std::uint32_t i : surfels_below(levels, static_cast<std::uint32_t>(levels.surfels + n)))
+      most = std::max(most, scene.noise[i]);
+    EXPECT_GE(node.noise, 0.8F * most - 0.003F * std::sqrt(node.area));
+    raised += most > 0.1F;
+  }
+  EXPECT_GT(raised, 50U);                         // they do merge with each other
+  EXPECT_LT(levels.root.size(), 3 * even + 300);  // and so does the rest
+}
+
 TEST(DetailLevels, nodes_are_the_means_of_their_surfels) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 40000});
   const DetailLevels levels = levels_of(scene);
