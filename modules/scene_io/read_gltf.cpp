@@ -47,14 +47,15 @@ void add_primitive(const GltfDocument& document, const json& primitive, std::siz
 
 GltfMesh read_mesh(const GltfDocument& document, std::uint64_t index) {
   GltfMesh mesh;
-  std::map<std::uint64_t, std::array<std::size_t, 2>> known;  // accessors of points: where they begin, and their number
+  std::map<std::uint64_t, std::array<std::size_t, 2>>
+      known_points;  // accessors of points: where they begin, and their number
   const json& primitives = document.list(document.entry("meshes", index), "primitives");
   if (primitives.empty()) document.refuse("a mesh has no primitives");
   for (const json& primitive : primitives) {
     const json attributes = primitive.value("attributes", json::object());
     if (!attributes.contains("POSITION")) document.refuse("a primitive has no positions");
     const std::uint64_t accessor = document.number(attributes, "POSITION");
-    const auto [entry, is_new] = known.try_emplace(accessor);
+    const auto [entry, is_new] = known_points.try_emplace(accessor);
     auto& [first, count] = entry->second;
     if (is_new) {
       const std::vector<double> points = document.numbers(accessor, "VEC3");

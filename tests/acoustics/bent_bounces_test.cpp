@@ -8,7 +8,7 @@
 #include "support/scenes.hpp"
 #include "support/test.hpp"
 
-namespace {
+namespace insonify::bent_bounces {
 
 using Eigen::Vector3d;
 
@@ -91,8 +91,6 @@ void expect_mixed(const Bench& b, const Multipath& found, const SceneCloud& scen
   }
 }
 
-}  // namespace
-
 TEST(BentBounces, ghosts_in_a_wall_and_echoes_by_the_surface_are_where_rays_put_them) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -167,3 +165,5 @@ TEST(BentBounces, targets_and_glints_are_where_rays_put_them) {
       EXPECT_NEAR(glint.v[0], b.heard(image, there.launch).z(), radians(0.1));
     }
 }
+
+}  // namespace insonify::bent_bounces
