@@ -40,8 +40,8 @@ struct BendOptions {
   int threads = 0;                    ///< 0: all cores; the result does not depend on it
 };
 
-/// Most that rays raise the intensity at a place over that of straight ones: where they cross on a caustic it would be
-/// infinite, while waves of sonar raise it by a few decibels.
+/// Most that a tube of rays raises the intensity at a place over that of straight ones, each way. On a caustic, where rays
+/// cross, it would be infinite.
 inline constexpr double most_focusing = 10;
 
 /// Moves every scatterer to its apparent place: at half the two-way travel time times the sound speed at the head, in

@@ -14,9 +14,10 @@ struct RayEnd {
 /// A ray and how the narrow tube of rays around it widens.
 struct RayTube {
   RayEnd end;
-  double way = 0;    ///< integral of sound speed over the ray's length [m^2/s]
-  double width = 0;  ///< what the tube's width is to that, times `way`: equal without change of gradient; < 0: behind a
-                     ///< caustic [m^2/s]
+  double way = 0;  ///< integral of sound speed over the ray's length [m^2/s]
+  double width =
+      0;  ///< how far neighbouring rays are apart, across the ray in its vertical plane, per angle between them
+          ///< at the start, times the sound speed there [m^2/s]; < 0 behind a caustic
 
   /// Intensity there over that 1 m from the start [1/m^2] (E167): c_start c_end / (way abs(width)), which is 1 / r^2 in
   /// water of one sound speed, and the same both ways. Infinite on a caustic.
