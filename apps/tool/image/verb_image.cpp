@@ -112,13 +112,13 @@ void require_drawable(const ImageOptions& o) {
 }
 
 /// --annotate: how many maxima, or the user's own labels.
-struct Annotation {
+struct PictureAddition {
   std::size_t maxima = 0;
   std::vector<Mark> labels;
 };
 
-Annotation read_annotation(const ImageOptions& o) {
-  Annotation annotation;
+PictureAddition read_annotation(const ImageOptions& o) {
+  PictureAddition annotation;
   if (!o.annotate) return annotation;
   if (fs::path(*o.annotate).extension() == ".csv") {
     for (const Label& label : load_labels(*o.annotate))
@@ -133,7 +133,7 @@ Annotation read_annotation(const ImageOptions& o) {
 }
 
 /// Draws one ping with its marks.
-void draw_ping(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const Annotation& annotation,
+void draw_ping(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const PictureAddition& annotation,
                std::size_t ping, const std::string& path) {
   picture.marks = annotation.labels;
   if (annotation.maxima > 0)
@@ -161,7 +161,8 @@ std::string shown_by(const ImageRun& run, const ImageOptions& o, std::size_t pin
 
 /// Draws a picture of each ping into the folder; those that show the same, as of packets that a recording repeats, once.
 void draw_series(const ImageRun& run, const ImageOptions& o, const PictureOptions& picture,
-                 const Annotation& annotation, const RunDirectory& directory, const std::vector<std::string>& names) {
+                 const PictureAddition& annotation, const RunDirectory& directory,
+                 const std::vector<std::string>& names) {
   std::map<std::string, std::size_t> first;
   std::vector<std::size_t> drawn;  // the ping whose picture each ping has
   for (std::size_t ping = 0; ping < names.size(); ++ping)
@@ -183,7 +184,7 @@ void draw_series(const ImageRun& run, const ImageOptions& o, const PictureOption
   }
 }
 
-void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const Annotation& annotation) {
+void animate(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const PictureAddition& annotation) {
   constexpr std::size_t most = 10000;
   const std::size_t pings = run.cube.pings.size();
   if (pings > most)
@@ -225,7 +226,7 @@ void require_options_of_view(const ImageOptions& o) {
 void image(const ImageOptions& o) {
   require_options_of_view(o);
   require_drawable(o);
-  const Annotation annotation = read_annotation(o);
+  const PictureAddition annotation = read_annotation(o);
   if (!o.animate) require_free_file(o.output, o.force, inputs_of(o));
   if (const auto draw = view_of(o).draw_alone) return draw(o);
   const ImageRun run = read_image_run(o.run, o.layer);
