@@ -89,10 +89,7 @@ void surface_amplitudes(const EchoOptions& options, std::span<const Material> ma
   std::fill_n(re, end - begin, 1.0);
   std::fill_n(im, end - begin, 0.0);
   if (!draws(options)) return;
-  std::array<double, block> u, turn;
-  random_uniform_pairs(options.seed, RandomStage::surface_amplitude, s.id.data() + begin, end - begin, u.data(),
-                       turn.data());
-  kernels::complex_normal(u.data(), turn.data(), end - begin, re, im);
+  random_amplitudes(options.seed, {s.id.data() + begin, end - begin}, re, im);
   const bool plain = std::all_of(materials.begin(), materials.end(), [](auto& m) { return m.coherent_fraction == 0; });
   if (plain && options.amplitude != SurfaceAmplitude::random_phase) return;
   for (std::size_t k = 0; k < end - begin; ++k) {
@@ -108,6 +105,15 @@ std::complex<double> surface_amplitude(const EchoOptions& options, double cohere
   if (!draws(options)) return 1;
   return amplitude_of(options, coherent_fraction,
                       random_complex_normal(options.seed, RandomStage::surface_amplitude, {id, 0, 0}));  // (E9)
+}
+
+void random_amplitudes(std::uint64_t seed, std::span<const std::uint64_t> id, double* re, double* im) {
+  std::array<double, block> u, turn;
+  for (std::size_t begin = 0; begin < id.size(); begin += block) {
+    const std::size_t count = std::min(block, id.size() - begin);
+    random_uniform_pairs(seed, RandomStage::surface_amplitude, id.data() + begin, count, u.data(), turn.data());
+    kernels::complex_normal(u.data(), turn.data(), count, re + begin, im + begin);
+  }
 }
 
 double elevation_pattern(const EchoOptions& options, double elevation) {

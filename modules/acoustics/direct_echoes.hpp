@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <complex>
+#include <cstdint>
 #include <span>
 
 #include "acoustics/transmission.hpp"
@@ -37,5 +38,9 @@ Echoes direct_echoes(const Scatterers& scatterers, std::span<const Material> mat
 Echoes target_echoes(const Scatterers& scatterers, std::span<const double> sigma,
                      std::span<const std::complex<double>> xi, const Pulse& pulse, const Medium& medium,
                      const EchoOptions& options = {});
+
+/// Sets `re` and `im` (arrays as long as `id`) to the complex normal amplitudes of scatterers, of mean power 1, by seed
+/// and scatterer id (E9): those of direct_echoes with SurfaceAmplitude::complex_normal.
+void random_amplitudes(std::uint64_t seed, std::span<const std::uint64_t> id, double* re, double* im);
 
 }  // namespace insonify

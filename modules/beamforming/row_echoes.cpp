@@ -25,20 +25,23 @@ RowEchoes::RowEchoes(const Echoes& echoes, const SonarHead& head, double wavelen
   });
 }
 
-Echoes RowEchoes::of(const FanRow& row) const {
+std::vector<double> RowEchoes::responses(const FanRow& row) const {
   std::vector<double> response(echoes_.size());
   parallel_blocks(echoes_.size(), block, threads_, [&](std::size_t begin, std::size_t end) {
     RowResponse row_response(head_, wavelength_, row.elevation);
     for (std::size_t i = begin; i < end; ++i) response[i] = row_response.at(echoes_.v[i]);
   });
+  return response;
+}
+
+Echoes RowEchoes::of(const FanRow& row) const {
   Echoes of_row;
-  for (std::size_t i = 0; i < echoes_.size(); ++i) {
-    if (std::abs(response[i]) <= least_[i]) continue;
+  for_each_of(row, [&](std::size_t i, double response) {
     of_row.delay.push_back(echoes_.delay[i]);
     of_row.u.push_back(echoes_.u[i]);
-    of_row.amplitude.push_back(echoes_.amplitude[i] * response[i]);
+    of_row.amplitude.push_back(echoes_.amplitude[i] * response);
     if (!echoes_.doppler.empty()) of_row.doppler.push_back(echoes_.doppler[i]);
-  }
+  });
   return of_row;
 }
 

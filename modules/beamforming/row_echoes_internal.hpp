@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -15,8 +16,17 @@ class RowEchoes {
   RowEchoes(const Echoes& echoes, const SonarHead& head, double wavelength, const std::vector<FanRow>& rows,
             double cutoff, int threads);
   Echoes of(const FanRow& row) const;
+  /// Calls use(i, response) for every echo i that the row hears, in order.
+  template <typename Use>
+  void for_each_of(const FanRow& row, const Use& use) const {
+    const std::vector<double> response = responses(row);
+    for (std::size_t i = 0; i < response.size(); ++i)
+      if (!(std::abs(response[i]) <= least_[i])) use(i, response[i]);
+  }
 
  private:
+  std::vector<double> responses(const FanRow& row) const;
+
   static constexpr std::size_t block = 4096;
   const Echoes& echoes_;
   const SonarHead& head_;

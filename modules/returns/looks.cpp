@@ -20,6 +20,34 @@ Grid<float> mean_over_bins(const Grid<double>& intensity, int bins) {
   return mean;
 }
 
+RangeGate display_gate(const RangeGate& gate, int count) {
+  const double end = gate.min_range + static_cast<double>(gate.bins()) * gate.bin_size;
+  return {gate.min_range, end, (end - gate.min_range) / count};
+}
+
+Grid<double> mean_over_cells(const Grid<double>& intensity, const RangeGate& samples, const RangeGate& cells) {
+  if (static_cast<std::size_t>(intensity.cols()) != samples.bins())
+    fail(ErrorKind::argument, "mean_over_cells: intensity has ", intensity.cols(), " bins, must have ", samples.bins());
+  Grid<double> mean(intensity.rows(), static_cast<Eigen::Index>(cells.bins()));
+  for (Eigen::Index c = 0; c < mean.cols(); ++c) {
+    const double first = cells.min_range + static_cast<double>(c) * cells.bin_size, last = first + cells.bin_size;
+    const auto bin_at = [&](double range) { return (range - samples.min_range) / samples.bin_size; };
+    const auto begin = static_cast<Eigen::Index>(std::max(0.0, std::floor(bin_at(first))));
+    const auto end = std::min(intensity.cols(), static_cast<Eigen::Index>(std::ceil(bin_at(last))));
+    mean.col(c).setZero();
+    double area = 0;
+    for (Eigen::Index n = begin; n < end; ++n) {
+      const double low = std::max(first, samples.min_range + static_cast<double>(n) * samples.bin_size);
+      const double high = std::min(last, samples.min_range + static_cast<double>(n + 1) * samples.bin_size);
+      const double part = std::max(0.0, high * high - low * low);
+      mean.col(c) += part * intensity.col(n);
+      area += part;
+    }
+    if (area > 0) mean.col(c) /= area;
+  }
+  return mean;
+}
+
 Grid<float> shown_level_db(const Ping& ping, double floor_db) {
   if (ping.intensity.size() == 0) return level_db(ping, floor_db);
   return ping.intensity.unaryExpr([&](float intensity) {

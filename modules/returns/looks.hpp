@@ -9,6 +9,13 @@ namespace insonify {
 /// >= 1.
 Grid<float> mean_over_bins(const Grid<double>& intensity, int bins);
 
+/// Returns the gate of `count` display cells, evenly over the bins of `gate`.
+RangeGate display_gate(const RangeGate& gate, int count);
+
+/// Returns the mean intensity of display cells, beams x cells: of each the mean over the area between its ranges of the
+/// intensity of samples, beams x bins (E180). Throws Error(argument) if `intensity` has not the bins of `samples`.
+Grid<double> mean_over_cells(const Grid<double>& intensity, const RangeGate& samples, const RangeGate& cells);
+
 /// Returns the level that a display shows for every sample, beams x bins [dB re 1 uPa rms]: the level of
 /// Ping::intensity, or level_db if the ping has no looks. The level is at least `floor_db`.
 Grid<float> shown_level_db(const Ping& ping, double floor_db = silence_db);

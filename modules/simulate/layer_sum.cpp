@@ -9,9 +9,34 @@
 #include "beamforming/split_aperture.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/units.hpp"
+#include "returns/looks.hpp"
 #include "simulate/layer_sum_internal.hpp"
 
 namespace insonify {
+
+namespace {
+
+/// Turns samples into display cells.
+void average_cells(const ResolvedPing& ping, Ping& image) {
+  const RangeGate cells = display_gate(ping.samples, ping.options.outputs.display_bins);
+  const auto averaged = [&](const ComplexGridF& pressure) -> ComplexGridF {
+    const Grid<double> intensity = pressure.cast<std::complex<double>>().abs2();
+    return mean_over_cells(intensity, ping.samples, cells).sqrt().cast<std::complex<float>>();
+  };
+  image.pressure = averaged(image.pressure);
+  for (Layer& layer : image.layers) layer.pressure = averaged(layer.pressure);
+  image.gate = cells;
+  image.display_cells = true;
+}
+
+}  // namespace
+
+Ping ping_of(const ResolvedPing& ping, const RangeGate& gate, ComplexGridF image) {
+  Ping made{ping.event.number, ping.event.time, ping.event.world_from_head, ping.head.fan, gate, std::move(image)};
+  if (ping.options.effects.moving == Choice::always) made.motion = ping.event.motion;
+  note_water(ping.sent.medium, made);
+  return made;
+}
 
 LayerSum::LayerSum(const ResolvedPing& ping, SynthesizerTable& synthesizers)
     : ping_(ping),
@@ -99,12 +124,10 @@ void LayerSum::add_pressure(const std::string& name, std::size_t echoes, Complex
 }
 
 void LayerSum::finish(SimulatedPing& result) {
-  result.ping = {ping_.event.number, ping_.event.time, ping_.event.world_from_head,
-                 ping_.head.fan,     ping_.head.gate,  stored_pressure(sum_, "PingSimulator"),
-                 std::move(layers_)};
+  result.ping = ping_of(ping_, ping_.head.gate, stored_pressure(sum_, "PingSimulator"));
+  result.ping.layers = std::move(layers_);
   result.ping.expected_level = incoherent_;
-  if (ping_.options.effects.moving == Choice::always) result.ping.motion = ping_.event.motion;
-  note_water(ping_.sent.medium, result.ping);
+  if (ping_.options.outputs.display_bins > 0) average_cells(ping_, result.ping);
   if (ping_.options.outputs.split_phase) result.ping.split_phase = phase_between(port_, starboard_);
   result.report.layers = std::move(report_);
   result.outputs.elements = std::move(elements_);

@@ -11,6 +11,9 @@
 
 namespace insonify {
 
+/// Returns the ping of an image, with its water and motion.
+Ping ping_of(const ResolvedPing& ping, const RangeGate& gate, ComplexGridF image);
+
 /// Forms beams of one kind of echo after another and adds them up; for SynthesisMethod::incoherent, by their squares.
 class LayerSum {
  public:

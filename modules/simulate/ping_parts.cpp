@@ -5,6 +5,7 @@
 #include "acoustics/bend_paths.hpp"
 #include "acoustics/direct_stream.hpp"
 #include "acoustics/glints.hpp"
+#include "simulate/cell_sum_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/surfel_energy_internal.hpp"
@@ -38,7 +39,7 @@ RefractionReport refract(const SceneCloud& scene, const ResolvedPing& ping, Scat
 /// Whether some stage asks for all patches, or for a synthesis that takes all echoes at once.
 bool needs_all_patches(const ResolvedPing& ping) {
   const SimulationOptions& o = ping.options;
-  return o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
+  return draws_cells(o) || o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
          o.sampling.kind == SamplingKind::rays || ping.environment.profile || !streamed(ping.head, o.synthesis.method);
 }
 
@@ -115,6 +116,15 @@ void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, 
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   parts.doubles = double_echoes(prepared, seen, ping.view, ping.sent, {rays_per_cell});
   layers.add("double-echoes", parts.doubles.echoes);
+}
+
+void draw_cells(const ResolvedPing& ping, const PingParts& parts, SimulatedPing& result) {
+  CellSum cells(ping);
+  cells.add_direct(parts.sampling.scatterers, parts.direct);
+  std::size_t number = 0;
+  for (Reverberation& part : reverberation_echoes(ping))
+    cells.add_reverberation(part.name, std::move(part.echoes), number++);
+  cells.finish(result);
 }
 
 Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,

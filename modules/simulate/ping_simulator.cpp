@@ -183,13 +183,17 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
 
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
   begin_stage("synthesis");
-  LayerSum layers(ping, *shared_->synthesizers);
-  layers.add("direct", *direct);
-  add_bounces(scene, ping, parts, layers);
-  add_double_echoes(scene, ping, parts, layers);
-  for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
-  if (ping.options.effects.noise) layers.add_noise();
-  layers.finish(result);
+  if (draws_cells(ping.options)) {
+    draw_cells(ping, parts, result);
+  } else {
+    LayerSum layers(ping, *shared_->synthesizers);
+    layers.add("direct", *direct);
+    add_bounces(scene, ping, parts, layers);
+    add_double_echoes(scene, ping, parts, layers);
+    for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
+    if (ping.options.effects.noise) layers.add_noise();
+    layers.finish(result);
+  }
   average_looks(decided, result.ping, [&](const ResolvedPing& look) { return this->ping(scene, look).ping; });
   seconds.synthesis = watch.lap();
 

@@ -46,6 +46,9 @@ void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingPa
 /// Adds the layer of echoes by way of two surfaces (E158), if the options say so, and leaves them in parts.doubles.
 void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
+/// Draws the display cells of direct echoes, reverberation and noise (E180): the ping of `result`.
+void draw_cells(const ResolvedPing& ping, const PingParts& parts, SimulatedPing& result);
+
 /// Returns the soundings of a ping. Their contributors may be double echoes, if there are any.
 Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,
                  const Ping& image);

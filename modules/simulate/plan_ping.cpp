@@ -49,6 +49,11 @@ bool is_open(const PlanStage& stage, const SimulationOptions& options) {
   return stage.by == DecidedBy::budget && stage.asked(options) == Choice::as_needed;
 }
 
+/// Whether a stage is decided for each ping: an open one, or phases of display cells that may be drawn.
+bool to_decide(const PlanStage& stage, const SimulationOptions& options) {
+  return is_open(stage, options) || (stage.reason && draws_cells(options));
+}
+
 /// How one row of beams is gridded, or would be if the method is another: those may ask for more than gridding can.
 SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
   return choice_of_a_row(ping.head, ping.sent.medium,
@@ -58,9 +63,15 @@ SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
 /// A row judged: an open one by its share of the budget, which sets `decided`.
 PlannedStage judge(const PlanStage& stage, const PlanFacts& facts, double share, SimulationOptions& decided) {
   const SimulationOptions& options = facts.ping.options;
-  const bool caused = stage.cause(facts.cause()), by_budget = stage.by == DecidedBy::budget;
+  const PlanCause cause = stage.reason ? facts.cause(decided) : facts.cause();
+  const bool caused = stage.cause(cause), by_budget = stage.by == DecidedBy::budget;
   const double bound = stage.bound && (caused || !by_budget) ? stage.bound(facts) : 0;
-  PlannedStage judged{stage.name, stage.by, caused, caused ? stage.with : stage.without, bound, level_of(bound)};
+  const char* with = stage.reason && caused ? stage.reason(cause) : stage.with;
+  PlannedStage judged{stage.name, stage.by, caused, caused ? with : stage.without, bound, level_of(bound)};
+  if (stage.reason && draws_cells(options)) {
+    Environment unchanged = facts.ping.environment;
+    stage.force(caused, unchanged, decided);
+  }
   if (is_open(stage, options)) {
     const bool too_dear = stage.only_if_forced && stage.only_if_forced(facts);
     judged.included = bound > share && !too_dear;
@@ -81,7 +92,7 @@ std::vector<PlannedStage> judge_stages(const PlanFacts& facts, bool only_open, S
   const double share = budget_share(stages, facts);
   std::vector<PlannedStage> judged;
   for (const PlanStage& stage : stages)
-    if (!only_open || is_open(stage, facts.ping.options)) judged.push_back(judge(stage, facts, share, decided));
+    if (!only_open || to_decide(stage, facts.ping.options)) judged.push_back(judge(stage, facts, share, decided));
   return judged;
 }
 
@@ -120,7 +131,7 @@ PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEve
 
 void decide_effects(const PreparedScene& prepared, ResolvedPing& ping) {
   const std::vector<PlanStage> stages = all_stages();
-  if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return is_open(s, ping.options); })) return;
+  if (std::none_of(stages.begin(), stages.end(), [&](auto& s) { return to_decide(s, ping.options); })) return;
   ping.options = decided_by({prepared.scene(), ping, sample_scene(prepared, ping), {}});
   derive(prepared.whole(), ping);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <span>
 #include <string>
 
@@ -19,6 +20,7 @@ struct PlanCause {
   const SimulationOptions& options;
   const PingEvent& event;
   bool single_precision = false;  ///< of tiles and transforms
+  double samples_per_cell = 0;    ///< of a display
 };
 
 /// The data from which stages are judged.
@@ -29,7 +31,13 @@ struct PlanFacts {
   SynthesisChoice synthesis;  ///< for one row of beams
 
   /// Returns what the ping is asked for.
-  PlanCause cause() const { return {scene, ping.environment, ping.options, ping.event, synthesis.single_precision}; }
+  PlanCause cause() const { return cause(ping.options); }
+  /// Returns the same for other options.
+  PlanCause cause(const SimulationOptions& options) const {
+    const double cells = std::max(1, options.outputs.display_bins);
+    return {scene,      ping.environment,           options,
+            ping.event, synthesis.single_precision, static_cast<double>(ping.samples.bins()) / cells};
+  }
 };
 
 /// Factor in amplitude between the error expected of the sample and its bound.
@@ -74,6 +82,9 @@ struct PlanStage {
   bool (*only_if_forced)(const PlanFacts&) = nullptr;
   /// Takes a share of the budget only where there is a cause.
   bool shares_if_caused = false;
+  /// Returns why the stage is in, by its cause; nullptr: `with`. A stage with reasons is judged by the options as the
+  /// stages before it are decided.
+  const char* (*reason)(const PlanCause&) = nullptr;
 };
 
 std::span<const PlanStage> geometry_stages();

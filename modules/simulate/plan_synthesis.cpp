@@ -38,7 +38,7 @@ double narrow_band_bound(const PlanFacts& facts) {
 /// What the plan does where the narrow-band image is not good enough.
 void force_true_delays(bool included, Environment&, SimulationOptions& options) {
   if (!sums_pressures(options)) return;
-  auto& [method, tolerance, true_delays] = options.synthesis;
+  auto& [method, tolerance, true_delays, phases] = options.synthesis;
   true_delays = chosen(included);
   if (!included) {
     if (method == SynthesisMethod::true_delays || method == SynthesisMethod::element_exact)
@@ -63,6 +63,25 @@ Choice asked_true_delays(const SimulationOptions& options) {
   }
 }
 
+constexpr double least_samples_per_cell = 4;
+constexpr double drawn_cell_error = 0.02;  // of an expected cell, in amplitude, docs/results/display.md
+
+/// Why display cells must be means of samples (E180); nullptr: they need not.
+const char* reason_for_phases(const PlanCause& of) {
+  const SimulationOptions& o = of.options;
+  const auto keeps_phase = [](const Material& m) { return m.coherent_fraction > 0; };
+  if (o.outputs.display_bins == 0) return "the output is pressure";
+  if (o.synthesis.phases) return "asked for";
+  if (o.outputs.layers) return "layers are means of samples";
+  if (of.samples_per_cell < least_samples_per_cell) return "a display cell has fewer than four samples";
+  if (sums_pressures(o) && o.amplitude != SurfaceAmplitude::complex_normal) return "amplitudes are not Gaussian";
+  if (std::any_of(of.scene.materials.begin(), of.scene.materials.end(), keeps_phase))
+    return "a material has a coherent fraction";
+  if (o.effects.multipath == Choice::always || o.effects.mirrors == Choice::always || o.effects.double_echoes > 0)
+    return "paths by way of other surfaces add up with their phases";
+  return nullptr;
+}
+
 constexpr PlanStage stages[] = {
     {"direct-sum", DecidedBy::choice,
      [](const PlanCause& of) { return of.options.synthesis.method == SynthesisMethod::direct; }, "asked for",
@@ -72,6 +91,12 @@ constexpr PlanStage stages[] = {
      "elements receive wide bands and near echoes at other times: one pattern does not hold",
      "intensities have no delays across the array", narrow_band_bound, force_true_delays, asked_true_delays,
      [](const PlanFacts& facts) { return facts.ping.head.column.has_value(); }},
+    {"phases", DecidedBy::choice, [](const PlanCause& of) { return reason_for_phases(of) != nullptr; }, "asked for",
+     "display cells are drawn from expected energies, with speckle of the scene", [](const PlanFacts&) {
+       return drawn_cell_error;
+     },
+     [](bool in, Environment&, SimulationOptions& o) { o.synthesis.phases = in; }, nullptr, nullptr, false,
+     reason_for_phases},
     {"double-precision", DecidedBy::scene,
      [](const PlanCause& of) { return of.options.synthesis.method == SynthesisMethod::direct || !of.single_precision; },
      "the tolerance needs it", "the tolerance leaves room for single precision", tolerance_of}};

@@ -8,18 +8,20 @@
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "returns/looks.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr double nearest_range = 0.1;  // [m]: spreading would have no bound nearer by
 constexpr double nothing_db = -400;    // a pattern's level that is nothing
+constexpr double scatterers_per_display_cell = 2;
 constexpr double rounding = 1.001;     // of the ball that holds all paths
 
 EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
   EchoOptions echoes;
-  const bool incoherent = o.synthesis.method == SynthesisMethod::incoherent;
-  echoes.amplitude = incoherent ? SurfaceAmplitude::mean_power : o.amplitude;
+  const bool of_power = o.synthesis.method == SynthesisMethod::incoherent || draws_cells(o);
+  echoes.amplitude = of_power ? SurfaceAmplitude::mean_power : o.amplitude;
   echoes.seed = o.seed;
   echoes.threads = o.threads;
   return with_patterns(echoes, head);
@@ -58,6 +60,11 @@ SamplingOptions sampling_of(const WholeScene& scene, const ResolvedPing& ping) {
   s.kind = o.sampling.kind;
   s.scatterers_per_cell = o.sampling.scatterers_per_cell;
   s.range_resolution = range_resolution(head.pulse, medium.sound_speed);
+  if (draws_cells(o)) {
+    // Energies are spread over surfaces: scatterers only carry the speckle.
+    s.scatterers_per_cell = std::min(s.scatterers_per_cell, scatterers_per_display_cell);
+    s.range_resolution = std::max(s.range_resolution, head.gate.bin_size);
+  }
   s.rays_per_beam = o.sampling.rays_per_beam;
   const bool all_elevations = o.sampling.outer_elevations == Choice::always;
   s.elevation_half_extent = sampled_half_extent(head, all_elevations ? nothing_db : o.sampling.elevation_floor_db);
@@ -158,6 +165,8 @@ double reach_of_legs(const ResolvedPing& ping) {
 }
 
 void derive(const WholeScene& scene, ResolvedPing& ping) {
+  ping.head.gate =
+      draws_cells(ping.options) ? display_gate(ping.samples, ping.options.outputs.display_bins) : ping.samples;
   const SonarHead& head = ping.head;
   const SimulationOptions& options = ping.options;
   const Medium medium =
@@ -185,6 +194,7 @@ ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const 
   require_valid(head, surroundings, options, who);
   require_valid(event, who);
   ResolvedPing ping{head, event, environment_at(surroundings, event.world_from_head.translation().z(), who), options};
+  ping.samples = head.gate;
   ping.smooth.mirrors = mirrors_of(ping.environment);
   if (options.effects.mirrors == Choice::always && !may_mirror(ping.environment, scene.smooth))
     fail(ErrorKind::argument, who, ": options.effects.mirrors = always, but neither the environment nor a material of ",

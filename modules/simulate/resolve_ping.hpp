@@ -30,6 +30,7 @@ struct ResolvedPing {
   bool smooth_scene = false;    ///< WholeScene::smooth
   double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
   double beam_noise_db = 0;     ///< of all noise in a beam: element_noise_db less the array's gain (E19)
+  RangeGate samples{};          ///< the gate of the samples; head.gate is that of display cells where these are drawn
   /// Index in the given scene of each surfel of the pinged scene (SceneCut); empty: both are the same.
   std::span<const std::uint32_t> stands_for{};
   DetectionOptions detection{};  ///< defaults: noise floor of beam_noise_db, resolution of the pulse
@@ -45,6 +46,11 @@ inline constexpr double lobes_everywhere = 2;
 /// Returns the sampling of the directions in view: main lobes with their margin, and elevations above the floor of the
 /// pattern.
 SamplingOptions sampling_in_view(const ResolvedPing& ping);
+
+/// Returns whether display cells are drawn (E180), instead of being means of samples.
+inline bool draws_cells(const SimulationOptions& options) {
+  return options.outputs.display_bins > 0 && !options.synthesis.phases;
+}
 
 /// Returns whether a ping of a scene merges surfels: SamplingSettings::detail_width is set, and scene and outputs allow
 /// it.

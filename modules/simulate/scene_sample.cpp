@@ -117,7 +117,7 @@ double left_in_gate(const ResolvedPing& ping, double r) {
 
 /// Whether beams are formed of all frequencies of the pulse, or may be as far as the options say.
 bool may_have_true_delays(const ResolvedPing& ping) {
-  const auto& [method, tolerance, true_delays] = ping.options.synthesis;
+  const auto& [method, tolerance, true_delays, phases] = ping.options.synthesis;
   if (method == SynthesisMethod::gridded) return true_delays != Choice::never && !ping.head.column;
   return method == SynthesisMethod::true_delays || method == SynthesisMethod::element_exact;
 }

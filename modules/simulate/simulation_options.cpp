@@ -15,7 +15,7 @@ namespace insonify {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int most_contributors = 255, most_looks = 1024;
+constexpr int most_contributors = 255, most_looks = 1024, most_display_bins = 65536;
 constexpr double most_accuracy_db = 20;
 
 bool at_least_0(double value) { return value >= 0 && std::isfinite(value); }
@@ -83,6 +83,19 @@ void check(const DetectionOptions& d, std::optional<OptionProblem>& problem) {
   check.require(!std::isnan(d.above_db), "above_db", d.above_db, "a number");
 }
 
+/// Refuses outputs that display cells do not have.
+void check_display(const OutputSettings& o, std::optional<OptionProblem>& problem) {
+  const Checker check{problem, "outputs."};
+  check.require(o.display_bins >= 0 && o.display_bins <= most_display_bins, "display_bins", o.display_bins,
+                "within 0 and 65536; 0: samples");
+  if (o.display_bins == 0) return;
+  check.require(o.looks_range == 1 && o.looks_pings == 1, "display_bins", o.display_bins,
+                "0 with looks_range or looks_pings: a display cell is a mean of looks already");
+  check.require(!o.split_phase, "display_bins", o.display_bins, "0 with split_phase: display cells have no phase");
+  check.require(!o.elements, "display_bins", o.display_bins, "0 with elements: they are samples of pressure");
+  check.require(o.contributors == 0, "display_bins", o.display_bins, "0 with contributors: they are listed by sample");
+}
+
 }  // namespace
 
 std::optional<OptionProblem> problem_of(const SimulationOptions& o) {
@@ -104,6 +117,7 @@ std::optional<OptionProblem> problem_of(const SimulationOptions& o) {
                   "false with method incoherent: an expected intensity has no pressures at elements; use gridded");
   outputs.require(!(o.outputs.split_phase && o.synthesis.method == SynthesisMethod::incoherent), "split_phase", "true",
                   "false with method incoherent: an expected intensity has no phase; use gridded");
+  check_display(o.outputs, problem);
   const Checker top{problem, ""};
   top.require(o.accuracy_db > 0 && o.accuracy_db <= most_accuracy_db, "accuracy_db", o.accuracy_db,
               "above 0 and at most 20 dB");

@@ -55,6 +55,8 @@ struct SynthesisSettings {
   /// share of the budget, except for a planar array, whose rows would be summed one by one. If the tolerance is finer
   /// than the least of true_delays, element_exact replaces gridded, which is slow.
   Choice true_delays = Choice::as_needed;
+  /// Whether display cells are means of samples even where their statistics are drawn as well without them (E180).
+  bool phases = false;
 };
 
 /// Effects in addition to direct echoes along straight rays from a head at rest. The plan never adds noise: the user
@@ -94,6 +96,9 @@ struct OutputSettings {
   /// of the pulses are independent, as for a head that moves by half its aperture from pulse to pulse. (A head at rest
   /// before a rigid scene has one look, however many pulses it sends.)
   int looks_range = 1, looks_pings = 1;
+  /// Number of display cells along range, of which each holds the mean intensity over its area. The ping then has these
+  /// cells in place of samples of pressure (Ping::display_cells), and its soundings are of cells; 0: samples.
+  int display_bins = 0;
   bool split_phase = false;  ///< Ping::split_phase, for bottom detection: two more images, of a line array's halves
   int contributors = 0;      ///< number of strongest surfels listed for every pixel (E63), at most 255
   /// Takes the contributors in bands of beams, instead of PingOutputs::contributors. A band holds at most

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "beamforming/display/cell_row_internal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/random.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double strong_part = 0.1;   // of a cell, from which on an echo is added as a pressure (E184)
+constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
+constexpr std::size_t guards = 4;     // samples about a period
+
+/// Length of the overlap of [low, high] with [first, last].
+double overlap(double low, double high, double first, double last) {
+  return std::max(0.0, std::min(high, last) - std::max(low, first));
+}
+
+/// Turns a gamma variate of mean 1 and `from` looks into one of `to` looks (Wilson and Hilferty 1931; E183).
+double with_looks(double variate, double from, double to) {
+  const double root = 1 - 1 / (9 * to) + std::sqrt(from / to) * (std::cbrt(variate) - 1 + 1 / (9 * from));
+  return root > 0 ? root * root * root : 0;
+}
+
+}  // namespace
+
+CellRow::CellRow(const DisplayPlan& plan, std::span<const CellEcho> echoes, const CellLists& lists,
+                 const CellOptions& options, double element_noise, std::size_t first_element)
+    : plan_(plan),
+      echoes_(echoes),
+      lists_(lists),
+      options_(options),
+      element_noise_(element_noise),
+      first_element_(first_element),
+      all_(plan.all_length),
+      all_samples_(plan.all_samples),
+      power_(plan.period_samples + guards),
+      energy_(plan.broad * plan.parts),
+      column_(plan.parts) {
+  for (Side& side : side_) {
+    side.mean.resize(plan.u_beam.size());
+    side.looks.resize(plan.broad);
+    for (auto& field : side.field) field.resize(plan.period_samples + guards);
+    side.strong_field.resize(plan.period_samples + guards);
+  }
+  for (auto& nodes : nodes_) nodes.resize(plan.period);
+}
+
+void CellRow::form(std::size_t cell, Grid<double>& image) {
+  const std::size_t sides = std::min<std::size_t>(2, plan_.cells - cell);
+  for (std::size_t s = 0; s < sides; ++s) list_parts(cell + s, side_[s]);
+  sum_means(cell, sides);
+  const auto column = static_cast<Eigen::Index>(cell);
+  if (!options_.speckle) {
+    for (std::size_t s = 0; s < sides; ++s)
+      for (std::size_t b = 0; b < plan_.u_beam.size(); ++b)
+        image(static_cast<Eigen::Index>(b), column + static_cast<Eigen::Index>(s)) = side_[s].mean[b];
+    return;
+  }
+  for (std::size_t s = 0; s < sides; ++s) {
+    Side& side = side_[s];
+    part_strong(side);
+    sum_strong(side);
+    count_looks(cell + s, side);
+    sum_fields(cell + s, side);
+  }
+  sum_powers(sides);
+  for (std::size_t b = 0; b < plan_.u_beam.size(); ++b) {
+    const Complex power = plan_.in_period[b].of(power_.data());
+    image(static_cast<Eigen::Index>(b), column) = drawn(b, side_[0], power.real());
+    if (sides > 1) image(static_cast<Eigen::Index>(b), column + 1) = drawn(b, side_[1], power.imag());
+  }
+}
+
+void CellRow::list_parts(std::size_t cell, Side& side) {
+  side.even.clear(), side.strong.clear();
+  side.energy = 0;
+  const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length,
+               last = first + plan_.cell_length, middle = 0.5 * (first + last);
+  for (std::size_t k = lists_.first[cell]; k < lists_.first[cell + 1]; ++k) {
+    const CellEcho& echo = echoes_[lists_.echo[k]];
+    const double part = overlap(echo.range - echo.half_depth, echo.range + echo.half_depth, first, last) /
+                        (2 * echo.half_depth);
+    // The mean is over area, which grows with range.
+    const double all = std::norm(echo.pressure) * std::clamp(echo.range, first, last) / middle, energy = all * part;
+    if (!(energy > 0)) continue;
+    const double half = plan_.pulse.half_length();
+    side.even.push_back({&echo, energy, all * overlap(echo.range - half, echo.range + half, first, last) / (2 * half)});
+    side.energy += energy;
+  }
+  side.noise = std::max(element_noise_, least_noise * side.energy) * plan_.lag[0];
+}
+
+void CellRow::sum_means(std::size_t cell, std::size_t sides) {
+  // Energies of both cells over u, as real and imaginary parts. Nodes are counted from 1.
+  std::fill(all_.begin(), all_.end(), Complex(0));
+  for (std::size_t s = 0; s < sides; ++s)
+    for (const Part& part : side_[s].even) {
+      const CellEcho& echo = *part.echo;
+      const double half = std::max(echo.half_width, 0.5 * plan_.node_width) / plan_.node_width;
+      const double place = std::clamp((echo.u + 1) / plan_.node_width, 0.0, static_cast<double>(plan_.nodes));
+      const double low = std::max(place - half, -0.5), high = std::min(place + half, static_cast<double>(plan_.nodes) + 0.5);
+      const double density = part.energy / (high - low);
+      const auto first = static_cast<std::size_t>(low + 1), last = static_cast<std::size_t>(high + 1);
+      for (std::size_t i = first; i <= last; ++i) {
+        const double at = static_cast<double>(i) - 1;
+        reinterpret_cast<double*>(&all_[i])[s] += density * overlap(low, high, at, at + 1);
+      }
+    }
+  // Times the pattern, on twice as many samples.
+  plan_.to_all.run(all_.data());
+  const std::vector<double>& kernel = plan_.kernel[plan_.kernel_of(cell)];
+  const std::size_t n = all_.size(), half = n / 2;
+  std::fill(all_samples_.begin(), all_samples_.end(), Complex(0));
+  for (std::size_t q = 0; q < half; ++q) all_samples_[q] = all_[q] * kernel[q];
+  for (std::size_t q = half + 1; q < n; ++q) all_samples_[n + q] = all_[q] * kernel[q];
+  plan_.from_all.run(all_samples_.data());
+  const double noise = element_noise_ * plan_.lag[0];
+  for (std::size_t b = 0; b < plan_.u_beam.size(); ++b) {
+    const Complex mean = plan_.in_all[b].of(all_samples_.data());
+    side_[0].mean[b] = std::max(0.0, mean.real()) + noise;  // (E181)
+    side_[1].mean[b] = std::max(0.0, mean.imag()) + noise;
+  }
+}
+
+void CellRow::part_strong(Side& side) {
+  const auto strong = [&](const Part& part) {
+    const double energy = part.energy / part.echo->pieces;
+    if (part.echo->fixed || energy > strong_part * side.energy) return true;
+    const std::int32_t beam = plan_.beam_near[plan_.node_of(part.echo->u)];
+    return beam >= 0 && energy > strong_part * side.mean[static_cast<std::size_t>(beam)];
+  };
+  const auto first = std::stable_partition(side.even.begin(), side.even.end(), [&](auto& p) { return !strong(p); });
+  side.strong.assign(first, side.even.end());
+  side.even.erase(first, side.even.end());
+}
+
+void CellRow::sum_strong(Side& side) {
+  if (side.strong.empty()) return;
+  std::vector<Complex>& elements = nodes_[0];
+  std::fill(elements.begin(), elements.end(), Complex(0));
+  const double step = 2 * pi / (plan_.node_width * static_cast<double>(plan_.period));
+  const std::size_t count = plan_.shading.size();
+  for (const Part& part : side.strong) {
+    const CellEcho& echo = *part.echo;
+    const Complex phase = std::abs(echo.pressure) > 0 ? echo.pressure / std::abs(echo.pressure) : Complex(1);
+    Complex at = std::sqrt(part.energy) * phase * echo.amplitude[0];
+    // As if it stood at node 0, from which samples are counted.
+    const double away = echo.u - (0.5 * plan_.node_width - 1);
+    at *= std::polar(1.0, -step * away * element_place(0, count));
+    const Complex turn = std::polar(1.0, -step * away);
+    for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
+    // What even ground gives is without them.
+    for (std::size_t b = 0; b < plan_.u_beam.size(); ++b)
+      side.mean[b] -= part.energy * plan_.response.intensity(echo.u - plan_.u_beam[b]);
+  }
+  const double noise = element_noise_ * plan_.lag[0];
+  for (double& mean : side.mean) mean = std::max(mean, noise);
+  form_period(elements.data(), side.strong_field);
+}
+
+void CellRow::sum_fields(std::size_t cell, Side& side) {
+  for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), Complex(0));
+  for (const Part& part : side.even) {
+    const CellEcho& echo = *part.echo;
+    if (!(part.field > 0)) continue;
+    const std::size_t node = plan_.node_of(echo.u), place = node % plan_.period;
+    Complex pressure = echo.pressure * std::sqrt(part.field / std::norm(echo.pressure));
+    if (plan_.half_places) pressure *= plan_.turn[node];
+    nodes_[0][place] += pressure * echo.amplitude[0];
+    nodes_[1][place] += pressure * echo.amplitude[1];
+  }
+  for (std::size_t q = 0; q < 2; ++q) plan_.to_elements.run(nodes_[q].data());
+  add_noise(cell, side);
+  for (std::size_t q = 0; q < 2; ++q) form_period(nodes_[q].data(), side.field[q]);
+}
+
+void CellRow::add_noise(std::size_t cell, Side& side) {
+  const double root = std::sqrt(side.noise / plan_.lag[0]);
+  if (root == 0) return;
+  for (std::size_t m = 0; m < plan_.shading.size(); ++m) {
+    const auto u = random_uniform(options_.seed, RandomStage::noise,
+                                  {static_cast<std::uint64_t>(options_.ping), first_element_ + m, cell});
+    for (std::size_t q = 0; q < 2; ++q)
+      nodes_[q][(plan_.first_element + m) % plan_.period] +=
+          root * std::polar(std::sqrt(-std::log(u[2 * q])), 2 * pi * u[2 * q + 1]);
+  }
+}
+
+void CellRow::form_period(const Complex* elements, std::vector<Complex>& samples) const {
+  std::fill(samples.begin(), samples.end(), Complex(0));
+  const std::size_t count = plan_.shading.size(), length = plan_.period_samples;
+  Complex* const at = samples.data() + 1;
+  for (std::size_t m = 0; m < count; ++m) {
+    const std::size_t from = (plan_.first_element + m) % plan_.period;
+    at[(length - count / 2 + m) % length] = plan_.shading[m] * elements[from];
+  }
+  plan_.to_period.run(at);
+  samples[0] = at[length - 1], at[length] = at[0], at[length + 1] = at[1];
+}
+
+void CellRow::sum_powers(std::size_t sides) {
+  // Expected powers of the fields of both cells, as real and imaginary parts.
+  std::vector<Complex>& nodes = nodes_[0];
+  std::fill(nodes.begin(), nodes.end(), Complex(0));
+  for (std::size_t s = 0; s < sides; ++s)
+    for (const Part& part : side_[s].even)
+      reinterpret_cast<double*>(&nodes[plan_.node_of(part.echo->u) % plan_.period])[s] += part.field;
+  plan_.to_elements.run(nodes.data());
+  std::fill(power_.begin(), power_.end(), Complex(0));
+  const std::size_t length = plan_.period_samples;
+  Complex* const at = power_.data() + 1;
+  for (std::size_t m = 0; m < plan_.lag.size(); ++m) {
+    at[m] = plan_.lag[m] * nodes[m];
+    if (m > 0) at[length - m] = plan_.lag[m] * nodes[plan_.period - m];
+  }
+  at[0] += Complex(side_[0].noise, sides > 1 ? side_[1].noise : 0);
+  plan_.to_period.run(at);
+  power_[0] = at[length - 1], at[length] = at[0], at[length + 1] = at[1];
+}
+
+void CellRow::count_looks(std::size_t cell, Side& side) {
+  // Energies by range, for broad nodes of u.
+  const std::size_t parts = plan_.parts;
+  std::fill(energy_.begin(), energy_.end(), 0.f), std::fill(column_.begin(), column_.end(), 0.f);
+  const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
+  const double length = plan_.cell_length / static_cast<double>(parts), unit = side.energy + side.noise;
+  for (const Part& part : side.even) {
+    const CellEcho& echo = *part.echo;
+    const double low = std::max(0.0, (echo.range - echo.half_depth - first) / length),
+                 high = std::min(static_cast<double>(parts), (echo.range + echo.half_depth - first) / length);
+    if (!(high > low)) continue;
+    const auto density = static_cast<float>(part.energy / unit / (high - low));
+    float* const at = energy_.data() + plan_.node_of(echo.u) / 2 * parts;
+    const auto k = static_cast<std::size_t>(low), end = std::min(parts, static_cast<std::size_t>(std::ceil(high)));
+    for (std::size_t n = k; n < end; ++n)
+      at[n] += density * static_cast<float>(overlap(low, high, static_cast<double>(n), static_cast<double>(n + 1)));
+  }
+  for (std::size_t j = 0; j < plan_.broad; ++j)
+    for (std::size_t n = 0; n < parts; ++n) column_[n] += energy_[j * parts + n];
+  const auto beside = static_cast<float>(plan_.beside_lobe);
+  const auto noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(parts)) : 0;
+  std::vector<float> heard(parts);
+  for (const std::size_t j : plan_.broad_used) {
+    for (std::size_t n = 0; n < parts; ++n) heard[n] = noise + beside * column_[n];
+    const std::size_t reach = plan_.lobe.size() - 1;
+    for (std::size_t i = j > reach ? j - reach : 0; i <= std::min(j + reach, plan_.broad - 1); ++i) {
+      const auto weight = static_cast<float>(plan_.lobe[i > j ? i - j : j - i]);
+      for (std::size_t n = 0; n < parts; ++n) heard[n] += weight * energy_[i * parts + n];
+    }
+    float sum = 0, squares = 0;
+    for (std::size_t n = 0; n < parts; ++n) sum += heard[n];
+    for (std::size_t d = 0; d < plan_.looks.size(); ++d) {
+      float products = 0;
+      for (std::size_t n = 0; n + d < parts; ++n) products += heard[n] * heard[n + d];
+      squares += (d > 0 ? 2 : 1) * static_cast<float>(plan_.looks[d]) * products;
+    }
+    side.looks[j] = squares > 0 ? std::max(1.0, static_cast<double>(sum / squares * sum)) : 1;  // (E182)
+  }
+}
+
+double CellRow::drawn(std::size_t beam, const Side& side, double power) const {
+  const double mean = side.mean[beam], looks = side.looks[plan_.broad_of[beam]];
+  const BetweenFour& place = plan_.in_period[beam];
+  power = std::max({power, side.noise, std::numeric_limits<double>::min()});
+  const Complex f = place.of(side.field[0].data()), g = place.of(side.field[1].data());
+  if (side.strong.empty())
+    return mean * with_looks((std::norm(f) + std::norm(g)) / (2 * power), 2, looks);  // (E183)
+  const double rest = 1 - 1 / looks;
+  const double even = rest > 0 ? mean * rest * with_looks(std::norm(g) / power, 1, looks - 1) : 0;
+  const Complex one = f * std::sqrt(mean / (looks * power));
+  return even + std::norm(one + place.of(side.strong_field.data()));  // (E184)
+}
+
+}  // namespace insonify

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "beamforming/display/display_plan_internal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "beamforming/numerics/require_synthesis_internal.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t nodes_per_element = 4;
+constexpr std::size_t most_parts_of_a_cell = 48, least_parts_of_a_cell = 4;
+constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
+constexpr double least_beside = 1e-12;
+
+/// Place of `at` >= 1 among samples: of the four about it the second is at or before it.
+BetweenFour between_four(double at) {
+  const double whole = std::floor(at), t = at - whole;
+  return {static_cast<std::size_t>(whole) - 1,
+          {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+           (t + 1) * t * (t - 1) / 6}};
+}
+
+double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
+
+std::size_t period_of(const SonarHead& head) { return fft_length(nodes_per_element * head.array.elements()); }
+
+double node_width_of(const SonarHead& head, double wavelength) {
+  return wavelength / (head.array.spacing * static_cast<double>(period_of(head)));
+}
+
+double wavelength_of(const SonarHead& head, const Medium& medium) {
+  return medium.sound_speed / head.pulse.centre_frequency;
+}
+
+}  // namespace
+
+DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
+    : nodes(static_cast<std::size_t>(std::ceil(2 / node_width_of(head, wavelength_of(head, medium))))),
+      period(period_of(head)),
+      broad(nodes / 2 + 1),
+      node_width(node_width_of(head, wavelength_of(head, medium))),
+      beam_width(head.fan.beam_width),
+      u_beam(beam_cosines(head.fan)),
+      period_samples(2 * period),
+      all_length(fft_length(2 * nodes + 4)),
+      all_samples(2 * all_length),
+      half_places(head.array.elements() % 2 == 0),
+      response(head.array, wavelength_of(head, medium)),
+      pulse(head.pulse, medium, head.gate),
+      cell_length(head.gate.bin_size),
+      first_range(head.gate.min_range),
+      cells(head.gate.bins()),
+      to_elements({period}, FFTW_FORWARD),
+      to_period({period_samples}, FFTW_BACKWARD),
+      to_all({all_length}, FFTW_FORWARD),
+      from_all({all_samples}, FFTW_BACKWARD) {
+  const auto n = static_cast<double>(head.array.elements());
+  const std::vector<double>& w = head.array.shading;
+  for (std::size_t m = 0; m < w.size(); ++m) {
+    shading.push_back(w[m] / n);
+    double pairs = 0;
+    for (std::size_t k = 0; k + m < w.size(); ++k) pairs += w[k] * w[k + m];
+    lag.push_back(pairs / (n * n));  // (E65)
+  }
+  first_element = (period - head.array.elements() / 2) % period;
+  if (half_places)
+    for (std::size_t i = 0; i < nodes; ++i)
+      turn.push_back(std::polar(1.0, -pi * (static_cast<double>(i) + 0.5) / static_cast<double>(period)));
+  place_beams(head);
+  fill_kernels(head, medium);
+  fill_looks(head);
+}
+
+void DisplayPlan::place_beams(const SonarHead& head) {
+  const double samples_per_node = 2;
+  for (const double u : u_beam) {
+    const double node = (u + 1) / node_width - 0.5;  // centres of nodes are whole numbers
+    in_all.push_back(between_four(samples_per_node * (node + 1)));
+    const double turns = node / static_cast<double>(period), within = turns - std::floor(turns);
+    in_period.push_back(between_four(within * static_cast<double>(period_samples) + 1));  // a guard stands before
+    broad_of.push_back(node_of(u) / 2);
+  }
+  broad_used = broad_of;
+  std::sort(broad_used.begin(), broad_used.end());
+  broad_used.erase(std::unique(broad_used.begin(), broad_used.end()), broad_used.end());
+
+  beam_near.assign(nodes, -1);
+  const double reach = main_lobe_reach * head.fan.beam_width;
+  std::vector<double> nearest(nodes, reach);
+  for (std::size_t b = 0; b < u_beam.size(); ++b) {
+    const std::size_t first = node_of(u_beam[b] - reach), last = node_of(u_beam[b] + reach);
+    for (std::size_t i = first; i <= last; ++i) {
+      const double away = std::abs((static_cast<double>(i) + 0.5) * node_width - 1 - u_beam[b]);
+      if (away < nearest[i]) nearest[i] = away, beam_near[i] = static_cast<std::int32_t>(b);
+    }
+  }
+}
+
+double DisplayPlan::response_at(double offset) const {
+  const double lobes = node_width * static_cast<double>(period);
+  return response.intensity(std::min(2.0, std::abs(offset - lobes * std::nearbyint(offset / lobes))));
+}
+
+void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
+  const double fc = head.pulse.centre_frequency;
+  // Steps of frequency in which no side lobe within u of -1 to 1 moves by more than a fraction of its width.
+  const auto steps = static_cast<std::size_t>(
+      std::ceil(3 * head.pulse.bandwidth / fc * static_cast<double>(nodes) / nodes_per_element * 4));
+  const std::size_t count = std::clamp<std::size_t>(steps, 9, 401);
+  const Absorption& a = medium.absorption;
+  const std::size_t blocks = a.a1 != 0 || a.a2 != 0 ? std::min(blocks_of_range, cells) : 1;
+  double outside = 0, places = 0;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const double middle = (static_cast<double>(block) + 0.5) * static_cast<double>(cells) / static_cast<double>(blocks);
+    const auto spectrum = pulse.spectrum(first_range + middle * cell_length, count);
+    std::vector<std::complex<double>> of_band(all_length, 0);
+    for (std::size_t k = 0; k < nodes; ++k) {
+      double mean = 0;
+      for (const SpectrumNode& node : spectrum)
+        mean += node.weight * response_at(static_cast<double>(k) * node_width * (1 + node.frequency / fc));
+      of_band[k] = mean;  // (E181)
+      if (k > 0) of_band[all_length - k] = mean;
+      if (block == 0 && static_cast<double>(k) * node_width > main_lobe_reach * head.fan.beam_width)
+        outside += mean, places += 1;
+    }
+    to_all.run(of_band.data());
+    std::vector<double>& filled = kernel.emplace_back(all_length);
+    for (std::size_t q = 0; q < all_length; ++q) {
+      const double cycles = static_cast<double>(std::min(q, all_length - q)) / static_cast<double>(all_length);
+      filled[q] = of_band[q].real() / static_cast<double>(all_length) / std::pow(sinc(cycles), 2);
+    }
+  }
+  beside_lobe = places > 0 ? std::max(outside / places, least_beside) : least_beside;
+}
+
+void DisplayPlan::fill_looks(const SonarHead& head) {
+  const double reach = main_lobe_reach * head.fan.beam_width;
+  for (std::size_t k = 0; k == 0 || 2 * static_cast<double>(k) * node_width < reach; ++k)
+    lobe.push_back(response_at(2 * static_cast<double>(k) * node_width));
+
+  const double resolved = std::max(2 * pulse.half_length(), 1e-9);
+  parts = std::clamp(static_cast<std::size_t>(std::ceil(cell_length / resolved * 1.5)), least_parts_of_a_cell,
+                     most_parts_of_a_cell);
+  const double length = cell_length / static_cast<double>(parts);
+  constexpr int steps = 32;
+  for (std::size_t d = 0; d < parts; ++d) {
+    double mean = 0;
+    for (int k = -steps; k < steps; ++k) {
+      const double s = (k + 0.5) / steps;
+      mean += (1 - std::abs(s)) * pulse.correlation((static_cast<double>(d) + s) * length) / steps;
+    }
+    if (d > 0 && mean < 1e-4) break;
+    looks.push_back(mean);
+  }
+}
+
+}  // namespace insonify

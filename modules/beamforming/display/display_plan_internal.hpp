@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "beamforming/display/pulse_energy_internal.hpp"
+#include "beamforming/numerics/fft_internal.hpp"
+#include "sonar/response_table.hpp"
+#include "sonar/sonar_head.hpp"
+
+namespace insonify {
+
+/// A place between four neighbouring samples, and their weights (cubic interpolation).
+struct BetweenFour {
+  std::size_t first;
+  std::array<double, 4> weight;
+  template <typename Number>
+  Number of(const Number* samples) const {
+    return weight[0] * samples[first] + weight[1] * samples[first + 1] + weight[2] * samples[first + 2] +
+           weight[3] * samples[first + 3];
+  }
+};
+
+/// Directions, patterns and transforms of the display cells of a line array, made once for a ping (E180).
+///
+/// Nodes of u are `node_width` wide, evenly over [-1, 1]: `nodes` in all, `period` of them in one period of the array's
+/// response. Broad nodes of two hold the energies from which looks are counted.
+struct DisplayPlan {
+  /// The pulse is that of `head`; gate: cells. Throws Error for an invalid head or medium.
+  DisplayPlan(const SonarHead& head, const Medium& medium);
+
+  std::size_t nodes, period, broad;
+  double node_width, beam_width;
+  std::size_t node_of(double u) const {
+    const double place = (u + 1) / node_width;
+    return place <= 0 ? 0 : std::min(static_cast<std::size_t>(place), nodes - 1);
+  }
+
+  std::vector<double> u_beam;            ///< directions of the beams
+  std::vector<std::int32_t> beam_near;   ///< of each node: the beam that hears it best; -1: none has it in its lobe
+  std::vector<std::size_t> broad_of;     ///< broad node of each beam
+  std::vector<std::size_t> broad_used;   ///< those of all beams, each once
+  std::vector<BetweenFour> in_period;    ///< place of each beam among the samples of a transformed period
+  std::vector<BetweenFour> in_all;       ///< the same among those of all directions
+  std::size_t period_samples, all_length, all_samples;
+
+  std::vector<double> lag;               ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
+  std::vector<double> shading;           ///< w_m / N
+  std::size_t first_element;             ///< index of element 0 in a transformed period
+  bool half_places;                      ///< elements stand at half-integers
+  std::vector<std::complex<double>> turn;  ///< of each node, if half_places
+
+  std::vector<std::vector<double>> kernel;  ///< spectra of the band's mean pattern, by blocks of range
+  std::size_t kernel_of(std::size_t cell) const { return cell * kernel.size() / cells; }
+
+  std::vector<double> lobe;   ///< weights of broad nodes at distances 0, 1, .. within the main lobe
+  double beside_lobe;         ///< mean response outside of it
+  std::size_t parts;          ///< of a cell
+  std::vector<double> looks;  ///< R_d of parts d apart (E182)
+
+  ResponseTable response;
+  PulseEnergy pulse;
+  double cell_length, first_range;
+  std::size_t cells;
+
+  Fft<double> to_elements, to_period, to_all, from_all;
+
+ private:
+  double response_at(double offset) const;  // of any size
+  void place_beams(const SonarHead& head);
+  void fill_kernels(const SonarHead& head, const Medium& medium);
+  void fill_looks(const SonarHead& head);
+};
+
+}  // namespace insonify

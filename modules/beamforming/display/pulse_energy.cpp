@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "beamforming/display/pulse_energy_internal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr double samples_per_period = 6;  // of the bandwidth
+constexpr double most_periods = 48;       // side lobes of a sweep beyond these hold less than 1e-3 of its energy
+constexpr double cut = 1e-4;              // of the envelope
+
+}  // namespace
+
+PulseEnergy::PulseEnergy(const Pulse& pulse, const Medium& medium, const RangeGate& gate)
+    : pulse_(pulse), medium_(medium), shapes_(pulse, medium), first_range_(gate.min_range) {
+  // Energies over range; between the entries their logarithm is nearly straight.
+  const std::size_t entries = pulse.shape == PulseShape::gaussian ? 65 : 9;
+  range_step_ = (gate.max_range - gate.min_range) / static_cast<double>(entries - 1);
+  const double metres_per_s = 0.5 * medium.sound_speed;
+  for (std::size_t k = 0; k < entries; ++k) {
+    const Samples g = samples_of(first_range_ + static_cast<double>(k) * range_step_);
+    double energy = 0;
+    for (const std::complex<double>& value : g.value) energy += std::norm(value);
+    log_energy_.push_back(std::log(std::max(energy * g.step * metres_per_s, 1e-300)));
+  }
+
+  // Length and correlation in the middle of the gate.
+  const Samples g = samples_of(0.5 * (gate.min_range + gate.max_range));
+  double energy = 0, spread = 0;
+  for (std::size_t k = 0; k < g.value.size(); ++k) {
+    const double away = (static_cast<double>(k) - 0.5 * static_cast<double>(g.value.size() - 1)) * g.step;
+    energy += std::norm(g.value[k]), spread += std::norm(g.value[k]) * away * away;
+  }
+  half_length_ = energy > 0 ? metres_per_s * std::sqrt(3 * spread / energy) : 0;
+  correlation_step_ = g.step * metres_per_s;
+  for (std::size_t lag = 0; lag < g.value.size(); ++lag) {
+    std::complex<double> sum = 0;
+    for (std::size_t k = 0; k + lag < g.value.size(); ++k) sum += g.value[k] * std::conj(g.value[k + lag]);
+    correlation_.push_back(energy > 0 ? std::norm(sum / energy) : lag == 0);
+    if (correlation_.back() < 1e-6) break;
+  }
+}
+
+PulseEnergy::Samples PulseEnergy::samples_of(double range) const {
+  const double reach = std::min(pulse_half_length(pulse_, cut), most_periods / pulse_.bandwidth);
+  const EchoEnvelope envelope = shapes_.of(2 * range / medium_.sound_speed);
+  const auto half = static_cast<int>(std::ceil(reach * samples_per_period * pulse_.bandwidth));
+  Samples samples{{}, reach / half};
+  for (int k = -half; k <= half; ++k) samples.value.push_back(envelope.at(k * samples.step));
+  return samples;
+}
+
+double PulseEnergy::energy(double range) const {
+  const double last = static_cast<double>(log_energy_.size() - 1);
+  const double place = std::clamp((range - first_range_) / range_step_, 0.0, last);
+  const auto left = std::min(static_cast<std::size_t>(place), log_energy_.size() - 2);
+  return std::exp(std::lerp(log_energy_[left], log_energy_[left + 1], place - static_cast<double>(left)));
+}
+
+double PulseEnergy::correlation(double distance) const {
+  const double place = std::abs(distance) / correlation_step_;
+  const auto left = static_cast<std::size_t>(place);
+  if (left + 1 >= correlation_.size()) return 0;
+  return std::lerp(correlation_[left], correlation_[left + 1], place - static_cast<double>(left));
+}
+
+std::vector<SpectrumNode> PulseEnergy::spectrum(double range, std::size_t count) const {
+  const Samples g = samples_of(range);
+  std::vector<SpectrumNode> nodes;
+  double sum = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double frequency =
+        1.5 * pulse_.bandwidth * (2 * (static_cast<double>(n) + 0.5) / static_cast<double>(count) - 1);
+    std::complex<double> at = 0;  // time dependence exp(-i omega t)
+    for (std::size_t k = 0; k < g.value.size(); ++k)
+      at += g.value[k] * std::polar(1.0, 2 * pi * frequency * static_cast<double>(k) * g.step);
+    nodes.push_back({frequency, std::norm(at)});
+    sum += nodes.back().weight;
+  }
+  for (SpectrumNode& node : nodes) node.weight = sum > 0 ? node.weight / sum : 1 / static_cast<double>(count);
+  return nodes;
+}
+
+}  // namespace insonify

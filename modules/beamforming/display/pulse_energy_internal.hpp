@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "sonar/pulse.hpp"
+#include "sonar/pulse_spectrum.hpp"
+#include "sonar/range_gate.hpp"
+
+namespace insonify {
+
+/// Energy, length, correlation and spectrum of a pulse after its way, from samples of its envelope G (E8, E54).
+class PulseEnergy {
+ public:
+  /// Samples the envelopes of echoes from the ranges of `gate`. Throws Error as EchoShapes does.
+  PulseEnergy(const Pulse& pulse, const Medium& medium, const RangeGate& gate);
+
+  /// Returns the integral of |G|^2 over range [m] for an echo from `range` [m].
+  double energy(double range) const;
+  /// Returns half the length [m] of the box with the variance of |G|^2 in range, in the middle of the gate.
+  double half_length() const { return half_length_; }
+  /// Returns the squared magnitude of the correlation of white echoes `distance` [m] apart in range, 1 at 0.
+  double correlation(double distance) const;
+  /// Returns the spectrum |G(f)|^2 of an echo from `range` at `count` frequencies evenly over three half-widths of the
+  /// band, normalised to a sum of 1.
+  std::vector<SpectrumNode> spectrum(double range, std::size_t count) const;
+
+ private:
+  struct Samples {
+    std::vector<std::complex<double>> value;  ///< of G
+    double step = 0;                          ///< [s]
+  };
+  Samples samples_of(double range) const;
+
+  Pulse pulse_;
+  Medium medium_;
+  EchoShapes shapes_;
+  double first_range_, range_step_;
+  std::vector<double> log_energy_;  ///< at ranges range_step_ apart
+  double half_length_ = 0, correlation_step_ = 0;
+  std::vector<double> correlation_;
+};
+
+}  // namespace insonify

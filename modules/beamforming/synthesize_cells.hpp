@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "acoustics/echoes.hpp"
+#include "core/grid.hpp"
+#include "sonar/sonar_head.hpp"
+#include "sonar/water.hpp"
+
+namespace insonify {
+
+/// Echoes of random amplitude, and the pieces of surface that they stand for. One entry per echo in every array.
+struct SurfaceEchoes {
+  Echoes echoes;                  ///< roots of the mean power, with the phase of the carrier (mean_power)
+  std::vector<std::uint64_t> id;  ///< of the random amplitude, as RandomCounter::first
+  std::vector<float> depth;       ///< half extent of the surface along the line of sight [m]
+  std::vector<float> width;       ///< half extent of the surface in u
+};
+
+/// Options of synthesize_cells.
+struct CellOptions {
+  std::uint64_t seed = 1;
+  std::int64_t ping = 0;  ///< number of the ping; every ping has its own noise
+  /// Level of the noise of an element in the pulse's band [dB re 1 uPa rms]; -inf: none.
+  double element_noise_db = -std::numeric_limits<double>::infinity();
+  bool speckle = true;   ///< false: the expected intensity
+  double bin_size = 0;   ///< of the samples that a cell stands for [m]: closer ones are not independent
+  int threads = 0;       ///< 0: all cores; the result does not depend on it
+};
+
+/// Returns the intensity of display cells, beams x cells [Pa^2]: of each the mean of |P|^2 over the area between its
+/// ranges, without forming P (E180). head.gate holds the cells.
+///
+/// The expected intensity is the sum of the energies of the echoes, times the pattern of the beam, averaged over the
+/// band (E181). The number of looks of a cell follows from the ranges of its energy and from the pulse (E182). Speckle
+/// is a gamma variate of so many looks that is made from two complex sums over the echoes, with their phases and with
+/// random amplitudes by id, so that it stays with the surface and changes with the pose as that of samples does (E183).
+/// Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose
+/// amplitudes are not random.
+///
+/// Accuracy, against cells of true_delays samples (docs/results/display.md): bands of range 0.05 dB, cells 0.3 dB rms in
+/// the mean; contrast 5 %. Doppler shifts are ignored. Throws Error for an invalid head or medium, for arrays of
+/// different lengths, and for a head with several rows or a column unless echoes.v has one entry per echo.
+Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed, const SonarHead& head,
+                              const Medium& medium, const CellOptions& options = {});
+
+}  // namespace insonify
