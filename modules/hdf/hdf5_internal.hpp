@@ -142,6 +142,7 @@ hid_t type_of(bool in_file) {
   if constexpr (std::is_same_v<Number, std::int64_t>) return in_file ? H5T_STD_I64LE : H5T_NATIVE_INT64;
   if constexpr (std::is_same_v<Number, std::uint64_t>) return in_file ? H5T_STD_U64LE : H5T_NATIVE_UINT64;
   if constexpr (std::is_same_v<Number, std::uint32_t>) return in_file ? H5T_STD_U32LE : H5T_NATIVE_UINT32;
+  if constexpr (std::is_same_v<Number, std::int16_t>) return in_file ? H5T_STD_I16LE : H5T_NATIVE_INT16;
   if constexpr (std::is_same_v<Number, std::uint16_t>) return in_file ? H5T_STD_U16LE : H5T_NATIVE_UINT16;
   return in_file ? H5T_STD_U8LE : H5T_NATIVE_UINT8;
 }

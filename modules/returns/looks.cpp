@@ -21,8 +21,7 @@ Grid<float> mean_over_bins(const Grid<double>& intensity, int bins) {
 }
 
 RangeGate display_gate(const RangeGate& gate, int count) {
-  const double end = gate.min_range + static_cast<double>(gate.bins()) * gate.bin_size;
-  return {gate.min_range, end, (end - gate.min_range) / count};
+  return {gate.min_range, gate.max_range, (gate.max_range - gate.min_range) / count};
 }
 
 Grid<double> mean_over_cells(const Grid<double>& intensity, const RangeGate& samples, const RangeGate& cells) {

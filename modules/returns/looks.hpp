@@ -9,7 +9,7 @@ namespace insonify {
 /// >= 1.
 Grid<float> mean_over_bins(const Grid<double>& intensity, int bins);
 
-/// Returns the gate of `count` display cells, evenly over the bins of `gate`.
+/// Returns the gate of `count` display cells, evenly over `gate`.
 RangeGate display_gate(const RangeGate& gate, int count);
 
 /// Returns the mean intensity of display cells, beams x cells: of each the mean over the area between its ranges of the

@@ -11,6 +11,7 @@
 #include "files/input_file.hpp"
 #include "files/path_status.hpp"
 #include "hdf/hdf5_internal.hpp"
+#include "store/cube_arrays_internal.hpp"
 #include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 
@@ -62,7 +63,7 @@ struct JoinedCube {
 };
 
 std::vector<std::string> images_of(const FileContext& place, hid_t file) {
-  std::vector<std::string> images{pressure_name.path};
+  std::vector<std::string> images{image_name_of(file).path};
   for (const std::string& layer : names_in(place, file, layers_group))
     images.push_back(std::string(layers_group) + "/" + layer);
   for (const DatasetName& map : {intensity_name, unknown_name, split_phase_name, label_material_name, label_id_name,
@@ -108,7 +109,8 @@ void add_track(const FileContext& place, hid_t file, Track& track, hsize_t pings
 void add_part(JoinedCube& joined, const std::string& path) {
   const FileContext place{path, ErrorKind::content};
   const Handle file = open_file(place);
-  const Extent extent = extent_of(place, open_dataset(place, file, pressure_name), pressure_name.path, 3);
+  const DatasetName image = image_name_of(file);
+  const Extent extent = extent_of(place, open_dataset(place, file, image), image.path, 3);
   const std::string sonar = read_text(place, file, "sonar");
   if (H5Aexists(file, notes_attribute) > 0) gather(joined.notes, notes_in(read_text(place, file, notes_attribute)));
   const std::vector<std::string> images = images_of(place, file);
@@ -203,6 +205,10 @@ void refer_to_parts(const FileContext& place, const JoinedCube& joined, const st
     const std::string name = std::filesystem::relative(part.path, folder.empty() ? "." : folder).string();
     place.checked(H5Pset_virtual(properties, here, name.c_str(), image.c_str(), source), image);
     first += part.pings;
+  }
+  if (image == level_name.path) {
+    place.checked(H5Pset_fill_value(properties, type, &no_level), image);
+    return;
   }
   const float missing[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()};
   place.checked(H5Pset_fill_value(properties, type, missing), image);

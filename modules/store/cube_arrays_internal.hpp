@@ -3,6 +3,7 @@
 #include "files/child_arrays.hpp"
 #include "hdf/hdf5_internal.hpp"
 #include "store/cube.hpp"
+#include "store/cube_layout_internal.hpp"
 
 // Private to store: the data that a child process sends when it reads a cube.
 namespace insonify {
@@ -36,13 +37,13 @@ struct CubeTable {
   hdf5::Extent extent{};  ///< of /pressure
   BeamFan fan{};
   RangeGate gate{};
-  bool expected_level = false;
+  bool expected_level = false, display_cells = false;
   std::vector<TrackPoint> track{};
 };
 
 template <typename Stream>
 void pass(Stream& stream, CubeTable& table) {
-  stream(table.extent, table.fan, table.gate, table.expected_level, table.track);
+  stream(table.extent, table.fan, table.gate, table.expected_level, table.display_cells, table.track);
 }
 
 /// Pings of a cube by their order in it.
@@ -52,6 +53,14 @@ struct PingRange {
 
 /// Throws Error(content) unless a dataset holds complex numbers.
 void require_complex(const hdf5::FileContext& place, hid_t dataset, const std::string& name);
+
+/// Returns the name of the image of a cube: /level if it has display cells, else /pressure.
+DatasetName image_name_of(hid_t file);
+
+/// Returns levels of display cells as they are stored, in steps of level_step.
+Grid<std::int16_t> stored_levels(const ComplexGridF& pressure);
+/// Returns the pressures, without phase, of stored levels [Pa].
+ComplexGridF pressures_of(const Grid<std::int16_t>& levels);
 
 /// Sends the images of pings of a cube of `extent`: pressure, layers, maps and labels.
 void send_all_images(const hdf5::FileContext& place, hid_t file, const hdf5::Extent& extent, PingRange pings,

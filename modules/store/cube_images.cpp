@@ -3,10 +3,12 @@
 #include <array>
 #include <fstream>
 #include <functional>
+#include <numbers>
 #include <ranges>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/units.hpp"
 #include "hdf/hdf5_internal.hpp"
 #include "store/cube_arrays_internal.hpp"
 #include "store/cube_layout_internal.hpp"
@@ -116,16 +118,30 @@ void require_extent(const FileContext& place, hid_t dataset, const std::string& 
     fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
 }
 
-void send_layers(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
-  const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
+// Sends an image of pressures, or of levels of display cells.
+void send_signal(const FileContext& place, hid_t dataset, const std::string& name, bool levels, PingRange pings,
+                 ArraySender& to) {
+  if (levels) return send_images(place, dataset, name, H5T_NATIVE_INT16, pings, to);
+  require_complex(place, dataset, name);
+  send_images(place, dataset, name, complex_type(place, H5T_NATIVE_FLOAT), pings, to);
+}
+
+void receive_signal(ArrayReceiver& sent, const std::string& path, bool levels, ComplexGridF& pressure) {
+  if (!levels) return receive_image(sent, path, pressure);
+  Grid<std::int16_t> stored;
+  receive_image(sent, path, stored);
+  pressure = pressures_of(stored);
+}
+
+void send_layers(const FileContext& place, hid_t file, const Extent& extent, bool levels, PingRange pings,
+                 ArraySender& to) {
   const std::vector<std::string> layers = names_in(place, file, layers_group);
   to(layers);
   for (const std::string& layer : layers) {
     const std::string path = std::string(layers_group) + "/" + layer;
-    const Handle dataset = open_dataset(place, file, {path.c_str(), pressure_name.unit});
+    const Handle dataset = open_dataset(place, file, {path.c_str(), levels ? level_name.unit : pressure_name.unit});
     require_extent(place, dataset, path, extent);
-    require_complex(place, dataset, path);
-    send_images(place, dataset, path, type, pings, to);
+    send_signal(place, dataset, path, levels, pings, to);
   }
 }
 
@@ -210,10 +226,29 @@ void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Pi
 
 }  // namespace
 
+DatasetName image_name_of(hid_t file) {
+  return H5Lexists(file, level_name.path, H5P_DEFAULT) > 0 ? level_name : pressure_name;
+}
+
+Grid<std::int16_t> stored_levels(const ComplexGridF& pressure) {
+  return pressure.unaryExpr([](const std::complex<float>& p) {
+    const double steps = std::round(pressure_level_db(std::abs(std::complex<double>(p))) / level_step);
+    return steps >= silence_db / level_step ? static_cast<std::int16_t>(std::min(steps, 32767.0)) : no_level;
+  });
+}
+
+ComplexGridF pressures_of(const Grid<std::int16_t>& levels) {
+  return levels.unaryExpr([](std::int16_t level) {
+    const double rms = micropascal * amplitude_from_db(level * level_step);
+    return std::complex<float>(level == no_level ? 0.f : static_cast<float>(std::numbers::sqrt2 * rms), 0.f);
+  });
+}
+
 void send_all_images(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
-  const Handle dataset = open_dataset(place, file, pressure_name);
-  send_images(place, dataset, pressure_name.path, complex_type(place, H5T_NATIVE_FLOAT), pings, to);
-  send_layers(place, file, extent, pings, to);
+  const DatasetName image = image_name_of(file);
+  const bool levels = image.path == std::string(level_name.path);
+  send_signal(place, open_dataset(place, file, image), image.path, levels, pings, to);
+  send_layers(place, file, extent, levels, pings, to);
   send_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, to);
   send_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, to);
   send_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, to);
@@ -221,11 +256,12 @@ void send_all_images(const FileContext& place, hid_t file, const Extent& extent,
 }
 
 void receive_all_images(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings) {
-  for (Ping& ping : pings) receive_image(sent, path, ping.pressure);
+  for (Ping& ping : pings) receive_signal(sent, path, ping.display_cells, ping.pressure);
   std::vector<std::string> layers;
   sent(layers);
   for (const std::string& layer : layers)
-    for (Ping& ping : pings) receive_image(sent, path, ping.layers.emplace_back(Layer{layer, {}}).pressure);
+    for (Ping& ping : pings)
+      receive_signal(sent, path, ping.display_cells, ping.layers.emplace_back(Layer{layer, {}}).pressure);
   receive_map(sent, path, pings, &Ping::intensity);
   receive_map(sent, path, pings, &Ping::unknown);
   receive_map(sent, path, pings, &Ping::split_phase);

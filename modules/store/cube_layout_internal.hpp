@@ -10,6 +10,15 @@ namespace insonify {
 constexpr std::int64_t cube_schema = 1;
 
 constexpr DatasetName pressure_name{"/pressure", "Pa", "sound pressure of the received signal, complex amplitude"};
+/// In cubes of display cells, in place of /pressure and as their layers: 16-bit integers in hundredths of a decibel.
+constexpr DatasetName level_name{"/level", "dB re 1 uPa",
+                                 "mean level over a display cell; the number times scale_factor; -32768: no sound"};
+constexpr const char* scale_factor_attribute = "scale_factor";
+constexpr double level_step = 0.01;            // [dB]
+constexpr std::int16_t no_level = -32768;
+/// Root attribute that marks such a cube.
+constexpr const char* display_cells_attribute = "display_cells";
+constexpr const char* display_cells_text = "mean intensity over the area of each cell, without phase";
 /// Attribute of pressures: what their numbers are, for levels that are right.
 constexpr const char* convention_attribute = "convention";
 constexpr const char* pressure_convention =
@@ -82,6 +91,7 @@ struct CubeDataset {
   const char* dimensions[4];  ///< null: no further one has a name
 };
 constexpr CubeDataset cube_datasets[] = {{pressure_name, {"ping", "beam", "bin"}},
+                                         {level_name, {"ping", "beam", "bin"}},
                                          {intensity_name, {"ping", "beam", "bin"}},
                                          {unknown_name, {"ping", "beam", "bin"}},
                                          {split_phase_name, {"ping", "beam", "bin"}},

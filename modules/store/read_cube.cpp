@@ -101,10 +101,12 @@ std::vector<TrackPoint> track_of(const FileContext& place, hid_t file, hsize_t p
 }
 
 CubeTable read_table(const FileContext& place, hid_t file) {
-  const Handle dataset = open_dataset(place, file, pressure_name);
+  const DatasetName image = image_name_of(file);
+  const Handle dataset = open_dataset(place, file, image);
   CubeTable table;
-  table.extent = extent_of(place, dataset, pressure_name.path, 3);
-  require_complex(place, dataset, pressure_name.path);
+  table.extent = extent_of(place, dataset, image.path, 3);
+  table.display_cells = image.path == std::string(level_name.path);
+  if (!table.display_cells) require_complex(place, dataset, image.path);
   table.track = track_of(place, file, table.extent[0]);
   read_axes(place, file, table);
   table.expected_level = H5Aexists(file, expected_level_attribute) > 0;
@@ -118,6 +120,7 @@ std::vector<Ping> pings_of(const CubeTable& table, PingRange range) {
     Ping& ping = pings.emplace_back();
     const TrackPoint& point = table.track[p];
     ping.fan = table.fan, ping.gate = table.gate, ping.expected_level = table.expected_level;
+    ping.display_cells = table.display_cells;
     ping.time = point.time, ping.number = point.number, ping.world_from_head = point.world_from_head;
     ping.scan = point.scan;
     ping.sound_speed = point.sound_speed, ping.absorption_db_per_m = point.absorption_db_per_m;
@@ -174,6 +177,8 @@ Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam) {
   ArrayReceiver sent = read_apart(path, [&](const FileContext& place, hid_t file, ArraySender& to) {
     require_schema(place, file);
+    if (image_name_of(file).path == std::string(level_name.path))
+      fail(place.kind, place.path, ": holds display cells, which have no phase; make it without --display");
     const Handle dataset = open_dataset(place, file, pressure_name);
     const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
     require_complex(place, dataset, pressure_name.path);
@@ -239,8 +244,9 @@ std::vector<TrackPoint> read_track(const std::string& path) {
   std::vector<TrackPoint> track;
   read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     require_schema(place, file);
-    const Handle dataset = open_dataset(place, file, pressure_name);
-    to(track_of(place, file, extent_of(place, dataset, pressure_name.path, 3)[0]));
+    const DatasetName image = image_name_of(file);
+    const Handle dataset = open_dataset(place, file, image);
+    to(track_of(place, file, extent_of(place, dataset, image.path, 3)[0]));
   })(track);
   return track;
 }

@@ -9,6 +9,7 @@
 #include "core/text.hpp"
 #include "hdf/hdf5_internal.hpp"
 #include "store/cube.hpp"
+#include "store/cube_arrays_internal.hpp"
 #include "store/cube_axes_internal.hpp"
 #include "store/cube_layout_internal.hpp"
 #include "store/cube_parts_internal.hpp"
@@ -51,6 +52,9 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
   if (ping.scan.has_value() != first.scan.has_value())
     fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
          " is of a scanning head; write it to a cube of its own");
+  if (ping.display_cells != first.display_cells)
+    fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
+         " has display cells; write it to a cube of its own");
   if (ping.expected_level != first.expected_level)
     fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
          " is an expected level; write it to a cube of its own");
@@ -140,13 +144,31 @@ void write_pressures(const FileContext& place, hid_t file, const DatasetName& na
       Packing::deflate);
 }
 
+// Writes the levels of display cells, in place of pressures.
+template <typename Part>
+void write_levels(const FileContext& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
+  write_images(
+      place, file, name, cube.pings,
+      [&](const Ping& ping) -> Grid<std::int16_t> { return stored_levels(part(ping)); }, Packing::none);
+  const Handle dataset = open_dataset(place, file, name);
+  write_attribute(place, dataset, scale_factor_attribute, level_step);
+}
+
+// Writes pressures, or the levels of display cells.
+template <typename Part>
+void write_signal(const FileContext& place, hid_t file, DatasetName name, const Cube& cube, Part part) {
+  if (!cube.pings.front().display_cells) return write_pressures(place, file, name, cube, part);
+  name.unit = level_name.unit, name.about = level_name.about;
+  write_levels(place, file, name, cube, part);
+}
+
 void write_layers(const FileContext& place, hid_t file, const Cube& cube) {
   const std::vector<Layer>& layers = cube.pings.front().layers;
   if (layers.empty()) return;
   const Handle group = create_ordered_group(place, file, layers_group);
   for (std::size_t l = 0; l < layers.size(); ++l) {
     const std::string path = std::string(layers_group) + "/" + layers[l].name;
-    write_pressures(place, file, {path.c_str(), pressure_name.unit, pressure_name.about}, cube,
+    write_signal(place, file, {path.c_str(), pressure_name.unit, pressure_name.about}, cube,
                     [l](const Ping& ping) -> const ComplexGridF& { return ping.layers[l].pressure; });
   }
 }
@@ -265,6 +287,8 @@ void write_root_attributes(const FileContext& place, hid_t file, const Cube& cub
   const Ping& ping = cube.pings.front();
   write_attribute(place, file, "beam_width", ping.fan.beam_width);
   write_attribute(place, file, "elevation_width", ping.fan.elevation_width);
+  if (ping.display_cells)
+    write_attribute(place, file, display_cells_attribute, std::string(display_cells_text));
   if (ping.expected_level) write_attribute(place, file, expected_level_attribute, std::string(expected_level_text));
   if (ping.fan.row_width > 0) write_attribute(place, file, "row_width", ping.fan.row_width);
   write_attribute(place, file, "min_range", ping.gate.min_range);
@@ -290,8 +314,8 @@ void write_cube(const std::string& path, const Cube& cube) {
     write_water(place, file, cube);
     write_motion(place, file, cube.pings);
     write_scan(place, file, cube.pings);
-    write_pressures(place, file, pressure_name, cube,
-                    [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
+    write_signal(place, file, cube.pings.front().display_cells ? level_name : pressure_name, cube,
+                 [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
     write_layers(place, file, cube);
     write_maps(place, file, cube.pings);
     name_dimensions(place, file);

@@ -70,6 +70,7 @@ struct PingOptions {
   int contributors = 4;           ///< of each pixel, if they are kept
   bool layers = false;
   bool split = false;
+  int display = library_options.outputs.display_bins;  ///< display cells along range; 0: samples
   int looks_range = library_options.outputs.looks_range, looks_pings = library_options.outputs.looks_pings;
   int absorption_order = -1;  ///< as needed
   double accuracy_db = library_options.accuracy_db;

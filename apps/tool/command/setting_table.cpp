@@ -22,6 +22,7 @@ const OptionRules ping_numbers{.within = std::pair(-1, 1000000000), .shown_as = 
 const OptionRules draw_numbers{.within = std::pair(0, 1000000000), .shown_as = "INT"};
 const OptionRules bits{.within = std::pair(1, 24), .shown_as = "INT"};
 const OptionRules looks{.within = std::pair(1, 1024), .shown_as = "INT"};
+const OptionRules display_cells{.within = std::pair(0, 65536), .shown_as = "CELLS"};
 const OptionRules absorption_orders{.within = std::pair(-1, 2), .shown_as = "INT"};
 
 /// The settings, each under the title of the last key in `titles` at or before it.
@@ -166,6 +167,15 @@ std::vector<RunSetting> kept_settings(PingOptions& o) {
        {},
        false,
        "split_phase"},
+      {"ping",
+       "display",
+       "--display",
+       &o.display,
+       "display cells along range, e.g. 600: the run holds the mean level of each cell in place of samples of pressure. "
+       "Cells cost a small part of the samples, which are formed only where the plan's row phases says so; 0: samples",
+       display_cells,
+       false,
+       "display_bins"},
       {"ping", "looks_range", "--looks-range", &o.looks_range,
        "range bins that pictures and /intensity of the cube average", looks},
       {"ping", "looks_pings", "--looks-pings", &o.looks_pings,

@@ -79,7 +79,7 @@ void synthesize(const SynthesizeOptions& o) {
       with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = common.threads}, head);
   const Echoes echoes = target_echoes(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, echo_options);
   const SimulationOptions settled = decided_synthesis(table.scatterers, echoes, head, setup.environment, asked_of(o));
-  const auto& [method, tolerance, true_delays] = settled.synthesis;
+  const auto& [method, tolerance, true_delays, phases] = settled.synthesis;
   const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, *settled.effects.absorption_order);
   const ComplexGrid pressure = synthesize(echoes, head, medium, method, {tolerance, common.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};

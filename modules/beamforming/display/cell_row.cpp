@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "beamforming/display/looks_loops_internal.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double strong_part = 0.1;   // of a cell, from which on an echo is added as a pressure (E184)
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
+constexpr double least_interference = 0.1;
 constexpr std::size_t guards = 4;     // samples about a period
 
 /// Length of the overlap of [low, high] with [first, last].
@@ -39,13 +41,11 @@ CellRow::CellRow(const DisplayPlan& plan, std::span<const CellEcho> echoes, cons
       all_(plan.all_length),
       all_samples_(plan.all_samples),
       power_(plan.period_samples + guards),
-      energy_(plan.broad * plan.parts),
-      column_(plan.parts) {
+      energy_(plan.broad * kernels::part_stride) {
   for (Side& side : side_) {
     side.mean.resize(plan.u_beam.size());
-    side.looks.resize(plan.broad);
+    side.looks.resize(plan.broad_used.size());
     for (auto& field : side.field) field.resize(plan.period_samples + guards);
-    side.strong_field.resize(plan.period_samples + guards);
   }
   for (auto& nodes : nodes_) nodes.resize(plan.period);
 }
@@ -140,27 +140,35 @@ void CellRow::part_strong(Side& side) {
 }
 
 void CellRow::sum_strong(Side& side) {
+  side.groups = 0;
   if (side.strong.empty()) return;
+  // Echoes within a pulse of each other add up as pressures, others as intensities.
+  std::stable_sort(side.strong.begin(), side.strong.end(),
+                   [](const Part& a, const Part& b) { return a.echo->range < b.echo->range; });
   std::vector<Complex>& elements = nodes_[0];
-  std::fill(elements.begin(), elements.end(), Complex(0));
-  const double step = 2 * pi / (plan_.node_width * static_cast<double>(plan_.period));
-  const std::size_t count = plan_.shading.size();
-  for (const Part& part : side.strong) {
-    const CellEcho& echo = *part.echo;
-    const Complex phase = std::abs(echo.pressure) > 0 ? echo.pressure / std::abs(echo.pressure) : Complex(1);
-    Complex at = std::sqrt(part.energy) * phase * echo.amplitude[0];
-    // As if it stood at node 0, from which samples are counted.
-    const double away = echo.u - (0.5 * plan_.node_width - 1);
-    at *= std::polar(1.0, -step * away * element_place(0, count));
-    const Complex turn = std::polar(1.0, -step * away);
-    for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
-    // What even ground gives is without them.
-    for (std::size_t b = 0; b < plan_.u_beam.size(); ++b)
-      side.mean[b] -= part.energy * plan_.response.intensity(echo.u - plan_.u_beam[b]);
+  for (auto first = side.strong.begin(); first != side.strong.end();) {
+    const double last = first->echo->range + 2 * plan_.pulse.half_length();
+    std::fill(elements.begin(), elements.end(), Complex(0));
+    for (; first != side.strong.end() && first->echo->range < last; ++first) add_strong(*first, elements, side.mean);
+    if (side.groups == side.strong_field.size()) side.strong_field.emplace_back(plan_.period_samples + guards);
+    form_period(elements.data(), side.strong_field[side.groups++]);
   }
   const double noise = element_noise_ * plan_.lag[0];
   for (double& mean : side.mean) mean = std::max(mean, noise);
-  form_period(elements.data(), side.strong_field);
+}
+
+void CellRow::add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const {
+  const CellEcho& echo = *part.echo;
+  const double step = 2 * pi / (plan_.node_width * static_cast<double>(plan_.period));
+  const double away = echo.u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
+  const std::size_t count = plan_.shading.size();
+  const Complex turn = std::polar(1.0, -step * away);
+  Complex at = echo.pressure * std::sqrt(part.energy / std::norm(echo.pressure)) * echo.amplitude[0] *
+               std::polar(1.0, -step * away * element_place(0, count));
+  for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
+  // What even ground gives is without it.
+  for (std::size_t b = 0; b < mean.size(); ++b)
+    mean[b] -= part.energy * plan_.response.intensity(echo.u - plan_.u_beam[b]);
 }
 
 void CellRow::sum_fields(std::size_t cell, Side& side) {
@@ -226,7 +234,7 @@ void CellRow::sum_powers(std::size_t sides) {
 void CellRow::count_looks(std::size_t cell, Side& side) {
   // Energies by range, for broad nodes of u.
   const std::size_t parts = plan_.parts;
-  std::fill(energy_.begin(), energy_.end(), 0.f), std::fill(column_.begin(), column_.end(), 0.f);
+  std::fill(energy_.begin(), energy_.end(), 0.f);
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double length = plan_.cell_length / static_cast<double>(parts), unit = side.energy + side.noise;
   for (const Part& part : side.even) {
@@ -235,32 +243,16 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
                  high = std::min(static_cast<double>(parts), (echo.range + echo.half_depth - first) / length);
     if (!(high > low)) continue;
     const auto density = static_cast<float>(part.energy / unit / (high - low));
-    float* const at = energy_.data() + plan_.node_of(echo.u) / 2 * parts;
+    float* const at = energy_.data() + plan_.node_of(echo.u) / 2 * kernels::part_stride;
     const auto k = static_cast<std::size_t>(low), end = std::min(parts, static_cast<std::size_t>(std::ceil(high)));
     for (std::size_t n = k; n < end; ++n)
       at[n] += density * static_cast<float>(overlap(low, high, static_cast<double>(n), static_cast<double>(n + 1)));
   }
-  for (std::size_t j = 0; j < plan_.broad; ++j)
-    for (std::size_t n = 0; n < parts; ++n) column_[n] += energy_[j * parts + n];
-  const auto beside = static_cast<float>(plan_.beside_lobe);
-  const auto noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(parts)) : 0;
-  std::vector<float> heard(parts);
-  for (const std::size_t j : plan_.broad_used) {
-    for (std::size_t n = 0; n < parts; ++n) heard[n] = noise + beside * column_[n];
-    const std::size_t reach = plan_.lobe.size() - 1;
-    for (std::size_t i = j > reach ? j - reach : 0; i <= std::min(j + reach, plan_.broad - 1); ++i) {
-      const auto weight = static_cast<float>(plan_.lobe[i > j ? i - j : j - i]);
-      for (std::size_t n = 0; n < parts; ++n) heard[n] += weight * energy_[i * parts + n];
-    }
-    float sum = 0, squares = 0;
-    for (std::size_t n = 0; n < parts; ++n) sum += heard[n];
-    for (std::size_t d = 0; d < plan_.looks.size(); ++d) {
-      float products = 0;
-      for (std::size_t n = 0; n + d < parts; ++n) products += heard[n] * heard[n + d];
-      squares += (d > 0 ? 2 : 1) * static_cast<float>(plan_.looks[d]) * products;
-    }
-    side.looks[j] = squares > 0 ? std::max(1.0, static_cast<double>(sum / squares * sum)) : 1;  // (E182)
-  }
+  kernels::CellEnergies of{energy_.data(),       plan_.broad, parts, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
+                           plan_.looks.data(), plan_.looks.size()};
+  of.beside = static_cast<float>(plan_.beside_lobe);
+  of.noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(parts)) : 0;
+  kernels::count_looks(of, plan_.broad_used.data(), plan_.broad_used.size(), side.looks.data());
 }
 
 double CellRow::drawn(std::size_t beam, const Side& side, double power) const {
@@ -268,12 +260,19 @@ double CellRow::drawn(std::size_t beam, const Side& side, double power) const {
   const BetweenFour& place = plan_.in_period[beam];
   power = std::max({power, side.noise, std::numeric_limits<double>::min()});
   const Complex f = place.of(side.field[0].data()), g = place.of(side.field[1].data());
-  if (side.strong.empty())
-    return mean * with_looks((std::norm(f) + std::norm(g)) / (2 * power), 2, looks);  // (E183)
-  const double rest = 1 - 1 / looks;
-  const double even = rest > 0 ? mean * rest * with_looks(std::norm(g) / power, 1, looks - 1) : 0;
-  const Complex one = f * std::sqrt(mean / (looks * power));
-  return even + std::norm(one + place.of(side.strong_field.data()));  // (E184)
+  const double unit = mean / (looks * power);  // of one look of the even ground
+  double strong = 0, taken = 0;
+  for (std::size_t k = 0; k < side.groups; ++k) {
+    const Complex s = place.of(side.strong_field[k].data());
+    // A group interferes with one look of the even ground, if it is not far weaker.
+    const bool interferes = std::norm(s) > least_interference * mean / looks && taken + 1 < looks;
+    const Complex look = interferes ? std::sqrt(unit) * (static_cast<int>(taken) % 2 == 0 ? f : g) : Complex(0);
+    strong += std::norm(look + s);  // (E184)
+    taken += interferes;
+  }
+  if (taken == 0) return strong + mean * with_looks((std::norm(f) + std::norm(g)) / (2 * power), 2, looks);  // (E183)
+  const double rest = looks - taken;
+  return strong + mean * rest / looks * with_looks(std::norm(g) / power, 1, rest);
 }
 
 }  // namespace insonify

@@ -54,15 +54,17 @@ class CellRow {
     double energy = 0;               ///< of all [Pa^2]
     double noise = 0;                ///< power of the noise in the fields of the beams [Pa^2]
     std::vector<double> mean;        ///< of each beam [Pa^2]
-    std::vector<double> looks;       ///< of each broad node
+    std::vector<double> looks;       ///< of each broad node in use
     std::array<std::vector<Complex>, 2> field;  ///< of a period of u, with guards
-    std::vector<Complex> strong_field;
+    std::vector<std::vector<Complex>> strong_field;  ///< the same of strong echoes, by groups that interfere
+    std::size_t groups = 0;
   };
 
   void list_parts(std::size_t cell, Side& side);
   void sum_means(std::size_t cell, std::size_t sides);
   void part_strong(Side& side);
   void sum_strong(Side& side);
+  void add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const;
   void sum_fields(std::size_t cell, Side& side);
   void sum_powers(std::size_t sides);
   void count_looks(std::size_t cell, Side& side);
@@ -79,7 +81,7 @@ class CellRow {
   std::array<Side, 2> side_;
   std::vector<Complex> all_, all_samples_, power_;
   std::array<std::vector<Complex>, 2> nodes_;
-  std::vector<float> energy_, column_;
+  std::vector<float> energy_;
 };
 
 }  // namespace insonify

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "beamforming/display/looks_loops_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "core/units.hpp"
 
@@ -12,7 +13,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t nodes_per_element = 4;
-constexpr std::size_t most_parts_of_a_cell = 48, least_parts_of_a_cell = 4;
+constexpr std::size_t least_parts_of_a_cell = 4;
 constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
 constexpr double least_beside = 1e-12;
 
@@ -44,7 +45,6 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
       broad(nodes / 2 + 1),
       node_width(node_width_of(head, wavelength_of(head, medium))),
       beam_width(head.fan.beam_width),
-      u_beam(beam_cosines(head.fan)),
       period_samples(2 * period),
       all_length(fft_length(2 * nodes + 4)),
       all_samples(2 * all_length),
@@ -70,13 +70,15 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
   if (half_places)
     for (std::size_t i = 0; i < nodes; ++i)
       turn.push_back(std::polar(1.0, -pi * (static_cast<double>(i) + 0.5) / static_cast<double>(period)));
-  place_beams(head);
+  place_beams(head.fan);
   fill_kernels(head, medium);
   fill_looks(head);
 }
 
-void DisplayPlan::place_beams(const SonarHead& head) {
-  const double samples_per_node = 2;
+void DisplayPlan::place_beams(const BeamFan& fan) {
+  constexpr double samples_per_node = 2;
+  u_beam = beam_cosines(fan);
+  in_all.clear(), in_period.clear(), broad_of.clear();
   for (const double u : u_beam) {
     const double node = (u + 1) / node_width - 0.5;  // centres of nodes are whole numbers
     in_all.push_back(between_four(samples_per_node * (node + 1)));
@@ -87,9 +89,11 @@ void DisplayPlan::place_beams(const SonarHead& head) {
   broad_used = broad_of;
   std::sort(broad_used.begin(), broad_used.end());
   broad_used.erase(std::unique(broad_used.begin(), broad_used.end()), broad_used.end());
+  for (std::size_t& node : broad_of)
+    node = static_cast<std::size_t>(std::ranges::lower_bound(broad_used, node) - broad_used.begin());
 
   beam_near.assign(nodes, -1);
-  const double reach = main_lobe_reach * head.fan.beam_width;
+  const double reach = main_lobe_reach * fan.beam_width;
   std::vector<double> nearest(nodes, reach);
   for (std::size_t b = 0; b < u_beam.size(); ++b) {
     const std::size_t first = node_of(u_beam[b] - reach), last = node_of(u_beam[b] + reach);
@@ -140,11 +144,11 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
 void DisplayPlan::fill_looks(const SonarHead& head) {
   const double reach = main_lobe_reach * head.fan.beam_width;
   for (std::size_t k = 0; k == 0 || 2 * static_cast<double>(k) * node_width < reach; ++k)
-    lobe.push_back(response_at(2 * static_cast<double>(k) * node_width));
+    lobe.push_back(static_cast<float>(response_at(2 * static_cast<double>(k) * node_width)));
 
   const double resolved = std::max(2 * pulse.half_length(), 1e-9);
   parts = std::clamp(static_cast<std::size_t>(std::ceil(cell_length / resolved * 1.5)), least_parts_of_a_cell,
-                     most_parts_of_a_cell);
+                     kernels::most_parts);
   const double length = cell_length / static_cast<double>(parts);
   constexpr int steps = 32;
   for (std::size_t d = 0; d < parts; ++d) {
@@ -154,7 +158,7 @@ void DisplayPlan::fill_looks(const SonarHead& head) {
       mean += (1 - std::abs(s)) * pulse.correlation((static_cast<double>(d) + s) * length) / steps;
     }
     if (d > 0 && mean < 1e-4) break;
-    looks.push_back(mean);
+    looks.push_back(static_cast<float>(mean));
   }
 }
 

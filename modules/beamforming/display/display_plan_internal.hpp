@@ -41,8 +41,8 @@ struct DisplayPlan {
 
   std::vector<double> u_beam;            ///< directions of the beams
   std::vector<std::int32_t> beam_near;   ///< of each node: the beam that hears it best; -1: none has it in its lobe
-  std::vector<std::size_t> broad_of;     ///< broad node of each beam
-  std::vector<std::size_t> broad_used;   ///< those of all beams, each once
+  std::vector<std::size_t> broad_of;     ///< index into broad_used of each beam
+  std::vector<std::size_t> broad_used;   ///< broad nodes of beams, each once
   std::vector<BetweenFour> in_period;    ///< place of each beam among the samples of a transformed period
   std::vector<BetweenFour> in_all;       ///< the same among those of all directions
   std::size_t period_samples, all_length, all_samples;
@@ -56,10 +56,10 @@ struct DisplayPlan {
   std::vector<std::vector<double>> kernel;  ///< spectra of the band's mean pattern, by blocks of range
   std::size_t kernel_of(std::size_t cell) const { return cell * kernel.size() / cells; }
 
-  std::vector<double> lobe;   ///< weights of broad nodes at distances 0, 1, .. within the main lobe
+  std::vector<float> lobe;    ///< weights of broad nodes at distances 0, 1, .. within the main lobe
   double beside_lobe;         ///< mean response outside of it
   std::size_t parts;          ///< of a cell
-  std::vector<double> looks;  ///< R_d of parts d apart (E182)
+  std::vector<float> looks;   ///< R_d of parts d apart (E182)
 
   ResponseTable response;
   PulseEnergy pulse;
@@ -68,9 +68,11 @@ struct DisplayPlan {
 
   Fft<double> to_elements, to_period, to_all, from_all;
 
+  /// Sets the directions of the beams; those of a fan of one elevation.
+  void place_beams(const BeamFan& fan);
+
  private:
   double response_at(double offset) const;  // of any size
-  void place_beams(const SonarHead& head);
   void fill_kernels(const SonarHead& head, const Medium& medium);
   void fill_looks(const SonarHead& head);
 };

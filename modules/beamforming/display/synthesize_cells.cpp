@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "acoustics/direct_echoes.hpp"
@@ -56,12 +57,17 @@ class CellImage {
         metres_per_s_(0.5 * medium.sound_speed),
         amplitude_(amplitudes_of(surface, options)) {}
 
-  Grid<double> of_row(const DisplayPlan& plan, const std::vector<RowPart>& parts, std::size_t first_element) const {
+  /// column: of a planar array, whose elements above each other add up to one element of a row
+  Grid<double> of_row(const DisplayPlan& plan, const std::vector<RowPart>& parts, std::size_t first_element,
+                      const std::optional<LineArray>& column = std::nullopt) const {
     const std::vector<CellEcho> echoes = cell_echoes(plan, parts);
     const CellLists lists = lists_of(plan, echoes);
-    const double noise = std::isinf(options_.element_noise_db)
-                             ? 0
-                             : 2 * power_from_db(options_.element_noise_db) * micropascal * micropascal;
+    double noise = std::isinf(options_.element_noise_db)
+                       ? 0
+                       : 2 * power_from_db(options_.element_noise_db) * micropascal * micropascal;
+    if (column)
+      noise *= std::inner_product(column->shading.begin(), column->shading.end(), column->shading.begin(), 0.0) /
+               std::pow(static_cast<double>(column->elements()), 2);  // (E56)
     Grid<double> image(plan.u_beam.size(), plan.cells);
     parallel_blocks((plan.cells + 1) / 2, 4, options_.threads, [&](std::size_t begin, std::size_t end) {
       CellRow row(plan, echoes, lists, options_, noise, first_element);
@@ -173,12 +179,14 @@ Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed,
   const RowEchoes row_echoes(all, head, medium.sound_speed / head.pulse.centre_frequency, rows,
                              row_cutoff(row_tolerance, rows.size()), options.threads);
   Grid<double> cells(head.fan.beams(), head.gate.bins());
+  DisplayPlan plan(line_head(head, rows.front()), medium);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     std::vector<RowPart> parts;
     row_echoes.for_each_of(rows[r], [&](std::size_t i, double response) {
       parts.push_back({static_cast<std::uint32_t>(i), response});
     });
-    const Grid<double> beams = image.of_row(DisplayPlan(line_head(head, rows[r]), medium), parts, r * head.array.elements());
+    plan.place_beams(line_head(head, rows[r]).fan);
+    const Grid<double> beams = image.of_row(plan, parts, r * head.array.elements(), head.column);
     for (std::size_t k = 0; k < rows[r].beams.size(); ++k)
       cells.row(static_cast<Eigen::Index>(rows[r].beams[k])) = beams.row(static_cast<Eigen::Index>(k));
   }

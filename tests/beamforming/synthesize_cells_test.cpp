@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Display cells without samples (E180 to E184): expected intensities against sums from the definition, statistics
+// against closed forms and against averaged samples of element_exact.
+#include "beamforming/synthesize_cells.hpp"
+
+#include "acoustics/direct_echoes.hpp"
+#include "beamforming/synthesize.hpp"
+#include "core/random.hpp"
+#include "returns/looks.hpp"
+#include "support/errors.hpp"
+#include "support/heads.hpp"
+#include "support/test.hpp"
+
+namespace insonify::cell_tests {
+
+constexpr double bandwidth = 60e3, centre = 750e3;
+const Medium lossy{1490, {0.02, 2e-8, 1e-14}};
+
+SonarHead samples_head(std::size_t beams = 9, std::size_t elements = 32) {
+  return line_head({.beams = beams, .elements = elements, .field_of_view_deg = 100, .min_range = 2, .max_range = 3});
+}
+
+SonarHead cells_head(SonarHead head, int cells) {
+  head.gate = display_gate(head.gate, cells);
+  return head;
+}
+
+/// Echoes evenly over range 1.9 to 3.1 m and all u, of unit mean power [Pa^2].
+SurfaceEchoes even_ground(std::size_t count, std::uint64_t seed = 1) {
+  SurfaceEchoes s;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = random_uniform(seed, RandomStage::scene_points, {i, 0, 0});
+    const double range = 1.9 + 1.2 * at[0];
+    s.echoes.delay.push_back(2 * range / lossy.sound_speed);
+    s.echoes.u.push_back(2 * at[1] - 1);
+    s.echoes.amplitude.push_back(std::polar(1.0, 4 * pi * range * centre / lossy.sound_speed));
+    s.id.push_back(i);
+  }
+  s.depth.assign(count, 0), s.width.assign(count, 0);
+  return s;
+}
+
+/// The same echoes with the random amplitudes of a seed.
+Echoes drawn(const SurfaceEchoes& s, std::uint64_t seed) {
+  Echoes echoes = s.echoes;
+  std::vector<double> re(s.id.size()), im(s.id.size());
+  random_amplitudes(seed, s.id, re.data(), im.data());
+  for (std::size_t i = 0; i < re.size(); ++i) echoes.amplitude[i] *= std::complex(re[i], im[i]);
+  return echoes;
+}
+
+/// The definition: sum over echoes, over frequencies of the pulse and over ranges in fine steps.
+Grid<double> cells_by_definition(const SurfaceEchoes& s, const SonarHead& head, const Medium& water) {
+  const double c = water.sound_speed, wavelength = c / head.pulse.centre_frequency;
+  const EchoShapes shapes(head.pulse, water);
+  Grid<double> sum = Grid<double>::Zero(static_cast<Eigen::Index>(head.fan.beams()),
+                                        static_cast<Eigen::Index>(head.gate.bins()));
+  for (std::size_t i = 0; i < s.id.size(); ++i) {
+    const double range = 0.5 * c * s.echoes.delay[i];
+    const EchoEnvelope g = shapes.of(s.echoes.delay[i]);
+    Eigen::ArrayXd in_cell = Eigen::ArrayXd::Zero(sum.cols());
+    const double step = 1e-4;
+    for (double r = range - 0.05; r < range + 0.05; r += step) {
+      const double cell = (r - head.gate.min_range) / head.gate.bin_size;
+      if (cell < 0 || cell >= static_cast<double>(sum.cols())) continue;
+      const double middle = head.gate.centre(static_cast<std::size_t>(cell));
+      in_cell[static_cast<Eigen::Index>(cell)] +=
+          std::norm(g.at(2 * (r - range) / c)) * step / head.gate.bin_size * r / middle;
+    }
+    // |G(f)|^2 after absorption: a Gaussian that slope shifts and curvature narrows.
+    const double a = 2 * std::numbers::ln2 / (bandwidth * bandwidth) + 2 * water.absorption.a2 * range;
+    const double b = 2 * water.absorption.a1 * range;
+    for (Eigen::Index beam = 0; beam < sum.rows(); ++beam) {
+      const auto k = static_cast<std::size_t>(beam);
+      const double u_beam = std::cos(head.fan.elevation[k]) * std::sin(head.fan.azimuth[k]);
+      double response = 0, weights = 0;
+      for (double f = -1.5 * bandwidth; f <= 1.5 * bandwidth; f += 1000) {
+        const double weight = std::exp(-2 * (a * f * f + b * f));
+        const double x = (1 + f / head.pulse.centre_frequency) * (s.echoes.u[i] - u_beam);
+        response += weight * std::norm(array_response(head.array, wavelength, x, 0)), weights += weight;
+      }
+      sum.row(beam) += std::norm(s.echoes.amplitude[i]) * response / weights * in_cell.transpose();
+    }
+  }
+  return sum;
+}
+
+/// M = T^2 / integral of the squared correlation over the cell, 2^(-2 (x / L)^2) of a Gaussian pulse.
+double looks_of_even_ground(const SonarHead& head) {
+  const double length = head.gate.bin_size, l = 0.4413 * c0_cold / (2 * bandwidth);
+  double overlap = 0;
+  for (double x = 0.5e-5; x < length; x += 1e-5) overlap += 2e-5 * (length - x) * std::exp2(-2 * x * x / (l * l));
+  return length * length / overlap;
+}
+
+double worst_db(const Grid<double>& a, const Grid<double>& b) { return (10 * (a / b).log10()).abs().maxCoeff(); }
+
+TEST(DisplayCells, expected_are_the_energies_of_the_definition) {
+  const SonarHead head = cells_head(samples_head(), 20);
+  const SurfaceEchoes ground = even_ground(1200);
+  const Grid<double> cells = synthesize_cells(ground, {}, head, lossy, {.speckle = false});
+  const Grid<double> exact = cells_by_definition(ground, head, lossy);
+  // Pulses are boxes of their variance: what stands within a pulse of an edge may be in the cell beside.
+  EXPECT_LT(worst_db(cells, exact), 0.35);
+  EXPECT_LT(worst_db(cells.rowwise().sum(), exact.rowwise().sum()), 0.02);
+  EXPECT_LT(worst_db(cells.colwise().sum(), exact.colwise().sum()), 0.2);
+}
+
+TEST(DisplayCells, grating_lobes_are_those_of_the_band) {
+  // Elements 0.7 wavelengths apart: the lobe of an echo at u = -0.75 stands at 0.68 at the centre, elsewhere at others.
+  SonarHead head = cells_head(samples_head(33), 4);
+  head.array.spacing = 0.7 * lossy.sound_speed / centre;
+  SurfaceEchoes one = even_ground(1);
+  one.echoes.u[0] = -0.75, one.echoes.delay[0] = 2 * 2.4 / lossy.sound_speed;
+  const Grid<double> cells = synthesize_cells(one, {}, head, lossy, {.speckle = false});
+  const Grid<double> exact = cells_by_definition(one, head, lossy);
+  const double peak = exact.maxCoeff();
+  for (Eigen::Index b = 0; b < cells.rows(); ++b)
+    if (exact.row(b).sum() > 1e-2 * peak) {
+      EXPECT_NEAR(db_from_power(cells.row(b).sum() / exact.row(b).sum()), 0, 0.15) << b;
+    }
+  EXPECT_GT(exact.rightCols(3).bottomRows(8).maxCoeff(), 0.1 * peak) << "there is a lobe";
+}
+
+TEST(DisplayCells, surfaces_are_spread_over_their_extent) {
+  const SonarHead head = cells_head(samples_head(), 20);
+  SurfaceEchoes one = even_ground(1), many = even_ground(40000);
+  one.echoes.u[0] = 0.1, one.echoes.delay[0] = 2 * 2.512 / lossy.sound_speed;
+  one.depth[0] = 0.2f, one.width[0] = 0.3f;
+  for (std::size_t i = 0; i < many.id.size(); ++i) {
+    const auto at = random_uniform(3, RandomStage::scene_points, {i, 0, 0});
+    many.echoes.delay[i] = 2 * (2.512 + 0.2 * (2 * at[0] - 1)) / lossy.sound_speed;
+    many.echoes.u[i] = 0.1 + 0.3 * (2 * at[1] - 1);
+    many.echoes.amplitude[i] = 1 / std::sqrt(40000.0);
+  }
+  const Grid<double> a = synthesize_cells(one, {}, head, lossy, {.speckle = false});
+  const Grid<double> b = synthesize_cells(many, {}, head, lossy, {.speckle = false});
+  EXPECT_NEAR(db_from_power(a.sum() / b.sum()), 0, 0.1);
+  EXPECT_LT(worst_db(a.block(4, 8, 2, 5), b.block(4, 8, 2, 5)), 0.5);
+}
+
+TEST(DisplayCells, have_mean_and_contrast_of_averaged_samples) {
+  const SonarHead samples = samples_head(), head = cells_head(samples, 12);
+  const SurfaceEchoes ground = even_ground(4000);
+  Grid<double> mean[2], square[2];
+  constexpr int seeds = 48;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto key = static_cast<std::uint64_t>(seed);
+    const ComplexGrid p = synthesize(drawn(ground, key), samples, lossy, SynthesisMethod::element_exact);
+    const Grid<double> images[] = {mean_over_cells(p.abs2(), samples.gate, head.gate),
+                                   synthesize_cells(ground, {}, head, lossy, {.seed = key})};
+    for (const int k : {0, 1}) {
+      if (seed == 1) mean[k] = square[k] = Grid<double>::Zero(head.fan.beams(), head.gate.bins());
+      mean[k] += images[k] / seeds, square[k] += images[k].square() / seeds;
+    }
+  }
+  const auto contrast = [&](int k) { return std::sqrt((square[k] / mean[k].square() - 1).mean()); };
+  EXPECT_NEAR(db_from_power(mean[1].sum() / mean[0].sum()), 0, 0.05);
+  EXPECT_NEAR(contrast(1) / contrast(0), 1, 0.06);
+  const double rms = std::sqrt((10 * (mean[1] / mean[0]).log10()).square().mean());
+  EXPECT_LT(rms, 4.34 * std::sqrt(2.0) * contrast(0) / std::sqrt(seeds) * 1.3 + 0.1);
+}
+
+TEST(DisplayCells, looks_of_even_ground_are_those_of_the_pulse) {
+  const SonarHead head = cells_head(samples_head(), 10);
+  const double looks = looks_of_even_ground(head);
+  double mean = 0, square = 0, n = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const SurfaceEchoes ground = even_ground(20000, seed);
+    const Grid<double> expected = synthesize_cells(ground, {}, head, {c0_cold, {}}, {.speckle = false});
+    const Grid<double> relative = synthesize_cells(ground, {}, head, {c0_cold, {}}, {.seed = seed}) / expected;
+    mean += relative.sum(), square += relative.square().sum(), n += static_cast<double>(relative.size());
+  }
+  EXPECT_NEAR(mean / n, 1, 0.01);
+  EXPECT_NEAR(std::sqrt(square * n / (mean * mean) - 1), 1 / std::sqrt(looks), 0.06 / std::sqrt(looks));
+}
+
+TEST(DisplayCells, an_echo_alone_is_exponential) {
+  const SonarHead head = cells_head(samples_head(), 5);
+  SurfaceEchoes one = even_ground(1);
+  one.echoes.u[0] = 0, one.echoes.delay[0] = 2 * 2.5 / lossy.sound_speed;
+  const double expected = synthesize_cells(one, {}, head, lossy, {.speckle = false})(4, 2);
+  double sum = 0, square = 0;
+  constexpr int seeds = 1500;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const double i =
+        synthesize_cells(one, {}, head, lossy, {.seed = static_cast<std::uint64_t>(seed)})(4, 2) / expected;
+    sum += i, square += i * i;
+  }
+  EXPECT_NEAR(sum / seeds, 1, 0.1);
+  EXPECT_NEAR(square / seeds, 2, 0.5);
+}
+
+TEST(DisplayCells, fixed_echoes_add_up_as_pressures) {
+  const SonarHead head = cells_head(samples_head(), 5);
+  const auto fixed = [&](std::complex<double> more) {
+    Echoes e;
+    for (const auto& amplitude : {std::complex<double>(1), more}) {
+      e.delay.push_back(2 * 2.5 / lossy.sound_speed), e.u.push_back(0), e.amplitude.push_back(amplitude);
+    }
+    return synthesize_cells({}, e, head, lossy)(4, 2);
+  };
+  EXPECT_NEAR(fixed({1, 0}) / fixed({0, 0}), 4, 1e-6);
+  EXPECT_NEAR(fixed({0, 1}) / fixed({0, 0}), 2, 1e-6);
+  EXPECT_NEAR(fixed({-1, 0}) / fixed({0, 0}), 0, 1e-6);
+  // Its level is that of samples: of one echo |P|^2 has no speckle.
+  Echoes one;
+  one.delay = {2 * 2.5 / lossy.sound_speed}, one.u = {0}, one.amplitude = {1};
+  SonarHead samples = samples_head();
+  samples.gate.bin_size /= 5;
+  const ComplexGrid p = synthesize(one, samples, lossy, SynthesisMethod::element_exact);
+  const Grid<double> exact = mean_over_cells(p.abs2(), samples.gate, head.gate);
+  EXPECT_NEAR(db_from_power(synthesize_cells({}, one, head, lossy)(4, 2) / exact(4, 2)), 0, 0.05);
+}
+
+TEST(DisplayCells, noise_has_level_and_looks_of_the_samples) {
+  const SonarHead samples = samples_head(), head = cells_head(samples, 10);
+  double sum = 0, square = 0, n = 0;
+  for (std::int64_t ping = 0; ping < 60; ++ping) {
+    const Grid<double> cells = synthesize_cells({}, {}, head, lossy, {.ping = ping, .element_noise_db = 100});
+    sum += cells.sum(), square += cells.square().sum(), n += static_cast<double>(cells.size());
+  }
+  double weights = 0;
+  for (const double w : head.array.shading) weights += w * w;
+  const double beam = 2 * 1e10 * 1e-12 * weights / std::pow(static_cast<double>(head.array.elements()), 2);  // (E19)
+  EXPECT_NEAR(db_from_power(sum / n / beam), 0, 0.1);
+  EXPECT_NEAR(std::sqrt(square / n / std::pow(sum / n, 2) - 1), 1 / std::sqrt(looks_of_even_ground(head)), 0.02);
+}
+
+TEST(DisplayCells, are_linear_and_the_same_for_any_threads) {
+  const SonarHead head = cells_head(samples_head(), 12);
+  SurfaceEchoes ground = even_ground(500);
+  const Grid<double> one = synthesize_cells(ground, {}, head, lossy, {.threads = 1});
+  EXPECT_TRUE(same(one, synthesize_cells(ground, {}, head, lossy, {.threads = 5})));
+  for (auto& a : ground.echoes.amplitude) a *= 1e-7;
+  EXPECT_LT(worst_db(1e14 * synthesize_cells(ground, {}, head, lossy), one), 1e-3);
+}
+
+TEST(DisplayCells, of_a_planar_array_are_weighted_by_its_rows) {
+  SonarHead head = cells_head(samples_head(3), 5);
+  head.fan.azimuth = {-0.2, 0, 0.2, -0.2, 0, 0.2};
+  head.fan.elevation = {0, 0, 0, 0.2, 0.2, 0.2};
+  head.fan.row_width = 0.1;
+  head.column = LineArray{head.array.spacing, uniform_shading(16)};
+  SurfaceEchoes one = even_ground(1);
+  one.echoes.u[0] = 0, one.echoes.delay[0] = 2 * 2.5 / lossy.sound_speed, one.echoes.v = {0.05};
+  const Grid<double> cells = synthesize_cells(one, {}, head, lossy, {.speckle = false});
+  const double wavelength = lossy.sound_speed / centre;
+  const double below = std::norm(array_response(*head.column, wavelength, 0.05, 0)),
+               above = std::norm(array_response(*head.column, wavelength, 0.05, std::sin(0.2)));
+  EXPECT_NEAR(db_from_power(cells(1, 2) / cells(4, 2)), db_from_power(below / above), 0.3);
+  // Noise of elements above each other adds up.
+  const double noise = synthesize_cells({}, {}, head, lossy, {.element_noise_db = 100, .speckle = false})(0, 0);
+  double weights = 0;
+  for (const double w : head.array.shading) weights += w * w;
+  EXPECT_NEAR(noise / (2e-2 * weights / (32. * 32) / 16), 1, 1e-9);
+}
+
+TEST(DisplayCells, refuse_arrays_of_other_lengths) {
+  SurfaceEchoes ground = even_ground(3);
+  ground.depth.pop_back();
+  EXPECT_EQ(error_of([&] { synthesize_cells(ground, {}, cells_head(samples_head(), 5), lossy); }),
+            "synthesize_cells: 3 delays, but 3 ids, 2 depths and 3 widths");
+}
+
+}  // namespace insonify::cell_tests
