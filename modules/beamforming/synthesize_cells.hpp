@@ -25,9 +25,9 @@ struct CellOptions {
   std::int64_t ping = 0;  ///< number of the ping; every ping has its own noise
   /// Level of the noise of an element in the pulse's band [dB re 1 uPa rms]; -inf: none.
   double element_noise_db = -std::numeric_limits<double>::infinity();
-  bool speckle = true;   ///< false: the expected intensity
-  double bin_size = 0;   ///< of the samples that a cell stands for [m]: closer ones are not independent
-  int threads = 0;       ///< 0: all cores; the result does not depend on it
+  bool speckle = true;  ///< false: the expected intensity
+  double bin_size = 0;  ///< of the samples that a cell stands for [m]: closer ones are not independent
+  int threads = 0;      ///< 0: all cores; the result does not depend on it
 };
 
 /// Returns the intensity of display cells, beams x cells [Pa^2]: of each the mean of |P|^2 over the area between its

@@ -46,6 +46,9 @@ void require_bottom_options(const Ping& ping, const BottomOptions& o) {
       (ping.split_phase.rows() != ping.pressure.rows() || ping.split_phase.cols() != ping.pressure.cols()))
     fail(ErrorKind::argument, bottom_call, ": split_phase has ", ping.split_phase.rows(), " x ",
          ping.split_phase.cols(), " cells, must have one for each of the pressure");
+  if (ping.display_cells)
+    fail(ErrorKind::argument, bottom_call, ": ping ", ping.number,
+         " holds display cells, without the samples of an echo; make it without --display");
   if (ping.expected_level)
     fail(ErrorKind::argument, bottom_call, ": ping ", ping.number,
          " is an expected level, without the samples of an echo; ", "simulate it with another method");

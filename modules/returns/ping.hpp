@@ -38,8 +38,8 @@ struct Ping {
   std::vector<Layer> layers{};  ///< parts that add up to `pressure`; empty unless requested
   bool expected_level = false;  ///< `pressure` is the root of an expected intensity (E65), without speckle and phase;
                                 ///< squares of the layers add up
-  bool display_cells = false;  ///< bins are cells of a display: `pressure` is the root of the mean intensity over the
-                               ///< area of each, without phase
+  bool display_cells = false;   ///< bins are cells of a display: `pressure` is the root of the mean intensity over the
+                                ///< area of each, without phase
   Grid<float> intensity{};  ///< mean of |pressure|^2 over the looks of a display, beams x bins [Pa^2] (E71); or empty
   Grid<std::uint8_t> unknown{};  ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
   Grid<float>

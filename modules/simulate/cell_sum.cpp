@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "simulate/cell_sum_internal.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "acoustics/collect_echoes_internal.hpp"
+#include "acoustics/multipath_echoes.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "simulate/cell_sum_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -39,8 +39,9 @@ RefractionReport refract(const SceneCloud& scene, const ResolvedPing& ping, Scat
 /// Whether some stage asks for all patches, or for a synthesis that takes all echoes at once.
 bool needs_all_patches(const ResolvedPing& ping) {
   const SimulationOptions& o = ping.options;
-  return draws_cells(o) || o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 || o.outputs.paths > 0 ||
-         o.sampling.kind == SamplingKind::rays || ping.environment.profile || !streamed(ping.head, o.synthesis.method);
+  return draws_cells(o) || o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 ||
+         o.outputs.paths > 0 || o.sampling.kind == SamplingKind::rays || ping.environment.profile ||
+         !streamed(ping.head, o.synthesis.method);
 }
 
 }  // namespace

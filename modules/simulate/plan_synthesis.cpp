@@ -92,9 +92,8 @@ constexpr PlanStage stages[] = {
      "intensities have no delays across the array", narrow_band_bound, force_true_delays, asked_true_delays,
      [](const PlanFacts& facts) { return facts.ping.head.column.has_value(); }},
     {"phases", DecidedBy::choice, [](const PlanCause& of) { return reason_for_phases(of) != nullptr; }, "asked for",
-     "display cells are drawn from expected energies, with speckle of the scene", [](const PlanFacts&) {
-       return drawn_cell_error;
-     },
+     "display cells are drawn from expected energies, with speckle of the scene",
+     [](const PlanFacts&) { return drawn_cell_error; },
      [](bool in, Environment&, SimulationOptions& o) { o.synthesis.phases = in; }, nullptr, nullptr, false,
      reason_for_phases},
     {"double-precision", DecidedBy::scene,

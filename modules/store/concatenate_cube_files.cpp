@@ -18,7 +18,6 @@
 namespace insonify {
 
 using namespace hdf5;
-
 namespace {
 
 /// Values per ping that are copied, all parts one after the other.
@@ -109,8 +108,7 @@ void add_track(const FileContext& place, hid_t file, Track& track, hsize_t pings
 void add_part(JoinedCube& joined, const std::string& path) {
   const FileContext place{path, ErrorKind::content};
   const Handle file = open_file(place);
-  const DatasetName image = image_name_of(file);
-  const Extent extent = extent_of(place, open_dataset(place, file, image), image.path, 3);
+  const Extent extent = extent_of(place, open_dataset(place, file, image_name_of(file)), image_name_of(file).path, 3);
   const std::string sonar = read_text(place, file, "sonar");
   if (H5Aexists(file, notes_attribute) > 0) gather(joined.notes, notes_in(read_text(place, file, notes_attribute)));
   const std::vector<std::string> images = images_of(place, file);
@@ -206,12 +204,9 @@ void refer_to_parts(const FileContext& place, const JoinedCube& joined, const st
     place.checked(H5Pset_virtual(properties, here, name.c_str(), image.c_str(), source), image);
     first += part.pings;
   }
-  if (image == level_name.path) {
-    place.checked(H5Pset_fill_value(properties, type, &no_level), image);
-    return;
-  }
   const float missing[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()};
-  place.checked(H5Pset_fill_value(properties, type, missing), image);
+  const bool levels = H5Tget_class(type) == H5T_INTEGER && H5Tget_sign(type) == H5T_SGN_2;
+  place.checked(H5Pset_fill_value(properties, type, levels ? static_cast<const void*>(&no_level) : missing), image);
 }
 
 /// Copies an image of all parts, a few pings at a time.

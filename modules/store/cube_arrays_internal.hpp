@@ -56,11 +56,16 @@ void require_complex(const hdf5::FileContext& place, hid_t dataset, const std::s
 
 /// Returns the name of the image of a cube: /level if it has display cells, else /pressure.
 DatasetName image_name_of(hid_t file);
+/// Returns true if a cube has display cells.
+inline bool has_levels(hid_t file) { return image_name_of(file).path == std::string(level_name.path); }
 
 /// Returns levels of display cells as they are stored, in steps of level_step.
 Grid<std::int16_t> stored_levels(const ComplexGridF& pressure);
 /// Returns the pressures, without phase, of stored levels [Pa].
 ComplexGridF pressures_of(const Grid<std::int16_t>& levels);
+
+/// Writes the images of all pings: pressures or levels, layers, maps and labels.
+void write_all_images(const hdf5::FileContext& place, hid_t file, const Cube& cube);
 
 /// Sends the images of pings of a cube of `extent`: pressure, layers, maps and labels.
 void send_all_images(const hdf5::FileContext& place, hid_t file, const hdf5::Extent& extent, PingRange pings,

@@ -246,7 +246,7 @@ ComplexGridF pressures_of(const Grid<std::int16_t>& levels) {
 
 void send_all_images(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
   const DatasetName image = image_name_of(file);
-  const bool levels = image.path == std::string(level_name.path);
+  const bool levels = has_levels(file);
   send_signal(place, open_dataset(place, file, image), image.path, levels, pings, to);
   send_layers(place, file, extent, levels, pings, to);
   send_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, to);

@@ -14,7 +14,7 @@ constexpr DatasetName pressure_name{"/pressure", "Pa", "sound pressure of the re
 constexpr DatasetName level_name{"/level", "dB re 1 uPa",
                                  "mean level over a display cell; the number times scale_factor; -32768: no sound"};
 constexpr const char* scale_factor_attribute = "scale_factor";
-constexpr double level_step = 0.01;            // [dB]
+constexpr double level_step = 0.01;  // [dB]
 constexpr std::int16_t no_level = -32768;
 /// Root attribute that marks such a cube.
 constexpr const char* display_cells_attribute = "display_cells";

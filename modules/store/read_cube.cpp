@@ -105,7 +105,7 @@ CubeTable read_table(const FileContext& place, hid_t file) {
   const Handle dataset = open_dataset(place, file, image);
   CubeTable table;
   table.extent = extent_of(place, dataset, image.path, 3);
-  table.display_cells = image.path == std::string(level_name.path);
+  table.display_cells = has_levels(file);
   if (!table.display_cells) require_complex(place, dataset, image.path);
   table.track = track_of(place, file, table.extent[0]);
   read_axes(place, file, table);
@@ -177,7 +177,7 @@ Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam) {
   ArrayReceiver sent = read_apart(path, [&](const FileContext& place, hid_t file, ArraySender& to) {
     require_schema(place, file);
-    if (image_name_of(file).path == std::string(level_name.path))
+    if (has_levels(file))
       fail(place.kind, place.path, ": holds display cells, which have no phase; make it without --display");
     const Handle dataset = open_dataset(place, file, pressure_name);
     const Extent extent = extent_of(place, dataset, pressure_name.path, 3);

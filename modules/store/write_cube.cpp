@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <bit>
-#include <complex>
 #include <cstdint>
-#include <type_traits>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -85,119 +82,6 @@ void require_writable(const Cube& cube, const std::string& path) {
     require_same_layers(ping, first, path);
     require_same_maps(ping, first, path);
   }
-}
-
-// Chunks hold one ping, all bins and up to 64 beams, fewer if that exceeds 64 MiB.
-hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
-  const hsize_t bytes_per_beam = bins * sizeof(std::complex<float>);
-  return std::clamp<hsize_t>((hsize_t{64} << 20) / bytes_per_beam, 1, std::min<hsize_t>(beams, 64));
-}
-
-// HDF5 type of an image's values in the file or in memory.
-template <typename Number>
-Handle image_type(const FileContext& place, bool in_file) {
-  if constexpr (std::is_same_v<Number, std::complex<float>>)
-    return complex_type(place, in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT);
-  return {place.checked(H5Tcopy(type_of<Number>(in_file)), "type"), H5Tclose};
-}
-
-// Writes one image per ping: the pressure, layer or map selected by `part`.
-template <typename Part>
-void write_images(const FileContext& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings,
-                  Part part, Packing packing) {
-  const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();
-  const Extent extent = {pings.size(), beams, bins};
-  using Number = typename std::decay_t<decltype(part(pings[0]))>::Scalar;
-  const Handle stored = image_type<Number>(place, true), here = image_type<Number>(place, false);
-  const Handle dataset =
-      create_dataset(place, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins}, packing);
-  if constexpr (std::is_same_v<Number, std::complex<float>>)
-    write_attribute(place, dataset, convention_attribute, std::string(pressure_convention));
-  const Extent one_ping = {1, beams, bins};
-  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
-  for (std::size_t p = 0; p < pings.size(); ++p) {
-    const Handle row = select_row(place, dataset, extent, p);
-    place.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, part(pings[p]).data()), name.path);
-  }
-}
-
-// Rounds to `bits` significant bits, halves to even; infinities and NaN stay.
-float rounded(float value, int bits) {
-  auto pattern = std::bit_cast<std::uint32_t>(value);
-  if ((pattern & 0x7f800000u) == 0x7f800000u) return value;
-  const int dropped = Cube::all_bits - bits;
-  const std::uint32_t last_kept = (pattern >> dropped) & 1u, half = (1u << dropped) >> 1;
-  pattern += half + last_kept - 1u;
-  return std::bit_cast<float>(pattern & ~((1u << dropped) - 1u));
-}
-
-// Writes pressures with as many significant bits as the cube keeps.
-template <typename Part>
-void write_pressures(const FileContext& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
-  const int bits = cube.keep_bits;
-  if (bits == Cube::all_bits) return write_images(place, file, name, cube.pings, part, Packing::none);
-  const auto round = [bits](const std::complex<float>& p) {
-    return std::complex<float>(rounded(p.real(), bits), rounded(p.imag(), bits));
-  };
-  write_images(
-      place, file, name, cube.pings, [&](const Ping& ping) -> ComplexGridF { return part(ping).unaryExpr(round); },
-      Packing::deflate);
-}
-
-// Writes the levels of display cells, in place of pressures.
-template <typename Part>
-void write_levels(const FileContext& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
-  write_images(
-      place, file, name, cube.pings,
-      [&](const Ping& ping) -> Grid<std::int16_t> { return stored_levels(part(ping)); }, Packing::none);
-  const Handle dataset = open_dataset(place, file, name);
-  write_attribute(place, dataset, scale_factor_attribute, level_step);
-}
-
-// Writes pressures, or the levels of display cells.
-template <typename Part>
-void write_signal(const FileContext& place, hid_t file, DatasetName name, const Cube& cube, Part part) {
-  if (!cube.pings.front().display_cells) return write_pressures(place, file, name, cube, part);
-  name.unit = level_name.unit, name.about = level_name.about;
-  write_levels(place, file, name, cube, part);
-}
-
-void write_layers(const FileContext& place, hid_t file, const Cube& cube) {
-  const std::vector<Layer>& layers = cube.pings.front().layers;
-  if (layers.empty()) return;
-  const Handle group = create_ordered_group(place, file, layers_group);
-  for (std::size_t l = 0; l < layers.size(); ++l) {
-    const std::string path = std::string(layers_group) + "/" + layers[l].name;
-    write_signal(place, file, {path.c_str(), pressure_name.unit, pressure_name.about}, cube,
-                    [l](const Ping& ping) -> const ComplexGridF& { return ping.layers[l].pressure; });
-  }
-}
-
-void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
-  // Noise-like numbers do not become smaller; masks and labels do.
-  const auto write = [&](const DatasetName& name, auto map, Packing packing) {
-    if ((pings.front().*map).size() > 0)
-      write_images(
-          place, file, name, pings, [map](const Ping& ping) -> const auto& { return ping.*map; }, packing);
-  };
-  write(intensity_name, &Ping::intensity, Packing::none);
-  write(unknown_name, &Ping::unknown, Packing::deflate);
-  write(split_phase_name, &Ping::split_phase, Packing::none);
-  const PixelLabels& first = pings.front().labels;
-  if (first.empty()) return;
-  const auto write_label = [&](const DatasetName& name, auto label) {
-    write_images(
-        place, file, name, pings, [label](const Ping& ping) -> const auto& { return ping.labels.*label; },
-        Packing::deflate);
-  };
-  write_label(label_material_name, &PixelLabels::material);
-  write_label(label_id_name, &PixelLabels::id);
-  write_label(label_share_name, &PixelLabels::share);
-  if (first.part.size() > 0) write_label(label_part_name, &PixelLabels::part);
-  write_parts(place, file, pings);
-  // An empty last name is a line of its own.
-  const bool ends_empty = !first.names.empty() && first.names.back().empty();
-  write_attribute(place, file, label_names_attribute, joined(first.names, "\n") + (ends_empty ? "\n" : ""));
 }
 
 void write_axes(const FileContext& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {
@@ -287,8 +171,7 @@ void write_root_attributes(const FileContext& place, hid_t file, const Cube& cub
   const Ping& ping = cube.pings.front();
   write_attribute(place, file, "beam_width", ping.fan.beam_width);
   write_attribute(place, file, "elevation_width", ping.fan.elevation_width);
-  if (ping.display_cells)
-    write_attribute(place, file, display_cells_attribute, std::string(display_cells_text));
+  if (ping.display_cells) write_attribute(place, file, display_cells_attribute, std::string(display_cells_text));
   if (ping.expected_level) write_attribute(place, file, expected_level_attribute, std::string(expected_level_text));
   if (ping.fan.row_width > 0) write_attribute(place, file, "row_width", ping.fan.row_width);
   write_attribute(place, file, "min_range", ping.gate.min_range);
@@ -314,10 +197,7 @@ void write_cube(const std::string& path, const Cube& cube) {
     write_water(place, file, cube);
     write_motion(place, file, cube.pings);
     write_scan(place, file, cube.pings);
-    write_signal(place, file, cube.pings.front().display_cells ? level_name : pressure_name, cube,
-                 [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
-    write_layers(place, file, cube);
-    write_maps(place, file, cube.pings);
+    write_all_images(place, file, cube);
     name_dimensions(place, file);
   });
 }

@@ -53,8 +53,8 @@ Echoes drawn(const SurfaceEchoes& s, std::uint64_t seed) {
 Grid<double> cells_by_definition(const SurfaceEchoes& s, const SonarHead& head, const Medium& water) {
   const double c = water.sound_speed, wavelength = c / head.pulse.centre_frequency;
   const EchoShapes shapes(head.pulse, water);
-  Grid<double> sum = Grid<double>::Zero(static_cast<Eigen::Index>(head.fan.beams()),
-                                        static_cast<Eigen::Index>(head.gate.bins()));
+  Grid<double> sum =
+      Grid<double>::Zero(static_cast<Eigen::Index>(head.fan.beams()), static_cast<Eigen::Index>(head.gate.bins()));
   for (std::size_t i = 0; i < s.id.size(); ++i) {
     const double range = 0.5 * c * s.echoes.delay[i];
     const EchoEnvelope g = shapes.of(s.echoes.delay[i]);

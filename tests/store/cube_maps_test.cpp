@@ -58,6 +58,34 @@ TEST(CubeMaps, are_absent_unless_the_pings_have_them) {
   EXPECT_EQ(H5Aexists(file, "expected_level"), 0);
 }
 
+TEST(CubeLevels, of_display_cells_come_back_within_half_a_hundredth_of_a_decibel) {
+  Cube cube = random_cube(2);
+  for (Ping& ping : cube.pings) {
+    ping.display_cells = true;
+    ping.pressure = ping.pressure.abs().cast<std::complex<float>>();
+    ping.pressure(3, 4) = 0;
+    ping.layers = {{"direct", ping.pressure * 0.5f}};
+  }
+  const std::string path = write(cube);
+  const Cube back = read_cube(path);
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_TRUE(back.pings[p].display_cells);
+    EXPECT_LE((level_db(back.pings[p]) - level_db(cube.pings[p])).abs().maxCoeff(), 0.0051f);
+    EXPECT_EQ(back.pings[p].pressure(3, 4), std::complex<float>(0));
+    const float ratio = std::abs(back.pings[p].layers[0].pressure(1, 1) / cube.pings[p].layers[0].pressure(1, 1));
+    EXPECT_NEAR(ratio, 1, 1e-3);
+  }
+  const RawFile file(path);
+  EXPECT_EQ(H5Lexists(file, "/pressure", H5P_DEFAULT), 0);
+  EXPECT_EQ(raw_extent(file, "/level").size(), 3u);
+  EXPECT_EQ(raw_text(file, "/level", "units"), "dB re 1 uPa");
+  EXPECT_EQ(raw_text(file, "/", "display_cells"), "mean intensity over the area of each cell, without phase");
+  // What is read and written again is the same.
+  EXPECT_TRUE((read_cube(write(back, "again.h5")).pings[1].pressure == back.pings[1].pressure).all());
+  EXPECT_EQ(read_track(path).size(), 2u);
+  EXPECT_THAT(error_with_kind([&] { read_beam(path, 0, 1, 0); }), HasSubstr("without --display"));
+}
+
 TEST(CubeMaps, must_be_the_same_in_every_ping) {
   const auto error_with = [](const auto& change) {
     Cube cube = random_cube(2);
@@ -73,6 +101,7 @@ TEST(CubeMaps, must_be_the_same_in_every_ping) {
   contains(error_with([](Ping& a, Ping&) { a.unknown.setZero(70, 45); }), "unknown of ping 40 has 70 x 45 cells");
   contains(error_with([](Ping&, Ping& b) { b.expected_level = true; }),
            "only one of pings 40 and 41 is an expected level");
+  contains(error_with([](Ping&, Ping& b) { b.display_cells = true; }), "only one of pings 40 and 41 has display cells");
 }
 
 TEST(CubeMaps, of_another_type_or_extent_are_refused) {

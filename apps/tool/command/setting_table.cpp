@@ -167,15 +167,11 @@ std::vector<RunSetting> kept_settings(PingOptions& o) {
        {},
        false,
        "split_phase"},
-      {"ping",
-       "display",
-       "--display",
-       &o.display,
-       "display cells along range, e.g. 600: the run holds the mean level of each cell in place of samples of pressure. "
+      {"ping", "display", "--display", &o.display,
+       "display cells along range, e.g. 600: the run holds the mean level of each cell in place of samples of "
+       "pressure. "
        "Cells cost a small part of the samples, which are formed only where the plan's row phases says so; 0: samples",
-       display_cells,
-       false,
-       "display_bins"},
+       display_cells, false, "display_bins"},
       {"ping", "looks_range", "--looks-range", &o.looks_range,
        "range bins that pictures and /intensity of the cube average", looks},
       {"ping", "looks_pings", "--looks-pings", &o.looks_pings,

@@ -34,7 +34,7 @@ ComparedFile compared_run(const std::string& path, int ping) {
          ", the number of pings in ", path);
   const Ping& p = cube.pings[static_cast<std::size_t>(ping)];
   ComparedFile file{{shown_level_db(p), p.fan, p.gate, std::nullopt, p.expected_level}, false, p.world_from_head};
-  file.kind = p.expected_level ? "run, expected level" : "run";
+  file.kind = p.expected_level ? "run, expected level" : p.display_cells ? "run, display cells" : "run";
   file.centre_frequency = cube.centre_frequency, file.bandwidth = cube.bandwidth, file.sound_speed = p.sound_speed;
   return file;
 }

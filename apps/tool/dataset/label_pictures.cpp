@@ -64,7 +64,8 @@ Ping row_of(const Ping& ping, std::size_t row) {
   Ping part;
   part.number = ping.number, part.time = ping.time, part.world_from_head = ping.world_from_head;
   part.sound_speed = ping.sound_speed, part.absorption_db_per_m = ping.absorption_db_per_m;
-  part.gate = ping.gate, part.expected_level = ping.expected_level, part.scan = ping.scan;
+  part.gate = ping.gate, part.expected_level = ping.expected_level, part.display_cells = ping.display_cells,
+  part.scan = ping.scan;
   part.fan = ping.fan;
   part.fan.azimuth.clear(), part.fan.elevation.clear();
   for (const std::size_t beam : beams) {

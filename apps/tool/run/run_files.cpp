@@ -102,7 +102,10 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
   if (!run.no_picture) draw_if_possible("no fan.png", draw, manifest, progress);
 
   manifest[digests_key]["cube.h5"] = digest.get();
-  if (ping.expected_level) manifest["pressure"] = expected_level_text;
+  if (ping.expected_level)
+    manifest["pressure"] = expected_level_text;
+  else if (ping.display_cells)
+    manifest["pressure"] = "display cells: mean intensity over area, no phase";
   manifest["sonar"] = sonar_json(setup, cube.sound_speed);
   const Water& water = setup.environment.water;
   const double z = ping.world_from_head.translation().z();

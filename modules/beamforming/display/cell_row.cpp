@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "beamforming/display/cell_row_internal.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "beamforming/display/cell_row_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
@@ -15,7 +14,7 @@ namespace {
 constexpr double strong_part = 0.1;   // of a cell, from which on an echo is added as a pressure (E184)
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
 constexpr double least_interference = 0.1;
-constexpr std::size_t guards = 4;     // samples about a period
+constexpr std::size_t guards = 4;  // samples about a period
 
 /// Length of the overlap of [low, high] with [first, last].
 double overlap(double low, double high, double first, double last) {
@@ -30,7 +29,7 @@ double with_looks(double variate, double from, double to) {
 
 }  // namespace
 
-CellRow::CellRow(const DisplayPlan& plan, std::span<const CellEcho> echoes, const CellLists& lists,
+CellRow::CellRow(const DisplayPlan& plan, std::span<const CellEcho> echoes, const EchoesByCell& lists,
                  const CellOptions& options, double element_noise, std::size_t first_element)
     : plan_(plan),
       echoes_(echoes),
@@ -83,8 +82,8 @@ void CellRow::list_parts(std::size_t cell, Side& side) {
                last = first + plan_.cell_length, middle = 0.5 * (first + last);
   for (std::size_t k = lists_.first[cell]; k < lists_.first[cell + 1]; ++k) {
     const CellEcho& echo = echoes_[lists_.echo[k]];
-    const double part = overlap(echo.range - echo.half_depth, echo.range + echo.half_depth, first, last) /
-                        (2 * echo.half_depth);
+    const double part =
+        overlap(echo.range - echo.half_depth, echo.range + echo.half_depth, first, last) / (2 * echo.half_depth);
     // The mean is over area, which grows with range.
     const double all = std::norm(echo.pressure) * std::clamp(echo.range, first, last) / middle, energy = all * part;
     if (!(energy > 0)) continue;
@@ -103,7 +102,8 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides) {
       const CellEcho& echo = *part.echo;
       const double half = std::max(echo.half_width, 0.5 * plan_.node_width) / plan_.node_width;
       const double place = std::clamp((echo.u + 1) / plan_.node_width, 0.0, static_cast<double>(plan_.nodes));
-      const double low = std::max(place - half, -0.5), high = std::min(place + half, static_cast<double>(plan_.nodes) + 0.5);
+      const double low = std::max(place - half, -0.5),
+                   high = std::min(place + half, static_cast<double>(plan_.nodes) + 0.5);
       const double density = part.energy / (high - low);
       const auto first = static_cast<std::size_t>(low + 1), last = static_cast<std::size_t>(high + 1);
       for (std::size_t i = first; i <= last; ++i) {
@@ -248,7 +248,7 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
     for (std::size_t n = k; n < end; ++n)
       at[n] += density * static_cast<float>(overlap(low, high, static_cast<double>(n), static_cast<double>(n + 1)));
   }
-  kernels::CellEnergies of{energy_.data(),       plan_.broad, parts, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
+  kernels::CellEnergies of{energy_.data(),     plan_.broad,       parts, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
                            plan_.looks.data(), plan_.looks.size()};
   of.beside = static_cast<float>(plan_.beside_lobe);
   of.noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(parts)) : 0;

@@ -13,16 +13,16 @@ namespace insonify {
 
 /// An echo, as the cells of a row of beams take it.
 struct CellEcho {
-  double range, half_depth;                      ///< [m]; with the length of the pulse
-  double u, half_width;                          ///< in u
-  std::complex<double> pressure;                 ///< root of its energy in a cell that holds all of it [Pa], with phase
+  double range, half_depth;       ///< [m]; with the length of the pulse
+  double u, half_width;           ///< in u
+  std::complex<double> pressure;  ///< root of its energy in a cell that holds all of it [Pa], with phase
   std::array<std::complex<double>, 2> amplitude;  ///< random, of mean power 1; of a fixed echo the first is 1
-  double pieces = 1;                             ///< independent echoes that samples would have of it
-  bool fixed = false;                            ///< its amplitude is not random
+  double pieces = 1;                              ///< independent echoes that samples would have of it
+  bool fixed = false;                             ///< its amplitude is not random
 };
 
 /// The echoes of each cell: those of cell c are echo[first[c]] .. echo[first[c + 1] - 1].
-struct CellLists {
+struct EchoesByCell {
   std::vector<std::size_t> first;
   std::vector<std::uint32_t> echo;
 };
@@ -32,8 +32,8 @@ class CellRow {
  public:
   /// Keeps references to all arguments, which must outlive it. element_noise: mean power at an element [Pa^2];
   /// first_element: number of its first element among those of the head.
-  CellRow(const DisplayPlan& plan, std::span<const CellEcho> echoes, const CellLists& lists, const CellOptions& options,
-          double element_noise, std::size_t first_element);
+  CellRow(const DisplayPlan& plan, std::span<const CellEcho> echoes, const EchoesByCell& lists,
+          const CellOptions& options, double element_noise, std::size_t first_element);
 
   /// Writes the intensities of cell `cell` and, if there is one, of the next, to these columns of `image` (beams x
   /// cells).
@@ -55,7 +55,7 @@ class CellRow {
     double noise = 0;                ///< power of the noise in the fields of the beams [Pa^2]
     std::vector<double> mean;        ///< of each beam [Pa^2]
     std::vector<double> looks;       ///< of each broad node in use
-    std::array<std::vector<Complex>, 2> field;  ///< of a period of u, with guards
+    std::array<std::vector<Complex>, 2> field;       ///< of a period of u, with guards
     std::vector<std::vector<Complex>> strong_field;  ///< the same of strong echoes, by groups that interfere
     std::size_t groups = 0;
   };
@@ -74,7 +74,7 @@ class CellRow {
 
   const DisplayPlan& plan_;
   std::span<const CellEcho> echoes_;
-  const CellLists& lists_;
+  const EchoesByCell& lists_;
   const CellOptions& options_;
   double element_noise_;
   std::size_t first_element_;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "beamforming/display/display_plan_internal.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "beamforming/display/display_plan_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "core/units.hpp"

@@ -39,27 +39,27 @@ struct DisplayPlan {
     return place <= 0 ? 0 : std::min(static_cast<std::size_t>(place), nodes - 1);
   }
 
-  std::vector<double> u_beam;            ///< directions of the beams
-  std::vector<std::int32_t> beam_near;   ///< of each node: the beam that hears it best; -1: none has it in its lobe
-  std::vector<std::size_t> broad_of;     ///< index into broad_used of each beam
-  std::vector<std::size_t> broad_used;   ///< broad nodes of beams, each once
-  std::vector<BetweenFour> in_period;    ///< place of each beam among the samples of a transformed period
-  std::vector<BetweenFour> in_all;       ///< the same among those of all directions
+  std::vector<double> u_beam;           ///< directions of the beams
+  std::vector<std::int32_t> beam_near;  ///< of each node: the beam that hears it best; -1: none has it in its lobe
+  std::vector<std::size_t> broad_of;    ///< index into broad_used of each beam
+  std::vector<std::size_t> broad_used;  ///< broad nodes of beams, each once
+  std::vector<BetweenFour> in_period;   ///< place of each beam among the samples of a transformed period
+  std::vector<BetweenFour> in_all;      ///< the same among those of all directions
   std::size_t period_samples, all_length, all_samples;
 
-  std::vector<double> lag;               ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
-  std::vector<double> shading;           ///< w_m / N
-  std::size_t first_element;             ///< index of element 0 in a transformed period
-  bool half_places;                      ///< elements stand at half-integers
+  std::vector<double> lag;                 ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
+  std::vector<double> shading;             ///< w_m / N
+  std::size_t first_element;               ///< index of element 0 in a transformed period
+  bool half_places;                        ///< elements stand at half-integers
   std::vector<std::complex<double>> turn;  ///< of each node, if half_places
 
   std::vector<std::vector<double>> kernel;  ///< spectra of the band's mean pattern, by blocks of range
   std::size_t kernel_of(std::size_t cell) const { return cell * kernel.size() / cells; }
 
-  std::vector<float> lobe;    ///< weights of broad nodes at distances 0, 1, .. within the main lobe
-  double beside_lobe;         ///< mean response outside of it
-  std::size_t parts;          ///< of a cell
-  std::vector<float> looks;   ///< R_d of parts d apart (E182)
+  std::vector<float> lobe;   ///< weights of broad nodes at distances 0, 1, .. within the main lobe
+  double beside_lobe;        ///< mean response outside of it
+  std::size_t parts;         ///< of a cell
+  std::vector<float> looks;  ///< R_d of parts d apart (E182)
 
   ResponseTable response;
   PulseEnergy pulse;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "beamforming/display/looks_loops_internal.hpp"
-
 #include <algorithm>
 
+#include "beamforming/display/looks_loops_internal.hpp"
 #include "core/target_clones.hpp"
 
 namespace insonify::kernels {

@@ -13,7 +13,7 @@ constexpr std::size_t most_parts = 48, part_lanes = 16, part_stride = 64;
 struct CellEnergies {
   const float* energy;
   std::size_t nodes, parts;
-  const float* lobe;         ///< weight of nodes at distances 0, 1, .. below `lobe_reach`
+  const float* lobe;  ///< weight of nodes at distances 0, 1, .. below `lobe_reach`
   std::size_t lobe_reach;
   float beside, noise;       ///< weight of all nodes; energy that each range has besides
   const float* correlation;  ///< of ranges at distances 0, 1, .. below `reach`

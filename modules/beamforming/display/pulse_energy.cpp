@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "beamforming/display/pulse_energy_internal.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
+#include "beamforming/display/pulse_energy_internal.hpp"
 #include "core/units.hpp"
 
 namespace insonify {

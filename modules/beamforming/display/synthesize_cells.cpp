@@ -21,10 +21,11 @@ namespace {
 constexpr const char* me = "synthesize_cells";
 constexpr std::size_t echoes_at_once = 4096;
 constexpr std::uint64_t other_seed = 0x9e3779b97f4a7c15;  // the golden ratio: far from the seeds of other pings
-constexpr double spread_of_disc = 0.866;       // half width of the box with the variance of a disc, in its radius
-constexpr double half_maximum_of_box = 0.68;  // length at half maximum of a Gaussian, in that of the box of its variance
-constexpr double pieces_per_cell = 8;         // SamplingOptions::scatterers_per_cell
-constexpr double row_tolerance = 1e-3;                    // of the echoes that rows of beams omit
+constexpr double spread_of_disc = 0.866;  // half width of the box with the variance of a disc, in its radius
+constexpr double half_maximum_of_box =
+    0.68;                               // length at half maximum of a Gaussian, in that of the box of its variance
+constexpr double pieces_per_cell = 8;   // SamplingOptions::scatterers_per_cell
+constexpr double row_tolerance = 1e-3;  // of the echoes that rows of beams omit
 
 /// Two random amplitudes of each echo. The first is the one that samples of the same seed have (E9).
 using Amplitudes = std::vector<std::array<std::complex<double>, 2>>;
@@ -61,7 +62,7 @@ class CellImage {
   Grid<double> of_row(const DisplayPlan& plan, const std::vector<RowPart>& parts, std::size_t first_element,
                       const std::optional<LineArray>& column = std::nullopt) const {
     const std::vector<CellEcho> echoes = cell_echoes(plan, parts);
-    const CellLists lists = lists_of(plan, echoes);
+    const EchoesByCell lists = lists_of(plan, echoes);
     double noise = std::isinf(options_.element_noise_db)
                        ? 0
                        : 2 * power_from_db(options_.element_noise_db) * micropascal * micropascal;
@@ -114,15 +115,16 @@ class CellImage {
   }
 
   /// Lists the echoes of each cell, in their order.
-  CellLists lists_of(const DisplayPlan& plan, const std::vector<CellEcho>& echoes) const {
+  EchoesByCell lists_of(const DisplayPlan& plan, const std::vector<CellEcho>& echoes) const {
     const auto last_cell = static_cast<double>(plan.cells - 1);
     const auto cells_of = [&](const CellEcho& echo) -> std::optional<std::pair<std::size_t, std::size_t>> {
       const double low = std::floor((echo.range - echo.half_depth - plan.first_range) / plan.cell_length),
                    high = std::floor((echo.range + echo.half_depth - plan.first_range) / plan.cell_length);
       if (!(high >= 0 && low <= last_cell)) return std::nullopt;
-      return std::pair(static_cast<std::size_t>(std::max(low, 0.0)), static_cast<std::size_t>(std::min(high, last_cell)));
+      return std::pair(static_cast<std::size_t>(std::max(low, 0.0)),
+                       static_cast<std::size_t>(std::min(high, last_cell)));
     };
-    CellLists lists;
+    EchoesByCell lists;
     lists.first.assign(plan.cells + 1, 0);
     for (const CellEcho& echo : echoes)
       if (const auto span = cells_of(echo))
@@ -150,7 +152,7 @@ void require_valid(const SurfaceEchoes& surface) {
          " depths and ", surface.width.size(), " widths");
 }
 
-/// Surface echoes and fixed echoes in one list, as rows are told apart by it.
+/// Surface echoes and fixed echoes in one list, from which the echoes of each row are taken.
 Echoes joined(const SurfaceEchoes& surface, const Echoes& fixed) {
   Echoes all{surface.echoes.delay, surface.echoes.u, surface.echoes.amplitude, surface.echoes.v};
   all.delay.insert(all.delay.end(), fixed.delay.begin(), fixed.delay.end());
@@ -190,7 +192,7 @@ Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed,
     for (std::size_t k = 0; k < rows[r].beams.size(); ++k)
       cells.row(static_cast<Eigen::Index>(rows[r].beams[k])) = beams.row(static_cast<Eigen::Index>(k));
   }
-  return cells;
+  return cells;  // (E180)
 }
 
 }  // namespace insonify

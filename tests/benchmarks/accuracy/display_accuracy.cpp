@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Display cells without samples (E180 to E184) against means of samples, and their time, as tables in Markdown
+// (docs/results/display.md):
+//   display_accuracy scenes [SEEDS]   level, contrast and likeness, by scene and head, with noise (24 seeds)
+//   display_accuracy cells [SEEDS]    error and CPU time by number of cells (12 seeds)
+//   display_accuracy motion           how alike images are after a move
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include "core/units.hpp"
+#include "scene/built_in_scenes.hpp"
+#include "simulate/ping_simulator.hpp"
+#include "store/sonar_file.hpp"
+
+namespace {
+
+using namespace insonify;
+
+/// A scene, and where a head looks at it from.
+struct View {
+  std::string scene;
+  double x, z, pitch_deg;
+  std::size_t points = 300000;
+  Pose pose(double ahead = 0, double aside = 0, double turned_deg = 0) const {
+    return pose_from_yaw_pitch_roll({x + ahead, aside, z}, radians(turned_deg), radians(pitch_deg), radians(4));
+  }
+};
+const View views[] = {{"harbour", 0, -2, 15}, {"reef", -8, 0, 10},    {"river", 0, 2.5, 25},
+                      {"plane", -5, 2.5, 20}, {"sphere", -6, 0.5, 5}, {"wall", -6, 0, 0}};
+
+SonarHead head_of(const std::string& preset, double min_range, double max_range) {
+  SonarSpec spec = find_sonar(preset).spec;
+  spec.min_range = min_range, spec.max_range = max_range;
+  return make_head(spec, sound_speed(Water{}));
+}
+
+/// What is needed to ping display cells in both ways.
+struct Rig {
+  PreparedScene scene;
+  SonarHead head;
+  int cells;
+  bool noise;
+
+  struct Image {
+    Grid<double> intensity;
+    double cpu;
+    bool drawn;
+  };
+  Image ping(bool phases, std::uint64_t seed, const Pose& pose) const {
+    SimulationOptions o;
+    o.seed = seed, o.threads = 1, o.effects.noise = noise;
+    o.outputs.display_bins = cells, o.synthesis.phases = phases;
+    const std::clock_t begin = std::clock();
+    const SimulatedPing made = PingSimulator(head, {}, o).ping(scene, {pose});
+    const double cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    return {made.ping.pressure.cast<std::complex<double>>().abs2(), cpu, !made.report.options.synthesis.phases};
+  }
+};
+
+struct Moments {
+  Grid<double> mean, square;
+  std::vector<double> cpu{};
+  bool drawn = false;
+  double median_cpu() const {
+    std::vector<double> sorted = cpu;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted[sorted.size() / 2];
+  }
+};
+Moments moments_of(const Rig& rig, bool phases, const Pose& pose, int seeds) {
+  Moments m;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Rig::Image image = rig.ping(phases, static_cast<std::uint64_t>(seed), pose);
+    if (seed == 1) m.mean = m.square = Grid<double>::Zero(image.intensity.rows(), image.intensity.cols());
+    m.mean += image.intensity / seeds, m.square += image.intensity.square() / seeds;
+    m.cpu.push_back(image.cpu), m.drawn = image.drawn;
+  }
+  return m;
+}
+
+/// Of cells within 40 dB of the strongest.
+struct Difference {
+  double total = 0, band = 0, rms = 0, off = 0, contrast[2] = {0, 0};
+};
+Difference difference(const Moments& a, const Moments& b, int seeds) {
+  Difference d;
+  d.total = db_from_power(a.mean.sum() / b.mean.sum());
+  for (Eigen::Index k = 0; k < 10; ++k) {
+    const Eigen::Index first = k * b.mean.cols() / 10, count = (k + 1) * b.mean.cols() / 10 - first;
+    const double energy = b.mean.middleCols(first, count).sum();
+    if (energy < 1e-3 * b.mean.sum()) continue;
+    const double off = db_from_power(a.mean.middleCols(first, count).sum() / energy);
+    if (std::abs(off) > std::abs(d.band)) d.band = off;
+  }
+  double cells = 0, noise = 0;
+  const double unbiased = seeds / (seeds - 1.0);
+  for (Eigen::Index i = 0; i < b.mean.size(); ++i) {
+    const double ma = a.mean.data()[i], mb = b.mean.data()[i];
+    if (!(ma > 0) || mb < 1e-4 * b.mean.maxCoeff()) continue;
+    const double va = unbiased * (a.square.data()[i] / (ma * ma) - 1),
+                 vb = unbiased * (b.square.data()[i] / (mb * mb) - 1);
+    const double off = db_from_power(ma / mb), sampled = 18.86 * (va + vb) / seeds;
+    d.rms += off * off, noise += sampled, ++cells;
+    d.off += std::abs(off) > 1 + 2.5 * std::sqrt(sampled);
+    d.contrast[0] += va, d.contrast[1] += vb;
+  }
+  d.rms = std::sqrt(std::max(0.0, d.rms - noise) / cells), d.off *= 100 / cells;
+  for (double& contrast : d.contrast) contrast = std::sqrt(contrast / cells);
+  return d;
+}
+
+/// Correlation of two images, each relative to its mean, `beams` and `cells` apart.
+double correlation(const Grid<double>& a, const Grid<double>& b, const Grid<double>& mean, Eigen::Index beams = 0,
+                   Eigen::Index cells = 0) {
+  double ab = 0, aa = 0, bb = 0;
+  const double least = 1e-4 * mean.maxCoeff();
+  for (Eigen::Index i = 0; i + beams < a.rows(); ++i)
+    for (Eigen::Index j = 0; j + cells < a.cols(); ++j) {
+      if (mean(i, j) < least || mean(i + beams, j + cells) < least) continue;
+      const double x = a(i, j) / mean(i, j) - 1, y = b(i + beams, j + cells) / mean(i + beams, j + cells) - 1;
+      ab += x * y, aa += x * x, bb += y * y;
+    }
+  return ab / std::sqrt(aa * bb);
+}
+
+void print_scenes(int seeds) {
+  std::puts(
+      "| scene | sonar | total [dB] | worst band [dB] | rms of cells [dB] | cells off by 1 dB [%] | contrast drawn / "
+      "of "
+      "samples | beams 1, 2, 4 apart drawn / of samples | next cell | CPU drawn / of samples [s] |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|");
+  for (const View& view : views)
+    for (const char* sonar : {"oculus-m750d", "p900-45", "gemini-720is"}) {
+      const Rig rig{PreparedScene(make_built_in_scene(view.scene, {.points = view.points})), head_of(sonar, 3, 8), 100,
+                    true};
+      const Moments a = moments_of(rig, false, view.pose(), seeds), b = moments_of(rig, true, view.pose(), seeds);
+      const Difference d = difference(a, b, seeds);
+      std::printf("| %s | %s%s | %+.3f | %+.3f | %.2f | %.1f | %.3f / %.3f |", view.scene.c_str(), sonar,
+                  a.drawn ? "" : " (samples)", d.total, d.band, d.rms, d.off, d.contrast[0], d.contrast[1]);
+      const Grid<double> drawn = rig.ping(false, 1000, view.pose()).intensity,
+                         samples = rig.ping(true, 1000, view.pose()).intensity;
+      for (const Eigen::Index apart : {1, 2, 4})
+        std::printf("%s%.2f / %.2f", apart == 1 ? " " : ", ", correlation(drawn, drawn, a.mean, apart),
+                    correlation(samples, samples, b.mean, apart));
+      std::printf(" | %.2f / %.2f | %.3f / %.3f |\n", correlation(drawn, drawn, a.mean, 0, 1),
+                  correlation(samples, samples, b.mean, 0, 1), a.median_cpu(), b.median_cpu());
+      std::fflush(stdout);
+    }
+}
+
+void print_cells(int seeds) {
+  std::puts(
+      "| cells | samples a cell | rms of cells [dB] | worst band [dB] | contrast drawn / of samples | CPU drawn / of "
+      "samples "
+      "[s] |");
+  std::puts("|---|---|---|---|---|---|");
+  const View& view = views[0];
+  for (const int cells : {100, 200, 400, 600, 1200, 2400, 4200}) {
+    const Rig rig{PreparedScene(make_built_in_scene(view.scene, {.points = view.points})),
+                  head_of("oculus-m750d", 0.1, 30), cells, false};
+    const Moments a = moments_of(rig, false, view.pose(), seeds), b = moments_of(rig, true, view.pose(), seeds);
+    const Difference d = difference(a, b, seeds);
+    std::printf("| %d | %.1f | %.2f | %+.3f | %.3f / %.3f | %.3f / %.3f |\n", cells,
+                static_cast<double>(rig.head.gate.bins()) / cells, d.rms, d.band, d.contrast[0], d.contrast[1],
+                a.median_cpu(), b.median_cpu());
+    std::fflush(stdout);
+  }
+}
+
+void print_motion() {
+  std::puts("| correlation after | drawn | samples |");
+  std::puts("|---|---|---|");
+  const View& view = views[0];
+  const Rig rig{PreparedScene(make_built_in_scene(view.scene, {.points = view.points})),
+                head_of("oculus-m750d", 0.1, 30), 600, false};
+  const Moments a = moments_of(rig, false, view.pose(), 12), b = moments_of(rig, true, view.pose(), 12);
+  const struct {
+    const char* name;
+    Pose pose;
+  } moves[] = {{"1 cm aside", view.pose(0, 0.01)}, {"3 cm aside", view.pose(0, 0.03)},
+               {"10 cm aside", view.pose(0, 0.1)}, {"1 cm ahead", view.pose(0.01)},
+               {"3 cm ahead", view.pose(0.03)},    {"0.1 deg of yaw", view.pose(0, 0, 0.1)}};
+  for (const auto& [name, pose] : moves) {
+    const auto alike = [&](bool phases, const Grid<double>& mean) {
+      return correlation(rig.ping(phases, 100, view.pose()).intensity, rig.ping(phases, 100, pose).intensity, mean);
+    };
+    std::printf("| %s | %.2f | %.2f |\n", name, alike(false, a.mean), alike(true, b.mean));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string table = argc > 1 ? argv[1] : "scenes";
+  const int seeds = argc > 2 ? std::max(2, std::atoi(argv[2])) : 24;
+  if (table == "cells")
+    print_cells(argc > 2 ? seeds : 12);
+  else if (table == "motion")
+    print_motion();
+  else
+    print_scenes(seeds);
+}
