@@ -11,12 +11,14 @@
 
 namespace insonify {
 
-/// Echoes of random amplitude, and the pieces of surface that they stand for. One entry per echo in every array.
+/// Echoes of random amplitude, and the pieces of surface that they stand for. One entry per echo in every array. A
+/// surface may have several echoes, which carry its speckle; one of them has the energy of all.
 struct SurfaceEchoes {
   Echoes echoes;                  ///< roots of the mean power, with the phase of the carrier (mean_power)
   std::vector<std::uint64_t> id;  ///< of the random amplitude, as RandomCounter::first
-  std::vector<float> depth;       ///< half extent of the surface along the line of sight [m]
-  std::vector<float> width;       ///< half extent of the surface in u
+  std::vector<double> power;      ///< mean power of all echoes of the surface [Pa^2]; 0: another echo has it
+  std::vector<float> depth;       ///< half extent of the whole surface along the line of sight [m]
+  std::vector<float> width;       ///< half extent of the whole surface in u
 };
 
 /// Options of synthesize_cells.

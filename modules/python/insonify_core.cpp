@@ -187,6 +187,8 @@ void add_pictures(py::class_<MadePing, std::shared_ptr<MadePing>>& type) {
       &picture_of<&Ping::intensity>);
   add(type, "unknown", "uint8 (beams, bins), 1 at holes of the scan; None unless keep has mask",
       &picture_of<&Ping::unknown>);
+  add(type, "display_cells", "bool, whether pressure holds display cells: roots of mean intensities, without phase",
+      [](const MadePing& p) { return p.made.ping.display_cells; });
   const auto level = [](const MadePing& p, double floor_db) { return shown_level_db(p.made.ping, floor_db); };
   type.def(
       "level_db", level, "floor_db"_a = silence_db,

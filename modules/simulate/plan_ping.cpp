@@ -63,7 +63,7 @@ SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
 /// A row judged: an open one by its share of the budget, which sets `decided`.
 PlannedStage judge(const PlanStage& stage, const PlanFacts& facts, double share, SimulationOptions& decided) {
   const SimulationOptions& options = facts.ping.options;
-  const PlanCause cause = stage.reason ? facts.cause(decided) : facts.cause();
+  const PlanCause cause = facts.cause(decided);
   const bool caused = stage.cause(cause), by_budget = stage.by == DecidedBy::budget;
   const double bound = stage.bound && (caused || !by_budget) ? stage.bound(facts) : 0;
   const char* with = stage.reason && caused ? stage.reason(cause) : stage.with;

@@ -82,8 +82,8 @@ struct PlanStage {
   bool (*only_if_forced)(const PlanFacts&) = nullptr;
   /// Takes a share of the budget only where there is a cause.
   bool shares_if_caused = false;
-  /// Returns why the stage is in, by its cause; nullptr: `with`. A stage with reasons is judged by the options as the
-  /// stages before it are decided.
+  /// Returns why the stage is in, by its cause; nullptr: `with`. Causes are those of the options as the stages
+  /// before are decided.
   const char* (*reason)(const PlanCause&) = nullptr;
 };
 

@@ -61,7 +61,7 @@ SamplingOptions sampling_of(const WholeScene& scene, const ResolvedPing& ping) {
   s.scatterers_per_cell = o.sampling.scatterers_per_cell;
   s.range_resolution = range_resolution(head.pulse, medium.sound_speed);
   if (draws_cells(o)) {
-    // Energies are spread over surfaces: scatterers only carry the speckle.
+    // Energies are spread over whole surfels: scatterers only carry the speckle.
     s.scatterers_per_cell = std::min(s.scatterers_per_cell, scatterers_per_display_cell);
     s.range_resolution = std::max(s.range_resolution, head.gate.bin_size);
   }

@@ -36,7 +36,7 @@ SurfaceEchoes even_ground(std::size_t count, std::uint64_t seed = 1) {
     s.echoes.amplitude.push_back(std::polar(1.0, 4 * pi * range * centre / lossy.sound_speed));
     s.id.push_back(i);
   }
-  s.depth.assign(count, 0), s.width.assign(count, 0);
+  s.power.assign(count, 1), s.depth.assign(count, 0), s.width.assign(count, 0);
   return s;
 }
 
@@ -97,7 +97,7 @@ double worst_db(const Grid<double>& a, const Grid<double>& b) { return (10 * (a 
 
 TEST(DisplayCells, expected_are_the_energies_of_the_definition) {
   const SonarHead head = cells_head(samples_head(), 20);
-  const SurfaceEchoes ground = even_ground(1200);
+  const SurfaceEchoes ground = even_ground(3000);
   const Grid<double> cells = synthesize_cells(ground, {}, head, lossy, {.speckle = false});
   const Grid<double> exact = cells_by_definition(ground, head, lossy);
   // Pulses are boxes of their variance: what stands within a pulse of an edge may be in the cell beside.
@@ -131,7 +131,7 @@ TEST(DisplayCells, surfaces_are_spread_over_their_extent) {
     const auto at = random_uniform(3, RandomStage::scene_points, {i, 0, 0});
     many.echoes.delay[i] = 2 * (2.512 + 0.2 * (2 * at[0] - 1)) / lossy.sound_speed;
     many.echoes.u[i] = 0.1 + 0.3 * (2 * at[1] - 1);
-    many.echoes.amplitude[i] = 1 / std::sqrt(40000.0);
+    many.power[i] = 1 / 40000.0;
   }
   const Grid<double> a = synthesize_cells(one, {}, head, lossy, {.speckle = false});
   const Grid<double> b = synthesize_cells(many, {}, head, lossy, {.speckle = false});
@@ -233,6 +233,7 @@ TEST(DisplayCells, are_linear_and_the_same_for_any_threads) {
   const Grid<double> one = synthesize_cells(ground, {}, head, lossy, {.threads = 1});
   EXPECT_TRUE(same(one, synthesize_cells(ground, {}, head, lossy, {.threads = 5})));
   for (auto& a : ground.echoes.amplitude) a *= 1e-7;
+  for (double& power : ground.power) power *= 1e-14;
   EXPECT_LT(worst_db(1e14 * synthesize_cells(ground, {}, head, lossy), one), 1e-3);
 }
 
@@ -260,7 +261,7 @@ TEST(DisplayCells, refuse_arrays_of_other_lengths) {
   SurfaceEchoes ground = even_ground(3);
   ground.depth.pop_back();
   EXPECT_EQ(error_of([&] { synthesize_cells(ground, {}, cells_head(samples_head(), 5), lossy); }),
-            "synthesize_cells: 3 delays, but 3 ids, 2 depths and 3 widths");
+            "synthesize_cells: 3 delays, but 3 ids, 3 powers, 2 depths and 3 widths");
 }
 
 }  // namespace insonify::cell_tests

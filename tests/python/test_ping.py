@@ -199,6 +199,17 @@ def test_levels_of_looks_are_of_the_intensity(head, scene):
     assert np.std(ping.level_db()[loud] - plain) > 1
 
 
+def test_display_cells_are_an_image_without_samples(head, scene):
+    pose = ((0, 0, -3), 0, 10)
+    cells = iy.PingSimulator(head, display=50, noise=True).ping(scene, pose[0], pitch=pose[2])
+    samples = iy.PingSimulator(head, display=50, noise=True, with_="phases").ping(scene, pose[0], pitch=pose[2])
+    assert cells.display_cells and samples.display_cells and not iy.PingSimulator(head).ping(scene, pose[0]).display_cells
+    assert cells.pressure.shape == samples.pressure.shape == (cells.azimuth.size, 50)
+    assert np.all(cells.pressure.imag == 0)
+    power = [np.sum(np.abs(p.pressure) ** 2) for p in (cells, samples)]
+    assert abs(10 * np.log10(power[0] / power[1])) < 0.5
+
+
 def test_notes_are_those_of_the_tool(head, scene, folder, tool, tmp_path):
     tool("ping", "harbour.ply", "--sonar", "p900-45", "--pose=0,0,-3,0,-89,0", "--range", "1:4", "--set",
          "sonar.beams=32", "-o", tmp_path / "away", folder=folder)

@@ -309,7 +309,7 @@ TEST(PlanPing, names_the_stages_that_can_be_forced) {
             "occlusion, absorption-slope, refraction, motion, multipath, mirrors, double-echoes, volume, surface, "
             "bottom, noise, "
             "direct-sum, "
-            "true-delays, phases");
+            "phases, true-delays");
 }
 
 TEST(PlanPing, counts_what_a_ping_will_hold) {

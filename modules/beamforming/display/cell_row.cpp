@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "beamforming/display/cell_row_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
@@ -19,6 +20,21 @@ constexpr std::size_t guards = 4;  // samples about a period
 /// Length of the overlap of [low, high] with [first, last].
 double overlap(double low, double high, double first, double last) {
   return std::max(0.0, std::min(high, last) - std::max(low, first));
+}
+
+/// Part of an echo's energy between two ranges: its surface is a box, and so is the pulse with it where the surface is
+/// deeper than the pulse; else both are a normal law.
+double part_between(const CellEcho& echo, double sigma, double low, double high) {
+  if (echo.half_depth > sigma) {
+    const double half = std::hypot(echo.half_depth, std::numbers::sqrt3 * sigma);
+    return overlap(echo.range - half, echo.range + half, low, high) / (2 * half);
+  }
+  const double deviation = std::hypot(sigma, echo.half_depth / std::numbers::sqrt3);
+  const auto below = [&](double range) {
+    const double away = (range - echo.range) / deviation;
+    return away < -reach_of_pulse ? 0 : away > reach_of_pulse ? 1 : 0.5 * std::erfc(-away / std::numbers::sqrt2);
+  };
+  return below(high) - below(low);
 }
 
 /// Turns a gamma variate of mean 1 and `from` looks into one of `to` looks (Wilson and Hilferty 1931; E183).
@@ -82,13 +98,13 @@ void CellRow::list_parts(std::size_t cell, Side& side) {
                last = first + plan_.cell_length, middle = 0.5 * (first + last);
   for (std::size_t k = lists_.first[cell]; k < lists_.first[cell + 1]; ++k) {
     const CellEcho& echo = echoes_[lists_.echo[k]];
-    const double part =
-        overlap(echo.range - echo.half_depth, echo.range + echo.half_depth, first, last) / (2 * echo.half_depth);
     // The mean is over area, which grows with range.
-    const double all = std::norm(echo.pressure) * std::clamp(echo.range, first, last) / middle, energy = all * part;
-    if (!(energy > 0)) continue;
-    const double half = plan_.pulse.half_length();
-    side.even.push_back({&echo, energy, all * overlap(echo.range - half, echo.range + half, first, last) / (2 * half)});
+    const double weight = std::clamp(echo.range, first, last) / middle, half = plan_.pulse.half_length();
+    const double energy =
+        echo.energy > 0 ? echo.energy * weight * part_between(echo, plan_.pulse.deviation(), first, last) : 0;
+    const double field =
+        std::norm(echo.pressure) * weight * overlap(echo.range - half, echo.range + half, first, last) / (2 * half);
+    if (energy > 0 || field > 0) side.even.push_back({&echo, energy, field});
     side.energy += energy;
   }
   side.noise = std::max(element_noise_, least_noise * side.energy) * plan_.lag[0];
@@ -100,6 +116,7 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides) {
   for (std::size_t s = 0; s < sides; ++s)
     for (const Part& part : side_[s].even) {
       const CellEcho& echo = *part.echo;
+      if (part.energy == 0) continue;
       const double half = std::max(echo.half_width, 0.5 * plan_.node_width) / plan_.node_width;
       const double place = std::clamp((echo.u + 1) / plan_.node_width, 0.0, static_cast<double>(plan_.nodes));
       const double low = std::max(place - half, -0.5),
@@ -153,8 +170,7 @@ void CellRow::sum_strong(Side& side) {
     if (side.groups == side.strong_field.size()) side.strong_field.emplace_back(plan_.period_samples + guards);
     form_period(elements.data(), side.strong_field[side.groups++]);
   }
-  const double noise = element_noise_ * plan_.lag[0];
-  for (double& mean : side.mean) mean = std::max(mean, noise);
+  for (double& mean : side.mean) mean = std::max(mean, element_noise_ * plan_.lag[0]);
 }
 
 void CellRow::add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const {
@@ -239,14 +255,21 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
   const double length = plan_.cell_length / static_cast<double>(parts), unit = side.energy + side.noise;
   for (const Part& part : side.even) {
     const CellEcho& echo = *part.echo;
-    const double low = std::max(0.0, (echo.range - echo.half_depth - first) / length),
-                 high = std::min(static_cast<double>(parts), (echo.range + echo.half_depth - first) / length);
+    if (part.energy == 0) continue;
+    const double reach = std::hypot(echo.half_depth, plan_.pulse.half_length());
+    const double low = std::max(0.0, (echo.range - reach - first) / length),
+                 high = std::min(static_cast<double>(parts), (echo.range + reach - first) / length);
     if (!(high > low)) continue;
-    const auto density = static_cast<float>(part.energy / unit / (high - low));
-    float* const at = energy_.data() + plan_.node_of(echo.u) / 2 * kernels::part_stride;
+    const std::size_t port = plan_.node_of(echo.u + echo.half_width) / 2,
+                      starboard = plan_.node_of(echo.u - echo.half_width) / 2;
+    const auto density =
+        static_cast<float>(part.energy / unit / (high - low) / static_cast<double>(port - starboard + 1));
     const auto k = static_cast<std::size_t>(low), end = std::min(parts, static_cast<std::size_t>(std::ceil(high)));
-    for (std::size_t n = k; n < end; ++n)
-      at[n] += density * static_cast<float>(overlap(low, high, static_cast<double>(n), static_cast<double>(n + 1)));
+    for (std::size_t n = k; n < end; ++n) {
+      const float share =
+          density * static_cast<float>(overlap(low, high, static_cast<double>(n), static_cast<double>(n + 1)));
+      for (std::size_t j = starboard; j <= port; ++j) energy_[j * kernels::part_stride + n] += share;
+    }
   }
   kernels::CellEnergies of{energy_.data(),     plan_.broad,       parts, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
                            plan_.looks.data(), plan_.looks.size()};

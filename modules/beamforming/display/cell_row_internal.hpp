@@ -13,13 +13,17 @@ namespace insonify {
 
 /// An echo, as the cells of a row of beams take it.
 struct CellEcho {
-  double range, half_depth;       ///< [m]; with the length of the pulse
-  double u, half_width;           ///< in u
-  std::complex<double> pressure;  ///< root of its energy in a cell that holds all of it [Pa], with phase
+  double range, half_depth;                       ///< [m]
+  double u, half_width;                           ///< in u
+  double energy;                                  ///< of its surface, in a cell that holds all of it [Pa^2]
+  std::complex<double> pressure;                  ///< root of its own energy in such a cell [Pa], with phase
   std::array<std::complex<double>, 2> amplitude;  ///< random, of mean power 1; of a fixed echo the first is 1
   double pieces = 1;                              ///< independent echoes that samples would have of it
   bool fixed = false;                             ///< its amplitude is not random
 };
+
+/// Deviations of a pulse's energy in range beyond which it is left out.
+inline constexpr double reach_of_pulse = 4;
 
 /// The echoes of each cell: those of cell c are echo[first[c]] .. echo[first[c + 1] - 1].
 struct EchoesByCell {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "sonar/pulse.hpp"
@@ -19,6 +20,8 @@ class PulseEnergy {
   double energy(double range) const;
   /// Returns half the length [m] of the box with the variance of |G|^2 in range, in the middle of the gate.
   double half_length() const { return half_length_; }
+  /// Returns the standard deviation of |G|^2 in range [m], there.
+  double deviation() const { return half_length_ / std::numbers::sqrt3; }
   /// Returns the squared magnitude of the correlation of white echoes `distance` [m] apart in range, 1 at 0.
   double correlation(double distance) const;
   /// Returns the spectrum |G(f)|^2 of an echo from `range` at `count` frequencies evenly over three half-widths of the

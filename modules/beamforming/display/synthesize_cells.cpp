@@ -92,12 +92,15 @@ class CellImage {
     const Echoes& of = fixed ? fixed_ : surface_.echoes;
     CellEcho echo;
     echo.range = metres_per_s_ * of.delay[i];
-    echo.half_depth = std::hypot(fixed ? 0 : surface_.depth[i], plan.pulse.half_length());
+    const double in_cell = part.response * std::sqrt(plan.pulse.energy(echo.range) / plan.cell_length);
     echo.u = of.u[i];
-    echo.half_width = fixed ? 0 : surface_.width[i];
-    echo.pressure = part.response * of.amplitude[i] * std::sqrt(plan.pulse.energy(echo.range) / plan.cell_length);
+    echo.pressure = in_cell * of.amplitude[i];
+    echo.energy = fixed ? std::norm(echo.pressure) : in_cell * in_cell * surface_.power[i];
+    const bool spread = !fixed && echo.energy > 0;
+    echo.half_depth = spread ? static_cast<double>(surface_.depth[i]) : 0;
+    echo.half_width = spread ? surface_.width[i] : 0;
     echo.fixed = fixed;
-    if (!fixed) echo.pieces = pieces_of(plan, echo.range, i);
+    if (spread) echo.pieces = pieces_of(plan, echo.range, i);
     if (fixed)
       echo.amplitude = {1, 0};
     else if (options_.speckle)
@@ -118,8 +121,9 @@ class CellImage {
   EchoesByCell lists_of(const DisplayPlan& plan, const std::vector<CellEcho>& echoes) const {
     const auto last_cell = static_cast<double>(plan.cells - 1);
     const auto cells_of = [&](const CellEcho& echo) -> std::optional<std::pair<std::size_t, std::size_t>> {
-      const double low = std::floor((echo.range - echo.half_depth - plan.first_range) / plan.cell_length),
-                   high = std::floor((echo.range + echo.half_depth - plan.first_range) / plan.cell_length);
+      const double reach = echo.half_depth + reach_of_pulse * plan.pulse.deviation();
+      const double low = std::floor((echo.range - reach - plan.first_range) / plan.cell_length),
+                   high = std::floor((echo.range + reach - plan.first_range) / plan.cell_length);
       if (!(high >= 0 && low <= last_cell)) return std::nullopt;
       return std::pair(static_cast<std::size_t>(std::max(low, 0.0)),
                        static_cast<std::size_t>(std::min(high, last_cell)));
@@ -147,9 +151,9 @@ class CellImage {
 
 void require_valid(const SurfaceEchoes& surface) {
   const std::size_t n = surface.echoes.size();
-  if (surface.id.size() != n || surface.depth.size() != n || surface.width.size() != n)
-    fail(ErrorKind::argument, me, ": ", n, " delays, but ", surface.id.size(), " ids, ", surface.depth.size(),
-         " depths and ", surface.width.size(), " widths");
+  if (surface.id.size() != n || surface.power.size() != n || surface.depth.size() != n || surface.width.size() != n)
+    fail(ErrorKind::argument, me, ": ", n, " delays, but ", surface.id.size(), " ids, ", surface.power.size(),
+         " powers, ", surface.depth.size(), " depths and ", surface.width.size(), " widths");
 }
 
 /// Surface echoes and fixed echoes in one list, from which the echoes of each row are taken.

@@ -43,6 +43,7 @@ class Ping:
     pressure: Final[NDArray[np.complex64]]
     layers: Final[dict[str, NDArray[np.complex64]]]
     intensity: Final[NDArray[np.float32] | None]
+    display_cells: Final[bool]
     unknown: Final[NDArray[np.uint8] | None]
     material_image: Final[NDArray[np.uint16]]
     instance_image: Final[NDArray[np.uint32]]

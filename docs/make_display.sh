@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Compares drawn display cells with means of samples on this machine, and writes the tables of docs/results/display.md. It
+# takes some fifteen minutes; times are only meaningful on an otherwise idle machine.
+#   docs/make_display.sh [build/release/bin]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+programs=${1:-build/release/bin}
+page=docs/results/display.md
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+for table in scenes cells motion; do
+  { echo; "$programs/display_accuracy" "$table"; echo; } >"$work/$table"
+done
+# Each table between its two marks of the page.
+awk -v work="$work" '
+  /^<!-- end -->$/ { inside = 0 }
+  !inside { print }
+  match($0, /^<!-- made: [a-z]+ -->$/) {
+    inside = 1
+    file = work "/" $3
+    while ((getline line < file) > 0) print line
+    close(file)
+  }' "$page" >"$work/page.md"
+mv "$work/page.md" "$page"
+echo "$page written"
