@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import sys
+from importlib import import_module
 
 import insonify as iy
 import numpy as np
@@ -32,13 +33,10 @@ def main(picture: str | None) -> None:
     if picture is None:
         return
     try:
-        import matplotlib  # type: ignore[import]
+        pyplot = import_module("matplotlib.pyplot")
     except ImportError:
         print("no chart: there is no matplotlib (apt install python3-matplotlib)")
         return
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
     figure, axes = pyplot.subplots(figsize=(7, 4))
     axes.plot(x, mean_db)
     axes.set(xlabel="x [m]", ylabel="mean level [dB re 1 µPa]", title=f"{head.name} along the quay")

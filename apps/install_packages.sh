@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs the Debian packages that insonify needs and this machine lacks; says which and why. Run by apps/demo.sh and
-# tests/run.sh. With --python also what Python's module needs, with --tests that and what the tests need, with --tidy what
+# Installs the packages that insonify needs and this machine lacks, on Debian 12 and 13 and what is made of them; says which
+# and why. On other systems it only says what to install, by the names of Debian. Run by apps/demo.sh and tests/run.sh. With --python also what Python's module needs, with --tests that and what the tests need, with --tidy what
 # tests/tidy.sh needs, with --packages what tests/packages.sh and docs/make_site.sh need. Uses sudo when not root.
 set -euo pipefail
 
@@ -9,6 +9,7 @@ declare -A why=(
   [build-essential]="compiler" [cmake]="build system" [ninja-build]="build system" [pkg-config]="finds FFTW and EGL"
   [ca-certificates]="certificates" [libpcl-dev]="point clouds, normals (PCL)" [libvtk9-dev]="pictures, mesh readers (VTK)"
   [libflann-dev]="KD-trees (FLANN)" [liblz4-dev]="FLANN's headers ask for it, compressed MCAP" [libzstd-dev]="compressed MCAP" [libssl-dev]="SHA-256 (OpenSSL)" [libeigen3-dev]="linear algebra (Eigen)"
+  [libboost-dev]="sorting, allocation (Boost's headers)"
   [libfftw3-dev]="Fourier transforms (FFTW)" [libhdf5-dev]="ping cubes (HDF5)" [librandom123-dev]="counter-based random numbers"
   [libtomlplusplus-dev]="sonar and run files (TOML)" [nlohmann-json3-dev]="manifests (JSON)" [libfmt-dev]="text formatting"
   [libcli11-dev]="command line" [libegl-dev]="off-screen pictures" [libegl-mesa0]="off-screen pictures"
@@ -29,6 +30,13 @@ if [[ "${1:-}" == --packages ]]; then
   why+=([doxygen]="the site" [dpkg-dev]="dependencies of packages" [file]="dependencies of packages" [debootstrap]="a bare Debian to try packages in")
 fi
 
+if ! command -v apt-get >/dev/null; then
+  echo "insonify: this system has no apt-get; if the build lacks anything, install these (names of Debian):"
+  for package in "${!why[@]}"; do printf '  %-24s %s\n' "$package" "${why[$package]}"; done | sort
+  exit 0
+fi
+# Not in every suite: the format that tests check is that of clang-format 14, of Debian 12.
+if [[ ! -r /etc/os-release ]] || ! grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then unset 'why[clang-format]'; fi
 missing=()
 installed=$'\n'$(dpkg-query -W -f='${Package} ${Status}\n' "${!why[@]}" 2>/dev/null || true)
 for package in "${!why[@]}"; do

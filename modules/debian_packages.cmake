@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `cpack -G DEB` in the build folder of the release preset makes the packages for Debian 12; tests/packages.sh tries them.
+# `cpack -G DEB` in the build folder of the release preset makes the packages for the Debian of this machine; tests/packages.sh tries them.
 #   insonify          component program: tool, viewer, presets and materials, and what shells and desktops need
 #   libinsonify-dev   component development: headers, static libraries, files for find_package
 #   insonify-doc      component documentation: docs/, and the site if docs/make_site.sh has made it

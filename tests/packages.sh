@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes the Debian packages and tries them on a bare Debian 12: apt installs them in a chroot that debootstrap makes, the tool
-# simulates and draws a ping there, and the program of docs/api.md is built against the library without PCL, VTK and HDF5.
+# Makes the packages for the Debian that it runs on (tests/on_debian.sh SUITE tests/packages.sh: for another one) and tries them
+# on a bare one: apt installs them in a chroot that debootstrap makes, the tool simulates and draws a ping there, and the program of docs/api.md is built against the library without PCL, VTK and HDF5.
 # Without root, debootstrap or a mirror the packages are unpacked into a folder and used from there. Not part of
 # tests/run.sh, whose test `consume` installs the same files without packages.
 #
@@ -9,6 +9,7 @@
 #   tests/packages.sh --unpack   never makes a chroot
 set -euo pipefail
 cd "$(dirname "$0")/.."
+suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
 mirror=${INSONIFY_MIRROR:-http://deb.debian.org/debian}
 
 apps/install_packages.sh --packages
@@ -34,7 +35,7 @@ PATH=$prefix/usr/bin:$PATH
 here=$(mktemp -d)
 trap 'rm -rf "$here"' EXIT
 cd "$here"
-insonify --version
+insonify --version --verbose
 [[ $(insonify sonars | wc -l) -gt 40 ]]
 insonify make-scene harbour -o harbour.ply --points 50000
 insonify ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 1:20 -o ping
@@ -63,7 +64,7 @@ build/my_ping
 END
 
 if [[ ${1:-} != --unpack && $(id -u) -eq 0 ]] && command -v debootstrap >/dev/null &&
-  debootstrap --variant=minbase bookworm "$work/root" "$mirror" >"$work/debootstrap.log" 2>&1; then
+  debootstrap --variant=minbase "$suite" "$work/root" "$mirror" >"$work/debootstrap.log" 2>&1; then
   mount -t proc proc "$work/root/proc"
   echo 'Dpkg::Use-Pty "0";' >"$work/root/etc/apt/apt.conf.d/quiet"
   cp "${packages[@]}" "$work/try.sh" "$work/root/tmp/"
@@ -75,7 +76,7 @@ if [[ ${1:-} != --unpack && $(id -u) -eq 0 ]] && command -v debootstrap >/dev/nu
   inside bash /tmp/try.sh
   inside apt-get purge -y -qq insonify libinsonify-dev insonify-doc python3-insonify >/dev/null
   if left=$(inside find /usr -name '*insonify*' | grep .); then echo "left after purge: $left" >&2; exit 1; fi
-  echo "installed, used and removed in a bare Debian 12"
+  echo "installed, used and removed in a bare Debian ($suite)"
 else
   for package in "${packages[@]}"; do dpkg-deb -x "$package" "$work/root"; done
   bash "$work/try.sh" "$work/root"

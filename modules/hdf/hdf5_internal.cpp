@@ -72,7 +72,7 @@ QuietErrors::~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 
 void FileContext::fail_here(const std::string& what) const {
   const std::string reason = reported_reason();
-  fail(kind, path, ": ", what, reason.empty() ? "" : ": ", reason);
+  fail(kind, path, ": ", what, reason.empty() ? "" : ": ", reason, kind == ErrorKind::content ? copy_again : "");
 }
 
 void note_failed_close() {

@@ -35,12 +35,15 @@ class QuietErrors {
   void* data_ = nullptr;
 };
 
+/// The remedy of a file that is damaged, whether HDF5 finds that or its callers.
+inline constexpr const char* copy_again = "; copy or export it again";
+
 /// The file of an operation, and the kind of its errors: file when writing, content when reading.
 struct FileContext {
   std::string path;
   ErrorKind kind;
 
-  /// Throws Error "path: what: HDF5's reason".
+  /// Throws Error "path: what: HDF5's reason", with the remedy when reading.
   [[noreturn]] void fail_here(const std::string& what) const;
   /// Returns `status` unless it is negative, which indicates failure.
   template <typename Status>

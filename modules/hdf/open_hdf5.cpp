@@ -110,18 +110,18 @@ void require_stored(const FileContext& place, const DatasetName& name, hid_t dat
   if (values * static_cast<double>(H5Tget_size(type)) <= most)
     return expect_from_file(place.path, stored, {values, "values", static_cast<double>(H5Tget_size(type))});
   fail(place.kind, place.path, ": ", name.path, " announces ", values, " values of ", H5Tget_size(type),
-       " bytes, and holds ", stored, " bytes; copy the file again, or make it anew");
+       " bytes, and holds ", stored, " bytes", copy_again);
 }
 
 }  // namespace
 
 void read_values(const FileContext& place, hid_t dataset, const Values& values, void* to, const std::string& what) {
   if (H5Dread(dataset, values.type, values.memory, values.selected, H5P_DEFAULT, to) < 0)
-    fail(place.kind, place.path, ": ", what, ": a chunk of it is damaged; copy or export the file again");
+    fail(place.kind, place.path, ": ", what, ": a chunk of it is damaged", copy_again);
 }
 
 Handle open_dataset(const FileContext& place, hid_t file, const DatasetName& name) {
-  if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
+  if (place.checked(H5Lexists(file, name.path, H5P_DEFAULT), name.path) == 0)
     fail(place.kind, place.path, ": dataset ", name.path, " is missing");
   Handle dataset{place.checked(H5Dopen2(file, name.path, H5P_DEFAULT), name.path), H5Dclose};
   require_own_data(place, file, name, dataset);
@@ -146,7 +146,7 @@ std::uint64_t find_plain(const FileContext& place, hid_t file, const DatasetName
   const hsize_t bytes = H5Dget_storage_size(dataset), all = size_of_file(place.path);
   if (offset > all || bytes > all - offset)
     fail(place.kind, place.path, ": ", name.path, " takes ", bytes, " bytes from byte ", offset, " on, the file holds ",
-         all, "; copy or make the file again");
+         all, copy_again);
   return offset;
 }
 

@@ -27,7 +27,7 @@ constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded u
 constexpr std::size_t blocks_at_once = 16;
 
 /// What stands for the surfels of some blocks.
-struct Part {
+struct CutPart {
   SceneCloud scene;
   std::vector<std::uint32_t> stands_for;
 };
@@ -64,7 +64,7 @@ class LevelWalk {
         thickness_(most_thickness * options.range_resolution) {}
 
   /// Adds what stands for a root or child; `inside`: its cell is known to lie within the region.
-  void visit(const Walked& of, std::uint32_t index, bool inside, Part& out) const {
+  void visit(const Walked& of, std::uint32_t index, bool inside, CutPart& out) const {
     if (index < of.levels.surfels) return add_surfel(of, index, out);
     if (of.piece) of.piece->need_node(index - of.levels.surfels);
     const DetailNode& node = of.levels.node[index - of.levels.surfels];
@@ -107,7 +107,7 @@ class LevelWalk {
     const Vector3d centre = head_.position((cell * edge).cast<float>());
     return centre.norm() + radius <= max_range_ && sector_.holds(centre, -radius);
   }
-  void add_surfel(const Walked& of, std::uint32_t i, Part& out) const {
+  void add_surfel(const Walked& of, std::uint32_t i, CutPart& out) const {
     if (of.piece) of.piece->need_surfel(i);
     const SceneCloud& s = of.scene;
     add(s.point[i], s.normal[i], s.area[i], s.material[i], out);
@@ -117,7 +117,7 @@ class LevelWalk {
     out.stands_for.push_back(of.piece ? s.id[i] : i);
   }
   /// Adds a node whose surfels return `factor` times the energy of a plane with the node's area and normal.
-  void add_node(const Walked& of, const DetailNode& node, double factor, Part& out) const {
+  void add_node(const Walked& of, const DetailNode& node, double factor, CutPart& out) const {
     add(node.point, node.normal, static_cast<float>(factor * node.area), node.material, out);
     out.scene.unevenness.push_back(std::sqrt(node.own_area) + per_thickness * node.thickness);
     if (!of.scene.noise.empty()) out.scene.noise.push_back(node.noise);
@@ -125,7 +125,7 @@ class LevelWalk {
     out.stands_for.push_back(node.nearest);
   }
   static void add(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, float area, std::uint16_t material,
-                  Part& out) {
+                  CutPart& out) {
     out.scene.point.push_back(point);
     out.scene.normal.push_back(normal);
     out.scene.area.push_back(area);
@@ -144,7 +144,7 @@ class LevelWalk {
 /// arranged in levels.
 class Ranks {
  public:
-  Ranks(const std::vector<Part>& parts, std::size_t surfels, int threads) {
+  Ranks(const std::vector<CutPart>& parts, std::size_t surfels, int threads) {
     marks_.words.resize((surfels + 63) / 64);
     parallel_for(parts.size(), threads, [&](std::size_t p) {
       for (const std::uint32_t i : parts[p].stands_for)
@@ -169,9 +169,9 @@ class Ranks {
 };
 
 /// First numbers of the surfels of each part, and the number of all.
-std::vector<std::size_t> firsts_of(const std::vector<Part>& parts) {
+std::vector<std::size_t> firsts_of(const std::vector<CutPart>& parts) {
   std::vector<std::size_t> first{0};
-  for (const Part& part : parts) first.push_back(first.back() + part.stands_for.size());
+  for (const CutPart& part : parts) first.push_back(first.back() + part.stands_for.size());
   return first;
 }
 
@@ -185,7 +185,7 @@ void scatter(const SceneCloud& from, std::span<const std::uint32_t> places, Scen
 }
 
 /// The parts as one scene with all but the surfels of `like`. `places`: in it, of the surfels of all parts.
-SceneCloud joined(const std::vector<Part>& parts, const std::vector<std::uint32_t>& places, const SceneCloud& like,
+SceneCloud joined(const std::vector<CutPart>& parts, const std::vector<std::uint32_t>& places, const SceneCloud& like,
                   int threads) {
   SceneCloud cut;
   const auto resize = [&](auto... arrays) { ((cut.*arrays).resize(places.size()), ...); };
@@ -212,7 +212,7 @@ SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region
   const SceneCloud& scene = prepared.scene();
   const DetailLevels& levels = prepared.levels(threads);
   const LevelWalk walk(scene, region, fan, gate, options);
-  std::vector<Part> parts((levels.block.size() + blocks_at_once - 1) / blocks_at_once);
+  std::vector<CutPart> parts((levels.block.size() + blocks_at_once - 1) / blocks_at_once);
   parallel_blocks(levels.block.size(), blocks_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const DetailBlock& block = levels.block[b];
@@ -241,7 +241,7 @@ SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region
 SceneCloud cut_levels(const LevelSource& source, const InsonifiedRegion& region, const BeamFan& fan,
                       const RangeGate& gate, const CutOptions& options) {
   const LevelWalk walk(source.like(), region, fan, gate, options);
-  std::vector<Part> parts(source.pieces());
+  std::vector<CutPart> parts(source.pieces());
   parallel_for(parts.size(), options.threads, [&](std::size_t p) {
     const std::unique_ptr<LoadedLevels> piece = source.open(p);
     const Walked of{piece->scene, piece->levels, piece.get()};
@@ -250,7 +250,7 @@ SceneCloud cut_levels(const LevelSource& source, const InsonifiedRegion& region,
   });
   // Join the parts by ascending id.
   std::vector<std::uint64_t> by_id;  // id, number in the order of the parts
-  for (const Part& part : parts)
+  for (const CutPart& part : parts)
     for (const std::uint32_t id : part.stands_for) by_id.push_back(std::uint64_t{id} << 32 | by_id.size());
   radix_sort(by_id, 32, 64, [](std::uint64_t k) { return k; });
   std::vector<std::uint32_t> order(by_id.size());

@@ -5,7 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#if INSONIFY_EMBREE >= 4
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -29,9 +33,17 @@ struct ReleaseScene {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
 
+#if INSONIFY_EMBREE >= 4
+using RayContext = RTCRayQueryContext;
+constexpr RTCSceneFlags filter_of_rays = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+#else
+using RayContext = RTCIntersectContext;
+constexpr RTCSceneFlags filter_of_rays = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
+
 /// A ray under way, as Embree hands it to the filter.
 struct Query {
-  RTCIntersectContext context;  // first, so that its address is that of the query
+  RayContext context;  // first, so that its address is that of the query
   const SceneCloud& scene;
   float footprint;
   const SurfaceRay& ray;
@@ -77,6 +89,22 @@ struct Query {
     if (query.place && !passes) query.add(surfel, distance);
     if (query.place || passes) met->valid[0] = 0;
   }
+
+  /// Sends a ray through the discs, each of which the filter sees.
+  void send(RTCScene discs, RTCRayHit& along) {
+#if INSONIFY_EMBREE >= 4
+    rtcInitRayQueryContext(&context);
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    arguments.context = &context, arguments.filter = filter;
+    rtcIntersect1(discs, &along, &arguments);
+#else
+    rtcInitIntersectContext(&context);
+    context.filter = filter;
+    rtcIntersect1(discs, &context, &along);
+#endif
+  }
 };
 
 RTCRayHit ray_within(const SurfaceRay& ray, float from, float to) {
@@ -101,7 +129,7 @@ struct SurfaceRays::Tree {
     device.reset(rtcNewDevice(nullptr));
     require_no_error();
     discs.reset(rtcNewScene(device.get()));
-    rtcSetSceneFlags(discs.get(), RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneFlags(discs.get(), filter_of_rays);
     const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT);
     auto* corners = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
                                                                 4 * sizeof(float), scene.size()));
@@ -136,12 +164,10 @@ SurfaceRays::SurfaceRays(const SceneCloud& scene, double footprint)
 SurfaceRayEnd SurfaceRays::first_hit(const SurfaceRay& ray) const {
   const SceneCloud& scene = tree_->scene;
   Query query{{}, scene, tree_->footprint, ray};
-  rtcInitIntersectContext(&query.context);
-  query.context.filter = Query::filter;
 
   // The nearest disc.
   RTCRayHit first = ray_within(ray, 0, std::numeric_limits<float>::infinity());
-  rtcIntersect1(tree_->discs.get(), &query.context, &first);
+  query.send(tree_->discs.get(), first);
   if (first.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const std::uint32_t met = first.hit.primID;
   const float distance = first.ray.tfar;
@@ -157,7 +183,7 @@ SurfaceRayEnd SurfaceRays::first_hit(const SurfaceRay& ray) const {
   query.place = &place;
   RTCRayHit beside =
       ray_within(ray, std::max(0.0f, distance - cluster_radii * place.radius), distance + cluster_radii * place.radius);
-  rtcIntersect1(tree_->discs.get(), &query.context, &beside);
+  query.send(tree_->discs.get(), beside);
   const float share = 1 / (static_cast<float>(pi) * kernel * kernel);           // of a kernel's area that is surfel
   return {place.nearest, distance, static_cast<float>(place.surfels) * share};  // (E159)
 }

@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include <dlfcn.h>
+
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "files/path_status.hpp"
@@ -18,6 +20,13 @@ namespace {
 bool is_data_folder(const fs::path& folder) {
   std::error_code ignored;
   return fs::is_directory(folder / "sonars", ignored);
+}
+
+/// Folder of the program, or of the library of Python's module, that this code is part of.
+fs::path folder_of_this_code() {
+  Dl_info found{};
+  return dladdr(reinterpret_cast<void*>(&is_data_folder), &found) ? fs::path(found.dli_fname).parent_path()
+                                                                  : fs::path();
 }
 
 // Names of all presets, sorted.
@@ -54,12 +63,14 @@ std::string data_folder() {
       fail(ErrorKind::file, "INSONIFY_DATA = ", chosen, ": is not a folder with sonars/ in it");
     return chosen;
   }
-  // An installed program has ../share/insonify beside it, one in build/<preset>/bin the source tree.
+  // A wheel of Python has its data within; an installed program has ../share/insonify beside it, one in
+  // build/<preset>/bin the source tree.
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& folder : {program / "../share/insonify", program / "../../../data",
-                                 fs::path(INSONIFY_INSTALL_DATA), fs::path(INSONIFY_SOURCE_DATA),
-                                 fs::path("/usr/share/insonify")})  // of Debian's package, for users of the library
+  for (const fs::path& folder :
+       {folder_of_this_code() / "data", program / "../share/insonify", program / "../../../data",
+        fs::path(INSONIFY_INSTALL_DATA), fs::path(INSONIFY_SOURCE_DATA),
+        fs::path("/usr/share/insonify")})  // of Debian's package, for users of the library
     if (is_data_folder(folder)) return folder.lexically_normal().string();
   fail(ErrorKind::file, "data files (sonars/, materials.toml) found neither beside the program nor in ",
        INSONIFY_INSTALL_DATA, "; set INSONIFY_DATA to their folder");

@@ -115,7 +115,7 @@ TEST(PingSynthesizer, same_plan_serves_many_pings) {
   const PingSynthesizer plan(head, medium_of(c, head), {1e-6, 1});
   const Echoes e = echoes_of(c, head);
   const ComplexGrid first = plan.pressure(e);
-  plan.pressure({});
+  plan.pressure(Echoes{});
   EXPECT_TRUE((first == plan.pressure(e)).all());
 }
 
@@ -123,7 +123,7 @@ TEST(PingSynthesizer, no_echoes_and_echoes_beyond_the_gate_give_silence) {
   const Case c;
   const SonarHead head = head_of(c);
   const PingSynthesizer plan(head, medium_of(c, head), {1e-6, 1});
-  EXPECT_EQ(plan.pressure({}).abs().maxCoeff(), 0);
+  EXPECT_EQ(plan.pressure(Echoes{}).abs().maxCoeff(), 0);
   Echoes far;
   far.delay = {1.0, 1e-6};
   far.u = {0.1, 0.1};

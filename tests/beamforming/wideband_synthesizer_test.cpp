@@ -205,7 +205,7 @@ TEST(WidebandSynthesizer, errors_stay_where_they_are_made) {
 TEST(WidebandSynthesizer, one_echo_and_none) {
   const SonarHead head = wideband_head({"", 400e3, 100e3, 40, 120, 3, 5});
   const WidebandSynthesizer plan(head, near_water(), {1e-3});
-  EXPECT_EQ(plan.pressure({}).abs2().sum(), 0);
+  EXPECT_EQ(plan.pressure(Echoes{}).abs2().sum(), 0);
   Echoes point;
   point.delay = {2 * 4.0 / c0};
   point.u = {0.01};

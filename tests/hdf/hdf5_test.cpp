@@ -76,7 +76,9 @@ TEST(Hdf5File, values_beyond_the_end_of_the_file_are_refused) {
     bytes = replaced(bytes, text(number), text(number << 30));
   }
   own_file("long.h5", bytes);
-  expect_error(ErrorKind::content, {"long.h5: /numbers takes", "the file holds"},
+  // HDF5 1.14 finds the damage itself, and says it in its own words.
+  expect_error(ErrorKind::content,
+               {"long.h5: /numbers", H5_VERS_MINOR < 14 ? "the file holds" : "; ", "copy or export it again"},
                [&] { find_numbers(path, H5T_IEEE_F32LE, {count << 30}); });
 }
 

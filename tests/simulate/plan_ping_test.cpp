@@ -269,7 +269,7 @@ TEST(PlanPing, leaves_true_delays_of_a_planar_array_to_its_user) {
   s.head = make_head(spec, sound_speed(s.environment.water));
   s.options.synthesis.true_delays = Choice::as_needed;
   const PingPlan plan = plan_ping(s.scene, s.head, s.event, s.environment, s.options);
-  const PlannedStage& out = stage(plan, "true-delays");
+  const PlannedStage out = stage(plan, "true-delays");
   EXPECT_FALSE(out.included);
   EXPECT_THAT(out.why, HasSubstr("--with true-delays"));
   EXPECT_GT(out.bound_relative, plan.share_relative);

@@ -48,13 +48,13 @@ struct Found {
 };
 Found everything_in(hid_t file) {
   Found found;
-  H5Ovisit(
+  H5Ovisit2(
       file, H5_INDEX_NAME, H5_ITER_INC,
-      [](hid_t, const char* name, const H5O_info_t* info, void* to) -> herr_t {
+      [](hid_t, const char* name, const auto* info, void* to) -> herr_t {
         if (info->type == H5O_TYPE_DATASET) static_cast<Found*>(to)->datasets.push_back("/" + std::string(name));
         return 0;
       },
-      &found);
+      &found, H5O_INFO_BASIC);
   H5Aiterate2(
       file, H5_INDEX_NAME, H5_ITER_INC, nullptr,
       [](hid_t, const char* name, const H5A_info_t*, void* to) -> herr_t {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bad input gets one line that names the file or argument, the value and the remedy, the right exit code, and leaves
 // nothing behind.
+#include "scene/surface_rays.hpp"
 #include "support/test.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/tool_runner.hpp"
@@ -161,7 +162,7 @@ TEST_F(BadInput, wrong_words) {
   expect_refused("pong plane.ply", 2, {"--help"});
   expect_refused("ping plane.ply" + bad_head + " --colour red", 2, {"--colour"});
   expect_refused("ping", 2, {"--help"});
-  expect_refused("ping plane.ply" + bad_head + " -j 100000", 2, {"--threads", "100000", "not in range 0 to 1024"});
+  expect_refused("ping plane.ply" + bad_head + " -j 100000", 2, {"--threads", "100000", "not in range", "0", "1024"});
 }
 
 TEST_F(BadInput, csv_with_a_bad_number_names_its_line) {
@@ -176,5 +177,10 @@ TEST_F(BadInput, help_is_no_error) {
     EXPECT_EQ(result.err, "") << verb;
     EXPECT_THAT(result.out, HasSubstr("insonify")) << verb;
   }
-  EXPECT_EQ(run("--version").exit_code, 0);
+  const ToolResult version = run("--version"), all = run("--version --verbose");
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_TRUE(all.out.starts_with(version.out + "built with ")) << all.out;
+  for (const char* part : {"Embree", "GDAL", "Python", "VTK"}) EXPECT_THAT(all.out, HasSubstr(part));
+  EXPECT_EQ(all.out.find("without Embree") == all.out.npos, SurfaceRays::available());
+  expect_refused("--verbose", 2, {"--verbose requires --version"});
 }

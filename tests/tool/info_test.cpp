@@ -40,6 +40,8 @@ TEST_F(FirstHour, info_proposes_commands_that_run_as_they_stand) {
     succeed(command + " -q" + (command.starts_with("ping") ? " --no-picture" : ""));
   }
   EXPECT_GT(manifest_of("first")["sampling"]["scatterers"].get<int>(), 1000);
+  EXPECT_THAT(info("first")["built_with"], json(manifest_of("first")["built_with"]));
+  EXPECT_THAT(succeed("info first"), testing::ContainsRegex("built_with +.*VTK.*\n  next"));
   const json mission = info("mission.toml");
   EXPECT_EQ(mission["format"], "insonify mission");
   EXPECT_GE(mission["legs"].size(), 2U);

@@ -15,6 +15,7 @@
 #include "store/nearest_word.hpp"
 #include "tool/command/exit_code.hpp"
 #include "tool/command/program.hpp"
+#include "tool/run/run_checks.hpp"
 
 namespace insonify::tool {
 
@@ -125,7 +126,12 @@ void OptionList::release(const std::string& name) { app_->get_option(name)->requ
 
 CommandLine::CommandLine(const std::string& name, const std::string& purpose, const std::string& footer)
     : app_(std::make_unique<CLI::App>(purpose, name)), text_{name, purpose, footer, {}} {
-  app_->set_version_flag("--version", INSONIFY_VERSION);
+  const auto version = [this] {
+    const bool all = app_->get_option("--verbose")->count() > 0;
+    return std::string(INSONIFY_VERSION) + (all ? "\nbuilt with " + built_with() : "");
+  };
+  CLI::Option* flag = app_->set_version_flag("--version", version);
+  app_->add_flag("--verbose")->description("with --version: what is built in")->needs(flag);
   const auto help = std::make_shared<WrappedHelp>();
   help->label("SUBCOMMAND", "VERB");
   app_->formatter(help);

@@ -241,7 +241,15 @@ ordered_json info_of_folder(const std::string& path) {
   fs::path folder = fs::path(path).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();  // of a path that ends with a slash
   if (is_survey_run(path)) return survey_info(path);
-  if (path_exists(folder / "cube.h5")) return info_of_cube(folder.string());
+  if (path_exists(folder / "cube.h5")) {
+    ordered_json info = info_of_cube(folder.string());
+    if (!path_exists(folder / "manifest.json")) return info;
+    const ordered_json manifest = ordered_json::parse(read_text_file(folder / "manifest.json"), nullptr, false);
+    if (!manifest.is_object() || !manifest.contains("built_with")) return info;
+    const ordered_json next = info["next"];  // stays last
+    info.erase("next"), info["built_with"] = manifest["built_with"], info["next"] = next;
+    return info;
+  }
   if (const auto head = head_of_survey(folder))
     return head_info(head->first, load_survey_run(head->first), head->second);
   if (path_exists(folder / "manifest.json")) return manifest_info(folder.string());

@@ -40,6 +40,8 @@ RunCheck check_survey(const std::string& run) {
 
 }  // namespace
 
+std::string built_with() { return INSONIFY_BUILT_WITH; }
+
 void write_manifest(const RunDirectory& directory, ordered_json manifest) {
   std::map<std::string, std::string> digests = manifest.value(digests_key, ordered_json::object());
   const fs::path folder = directory.file("");
@@ -49,6 +51,7 @@ void write_manifest(const RunDirectory& directory, ordered_json manifest) {
           entry.is_regular_file() && !digests.contains(name))
         digests[name] = sha256_of_file(entry.path().string());
   });
+  manifest["built_with"] = built_with();
   manifest.erase(digests_key);  // to the end
   manifest[digests_key] = digests;
   write_file(directory.file("manifest.json"), manifest.dump(2) + "\n");

@@ -10,8 +10,11 @@
 
 namespace insonify::tool {
 
-/// Writes the last file of a run, manifest.json, with the SHA-256 of all others; what `manifest` has of them already is
-/// not computed again. Throws Error(file).
+/// What this build has of the parts that it can do without, e.g. "Embree 3, GDAL 3.6.2, Python 3.11, VTK 9.1.0".
+std::string built_with();
+
+/// Writes the last file of a run, manifest.json, with built_with() and the SHA-256 of all others; what `manifest` has of
+/// them already is not computed again. Throws Error(file).
 void write_manifest(const RunDirectory& directory, nlohmann::ordered_json manifest);
 
 /// What has become of the files of a run or survey since it was written.

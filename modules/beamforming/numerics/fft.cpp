@@ -7,12 +7,9 @@
 namespace insonify {
 namespace {
 
-/// Lets FFTW create and destroy plans one at a time, by its own lock: each extension of Python has a copy of this file,
-/// and all of the process share the planners of FFTW. Executing plans needs no lock.
-void lock_planners() {
-  static const bool locked = (fftw_make_planner_thread_safe(), fftwf_make_planner_thread_safe(), true);
-  static_cast<void>(locked);
-}
+/// FFTW makes and destroys plans one at a time, by its own lock, from before main() on: all of a process share its
+/// planners, those of a program that plans for itself, too. Executing plans needs no lock.
+const bool planners_are_locked = (fftw_make_planner_thread_safe(), fftwf_make_planner_thread_safe(), true);
 
 }  // namespace
 
@@ -29,7 +26,6 @@ template <typename Real>
 Fft<Real>::Fft(const FftLayout& layout, int sign) {
   const std::size_t numbers = layout.length * layout.stride + layout.series * layout.distance;
   AlignedArray<std::complex<Real>, Real> from(numbers), to(layout.in_place ? 0 : numbers);
-  lock_planners();
   plan_ = Fftw<Real>::make(static_cast<int>(layout.length), static_cast<int>(layout.series),
                            static_cast<int>(layout.stride), static_cast<int>(layout.distance), from.data(),
                            layout.in_place ? from.data() : to.data(), sign);
