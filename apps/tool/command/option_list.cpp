@@ -127,11 +127,10 @@ void OptionList::release(const std::string& name) { app_->get_option(name)->requ
 CommandLine::CommandLine(const std::string& name, const std::string& purpose, const std::string& footer)
     : app_(std::make_unique<CLI::App>(purpose, name)), text_{name, purpose, footer, {}} {
   const auto version = [this] {
-    const bool all = app_->get_option("--verbose")->count() > 0;
-    return std::string(INSONIFY_VERSION) + (all ? "\nbuilt with " + built_with() : "");
+    const CLI::Option* all = app_->get_option_no_throw("--verbose");
+    return std::string(INSONIFY_VERSION) + (all && all->count() > 0 ? "\nbuilt with " + built_with() : "");
   };
-  CLI::Option* flag = app_->set_version_flag("--version", version);
-  app_->add_flag("--verbose")->description("with --version: what is built in")->needs(flag);
+  app_->set_version_flag("--version", version);
   const auto help = std::make_shared<WrappedHelp>();
   help->label("SUBCOMMAND", "VERB");
   app_->formatter(help);
@@ -144,6 +143,8 @@ OptionList CommandLine::options() { return {app_.get(), &text_}; }
 
 OptionList CommandLine::add_verb(const std::string& name, const std::string& purpose, const std::string& footer) {
   app_->require_subcommand(1);
+  if (verb_texts_.empty())
+    app_->add_flag("--verbose")->description("with --version: what is built in")->needs(app_->get_option("--version"));
   CLI::App* verb = app_->add_subcommand(name, purpose);
   verb->group("Verbs")->footer(footer);
   return {verb, &verb_texts_.emplace_back(CommandText{name, purpose, footer, {}})};
