@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/bend_paths.hpp"
 #include "acoustics/bent_legs_internal.hpp"
+#include "acoustics/ray_families_internal.hpp"
+#include "acoustics/shoot_ray.hpp"
 
 namespace insonify {
 namespace {
@@ -32,13 +35,16 @@ SoundSpeedProfile mirrored_at(const SoundSpeedProfile& profile, double depth, bo
 }  // namespace
 
 BentLegs::BentLegs(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, double absorption)
-    : profile_(profile), head_depth_(head_depth), absorption_(absorption), world_from_head_(world_from_head) {
+    : profile_(std::make_shared<const SoundSpeedProfile>(profile)),
+      head_depth_(head_depth),
+      absorption_(absorption),
+      world_from_head_(world_from_head) {
   prepare({}, 1);
 }
 
 BentLegs BentLegs::mirrored(double distance, bool above) const {
   const double depth = above ? head_depth_ - distance : head_depth_ + distance;
-  return {mirrored_at(profile_, depth, above), head_depth_, world_from_head_, absorption_};
+  return {mirrored_at(*profile_, depth, above), head_depth_, world_from_head_, absorption_};
 }
 
 void BentLegs::prepare(std::span<const Vector3d> places, int threads) {
@@ -49,7 +55,7 @@ void BentLegs::prepare(std::span<const Vector3d> places, int threads) {
     box.min_depth = std::min(box.min_depth, depth), box.max_depth = std::max(box.max_depth, depth);
     box.min_horizontal = std::min(box.min_horizontal, out), box.max_horizontal = std::max(box.max_horizontal, out);
   }
-  table_ = std::make_unique<RefractionTable>(profile_, head_depth_, box, threads);
+  table_ = std::make_unique<RefractionTable>(*profile_, head_depth_, box, threads);
 }
 
 std::optional<BentLeg> BentLegs::to(const Vector3d& place) const {
@@ -69,10 +75,36 @@ std::optional<BentLeg> BentLegs::to(const Vector3d& place) const {
   return leg;
 }
 
+std::optional<BentPiece> BentLegs::between(const Vector3d& from, const Vector3d& to) const {
+  const Vector3d way = world_from_head_.linear() * (to - from);
+  const double out = std::hypot(way.x(), way.y()), straight = way.norm();
+  const double depth = head_depth_ - world_from_head_.linear().row(2).dot(from), depth_there = depth - way.z();
+  const auto ray = eigenray_between(*profile_, depth, depth_there, out);
+  if (!ray || !(straight > 0)) return std::nullopt;
+  const RayTube tube = shoot_tube(*profile_, depth, ray->elevation, ray->travel_time);
+  const double spreading = tube.spreading(sound_speed_at(*profile_, depth), sound_speed_at(*profile_, depth_there));
+  Vector3d ahead = Vector3d::Zero();
+  if (out > 0) ahead = {way.x() / out, way.y() / out, 0};
+  const auto in_head = [&](double elevation) -> Vector3d {
+    return world_from_head_.linear().transpose() *
+           (std::cos(elevation) * ahead + std::sin(elevation) * Vector3d::UnitZ());
+  };
+  BentPiece piece{in_head(ray->elevation), in_head(tube.end.elevation), 0, 1};
+  piece.apparent = sound_speed_at(*profile_, head_depth_) * ray->travel_time;
+  piece.pressure = std::sqrt(std::min(straight * straight * spreading, most_focusing)) *
+                   std::exp(-absorption_ * (straight - piece.apparent));  // (E167)
+  return piece;
+}
+
+double BentLegs::relative_speed(const Vector3d& place) const {
+  const double depth = head_depth_ - world_from_head_.linear().row(2).dot(place);
+  return sound_speed_at(*profile_, depth) / sound_speed_at(*profile_, head_depth_);
+}
+
 double BentLegs::grazing_at(double depth, const Vector3d& apparent) const {
   const double up = world_from_head_.linear().row(2).dot(apparent.normalized());
-  const double cosine = std::sqrt(std::max(0.0, (1 - up) * (1 + up))) * sound_speed_at(profile_, depth) /
-                        sound_speed_at(profile_, head_depth_);  // Snell's law
+  const double cosine = std::sqrt(std::max(0.0, (1 - up) * (1 + up))) * sound_speed_at(*profile_, depth) /
+                        sound_speed_at(*profile_, head_depth_);  // Snell's law
   return std::acos(std::min(1.0, cosine));
 }
 

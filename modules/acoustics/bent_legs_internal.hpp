@@ -23,6 +23,14 @@ struct BentLeg {
   double pressure = 1;       ///< factor on 1 / apparent range: tube (E167), and absorption of the true distance
 };
 
+/// A ray between two places, neither of them the head.
+struct BentPiece {
+  Eigen::Vector3d leaves, arrives;  ///< unit vectors along the ray at its ends
+  double apparent = 0;              ///< travel time at the sound speed of the head [m]
+  double pressure =
+      1;  ///< factor on 1 / straight distance: tube (E167), and absorption of straight less apparent distance
+};
+
 /// Legs from a head through a profile, and through its image in a level boundary.
 class BentLegs {
  public:
@@ -39,12 +47,18 @@ class BentLegs {
   /// Returns the leg to a place; none in a shadow zone.
   std::optional<BentLeg> to(const Eigen::Vector3d& place) const;
 
+  /// Returns the ray between two places by an eigenray of its own; none in a shadow zone, or if they are one place.
+  std::optional<BentPiece> between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+  /// Returns the sound speed at a place over that at the head.
+  double relative_speed(const Eigen::Vector3d& place) const;
+
   /// Grazing angle [rad] on a level boundary at this depth of the ray that leaves the head towards `apparent`.
   double grazing_at(double depth, const Eigen::Vector3d& apparent) const;
   double head_depth() const { return head_depth_; }
 
  private:
-  SoundSpeedProfile profile_;
+  std::shared_ptr<const SoundSpeedProfile> profile_;  // shared, since the table refers to it when legs are moved
   double head_depth_, absorption_;
   Pose world_from_head_;
   std::unique_ptr<RefractionTable> table_;

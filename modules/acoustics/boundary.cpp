@@ -15,18 +15,16 @@ using Eigen::Vector3d;
 
 constexpr double on_the_plane = 1e-3;  // [m]: a head nearer than this stands on it
 
-/// Whether the foot of the perpendicular from the head lies within the edges.
-bool faces_head(const Boundary& boundary) {
-  const std::vector<Vector3d>& corners = boundary.corners;
+}  // namespace
+
+bool Boundary::within_edges(const Vector3d& place) const {
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vector3d side = corners[(k + 1) % corners.size()] - corners[k];
-    const Vector3d inward = boundary.normal.cross(side).normalized();
-    if (-inward.dot(corners[k]) < -on_the_plane) return false;
+    const Vector3d inward = normal.cross(side).normalized();
+    if (inward.dot(place - corners[k]) < -on_the_plane) return false;
   }
   return true;
 }
-
-}  // namespace
 
 std::complex<double> Boundary::reflection(double grazing) const {
   const double left = coherent_reflection_loss(wavenumber, rms_height, grazing);
@@ -116,7 +114,7 @@ std::vector<Boundary> boundaries_of(std::span<const Mirror> mirrors, const Pose&
     b.sound_speed = transmission.medium.sound_speed;
     b.mirror = &mirror, b.ends_water = mirror.corners.empty();
     for (const Vector3d& corner : mirror.corners) b.corners.push_back(to_head * corner);
-    if (std::abs(b.head_distance) < on_the_plane && faces_head(b))
+    if (std::abs(b.head_distance) < on_the_plane && b.within_edges(Vector3d::Zero()))
       fail(ErrorKind::argument, who, ": the head stands on mirror '", mirror.name, "', ", b.head_distance,
            " m from its plane, must be at least ", on_the_plane, " m in front of it");
     if (b.head_distance < 0 && b.ends_water)

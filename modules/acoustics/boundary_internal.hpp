@@ -43,6 +43,8 @@ struct Boundary {
   bool holds(double distance_into_water, double along_normal) const {
     return std::abs(distance_into_water) <= thickness && std::abs(along_normal) > 0.5;
   }
+  /// Returns whether the foot of the perpendicular from a place lies within the edges, to a millimetre.
+  bool within_edges(const Eigen::Vector3d& place) const;
   /// Returns the pressure reflection coefficient, reduced by roughness.
   std::complex<double> reflection(double grazing) const;
   /// Returns the factor of the boundary's edges (E150) on the path from the head to a place; `image` is the image of

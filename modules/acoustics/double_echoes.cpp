@@ -4,7 +4,7 @@
 //   1. share_rays   so many rays as a surfel's share of the resolution cells asks for, more where rays of its
 //                   neighbours meet a surface in view, fewer where none does
 //   2. draw_ray     start in the surfel and direction, with its density of probability
-//   3. find_pair    the surface met, both cross-sections, and how many rays join the two surfels from both ends
+//   3. find_pair    the surface met, the legs to both ends, straight or bent, and how many rays join the two surfels
 //   4. add_pair     the two echoes of the pair
 #include "acoustics/double_echoes.hpp"
 
@@ -16,6 +16,7 @@
 
 #include "acoustics/boundary_internal.hpp"
 #include "acoustics/collect_echoes_internal.hpp"
+#include "acoustics/pair_legs_internal.hpp"
 #include "core/random.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
@@ -34,27 +35,18 @@ constexpr std::size_t least_trials = 2048;       // rays of all pieces that find
 constexpr std::size_t trials_of_piece = 32;      // so many of each if that is more; an eighth of them first
 constexpr double least_share = 0.01;             // of rays that meet one, where no trial does
 
-/// The leg between the head and a place on a surface.
-struct HeadLeg {
-  Vector3d to_head;    ///< unit vector from the place, world axes
-  double range;        ///< [m]
-  double u, v;         ///< of the place, direction cosines
-  complex gain, sent;  ///< one-way pattern; with the transmitter's in azimuth
-};
-
 /// A ray that leaves a surfel, with the density of probability [1/sr] of its direction.
 struct DrawnRay {
   Vector3d from, direction;  ///< world axes; `from` relative to the scene's origin
   double pdf = 0;
 };
 
-/// Two surfels that a ray connects, and the legs to them.
+/// Two surfels that a ray connects, and the way by them.
 struct Pair {
   std::uint32_t first, last;
-  HeadLeg out, back;
-  PathAngles here{}, there{};  ///< in from the head, out to the other one
+  PathAngles here{}, there{};  ///< of the straight way: in from the head, out to the other one
   double density = 0;          ///< of surface where the ray ends (SurfaceRayEnd)
-  double path = 0;             ///< of both legs and the ray [m]
+  std::optional<PairWay> way;  ///< none: no ray has it
 };
 
 class PairBuilder {
@@ -66,7 +58,7 @@ class PairBuilder {
         laws_(surfaces_of(sent, scene_.materials)),
         options_(sent.echo_options),
         head_(view.world_from_head.translation() - scene_.origin),
-        to_head_(view.world_from_head.linear().transpose()),
+        legs_(scene_, seen, view, sent, options.through),
         source_(source_pressure(sent.pulse)),
         sound_speed_(sent.medium.sound_speed),
         cycles_per_m_(sent.pulse.centre_frequency / sent.medium.sound_speed),
@@ -80,12 +72,13 @@ class PairBuilder {
     share_rays(prepared.order());
   }
 
-  /// Adds the echoes of the rays from surfel i; returns how many it sent.
-  std::size_t add(std::uint32_t i, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
+  /// Adds the echoes of the rays from surfel i; returns how many it sent, and adds to `unreached`.
+  std::size_t add(std::uint32_t i, Echoes& echoes, std::vector<std::uint32_t>& ends, std::size_t& unreached) const {
     const double part = random_uniform(options_.seed, RandomStage::surface_ray, {scene_.random_id(i), 0, 1})[0];
     const auto count = static_cast<std::size_t>(number_[i] + part);
     for (std::size_t k = 0; k < count; ++k)
-      if (const std::optional<Pair> pair = find_pair(i, k, 0)) add_pair(*pair, k, echoes, ends);
+      if (const std::optional<Pair> pair = find_pair(i, k, 0))
+        pair->way ? add_pair(*pair, k, echoes, ends) : void(unreached += 2);
     return count;
   }
 
@@ -128,18 +121,6 @@ class PairBuilder {
     return !scene_.oriented(i) && normal.dot(towards) < 0 ? -normal : normal;
   }
 
-  HeadLeg leg_to(const Vector3d& place) const {
-    HeadLeg leg;
-    const Vector3d from_head = place - head_;
-    leg.range = from_head.norm();
-    leg.to_head = -from_head / leg.range;
-    const Vector3d direction = to_head_ * from_head / leg.range;
-    leg.u = direction.y(), leg.v = direction.z();
-    leg.gain = one_way_pattern(options_, leg.v);
-    leg.sent = leg.gain * transmit_pattern(options_, std::atan2(direction.y(), direction.x()));
-    return leg;
-  }
-
   /// So many rays a surfel sends if all do alike.
   double cells_of(std::uint32_t i) const {
     return rays_per_cell_ * scene_.area[i] / (cell_width_ * (head_ - scene_.point[i].cast<double>()).norm());
@@ -175,14 +156,17 @@ class PairBuilder {
     const SurfaceRayEnd hit = rays_.first_hit({i, ray.from.cast<float>(), ray.direction.cast<float>()});
     if (hit.surfel == SurfaceRayEnd::none || !seen_[hit.surfel]) return {};
 
-    Pair pair{i, hit.surfel, leg_to(ray.from), leg_to(ray.from + hit.distance * ray.direction)};
-    const Vector3d normal_there = normal_of(hit.surfel, pair.back.to_head);
-    pair.here = {normal.dot(pair.out.to_head), normal.dot(ray.direction), pair.out.to_head.dot(ray.direction)};
-    pair.there = {normal_there.dot(pair.back.to_head), -normal_there.dot(ray.direction),
-                  -ray.direction.dot(pair.back.to_head)};
-    pair.density = hit.density, pair.path = pair.out.range + hit.distance + pair.back.range;
-    if (!(pair.there.cos_in > 0 && pair.there.cos_out > 0 && std::min(pair.out.range, pair.back.range) > nearest &&
-          pair.density > 0 && pair.path >= least_path_ && pair.path <= longest_path_))
+    const Vector3d to = ray.from + hit.distance * ray.direction, back = legs_.straight_to_head(to);
+    const Vector3d out = legs_.straight_to_head(ray.from), normal_there = normal_of(hit.surfel, back);
+    Pair pair{i, hit.surfel, {}, {}, 0, {}};
+    pair.here = {normal.dot(out), normal.dot(ray.direction), out.dot(ray.direction)};
+    pair.there = {normal_there.dot(back), -normal_there.dot(ray.direction), -ray.direction.dot(back)};
+    pair.density = hit.density;
+    if (!(pair.there.cos_in > 0 && pair.there.cos_out > 0 && pair.density > 0)) return {};
+    pair.way = legs_.by({ray.from, normal, pair.here}, {to, normal_there, pair.there}, ray.direction, hit.distance);
+    if (!pair.way) return pair;
+    if (!(pair.way->pressure > 0 && std::min(pair.way->out.range, pair.way->back.range) > nearest &&
+          pair.way->path >= least_path_ && pair.way->path <= longest_path_))
       return {};
     return pair;
   }
@@ -195,12 +179,13 @@ class PairBuilder {
     const double rays =
         rays_per_area(pair.first) * sampling_density(law.lobe_slope(), pair.here) * pair.there.cos_out +
         rays_per_area(pair.last) * sampling_density(law_there.lobe_slope(), pair.there) * pair.here.cos_out;
-    const double power = law.cross_section(pair.here) * law_there.cross_section(pair.there) * pair.density / rays;
-    const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * pair.path);
-    const double size = std::sqrt(power) / (pair.out.range * pair.back.range);  // (E159)
+    const PairWay& way = *pair.way;
+    const double power = law.cross_section(way.here) * law_there.cross_section(way.there) * pair.density / rays;
+    const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * way.path);
+    const double size = way.pressure * std::sqrt(power) / (way.out.range * way.back.range);  // (E159)
     const complex amplitude = source_ * xi(pair.first, k) * std::polar(size, phase);
-    add_sense(pair.out, pair.back, pair.path, amplitude, {pair.first, pair.last}, echoes, ends);
-    add_sense(pair.back, pair.out, pair.path, amplitude, {pair.last, pair.first}, echoes, ends);
+    add_sense(way.out, way.back, way.path, amplitude, {pair.first, pair.last}, echoes, ends);
+    add_sense(way.back, way.out, way.path, amplitude, {pair.last, pair.first}, echoes, ends);
   }
 
   void add_sense(const HeadLeg& out, const HeadLeg& back, double path, complex amplitude,
@@ -224,7 +209,7 @@ class PairBuilder {
   SurfaceTable laws_;
   const EchoOptions& options_;
   Vector3d head_;  // relative to the scene's origin
-  Eigen::Matrix3d to_head_;
+  PairLegs legs_;
   double source_, sound_speed_, cycles_per_m_, least_path_ = 0, longest_path_ = 0;
   double rays_per_cell_ = 0, cell_width_ = 0;  // area of a cell over its range [m]
   std::vector<bool> seen_;
@@ -245,15 +230,15 @@ DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::u
   if (seen.empty()) return result;
   const PairBuilder builder(prepared, seen, view, sent, options);
   std::vector<std::vector<std::uint32_t>> ends((seen.size() + surfels_per_block - 1) / surfels_per_block);
-  std::atomic<std::size_t> rays{0};
+  std::atomic<std::size_t> rays{0}, unreached{0};
   result.echoes = collect_echoes(seen.size(), surfels_per_block, sent.echo_options.threads,
                                  [&](std::size_t begin, std::size_t end, Echoes& echoes) {
-                                   std::size_t sent_here = 0;
+                                   std::size_t sent_here = 0, lost = 0;
                                    for (std::size_t k = begin; k < end; ++k)
-                                     sent_here += builder.add(seen[k], echoes, ends[begin / surfels_per_block]);
-                                   rays += sent_here;
+                                     sent_here += builder.add(seen[k], echoes, ends[begin / surfels_per_block], lost);
+                                   rays += sent_here, unreached += lost;
                                  });
-  result.rays = rays;
+  result.rays = rays, result.unreached = unreached;
   for (const std::vector<std::uint32_t>& of_block : ends)
     for (std::size_t k = 0; k < of_block.size(); k += 2)
       result.first.push_back(of_block[k]), result.last.push_back(of_block[k + 1]);
@@ -261,12 +246,15 @@ DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::u
 }
 
 Scatterers apparent_places(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
-                           double sound_speed) {
+                           double sound_speed, const Environment* through) {
   const Pose head_from_world = world_from_head.inverse();
+  std::optional<BentLegs> rays;
+  if (through && through->profile) rays.emplace(*through->profile, through->water.depth, world_from_head, 0);
   Scatterers places;
   for (std::size_t i = 0; i < doubles.echoes.size(); ++i) {
     const std::uint32_t last = doubles.last[i];
-    const Vector3d place = head_from_world * Vector3d(scene.origin + scene.point[last].cast<double>());
+    Vector3d place = head_from_world * Vector3d(scene.origin + scene.point[last].cast<double>());
+    if (const auto bent = rays ? rays->to(place) : std::nullopt) place = bent->apparent;
     places.range.push_back(0.5 * sound_speed * doubles.echoes.delay[i]);
     places.azimuth.push_back(std::atan2(place.y(), place.x()));
     places.elevation.push_back(std::asin(std::clamp(place.z() / place.norm(), -1.0, 1.0)));

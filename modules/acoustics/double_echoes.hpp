@@ -5,8 +5,12 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "acoustics/echoes.hpp"
+#include "acoustics/environment.hpp"
 #include "acoustics/multipath_echoes.hpp"
+#include "acoustics/surface_scattering.hpp"
 #include "acoustics/transmission.hpp"
 #include "scene/prepared_scene.hpp"
 
@@ -18,6 +22,7 @@ struct DoubleEchoes {
   std::vector<std::uint32_t> first;  ///< of every echo, the surfel that sound met first, index in the scene
   std::vector<std::uint32_t> last;   ///< and the one that it came back from
   std::size_t rays = 0;              ///< sent from surface to surface
+  std::size_t unreached = 0;         ///< echoes left out since a leg of them is in a shadow zone of the profile
 };
 
 /// Options of double_echoes.
@@ -26,6 +31,7 @@ struct DoubleEchoOptions {
   /// 1e-6 and 1e6. More are sent where others have met a surface. The error of the expected level of a piece of image
   /// falls with the root of its rays.
   double rays_per_cell = 1;
+  const Environment* through = nullptr;  ///< whose profile all three legs run through; none: legs are straight
 };
 
 /// Returns the echoes by way of two rough surfaces: out to a patch i, on to a patch j, and back (E158).
@@ -47,14 +53,36 @@ struct DoubleEchoOptions {
 /// returns  two echoes for each ray that meets a surfel of `seen`, without echoes that the patterns reduce by more than
 ///          80 dB, or whose half path lies farther outside the view's gate than the pulse reaches
 ///
-/// Echoes by way of three surfaces and more are left out. Legs are straight, surfels are smooth. The result does not
-/// depend on the number of threads. Throws Error for an invalid argument, and Error(runtime) without Embree.
+/// Through a profile each leg is the ray between its ends (E43): travel times are those of the rays, laws have their
+/// angles, and each leg has the spreading of its tube (E167, E178). What a surfel meets is found by straight rays, and
+/// their weights are those of straight ones.
+///
+/// Echoes by way of three surfaces and more are left out. Surfels are smooth. The result does not depend on the number of
+/// threads. Throws Error for an invalid argument, and Error(runtime) without Embree.
 DoubleEchoes double_echoes(const PreparedScene& scene, std::span<const std::uint32_t> seen, const View& view,
                            const Transmission& sent, const DoubleEchoOptions& options = {});
 
+/// A piece of surface, in head axes [m].
+struct SurfacePlace {
+  Eigen::Vector3d at, normal;
+};
+
+/// What a profile makes of the echo by way of two places.
+struct BentPair {
+  std::size_t first = 0, last = 0;
+  PathAngles here{}, there{};  ///< of the laws: in from the head, out to the other one
+  double longer = 0;           ///< apparent path of all three legs, over that of straight ones [m]
+  double turned = 0;           ///< change of the direction cosine u of the last place
+  double pressure = 1;         ///< of all three legs, over that of straight ones
+};
+
+/// Returns it for every ordered pair of places that rays join and that face each other.
+std::vector<BentPair> bent_pairs(std::span<const SurfacePlace> places, const Environment& environment,
+                                 const Pose& world_from_head, const Medium& medium);
+
 /// Returns a scatterer for each double echo at its apparent place: at half the path, in the direction of the last
-/// surfel, with id, material and surfel of the last surfel. Areas and incidence are empty.
+/// surfel, through a profile that of the ray to it, with id, material and surfel of the last surfel. Areas and incidence are empty.
 Scatterers apparent_places(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
-                           double sound_speed);
+                           double sound_speed, const Environment* through = nullptr);
 
 }  // namespace insonify

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "acoustics/bent_legs_internal.hpp"
+#include "acoustics/bent_chain_internal.hpp"
 #include "acoustics/collect_echoes_internal.hpp"
 #include "acoustics/edge_waves_internal.hpp"
 #include "acoustics/find_legs_internal.hpp"
@@ -150,13 +150,11 @@ class BentWays {
         one_place && !way.target && (way.sent - 2 * way.bounces[0]).norm() < specular * way.sent.norm();
     if (one_place && !to_image) return bend_to_place(way);
 
+    if (!has_image(way)) return is_corner(way) || !reflects(way) ? bend_to_place(way) : bend_chain(way);
     std::optional<BentLegs> by_level;
-    for (const Boundary* boundary : way.by) {
-      const BoundaryTilt tilt = tilt_of(*boundary);
-      if (tilt == BoundaryTilt::tilted || (tilt == BoundaryTilt::level && by_level)) return true;
-      if (tilt == BoundaryTilt::level)
+    for (const Boundary* boundary : way.by)
+      if (tilt_of(*boundary) == BoundaryTilt::level)
         by_level.emplace(direct_.mirrored(boundary->head_distance, boundary->plane.normal().z() < 0));
-    }
     const BentLegs& rays = by_level ? *by_level : direct_;
     const auto out = rays.to(way.sent), back = rays.to(way.heard);
     if (!out || !back) return false;
@@ -176,6 +174,51 @@ class BentWays {
     for (Vector3d* end : {&way.sent, &way.heard})
       *end = (end->norm() + longer) * (end->normalized() + turned).normalized();
     way.factor *= leg->pressure * leg->pressure;
+    return true;
+  }
+
+  /// Whether the way is one ray to an image: by upright mirrors and one level boundary at most.
+  static bool has_image(const ImageWay& way) {
+    std::size_t levels = 0;
+    for (const Boundary* boundary : way.by) {
+      if (tilt_of(*boundary) == BoundaryTilt::tilted) return false;
+      levels += tilt_of(*boundary) == BoundaryTilt::level;
+    }
+    return levels < 2;
+  }
+
+  /// Whether all bounces are in one place, where mirrors meet.
+  static bool is_corner(const ImageWay& way) {
+    constexpr double one_place = 1e-3;  // [m]
+    return way.bounces.size() > 1 && std::all_of(way.bounces.begin(), way.bounces.end(), [&](const Vector3d& bounce) {
+             return (bounce - way.bounces[0]).norm() < one_place;
+           });
+  }
+
+  /// False for the edge of a single mirror, and if the ray that the mirror reflects would meet it beyond its edges.
+  bool reflects(const ImageWay& way) const {
+    if (way.by.size() > 1 || way.by[0]->corners.empty()) return true;
+    constexpr double face_on = 1e-3;  // [rad]
+    if (way.by[0]->normal.cross(way.bounces[0]).norm() > face_on * way.bounces[0].norm()) return false;
+    const auto chain = bent_chain(direct_, way.by, way.bounces, Vector3d::Zero());
+    return !chain || way.by[0]->within_edges(chain->bounces[0]);
+  }
+
+  /// The way is the ray by its mirrors.
+  bool bend_chain(ImageWay& way) const {
+    const auto chain = bent_chain(direct_, way.by, way.bounces, Vector3d::Zero());
+    if (!chain) return false;
+    Vector3d from = Vector3d::Zero();
+    for (std::size_t k = 0; k < way.by.size(); ++k) {
+      const Boundary& mirror = *way.by[k];
+      const Vector3d straight = (way.bounces[k] - from).normalized();
+      const complex before = mirror.reflection(std::asin(std::min(1.0, std::abs(mirror.normal.dot(straight)))));
+      if (before != 0.0) way.factor *= mirror.reflection(chain->grazing_on(mirror, k)) / before;
+      from = way.bounces[k];
+    }
+    way.sent = chain->leg.apparent;
+    way.heard = -chain->leg.apparent.norm() * chain->leg.arrival;
+    way.factor *= chain->leg.pressure;
     return true;
   }
 
@@ -214,7 +257,8 @@ Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const E
   std::vector<ImageWay> heard = joined(ways, open);
   if (options.refraction && environment.profile) {
     const BentWays bent(environment, view, sent);
-    std::erase_if(heard, [&](ImageWay& way) { return !bent.bend(way); });
+    const std::size_t unreached = std::erase_if(heard, [&](ImageWay& way) { return !bent.bend(way); });
+    if (options.unreached) *options.unreached = unreached;
   }
   for (const ImageWay& way : heard) {
     const double length = way.sent.norm();

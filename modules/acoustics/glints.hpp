@@ -11,8 +11,10 @@ namespace insonify {
 struct GlintOptions {
   int most_bounces = 3;  ///< off mirrors, surface and bottom, one after the other
   /// Whether ways run through the profile of the environment, if it has one (E43, E167): to targets and to edges as two
-  /// rays to the place; by upright mirrors and one level boundary as the ray to the image. Other ways stay straight.
+  /// rays to the place; by upright mirrors and one level boundary as the ray to the image; by other mirrors as the ray that
+  /// they reflect (E177), without a new place on their edges.
   bool refraction = false;
+  std::size_t* unreached = nullptr;  ///< takes the number of ways that no ray of the profile has
 };
 
 /// Returns the echoes of a head's own image: sound that returns by way of one to `most_bounces` mirrors, and by way of

@@ -63,27 +63,27 @@ class PathBuilder {
   /// cosines      true if those of `patches` hold for the direct leg
   void add(const Scatterers& patches, const std::vector<std::uint32_t>& parts, bool cosines, Multipath& result) {
     patch_legs_.prepare(patches);
-    std::atomic<std::size_t> two_bounces{0};
+    std::atomic<std::size_t> two_bounces{0}, unreached{0};
     std::vector<Echoes> echoes(1);
     std::vector<Origins> origins((patches.size() + patches_per_block - 1) / patches_per_block);
     echoes[0] = collect_echoes(patches.size(), patches_per_block, echo_options_.threads,
                                [&](std::size_t begin, std::size_t end, Echoes& out) {
                                  Origins& from = origins[begin / patches_per_block];
-                                 std::size_t twice = 0;
+                                 std::size_t twice = 0, lost = 0;
                                  std::vector<Leg> legs;
                                  for (std::size_t i = begin; i < end; ++i) {
                                    const std::uint32_t surfel = patches.surfel[i];
                                    if (!(found_.legs[surfel] & ~direct_leg)) continue;
-                                   patch_legs_.find(patches, i, found_.legs[surfel], cosines, legs);
+                                   lost += patch_legs_.find(patches, i, found_.legs[surfel], cosines, legs);
                                    if (legs.empty()) continue;
                                    const double area = static_cast<double>(scene_.area[surfel]) / parts[surfel];
                                    add_paths(legs, patches, i, area, out, from);
                                    from.surfel.resize(out.size(), surfel);
                                  }
                                  for (const LegPair pair : from.legs) twice += pair.bounces() == 2;
-                                 two_bounces += twice;
+                                 two_bounces += twice, unreached += lost;
                                });
-    result.two_bounces += two_bounces;
+    result.two_bounces += two_bounces, result.unreached += unreached;
     result.one_bounce += echoes[0].size() - two_bounces;
     join_echoes(std::move(echoes), result.echoes);
     for (const Origins& from : origins) {

@@ -36,6 +36,7 @@ struct Multipath {
   std::size_t one_bounce = 0;           ///< out direct and back by a boundary, or the other way round
   std::size_t two_bounces = 0;          ///< out and back by a boundary
   std::size_t blocked = 0;              ///< legs from surfels by a boundary that the scene hides
+  std::size_t unreached = 0;            ///< legs of patches that no ray of the profile has
 };
 
 /// View of a head, for later stages.
@@ -51,8 +52,7 @@ struct MultipathOptions {
   /// Captured surfels along a boundary (within 60 degrees) that are nearer to it than this [m], and than three times
   /// its rms relief, count as the boundary itself: they neither block a bounce off it nor give an echo by one.
   double boundary_tolerance = 0.3;
-  /// Whether legs run through the profile of the environment, if it has one (E43, E167): direct ones, those by level
-  /// boundaries and those by upright mirrors, each within one degree. By tilted mirrors they stay straight.
+  /// Whether legs run through the profile of the environment, if it has one (E43, E167, E177).
   bool refraction = false;
 };
 
@@ -79,7 +79,8 @@ struct MultipathOptions {
 ///          whose xi is not that of the rays.
 ///
 /// With `refraction` a leg is the ray to the place or to its image: by a level boundary through the profile and its image
-/// in the boundary, by an upright mirror through the profile itself. `direct` holds straight places all the same.
+/// in the boundary, by an upright mirror through the profile itself, each within one degree. By a plane that is tilted it
+/// is the ray that the plane reflects (E177). `direct` holds straight places all the same.
 /// Visibility is that of straight legs. Legs take the smooth surfel for the facet.
 /// Does not depend on the thread count. Throws Error if there is no boundary, the head is not in the water, or an
 /// invalid environment, pulse or medium is met.

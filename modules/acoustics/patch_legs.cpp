@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acoustics/bent_chain_internal.hpp"
 #include "acoustics/patch_legs_internal.hpp"
 #include "core/units.hpp"
 
@@ -52,47 +53,73 @@ void PatchLegs::prepare(const Scatterers& patches) {
   }
 }
 
-void PatchLegs::find(const Scatterers& patches, std::size_t i, LegSet open, bool cosines,
-                     std::vector<Leg>& legs) const {
+std::size_t PatchLegs::find(const Scatterers& patches, std::size_t i, LegSet open, bool cosines,
+                            std::vector<Leg>& legs) const {
   const std::uint32_t surfel = patches.surfel[i];
   const Vector3d place = place_of_patch(patches, i);
   const Vector3d normal = to_head_ * scene_.normal[surfel].cast<double>();
   legs.clear();
-  const auto add = [&legs](const Leg& leg) {
-    if (leg.cosine > 0) legs.push_back(leg);
+  std::size_t unreached = 0;
+  const auto add = [&](const std::optional<Leg>& leg) {
+    if (leg && leg->cosine > 0) legs.push_back(*leg);
+    unreached += !leg;
   };
   if (open & direct_leg) {
-    Leg leg = leg_to(surfel, place, normal, 0);
-    if (cosines && rays_.empty()) leg.cosine = patches.cos_incidence[i];
+    std::optional<Leg> leg = leg_to(surfel, place, normal, 0);
+    if (leg && cosines && rays_.empty()) leg->cosine = patches.cos_incidence[i];
     add(leg);
   }
   for (std::size_t b = 0; b < boundaries_.size(); ++b) {
     const Boundary& boundary = boundaries_[b];
     if (!(open & leg_by(b)) || boundary.distance(place) <= 0) continue;
-    Leg leg = leg_to(surfel, boundary.mirrored(place), boundary.mirrored_direction(normal), b + 1);
-    leg.towards = boundary.mirrored_direction(leg.towards);
+    std::optional<Leg> leg = leg_to(surfel, boundary.mirrored(place), boundary.mirrored_direction(normal), b + 1);
+    if (leg) leg->towards = boundary.mirrored_direction(leg->towards);
     add(leg);
   }
+  return unreached;
 }
 
-/// Reflection of the leg by a boundary to an image; `rays` if it is bent, and then `apparent` is where it seems to end.
-complex PatchLegs::reflection(const Boundary& boundary, const Vector3d& image, const BentLegs* rays,
-                              const Vector3d& apparent) const {
-  const bool level = rays && tilt_of(boundary) == BoundaryTilt::level;
-  const double sine = std::min(1.0, std::abs(boundary.normal.dot(image)) / image.norm());
-  const double grazing = level ? rays->grazing_at(depth_of(boundary, rays->head_depth()), apparent) : std::asin(sine);
-  return boundary.reflection(grazing) * boundary.edges(image);
+/// The way by a tilted boundary to the image of a place; its arrival is that of the image.
+std::optional<PatchLegs::Way> PatchLegs::tilted_way_to(const Vector3d& image, const Boundary& boundary) const {
+  const double crossing = boundary.head_distance / (boundary.head_distance - boundary.distance(image));
+  const Vector3d place = boundary.mirrored(image);
+  const Boundary* const plane = &boundary;
+  const auto chain = bent_chain(*rays_[0], {&plane, 1}, {crossing * image}, place);
+  if (!chain) return std::nullopt;
+  Way way{chain->leg};
+  way.leg.arrival = boundary.mirrored_direction(way.leg.arrival);
+  // Edges are those of the straight line that crosses the plane at the same place.
+  const Vector3d& bounce = chain->bounces[0];
+  const Vector3d end = (1 + (place - bounce).norm() / bounce.norm()) * bounce;
+  way.reflection = boundary.reflection(chain->grazing_on(boundary, 0)) * boundary.edges(end);
+  return way;
 }
 
-/// The leg to a place, by boundary `by` to its image; silent in a shadow zone.
-Leg PatchLegs::leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal, std::size_t by) const {
-  const BentLegs* rays = by < rays_.size() && rays_[by] ? &*rays_[by] : nullptr;
-  BentLeg way{place, place.normalized(), 1};
+/// The leg to a place, by boundary `by` to its image; none in a shadow zone.
+std::optional<PatchLegs::Way> PatchLegs::way_to(const Vector3d& place, std::size_t by) const {
+  Way way{{place, place.normalized(), 1}};
+  const BentLegs* rays = rays_.empty() || !rays_[by] ? nullptr : &*rays_[by];
   if (rays) {
     const auto bent = rays->to(place);
-    if (!bent) return {};
-    way = *bent;
+    if (!bent) return std::nullopt;
+    way.leg = *bent;
   }
+  if (by == 0) return way;
+  const Boundary& boundary = boundaries_[by - 1];
+  if (!rays_.empty() && !rays) return tilted_way_to(place, boundary);
+  const bool level = rays && tilt_of(boundary) == BoundaryTilt::level;
+  const double sine = std::min(1.0, std::abs(boundary.normal.dot(place)) / place.norm());
+  const double grazing =
+      level ? rays->grazing_at(depth_of(boundary, rays->head_depth()), way.leg.apparent) : std::asin(sine);
+  way.reflection = boundary.reflection(grazing) * boundary.edges(place);
+  return way;
+}
+
+std::optional<Leg> PatchLegs::leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal,
+                                     std::size_t by) const {
+  const auto found = way_to(place, by);
+  if (!found) return std::nullopt;
+  const BentLeg& way = found->leg;
   Leg leg{};
   leg.range = way.apparent.norm();
   leg.u = way.apparent.y() / leg.range;
@@ -101,7 +128,7 @@ Leg PatchLegs::leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3
   const double cosine = -normal.dot(way.arrival);
   leg.cosine = std::min(1.0, scene_.oriented(surfel) ? cosine : std::abs(cosine));
   leg.gain = way.pressure * one_way_pattern(echo_options_, leg.v);
-  if (by > 0) leg.gain *= reflection(boundaries_[by - 1], place, rays, way.apparent);
+  if (by > 0) leg.gain *= found->reflection;
   leg.sent = leg.gain * transmit_pattern(echo_options_, std::atan2(way.apparent.y(), way.apparent.x()));
   leg.by = static_cast<std::uint8_t>(by);
   return leg;

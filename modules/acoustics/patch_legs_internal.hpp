@@ -26,28 +26,35 @@ struct Leg {
 /// The legs of a view's patches. Refers to its arguments.
 class PatchLegs {
  public:
-  /// With `through` legs run through its profile, if it has one: rays to places, and to their images in level boundaries and
-  /// upright mirrors.
+  /// With `through` legs run through its profile, if it has one: rays to places, to their images in level boundaries and
+  /// upright mirrors, and by way of tilted mirrors (E177).
   PatchLegs(const SceneCloud& scene, const std::vector<Boundary>& boundaries, const View& view,
             const Transmission& sent, const Environment* through);
 
   /// Readies rays to many patches.
   void prepare(const Scatterers& patches);
 
-  /// Sets `legs` to those of `open` to one patch that reach its front, the direct one first.
+  /// Sets `legs` to those of `open` to one patch that reach its front, the direct one first. Returns how many no ray has.
   /// cosines      true if the cosine of the patch holds for a straight direct leg
-  void find(const Scatterers& patches, std::size_t i, LegSet open, bool cosines, std::vector<Leg>& legs) const;
+  std::size_t find(const Scatterers& patches, std::size_t i, LegSet open, bool cosines, std::vector<Leg>& legs) const;
 
  private:
-  std::complex<double> reflection(const Boundary& boundary, const Eigen::Vector3d& image, const BentLegs* rays,
-                                  const Eigen::Vector3d& apparent) const;
-  Leg leg_to(std::uint32_t surfel, const Eigen::Vector3d& place, const Eigen::Vector3d& normal, std::size_t by) const;
+  /// A leg, and the reflection on it.
+  struct Way {
+    BentLeg leg;
+    std::complex<double> reflection = 1;
+  };
+  std::optional<Way> way_to(const Eigen::Vector3d& place, std::size_t by) const;
+  std::optional<Way> tilted_way_to(const Eigen::Vector3d& image, const Boundary& boundary) const;
+  std::optional<Leg> leg_to(std::uint32_t surfel, const Eigen::Vector3d& place, const Eigen::Vector3d& normal,
+                            std::size_t by) const;
 
   const SceneCloud& scene_;
   const std::vector<Boundary>& boundaries_;
   const EchoOptions& echo_options_;
   Eigen::Matrix3d to_head_;
-  std::vector<std::optional<BentLegs>> rays_;  // to places, 0, and to images, k by the k-th boundary; none: straight
+  std::vector<std::optional<BentLegs>>
+      rays_;  // to places, 0, and to images, k by the k-th boundary; none: it is tilted
 };
 
 }  // namespace insonify

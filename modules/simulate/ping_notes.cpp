@@ -26,9 +26,14 @@ std::string refraction_note(const RefractionReport& r, const RangeGate& gate) {
                             in_digits(degrees(beyond_rounding(r.bound.elevation)), 2) + " deg in angle and " +
                             in_digits(beyond_rounding(r.bound.level_db), 2) + " dB in level";
   if (!r.bent) return "refraction is left out: " + bound + " (bin " + in_digits(gate.bin_size, 3) + " m)";
+  const std::string unreached =
+      r.unreached > 0
+          ? "; " + std::to_string(r.unreached) +
+                " legs by boundaries, mirrors or from surface to surface have no ray: their echoes are left out"
+          : "";
   return "the sound-speed profile bends rays: " + bound + "; " + std::to_string(r.paths.silenced) +
          " scatterers are in shadow zones, " + std::to_string(r.paths.focused) +
-         " near caustics, whose level is limited to 20 dB above that of straight rays";
+         " near caustics, whose level is limited to 20 dB above that of straight rays" + unreached;
 }
 
 /// States why multipath gave no echo: most often the sea is too rough.

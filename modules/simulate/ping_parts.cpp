@@ -36,6 +36,11 @@ RefractionReport refract(const SceneCloud& scene, const ResolvedPing& ping, Scat
   return {bound, ping.options.effects.refraction == Choice::always, bend(scene, ping, patches)};
 }
 
+/// What legs run through: the profile of the environment, if rays are bent.
+const Environment* profile_of(const ResolvedPing& ping) {
+  return ping.options.effects.refraction == Choice::always ? &ping.environment : nullptr;
+}
+
 /// Whether some stage asks for all patches, or for a synthesis that takes all echoes at once.
 bool needs_all_patches(const ResolvedPing& ping) {
   const SimulationOptions& o = ping.options;
@@ -97,14 +102,17 @@ void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingPa
   const MultipathOptions legs{.refraction = refraction};
   if (multipath) {
     parts.multipath = multipath_echoes(scene, seen, ping.environment, view, ping.sent, legs);
+    parts.unreached += parts.multipath.unreached;
     layers.add("multipath", parts.multipath.echoes);
   }
   if (!mirrors) return;
   if (!ping.smooth.mirrors.empty())
     parts.mirrors = mirror_echoes(scene, seen, ping.environment, ping.smooth.mirrors, multipath, view, ping.sent, legs);
   Echoes all = parts.mirrors.echoes;
-  append(all,
-         glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent, {.refraction = refraction}));
+  std::size_t unreached = 0;
+  append(all, glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent,
+                           {.refraction = refraction, .unreached = &unreached}));
+  parts.unreached += parts.mirrors.unreached + unreached;
   layers.add("mirrors", all);
 }
 
@@ -115,7 +123,8 @@ void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, 
       ping.view.sampling.kind == SamplingKind::rays ? parts.sampling.scatterers.surfel : parts.visible.surfel;
   std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-  parts.doubles = double_echoes(prepared, seen, ping.view, ping.sent, {rays_per_cell});
+  parts.doubles = double_echoes(prepared, seen, ping.view, ping.sent, {rays_per_cell, profile_of(ping)});
+  parts.unreached += parts.doubles.unreached;
   layers.add("double-echoes", parts.doubles.echoes);
 }
 
@@ -134,7 +143,7 @@ Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoSt
   detection.scene = &scene;
   if (!(ping.options.effects.double_echoes > 0)) return detect_soundings(image, direct, detection);
   const Scatterers places =
-      apparent_places(parts.doubles, scene, ping.view.world_from_head, ping.sent.medium.sound_speed);
+      apparent_places(parts.doubles, scene, ping.view.world_from_head, ping.sent.medium.sound_speed, profile_of(ping));
   return detect_soundings(image, direct, StoredEchoes(places, parts.doubles.echoes, "PingSimulator"), detection);
 }
 

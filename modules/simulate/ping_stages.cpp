@@ -111,14 +111,6 @@ std::string sparse_note(const SamplingReport& report, std::size_t beams) {
          "some may be silent; give a denser cloud, or a mesh without --mesh-spacing";
 }
 
-/// What stays straight though rays are bent, if straight rays are off by more than a centimetre.
-std::string straight_note(const ResolvedPing& ping, const RefractionReport& refraction) {
-  constexpr double least_error = 0.01;  // [m]
-  if (!refraction.bent || refraction.bound.range < least_error || !(ping.options.effects.double_echoes > 0)) return "";
-  return printed("double echoes run along straight rays, which are off by up to %.2g m and %.2g deg in this profile",
-                 refraction.bound.range, degrees(refraction.bound.elevation));
-}
-
 /// What limits the accuracy of a ping by its scene: too few rays, laws out of their range, too few surfels.
 std::vector<PingNote> scene_notes(const SceneCloud& scene, const ResolvedPing& ping, const Scatterers& patches,
                                   const PingReport& report) {
@@ -132,7 +124,6 @@ std::vector<PingNote> scene_notes(const SceneCloud& scene, const ResolvedPing& p
     add("law of " + m.name,
         joined(surface_notes({&m, 1}, ping.head.pulse.centre_frequency, ping.sent.medium.sound_speed), "; "));
   add("sparse beams", sparse_note(report.sampling, ping.view.fan.beams()));
-  add("straight double echoes", straight_note(ping, report.refraction));
   return notes;
 }
 
@@ -169,6 +160,7 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
   report.medium = ping.sent.medium;
   report.noise_floor_db = ping.detection.noise_floor_db;
   report.sampling = parts.sampling.report;
+  report.refraction.unreached = parts.unreached;
   const Scatterers& patches = parts.sampling.scatterers;
 
   if (wanted.mask) mark_holes(prepared, ping, result);

@@ -25,6 +25,7 @@ struct PingParts {
   Multipath multipath{};
   Multipath mirrors{};  ///< without glints, which belong to no surfel
   DoubleEchoes doubles{};
+  std::size_t unreached = 0;  ///< of legs of such echoes and of glints, those that no ray of the profile has
 };
 
 /// Returns the surfels that the head sees, with their counts; sets ping.view.sampling.energy.

@@ -12,6 +12,7 @@
 #include "acoustics/multipath_echoes.hpp"
 #include "beamforming/received_energy.hpp"
 #include "core/units.hpp"
+#include "simulate/echo_overlap_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
 #include "sonar/pulse_spectrum.hpp"
 
@@ -20,32 +21,6 @@ namespace {
 
 using E = Environment;
 using O = SimulationOptions;
-
-/// Overlap of two echoes of one scatterer that differ in delay [s], Doppler shift [Hz] and direction cosine: 1 for
-/// none, that of Gaussian pulses of the bandwidth, times that of the array's patterns.
-class EchoOverlap {
- public:
-  explicit EchoOverlap(const ResolvedPing& ping) : array_(ping.head.array), bandwidth_(ping.head.pulse.bandwidth) {
-    step_ = 2 * pi * ping.head.pulse.centre_frequency / ping.sent.medium.sound_speed * array_.spacing;
-  }
-  double of(double delay, double doppler, double u) const {
-    const double pulses = pi * bandwidth_ * delay, tones = doppler / bandwidth_;
-    return std::exp(-pulses * pulses / (4 * std::numbers::ln2) - std::numbers::ln2 * tones * tones) * patterns(u);
-  }
-
- private:
-  double patterns(double u) const {
-    double sum = 0, all = 0;
-    for (std::size_t m = 0; m < array_.elements(); ++m) {
-      const double energy = array_.shading[m] * array_.shading[m];
-      all += energy;
-      sum += energy * std::cos(step_ * element_place(m, array_.elements()) * u);
-    }
-    return sum / all;
-  }
-  const LineArray& array_;
-  double bandwidth_, step_;
-};
 
 /// Bound of what turns the echoes `before` of the sample into those `after`.
 double difference_bound(const PlanFacts& facts, const Echoes& before, const Echoes& after) {
@@ -84,8 +59,12 @@ double bent_rays_bound(const PlanFacts& facts) {
   Scatterers bent = facts.sample.places;
   bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
              {&facts.sample.scene, ping.sent.medium.absorption.a0, ping.options.threads});
-  return difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent));
+  return std::hypot(difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent)),
+                    straight_double_echoes(facts).bound);
 }
+
+/// Whether double echoes by straight legs would be off by more than a centimetre of range.
+bool misplaces_double_echoes(const PlanFacts& facts) { return straight_double_echoes(facts).range > 0.01; }
 
 double motion_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
@@ -169,7 +148,8 @@ constexpr PlanStage effects[] = {
      }},
     {"refraction", DecidedBy::budget, [](const PlanCause& of) { return of.environment.profile.has_value(); },
      "rays are bent: echoes arrive at other times and angles", "there is no sound-speed profile", bent_rays_bound,
-     [](bool in, E&, O& o) { o.effects.refraction = chosen(in); }, [](const O& o) { return o.effects.refraction; }},
+     [](bool in, E&, O& o) { o.effects.refraction = chosen(in); }, [](const O& o) { return o.effects.refraction; },
+     nullptr, false, misplaces_double_echoes},
     {"motion", DecidedBy::budget, [](const PlanCause& of) { return !of.event.motion.none() || moves(of.scene); },
      "head or parts of the scene move while sound is under way", "the head is at rest", motion_bound,
      [](bool in, E&, O& o) { o.effects.moving = chosen(in); }, [](const O& o) { return o.effects.moving; }},

@@ -74,7 +74,7 @@ PlannedStage judge(const PlanStage& stage, const PlanFacts& facts, double share,
   }
   if (is_open(stage, options)) {
     const bool too_dear = stage.only_if_forced && stage.only_if_forced(facts);
-    judged.included = bound > share && !too_dear;
+    judged.included = (bound > share || (caused && stage.needed && stage.needed(facts))) && !too_dear;
     if (too_dear)
       judged.why += "; a planar array is summed row by row for it, at that cost: only by --with " + judged.name;
     Environment unchanged = facts.ping.environment;

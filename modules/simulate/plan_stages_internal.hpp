@@ -63,6 +63,14 @@ double bound_of_changed_echoes(const PlanFacts& facts, const Change& change) {
 /// may miss, it is an estimate.
 double double_echo_bound(const PlanFacts& facts);
 
+/// What straight legs cost double echoes in the profile of the environment, from pairs of some 50 places of the sample.
+struct StraightDoubleEchoes {
+  double bound = 0;  ///< relative error of the image by it; 0 if double echoes are not asked for
+  double range = 0;  ///< largest error of the apparent range [m] of those above -40 dB of the largest
+};
+/// Returns it, by rays of all three legs (bent_pairs).
+StraightDoubleEchoes straight_double_echoes(const PlanFacts& facts);
+
 /// A row of the plan.
 struct PlanStage {
   const char* name;
@@ -85,6 +93,8 @@ struct PlanStage {
   /// Returns why the stage is in, by its cause; nullptr: `with`. Causes are those of the options as the stages
   /// before are decided.
   const char* (*reason)(const PlanCause&) = nullptr;
+  /// Returns whether the budget includes the stage at any bound; nullptr: never.
+  bool (*needed)(const PlanFacts&) = nullptr;
 };
 
 std::span<const PlanStage> geometry_stages();

@@ -23,9 +23,10 @@ struct StageSeconds {
 
 /// Effect of refraction on this scene.
 struct RefractionReport {
-  RefractionBound bound;  ///< error of straight rays, from at most some 1000 scatterers in view
-  bool bent = false;      ///< true: the scatterers are at their apparent positions
-  BentPaths paths;        ///< scatterers that no ray reaches, or too many
+  RefractionBound bound;      ///< error of straight rays, from at most some 1000 scatterers in view
+  bool bent = false;          ///< true: the scatterers are at their apparent positions
+  BentPaths paths;            ///< scatterers that no ray reaches, or too many
+  std::size_t unreached = 0;  ///< legs of echoes by boundaries, mirrors and two surfaces that no ray has
 };
 
 /// Number of echoes in a layer.

@@ -112,3 +112,46 @@ TEST_F(DoubleEchoesInAPing, are_named_by_contributors_and_returns) {
     if (all.true_order[i] == 2 && all.position[i].x() > 6.1) ++ghosts;  // behind the wall
   EXPECT_GT(ghosts, 20);
 }
+
+namespace {
+
+/// Sound that is slower below the head, by so much over the 1.5 m down to the bed.
+Environment slower_below(double by) {
+  Environment water;
+  water.water_level = 5;
+  water.profile = SoundSpeedProfile{{0, 4.5, 6, 20}, {1500, 1500, 1500 - by, 1500 - by}};
+  return water;
+}
+
+}  // namespace
+
+// Centimetres of the path turn the phases of all of them.
+TEST_F(DoubleEchoesInAPing, run_through_the_profile_where_rays_are_bent) {
+  const auto changed = [&](double slower) {
+    SimulatedPing pings[2];
+    for (const bool bent : {false, true}) {
+      with_.effects.refraction = bent ? Choice::always : Choice::never;
+      pings[bent] = simulate_event(bed_and_wall(0.1), small_head(corner_sonar), {}, slower_below(slower), with_);
+      EXPECT_EQ(pings[bent].report.refraction.unreached, 0u);
+    }
+    const auto &straight = pings[0].ping.layers[1].pressure, &bent = pings[1].ping.layers[1].pressure;
+    return std::sqrt((bent - straight).abs2().sum() / straight.abs2().sum());
+  };
+  EXPECT_GT(changed(15), 0.5);
+  EXPECT_LT(changed(0), 1e-3);
+}
+
+TEST_F(DoubleEchoesInAPing, have_straight_legs_only_within_a_centimetre_and_the_budget) {
+  const auto bends = [&](double slower, bool with_doubles) {
+    SimulationOptions options;
+    options.accuracy_db = 20;
+    options.effects.double_echoes = with_doubles ? 1 : 0;
+    const PingPlan plan = plan_ping(bed_and_wall(0.1), small_head(corner_sonar), {}, slower_below(slower), options);
+    return std::find_if(plan.stages.begin(), plan.stages.end(),
+                        [](const PlannedStage& s) { return s.name == "refraction"; })
+        ->included;
+  };
+  EXPECT_FALSE(bends(15, false));
+  EXPECT_TRUE(bends(15, true));
+  EXPECT_FALSE(bends(0.5, true));
+}
