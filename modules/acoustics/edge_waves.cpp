@@ -120,7 +120,9 @@ LineSums line_sums(const PhasedLine& line, double begin, double end, Slow&& slow
 /// Arrivals of a body, from its places and their shares of the integral.
 class ArrivalList {
  public:
-  ArrivalList(double distance, double wavenumber) : distance_(distance), wavenumber_(wavenumber) {}
+  /// power: of the wavenumber, in the sizes of shares.
+  ArrivalList(double distance, double wavenumber, double power)
+      : distance_(distance), wavenumber_(wavenumber), power_(power) {}
 
   /// Adds what `place` sends back, `size` times its share. It is heard as much later as its pieces are on average, so
   /// that its phase is right at the frequencies about the carrier too.
@@ -128,8 +130,11 @@ class ArrivalList {
     if (share.sum == 0.0) return;
     const double range = place.norm(), late = std::clamp((share.moment / share.sum).real(), -most_late, most_late);
     const double moved = 1 + late / (2 * wavenumber_ * range);
-    list_.push_back({place, moved * place, 2 * moved * range * size * share.sum * std::polar(1.0, -late),
-                     std::asin(std::min(1.0, distance_ / range))});
+    const complex factor = 2 * moved * range * size * std::polar(1.0, -late);
+    // A phase grows with the wavenumber, but for the part of it that is in the place. (E179)
+    const complex rise = complex(0, 1) * (share.moment - late * share.sum) + power_ * share.sum;
+    list_.push_back(
+        {place, moved * place, factor * share.sum, factor * rise, std::asin(std::min(1.0, distance_ / range))});
   }
   /// Returns the arrivals. Those of a body of which all parts have nearly one phase come from its middle: they are large
   /// against their sum, and patterns of beams must weigh the body as a whole.
@@ -143,14 +148,16 @@ class ArrivalList {
     for (BodyArrival& a : list_) {
       const double before = a.apparent.norm();
       a.apparent = middle + apart * (a.apparent - middle);
-      const double range = a.apparent.norm();
-      a.factor *= std::polar(range / before, 2 * wavenumber_ * (before - range));
+      const double range = a.apparent.norm(), phase = 2 * wavenumber_ * (before - range);
+      const complex moved = std::polar(range / before, phase);
+      a.rise = moved * (a.rise + complex(0, phase) * a.factor);
+      a.factor *= moved;
     }
     return std::move(list_);
   }
 
  private:
-  double distance_, wavenumber_;
+  double distance_, wavenumber_, power_;
   std::vector<BodyArrival> list_;
 };
 
@@ -178,7 +185,7 @@ std::vector<BodyArrival> plate_arrivals(std::span<const Vector3d> corners, const
       break;
     }
 
-  ArrivalList list(d, wavenumber);
+  ArrivalList list(d, wavenumber, 0);
   std::vector<Share> at_corner(n);
   bool inside = true;
   for (std::size_t k = 0; k < n; ++k) {
@@ -212,7 +219,7 @@ std::vector<BodyArrival> cylinder_arrivals(const Vector3d& middle, const Vector3
     const double r = std::hypot(d, s);
     return 1 / (r * r * std::sqrt(r));  // (E166)
   });
-  ArrivalList list(d, wavenumber);
+  ArrivalList list(d, wavenumber, 0.5);
   const Vector3d line = foot + beside * axis;
   list.add(foot, sums.foot, size);
   list.add(line - half * axis, sums.begin, size);

@@ -13,6 +13,7 @@ struct BodyArrival {
   Eigen::Vector3d place;        ///< from where it diffracts: a specular point, a point of an edge, a corner
   Eigen::Vector3d apparent;     ///< where it is heard: `place`, or for a body that is small in phase near its middle
   std::complex<double> factor;  ///< amplitude over exp(2 i k r) / (2 r), r the range of `apparent`; of a rigid body
+  std::complex<double> rise;    ///< change of `factor` with wavenumber, times the wavenumber
   double grazing;               ///< angle of sound to the surface at `place` [rad]
 };
 
@@ -24,8 +25,7 @@ struct BodyArrival {
 /// wavenumber  [rad/m]
 ///
 /// At the wavenumber the sum of the arrivals is Kirchhoff's integral to 1e-4 of the largest arrival, and to 1 / (k r).
-/// Edges fade with wavenumber^-1/2 and corners with its inverse; factors are those of the carrier over the whole band,
-/// which costs 0.3 of the relative bandwidth at most where the level is within 20 dB of broadside.
+/// Edges fade with wavenumber^-1/2 and corners with its inverse: `rise`.
 std::vector<BodyArrival> plate_arrivals(std::span<const Eigen::Vector3d> corners, const Eigen::Vector3d& normal,
                                         double wavenumber);
 

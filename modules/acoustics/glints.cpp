@@ -30,20 +30,20 @@ constexpr std::size_t surfels_at_once = 4096;
 /// Adds the ways to a sphere or cylinder and back, if the head is in front of it.
 void add_ways_to(const SmoothTarget& target, const Pose& to_head, double wavenumber, std::vector<ImageWay>& ways) {
   const Vector3d middle = to_head * target.surface.place, axis = to_head.linear() * target.axis;
-  const auto add = [&](const Vector3d& heard, const Vector3d& reflects, complex factor, double grazing) {
-    factor *=
-        target.surface.reflection * coherent_reflection_loss(wavenumber, target.surface.rms_height, grazing);  // (E152)
-    ways.push_back({2 * heard, 2 * heard, factor, {reflects}, {}, &target, edge_floor});
+  const auto add = [&](const Vector3d& heard, const Vector3d& reflects, complex factor, complex rise, double grazing) {
+    ways.push_back({2 * heard, 2 * heard, factor, {reflects}, {}, &target, edge_floor, rise});
+    ways.back().scale(target.surface.reflection *
+                      coherent_reflection_loss(wavenumber, target.surface.rms_height, grazing));  // (E152)
   };
   if (target.length > 0) {
     for (const BodyArrival& a : cylinder_arrivals(middle, axis, target.length, target.radius, wavenumber))
-      add(a.apparent, a.place, a.factor, a.grazing);
+      add(a.apparent, a.place, a.factor, a.rise, a.grazing);
     return;
   }
   const double d = middle.norm() - target.radius;
   if (!(d > 0)) return;
   const Vector3d reflects = d / middle.norm() * middle;
-  add(reflects, reflects, 1 / (1 + d / target.radius), pi / 2);
+  add(reflects, reflects, 1 / (1 + d / target.radius), 0, pi / 2);
 }
 
 /// What surfels do to ways: block them, or cover the place at which a target reflects.
@@ -111,7 +111,7 @@ std::vector<ImageWay> joined(const std::vector<ImageWay>& ways, const std::vecto
     if (same == all.end())
       all.push_back(ways[w]);
     else
-      same->factor += ways[w].factor;
+      same->factor += ways[w].factor, same->rise += ways[w].rise;
   }
   return all;
 }
@@ -134,6 +134,29 @@ SectorBounds directions_of_legs(const View& view, const Transmission& sent) {
   SamplingOptions sampling = view.sampling;
   sampling.elevation_half_extent = extent_of_legs(sent.echo_options);
   return SectorBounds(insonified_sector(view.fan, sampling));
+}
+
+/// Adds the echo of a way; and where it rises with frequency two more about it, which are opposite at the carrier and the
+/// rise beside it (E179).
+void add_echoes_of(const ImageWay& way, bool over_band, const Transmission& sent, Echoes& echoes) {
+  constexpr double apart = 2;          // [rad] of the carrier, there and back, from the echo to either of the two
+  constexpr double least_rise = 0.01;  // of the factor
+  const double frequency = sent.pulse.centre_frequency, c = sent.medium.sound_speed;
+  const double length = way.sent.norm(), cycles = frequency / c;
+  const Vector3d out = way.sent / length, back = way.heard / length;
+  const complex patterns = one_way_pattern(sent.echo_options, out.z()) * one_way_pattern(sent.echo_options, back.z()) *
+                           transmit_pattern(sent.echo_options, std::atan2(out.y(), out.x()));
+  const complex gain = patterns * way.factor;
+  if (!(std::norm(gain) >= way.least * way.least)) return;
+  const complex carrier = std::polar(1 / length, 2 * pi * reduced_cycles(cycles * length));
+  const auto add = [&](double later, complex size) {
+    add_echo(echoes, (length + later) / c, back.y(), back.z(), source_pressure(sent.pulse) * size * carrier);
+  };
+  add(0, gain);
+  if (!over_band || !(std::norm(way.rise) > least_rise * least_rise * std::norm(way.factor))) return;
+  const double later = apart / (2 * pi * cycles);
+  const complex half = patterns * way.rise / complex(0, 2 * apart);
+  add(later, half), add(-later, -half);
 }
 
 /// What ways become in a profile.
@@ -159,7 +182,7 @@ class BentWays {
     const auto out = rays.to(way.sent), back = rays.to(way.heard);
     if (!out || !back) return false;
     way.sent = out->apparent, way.heard = back->apparent;
-    way.factor *= out->pressure;
+    way.scale(out->pressure);
     return true;
   }
 
@@ -173,7 +196,7 @@ class BentWays {
     const Vector3d turned = leg->apparent.normalized() - place.normalized();
     for (Vector3d* end : {&way.sent, &way.heard})
       *end = (end->norm() + longer) * (end->normalized() + turned).normalized();
-    way.factor *= leg->pressure * leg->pressure;
+    way.scale(leg->pressure * leg->pressure);
     return true;
   }
 
@@ -213,12 +236,12 @@ class BentWays {
       const Boundary& mirror = *way.by[k];
       const Vector3d straight = (way.bounces[k] - from).normalized();
       const complex before = mirror.reflection(std::asin(std::min(1.0, std::abs(mirror.normal.dot(straight)))));
-      if (before != 0.0) way.factor *= mirror.reflection(chain->grazing_on(mirror, k)) / before;
+      if (before != 0.0) way.scale(mirror.reflection(chain->grazing_on(mirror, k)) / before);
       from = way.bounces[k];
     }
     way.sent = chain->leg.apparent;
     way.heard = -chain->leg.apparent.norm() * chain->leg.arrival;
-    way.factor *= chain->leg.pressure;
+    way.scale(chain->leg.pressure);
     return true;
   }
 
@@ -260,16 +283,7 @@ Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const E
     const std::size_t unreached = std::erase_if(heard, [&](ImageWay& way) { return !bent.bend(way); });
     if (options.unreached) *options.unreached = unreached;
   }
-  for (const ImageWay& way : heard) {
-    const double length = way.sent.norm();
-    const Vector3d out = way.sent / length, back = way.heard / length;
-    const complex gain = one_way_pattern(sent.echo_options, out.z()) * one_way_pattern(sent.echo_options, back.z()) *
-                         transmit_pattern(sent.echo_options, std::atan2(out.y(), out.x())) * way.factor;
-    if (!(std::norm(gain) >= way.least * way.least)) continue;
-    const double phase = 2 * pi * reduced_cycles(frequency / c * length);
-    add_echo(echoes, length / c, back.y(), back.z(),
-             source_pressure(sent.pulse) * gain * std::polar(1 / length, phase));
-  }
+  for (const ImageWay& way : heard) add_echoes_of(way, options.over_band, sent, echoes);
   return echoes;  // (E151)
 }
 

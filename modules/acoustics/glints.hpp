@@ -14,6 +14,9 @@ struct GlintOptions {
   /// rays to the place; by upright mirrors and one level boundary as the ray to the image; by other mirrors as the ray that
   /// they reflect (E177), without a new place on their edges.
   bool refraction = false;
+  /// Whether edges and corners rise or fade over the band (E179), by two more echoes each, which are opposite at the
+  /// carrier: not for sums of power.
+  bool over_band = true;
   std::size_t* unreached = nullptr;  ///< takes the number of ways that no ray of the profile has
 };
 

@@ -106,8 +106,9 @@ bool find_way(const Chain& chain, ImageWay& way) {
 void add_ways_of_plate(const Boundary& plate, std::vector<ImageWay>& ways) {
   for (const BodyArrival& arrival : plate_arrivals(plate.corners, plate.normal, plate.wavenumber)) {
     const Vector3d image = 2 * arrival.apparent;
-    ImageWay way{image, image, arrival.factor * plate.reflection(arrival.grazing), {arrival.place}, {&plate}};
-    way.least = edge_floor;
+    ImageWay way{image, image, arrival.factor, {arrival.place}, {&plate}};
+    way.rise = arrival.rise, way.least = edge_floor;
+    way.scale(plate.reflection(arrival.grazing));
     if (std::norm(way.factor) >= edge_floor * edge_floor) ways.push_back(std::move(way));
   }
 }

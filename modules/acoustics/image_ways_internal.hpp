@@ -17,6 +17,10 @@ struct ImageWay {
   std::vector<const Boundary*> by{};       ///< off these
   const SmoothTarget* target = nullptr;    ///< or off this
   double least = echo_floor;               ///< least factor with patterns that counts
+  std::complex<double> rise = 0;           ///< change of the factor with wavenumber, times the wavenumber
+
+  /// Scales the factor at all wavenumbers.
+  void scale(std::complex<double> with) { factor *= with, rise *= with; }
 };
 
 /// Least factor of an edge or a corner re the image of the head: -120 dB. A plate turned by 40 degrees still has it.

@@ -111,7 +111,9 @@ void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingPa
   Echoes all = parts.mirrors.echoes;
   std::size_t unreached = 0;
   append(all, glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent,
-                           {.refraction = refraction, .unreached = &unreached}));
+                           {.refraction = refraction,
+                            .over_band = ping.options.synthesis.method != SynthesisMethod::incoherent,
+                            .unreached = &unreached}));
   parts.unreached += parts.mirrors.unreached + unreached;
   layers.add("mirrors", all);
 }

@@ -114,7 +114,7 @@ double mirrors_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   const auto [sent, view] = of_sample(ping);
   const bool levels = has_boundary(ping.environment) && ping.options.effects.multipath != Choice::never;
-  Echoes echoes = glint_echoes(facts.scene, ping.smooth, ping.environment, levels, view, sent);
+  Echoes echoes = glint_echoes(facts.scene, ping.smooth, ping.environment, levels, view, sent, {.over_band = false});
   if (!ping.smooth.mirrors.empty())
     append(echoes, mirror_echoes(facts.sample.scene, facts.sample.places, ping.environment, ping.smooth.mirrors, levels,
                                  view, sent)

@@ -18,8 +18,8 @@ using Eigen::Vector3d;
 using complex = std::complex<double>;
 
 constexpr double edge_frequency = 150e3, edge_wavenumber = 2 * pi * edge_frequency / 1500;
-/// Of range [m], of a pulse with the bandwidth of 5 kHz, 3.3 % of its frequency.
-constexpr double edge_pulse = 0.5 * 1500 * 0.3748 / 5e3;
+/// Of range [m], of pulses with bandwidths of 5 and 15 kHz, 3.3 and 10 % of their frequency.
+constexpr double edge_pulse = 0.5 * 1500 * 0.3748 / 5e3, short_edge_pulse = edge_pulse / 3;
 
 /// Random numbers, places and turns.
 struct Draws {
@@ -83,10 +83,10 @@ complex steady(const Echoes& e) {
   return sum;
 }
 
-complex at_range(const Echoes& e, double range) {
+complex at_range(const Echoes& e, double range, double pulse) {
   complex sum = 0;
   for (std::size_t k = 0; k < e.size(); ++k) {
-    const double late = (range - 750 * e.delay[k]) / edge_pulse;
+    const double late = (range - 750 * e.delay[k]) / pulse;
     sum += e.amplitude[k] * std::exp(-0.5 * late * late);
   }
   return sum;
@@ -94,14 +94,15 @@ complex at_range(const Echoes& e, double range) {
 
 /// Largest error in time of one body's echo over its peak in time, by the level of the peak re broadside.
 struct Worst {
+  double pulse = edge_pulse;
   double within_20_db = 0, within_40_db = 0, steady_error = 0;
   int count_20 = 0, count_40 = 0;
 
   void add(const Echoes& e, const KirchhoffEcho& truth, double broadside) {
     double error = 0, peak = 0;
-    for (double r = truth.nearest() - 3 * edge_pulse; r < truth.farthest() + 3 * edge_pulse; r += edge_pulse / 4) {
-      const complex expected = truth.at_range(r, edge_pulse);
-      error = std::max(error, std::abs(at_range(e, r) - expected)), peak = std::max(peak, std::abs(expected));
+    for (double r = truth.nearest() - 3 * pulse; r < truth.farthest() + 3 * pulse; r += pulse / 4) {
+      const complex expected = truth.at_range(r, pulse);
+      error = std::max(error, std::abs(at_range(e, r, pulse) - expected)), peak = std::max(peak, std::abs(expected));
     }
     const double level = db_from_amplitude(peak / broadside);
     if (level > -20)
@@ -157,7 +158,7 @@ TEST(Kirchhoff, has_the_far_field_of_plate_and_cylinder) {
 // 5 cm to 2 m, turned to 40 degrees, 3 to 30 m away; declared mirrors and targets in turn.
 TEST(EdgeWaves, of_random_plates_are_kirchhoffs_integral_in_time) {
   Draws draw;
-  Worst worst;
+  Worst worst, short_pulse{short_edge_pulse};
   for (int n = 0; n < 200; ++n) {
     const double width = draw.log_within(0.05, 2), height = width * draw.within(0.3, 1), range = draw.log_within(3, 30);
     const double turn = radians(n % 3 == 0 ? draw.within(0, 40) : draw.log_within(0.1, 20)), skew = 0.15 * (n % 3);
@@ -169,21 +170,27 @@ TEST(EdgeWaves, of_random_plates_are_kirchhoffs_integral_in_time) {
     EdgeBench bench(draw);
     bench.add_plate(corners(turn), n % 2 == 0);
     const double broadside = std::abs(KirchhoffEcho::of_polygon(corners(0), edge_wavenumber).steady());
-    worst.add(bench.echoes(), KirchhoffEcho::of_polygon(corners(turn), edge_wavenumber), broadside);
+    for (Worst* of : {&worst, &short_pulse})
+      of->add(bench.echoes(), KirchhoffEcho::of_polygon(corners(turn), edge_wavenumber), broadside);
   }
-  EXPECT_LT(worst.within_20_db, 0.013);
-  EXPECT_LT(worst.within_40_db, 0.03);
+  EXPECT_LT(worst.within_20_db, 0.002);
+  EXPECT_LT(worst.within_40_db, 0.003);
   EXPECT_LT(worst.steady_error, 1e-3);
   EXPECT_GT(worst.count_20, 60);
   EXPECT_GT(worst.count_40, 30);
-  RecordProperty("of the peak within 20 dB", std::to_string(worst.within_20_db));
-  RecordProperty("of the peak within 40 dB", std::to_string(worst.within_40_db));
+  EXPECT_LT(short_pulse.within_20_db, 0.008);
+  EXPECT_LT(short_pulse.within_40_db, 0.014);
+  for (const Worst* of : {&worst, &short_pulse}) {
+    const std::string bandwidth = of == &worst ? ", 3.3 %" : ", 10 %";
+    RecordProperty("of the peak within 20 dB" + bandwidth, std::to_string(of->within_20_db));
+    RecordProperty("of the peak within 40 dB" + bandwidth, std::to_string(of->within_40_db));
+  }
 }
 
 // Radii of 5 to 30 cm, ka of 31 to 188.
 TEST(EdgeWaves, of_random_cylinders_are_kirchhoffs_integral_in_time) {
   Draws draw;
-  Worst worst;
+  Worst worst, short_pulse{short_edge_pulse};
   for (int n = 0; n < 100; ++n) {
     const double length = draw.log_within(0.2, 1.5), radius = draw.within(0.05, 0.3), range = draw.log_within(3, 30);
     const double turn = radians(n % 3 == 0 ? draw.within(0, 40) : draw.log_within(0.1, 20));
@@ -194,15 +201,20 @@ TEST(EdgeWaves, of_random_cylinders_are_kirchhoffs_integral_in_time) {
     const auto truth = [&](const Vector3d& along) {
       return KirchhoffEcho::of_cylinder(range * sight, along, length, radius, edge_wavenumber);
     };
-    worst.add(bench.echoes(), truth(axis), std::abs(truth(side_on).steady()));
+    for (Worst* of : {&worst, &short_pulse}) of->add(bench.echoes(), truth(axis), std::abs(truth(side_on).steady()));
   }
-  EXPECT_LT(worst.within_20_db, 0.017);
-  EXPECT_LT(worst.within_40_db, 0.025);
+  EXPECT_LT(worst.within_20_db, 0.007);
+  EXPECT_LT(worst.within_40_db, 0.01);
   EXPECT_LT(worst.steady_error, 0.01);
   EXPECT_GT(worst.count_20, 30);
   EXPECT_GT(worst.count_40, 20);
-  RecordProperty("of the peak within 20 dB", std::to_string(worst.within_20_db));
-  RecordProperty("of the peak within 40 dB", std::to_string(worst.within_40_db));
+  EXPECT_LT(short_pulse.within_20_db, 0.013);
+  EXPECT_LT(short_pulse.within_40_db, 0.03);
+  for (const Worst* of : {&worst, &short_pulse}) {
+    const std::string bandwidth = of == &worst ? ", 3.3 %" : ", 10 %";
+    RecordProperty("of the peak within 20 dB" + bandwidth, std::to_string(of->within_20_db));
+    RecordProperty("of the peak within 40 dB" + bandwidth, std::to_string(of->within_40_db));
+  }
 }
 
 // Straight ahead of a head at 10 m, 20 cm wide, turned by 20 degrees: on the plate, not where its plane would mirror.
@@ -283,7 +295,8 @@ TEST(EdgeWaves, of_a_small_plate_are_one_echo_from_its_middle) {
   const Vector3d sight = unit_vector({radians(-25), radians(15)});
   bench.add_plate(plate_corners(30 * sight, -sight, 0.06, 0.04, 1, 0), true);
   const Echoes e = bench.echoes();
-  ASSERT_EQ(e.size(), 1u);
+  ASSERT_EQ(e.size(), 3u);  // the second and third are its rise with frequency, and nothing at the carrier
+  EXPECT_LT(std::abs(e.amplitude[1] + e.amplitude[2]), 1e-9 * std::abs(e.amplitude[0]));
   EXPECT_NEAR(e.u[0], sight.y(), 1e-9);
   EXPECT_NEAR(e.v[0], sight.z(), 1e-9);
   EXPECT_NEAR(std::abs(e.amplitude[0]), 0.06 * 0.04 * edge_frequency / 1500 / 900, 1e-3 * 2.7e-4);
@@ -319,6 +332,7 @@ TEST(EdgeWaves, have_patterns_and_reflection_of_their_places) {
     const double sine = std::abs(normal.dot(corners[0])) / (750 * heard.delay[k]);
     const complex left = coherent_reflection_loss(edge_wavenumber, 2e-4, std::asin(sine)) *
                          reflection_coefficient(concrete, sine, sea_water_density, 1500);
-    EXPECT_LT(std::abs(heard.amplitude[k] / plain.amplitude[k] - left), 1e-3);
+    EXPECT_LT(std::abs(heard.amplitude[k] / plain.amplitude[k] - left),
+              2e-3);  // two of three are 1 / k off their place
   }
 }

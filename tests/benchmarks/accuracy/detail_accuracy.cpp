@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "../compared_levels.hpp"
 #include "../wide_head.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
@@ -42,31 +43,6 @@ SimulatedPing expected_level(const PreparedScene& scene, const Pose& pose, const
                              const SamplingSettings& sampling) {
   const SimulationOptions options{.sampling = sampling, .synthesis = {.method = SynthesisMethod::incoherent}};
   return PingSimulator(head, {}, options).ping(scene, {pose});
-}
-
-/// Root mean square of the differences [dB] of what lies within 40 dB of the strongest, none counted as more than 30;
-/// and the share of those of more than 10 dB.
-std::pair<double, double> difference(const Grid<double>& level, const Grid<double>& exact) {
-  double squares = 0, cells = 0, far = 0;
-  for (Eigen::Index i = 0; i < exact.size(); ++i) {
-    if (exact.data()[i] < 1e-4 * exact.maxCoeff()) continue;
-    const double off = std::clamp(db_from_power(std::max(1e-30, level.data()[i] / exact.data()[i])), -30.0, 30.0);
-    squares += off * off, ++cells, far += std::abs(off) > 10;
-  }
-  return {std::sqrt(squares / cells), far / cells};
-}
-
-/// The largest difference of a tenth of the ranges that holds a thousandth of the energy or more [dB].
-double worst_band(const Grid<double>& level, const Grid<double>& exact) {
-  double worst = 0;
-  for (Eigen::Index k = 0; k < 10; ++k) {
-    const Eigen::Index first = k * exact.cols() / 10, bins = (k + 1) * exact.cols() / 10 - first;
-    const double energy = exact.middleCols(first, bins).sum();
-    if (energy < 1e-3 * exact.sum()) continue;
-    const double off = db_from_power(level.middleCols(first, bins).sum() / energy);
-    if (std::abs(off) > std::abs(worst)) worst = off;
-  }
-  return worst;
 }
 
 /// Median wall and CPU time [ms] of seven warm pings.
