@@ -25,7 +25,6 @@ using complex = std::complex<double>;
 
 constexpr const char* glints = "glint_echoes";
 constexpr double same_image = 1e-6;  // [m]
-constexpr std::size_t surfels_at_once = 4096;
 
 /// Adds the ways to a sphere or cylinder and back, if the head is in front of it.
 void add_ways_to(const SmoothTarget& target, const Pose& to_head, double wavenumber, std::vector<ImageWay>& ways) {
@@ -45,59 +44,6 @@ void add_ways_to(const SmoothTarget& target, const Pose& to_head, double wavenum
   const Vector3d reflects = d / middle.norm() * middle;
   add(reflects, reflects, 1 / (1 + d / target.radius), 0, pi / 2);
 }
-
-/// What surfels do to ways: block them, or cover the place at which a target reflects.
-class SurfelTests {
- public:
-  SurfelTests(const SceneCloud& scene, const View& view, const std::vector<ImageWay>& ways)
-      : scene_(scene), to_head_(view.world_from_head.inverse()), footprint_(view.sampling.footprint), ways_(ways) {}
-
-  /// Which ways surfels leave open.
-  std::vector<std::uint8_t> open_ways(bool occlusion, int threads) const {
-    std::vector<std::atomic<std::uint8_t>> blocked(ways_.size()), covered(ways_.size());
-    parallel_blocks(scene_.size(), surfels_at_once, threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s) {
-        const Vector3d p = to_head_ * (scene_.origin + scene_.point[s].cast<double>());
-        const Vector3d n = to_head_.linear() * scene_.normal[s].cast<double>();
-        for (std::size_t w = 0; w < ways_.size(); ++w) {
-          if (occlusion && !blocked[w] && blocks(ways_[w], s, p, n)) blocked[w] = 1;
-          if (ways_[w].target && !covered[w] && covers(ways_[w], s, p)) covered[w] = 1;
-        }
-      }
-    });
-    std::vector<std::uint8_t> open(ways_.size());
-    for (std::size_t w = 0; w < ways_.size(); ++w) open[w] = !blocked[w] && (!ways_[w].target || covered[w]);
-    return open;
-  }
-
- private:
-  bool covers(const ImageWay& way, std::size_t s, const Vector3d& p) const {
-    return scene_.material[s] == way.target->material && (p - way.bounces[0]).squaredNorm() < 4 * scene_.area[s];
-  }
-
-  bool blocks(const ImageWay& way, std::size_t s, const Vector3d& p, const Vector3d& n) const {
-    for (const Boundary* mirror : way.by)
-      if (mirror->holds(mirror->distance(p), mirror->normal.dot(n))) return false;
-    const double reach_2 = footprint_ * footprint_ * scene_.area[s];
-    Vector3d from = Vector3d::Zero();
-    // By one bounce the way back is the way out.
-    const std::size_t legs = way.bounces.size() == 1 ? 1 : way.bounces.size() + 1;
-    for (std::size_t k = 0; k < legs; ++k) {
-      const Vector3d to = k < way.bounces.size() ? way.bounces[k] : Vector3d::Zero(), leg = to - from;
-      const double fall = n.dot(leg), part = n.dot(p - from) / fall;
-      // Its own surface does not hide a target.
-      const double margin = way.target ? 2 * way.target->surface.thickness / leg.norm() : 1e-9;
-      if (part > margin && part < 1 - margin && (from + part * leg - p).squaredNorm() < reach_2) return true;
-      from = to;
-    }
-    return false;
-  }
-
-  const SceneCloud& scene_;
-  Pose to_head_;
-  double footprint_;
-  const std::vector<ImageWay>& ways_;
-};
 
 /// Ways by one image as one.
 std::vector<ImageWay> joined(const std::vector<ImageWay>& ways, const std::vector<std::uint8_t>& open) {
@@ -275,8 +221,7 @@ Echoes glint_echoes(const SceneCloud& scene, const SmoothShapes& shapes, const E
   });
 
   Echoes echoes;
-  const std::vector<std::uint8_t> open =
-      SurfelTests(scene, view, ways).open_ways(view.sampling.occlusion, sent.echo_options.threads);
+  const std::vector<std::uint8_t> open = open_ways(scene, view, ways, sent.echo_options.threads);
   std::vector<ImageWay> heard = joined(ways, open);
   if (options.refraction && environment.profile) {
     const BentWays bent(environment, view, sent);

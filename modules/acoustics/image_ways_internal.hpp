@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <complex>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -31,5 +32,10 @@ inline constexpr double edge_floor = 1e-6;
 /// point, by each edge and by each corner (E164, E165), down to -120 dB; by several, edges change the level of the
 /// image alone (E150).
 std::vector<ImageWay> image_ways(std::span<const Boundary> mirrors, std::size_t first, int most);
+
+/// Returns for each way whether the surfels of a scene leave it open: they block it, if the view has occlusion, and a
+/// target must have surfels where it reflects.
+std::vector<std::uint8_t> open_ways(const SceneCloud& scene, const View& view, const std::vector<ImageWay>& ways,
+                                    int threads);
 
 }  // namespace insonify
