@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "acoustics/noise.hpp"
 #include "acoustics/shoot_ray.hpp"
@@ -30,6 +31,18 @@ Eigen::Vector3d place_of(const Ping& ping, const BottomOptions& options, std::si
   const Eigen::Vector2d ahead = level > 0 ? Eigen::Vector2d(away.head<2>() / level) : Eigen::Vector2d(0, 0);
   return {head.x() + end.horizontal * ahead.x(), head.y() + end.horizontal * ahead.y(),
           head.z() - (end.depth - options.head_depth)};
+}
+
+/// The better of both methods, and whether it is that by phase.
+std::pair<BottomEstimate, bool> fit_of(const BottomPing& prepared, const BottomBeam& beam, const BottomEcho& echo,
+                                       double range) {
+  // Neighbours, which a lone beam has not, tell the slope that a phase needs.
+  if (prepared.has_one_beam()) return {range_of_lone_beam(beam, prepared.lone_plane_at(range), range), false};
+  const BottomEstimate amplitude = centre_of_gravity(beam, echo, range);
+  const BottomEstimate phase =
+      zero_crossing(beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range + echo.lengthening : range);
+  if (phase.deviation < amplitude.deviation) return {phase, true};
+  return {amplitude, false};
 }
 
 void require_bottom_options(const Ping& ping, const BottomOptions& o) {
@@ -90,11 +103,8 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
     const BottomBeam beam = prepared.beam_of(b);
     for (const BottomFind& find : found[b]) {
       const BottomEcho echo = prepared.echo_at(b, find.range, slopes[b], turn);
-      const BottomEstimate amplitude = centre_of_gravity(beam, echo, find.range);
-      const BottomEstimate phase = zero_crossing(
-          beam, echo, std::isfinite(amplitude.deviation) ? amplitude.range + echo.lengthening : find.range);
-      const bool by_phase = phase.deviation < amplitude.deviation;
-      BottomEstimate best = by_phase ? phase : amplitude;
+      const auto [best_fit, by_phase] = fit_of(prepared, beam, echo, find.range);
+      BottomEstimate best = best_fit;
       const double cell = std::max(echo.half_power_reach, ping.gate.bin_size);
       if (!std::isfinite(best.deviation) || !(best.range > ping.gate.min_range)) best = {find.range, cell};
       const auto met = [&](const Sounding& s) { return std::abs(s.best.range - best.range) < cell; };

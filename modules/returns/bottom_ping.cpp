@@ -154,6 +154,8 @@ BottomEcho BottomPing::echo_at(std::size_t beam, double range, double slope, dou
   return echo;
 }
 
+LonePlane BottomPing::lone_plane_at(double range) const { return plane_of_lone_beam(ping_, range, pulse_deviation_); }
+
 double BottomPing::phase_per_cosine(const std::vector<std::vector<BottomFind>>& found,
                                     const std::vector<double>& slopes) const {
   std::vector<double> turns;

@@ -5,6 +5,7 @@
 #include "core/grid.hpp"
 #include "returns/bottom_detection.hpp"
 #include "returns/bottom_fits_internal.hpp"
+#include "returns/lone_beam_internal.hpp"
 
 namespace insonify {
 
@@ -27,6 +28,9 @@ class BottomPing {
   double slope_at(std::size_t beam, const std::vector<std::vector<BottomFind>>& found) const;
   /// Returns the predicted echo of a plane of this slope.
   BottomEcho echo_at(std::size_t beam, double range, double slope, double turn) const;
+  bool has_one_beam() const { return ping_.fan.beams() == 1; }
+  /// Returns the level bed in the only beam of a ping.
+  LonePlane lone_plane_at(double range) const;
   /// Phase between the halves per direction cosine [rad], by the median of all beams.
   double phase_per_cosine(const std::vector<std::vector<BottomFind>>& found, const std::vector<double>& slopes) const;
   BottomBeam beam_of(std::size_t beam) const;

@@ -196,6 +196,7 @@ void Judge::find_bends() {
 }
 
 double Judge::relief_variance(std::size_t i, const Skirt& skirt) const {  // (E131)
+  if (first_.size() == 1) return 0;  // the width of its own echo is in its deviation (E171)
   const auto beam = static_cast<std::ptrdiff_t>(soundings_.beam[i]);
   std::vector<double> bends, expected;
   for (std::ptrdiff_t b = beam - 2 * relief_lag_; b <= beam + 2 * relief_lag_; ++b)

@@ -90,11 +90,11 @@ struct PlanStage {
   bool (*only_if_forced)(const PlanFacts&) = nullptr;
   /// Takes a share of the budget only where there is a cause.
   bool shares_if_caused = false;
+  /// Returns whether the budget includes the stage at any bound; nullptr: never.
+  bool (*needed)(const PlanFacts&) = nullptr;
   /// Returns why the stage is in, by its cause; nullptr: `with`. Causes are those of the options as the stages
   /// before are decided.
   const char* (*reason)(const PlanCause&) = nullptr;
-  /// Returns whether the budget includes the stage at any bound; nullptr: never.
-  bool (*needed)(const PlanFacts&) = nullptr;
 };
 
 std::span<const PlanStage> geometry_stages();

@@ -90,7 +90,7 @@ constexpr PlanStage stages[] = {
     {"phases", DecidedBy::choice, [](const PlanCause& of) { return reason_for_phases(of) != nullptr; }, "asked for",
      "display cells are drawn from expected energies, with speckle of the scene",
      [](const PlanFacts&) { return drawn_cell_error; },
-     [](bool in, Environment&, SimulationOptions& o) { o.synthesis.phases = in; }, nullptr, nullptr, false,
+     [](bool in, Environment&, SimulationOptions& o) { o.synthesis.phases = in; }, nullptr, nullptr, false, nullptr,
      reason_for_phases},
     {"true-delays", DecidedBy::budget,
      [](const PlanCause& of) { return sums_pressures(of.options) && !draws_cells(of.options); },
