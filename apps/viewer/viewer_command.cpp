@@ -242,6 +242,7 @@ LoadedView load_inspection(const ViewerCommand& command) {
   view.start.head = head_place(tool::parse_pose(command.pose, command.world) * setup.mount);
   view.start.scene_colour = SceneColour::visibility;
   view.data.fan = setup.head.fan;
+  view.data.vehicle_from_head = setup.mount;
   tool::SceneOptions options = command.scene;
   options.path = command.target;
   LoadedScene loaded = tool::load_any_scene(command.common, options);

@@ -51,10 +51,11 @@ struct Walked {
 /// Walks down the levels, as far as a head resolves their nodes.
 class LevelWalk {
  public:
-  /// The surfels of `scene` are not used.
-  LevelWalk(const SceneCloud& scene, const InsonifiedRegion& region, const BeamFan& fan, const RangeGate& gate,
-            const CutOptions& options)
+  /// The surfels of `scene` are not used; `noisy`: those that are walked have noise.
+  LevelWalk(const SceneCloud& scene, bool noisy, const InsonifiedRegion& region, const BeamFan& fan,
+            const RangeGate& gate, const CutOptions& options)
       : scene_(scene),
+        noisy_(noisy),
         head_(scene_, region.world_from_head),
         sector_(region.sector),
         max_range_(region.gate.max_range),
@@ -112,7 +113,7 @@ class LevelWalk {
     const SceneCloud& s = of.scene;
     add(s.point[i], s.normal[i], s.area[i], s.material[i], out);
     out.scene.unevenness.push_back(std::sqrt(s.area[i]));
-    if (!s.noise.empty()) out.scene.noise.push_back(s.noise[i]);
+    if (noisy_) out.scene.noise.push_back(s.noise[i]);
     out.scene.id.push_back(s.id[i]);
     out.stands_for.push_back(of.piece ? s.id[i] : i);
   }
@@ -120,7 +121,7 @@ class LevelWalk {
   void add_node(const Walked& of, const DetailNode& node, double factor, CutPart& out) const {
     add(node.point, node.normal, static_cast<float>(factor * node.area), node.material, out);
     out.scene.unevenness.push_back(std::sqrt(node.own_area) + per_thickness * node.thickness);
-    if (!of.scene.noise.empty()) out.scene.noise.push_back(node.noise);
+    if (noisy_) out.scene.noise.push_back(node.noise);
     out.scene.id.push_back(of.piece ? node.nearest : of.scene.id[node.nearest]);
     out.stands_for.push_back(node.nearest);
   }
@@ -133,6 +134,7 @@ class LevelWalk {
   }
 
   const SceneCloud& scene_;
+  bool noisy_;
   HeadFrame head_;
   SectorBounds sector_;
   double max_range_;
@@ -186,12 +188,12 @@ void scatter(const SceneCloud& from, std::span<const std::uint32_t> places, Scen
 
 /// The parts as one scene with all but the surfels of `like`. `places`: in it, of the surfels of all parts.
 SceneCloud joined(const std::vector<CutPart>& parts, const std::vector<std::uint32_t>& places, const SceneCloud& like,
-                  int threads) {
+                  bool noisy, int threads) {
   SceneCloud cut;
   const auto resize = [&](auto... arrays) { ((cut.*arrays).resize(places.size()), ...); };
   resize(&SceneCloud::point, &SceneCloud::normal, &SceneCloud::area, &SceneCloud::material, &SceneCloud::id,
          &SceneCloud::unevenness);
-  if (!like.noise.empty()) resize(&SceneCloud::noise);
+  if (noisy) resize(&SceneCloud::noise);
   const std::vector<std::size_t> first = firsts_of(parts);
   parallel_for(parts.size(), threads, [&](std::size_t p) {
     scatter(parts[p].scene, std::span(places).subspan(first[p], first[p + 1] - first[p]), cut, &SceneCloud::point,
@@ -211,7 +213,8 @@ SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region
   const int threads = options.threads;
   const SceneCloud& scene = prepared.scene();
   const DetailLevels& levels = prepared.levels(threads);
-  const LevelWalk walk(scene, region, fan, gate, options);
+  const bool noisy = !scene.noise.empty();
+  const LevelWalk walk(scene, noisy, region, fan, gate, options);
   std::vector<CutPart> parts((levels.block.size() + blocks_at_once - 1) / blocks_at_once);
   parallel_blocks(levels.block.size(), blocks_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -233,14 +236,14 @@ SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region
       stands_for[order[first[p] + k]] = surfel;
     }
   });
-  SceneCloud cut = joined(parts, order, scene, threads);
+  SceneCloud cut = joined(parts, order, scene, noisy, threads);
   cut.part_of = prepared.whole();
   return {PreparedScene(std::move(cut), std::move(order), threads), std::move(stands_for)};
 }
 
 SceneCloud cut_levels(const LevelSource& source, const InsonifiedRegion& region, const BeamFan& fan,
                       const RangeGate& gate, const CutOptions& options) {
-  const LevelWalk walk(source.like(), region, fan, gate, options);
+  const LevelWalk walk(source.like(), source.noisy(), region, fan, gate, options);
   std::vector<CutPart> parts(source.pieces());
   parallel_for(parts.size(), options.threads, [&](std::size_t p) {
     const std::unique_ptr<LoadedLevels> piece = source.open(p);
@@ -256,7 +259,7 @@ SceneCloud cut_levels(const LevelSource& source, const InsonifiedRegion& region,
   std::vector<std::uint32_t> order(by_id.size());
   for (std::size_t k = 0; k < by_id.size(); ++k)
     order[static_cast<std::uint32_t>(by_id[k])] = static_cast<std::uint32_t>(k);
-  SceneCloud cut = joined(parts, order, source.like(), options.threads);
+  SceneCloud cut = joined(parts, order, source.like(), source.noisy(), options.threads);
   cut.part_of = source.like().part_of;
   return cut;
 }

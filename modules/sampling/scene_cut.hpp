@@ -67,6 +67,8 @@ class LevelSource {
   virtual ~LevelSource() = default;
   /// Returns a cloud without surfels that has all else of the scene, with part_of set.
   virtual const SceneCloud& like() const = 0;
+  /// Returns whether surfels and nodes have noise.
+  virtual bool noisy() const = 0;
   /// Returns the number of the pieces that may intersect the region of the cut.
   virtual std::size_t pieces() const = 0;
   /// Opens a piece.

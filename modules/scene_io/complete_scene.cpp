@@ -207,6 +207,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
     sample_mesh(raw, options, result);
   }
   if (options.keep_columns) take_columns(raw, options, result.columns);
+  result.columns.system = result.corner_columns.system = raw.meaning.system.value;
   note_no_area(std::accumulate(scene.area.begin(), scene.area.end(), 0.0), result.report.notes);
   if (!raw.tags.prepared) {
     for (std::string& doubt : doubts_about(raw, typical_spacing(raw, scene.area))) {

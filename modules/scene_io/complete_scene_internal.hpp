@@ -68,6 +68,8 @@ bool fans_out_from_origin(const RawCloud& raw);
 
 /// Sets the noise: that of the file, else that of the options, else an estimate (E67).
 void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);
+/// Returns the note on values of noise that are taken as 0.
+std::string bad_noise_note(std::size_t bad, std::size_t points);
 
 /// Scales usable normals to unit length unless save_scene wrote them (`prepared`). Returns the number whose length was
 /// off by more than 1e-3.

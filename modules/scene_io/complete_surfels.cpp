@@ -141,12 +141,16 @@ void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& repor
   }
 }
 
+std::string bad_noise_note(std::size_t bad, std::size_t points) {
+  return share(bad, points, "noise values") + " were negative or NaN: taken as 0";
+}
+
 void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   SceneCloud& scene = result.scene;
   const auto bad = [](float noise) { return !(std::isfinite(noise) && noise >= 0); };
   const auto wrong = static_cast<std::size_t>(std::count_if(scene.noise.begin(), scene.noise.end(), bad));
   if (wrong > 0) {
-    result.report.notes.push_back(share(wrong, scene.size(), "noise values") + " were negative or NaN: taken as 0");
+    result.report.notes.push_back(bad_noise_note(wrong, scene.size()));
     std::replace_if(scene.noise.begin(), scene.noise.end(), bad, 0.0f);
   }
   if (!scene.noise.empty()) return;

@@ -96,7 +96,7 @@ PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format) {
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns) {
   const bool ply = format == CloudFormat::ply;
   PackedRows rows;
-  rows.comments = tag_lines(scene);
+  rows.comments = tag_lines(scene, columns.system);
   add_points(rows, scene, format);
   add_normals(rows, ply ? "n" : "normal_", scene.normal);
   rows.add("area", [&scene](std::size_t i) { return scene.area[i]; });
@@ -119,7 +119,7 @@ PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns) {
   tagged.materials = mesh.materials;
   tagged.normals_oriented = mesh.normals_oriented;
   PackedRows rows;
-  rows.comments = tag_lines(tagged);
+  rows.comments = tag_lines(tagged, columns.system);
   add_points(rows, mesh, CloudFormat::ply);
   if (!mesh.normal.empty()) add_normals(rows, "n", mesh.normal);
   add_material(rows, "", mesh);  // named below

@@ -23,7 +23,7 @@ struct Survey {
   ReadOptions reading;
   RawCloud whole;  // tags, box, counts; no points
   bool normals = false, areas = false, ids_ascend = true;
-  std::size_t bad_areas = 0;
+  std::size_t bad_areas = 0, bad_noise = 0;
   float largest_area = 0;
   std::vector<std::size_t> label_count = std::vector<std::size_t>(no_label + 1, 0);
   bool labels = false;
@@ -48,6 +48,8 @@ Batch read_batch(const Survey& survey, std::size_t first) {
   return batch;
 }
 
+bool is_noise(float noise) { return std::isfinite(noise) && noise >= 0; }
+
 bool bad_area(float area) { return !(std::isfinite(area) && area >= 0); }
 
 void report_progress(const PrepareTilesOptions& options, double part) {
@@ -70,6 +72,8 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     survey.areas = !raw.area.empty();
     survey.labels = !raw.label.empty();
     survey.bad_areas += static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad_area));
+    survey.bad_noise += static_cast<std::size_t>(
+        std::count_if(raw.noise.begin(), raw.noise.end(), [](float noise) { return !is_noise(noise); }));
     for (const float area : raw.area)
       if (std::isfinite(area)) survey.largest_area = std::max(survey.largest_area, area);
     for (std::size_t i = 0; i < raw.label.size(); ++i)
@@ -128,6 +132,7 @@ SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, con
     scene.normal.push_back(away ? Vector3f(-raw.normal[i]) : raw.normal[i]);
     scene.area.push_back(result.report.areas_estimated ? 0 : raw.area[i]);
     scene.material.push_back(material[survey.labels ? raw.label[i] : 0]);
+    if (!raw.noise.empty()) scene.noise.push_back(is_noise(raw.noise[i]) ? raw.noise[i] : 0);
     scene.id.push_back(survey.ids_ascend ? raw.id[i] : static_cast<std::uint32_t>(first + i));
   }
   return scene;
@@ -155,6 +160,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   if (survey.bad_areas > 0)
     report.notes.push_back("at least " + share(survey.bad_areas, survey.file.rows, "areas") +
                            " were negative, NaN or larger than the cloud: all were estimated");
+  if (survey.bad_noise > 0) report.notes.push_back(bad_noise_note(survey.bad_noise, survey.file.rows));
   if (!survey.ids_ascend && (column_named(survey.file.columns, "id") || column_named(survey.file.columns, "scalar_id")))
     report.notes.push_back("the ids in the file do not ascend: renumbered by row");
   const std::vector<std::uint16_t> material = plan_materials(survey, options.load, result);
@@ -162,6 +168,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   TileWriterOptions writing;
   writing.origin = *survey.reading.origin;
   writing.materials = result.scene.materials;
+  writing.system = whole.meaning.system.value;
   writing.normals_oriented = whole.tags.oriented || whole.viewpoint.has_value();
   writing.drop_duplicates = !whole.tags.prepared;
   writing.estimate_areas = report.areas_estimated;
@@ -204,6 +211,7 @@ PreparedTiles prepare_tiles(const std::string& path, const std::string& output, 
   writing.memory = options.memory;
   writing.threads = options.load.threads;
   writing.progress = options.progress;
+  writing.system = loaded.report.meaning.system.value;
   const TileReport tiles = save_tiles(output, loaded.scene, writing);
   const TiledScene readable(output);
   return {loaded.report, tiles, loaded.scene.normals_oriented, false};

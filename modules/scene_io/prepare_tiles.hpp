@@ -27,12 +27,13 @@ struct PreparedTiles {
 
 /// Writes a cloud or mesh as a .tiles file and returns a report of all changes. Meshes, text and compressed files of
 /// any size, and other files of at most `whole_points` points, are loaded whole and give the surfels of load_scene.
-/// Larger binary PLY and uncompressed binary PCD files are read twice in batches of rows, with four differences:
+/// Larger binary PLY and uncompressed binary PCD files are read twice in batches of rows, with five differences:
 ///
 ///   - points whose normal is zero or NaN are dropped, not repaired,
 ///   - missing areas are estimated a few tiles at a time (all areas, if some are negative or NaN),
 ///   - ids that do not ascend are replaced by row numbers,
-///   - the orientation of normals is not compared with a viewpoint.
+///   - the orientation of normals is not compared with a viewpoint,
+///   - noise that the file does not state is not estimated: it is 0.
 ///
 /// Throws as load_scene and TileWriter; Error(content) for a cloud without normals that must be read in batches.
 PreparedTiles prepare_tiles(const std::string& path, const std::string& output,

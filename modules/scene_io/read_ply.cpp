@@ -130,6 +130,7 @@ RawCloud read_ply(const std::string& path, const ReadOptions& options) {
   RawCloud raw;
   raw.path = path;
   raw.tags = header.tags;
+  if (!raw.tags.system.empty()) raw.meaning.system = {raw.tags.system, MeaningOrigin::file};
   raw.format = "PLY " + header.encoding;
   raw.width = header.vertex().count;
   if (raw.width >= std::numeric_limits<std::uint32_t>::max())

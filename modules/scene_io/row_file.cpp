@@ -48,6 +48,7 @@ RawCloud raw_of(const RowFile& file) {
   RawCloud raw;
   raw.path = file.path, raw.format = file.format;
   raw.tags = file.tags, raw.meaning = file.meaning, raw.notes = file.notes;
+  if (!raw.tags.system.empty()) raw.meaning.system = {raw.tags.system, MeaningOrigin::file};
   raw.viewpoint = file.viewpoint;
   raw.width = raw.points_in_file = file.rows;
   for (const RowTable::Column& column : file.columns) raw.fields.push_back({column.name, name_of(column.type)});

@@ -87,7 +87,7 @@ SceneColumns columns_of(const SceneColumns& columns, std::span<const std::uint32
                         std::span<const std::uint32_t> kept) {
   std::unordered_map<std::uint32_t, std::size_t> row_of;
   for (std::size_t i = 0; i < ids.size(); ++i) row_of[ids[i]] = i;
-  SceneColumns part{columns.material, {}};
+  SceneColumns part{columns.material, {}, columns.system};
   for (const SceneColumn& column : columns.others) {
     SceneColumn& of_kept = part.others.emplace_back(SceneColumn{column.name, column.type, {}});
     const auto size = static_cast<std::ptrdiff_t>(size_of(type_of(column)));

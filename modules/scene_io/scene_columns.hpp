@@ -18,6 +18,7 @@ struct SceneColumn {
 struct SceneColumns {
   std::string material = "material";  ///< name of the column of materials
   std::vector<SceneColumn> others{};
+  std::string system{};      ///< coordinate system of the world, as FileMeaning::system; empty: unknown
   bool heights = false;      ///< the points are those of a height field, with the surface between them
   bool own_normals = false;  ///< the surface has the normals of the points, not of its triangles
 };

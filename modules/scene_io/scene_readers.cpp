@@ -110,6 +110,9 @@ LoadedScene load_all_tiles(const std::string& path, const LoadOptions& options) 
   loaded.report.format = "insonify tiles";
   loaded.report.points_read = loaded.scene.size();
   loaded.report.materials_found = true;
+  if (const std::string& system = tiled.info().system; !system.empty())
+    loaded.report.meaning.system = {system, MeaningOrigin::file};
+  loaded.columns.system = tiled.info().system;
   return loaded;
 }
 

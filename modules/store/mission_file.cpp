@@ -41,12 +41,15 @@ void read_trajectory(const std::string& path, const TomlValue& table, const Miss
   if (m.trajectory.empty() != along_way)
     fail_in_file(path, table.line, "trajectory: must have file, or waypoints_m and speed_m_s");
   Trajectory& trajectory = m.mission.trajectory;
+  if (along_way && t.max_gap > 0)
+    fail_in_file(path, table.line, "trajectory.max_gap_s: is of a file; a way along waypoints has no gaps");
   if (along_way)
     at_line(path, table.line, [&] { trajectory = waypoint_trajectory(t.way); });
   else
     trajectory =
         lower_case(m.trajectory).ends_with(".csv") ? load_trajectory(m.trajectory) : load_tum_trajectory(m.trajectory);
   for (double& time : trajectory.time) time += t.time_offset;
+  if (!along_way) m.mission.max_gap = t.max_gap > 0 ? t.max_gap : gap_of(trajectory);
   if (t.ned)
     for (Pose& pose : trajectory.pose) pose = from_ned(pose);
   at_line(path, table.line, [&] { require_valid(trajectory, "mission"); });

@@ -89,6 +89,11 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
        "poses of the vehicle: a CSV file ([formats.md](formats.md)), or a TUM file if the extension is not `.csv`"},
       {"trajectory", "frame", "", word(t.ned, frames), "axes of the file"},
       {"trajectory", "time_offset_s", "s", number(t.time_offset), "time that is added to all times of the file"},
+      {"trajectory", "max_gap_s", "s", number(given(t.max_gap), positive),
+       "entries of the file that are farther apart than this leave a gap: no pings are sent there, which `survey` "
+       "notes; "
+       "across shorter intervals the vehicle moves in a straight line. Default: ten times the median interval of the "
+       "file, at least 5 s"},
       {"trajectory", "waypoints_m", "m", points(given(t.way.points)),
        "points of a way that replaces the file. The vehicle follows the way at constant speed from time 0, level and "
        "looking ahead. Arcs blend the corners and take at most half of each leg"},

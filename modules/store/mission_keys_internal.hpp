@@ -12,8 +12,8 @@ namespace insonify {
 /// Values of a mission file that a Mission stores in another form, and the values of one head and one leg.
 struct MissionTables {
   Anchor anchor{};
-  bool ned = false;  ///< frame of the trajectory's file
-  double time_offset = 0;
+  bool ned = false;                     ///< frame of the trajectory's file
+  double time_offset = 0, max_gap = 0;  ///< 0: not given
   Waypoints way{};
   NavigationNoise noise{};
   MissionHead head{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -86,8 +87,29 @@ void require_valid_leg(const Mission& mission, std::size_t i, const char* who) {
       fail(ErrorKind::argument, item, ": heads: there is no head '", name, "'");
 }
 
+double gap_of(const Trajectory& trajectory) {
+  constexpr double times_usual = 10, least_gap = 5;
+  constexpr std::size_t fewest_entries = 4;
+  if (trajectory.time.size() < fewest_entries) return std::numeric_limits<double>::infinity();
+  std::vector<double> apart(trajectory.time.size() - 1);
+  for (std::size_t i = 0; i < apart.size(); ++i) apart[i] = trajectory.time[i + 1] - trajectory.time[i];
+  const auto middle = apart.begin() + static_cast<std::ptrdiff_t>(apart.size() / 2);
+  std::nth_element(apart.begin(), middle, apart.end());
+  return std::max(least_gap, times_usual * *middle);
+}
+
+std::optional<TrajectoryGap> gap_at(const Trajectory& trajectory, double time, double max_gap) {
+  const std::vector<double>& t = trajectory.time;
+  const auto after = std::upper_bound(t.begin(), t.end(), time);
+  if (after == t.begin() || after == t.end()) return {};
+  const TrajectoryGap gap{*std::prev(after), *after};
+  if (!(gap.to - gap.from > max_gap) || time == gap.from) return {};
+  return gap;
+}
+
 void require_valid(const Mission& mission, const char* who) {
   require_valid(mission.trajectory, who);
+  if (!(mission.max_gap > 0)) fail(ErrorKind::argument, who, ": max_gap = ", mission.max_gap, " s, must be > 0");
   if (mission.heads.empty()) fail(ErrorKind::argument, who, ": no head, must have at least one");
   for (std::size_t i = 0; i < mission.heads.size(); ++i) require_valid_head(mission, i, who);
   for (std::size_t i = 0; i < mission.legs.size(); ++i) require_valid_leg(mission, i, who);

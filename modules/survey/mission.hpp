@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,8 @@ struct Mission {
   std::vector<MissionHead> heads;
   std::vector<MissionLeg> legs;   ///< in the order of time; empty: one over the whole trajectory
   NavigationErrors navigation{};  ///< differences of the stored poses from those of the trajectory
+  /// There are no pings between entries of the trajectory that are farther apart than this [s].
+  double max_gap = std::numeric_limits<double>::infinity();
 };
 
 /// Returns whether a head or leg, and with it a folder, may have this name: letters, digits, '-', '_' and '.', which is
@@ -62,6 +65,17 @@ void require_valid_head(const Mission& mission, std::size_t i, const char* who);
 /// Throws Error(argument) unless leg `i` lies within the trajectory, after the legs before it, has a name of its own,
 /// and names heads of the mission.
 void require_valid_leg(const Mission& mission, std::size_t i, const char* who);
+
+/// Returns the distance of entries from which on a recorded trajectory has a gap [s]: ten times the median distance, at
+/// least 5 s; infinity for fewer than four entries.
+double gap_of(const Trajectory& trajectory);
+
+/// An interval without entries of a trajectory [s].
+struct TrajectoryGap {
+  double from = 0, to = 0;
+};
+/// Returns the gap in which a time lies, at neither end: two entries farther apart than `max_gap` [s]; else nothing.
+std::optional<TrajectoryGap> gap_at(const Trajectory& trajectory, double time, double max_gap);
 
 /// Throws Error(argument) unless trajectory, heads and legs are valid and there is at least one head.
 void require_valid(const Mission& mission, const char* who);

@@ -130,7 +130,7 @@ void add_pings(const Mission& mission, std::size_t h, const MissionLeg& leg, std
       ping.sweep = sweep + step / turn.length();
       ping.scan_angle = turn.angle(step);
     }
-    pings.push_back(ping);
+    if (!gap_at(mission.trajectory, ping.time, mission.max_gap)) pings.push_back(ping);
   }
 }
 
@@ -169,7 +169,8 @@ std::vector<SurveyPing> survey_pings(const Mission& mission) {
     for (const MissionLeg& leg : mission.legs.empty() ? whole : mission.legs) add_pings(mission, h, leg, pings, first);
     require_apart(mission.heads[h], pings, first);
   }
-  if (pings.empty()) fail(ErrorKind::argument, "survey_pings: no head pings on any leg");
+  if (pings.empty())
+    fail(ErrorKind::argument, "survey_pings: no head pings on any leg outside of gaps of the trajectory");
   return pings;
 }
 

@@ -43,14 +43,14 @@ class LoadedForest : public LoadedLevels {
     while (levels.node.size() <= node) load_group();
   }
   void need_surfel(std::size_t surfel) override {
-    if (scene.size() == 0) resize(scene, forest_.rows), loaded_.assign(forest_.tiles, false);
+    if (scene.size() == 0) resize(scene, forest_.rows, columns_.noisy()), loaded_.assign(forest_.tiles, false);
     const auto tiles = std::span(directory_.tiles).subspan(forest_.first_tile, forest_.tiles);
     const auto after = std::partition_point(
         tiles.begin(), tiles.end(), [&](const TileEntry& tile) { return tile.first <= forest_.first_row + surfel; });
     const auto t = static_cast<std::size_t>(after - tiles.begin()) - 1;
     if (loaded_[t]) return;
     loaded_[t] = true;
-    bytes_ += tiles[t].count * surfel_bytes;
+    bytes_ += tiles[t].count * columns_.surfel_bytes();
     read_tile(columns_, directory_, forest_.first_tile + t, reference_, scene, tiles[t].first - forest_.first_row);
   }
 
@@ -63,8 +63,11 @@ class LoadedForest : public LoadedLevels {
                          bytes_in(nodes));
     columns_.file().read(directory_.children_begin + (forest_.first_child + first_child) * sizeof(std::uint32_t),
                          bytes_in(children));
-    bytes_ += bytes_in(nodes).size() + bytes_in(children).size();
-    const std::array<std::span<char>, 2> bytes{bytes_in(nodes), bytes_in(children)};
+    std::vector<float> noise(columns_.noisy() ? nodes.size() : 0);
+    columns_.file().read(directory_.node_noise_begin + (forest_.first_node + first_node) * sizeof(float),
+                         bytes_in(noise));
+    const std::array<std::span<char>, 3> bytes{bytes_in(nodes), bytes_in(children), bytes_in(noise)};
+    for (const std::span<char> each : bytes) bytes_ += each.size();
     if (checksum_of(bytes) != forest_.checksum[g])
       fail(ErrorKind::content, directory_.info.path, ": level ", g, " of the tiles from ", forest_.first_tile,
            " on is damaged: its checksum is wrong; copy or make the file again");
@@ -77,7 +80,11 @@ class LoadedForest : public LoadedLevels {
       }
     levels.child.insert(levels.child.end(), children.begin(), children.end());
     const Vector3d offset = vector_in(forest_.reference) - reference_;
-    for (const TileNode& node : nodes) add_node(unpacked(node, offset), g);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      DetailNode node = unpacked(nodes[k], offset);
+      if (!noise.empty()) node.noise = noise[k];
+      add_node(node, g);
+    }
   }
 
   /// Adds a node of group `g`. Nodes and rows are a forest: each has one parent, in a coarser group, unless it is a root.

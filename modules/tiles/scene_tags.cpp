@@ -26,6 +26,13 @@ std::string exact(double value) {
   return std::string(text.data(), end);
 }
 
+/// Whether `json` is a text; returns it.
+bool is_json_text(std::string_view json, std::string& text) {
+  const nlohmann::json value = nlohmann::json::parse(json, nullptr, false);
+  if (value.is_string()) text = value.get<std::string>();
+  return value.is_string();
+}
+
 }  // namespace
 
 std::string json_text(const std::string& text) {
@@ -71,11 +78,14 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
   } else if (key == "material_field") {
     if (!rest.empty()) rest.remove_prefix(1);
     tags.material_field = std::string(rest);
+  } else if (key == "system") {
+    if (!is_json_text(rest, tags.system)) bad();
   } else if (key == "column") {
     const std::string_view name = take_word(rest);
-    const nlohmann::json meant = nlohmann::json::parse(rest, nullptr, false);
-    if (!meant.is_string()) bad();
-    tags.columns.emplace_back(name, meant.get<std::string>());
+    if (std::string meant; is_json_text(rest, meant))
+      tags.columns.emplace_back(name, meant);
+    else
+      bad();
   } else if (key == "material") {
     std::size_t index = 0;
     Material material;
@@ -103,11 +113,12 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
   }
 }
 
-std::vector<std::string> tag_lines(const SceneCloud& scene) {
+std::vector<std::string> tag_lines(const SceneCloud& scene, const std::string& system) {
   std::vector<std::string> lines = {"insonify scene 1"};
   lines.push_back("insonify origin " + exact(scene.origin.x()) + " " + exact(scene.origin.y()) + " " +
                   exact(scene.origin.z()));
   lines.push_back(scene.normals_oriented ? "insonify normals oriented" : "insonify normals unoriented");
+  if (!system.empty()) lines.push_back("insonify system " + json_text(system));
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     std::string name = scene.materials[m].name;
     for (char& c : name) {

@@ -20,6 +20,7 @@ struct SceneTags {
   std::optional<Eigen::Vector3d> origin;
   std::vector<Material> materials;
   std::string material_field;  ///< name of the column of materials; empty: not stated
+  std::string system;          ///< coordinate system of the world; empty: not stated
   bool heights = false;        ///< points of a height field, with the surface between them
   bool own_normals = false;    ///< the surface has the normals of the points
   std::vector<std::pair<std::string, std::string>> columns;  ///< name in the file, and the one that it stands for
@@ -37,7 +38,7 @@ std::string utf8_text(const std::string& text);
 
 /// Parses a comment line (without its "comment " or "# ") if save_scene wrote it; `path` is used in messages.
 void read_tag(const std::string& path, std::string_view line, SceneTags& tags);
-/// Returns the comment lines of a scene, without "comment " or "# ".
-std::vector<std::string> tag_lines(const SceneCloud& scene);
+/// Returns the comment lines of a scene in a coordinate system (empty: unknown), without "comment " or "# ".
+std::vector<std::string> tag_lines(const SceneCloud& scene, const std::string& system);
 
 }  // namespace insonify

@@ -26,7 +26,7 @@ double halo_of(const TileEntry& tile) {
 // Appends the surfels of a tile relative to `middle`.
 void append(const ColumnFile& columns, const TileEntry& tile, const Vector3d& middle, SceneCloud& all) {
   const std::size_t first = all.size();
-  resize(all, first + tile.count);
+  resize(all, first + tile.count, columns.noisy());
   columns.read(tile.first, rows_of(all, first, tile.count));
   const Vector3d offset = vector_in(tile.reference) - middle;
   if (offset.isZero(0)) return;
@@ -51,7 +51,7 @@ void append_halo(const ColumnFile& columns, const std::vector<TileEntry>& tiles,
 // Writes areas to the file and updates `tile`.
 void write_areas(ColumnFile& columns, std::span<const float> areas, TileEntry& tile) {
   SceneCloud rows;
-  resize(rows, tile.count);
+  resize(rows, tile.count, columns.noisy());
   columns.read(tile.first, rows_of(rows, 0, tile.count));
   rows.area.assign(areas.begin(), areas.end());
   columns.write(tile.first, rows_of(rows, 0, tile.count));

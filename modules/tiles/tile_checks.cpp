@@ -85,6 +85,7 @@ void require_values(const TileDirectory& directory, std::uint64_t number, const 
   require_size("extent", node.extent);
   require_size("thickness", node.thickness);
   require_size("cell", node.cell);
+  require_size("noise", node.noise);
   if (node.children > 0 && node.cell == 0) refuse("cell", {&node.cell, 1}, "> 0");
   for (const float n : node.normals)
     if (!(std::abs(n) <= 1.01F)) refuse("normals", node.normals, "products of unit vectors");

@@ -15,10 +15,12 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int64_t newest_version = 2;  // 1 was not HDF5
+constexpr std::int64_t newest_version = 3;  // 1 was not HDF5, 2 had neither noise nor coordinate systems
 constexpr const char* format_text = "insonify tiles";
 constexpr const char* old_magic = "insotile";
 constexpr DatasetName node_name{"/node", "", "levels of detail: a node stands for its children"};
+constexpr DatasetName node_noise_name{"/node_noise", "m",
+                                      "of the nodes: root of the mean square of their surfels' noise"};
 constexpr DatasetName child_name{"/child", "", "rows and nodes below nodes, numbered within their forest"};
 constexpr DatasetName forest_name{"/forest", "", "consecutive tiles with their levels of detail"};
 constexpr DatasetName tile_name{"/tile", "m, m, m, m^2, 1, 1, 1", "consecutive surfels and the ball that holds them"};
@@ -29,9 +31,12 @@ constexpr std::array<DatasetName, tile_columns> column_names = {{
     {"/area", "m^2", "of the surface for which the surfel stands"},
     {"/id", "", "number of the surfel, to which its speckle is bound"},
     {"/material", "", "index into the materials"},
+    {"/noise", "m", "standard deviation of the surfel across the surface"},
 }};
 
-hid_t type_of_column(std::size_t c) { return c < 3 ? H5T_IEEE_F32LE : c == 3 ? H5T_STD_U32LE : H5T_STD_U16LE; }
+hid_t type_of_column(std::size_t c) {
+  return c < 3 || c == noise_column ? H5T_IEEE_F32LE : c == 3 ? H5T_STD_U32LE : H5T_STD_U16LE;
+}
 
 Extent extent_of_column(std::size_t c, std::uint64_t rows) { return c < 2 ? Extent{rows, 3} : Extent{rows}; }
 
@@ -127,12 +132,12 @@ struct Found {
     std::uint64_t count, begin;
   };
   std::uint64_t surfels = 0;
-  Table tiles{}, forests{}, nodes{}, children{};
+  Table tiles{}, forests{}, nodes{}, children{}, node_noise{};
   ColumnOffsets begin{};
 };
 template <typename Stream>
 void pass(Stream& stream, Found& f) {
-  stream(f.facts, f.surfels, f.tiles, f.forests, f.nodes, f.children, f.begin);
+  stream(f.facts, f.surfels, f.tiles, f.forests, f.nodes, f.children, f.node_noise, f.begin);
 }
 
 Found find_all(const FileContext& place, hid_t file) {
@@ -152,7 +157,8 @@ Found find_all(const FileContext& place, hid_t file) {
   facts.wide = read_unsigned(place, file, "wide");
   facts.checksum = read_unsigned(place, file, "checksum");
   found.surfels = extent_of(place, open_dataset(place, file, column_names[0]), "/point", 2)[0];
-  for (std::size_t c = 0; c < tile_columns; ++c) {
+  const bool noisy = H5Lexists(file, column_names[noise_column].path, H5P_DEFAULT) > 0;
+  for (std::size_t c = 0; c < (noisy ? tile_columns : noise_column); ++c) {
     found.begin[c] = find_plain(place, file, column_names[c], type_of_column(c), extent_of_column(c, found.surfels));
   }
   const auto table = [&](const DatasetName& name, hid_t type) {
@@ -163,6 +169,7 @@ Found find_all(const FileContext& place, hid_t file) {
   found.forests = table(forest_name, forest_type(place));
   found.nodes = table(node_name, node_type(place));
   found.children = table(child_name, H5T_STD_U32LE);
+  if (noisy) found.node_noise = table(node_noise_name, H5T_IEEE_F32LE);
   return found;
 }
 
@@ -180,13 +187,13 @@ void require_new_format(const std::string& path) {
 
 }  // namespace
 
-ColumnOffsets create_columns(const std::string& path, const std::string& name, std::uint64_t rows) {
+ColumnOffsets create_columns(const std::string& path, const std::string& name, std::uint64_t rows, bool noisy) {
   const QuietErrors quiet;
   const FileContext place{path, ErrorKind::file};
   ColumnOffsets begin{};
   write_checked(place, [&] {
     const Handle file = create_file(place, name);
-    for (std::size_t c = 0; c < tile_columns; ++c)
+    for (std::size_t c = 0; c < (noisy ? tile_columns : noise_column); ++c)
       begin[c] = create_plain(place, file, column_names[c], type_of_column(c), extent_of_column(c, rows));
   });
   return begin;
@@ -196,7 +203,7 @@ void add_directory(const std::string& path, const std::string& name, const TileD
                    const LevelFiles& levels) {
   const QuietErrors quiet;
   const FileContext place{path, ErrorKind::file};
-  std::uint64_t nodes = 0, children = 0;
+  std::uint64_t nodes = 0, children = 0, noise = 0;
   const TiledSceneInfo& info = directory.info;
   SceneCloud facts_of_scene;
   facts_of_scene.origin = info.origin;
@@ -204,13 +211,14 @@ void add_directory(const std::string& path, const std::string& name, const TileD
   facts_of_scene.normals_oriented = info.normals_oriented;
   Facts facts{
       array_of(info.origin), array_of(info.box.min), array_of(info.box.max), info.total_area, {}, directory.wide, 0};
-  for (const std::string& line : tag_lines(facts_of_scene)) facts.scene += line + "\n";
+  for (const std::string& line : tag_lines(facts_of_scene, info.system)) facts.scene += line + "\n";
   write_checked(place, [&] {
     const Handle file(place.checked(H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "cannot be written"), H5Fclose);
     write_table(place, file, tile_name, tile_type(place), directory.tiles);
     write_table(place, file, forest_name, forest_type(place), directory.forests);
     nodes = create_plain(place, file, node_name, node_type(place), {levels.node_count});
     children = create_plain(place, file, child_name, H5T_STD_U32LE, {levels.child_count});
+    if (info.noisy) noise = create_plain(place, file, node_noise_name, H5T_IEEE_F32LE, {levels.node_count});
     write_attribute(place, file, "format", std::string(format_text));
     write_attribute(place, file, "version", newest_version);
     write_attribute(place, file, "origin", facts.origin);
@@ -224,6 +232,7 @@ void add_directory(const std::string& path, const std::string& name, const TileD
   BinaryFile bytes(name, BinaryFile::Mode::update);
   bytes.copy(nodes, levels.nodes, 0, levels.node_count * sizeof(TileNode));
   bytes.copy(children, levels.children, 0, levels.child_count * sizeof(std::uint32_t));
+  if (info.noisy) bytes.copy(noise, levels.noise, 0, levels.node_count * sizeof(float));
 }
 
 TileDirectory read_directory(const std::string& path) {
@@ -253,6 +262,8 @@ TileDirectory read_directory(const std::string& path) {
   info.total_area = facts.total_area;
   info.normals_oriented = tags.oriented;
   info.materials = tags.materials;
+  info.system = tags.system;
+  info.noisy = found.begin[noise_column] > 0;
   info.checksum = facts.checksum;
   info.whole.surfels = found.surfels;
   if (info.surfels > 0) info.whole.mean_spacing = std::sqrt(info.total_area / static_cast<double>(info.surfels));
@@ -263,6 +274,8 @@ TileDirectory read_directory(const std::string& path) {
   directory.begin = found.begin;
   directory.nodes_begin = found.nodes.begin;
   directory.children_begin = found.children.begin;
+  directory.node_noise_begin = found.node_noise.begin;
+  require_sound(!info.noisy || found.node_noise.count == found.nodes.count, path, "not each node has its noise");
   require_whole(directory, found.nodes.count, found.children.count);
   return directory;
 }

@@ -8,7 +8,7 @@
 namespace insonify {
 namespace {
 
-constexpr std::array<std::size_t, tile_columns> column_bytes = {12, 12, 4, 4, 2};
+constexpr std::array<std::size_t, tile_columns> column_bytes = {12, 12, 4, 4, 2, 4};
 
 }  // namespace
 
@@ -27,15 +27,17 @@ TileRows rows_of(SceneCloud& cloud, std::size_t first, std::size_t count) {
     const std::size_t size = sizeof(values[0]);
     return bytes_in(values).subspan(first * size, count * size);
   };
-  return {bytes(cloud.point), bytes(cloud.normal), bytes(cloud.area), bytes(cloud.id), bytes(cloud.material)};
+  return {bytes(cloud.point), bytes(cloud.normal),   bytes(cloud.area),
+          bytes(cloud.id),    bytes(cloud.material), cloud.noise.empty() ? std::span<char>() : bytes(cloud.noise)};
 }
 
-void resize(SceneCloud& cloud, std::size_t count) {
+void resize(SceneCloud& cloud, std::size_t count, bool noisy) {
   cloud.point.resize(count);
   cloud.normal.resize(count);
   cloud.area.resize(count);
   cloud.id.resize(count);
   cloud.material.resize(count);
+  cloud.noise.resize(noisy ? count : 0);
 }
 
 std::uint64_t checksum_of(std::span<const std::span<char>> arrays) {
@@ -45,21 +47,22 @@ std::uint64_t checksum_of(std::span<const std::span<char>> arrays) {
 }
 
 void ColumnFile::read(std::uint64_t first, const TileRows& rows) const {
-  for (std::size_t c = 0; c < tile_columns; ++c) file_.read(begin_[c] + first * column_bytes[c], rows[c]);
+  for (std::size_t c = 0; c < columns_of_file(); ++c) file_.read(begin_[c] + first * column_bytes[c], rows[c]);
 }
 
 void ColumnFile::write(std::uint64_t first, const TileRows& rows) {
-  for (std::size_t c = 0; c < tile_columns; ++c) file_.write(begin_[c] + first * column_bytes[c], rows[c]);
+  for (std::size_t c = 0; c < columns_of_file(); ++c) file_.write(begin_[c] + first * column_bytes[c], rows[c]);
 }
 
 void ColumnFile::copy(const ColumnFile& from, std::uint64_t count) {
-  for (std::size_t c = 0; c < tile_columns; ++c)
+  for (std::size_t c = 0; c < columns_of_file(); ++c)
     file_.copy(begin_[c], from.file_, from.begin_[c], count * column_bytes[c]);
 }
 
-ColumnOffsets packed_columns(std::uint64_t rows) {
+ColumnOffsets packed_columns(std::uint64_t rows, bool noisy) {
   ColumnOffsets begin{};
-  for (std::size_t c = 1; c < tile_columns; ++c) begin[c] = begin[c - 1] + rows * column_bytes[c - 1];
+  for (std::size_t c = 1; c < (noisy ? tile_columns : noise_column); ++c)
+    begin[c] = begin[c - 1] + rows * column_bytes[c - 1];
   return begin;
 }
 

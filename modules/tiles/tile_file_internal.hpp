@@ -50,22 +50,24 @@ struct TileForest {
 static_assert(sizeof(TileForest) == 304);
 /// Nodes and children that wait for the end of the file.
 struct LevelFiles {
-  BinaryFile nodes, children;
+  BinaryFile nodes, children, noise;  ///< noise: of the nodes, if the surfels have it
   std::uint64_t node_count = 0, child_count = 0;
   explicit LevelFiles(const std::string& path)
-      : nodes(path, BinaryFile::Mode::nameless), children(path, BinaryFile::Mode::nameless) {}
+      : nodes(path, BinaryFile::Mode::nameless),
+        children(path, BinaryFile::Mode::nameless),
+        noise(path, BinaryFile::Mode::nameless) {}
 };
 
 inline Eigen::Vector3d vector_in(const double (&xyz)[3]) { return {xyz[0], xyz[1], xyz[2]}; }
 
-constexpr std::size_t tile_columns = 5, surfel_bytes = 34;
+constexpr std::size_t tile_columns = 6, noise_column = 5;
 /// The bytes of some rows in each column: points (3 float32), normals (3 float32), areas (float32), ids (uint32),
-/// materials (uint16).
+/// materials (uint16), noise (float32; empty for a scene without).
 using TileRows = std::array<std::span<char>, tile_columns>;
 /// Returns the bytes of surfels of a cloud.
 TileRows rows_of(SceneCloud& cloud, std::size_t first, std::size_t count);
-/// Gives a cloud that many surfels, of undefined values.
-void resize(SceneCloud& cloud, std::size_t count);
+/// Gives a cloud that many surfels, of undefined values, with noise or without.
+void resize(SceneCloud& cloud, std::size_t count, bool noisy);
 /// Continues a checksum h: for each 8 bytes w, the last ones padded with zeros, h = (h xor w) * 0x9e3779b97f4a7c15,
 /// then h = h xor (h >> 32).
 constexpr std::uint64_t checksum_start = 0xcbf29ce484222325ull;
@@ -73,7 +75,7 @@ std::uint64_t add_to_checksum(std::span<const char> bytes, std::uint64_t hash);
 /// Returns the checksum of arrays, one after another, from checksum_start on. It finds damage, not forgery.
 std::uint64_t checksum_of(std::span<const std::span<char>> arrays);
 
-/// Where the columns begin in a file [bytes].
+/// Where the columns begin in a file [bytes]; 0 for noise: the file has none.
 using ColumnOffsets = std::array<std::uint64_t, tile_columns>;
 /// Columns in a file, for several threads.
 class ColumnFile {
@@ -85,9 +87,14 @@ class ColumnFile {
   void write(std::uint64_t first, const TileRows& rows);
   /// Copies the first `count` rows of another file.
   void copy(const ColumnFile& from, std::uint64_t count);
+  /// Returns whether surfels have noise.
+  bool noisy() const { return begin_[noise_column] > 0; }
+  std::size_t surfel_bytes() const { return noisy() ? 38 : 34; }
   const BinaryFile& file() const { return file_; }
 
  private:
+  std::size_t columns_of_file() const { return noisy() ? tile_columns : noise_column; }
+
   BinaryFile file_;
   ColumnOffsets begin_;
 };
@@ -99,13 +106,13 @@ struct TileDirectory {
   std::vector<TileEntry> tiles;
   std::vector<TileForest> forests;
   ColumnOffsets begin{};
-  std::uint64_t nodes_begin = 0, children_begin = 0;
+  std::uint64_t nodes_begin = 0, children_begin = 0, node_noise_begin = 0;
 };
 
 /// Offsets of columns of `rows` rows, one after another.
-ColumnOffsets packed_columns(std::uint64_t rows);
+ColumnOffsets packed_columns(std::uint64_t rows, bool noisy);
 /// Creates the file `name` with columns that are still to be written; errors name `path`.
-ColumnOffsets create_columns(const std::string& path, const std::string& name, std::uint64_t rows);
+ColumnOffsets create_columns(const std::string& path, const std::string& name, std::uint64_t rows, bool noisy);
 /// Adds directory and levels to a file whose columns are written.
 void add_directory(const std::string& path, const std::string& name, const TileDirectory& directory,
                    const LevelFiles& levels);

@@ -29,7 +29,7 @@ std::vector<TileForest> plan_forests(const ColumnFile& columns, const TileDirect
   std::array<std::int64_t, 3> last{};
   const auto cube_at = [&](const TileEntry& tile, std::uint64_t row) {
     SceneCloud one;
-    resize(one, 1);
+    resize(one, 1, columns.noisy());
     columns.read(row, rows_of(one, 0, 1));
     return cube_of(vector_in(tile.reference) + one.point[0].cast<double>(), edge);
   };
@@ -65,6 +65,7 @@ std::vector<TileForest> plan_forests(const ColumnFile& columns, const TileDirect
 struct PackedLevels {
   std::vector<TileNode> nodes;
   std::vector<std::uint32_t> children;
+  std::vector<float> noise;  ///< of the nodes; empty if the surfels have none
 };
 
 TileNode packed(const DetailNode& n, std::uint32_t id) {
@@ -137,12 +138,15 @@ class LevelPacker {
       node.first_child = static_cast<std::uint32_t>(packed_.children.size());
       for (std::uint32_t k = 0; k < node.children; ++k)
         packed_.children.push_back(number_of(levels_.child[children + k]));
-      packed_.nodes.push_back(packed(node, surfels_.id[node.nearest]));
+      add(node, surfels_.id[node.nearest]);
     }
     forest.node_end[g] = static_cast<std::uint32_t>(packed_.nodes.size());
     forest.child_end[g] = static_cast<std::uint32_t>(packed_.children.size());
-    const std::array<std::span<char>, 2> bytes{bytes_in(packed_.nodes).subspan(first_node * sizeof(TileNode)),
-                                               bytes_in(packed_.children).subspan(first_child * sizeof(std::uint32_t))};
+    std::span<char> noise = bytes_in(packed_.noise);
+    if (!noise.empty()) noise = noise.subspan(first_node * sizeof(float));
+    const std::array<std::span<char>, 3> bytes{bytes_in(packed_.nodes).subspan(first_node * sizeof(TileNode)),
+                                               bytes_in(packed_.children).subspan(first_child * sizeof(std::uint32_t)),
+                                               noise};
     forest.checksum[g] = checksum_of(bytes);
   }
   void write_leaf(std::uint32_t i) {
@@ -152,7 +156,12 @@ class LevelPacker {
     node.area = node.own_area = surfels_.area[i];
     node.material = surfels_.material[i];
     node.first_child = static_cast<std::uint32_t>(packed_.children.size());
-    packed_.nodes.push_back(packed(node, surfels_.id[i]));
+    if (!surfels_.noise.empty()) node.noise = surfels_.noise[i];
+    add(node, surfels_.id[i]);
+  }
+  void add(const DetailNode& node, std::uint32_t id) {
+    packed_.nodes.push_back(packed(node, id));
+    if (!surfels_.noise.empty()) packed_.noise.push_back(node.noise);
   }
   /// Number of a child in the file.
   std::uint32_t number_of(std::uint32_t index) const {
@@ -186,7 +195,7 @@ std::vector<TileForest> make_forests(const ColumnFile& columns, const TileDirect
       SceneCloud surfels;
       surfels.materials = directory.info.materials;
       surfels.normals_oriented = directory.info.normals_oriented;
-      resize(surfels, f.rows);
+      resize(surfels, f.rows, columns.noisy());
       for (std::size_t t = f.first_tile; t < f.first_tile + f.tiles; ++t)
         read_tile(columns, directory, t, vector_in(f.reference), surfels, directory.tiles[t].first - f.first_row);
       made[k] = LevelPacker(surfels, spacing).pack(f);
@@ -195,6 +204,7 @@ std::vector<TileForest> make_forests(const ColumnFile& columns, const TileDirect
       forests[begin + k].first_node = files.node_count, forests[begin + k].first_child = files.child_count;
       files.nodes.write(files.node_count * sizeof(TileNode), bytes_in(made[k].nodes));
       files.children.write(files.child_count * sizeof(std::uint32_t), bytes_in(made[k].children));
+      files.noise.write(files.node_count * sizeof(float), bytes_in(made[k].noise));
       files.node_count += made[k].nodes.size(), files.child_count += made[k].children.size();
     }
     progress(static_cast<double>(end) / static_cast<double>(forests.size()));

@@ -23,6 +23,7 @@ class ForestSource : public LevelSource {
   ForestSource(const ColumnFile& columns, const TileDirectory& directory, SceneCloud like,
                const InsonifiedRegion& region, double most);
   const SceneCloud& like() const override { return like_; }
+  bool noisy() const override { return columns_.noisy(); }
   std::size_t pieces() const override { return near_.size(); }
   std::unique_ptr<LoadedLevels> open(std::size_t piece) const override;
   void note(std::size_t taken) const override;

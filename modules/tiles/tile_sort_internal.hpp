@@ -17,11 +17,11 @@ namespace insonify {
 struct TileRecord {
   double place[3];  ///< [m], relative to the file's origin
   float normal[3];
-  float area;
+  float area, noise;
   std::uint32_t id;
   std::uint16_t material, unused;
 };
-static_assert(sizeof(TileRecord) == 48);
+static_assert(sizeof(TileRecord) == 56);
 
 /// Records in an unnamed temporary file with buffered writing.
 class RecordFile {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes a scene of any size as tiles of neighbouring surfels, in bounded memory: an external sort along a Morton curve.
-//   1. add              records of 48 bytes are appended to a nameless file beside the output
+//   1. add              records of 56 bytes are appended to a nameless file beside the output
 //   2. sort_along_curve the records' box is cut into up to 16^3 aligned cells, whose runs along the curve become parts of
 //                       a second file, and so on until a part fits into memory (tile_sort.cpp)
 //   3. write_group      a part is halved at the highest bit in which its places differ, as in building an octree, until at
@@ -77,6 +77,7 @@ void pack_tile(std::span<const PlacedRecord> records, bool wide, SceneCloud& row
     rows.area[first + k] = r.area;
     rows.id[first + k] = r.id;
     rows.material[first + k] = r.material;
+    if (!rows.noise.empty()) rows.noise[first + k] = r.noise;
     radius = std::max(radius, (reference + rows.point[first + k].cast<double>() - centre).norm());
     tile.largest_area = std::max(tile.largest_area, r.area);
   }
@@ -95,6 +96,7 @@ struct TileWriter::State {
   TileWriterOptions options;
   std::unique_ptr<RecordFile> waiting;
   Bounds box;                                    // relative to the origin
+  bool noisy = false;                            // a batch had noise; surfels of others have 0
   double total_area = 0, moved = 0, wanted = 1;  // moved, wanted: for the progress
   TileDirectory directory;
   TileReport report;
@@ -137,6 +139,7 @@ void TileWriter::add(const SceneCloud& batch, std::span<const Vector3d> places) 
     fail(ErrorKind::argument, "TileWriter: ", places.size(), " places for ", batch.size(), " surfels, must be as many");
   if (s.waiting->size() + batch.size() > std::numeric_limits<std::uint32_t>::max())
     fail(ErrorKind::content, s.path, ": more than 4294967295 surfels; divide the scene");
+  s.noisy = s.noisy || !batch.noise.empty();
   for (std::size_t i = 0; i < batch.size(); ++i) {
     if (batch.material[i] >= s.options.materials.size())
       fail(ErrorKind::content, "TileWriter: batch.material[", i, "] = ", batch.material[i],
@@ -145,6 +148,7 @@ void TileWriter::add(const SceneCloud& batch, std::span<const Vector3d> places) 
     Eigen::Map<Vector3d>(r.place) = places[i];
     Eigen::Map<Vector3f>(r.normal) = batch.normal[i];
     r.area = batch.area[i];
+    r.noise = batch.noise.empty() ? 0 : batch.noise[i];
     r.id = batch.id[i];
     r.material = batch.material[i];
     s.waiting->append(r);
@@ -169,7 +173,7 @@ void TileWriter::State::write_group(std::span<const PlacedRecord> group, ColumnF
   const std::size_t before = tiles.size();
   tiles.resize(before + parts.size());
   SceneCloud rows;
-  resize(rows, group.size());
+  resize(rows, group.size(), noisy);
   parallel_for(parts.size(), options.threads, [&](std::size_t p) {
     const auto first = static_cast<std::size_t>(parts[p].data() - group.data());
     pack_tile(parts[p], wide, rows, first, tiles[before + p]);
@@ -184,9 +188,9 @@ void TileWriter::State::write_columns(const std::string& name, LevelFiles& files
   const bool shrinks = options.drop_duplicates;  // then the length of the columns is known at last
   std::optional<ColumnFile> columns;
   if (shrinks)
-    columns.emplace(path, BinaryFile::Mode::nameless, packed_columns(most));
+    columns.emplace(path, BinaryFile::Mode::nameless, packed_columns(most, noisy));
   else
-    columns.emplace(name, BinaryFile::Mode::update, create_columns(path, name, most));
+    columns.emplace(name, BinaryFile::Mode::update, create_columns(path, name, most, noisy));
   const double sorting = options.estimate_areas ? 0.1 : 0.5, levels = 0.5;
   const auto count = static_cast<double>(most);
   double largest = 0;
@@ -210,7 +214,7 @@ void TileWriter::State::write_columns(const std::string& name, LevelFiles& files
   directory.forests = make_forests(*columns, directory, spacing, files, options.threads,
                                    [&](double part) { report_progress(levels + (1 - levels) * part); });
   if (shrinks)
-    ColumnFile(name, BinaryFile::Mode::update, create_columns(path, name, report.surfels))
+    ColumnFile(name, BinaryFile::Mode::update, create_columns(path, name, report.surfels, noisy))
         .copy(*columns, report.surfels);
 }
 
@@ -224,6 +228,8 @@ TileReport TileWriter::finish() {
   info.origin = s.options.origin;
   info.normals_oriented = s.options.normals_oriented;
   info.materials = s.options.materials;
+  info.system = s.options.system;
+  info.noisy = s.noisy;
   s.write_columns(pending.temporary(), levels);
   info.box = s.box;
   if (s.report.surfels > 0) info.box = {s.box.min + info.origin, s.box.max + info.origin};

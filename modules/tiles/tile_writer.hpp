@@ -19,6 +19,7 @@ struct TileWriterOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; points are stored relative to it
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;
+  std::string system{};                    ///< coordinate system of the world, as FileMeaning::system; empty: unknown
   bool drop_duplicates = false;            ///< keep only the first of surfels at one position
   bool estimate_areas = false;             ///< ignore given areas and estimate them from the neighbours (E15)
   std::size_t tile_surfels = 4096;         ///< largest number in one tile
@@ -35,7 +36,7 @@ struct TileReport {
 };
 
 /// Writes a .tiles file from batches of surfels in bounded memory. Surfels are stored in an unnamed temporary file in
-/// the output's folder (48 bytes each, temporarily twice). finish() sorts them by position and then renames the output.
+/// the output's folder (56 bytes each, temporarily twice). finish() sorts them by position and then renames the output.
 /// Before that, and after any failure, no file of that name exists and nothing else is left behind.
 class TileWriter {
  public:
@@ -57,7 +58,7 @@ class TileWriter {
   std::unique_ptr<State> state_;
 };
 
-/// Writes a whole scene as a .tiles file, with its origin and materials.
+/// Writes a whole scene as a .tiles file, with its origin, materials and noise.
 TileReport save_tiles(const std::string& path, const SceneCloud& scene, TileWriterOptions options = {});
 
 }  // namespace insonify

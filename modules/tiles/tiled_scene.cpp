@@ -33,6 +33,7 @@ void sort_by_id(SceneCloud& scene) {
   permute(scene.normal, order);
   permute(scene.area, order);
   permute(scene.material, order);
+  if (!scene.noise.empty()) permute(scene.noise, order);
   permute(scene.id, order);
 }
 
@@ -110,7 +111,7 @@ SceneCloud TiledScene::load(const TileSelection& selection, double memory, int t
     first.push_back(first.back() + s.tiles()[t].count);
   }
   SceneCloud scene = s.cloud_at(selection.origin);
-  resize(scene, first.back());
+  resize(scene, first.back(), s.columns.noisy());
   parallel_for(selection.tiles.size(), threads, [&](std::size_t k) {
     read_tile(s.columns, s.directory, selection.tiles[k], selection.origin - s.info().origin, scene, first[k]);
   });

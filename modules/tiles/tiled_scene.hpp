@@ -27,6 +27,8 @@ struct TiledSceneInfo {
   WholeScene whole;
   bool normals_oriented = true;
   std::vector<Material> materials;
+  std::string system;          ///< coordinate system of the world, as FileMeaning::system; empty: unknown
+  bool noisy = false;          ///< the surfels have noise
   std::uint64_t checksum = 0;  ///< of all that the file holds
 };
 

@@ -45,6 +45,12 @@ std::shared_ptr<const SceneCloud> scene_at(const ViewerData& data, std::size_t p
   return {std::shared_ptr<const void>(), &data.scene};
 }
 
+HeadPlace vehicle_place(const ViewerData& data, const HeadPlace& head) {
+  const Pose& mount = data.vehicle_from_head;
+  if (mount.isApprox(Pose::Identity(), 0)) return head;
+  return head_place(pose_of(head) * mount.inverse());
+}
+
 View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate) {
   if (!data.view) return {pose, fan, gate, {}};
   return {pose, fan, data.view->gate, data.view->sampling};

@@ -32,8 +32,9 @@ struct ViewerData {
   /// For a scene whose parts differ from ping to ping: returns the scene of a ping, in place of `scene`. Equal scenes
   /// are the same object. Surfels are numbered within the scene of the ping. Otherwise empty.
   std::function<std::shared_ptr<const SceneCloud>(std::size_t ping)> scene_of_ping{};
-  BeamFan fan;               ///< to inspect
-  RangeGate gate;            ///< to inspect
+  Pose vehicle_from_head = Pose::Identity();  ///< mounting of the head to inspect
+  BeamFan fan;                                ///< to inspect
+  RangeGate gate;                             ///< to inspect
   std::optional<View> view;  ///< sampling of the scene by a ping (resolve_ping), at any pose of the head;
                              ///< empty: sampling by fan and gate alone
 };
@@ -59,6 +60,9 @@ void require_viewable(const ViewerData& data, ViewerMode mode);
 
 /// Returns the view of the scene for a head at `pose` with this fan and gate.
 View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate);
+
+/// Returns the place of the vehicle of a head to inspect: the pose that `ping` takes, which mounts the head.
+HeadPlace vehicle_place(const ViewerData& data, const HeadPlace& head);
 
 /// Returns the unit of levels, with or without range compensation.
 std::string unit_of(const ViewerData& data, bool tvg);

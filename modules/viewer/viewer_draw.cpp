@@ -175,7 +175,8 @@ void ViewerWindow::draw_scene(ViewerPanel&, const PictureOptions& options) {
 std::string ViewerWindow::status_text() const {
   if (!notice_.empty()) return notice_;
   if (state_.mode == ViewerMode::inspect)
-    return pose_option(state_.head) + "   p prints it   arrows, PageUp, PageDown move, with shift they turn   h help";
+    return pose_option(vehicle_place(data_, state_.head)) +
+           "   p prints it   arrows, PageUp, PageDown move, with shift they turn   h help";
   const TrackPoint& place = data_.pings.place(state_.ping);
   std::string text = "ping " + std::to_string(state_.ping + 1) + " of " + std::to_string(extent_.pings);
   if (extent_.pings > 1) text += " at " + number_text(place.time, 0.01) + " s";

@@ -185,7 +185,7 @@ void ViewerWindow::answer(const KeyAnswer& answer) {
       break;
     }
     case ViewerRequest::print_pose:
-      say(pose_option(state_.head));
+      say(pose_option(vehicle_place(data_, state_.head)));
       break;
     case ViewerRequest::reset_cameras:
       if (scene_) scene_->reset_camera();

@@ -2,6 +2,7 @@
 // Whether the deviations of the soundings of echo sounders, whose only beam has no neighbours, are their errors.
 #include <optional>
 
+#include "acoustics/noise.hpp"
 #include "core/parallel.hpp"
 #include "returns/bottom_detection.hpp"
 #include "simulate/ping_simulator.hpp"
@@ -147,4 +148,21 @@ TEST(EchoSounder, deviations_of_a_ping2_are_its_errors) {
   expect_errors_as_predicted("flat", errors_of("ping2", 7, {0, 0, 12, 0.2}));
   expect_errors_as_predicted("sloping", errors_of("ping2", 7, {12, 0, 12, 0.2}));
   expect_errors_as_predicted("rough", errors_of("ping2", 5, {0, 0.05, 9, 0.1}));
+}
+
+// The floor of soundings against the noise that the head itself has in a beam.
+TEST(ThermalFloor, is_that_of_the_beams_of_all_presets_of_several_beams) {
+  std::size_t heads = 0;
+  double worst = 0;
+  for (const SonarFile& sonar : list_sonars()) {
+    if (beams_of(sonar.spec) < 2) continue;
+    const SonarHead head = make_head(sonar.spec, sound_speed(Water{}));
+    const double off =
+        thermal_floor_db(head.pulse, head.fan) - (thermal_noise_level_db(head.pulse) - array_gain_db(head));
+    ++heads, worst = std::max(worst, std::abs(off));
+    EXPECT_LT(std::abs(off), 2) << sonar.spec.name;
+  }
+  RecordProperty("worst_db", std::to_string(worst));
+  std::printf("  worst_db %.3g of %zu heads\n", worst, heads);
+  EXPECT_GT(heads, 30U);
 }

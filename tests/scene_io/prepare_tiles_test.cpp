@@ -3,6 +3,8 @@
 
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
+#include "simulate/simulate_ping.hpp"
+#include "support/heads.hpp"
 #include "support/test.hpp"
 #include "support/tile_parts.hpp"
 #include "test_files.hpp"
@@ -77,6 +79,91 @@ TEST(PrepareTiles, a_prepared_ply_or_pcd_comes_back_bit_by_bit) {
   const PreparedTiles prepared = expect_as_loaded(own_path("a.ply"));
   EXPECT_EQ(prepared.report.format, "PLY binary_little_endian");
   EXPECT_EQ(prepared.tiles.surfels, scene.size());
+}
+
+// Whether a column changes a ping is found out, not assumed.
+TEST(PrepareTiles, a_ping_of_the_tiles_has_the_bytes_of_that_of_the_cloud_for_every_column) {
+  const SonarHead head = small_head({});
+  const auto samples = [&](const SceneCloud& scene) {
+    return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0), {Water{}}).ping.pressure;
+  };
+  const SceneCloud base = make_built_in_scene("harbour", {.points = 20000});
+  const std::vector<std::pair<std::string, std::function<void(SceneCloud&)>>> columns = {
+      {"point",
+       [](SceneCloud& s) {
+         for (auto& p : s.point) p.z() += 0.25F;
+       }},
+      {"normal",
+       [](SceneCloud& s) {
+         for (auto& n : s.normal) n = (n + Eigen::Vector3f(0.2F, 0, 0)).normalized();
+       }},
+      {"area",
+       [](SceneCloud& s) {
+         for (auto& a : s.area) a *= 2;
+       }},
+      {"material",
+       [](SceneCloud& s) {
+         for (auto& m : s.material) m = 0;
+       }},
+      {"id",
+       [](SceneCloud& s) {
+         for (auto& id : s.id) id = 2 * id + 1;
+       }},
+      {"noise",
+       [](SceneCloud& s) {
+         for (std::size_t i = 0; i < s.size(); ++i) s.noise.push_back(i % 3 ? 0.3F : 0);
+       }},
+  };
+  const ComplexGridF before = samples(base);
+  for (const auto& [name, change] : columns) {
+    SceneCloud scene = base;
+    change(scene);
+    save_scene(own_path("column.ply"), scene);
+    const ComplexGridF of_cloud = samples(load_scene(own_path("column.ply")).scene);
+    EXPECT_FALSE((of_cloud == before).all()) << name;
+    for (const bool streamed : {true, false}) {
+      prepare_tiles(own_path("column.ply"), own_path("column.tiles"), streamed ? in_batches() : PrepareTilesOptions{});
+      EXPECT_TRUE((samples(load_all(own_path("column.tiles"))) == of_cloud).all()) << name << " " << streamed;
+    }
+  }
+}
+
+TEST(PrepareTiles, noise_of_no_number_is_taken_as_none_and_said) {
+  const std::string cloud = own_path("noise.ply");
+  SceneCloud scene = make_built_in_scene("plane", {.points = 100});
+  scene.noise.assign(scene.size(), 0.125F);
+  save_scene(cloud, scene);
+  std::string bytes = file_bytes(cloud);
+  bytes.replace(bytes.size() - 4, 4, bytes_of(-1.0F));  // noise is the last column
+  std::ofstream(cloud, std::ios::binary) << bytes;
+  const PreparedTiles prepared = prepare_tiles(cloud, own_path("noise.tiles"), in_batches());
+  EXPECT_THAT(prepared.report.notes, testing::Contains(HasSubstr("noise values were negative or NaN: taken as 0")));
+  const SceneCloud kept = load_all(own_path("noise.tiles"));
+  EXPECT_EQ(std::count(kept.noise.begin(), kept.noise.end(), 0.125F), 99);
+  EXPECT_EQ(std::count(kept.noise.begin(), kept.noise.end(), 0.0F), 1);
+}
+
+// From file to prepared cloud, to tiles, and back.
+TEST(PrepareTiles, the_coordinate_system_is_kept_by_all_prepared_files) {
+  const std::string system = "EPSG:32632 (WGS 84 / UTM zone 32N)";
+  SceneCloud scene = make_built_in_scene("plane", {.points = 100});
+  for (const std::string name : {"system.ply", "system.pcd"}) {
+    SceneColumns columns;
+    columns.system = system;
+    save_scene(own_path(name), scene, columns);
+    const LoadedScene loaded = load_scene(own_path(name));
+    EXPECT_EQ(loaded.report.meaning.system.value, system) << name;
+    save_scene(own_path("again.ply"), loaded);
+    EXPECT_EQ(load_scene(own_path("again.ply")).report.meaning.system.value, system);
+    for (const bool streamed : {true, false}) {
+      prepare_tiles(own_path(name), own_path("system.tiles"), streamed ? in_batches() : PrepareTilesOptions{});
+      EXPECT_EQ(TiledScene(own_path("system.tiles")).info().system, system) << name << " " << streamed;
+      const LoadedScene back = load_scene(own_path("system.tiles"));
+      EXPECT_EQ(back.report.meaning.system.value, system);
+      save_scene(own_path("back.ply"), back);
+      EXPECT_EQ(load_scene(own_path("back.ply")).report.meaning.system.value, system);
+    }
+  }
 }
 
 TEST(PrepareTiles, triangles_of_a_prepared_height_field_are_passed_over_and_those_of_a_mesh_sampled) {

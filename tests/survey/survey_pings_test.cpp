@@ -128,6 +128,30 @@ TEST(SurveyPings, are_divided_into_blocks_of_one_head_each) {
                                 ElementsAre(1, 0, 10, 14)));
 }
 
+TEST(SurveyPings, are_not_sent_within_a_gap_of_the_trajectory) {
+  Mission m = straight();
+  for (double x = 22; x <= 26; x += 2) {  // entries at 20.5, 21.5 and 22.5 s, behind one at 10 s
+    m.trajectory.time.push_back(9.5 + x / 2);
+    m.trajectory.pose.push_back(Pose(Eigen::Translation3d(x, 0, -3)));
+  }
+  EXPECT_EQ(times(m).size(), 23U);
+  m.max_gap = 10.4;
+  EXPECT_THAT(times(m), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 21, 22));
+  EXPECT_EQ(survey_pings(m)[11].number, 11);
+  m.max_gap = 10.5;
+  EXPECT_EQ(times(m).size(), 23U);
+  EXPECT_THAT(refusal([](Mission& mission) { mission.max_gap = 0; }), HasSubstr("max_gap = 0 s, must be > 0"));
+}
+
+TEST(SurveyPings, gaps_are_ten_times_the_usual_distance_and_five_seconds) {
+  const auto gap = [](const std::vector<double>& time) {
+    return gap_of({time, std::vector<Pose>(time.size(), Pose::Identity())});
+  };
+  EXPECT_EQ(gap({0, 1, 2, 3, 63, 64}), 10);
+  EXPECT_EQ(gap({0, 0.1, 0.2, 0.3, 60, 60.1}), 5);
+  EXPECT_TRUE(std::isinf(gap({0, 1, 60})));
+}
+
 TEST(SurveyPings, refuse_what_no_vehicle_can_do) {
   EXPECT_EQ(
       refusal([](Mission& m) { m.heads[0].listening_time = 1.5; }),

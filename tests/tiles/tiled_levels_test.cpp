@@ -46,7 +46,7 @@ double expect_same_cut(const SceneCloud& scene, const FanReach& reach, const Til
   const TiledCut part = tiled.cut(reach.region, reach.fan, reach.gate, reach.options);
   const SceneCloud a = within(whole.scene.scene(), reach, largest), b = within(part.scene, reach, largest);
   EXPECT_TRUE(a.point == b.point && a.normal == b.normal && a.area == b.area && a.id == b.id &&
-              a.unevenness == b.unevenness && a.material == b.material)
+              a.unevenness == b.unevenness && a.material == b.material && a.noise == b.noise)
       << a.size() << " " << b.size();
   EXPECT_GT(a.size(), 300U);
   EXPECT_EQ(part.scene.part_of->surfels, scene.size());
@@ -96,6 +96,34 @@ TEST(TiledLevels, give_the_cut_of_the_whole_scene_and_read_what_it_needs) {
   FanReach one_spacing;
   one_spacing.options = {0, 0.6, 0.1};
   expect_same_cut(scene, one_spacing);
+}
+
+TEST(TiledLevels, of_a_noisy_scan_keep_the_noise_of_nodes_and_surfels) {
+  SceneCloud scene = harbour(100000);
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    scene.noise.push_back(scene.point[i].x() > 12 ? 0.04F : 0.02F + 1e-4F * static_cast<float>(i % 5));
+  expect_same_cut(scene, FanReach());
+  const TiledScene tiled(own_path("levels.tiles"));
+  EXPECT_TRUE(tiled.info().noisy);
+  const FanReach reach;
+  const SceneCloud cut = tiled.cut(reach.region, reach.fan, reach.gate, reach.options).scene;
+  ASSERT_EQ(cut.noise.size(), cut.size());
+  EXPECT_LT(cut.size(), scene.size() / 2);
+  const auto [least, most] = std::minmax_element(cut.noise.begin(), cut.noise.end());
+  EXPECT_TRUE(*least >= 0.02F && *least < 0.021F && *most == 0.04F) << *least << " " << *most;
+}
+
+TEST(TiledLevels, with_values_of_no_noise_are_refused_by_node) {
+  SceneCloud scene = make_built_in_scene("plane", {.points = 2000, .size = {4, 4}});
+  scene.noise.assign(scene.size(), 0.01F);
+  save_tiles(own_path("plane.tiles"), scene);
+  for (const float bad : {-1.0F, NAN, 1e31F}) {
+    TileParts parts = load_tile_parts(own_path("plane.tiles"));
+    parts.noise.at(3) = bad;
+    save_tile_parts(parts, own_path("bad.tiles"));
+    expect_error(ErrorKind::content, {"bad.tiles: node 3: noise = ", "must be >= 0"},
+                 [] { finest_cut(own_path("bad.tiles")); });
+  }
 }
 
 TEST(TiledLevels, of_rough_ground_whose_surfels_stay_single_are_the_same) {

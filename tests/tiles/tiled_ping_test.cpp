@@ -46,6 +46,12 @@ TEST(TiledPing, ping_of_the_part_is_the_ping_of_the_whole) {
   expect_same_ping(harbour(), harbour_pose(), {Water{}}, {}, 0.4);
 }
 
+TEST(TiledPing, of_a_noisy_scan_is_the_same) {
+  SceneCloud scene = harbour();
+  for (std::size_t i = 0; i < scene.size(); ++i) scene.noise.push_back(i % 3 == 0 ? 0.3F : 0.01F);
+  expect_same_ping(scene, harbour_pose(), {Water{}}, {}, 0.4);
+}
+
 TEST(TiledPing, ping_from_within_the_scene_is_the_same) {
   expect_same_ping(harbour(), pose_from_yaw_pitch_roll({30, 2, -5}, radians(150), radians(20), radians(5)), {Water{}},
                    {.sampling = {.scatterers_per_cell = 3}}, 0.6);

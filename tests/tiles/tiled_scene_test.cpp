@@ -2,6 +2,7 @@
 #include "tiles/tiled_scene.hpp"
 
 #include "core/random.hpp"
+#include "sampling/scene_cut.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/estimate/surfel_area.hpp"
 #include "support/scenes.hpp"
@@ -243,8 +244,32 @@ TEST(TiledScene, a_file_that_is_not_whole_or_not_ours_is_refused) {
   expect_error(ErrorKind::file, {"none.tiles", "no such file"}, [] { TiledScene(own_path("none.tiles")); });
 }
 
+// Written by the program when the newest version was 2: without noise and coordinate system.
+TEST(TiledScene, files_of_version_2_are_read) {
+  const TiledScene tiled(INSONIFY_OLD_TILES);
+  EXPECT_FALSE(tiled.info().noisy);
+  EXPECT_EQ(tiled.info().system, "");
+  const SceneCloud scene = tiled.load(tiled.select_all());
+  ASSERT_EQ(scene.size(), 200U);
+  EXPECT_TRUE(scene.noise.empty());
+  EXPECT_NEAR(total_area(scene), 1600, 0.01);
+  EXPECT_EQ(scene.materials[0].name, "plane");
+  const TiledCut cut = tiled.cut(region_around({20, 0, 0}, 100), {}, {0.1, 200, 1}, {0, 5, 10});
+  EXPECT_LT(cut.scene.size(), 150U);
+  EXPECT_NEAR(total_area(cut.scene), 1600, 1);
+}
+
+TEST(TiledScene, a_coordinate_system_is_kept) {
+  SceneCloud scene = harbour(2000);
+  save_tiles(own_path("with.tiles"), scene, {.system = "EPSG:32632 (WGS 84 / UTM zone 32N)"});
+  EXPECT_EQ(TiledScene(own_path("with.tiles")).info().system, "EPSG:32632 (WGS 84 / UTM zone 32N)");
+  save_tiles(own_path("without.tiles"), scene);
+  EXPECT_EQ(TiledScene(own_path("without.tiles")).info().system, "");
+}
+
 TEST(TiledScene, a_row_with_values_of_no_surfel_is_named_by_its_number) {
-  const SceneCloud scene = harbour(2000);
+  SceneCloud scene = harbour(2000);
+  scene.noise.assign(scene.size(), 0.01F);
   save_tiles(own_path("good.tiles"), scene, small_tiles());
   const TileParts good = load_tile_parts(own_path("good.tiles"));
   const std::size_t row = 1234;
@@ -256,6 +281,7 @@ TEST(TiledScene, a_row_with_values_of_no_surfel_is_named_by_its_number) {
        [](SceneCloud& s) {
          s.normal[row] = {0, 0, 2};
        }},
+      {"noise = -1 m, must be", [](SceneCloud& s) { s.noise[row] = -1; }},
       {"point = (inf, 0, 0) m, must be finite",
        [](SceneCloud& s) {
          s.point[row] = {INFINITY, 0, 0};

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/random.hpp"
+#include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -155,6 +156,37 @@ TEST_F(ProposedMission, of_a_mesh) {
   const RiverBed bed(at);
   write("bed.obj", as_mesh(bed, at));
   expect_trusted(judged("bed.obj", bed, ""));
+}
+
+// A depth camera's cloud: rows and columns, x to the right, y down, z ahead. It is pinged from where the camera was.
+TEST_F(ProposedMission, of_a_cloud_in_the_axes_of_a_camera_is_a_ping_from_its_place) {
+  constexpr int columns = 160, rows = 120;
+  const Eigen::Vector3d camera(1, 2, 3);
+  const auto ahead = [](double x, double y) { return 5 + 0.2 * std::sin(2 * x) * std::cos(1.5 * y); };
+  std::string pcd = fmt::format(
+      "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {}\nHEIGHT {}\n"
+      "VIEWPOINT 1 2 3 1 0 0 0\nPOINTS {}\nDATA ascii\n",
+      columns, rows, columns * rows);
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const double u = (column - 79.5) / 140, v = (row - 59.5) / 140;
+      double z = 5;
+      for (int pass = 0; pass < 30; ++pass) z = ahead(u * z, v * z);
+      pcd += fmt::format("{:.5f} {:.5f} {:.5f}\n", camera.x() + u * z, camera.y() + v * z, camera.z() + z);
+    }
+  write("camera.pcd", pcd);
+  const nlohmann::json next = json_of("info camera.pcd")["next"];
+  const std::string ping = next[0].get<std::string>();
+  ASSERT_TRUE(ping.starts_with("insonify ping camera.pcd ")) << ping;
+  succeed(ping.substr(9, ping.find("  #") - 9) + " -q");
+  const Soundings returns = load_soundings(path("first/returns.ply"));
+  ASSERT_GT(returns.size(), 100U);
+  std::size_t near = 0;
+  for (const Eigen::Vector3d& place : returns.position) {
+    const Eigen::Vector3d p = place - camera;
+    near += std::abs(p.z() - ahead(p.x(), p.y())) < 0.1;
+  }
+  EXPECT_GT(near, returns.size() * 98 / 100);
 }
 
 TEST_F(ProposedMission, of_tiles) {

@@ -75,6 +75,10 @@ TEST_F(InsonifyView, inspects_a_scene_before_any_ping) {
   // Half a metre forward, 30 degrees to port: 0.433, 0.25.
   EXPECT_THAT(out, HasSubstr("--pose=10.433,20.25,-3,30,0,0"));
   EXPECT_TRUE(is_png(read("a.png")));
+  // `ping` mounts the head, too: what is printed is the pose that was given.
+  EXPECT_THAT(succeed("view targets.ply --sonar em2040 --pose=10,20,-3,30,0,0 --range 1:14 --size 800x600 --screenshot "
+                      "b.png --events 'key p'"),
+              HasSubstr("--pose=10,20,-3,30,0,0"));
 }
 
 TEST_F(InsonifyView, estimates_missing_normals_and_says_to_which_side) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The head of the viewer, moved by keys, and its option.
 #include "support/test.hpp"
+#include "viewer/viewer_data.hpp"
 #include "viewer/viewer_state.hpp"
 
 namespace insonify::viewer_head_tests {
@@ -70,6 +71,15 @@ TEST(ViewerHead, its_option_reads_as_a_person_writes_it) {
   head.pitch = radians(15);
   head.yaw = -1e-9;
   EXPECT_EQ(pose_option(head), "--pose=-1,4.25,-2.2,0,15,0");
+}
+
+TEST(ViewerHead, of_a_mounted_sonar_says_the_pose_of_the_vehicle) {
+  const Pose vehicle = pose_from_yaw_pitch_roll({1, 2, -3}, radians(30), radians(5), radians(-4));
+  ViewerData data;
+  EXPECT_EQ(vehicle_place(data, head_place(vehicle)), head_place(vehicle));
+  data.vehicle_from_head = pose_from_yaw_pitch_roll({0.5, 0, -0.2}, 0, radians(90), radians(7));
+  const HeadPlace said = vehicle_place(data, head_place(vehicle * data.vehicle_from_head));
+  EXPECT_TRUE(pose_of(said).isApprox(vehicle, 1e-9));
 }
 
 }  // namespace insonify::viewer_head_tests

@@ -134,6 +134,7 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   if (const std::string note = utm_note(o.place, {o.run, run.pings.system}); !note.empty()) progress.note(note);
   progress.step("writing " + o.output);
   const SoundingCount count = product.write(run);
+  for (const std::string& note : count.notes) progress.note(note);
   if (const std::string note = o.to == "mcap" ? compression_note(o) : ""; !note.empty()) progress.note(note);
   if (o.to == "xtf") {
     print_summary(common, {{"output", o.output}, {"to", o.to}, {"pings", count.pings}},

@@ -173,11 +173,17 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProf
 SoundingCount gsf_product(const PlacedRun& run) {
   const std::optional<Trajectory> way = way_of(run.pings);
   std::unique_ptr<GsfFile> file;
+  std::vector<std::string> notes;
   double before = 0, speed = 0;  // time of the last ping, and at the surface in its profile
-  const auto count = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
+  SoundingCount count = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
     GsfPing swath = gsf_ping(run, way, cube, ping, found);
     if (file) swath.period = std::max(0.0, swath.time - before);
     before = swath.time;
+    if (!file && swath.head_depth < 0 && !water_level(run.pings))
+      notes.push_back(fmt::format(
+          "the run states no water level: depths count from z = 0, {:.4g} m below the head, and drafts are negative; "
+          "give [water] level_m in the mission, or surface.height_m in the environment",
+          -swath.head_depth));
     const SoundSpeedProfile profile = whole_profile(run, ping);
     const bool other = std::abs(profile.sound_speed.front() - speed) > 0.5 * profile_step;
     if (!file)
@@ -188,6 +194,7 @@ SoundingCount gsf_product(const PlacedRun& run) {
     file->add(swath);
   });
   file->finish();
+  count.notes = std::move(notes);
   return count;
 }
 

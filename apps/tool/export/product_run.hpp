@@ -35,6 +35,7 @@ struct UtmWorld {
 /// How many soundings a product has, and how many were rejected, whether it has them or not; of an xtf its pings.
 struct SoundingCount {
   std::size_t soundings = 0, rejected = 0, pings = 0;
+  std::vector<std::string> notes{};  ///< on what the product lacks
 };
 
 /// The name of the processing profile, without its folder.

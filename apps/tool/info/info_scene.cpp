@@ -37,8 +37,7 @@ std::vector<std::string> next_of_scene(const std::string& path, const Bounds& bo
   const Eigen::Vector3d size = box.max - box.min, middle = (box.min + box.max) / 2;
   const double across = std::max(size.x(), size.y());
   if (!(across > 0)) return {};
-  double z = box.max.z() + 0.1 * across;
-  if (box.max.z() <= 0 && z > 0) z = box.max.z();  // below a surface at 0, where scenes of the sea have it
+  const double z = height_over(box);
   const double back = std::min(0.65 * size.x(), 40.0), deep = std::max(z - box.min.z(), 0.01 * across);
   const Eigen::Vector3d head(middle.x() - back, middle.y(), z);
   const auto rounded = [](double value, double parts) { return std::round(parts * value) / parts + 0.0; };  // no -0
@@ -77,10 +76,11 @@ std::vector<std::string> next_of_cloud(const FileDescription& d, MeaningText& as
     if (const std::string& value = *std::get<std::string*>(setting.value); !value.empty())
       options += fmt::format(" {} {}", setting.option, shell_word(value));
   const bool sided = d.has_normals || d.triangles > 0 || d.viewpoint;
-  const std::string prepared = options.empty() ? d.path : "prepared.ply";
+  const bool prepares = !sided || !options.empty();
+  const std::string prepared = prepares ? "prepared.ply" : d.path;
   std::vector<std::string> next =
       is_of_camera(d) ? std::vector{next_of_camera(d)} : next_of_scene(prepared, {d.min, d.max});
-  if (!sided || !options.empty())
+  if (prepares)
     next.insert(next.begin(), "insonify prepare " + shell_word(d.path) + options + (sided ? "" : " --viewpoint x,y,z") +
                                   " -o prepared.ply" + (sided ? "" : "  # where it was captured from"));
   if (!d.has_materials)
@@ -138,6 +138,7 @@ ordered_json tiles_info(const std::string& path) {
                        {"largest_area_m2", info.whole.largest_area},
                        {"normals_oriented", info.normals_oriented},
                        {"materials", materials}};
+  if (!info.system.empty()) json["system"] = info.system;
   if (info.surfels == 0) return json;
   if (tiled.select_all().bytes_to_load() < 0.5 * available_memory())
     json["material_shares"] = shares_json(shares_of(tiled.load(tiled.select_all())));

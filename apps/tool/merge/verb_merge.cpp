@@ -17,6 +17,7 @@
 #include "tool/merge/merge_survey.hpp"
 #include "tool/run/run_checks.hpp"
 #include "tool/run/run_pings.hpp"
+#include "tool/run/world_place.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -58,6 +59,20 @@ ordered_json inputs_json(const std::vector<NamedCube>& cubes) {
   ordered_json inputs = ordered_json::array();
   for (const NamedCube& one : cubes) inputs.push_back({{"path", one.name}, {"pings", one.cube.pings.size()}});
   return inputs;
+}
+
+/// The coordinate system of the world of all runs; without one, some state none. Throws Error(content) if they contradict
+/// each other.
+std::string system_of_runs(const std::vector<std::string>& runs) {
+  std::string common = recorded_system(runs.front());
+  for (const std::string& run : runs) {
+    const std::string system = recorded_system(run);
+    if (!system.empty() && !common.empty() && system != common)
+      fail(ErrorKind::content, run, ": its world is in ", system, ", that of ", runs.front(), " in ", common,
+           "; pings of two systems have no common world: merge those of one");
+    if (system.empty()) common.clear();
+  }
+  return common;
 }
 
 /// Notes on what differs between the runs and is lost or ambiguous in the merged cube.
@@ -102,6 +117,7 @@ void merge(const MergeOptions& o) {
     fail(ErrorKind::argument, o.copy ? "--copy: " : "--mosaic: ", o.runs.front(),
          " is not the folder of a survey; leave it out");
   Progress progress(o.common, static_cast<int>(o.runs.size()) + 1);
+  const std::string system = system_of_runs(o.runs);
   RunDirectory directory(o.output, o.force, o.runs);
   std::vector<NamedCube> cubes;
   for (const std::string& run : o.runs) {
@@ -113,6 +129,7 @@ void merge(const MergeOptions& o) {
   ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"merged", inputs_json(cubes)}};
   const MergedCube merged = merge_cubes_by_time(cubes);
   manifest["pings"] = merged.cube.pings.size();
+  if (!system.empty()) manifest["scene"] = {{"system", system}};
   std::vector<std::string> notes = merging_notes(cubes, merged.cube);
 
   progress.step("writing " + o.output);

@@ -67,17 +67,15 @@ void add_report(const LoadReport& of, LoadReport& all) {
   for (std::string& note : loading_notes(said)) all.notes.push_back(std::move(note));
 }
 
-/// The world of a scene of parts has the system of its captured files, which must agree.
-void take_system_of(const std::string& path, const FileMeaning& of, FileMeaning& all) {
-  const std::string& system = of.system.value;
+}  // namespace
+
+void take_system_of(const std::string& path, const std::string& system, FileMeaning& all) {
   if (system.empty() || system == all.system.value) return;
   if (!all.system.value.empty())
     fail(ErrorKind::content, path, ": is in ", system, ", but another captured part is in ", all.system.value,
          "; bring both into one system, e.g. by gdalwarp or pdal");
-  all.system = of.system;
+  all.system = {system, MeaningOrigin::file};
 }
-
-}  // namespace
 
 SceneOptions scene_options_of(const PartFile& file) {
   SceneOptions o;
@@ -103,7 +101,7 @@ SceneBody PartFiles::read(const PartFile& file, bool captured) {
     random_ |= inner.is_random();
     LoadedScene whole = inner.whole_at(0);
     add_report(whole.report, report_);
-    if (captured) take_system_of(file.path, whole.report.meaning, report_.meaning);
+    if (captured) take_system_of(file.path, whole.report.meaning.system.value, report_.meaning);
     cloud = std::move(whole.scene);
     std::iota(cloud.id.begin(), cloud.id.end(), 0u);
   } else {
@@ -114,7 +112,7 @@ SceneBody PartFiles::read(const PartFile& file, bool captured) {
     if (captured) loading.mesh_spacing = file.spacing;
     LoadedScene loaded = load_scene(file.path, loading);
     add_report(loaded.report, report_);
-    if (captured) take_system_of(file.path, loaded.report.meaning, report_.meaning);
+    if (captured) take_system_of(file.path, loaded.report.meaning.system.value, report_.meaning);
     cloud = surfels_of(loaded, file, captured, options_);
   }
   SceneBody body;

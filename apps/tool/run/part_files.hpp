@@ -22,6 +22,10 @@ struct PartsOptions {
 /// Returns the settings for reading the file of a part.
 SceneOptions scene_options_of(const PartFile& file);
 
+/// The world of a scene of parts has the system of its captured files: sets that of `all` to the one that the file
+/// `path` states, unless empty. Throws Error(content) if another file is in another system.
+void take_system_of(const std::string& path, const std::string& system, FileMeaning& all);
+
 /// The surfels of the files that a scene of parts names. A file is read once for all parts that name it with the same
 /// settings, and their bodies share the surfels.
 class PartFiles {

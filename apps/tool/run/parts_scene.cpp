@@ -69,6 +69,7 @@ SceneBody PartsScene::read_ground(const PartFile& file, const std::string& name)
   const TiledScene& tiled = tiles_.try_emplace(name, file.path).first->second;
   const Bounds& bed = tiled.info().box;
   report_.points_read += tiled.info().surfels;
+  take_system_of(file.path, tiled.info().system, report_.meaning);
   Bounds rests;
   const auto add = [&](const Eigen::Vector2d& p) {
     for (const double z : {bed.min.z(), bed.max.z()}) {

@@ -19,6 +19,7 @@
 #include "store/materials_file.hpp"
 #include "store/nearest_word.hpp"
 #include "store/toml_tree_internal.hpp"
+#include "survey/mission.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/run_settings.hpp"
 
@@ -109,6 +110,17 @@ PingEvent asked_event(const PingOptions& o) {
 
 namespace {
 
+/// Notes on the trajectory of a ping, and on a time in one of its gaps.
+std::vector<std::string> notes_on_track(const PingOptions& o) {
+  std::vector<std::string> notes = trajectory_notes(o.trajectory);
+  const Trajectory trajectory = load_trajectory(o.trajectory);
+  if (const auto gap = gap_at(trajectory, o.time, gap_of(trajectory)))
+    notes.push_back(fmt::format(
+        "{} has no entry between {:g} and {:g} s: the pose at {:g} s is that of a straight line between them",
+        o.trajectory, gap->from, gap->to, o.time));
+  return notes;
+}
+
 /// The setup of a ping at the pose of the options, or of one that has another.
 PingSetup set_up(const PingOptions& o, bool at_pose) {
   PingSetup setup;
@@ -118,7 +130,7 @@ PingSetup set_up(const PingOptions& o, bool at_pose) {
   setup.head = set_up_head(o.common, o.run, at_pose ? std::optional(z) : std::nullopt);
   setup.simulation = asked_simulation(o.common, o);
   if (!o.trajectory.empty())
-    for (const std::string& note : trajectory_notes(o.trajectory)) setup.head.notes.push_back(note);
+    for (const std::string& note : notes_on_track(o)) setup.head.notes.push_back(note);
   const auto force = [&](const char* option, const std::string& stage, bool included) {
     in_words_of(fmt::format("{} {}", option, stage),
                 [&] { force_stage(stage, included, event, setup.head.environment, setup.simulation); });

@@ -38,6 +38,7 @@ PingScene load_ping_scene(const PingOptions& o, const PingSimulator& simulator, 
   LoadReport& report = result.loaded.report;
   report.path = o.scene.path;
   report.format = "insonify tiles";
+  report.meaning.system = {info.system, MeaningOrigin::file};
   ordered_json read = {{"surfels", info.surfels}, {"tiles", info.tiles}, {"bytes", info.bytes}};
   const ResolvedPing ping =
       resolve_ping(info.whole, simulator.head(), event, simulator.environment(), simulator.options(), "ping");

@@ -65,6 +65,11 @@ double reach_of(const Bounds& box, const Vector3d& head, const Environment& envi
   return reach;
 }
 
+double height_over(const Bounds& box) {
+  const double z = box.max.z() + 0.1 * (box.max - box.min).head<2>().maxCoeff();
+  return box.max.z() <= 0 && z > 0 ? box.max.z() : z;
+}
+
 double end_of_range(double reach) {
   constexpr double margin = 1.01;  // a cell beyond the last surfel
   const double step = std::pow(10, std::floor(std::log10(margin * reach)) - 1);
@@ -95,11 +100,25 @@ std::string far_range_note(const HeadSetup& setup, double reach) {
       range_text(gate.min_range, end));
 }
 
+std::string shallow_profile_note(const HeadSetup& setup, const Bounds& box, const Vector3d& head) {
+  constexpr double least_missing = 0.5, part_missing = 0.1;  // [m], of the depth
+  const auto surface = surface_height(setup.environment);
+  if (!setup.environment.profile || !surface || box.min.z() > box.max.z()) return {};
+  const double deepest = *surface - std::max(box.min.z(), head.z() - setup.head.gate.max_range);
+  const double end = setup.environment.profile->depth.back();
+  if (!(deepest - end > std::max(least_missing, part_missing * deepest))) return {};
+  return fmt::format(
+      "the sound-speed profile ends at a depth of {:.3g} m, but the scene is heard down to {:.3g} m: its last sound "
+      "speed "
+      "is taken for all below; give a profile that reaches the bed",
+      end, deepest);
+}
+
 std::vector<std::string> fit_notes(const SceneCloud& cloud, const Bounds& box, const PingSetup& setup) {
   const Vector3d head = setup.event.world_from_head.translation();
   std::vector<std::string> notes;
-  for (const std::string& note :
-       {far_range_note(setup.head, reach_of(box, head, setup.head.environment)), buried_note(cloud, head)})
+  for (const std::string& note : {far_range_note(setup.head, reach_of(box, head, setup.head.environment)),
+                                  shallow_profile_note(setup.head, box, head), buried_note(cloud, head)})
     if (!note.empty()) notes.push_back(note);
   return notes;
 }

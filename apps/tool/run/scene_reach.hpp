@@ -13,6 +13,10 @@ namespace insonify::tool {
 /// bottom of the environment; 0 for an empty box.
 double reach_of(const Bounds& box, const Eigen::Vector3d& head, const Environment& environment);
 
+/// Returns the height from which a whole scene is seen [m]: a tenth of its width above it, below 0 if all of it lies there,
+/// where scenes of the sea have the surface.
+double height_over(const Bounds& box);
+
 /// The end of a range [m] that holds a reach: a little more, in two digits.
 double end_of_range(double reach);
 
@@ -26,7 +30,10 @@ void end_range_with_scene(HeadSetup& setup, const Bounds& box, const Pose& pose)
 /// A sentence with the remedy if the range ends far beyond the scene; empty otherwise.
 std::string far_range_note(const HeadSetup& setup, double reach);
 
-/// Sentences with the remedy for a range far beyond the scene, and a head within or behind its surface.
+/// A sentence with the remedy if the sound-speed profile ends above what a head at `head` hears of the scene; else empty.
+std::string shallow_profile_note(const HeadSetup& setup, const Bounds& box, const Eigen::Vector3d& head);
+
+/// Sentences with the remedy for a range far beyond the scene, a profile that ends above it, and a head within or behind its surface.
 std::vector<std::string> fit_notes(const SceneCloud& cloud, const Bounds& box, const PingSetup& setup);
 
 /// A pose as --pose takes it, in millimetres and hundredths of a degree.

@@ -89,7 +89,7 @@ void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& b
 
 /// Throws if the scene fits neither into memory, nor on the disk as tiles.
 void require_room(const MakeSceneOptions& o) {
-  constexpr double bytes_in_memory = 100, bytes_of_tiles = 150, gigabyte = 1e9;  // a surfel, while it is written
+  constexpr double bytes_in_memory = 100, bytes_of_tiles = 170, gigabyte = 1e9;  // a surfel, while it is written
   const double points = static_cast<double>(o.points);
   if (is_tiles(o.output)) {
     const std::filesystem::path folder = std::filesystem::path(o.output).parent_path();

@@ -126,7 +126,7 @@ void prepare(const PrepareOptions& o) {
   for (const std::string& note : notes) progress.note(note);
   progress.step("writing " + o.output);
   if (is_tiles(o.output))
-    save_tiles(o.output, loaded.scene);
+    save_tiles(o.output, loaded.scene, {.system = loaded.report.meaning.system.value});
   else
     save_scene(o.output, loaded);
 

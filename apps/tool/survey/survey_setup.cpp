@@ -2,6 +2,7 @@
 #include "tool/survey/survey_setup.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -69,6 +70,26 @@ void at_scene_file(const std::string& path, const Body& body) {
   }
 }
 
+/// A sentence about pings that gaps of the trajectory leave out; empty if there are none.
+std::string gap_note(const SurveySetup& s) {
+  const Mission& mission = s.survey->mission();
+  Mission flown = mission;
+  flown.max_gap = std::numeric_limits<double>::infinity();
+  const std::vector<SurveyPing> all = survey_pings(flown);
+  TrajectoryGap longest{};
+  std::size_t left_out = 0;
+  for (const SurveyPing& ping : all)
+    if (const auto gap = gap_at(mission.trajectory, ping.time, mission.max_gap)) {
+      ++left_out;
+      if (gap->to - gap->from > longest.to - longest.from) longest = *gap;
+    }
+  if (left_out == 0) return {};
+  return fmt::format(
+      "{}: {} of {} pings lie in gaps of more than {:g} s and are left out; the longest is from {:g} to {:g} s. "
+      "max_gap_s = {:g} in [trajectory] flies over it in a straight line",
+      s.file.trajectory, left_out, all.size(), mission.max_gap, longest.from, longest.to, longest.to - longest.from);
+}
+
 /// Throws Error(content) for a mission whose anchor cannot be that of its way.
 void require_anchored(const SurveySetup& s) {
   if (!s.file.anchor) return;
@@ -94,6 +115,27 @@ void require_in_water(const SurveySetup& s) {
       refuse_ping(s, ping, "is at z = ", z, " m, below the bottom at ", environment.bottom->height, " m");
   }
 }
+
+/// Pings of heads that look down from beside a scene, where it has no bed below them.
+struct PingsOutside {
+  std::size_t all = 0, beside = 0;
+  double farthest = 0;  // [m]
+
+  void add(const Pose& head, const Bounds& box) {
+    constexpr double steep = -0.7;  // of the axis of a head that looks down
+    const Eigen::Vector2d at = head.translation().head<2>();
+    const double away = (at - at.cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>())).norm();
+    ++all;
+    if (away > 0 && head.linear()(2, 0) < steep) ++beside, farthest = std::max(farthest, away);
+  }
+  std::string note() const {
+    if (beside == 0) return {};
+    return fmt::format(
+        "{} of {} pings look down from beside the scene, up to {:.3g} m off its bounds, where it has no bed; move the "
+        "way over the scene, or make these parts a transit (active = false)",
+        beside, all, farthest);
+  }
+};
 
 /// Digest of the mission and of all files that its result depends on.
 std::string digest_of(const SurveySetup& s) {
@@ -132,6 +174,7 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   } catch (const Error& error) {
     fail(ErrorKind::content, s.file.path, ": ", error.what());
   }
+  if (std::string note = gap_note(s); !note.empty()) s.notes.push_back(std::move(note));
   require_anchored(s);
   require_in_water(s);
   for (const SurveyHead& head : s.heads)
@@ -200,8 +243,13 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
   }
   require_same_system(setup.file.path, setup.file.anchor, setup.file.system, system());
   std::vector<double> farthest(setup.heads.size());
+  std::vector<PingsOutside> outside(setup.heads.size());
+  std::vector<Eigen::Vector3d> lowest(setup.heads.size(), Eigen::Vector3d::Constant(1e300));
   for (const SurveyPing& ping : setup.survey->pings()) {
-    const Eigen::Vector3d at = event_of(setup.file.mission, ping).world_from_head.translation();
+    const Pose pose = event_of(setup.file.mission, ping).world_from_head;
+    const Eigen::Vector3d at = pose.translation();
+    outside[ping.head].add(pose, box);
+    if (at.z() < lowest[ping.head].z()) lowest[ping.head] = at;
     const double away = (at - at.cwiseMax(box.min).cwiseMin(box.max)).norm();
     const double reach = setup.heads[ping.head].setup.head.head.gate.max_range;
     if (away > reach)
@@ -211,11 +259,13 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
         std::max(farthest[ping.head], reach_of(box, at, setup.heads[ping.head].setup.head.environment));
   }
   for (std::size_t h = 0; h < setup.heads.size(); ++h)
-    if (const std::string note = far_range_note(setup.heads[h].setup.head, farthest[h]); !note.empty())
-      progress.note("head " + setup.file.mission.heads[h].name + ": " + note);
+    for (const std::string& note : {far_range_note(setup.heads[h].setup.head, farthest[h]),
+                                    shallow_profile_note(setup.heads[h].setup.head, box, lowest[h]), outside[h].note()})
+      if (!note.empty()) progress.note("head " + setup.file.mission.heads[h].name + ": " + note);
 }
 
 const std::string& SurveyScene::system() const {
+  if (tiles_) return tiles_->info().system;
   return (parts_ ? parts_->scene().report() : loaded_.report).meaning.system.value;
 }
 

@@ -39,6 +39,7 @@ struct SurveySetup {
   std::optional<Survey> survey;
   std::vector<SurveyBlock> blocks;
   SurveyRun run;
+  std::vector<std::string> notes;  ///< on the way
 };
 
 /// Reads the mission and what it names, but for the scene, of which only the digest is taken. Throws Error(content)

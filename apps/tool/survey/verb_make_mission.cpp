@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -29,7 +30,7 @@ namespace {
 struct MakeMissionOptions {
   CommonOptions common;
   std::string name, output, scene, sonar, range;
-  std::string centre = "0,0,-3", size = "20,10";
+  std::string centre, size = "20,10";
   double spacing = 5, radius = 10, speed = 1, rate = 2, down_deg = 20;
   bool labels = false, force = false;
 };
@@ -43,9 +44,12 @@ void add_options(OptionList list, MakeMissionOptions& o) {
   list.add("--sonar", &o.sonar, "preset or .toml file of the sonar; default: gemini-720im, or ping360 in a tunnel");
   list.add(
       "--range", &o.range,
-      "min:max [m]; default: to the end of the scene from every place of the way, of a swath at most 2.5 times the "
+      "min:max [m]; default: to the end of the scene from every place of the way, of a sounder at most 2.5 times the "
       "depth below it, at most to the sonar's greatest range");
-  list.add("--centre", &o.centre, "x,y,z [m] of the middle of the way");
+  list.add("--centre", &o.centre,
+           "x,y,z [m] of the middle of the way; default: over the middle of the scene, at z = -3 if the scene reaches "
+           "below, else "
+           "above it; of a scene that does not exist yet 0,0,-3");
   list.add("--size", &o.size, "x,y [m] extent of the lines; x is the length of a tunnel");
   list.add("--spacing", &o.spacing, "[m] distance between lines", {.positive = true});
   list.add("--radius", &o.radius, "[m] radius of the orbit", {.positive = true});
@@ -120,41 +124,48 @@ MissionShape tunnel(const Eigen::Vector3d& centre, const std::vector<double>& si
           ""};
 }
 
-/// Whether a sonar is mounted to look down with several beams.
-bool is_swath(const SonarFile& sonar) {
-  return sonar.spec.beams > 1 && sonar.mounting.x() == 0 && sonar.mounting.y() > radians(45);
+/// Whether a sonar is mounted to look down: a swath, or an echo sounder of one beam.
+bool is_sounder(const SonarFile& sonar) { return sonar.mounting.x() == 0 && sonar.mounting.y() > radians(45); }
+
+/// The box of a scene; of one of parts when it begins.
+Bounds box_of_scene(const std::string& scene) {
+  if (is_tiles(scene)) return TiledScene(scene).info().box;
+  if (is_scene_file(scene)) {
+    const PartsScene parts(scene);
+    return parts.box_at(parts.parts()->begin());
+  }
+  const FileDescription cloud = describe_file(scene);
+  return {cloud.min, cloud.max};
 }
 
-/// The range of a sonar that holds the scene from every point of the way; of a swath not beyond the beams that see a
+/// Over the middle of a scene.
+Eigen::Vector3d centre_over(const std::optional<Bounds>& box) {
+  constexpr double below_surface = -3;
+  if (!box) return {0, 0, below_surface};
+  const Eigen::Vector2d middle = (box->min + box->max).head<2>() / 2;
+  const double over = height_over(*box);
+  return {middle.x(), middle.y(), box->min.z() < below_surface && below_surface < over ? below_surface : over};
+}
+
+/// The range of a sonar that holds the scene from every point of the way; of a sounder not beyond the beams that see a
 /// level bed, 66 degrees from the vertical.
-std::string range_over(const std::string& scene, const SonarFile& file, const std::vector<Eigen::Vector3d>& way) {
+std::string range_over(const Bounds& box, const SonarFile& file, const std::vector<Eigen::Vector3d>& way) {
   constexpr double depths = 2.5;
   const SonarSpec& sonar = file.spec;
-  Bounds box;
-  if (is_tiles(scene)) {
-    box = TiledScene(scene).info().box;
-  } else if (is_scene_file(scene)) {
-    const PartsScene parts(scene);
-    box = parts.box_at(parts.parts()->begin());
-  } else {
-    const FileDescription cloud = describe_file(scene);
-    box = {cloud.min, cloud.max};
-  }
   double reach = 0, deepest = 0;
   for (const Eigen::Vector3d& p : way)
     reach = std::max(reach, reach_of(box, p, {})), deepest = std::max(deepest, p.z() - box.min.z());
-  if (is_swath(file) && deepest > 0) reach = std::min(reach, depths * deepest);
+  if (is_sounder(file) && deepest > 0) reach = std::min(reach, depths * deepest);
   return range_text(sonar.min_range,
                     reach > sonar.min_range ? std::min(sonar.max_range, end_of_range(reach)) : sonar.max_range);
 }
 
-/// [ping]: of swaths the phase, by which the bottom is detected, and the noise, above which; labels if asked for.
+/// [ping]: of sounders the noise, above which the bottom is detected, of swaths the phase, by which it is; labels if asked for.
 std::string ping_as_toml(const MakeMissionOptions& o, const SonarFile& sonar) {
   std::string keys;
-  if (is_swath(sonar))
-    keys =
-        "noise = true  # the soundings are those that stand above it\n"
-        "split = true  # for soundings: insonify export run --to csv, gsf, las or geotiff\n";
+  if (is_sounder(sonar)) keys = "noise = true  # the soundings are those that stand above it\n";
+  if (is_sounder(sonar) && sonar.spec.beams > 1)
+    keys += "split = true  # for soundings: insonify export run --to csv, gsf, las or geotiff\n";
   if (o.labels) keys += "keep = [\"contributors\"]  # for labels: insonify dataset run\n";
   return keys.empty() ? "" : "\n[ping]\n" + keys;
 }
@@ -172,7 +183,10 @@ std::string heads_as_toml(const std::string& sonar, const std::string& range, co
 
 void make_mission(const MakeMissionOptions& o) {
   require_free_file(o.output, o.force, {o.scene, o.sonar});
-  const Eigen::Vector3d centre = parse_vector("--centre", o.centre, "x,y,z in metres");
+  std::optional<Bounds> box;
+  if (path_exists(o.scene) && (o.centre.empty() || o.range.empty())) box = box_of_scene(o.scene);
+  const Eigen::Vector3d centre =
+      o.centre.empty() ? centre_over(box) : parse_vector("--centre", o.centre, "x,y,z in metres");
   const auto size = parse_numbers("--size", o.size, 2, "two lengths in metres, e.g. --size 20,10");
   if (!(size[0] > 0 && size[1] >= 0)) fail(ErrorKind::argument, "--size = ", o.size, " must be two lengths in metres");
   const MissionShape shape = o.name == "lawnmower" ? lawnmower(o, centre, size)
@@ -181,7 +195,7 @@ void make_mission(const MakeMissionOptions& o) {
   const std::string sonar = !o.sonar.empty() ? o.sonar : o.name == "tunnel" ? "ping360" : "gemini-720im";
   const SonarFile file = find_sonar(sonar);
   std::string range = o.range;
-  if (range.empty() && path_exists(o.scene)) range = range_over(o.scene, file, shape.points);
+  if (range.empty() && box) range = range_over(*box, file, shape.points);
   write_file(o.output,
              fmt::format("# {}; docs/reference/keys.md lists all keys.\nschema = 1\n\n[survey]\nscene = {}\nseed = "
                          "1\n\n[trajectory]\n{}speed_m_s = {:g}\nturn_radius_m = {:g}\n{}{}{}",

@@ -354,6 +354,7 @@ void survey(const SurveyOptions& o) {
   const SurveySetup s = set_up_survey(o);
   for (const SurveyHead& head : s.heads)
     for (const std::string& note : head.setup.head.notes) progress.note(note);
+  for (const std::string& note : s.notes) progress.note(note);
   if (lower_case(s.file.trajectory).ends_with(".csv"))
     for (const std::string& note : trajectory_notes(s.file.trajectory)) progress.note(note);
   if (!o.plan) return make_pings(o, s, shard, progress);
