@@ -8,7 +8,7 @@ TEST_F(PartsOfTool, info_lists_parts_where_they_stand) {
   const nlohmann::json info = json_of("info drawn.toml");
   EXPECT_EQ(info["format"], "insonify scene of parts");
   EXPECT_EQ(named(info["parts"], "harbour")["placed"], "captured");
-  const nlohmann::json &crate = named(info["parts"], "crate"), &diver = named(info["parts"], "diver");
+  const nlohmann::json crate = named(info["parts"], "crate"), diver = named(info["parts"], "diver");
   EXPECT_EQ(crate["label"], "crate");
   EXPECT_THAT(crate["file"].get<std::string>(), HasSubstr("box.obj"));
   EXPECT_EQ(crate["position_m"][0], 8);

@@ -20,6 +20,8 @@ void view(const std::vector<std::string>& arguments) {
   std::vector<std::string> own = arguments;
   for (std::string& argument : own) argv.push_back(argument.data());
   argv.push_back(nullptr);
+  // libucs, which VTK 9.3 loads by way of MPI, else answers a crash for lack of memory with pages of its own.
+  setenv("UCX_ERROR_SIGNALS", "", 0);
   execvp(viewer.c_str(), argv.data());  // returns only if it failed
   fail(ErrorKind::runtime, "cannot start ", viewer, ": ", std::strerror(errno),
        "; it belongs beside insonify, where `cmake --build --preset release --target insonify-view` puts it");
