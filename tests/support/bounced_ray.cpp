@@ -24,8 +24,8 @@ struct LayerSpeed {
   double speed, gradient, at;
 };
 
-/// One step of Runge and Kutta over the length of the ray, in one layer.
-Shot moved_on(const LayerSpeed& layer, double depth, const Shot& s, double step) {
+/// One stride of Runge and Kutta over the length of the ray, in one layer.
+Shot moved_on(const LayerSpeed& layer, double depth, const Shot& s, double stride) {
   struct Rate {
     Vector3d at, along;
     double time;
@@ -35,12 +35,12 @@ Shot moved_on(const LayerSpeed& layer, double depth, const Shot& s, double step)
     const Vector3d rise(0, 0, -layer.gradient);  // of sound speed
     return {along, -(rise - along * along.dot(rise)) / c, 1 / c};
   };
-  const Rate a = rate(s.at, s.along), b = rate(s.at + step / 2 * a.at, s.along + step / 2 * a.along),
-             c = rate(s.at + step / 2 * b.at, s.along + step / 2 * b.along),
-             d = rate(s.at + step * c.at, s.along + step * c.along);
-  return {s.at + step / 6 * (a.at + 2 * b.at + 2 * c.at + d.at),
-          (s.along + step / 6 * (a.along + 2 * b.along + 2 * c.along + d.along)).normalized(),
-          s.time + step / 6 * (a.time + 2 * b.time + 2 * c.time + d.time)};
+  const Rate a = rate(s.at, s.along), b = rate(s.at + stride / 2 * a.at, s.along + stride / 2 * a.along),
+             c = rate(s.at + stride / 2 * b.at, s.along + stride / 2 * b.along),
+             d = rate(s.at + stride * c.at, s.along + stride * c.along);
+  return {s.at + stride / 6 * (a.at + 2 * b.at + 2 * c.at + d.at),
+          (s.along + stride / 6 * (a.along + 2 * b.along + 2 * c.along + d.along)).normalized(),
+          s.time + stride / 6 * (a.time + 2 * b.time + 2 * c.time + d.time)};
 }
 
 /// Goes on until `before` is false, and to where that happens; steps end where the gradient changes.
@@ -89,7 +89,7 @@ std::optional<BouncedArrival> arrival_by_planes(const Water& water, double depth
   for (std::size_t k = planes.size(); k > 0; --k)
     image -= 2 * (planes[k - 1].normal.dot(image) - planes[k - 1].offset) * planes[k - 1].normal;
   Vector3d launch = image.normalized();
-  for (int step = 0; step < 60; ++step) {
+  for (int stride = 0; stride < 60; ++stride) {
     const auto s = shot(water, depth, planes, place, launch);
     if (!s) return std::nullopt;
     const Vector3d across = launch.unitOrthogonal(), other = launch.cross(across);
