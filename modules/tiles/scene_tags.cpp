@@ -51,6 +51,19 @@ const std::string& SceneTags::name_in_file(const std::string& meant) const {
   return at == columns.end() ? meant : at->first;
 }
 
+/// Reads the numbers of a material's surface; false if they are none.
+bool read_surface(std::string_view rest, SceneTags& tags) {
+  std::size_t index = 0;
+  if (!to_number(take_word(rest), index) || index >= tags.materials.size()) return false;
+  std::string_view word = take_word(rest);
+  for (const MaterialNumber& n : surface_numbers) {
+    if (&n > &surface_numbers.front() && word.empty()) break;  // written before there was this number
+    if (!to_number(word, tags.materials[index].*n.member) || tags.materials[index].*n.member > n.most) return false;
+    word = take_word(rest);
+  }
+  return word.empty();
+}
+
 void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
   std::string_view rest = line;
   if (take_word(rest) != "insonify") return;
@@ -101,15 +114,7 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
     if (!law || !problem_of(*law).empty()) bad();
     tags.materials[index].law = *law;
   } else if (key == "surface") {
-    std::size_t index = 0;
-    if (!to_number(take_word(rest), index) || index >= tags.materials.size()) bad();
-    std::string_view word = take_word(rest);
-    for (const MaterialNumber& n : surface_numbers) {
-      if (&n > &surface_numbers.front() && word.empty()) break;  // written before there was this number
-      if (!to_number(word, tags.materials[index].*n.member) || tags.materials[index].*n.member > n.most) bad();
-      word = take_word(rest);
-    }
-    if (!word.empty()) bad();
+    if (!read_surface(rest, tags)) bad();
   }
 }
 

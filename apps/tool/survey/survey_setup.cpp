@@ -153,7 +153,11 @@ std::string digest_of(const SurveySetup& s) {
 
 }  // namespace
 
-std::size_t pressure_bytes(const SonarHead& head) { return head.fan.beams() * head.gate.bins() * 8; }
+std::size_t image_bytes(const PingSetup& ping) {
+  const SonarHead& head = ping.head.head;
+  const auto cells = static_cast<std::size_t>(ping.simulation.outputs.display_bins);
+  return head.fan.beams() * (cells > 0 ? 2 * cells : 8 * head.gate.bins());
+}
 
 SurveySetup set_up_survey(const SurveyOptions& o) {
   SurveySetup s;
@@ -165,7 +169,8 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
     s.heads.push_back(set_up_survey_head(o, s.file, h));
     const HeadSetup& head = s.heads.back().setup.head;
     mission.heads[h].listening_time = 2 * head.head.gate.max_range / slowest_sound(head.environment);
-    per_block.push_back(block_size(o, begun, mission.heads[h].name, pressure_bytes(head.head), s.file.coverage));
+    per_block.push_back(
+        block_size(o, begun, mission.heads[h].name, image_bytes(s.heads.back().setup), s.file.coverage));
   }
   std::vector<PingSimulator> simulators;
   for (const SurveyHead& head : s.heads) simulators.push_back(head.setup.simulator());

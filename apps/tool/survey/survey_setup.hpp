@@ -46,8 +46,8 @@ struct SurveySetup {
 /// with the file for a mission that cannot be: pings too close to one another, a head above the surface.
 SurveySetup set_up_survey(const SurveyOptions& options);
 
-/// Bytes of a ping's pressure in the cube.
-std::size_t pressure_bytes(const SonarHead& head);
+/// Returns the bytes of a ping's image in the cube: of pressures, or of the levels of display cells.
+std::size_t image_bytes(const PingSetup& ping);
 
 /// The scene of a survey: loaded and prepared once. Parts of a scene that move or are drawn are placed for every ping. Of a mesh or tiles every ping takes what it needs; tiles are kept
 /// for the pings after, 256 MiB of them at most.

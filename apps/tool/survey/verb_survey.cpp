@@ -138,8 +138,9 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene)
 double stored_bytes(const Ping& ping) {
   constexpr double label_bytes = 6;
   const auto size = [](const auto& image) { return static_cast<double>(image.size()); };
-  double bytes = 8 * size(ping.pressure) + 4 * (size(ping.intensity) + size(ping.split_phase));
-  for (const Layer& layer : ping.layers) bytes += 8 * size(layer.pressure);
+  const double sample_bytes = ping.display_cells ? 2 : 8;
+  double bytes = sample_bytes * size(ping.pressure) + 4 * (size(ping.intensity) + size(ping.split_phase));
+  for (const Layer& layer : ping.layers) bytes += sample_bytes * size(layer.pressure);
   if (ping.labels.id.size() > 0)
     bytes += label_bytes * static_cast<double>((ping.labels.id != PixelLabels::no_id).count());
   return bytes;
@@ -175,7 +176,7 @@ ordered_json cost_of_head(const SurveySetup& s, const HeadTrial& trial, std::siz
   const double n = static_cast<double>(trial.pings), part = trial.part(&PlannedPing::scatterers);
   const double images = trial.image_bytes > 0  // else the pings failed
                             ? trial.image_bytes / static_cast<double>(trial.tried)
-                            : static_cast<double>(pressure_bytes(s.heads[h].setup.head.head));
+                            : static_cast<double>(image_bytes(s.heads[h].setup));
   return {{"name", s.file.mission.heads[h].name},
           {"pings", trial.pings},
           {"pings_tried", trial.tried},
