@@ -2,6 +2,7 @@
 #include "formats/grey_fan.hpp"
 
 #include "core/error.hpp"
+#include "returns/fan_areas.hpp"
 #include "returns/looks.hpp"
 #include "returns/picture_grid.hpp"
 
@@ -14,9 +15,9 @@ void require_one_row(const Ping& ping, const char* who) {
 
 GreyFan grey_fan(const Ping& ping, const Tvg& tvg, const GreyWindow& window, int rows) {
   require_one_row(ping, "grey_fan");
-  const Grid<std::uint8_t> grey = quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), window);
+  const Grid<float> level = apply_tvg(shown_level_db(ping), ping.gate, tvg);
   const FanRaster raster = fan_raster_from_head(ping.fan, ping.gate, rows);
-  return {fan_picture(grey, raster, std::uint8_t{0}), raster.metres_per_pixel};
+  return {quantise_8(fan_levels(level, ping.fan, ping.gate, raster), window), raster.metres_per_pixel};
 }
 
 }  // namespace insonify

@@ -15,8 +15,8 @@ struct GreyFan {
 };
 
 /// Returns the fan of a ping in grey values, with the gain of a TVG. Pixels have the size max_range / rows; each shows
-/// the sample of the nearest beam at its range. Throws Error(content) for a ping of several rows of beams,
-/// Error(argument) as quantise_8.
+/// the mean intensity over its area (E168), so that nothing is left out. Throws Error(content) for a ping of several
+/// rows of beams, Error(argument) as quantise_8.
 GreyFan grey_fan(const Ping& ping, const Tvg& tvg, const GreyWindow& window, int rows);
 
 /// Throws Error(content) naming `who` for a ping of several rows of beams.

@@ -173,6 +173,22 @@ const PixelLabels& labels_of(const MadePing& ping, const char* property) {
   return ping.made.ping.labels;
 }
 
+/// How the head sees each part of the scene, by the keys of meta.jsonl of data sets.
+py::list parts_of(const PixelLabels& labels) {
+  using namespace py::literals;
+  const auto both = [](const PartView::Extent& extent) { return py::make_tuple(extent.least, extent.most); };
+  py::list all;
+  for (std::size_t p = 0; p < labels.views.size(); ++p) {
+    const PartView& view = labels.views[p];
+    all.append(py::dict("part"_a = labels.part_names[p], "class"_a = labels.part_labels[p], "number"_a = p + 1,
+                        "world_from_part"_a = view.world_from_part.matrix(), "scale"_a = view.scale,
+                        "size_m"_a = view.size, "visible_share"_a = view.visible_share,
+                        "azimuth_rad"_a = both(view.azimuth), "elevation_rad"_a = both(view.elevation),
+                        "range_m"_a = both(view.range)));
+  }
+  return all;
+}
+
 void add_pictures(py::class_<MadePing, std::shared_ptr<MadePing>>& type) {
   add(type, "pressure", "complex64 (beams, bins) [Pa], analytic baseband; a view of the ping, as all its pictures",
       &picture_of<&Ping::pressure>);
@@ -200,6 +216,10 @@ void add_pictures(py::class_<MadePing, std::shared_ptr<MadePing>>& type) {
       [](const MadePing& p) { return labels_of(p, "class_names").names; });
   add(type, "part_names", "list of str: the part whose number in instance_image is its place + 1; empty: no parts",
       [](const MadePing& p) { return labels_of(p, "part_names").part_names; });
+  add(type, "parts",
+      "list of dict: of each part its pose, its scale and size along the axes of its file, the share of it that the\n"
+      "head sees, and the extents of all that it would see of the part alone; NaN: none",
+      [](const MadePing& p) { return parts_of(labels_of(p, "parts")); });
   add(type, "instance_image",
       "uint32 (beams, bins): object of every pixel; 0: none. The number of an object is the same in all pings of a\n"
       "scene; connected pixels without a given object have numbers above all these",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -171,22 +172,13 @@ const Held& strongest_of(const std::vector<Held>& held) {
   return *best;
 }
 
-}  // namespace
-
-FanPixels fan_pixels(const FanSamples& samples, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
-                     int threads) {
-  const auto require_size = [&](Eigen::Index beams, Eigen::Index bins, const char* what) {
-    if (beams != static_cast<Eigen::Index>(fan.beams()) || bins != static_cast<Eigen::Index>(gate.bins()))
-      fail(ErrorKind::argument, "fan_pixels: ", what, " of ", beams, " x ", bins, " samples, must be of ", fan.beams(),
-           " beams x ", gate.bins(), " bins");
-  };
-  require_size(samples.level_db.rows(), samples.level_db.cols(), "levels");
-  require_size(samples.category.rows(), samples.category.cols(), "classes");
-  require_size(samples.instance.rows(), samples.instance.cols(), "objects");
+// As fan_pixels, with the level `outside` beside the fan.
+FanPixels pixels_of(const FanSamples& samples, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
+                    float outside, int threads) {
   const FanAreas areas(samples, fan, gate, raster, threads);
   const Eigen::Index rows = raster.beam.rows(), columns = raster.beam.cols();
-  FanPixels pixels{Grid<float>::Constant(rows, columns, static_cast<float>(silence_db)),
-                   Grid<std::uint8_t>::Zero(rows, columns), Grid<std::uint16_t>::Zero(rows, columns)};
+  FanPixels pixels{Grid<float>::Constant(rows, columns, outside), Grid<std::uint8_t>::Zero(rows, columns),
+                   Grid<std::uint16_t>::Zero(rows, columns)};
   parallel_for(static_cast<std::size_t>(rows), threads, [&](std::size_t r) {
     const auto row = static_cast<Eigen::Index>(r);
     std::vector<Held> held;
@@ -197,11 +189,43 @@ FanPixels fan_pixels(const FanSamples& samples, const BeamFan& fan, const RangeG
       for (const Held& h : held) energy += h.energy, area += h.area;
       const Held& most = strongest_of(held);
       pixels.category(row, column) = most.category, pixels.instance(row, column) = most.instance;
-      if (energy > 0)
-        pixels.level_db(row, column) = static_cast<float>(std::max(silence_db, 10 * std::log10(energy / area)));
+      pixels.level_db(row, column) =
+          static_cast<float>(energy > 0 ? std::max(silence_db, 10 * std::log10(energy / area)) : silence_db);
     }
   });
   return pixels;
+}
+
+void require_samples(const FanSamples& samples, const BeamFan& fan, const RangeGate& gate, const char* who) {
+  const auto require_size = [&](Eigen::Index beams, Eigen::Index bins, const char* what) {
+    if (beams != static_cast<Eigen::Index>(fan.beams()) || bins != static_cast<Eigen::Index>(gate.bins()))
+      fail(ErrorKind::argument, who, ": ", what, " of ", beams, " x ", bins, " samples, must be of ", fan.beams(),
+           " beams x ", gate.bins(), " bins");
+  };
+  require_size(samples.level_db.rows(), samples.level_db.cols(), "levels");
+  require_size(samples.category.rows(), samples.category.cols(), "classes");
+  require_size(samples.instance.rows(), samples.instance.cols(), "objects");
+  for (Eigen::Index bin = 0; bin < samples.level_db.cols(); ++bin)
+    for (Eigen::Index beam = 0; beam < samples.level_db.rows(); ++beam)
+      if (std::isnan(samples.level_db(beam, bin)))
+        fail(ErrorKind::content, who, ": level(", beam, ", ", bin, ") is not a number");
+}
+
+}  // namespace
+
+FanPixels fan_pixels(const FanSamples& samples, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
+                     int threads) {
+  require_samples(samples, fan, gate, "fan_pixels");
+  return pixels_of(samples, fan, gate, raster, static_cast<float>(silence_db), threads);
+}
+
+Grid<float> fan_levels(const Grid<float>& level_db, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
+                       int threads) {
+  const Grid<std::uint8_t> no_class = Grid<std::uint8_t>::Zero(level_db.rows(), level_db.cols());
+  const Grid<std::uint16_t> no_object = Grid<std::uint16_t>::Zero(level_db.rows(), level_db.cols());
+  const FanSamples samples{level_db, no_class, no_object};
+  require_samples(samples, fan, gate, "fan_levels");
+  return pixels_of(samples, fan, gate, raster, -std::numeric_limits<float>::infinity(), threads).level_db;
 }
 
 }  // namespace insonify

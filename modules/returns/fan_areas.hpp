@@ -31,8 +31,12 @@ struct FanPixels {
 /// each sample is in the picture. The level is that of the mean intensity over
 /// the area. The class is the one that most of the energy comes from, the object the one that most of the energy of
 /// this class comes from; area decides where no energy is. Throws Error(argument) if the samples differ in size from
-/// fan and gate.
+/// fan and gate, Error(content) for a level that is not a number.
 FanPixels fan_pixels(const FanSamples& samples, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
                      int threads = 0);
+
+/// Returns the levels of that alone [dB], and minus infinity beside the fan. Throws as fan_pixels.
+Grid<float> fan_levels(const Grid<float>& level_db, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
+                       int threads = 0);
 
 }  // namespace insonify

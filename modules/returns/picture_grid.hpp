@@ -25,7 +25,8 @@ Grid<Value> polar_picture(const Grid<Value>& samples, const BeamFan& fan) {
   return picture;
 }
 
-/// The sample that each pixel of a picture in true geometry shows. Forward is up, starboard right.
+/// Where the pixels of a picture in true geometry lie, and the sample at the centre of each; fan_pixels gives all that a
+/// pixel holds. Forward is up, starboard right.
 struct FanRaster {
   Grid<std::int32_t> beam, bin;  ///< rows from the top; -1 outside the fan
   double metres_per_pixel = 0;
@@ -42,14 +43,5 @@ FanRaster fan_raster(const BeamFan& fan, const RangeGate& gate, int columns);
 /// below the middle of the last row. The outermost beams extend half a beam width beyond their axes. Throws
 /// Error(argument) for a fan of several elevations, or without rows.
 FanRaster fan_raster_from_head(const BeamFan& fan, const RangeGate& gate, int rows);
-
-/// Returns the samples at the pixels of a raster, and `outside` for pixels beside the fan.
-template <typename Value>
-Grid<Value> fan_picture(const Grid<Value>& samples, const FanRaster& raster, Value outside) {
-  Grid<Value> picture(raster.beam.rows(), raster.beam.cols());
-  for (Eigen::Index i = 0; i < picture.size(); ++i)
-    picture(i) = raster.beam(i) < 0 ? outside : samples(raster.beam(i), raster.bin(i));
-  return picture;
-}
 
 }  // namespace insonify

@@ -25,6 +25,14 @@ struct PartView {
   double visible_share = std::numeric_limits<double>::quiet_NaN();
   Extent azimuth{}, elevation{},
       range{};  ///< [rad], [rad], [m] of the surface that the head would see of the part alone
+  /// The same of the azimuth of the beam that hears it [rad]: a line array resolves cones about its axis, so that this
+  /// differs from the azimuth of what is high above or far below. And of the places at which pictures in true geometry
+  /// draw it, ahead of the head and to its port side: cosine and sine of the beam's azimuth times the range [m].
+  Extent heard{}, ahead{}, port{};
+  /// Of the lengths of the part's file, and extents of the whole part along the axes of that file, as scaled [m]. NaN:
+  /// it stands as captured, or is not in the scene.
+  double scale = std::numeric_limits<double>::quiet_NaN();
+  Eigen::Vector3d size = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
 /// The surface that each pixel of a ping shows, beams x bins.

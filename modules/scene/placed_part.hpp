@@ -32,6 +32,11 @@ struct PlacedPart {
   /// Origin of the axes of the part's file, in the part's own axes, which begin near its surfels [m].
   Eigen::Vector3d file_origin = Eigen::Vector3d::Zero();
 
+  double scale = 1;  ///< that `cloud` has of the lengths of the part's file
+  /// Extents of the part along its own axes, as scaled [m], e.g. of the mesh that its surfels are a sample of. Zero:
+  /// those of the box of its surfels.
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+
   /// Returns the pose of the axes of the part's file.
   Pose world_from_file() const { return world_from_part * Eigen::Translation3d(file_origin); }
   /// Returns whether the part moves.

@@ -60,6 +60,12 @@ Vector3d origin_of(const PartList& parts) {
 
 double mean_spacing_of(const SceneCloud& cloud) { return whole_of(cloud).mean_spacing; }
 
+Vector3d size_of(const PlacedPart& placed) {
+  if (placed.captured || !placed.size.isZero(0)) return placed.size;
+  const Bounds box = bounds(*placed.cloud);
+  return box.max - box.min;
+}
+
 ScenePart scene_part(const PlacedPart& placed) {
   if (placed.absent) return {.name = placed.name, .label = placed.label, .key = part_key(placed.name)};
   return {.name = placed.name,
@@ -71,7 +77,9 @@ ScenePart scene_part(const PlacedPart& placed) {
           .velocity = placed.velocity,
           .turn_rate = placed.turn_rate,
           .own = placed.captured ? nullptr : placed.cloud,
-          .file_origin = placed.file_origin};
+          .file_origin = placed.file_origin,
+          .scale = placed.scale,
+          .size = size_of(placed)};
 }
 
 /// From the part's coordinates, relative to its cloud's origin, to those of the scene.

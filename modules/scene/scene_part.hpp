@@ -27,6 +27,8 @@ struct ScenePart {
   std::shared_ptr<const SceneCloud> own{};
   /// Origin of the axes of the part's file, in the part's own axes [m].
   Eigen::Vector3d file_origin = Eigen::Vector3d::Zero();
+  double scale = 1;                                ///< of the lengths of the part's file
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< along the axes of the part's file [m]; zero: stands as captured
 
   /// Returns whether the part moves.
   bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }

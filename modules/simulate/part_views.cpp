@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.hpp"
 #include "simulate/part_views_internal.hpp"
 
 namespace insonify {
@@ -13,22 +14,31 @@ using Eigen::Vector3d;
 struct SeenSurfel {
   Direction direction;
   double range, solid_angle;  ///< [m], [sr]
+  double heard;               ///< azimuth of the beam that hears it [rad]
 };
 
 /// The pose of the axes of the part's file.
 Pose pose_of_file(const ScenePart& part) { return part.world_from_part * Eigen::Translation3d(part.file_origin); }
 
+/// A part of which nothing is seen.
+PartView unseen(const ScenePart& part) {
+  PartView view{pose_of_file(part)};
+  if (part.own) view.scale = part.scale, view.size = part.size;
+  return view;
+}
+
 class PartViewer {
  public:
   explicit PartViewer(const ResolvedPing& ping) : ping_(ping), head_from_world_(ping.view.world_from_head.inverse()) {
     const auto [least, most] = std::minmax_element(ping.head.fan.azimuth.begin(), ping.head.fan.azimuth.end());
+    for (const FanRow& row : fan_rows(ping.head.fan)) rows_.push_back(row.elevation);
     least_azimuth_ = *least - 0.5 * ping.head.fan.beam_width, most_azimuth_ = *most + 0.5 * ping.head.fan.beam_width;
   }
 
   /// View of a part, of a scene without the other parts.
   /// seen   1 of each surfel that the head sees among all parts
   PartView view_of(const ScenePart& part, const SceneCloud& alone, const std::vector<std::uint8_t>& seen) const {
-    PartView view{pose_of_file(part)};
+    PartView view = unseen(part);
     const View& look = ping_.view;
     const auto visibility = find_visibility(alone, look.world_from_head, look.fan, look.gate,
                                             std::vector<std::uint8_t>(alone.size(), 1), look.sampling);
@@ -42,6 +52,9 @@ class PartViewer {
       widen(view.azimuth, surfel.direction.azimuth);
       widen(view.elevation, surfel.direction.elevation);
       widen(view.range, surfel.range);
+      widen(view.heard, surfel.heard);
+      widen(view.ahead, surfel.range * std::cos(surfel.heard));
+      widen(view.port, surfel.range * std::sin(surfel.heard));
     }
     if (all > 0) view.visible_share = shown / all;  // (E147)
     return view;
@@ -52,11 +65,21 @@ class PartViewer {
     const Vector3d place = head_from_world_ * (scene.origin + scene.point[i].cast<double>());
     const double range = place.norm();
     const double cosine = std::abs((head_from_world_.linear() * scene.normal[i].cast<double>()).dot(place)) / range;
-    return {direction_of(place), range, cosine * static_cast<double>(scene.area[i]) / (range * range)};
+    const Direction direction = direction_of(place);
+    return {direction, range, cosine * static_cast<double>(scene.area[i]) / (range * range),
+            heard_azimuth(place, direction.elevation)};
+  }
+  /// The azimuth of the beam of the nearest row whose cone holds a place.
+  double heard_azimuth(const Eigen::Vector3d& place, double elevation) const {
+    double row = rows_.front();
+    for (const double other : rows_)
+      if (std::abs(other - elevation) < std::abs(row - elevation)) row = other;
+    const double cone = std::asin(std::clamp(place.y() / (place.norm() * std::cos(row)), -1.0, 1.0));
+    return place.x() < 0 ? std::copysign(pi, cone) - cone : cone;
   }
   bool in_fan(const SeenSurfel& s) const {
-    return s.direction.azimuth >= least_azimuth_ && s.direction.azimuth <= most_azimuth_ &&
-           s.range >= ping_.head.gate.min_range && s.range <= ping_.head.gate.max_range;
+    return s.heard >= least_azimuth_ && s.heard <= most_azimuth_ && s.range >= ping_.head.gate.min_range &&
+           s.range <= ping_.head.gate.max_range;
   }
   static void widen(PartView::Extent& extent, double value) {
     extent.least = std::fmin(extent.least, value), extent.most = std::fmax(extent.most, value);
@@ -65,6 +88,7 @@ class PartViewer {
   const ResolvedPing& ping_;
   Pose head_from_world_;
   double least_azimuth_, most_azimuth_;
+  std::vector<double> rows_;  // elevations of the beams
 };
 
 }  // namespace
@@ -85,7 +109,7 @@ std::vector<PartView> part_views(const SceneCloud& scene, const std::vector<std:
   const PartViewer viewer(ping);
   std::vector<PartView> views;
   for (std::size_t p = 0; p < rows.size(); ++p) {
-    views.push_back({pose_of_file(scene.parts[p])});
+    views.push_back(unseen(scene.parts[p]));
     if (rows[p].empty()) continue;
     SceneCloud alone = subset(bodies, rows[p]);
     alone.parts = {scene.parts[p]}, alone.part.assign(alone.size(), 0);

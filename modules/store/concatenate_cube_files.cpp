@@ -100,9 +100,11 @@ void add_track(const FileContext& place, hid_t file, Track& track, hsize_t pings
   const Extent extent = read_values_of(place, file, track, pings);
   if (extent.empty()) return;
   if (track.extent.empty())
-    track.extent = extent;
-  else
-    track.extent[0] += extent[0];
+    track.extent = {0}, track.extent.insert(track.extent.end(), extent.begin() + 1, extent.end());
+  if (!std::equal(extent.begin() + 1, extent.end(), track.extent.begin() + 1, track.extent.end()))
+    fail(ErrorKind::content, place.path, ": ", track.name.path,
+         " has another shape than in the cubes before; make all of them with one version of insonify");
+  track.extent[0] += extent[0];
 }
 
 void add_part(JoinedCube& joined, const std::string& path) {

@@ -44,7 +44,9 @@ constexpr DatasetName label_part_name{"/label_part", "", "part of the scene, ind
 constexpr DatasetName part_views_name{
     "/part_views", "",
     "of each part in each ping: world_from_part (three rows of four, row-major, place in m), share of it that the head "
-    "sees, least and most azimuth [rad], elevation [rad] and range [m] of all of it; NaN: not in view"};
+    "sees, least and most azimuth [rad], elevation [rad], range [m], azimuth of the beam that hears it [rad] and "
+    "places ahead and to port in a picture in true geometry [m] of all of it, scale of its file, size along the axes "
+    "of its file [m]; NaN: not in view, or none"};
 /// Root attributes: names of the parts, and their labels, which may be empty, one a line.
 constexpr const char *part_names_attribute = "part_names", *part_labels_attribute = "part_labels";
 /// Root attribute: notes of the pings, one a line (as_lines); absent without notes.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -13,14 +15,17 @@ using namespace hdf5;
 
 namespace {
 
-constexpr std::size_t numbers_per_view = 19;  // three rows of a pose, the share, and three extents
+// Three rows of a pose, the share, six extents, the scale and three sizes. Earlier cubes end after three extents.
+constexpr std::size_t numbers_before = 19, numbers_per_view = 29;
 
 void put_view(const PartView& view, std::vector<double>& numbers) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) numbers.push_back(view.world_from_part.matrix()(row, column));
   numbers.push_back(view.visible_share);
-  for (const PartView::Extent& extent : {view.azimuth, view.elevation, view.range})
+  for (const PartView::Extent& extent : {view.azimuth, view.elevation, view.range, view.heard, view.ahead, view.port})
     numbers.push_back(extent.least), numbers.push_back(extent.most);
+  numbers.push_back(view.scale);
+  numbers.insert(numbers.end(), view.size.begin(), view.size.end());
 }
 
 PartView view_of(const double* numbers) {
@@ -28,9 +33,25 @@ PartView view_of(const double* numbers) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) view.world_from_part.matrix()(row, column) = *numbers++;
   view.visible_share = *numbers++;
-  for (PartView::Extent* extent : {&view.azimuth, &view.elevation, &view.range})
+  for (PartView::Extent* extent : {&view.azimuth, &view.elevation, &view.range, &view.heard, &view.ahead, &view.port})
     extent->least = *numbers++, extent->most = *numbers++;
+  view.scale = *numbers++;
+  for (double& size : view.size) size = *numbers++;
   return view;
+}
+
+/// The numbers of so many parts of each ping, NaN in place of those that cubes of earlier versions lack.
+std::vector<double> read_views(const FileContext& place, hid_t file, std::size_t pings, std::size_t parts) {
+  const Extent there = extent_of(place, open_dataset(place, file, part_views_name), part_views_name.path, 3);
+  const bool before = there[2] == numbers_before;
+  const std::size_t stored = before ? numbers_before : numbers_per_view;
+  std::vector<double> numbers =
+      read_all<double>(place, file, part_views_name, {pings, parts, stored}, H5T_NATIVE_DOUBLE);
+  if (!before) return numbers;
+  std::vector<double> all(pings * parts * numbers_per_view, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t view = 0; view < pings * parts; ++view)
+    std::copy_n(&numbers[view * stored], stored, &all[view * numbers_per_view]);
+  return all;
 }
 
 /// One text a line, each with its end: the last may be empty.
@@ -79,8 +100,7 @@ void send_parts(const FileContext& place, hid_t file, const Extent& extent, Ping
   if (labels.size() != names.size())
     fail(place.kind, place.path, ": ", part_labels_attribute, " has ", labels.size(), " lines, but ",
          part_names_attribute, " has ", names.size());
-  const auto numbers =
-      read_all<double>(place, file, part_views_name, {extent[0], names.size(), numbers_per_view}, H5T_NATIVE_DOUBLE);
+  const std::vector<double> numbers = read_views(place, file, extent[0], names.size());
   const std::size_t per_ping = names.size() * numbers_per_view;
   to(names, labels,
      std::vector<double>(numbers.begin() + static_cast<std::ptrdiff_t>(pings.begin * per_ping),

@@ -27,16 +27,21 @@ void require_area(const SceneBody& body) {
   if (!(area > 0)) fail(ErrorKind::content, "part '", body.name, "' has no area: its surfels hear nothing");
 }
 
+/// A body of some scale, without a pose: `cloud` is the scaled one.
+PlacedPart with_scale(const SceneBody& body, double scale, std::shared_ptr<const SceneCloud> cloud) {
+  PlacedPart part{body.name, body.label, std::move(cloud)};
+  part.file_origin = -scale * body.centre, part.scale = scale, part.size = scale * body.size;
+  return part;
+}
+
 /// A body whose file's axes are these: its own axes are elsewhere, and move as the body turns.
 PlacedPart placed_at(const SceneBody& body, const MovingAxes& axes, double scale,
                      std::shared_ptr<const SceneCloud> cloud) {
-  PlacedPart part{body.name, body.label, std::move(cloud)};
+  PlacedPart part = with_scale(body, scale, std::move(cloud));
   const Vector3d arm = axes.pose.linear() * (scale * body.centre);
-  part.world_from_part = axes.pose;
-  part.world_from_part.translation() += arm;
+  part.world_from_part = Eigen::Translation3d(arm) * axes.pose;
   part.velocity = axes.motion.velocity + axes.motion.turn_rate.cross(arm);
   part.turn_rate = axes.motion.turn_rate;
-  part.file_origin = -scale * body.centre;
   return part;
 }
 
@@ -212,9 +217,8 @@ std::vector<PlacedPart> SceneParts::drawn_of(std::size_t scatter, std::uint64_t 
     const auto what = draws.of(k, 0), turn = draws.of(k, 1);
     const Drawable& body = bodies[whole(what[0], bodies.size())];
     const double scale = between(what[1], rule.least_scale, rule.most_scale);
-    PlacedPart part{body.body.name + "-" + std::to_string(body.numbers_from + ++so_far[body.body.name]),
-                    body.body.label, scaled(body.body.cloud, scale)};
-    part.file_origin = -scale * body.body.centre;
+    PlacedPart part = with_scale(body.body, scale, scaled(body.body.cloud, scale));
+    part.name += "-" + std::to_string(body.numbers_from + ++so_far[body.body.name]);
     part.world_from_part = pose_from_yaw_pitch_roll(Vector3d::Zero(), within(turn[0], rule.yaw),
                                                     within(turn[1], rule.tilt), within(turn[2], rule.tilt));
     const double bury = between(what[2], rule.least_bury, rule.most_bury) * height_of(part);

@@ -21,6 +21,8 @@ struct SceneBody {
   std::shared_ptr<const SceneCloud> cloud;
   /// Origin of the cloud's axes in those of the file [m]; both axes have the same directions.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d size =
+      Eigen::Vector3d::Zero();  ///< of the body along these axes [m]; zero: of the box of its surfels
 };
 
 /// A part of a scene: a body and its placement.

@@ -8,6 +8,7 @@
 #include <zstd.h>
 #endif
 
+#include "formats/grey_fan.hpp"
 #include "formats/ros_decoder.hpp"
 #include "formats/ros_messages.hpp"
 #include "support/test.hpp"
@@ -77,6 +78,18 @@ TEST(RosMessages, image_of_a_sonar_follows_its_frame_and_order) {
   EXPECT_NEAR(at(13) / 4294967295.0, 0.0005, 1e-9);
 }
 
+// Pixels are much longer than bins: one sample of each would leave out most of them.
+TEST(RosMessages, fan_shows_a_loud_bin_wherever_it_is) {
+  Ping ping = log_ping();
+  const Eigen::Index bins = ping.pressure.cols();
+  for (Eigen::Index bin = 0; bin < bins; ++bin) {
+    ping.pressure.setConstant(1e-4F);
+    ping.pressure(1, bin) = 1;
+    const double most = static_cast<double>(level_db(ping).maxCoeff());
+    EXPECT_GT((grey_fan(ping, {0, 0}, {most - 60, most - 20}, 4).grey > 128).count(), 0) << bin;
+  }
+}
+
 TEST(RosMessages, fan_shows_port_on_the_left_and_points_stand_in_the_world) {
   const std::string path = own_path("fan.mcap");
   const Ping ping = log_ping();
@@ -86,7 +99,8 @@ TEST(RosMessages, fan_shows_port_on_the_left_and_points_stand_in_the_world) {
     const auto image = file.add_topic("/fan", image_type().name, image_type().text);
     const auto cloud = file.add_topic("/points", point_cloud_type().name, point_cloud_type().text);
     const auto tf = file.add_topic("/tf", transforms_type().name, transforms_type().text);
-    file.add(image, 1, fan_image(ping, 1, {0, 0}, {most - 50, most}, 40));
+    // A pixel also holds what is beside the loud sample, so that none is as loud.
+    file.add(image, 1, fan_image(ping, 1, {0, 0}, {most - 50, most - 20}, 40));
     const std::vector<Eigen::Vector3d> at{{1e6 + 1, 2, -3}, {1e6 - 4, 5, 6.5}};
     file.add(cloud, 2, point_cloud(decode::soundings_at(at, {101, 88.5F}), {1e6, 0, 0}, 2));
     file.add(tf, 3, head_transform(ping.world_from_head, {1, 2, 3}, 3));

@@ -101,6 +101,13 @@ def test_class_and_object_numbers_are_the_same_in_all_draws(parts, folder, simul
             if mask.any():
                 shown[name] = {ping.class_names[k] for k in np.unique(ping.material_image[mask])}
         assert not (ping.instance_image == 1).any()  # a part without a label is no object
+    for part in ping.parts:
+        assert ping.part_names[part["number"] - 1] == part["part"]
+        if part["visible_share"] > 0:
+            assert part["scale"] == 1 and part["class"] == part["part"][:-2]
+            assert np.allclose(part["size_m"], 0.6, atol=0.02)  # of a polyhedron
+            assert part["world_from_part"].shape == (4, 4) and 0.5 < part["range_m"][0] < part["range_m"][1] < 12
+    assert {part["part"] for part in ping.parts if np.isnan(part["scale"])} >= {"harbour"}
     assert len(shown) >= 2
     assert all(found == {name[:-2]} for name, found in shown.items())
 

@@ -88,6 +88,33 @@ TEST(PartLabels, have_the_extents_of_a_sphere_and_all_of_its_share) {
   EXPECT_NEAR(view.range.most, std::sqrt(36 - 0.09), 0.02);
   EXPECT_EQ(view.world_from_part.translation(), Vector3d(6, 0, 0));
   EXPECT_TRUE(std::isnan(labels.views.at(index_of(labels, "bed")).visible_share));
+  EXPECT_EQ(view.scale, 1);
+  EXPECT_LT((view.size - Vector3d::Constant(0.6)).norm(), 0.01);  // of its 4000 surfels
+  EXPECT_TRUE(labels.views.at(index_of(labels, "bed")).size.hasNaN());
+}
+
+// Of a sphere beside the axis of the head neither side is where its extents in azimuth and range meet.
+TEST(PartLabels, have_the_places_where_a_fan_draws_a_sphere) {
+  const Vector3d middle(6, 2.5, -1.6);  // far below: a line array hears it in a beam nearer to its axis
+  const PixelLabels labels = labels_of({bed(), placed("ball", "ball", ball(0.3), middle)});
+  const PartView& view = labels.views.at(index_of(labels, "ball"));
+  PartView::Extent ahead{1e9, -1e9}, port{1e9, -1e9};
+  for (int i = 0; i < 200000; ++i) {
+    const double z = 1 - (i + 0.5) / 100000, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
+    const Vector3d normal(r * std::cos(turn), r * std::sin(turn), z), place = middle + 0.3 * normal;
+    if (normal.dot(place) > 0) continue;
+    // As far from the head as the sphere is, as far to port as it is: the cone of the beam.
+    const Eigen::Vector2d drawn(std::sqrt(place.squaredNorm() - place.y() * place.y()), place.y());
+    ahead = {std::min(ahead.least, drawn.x()), std::max(ahead.most, drawn.x())};
+    port = {std::min(port.least, drawn.y()), std::max(port.most, drawn.y())};
+  }
+  EXPECT_NEAR(view.ahead.least, ahead.least, 0.01);
+  EXPECT_NEAR(view.ahead.most, ahead.most, 0.02);
+  EXPECT_NEAR(view.port.least, port.least, 0.02);
+  EXPECT_NEAR(view.port.most, port.most, 0.02);
+  // The sector of its ranges and azimuths reaches further.
+  EXPECT_GT(view.range.most * std::sin(view.azimuth.most), port.most + 0.05);
+  EXPECT_LT(view.heard.most, view.azimuth.most - 0.005);
 }
 
 TEST(PartLabels, know_the_share_that_another_part_hides) {

@@ -5,6 +5,7 @@
 #include "store/concatenate_cube_files.hpp"
 #include "store/merge_cubes_by_time.hpp"
 #include "store/random_cube.hpp"
+#include "store/raw_file.hpp"
 
 namespace insonify::cube_parts_tests {
 
@@ -22,6 +23,8 @@ PixelLabels labels_like(const Ping& ping) {
   PartView& tyre = labels.views[2];
   tyre.world_from_part = pose_from_yaw_pitch_roll({1, 2, static_cast<double>(ping.number)}, 0.1, 0.2, 0.3);
   tyre.visible_share = 0.25, tyre.azimuth = {-0.1, 0.2}, tyre.elevation = {0.3, 0.4}, tyre.range = {5, 6};
+  tyre.heard = {-0.09, 0.19}, tyre.ahead = {4.5, 5.5}, tyre.port = {-0.5, 1}, tyre.scale = 1.25,
+  tyre.size = {0.6, 0.6, 0.2};
   return labels;
 }
 
@@ -45,6 +48,7 @@ void expect_parts(const Ping& ping) {
   EXPECT_EQ(a.world_from_part.matrix(), b.world_from_part.matrix());
   EXPECT_EQ(a.visible_share, b.visible_share);
   EXPECT_EQ(std::tie(a.azimuth, a.elevation, a.range), std::tie(b.azimuth, b.elevation, b.range));
+  EXPECT_EQ(std::tie(a.heard, a.ahead, a.port, a.scale, a.size), std::tie(b.heard, b.ahead, b.port, b.scale, b.size));
 }
 
 TEST(CubeOfParts, comes_back_bit_for_bit) {
@@ -64,6 +68,38 @@ TEST(CubeOfParts, is_joined_with_the_next_one) {
     ASSERT_EQ(back.pings.size(), 5U);
     for (const Ping& ping : back.pings) expect_parts(ping);
   }
+}
+
+/// A cube as earlier versions wrote it: its views end after the third extent.
+std::string earlier_cube(const std::string& name) {
+  const std::string path = write(cube_of_parts(), name);
+  const RawFile file(path);
+  const std::vector<double> all = raw_values(file, "/part_views");
+  const std::size_t views = all.size() / 29;
+  std::vector<double> first;
+  for (std::size_t v = 0; v < views; ++v) first.insert(first.end(), &all[29 * v], &all[29 * v] + 19);
+  H5Ldelete(file, "/part_views", H5P_DEFAULT);
+  const hsize_t extent[] = {3, 3, 19};
+  const hid_t space = H5Screate_simple(3, extent, nullptr),
+              made = H5Dcreate2(file, "/part_views", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  EXPECT_GE(H5Dwrite(made, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, first.data()), 0);
+  H5Dclose(made), H5Sclose(space);
+  return path;
+}
+
+TEST(CubeOfParts, of_an_earlier_version_lacks_sizes) {
+  const std::string path = earlier_cube("earlier.h5");
+  for (const Ping& ping : read_cube(path).pings) {
+    const PartView& tyre = ping.labels.views[2];
+    EXPECT_EQ(tyre.range, (PartView::Extent{5, 6}));
+    EXPECT_EQ(tyre.world_from_part.translation().z(), static_cast<double>(ping.number));
+    EXPECT_TRUE(std::isnan(tyre.scale) && std::isnan(tyre.port.most) && tyre.size.hasNaN());
+  }
+  const std::string later = write(cube_of_parts(), "later.h5");
+  EXPECT_THAT(error_with_kind([&] {
+                concatenate_cube_files(own_path("both.h5"), {path, later}, false);
+              }),
+              testing::HasSubstr("/part_views has another shape than in the cubes before"));
 }
 
 TEST(CubeOfParts, loses_its_labels_beside_pings_of_other_parts) {

@@ -85,13 +85,57 @@ TEST_F(DatasetOfParts, has_each_part_as_an_object_with_its_class_pose_and_boxes)
       EXPECT_EQ((*object)[std::string(form) + "_bbox_whole"], a["bbox_whole"]);
       EXPECT_GT(a["visible_share"].get<double>(), 0);
       EXPECT_LE(a["visible_share"].get<double>(), 1);
-      EXPECT_TRUE(lies_in(a["bbox"], a["bbox_whole"], 6)) << file << " " << part << a["bbox"] << a["bbox_whole"];
+      // The whole of a fan is the outline itself; pixels lie up to a beam's width beside it.
+      EXPECT_TRUE(lies_in(a["bbox"], a["bbox_whole"], form == std::string("fan") ? 12 : 6))
+          << file << " " << part << a["bbox"] << a["bbox_whole"];
       const GreyPicture instances = png(std::string(form) + "/instances/" + file);
       EXPECT_EQ((instances.value == a["instance"].get<std::uint16_t>()).count(), a["area"].get<std::ptrdiff_t>());
     }
   }
   EXPECT_GT(seen, 20U);
   EXPECT_GT(read("set/sheet.png").size(), 1000U);
+}
+
+// The box of the whole is that of the outline where the fan draws it, not of the sector of its azimuths and ranges.
+TEST_F(DatasetOfParts, has_the_box_of_the_drawn_outline_and_the_size_of_a_ball) {
+  survey_of("scale = [0.7, 1.3]\n", "scene = \"ping\"\n");
+  succeed("dataset survey -o set --split 100:0:0");
+  const nlohmann::json mapping = read_json("set/fan_mapping.json").at(0);
+  const double metres = mapping["metres_per_pixel"], column = mapping["head_column"], row = mapping["head_row"];
+  std::size_t balls = 0, aside = 0;
+  for (const nlohmann::json& image : meta())
+    for (const nlohmann::json& object : image["objects"]) {
+      if (object["class"] != "ball" || object["fan_bbox_whole"].is_null()) continue;
+      Eigen::Matrix4d head, part;
+      for (int r = 0; r < 4; ++r)
+        for (int c = 0; c < 4; ++c)
+          head(r, c) = image["world_from_head"][r][c], part(r, c) = object["world_from_part"][r][c];
+      const double scale = object["scale"], radius = 0.4 * scale;
+      EXPECT_NEAR(object["size_m"][2].get<double>(), 2 * radius, 1e-6);
+      EXPECT_NEAR(object["size_m"][0].get<double>(), 2 * radius, 0.02);  // of the polyhedron
+      const Eigen::Vector3d middle = (head.inverse() * part * Eigen::Vector4d(0, 0, radius, 1)).head<3>();
+      const double bearing = std::abs(std::atan2(middle.y(), middle.x()));
+      if (bearing > radians(19)) continue;                 // some of it is beside the fan
+      double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};  // columns and rows
+      for (int i = 0; i < 20000; ++i) {
+        const double z = 1 - (i + 0.5) / 10000, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
+        const Eigen::Vector3d normal(r * std::cos(turn), r * std::sin(turn), z), place = middle + radius * normal;
+        if (normal.dot(place) > 0) continue;
+        // A line array hears cones: the range and the way to port are those of the place.
+        const Eigen::Vector2d drawn =
+            Eigen::Vector2d(std::sqrt(place.squaredNorm() - place.y() * place.y()), place.y()) / metres;
+        const double at[2] = {column - drawn.y(), row - drawn.x()};
+        for (int k : {0, 1}) low[k] = std::min(low[k], at[k]), high[k] = std::max(high[k], at[k]);
+      }
+      ++balls, aside += bearing > radians(6);
+      const nlohmann::json box = object["fan_bbox_whole"];
+      for (std::size_t k : {0U, 1U}) {
+        EXPECT_NEAR(box[k].get<double>(), low[k] - 0.5, 2.5) << object["part"] << image["name"];
+        EXPECT_NEAR(box[k].get<double>() + box[k + 2].get<double>(), high[k] + 0.5, 2.5) << object["part"];
+      }
+    }
+  EXPECT_GT(balls, 3U);
+  EXPECT_GT(aside, 1U);
 }
 
 TEST_F(DatasetOfParts, has_the_extents_that_the_pose_of_a_ball_has) {

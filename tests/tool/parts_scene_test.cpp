@@ -16,6 +16,14 @@ TEST_F(PartsOfTool, info_lists_parts_where_they_stand) {
   EXPECT_EQ(diver["velocity_mps"][1], 1);
   EXPECT_EQ(diver["position_m"][1], -3);
   EXPECT_EQ(named(info["parts"], "pot-1")["label"], "pot");
+  // Sizes are those of the mesh, whatever is buried, and as the scatter scales it.
+  EXPECT_EQ(crate["scale"], 1);
+  EXPECT_EQ(crate["size_m"], nlohmann::json({0.5, 0.5, 0.5}));
+  const double scale = named(info["parts"], "pot-1")["scale"];
+  EXPECT_GT(scale, 0.5);
+  EXPECT_LT(scale, 1);
+  for (const auto& size : named(info["parts"], "pot-1")["size_m"]) EXPECT_DOUBLE_EQ(size.get<double>(), 0.5 * scale);
+  EXPECT_FALSE(named(info["parts"], "harbour").contains("scale"));
   EXPECT_EQ(info["scatters"][0]["most"], 4);
   EXPECT_THAT(info["next"].dump(), HasSubstr("insonify ping drawn.toml"));
 }

@@ -256,6 +256,8 @@ ordered_json DatasetWriter::meta_of(const DatasetSource& source, const Cube& cub
     meta["parts"].push_back({{"part", ping.labels.part_names[p]},
                              {"class", ping.labels.part_labels[p]},
                              {"number", p + 1},
+                             {"scale", ping.labels.views[p].scale},
+                             {"size_m", numbers_json(ping.labels.views[p].size)},
                              {"world_from_part", pose.matrix().isIdentity(0) ? ordered_json() : pose_json(pose)}});
   }
   if (source.randomisation && source.randomisation->spread.any())

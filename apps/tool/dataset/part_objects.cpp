@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace insonify::tool {
 namespace {
@@ -17,8 +18,10 @@ Grid<std::uint8_t> samples_within(const PartView& view, const Ping& ping) {
         std::clamp(std::floor((range - ping.gate.min_range) / ping.gate.bin_size), 0.0, bins - 1));
   };
   const std::vector<double>& azimuth = ping.fan.azimuth;
+  // Cubes of earlier versions lack the beams.
+  const PartView::Extent& heard = std::isnan(view.heard.least) ? view.azimuth : view.heard;
   const auto off = [&](std::size_t beam) {
-    return std::max({0.0, view.azimuth.least - azimuth[beam], azimuth[beam] - view.azimuth.most});
+    return std::max({0.0, heard.least - azimuth[beam], azimuth[beam] - heard.most});
   };
   double nearest = off(0);
   for (std::size_t b = 1; b < azimuth.size(); ++b) nearest = std::min(nearest, off(b));
@@ -30,16 +33,8 @@ Grid<std::uint8_t> samples_within(const PartView& view, const Ping& ping) {
   return within;
 }
 
-ordered_json box_json(const std::optional<PixelBox>& box) {
-  if (!box) return nullptr;
-  return *box;
-}
-
-}  // namespace
-
-std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture) {
-  if (!(view.visible_share >= 0)) return std::nullopt;
-  const Grid<std::uint8_t> shown = picture(samples_within(view, picture.ping));
+/// The box about all pixels that are not 0; empty if all are.
+std::optional<PixelBox> box_of_marks(const Grid<std::uint8_t>& shown) {
   int left = static_cast<int>(shown.cols()), top = static_cast<int>(shown.rows()), right = -1, bottom = -1;
   for (int row = 0; row < shown.rows(); ++row)
     for (int column = 0; column < shown.cols(); ++column)
@@ -49,6 +44,39 @@ std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture
       }
   if (right < 0) return std::nullopt;
   return PixelBox{left, top, right - left + 1, bottom - top + 1};
+}
+
+/// The pixels from the first to the last one, of `count`: two places in pixels from the first one's side. None: beyond.
+std::optional<std::pair<int, int>> pixels_between(double low, double high, Eigen::Index count) {
+  const double most = static_cast<double>(count) - 1, first = std::floor(low), last = std::floor(high);
+  if (!(last >= 0 && first <= most)) return std::nullopt;
+  return std::pair(static_cast<int>(std::max(first, 0.0)), static_cast<int>(std::min(last, most)));
+}
+
+/// The box about the places where a fan draws a part; empty beyond the picture, and for cubes without these places.
+std::optional<PixelBox> box_of_places(const PartView& view, const FanRaster& fan) {
+  const double m = fan.metres_per_pixel;
+  const auto across = pixels_between(fan.head_column - view.port.most / m, fan.head_column - view.port.least / m,
+                                     fan.beam.cols()),
+             along = pixels_between(fan.head_row - view.ahead.most / m, fan.head_row - view.ahead.least / m,
+                                    fan.beam.rows());
+  if (!across || !along) return std::nullopt;
+  return PixelBox{across->first, along->first, across->second - across->first + 1, along->second - along->first + 1};
+}
+
+ordered_json box_json(const std::optional<PixelBox>& box) {
+  if (!box) return nullptr;
+  return *box;
+}
+
+}  // namespace
+
+ordered_json numbers_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture) {
+  if (!(view.visible_share >= 0)) return std::nullopt;
+  if (picture.fan) return box_of_places(view, *picture.fan);
+  return box_of_marks(polar_picture(samples_within(view, picture.ping), picture.ping.fan));
 }
 
 std::map<std::uint16_t, std::size_t> parts_of_objects(const PixelLabels& labels, double least_share,
@@ -80,6 +108,8 @@ ordered_json part_objects_json(const PixelLabels& labels, const std::map<std::ui
                        {"class", labels.part_labels[p]},
                        {"instance", object == parts.end() ? ordered_json() : ordered_json(object->first)},
                        {"world_from_part", pose},
+                       {"scale", view.scale},
+                       {"size_m", numbers_json(view.size)},
                        {"visible_share", view.visible_share},
                        {"azimuth_rad", {view.azimuth.least, view.azimuth.most}},
                        {"range_m", {view.range.least, view.range.most}},

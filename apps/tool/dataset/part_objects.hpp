@@ -14,23 +14,21 @@
 /// Parts of a scene as objects of a data set.
 namespace insonify::tool {
 
-/// Samples of a ping (beams x bins) as a picture: polar, or by a raster of the fan.
+/// A picture of a ping: polar, or by a raster of the fan.
 struct PictureOf {
   const Ping& ping;
   const FanRaster* fan = nullptr;  ///< null: polar
-
-  /// The values of samples as rows and columns of the picture; 0 beside the fan.
-  template <typename Value>
-  Grid<Value> operator()(const Grid<Value>& samples) const {
-    return fan ? fan_picture(samples, *fan, Value{0}) : polar_picture(samples, ping.fan);
-  }
 };
 
 /// Left, top, width and height [pixels].
 using PixelBox = std::array<int, 4>;
 
-/// The box about all that the head would see of a part alone, by its extents in azimuth and range; empty if it would
-/// see nothing.
+/// Three numbers as a JSON array; NaN as null.
+nlohmann::ordered_json numbers_json(const Eigen::Vector3d& v);
+
+/// The box about all that the head would see of a part alone: in a polar picture by its ranges and the beams that hear it,
+/// in a fan by the places where it is drawn. Empty if the head would see nothing; for a fan also if the cube is of an
+/// earlier version, which lacks these places.
 std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture);
 
 /// The part of each object of a picture, by the numbers of the objects; objects that are not of a labelled part are not

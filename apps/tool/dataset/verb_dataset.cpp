@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -90,25 +90,29 @@ std::vector<std::size_t> chosen_rows(const Ping& ping, const DatasetOptions& o) 
   return chosen;
 }
 
-/// How many samples have which level, in steps of 0.25 dB.
+/// How many samples have which level, in steps of 0.25 dB within 500 dB of 0.
 class LevelCounts {
  public:
   void add(const Grid<float>& level_db) {
-    for (const float level : level_db.reshaped())
-      if (std::isfinite(level)) ++counts_[static_cast<std::int32_t>(std::floor(level / step_db))], ++samples_;
+    for (const float level : level_db.reshaped()) {
+      if (!std::isfinite(level)) continue;
+      const float step = std::floor((level - least_db) / step_db);
+      ++counts_[static_cast<std::size_t>(std::clamp(step, 0.0F, static_cast<float>(steps - 1)))];
+    }
   }
   /// The level that a share of the samples exceeds; 0 without samples.
   double exceeded_by(double share) const {
-    auto left = static_cast<double>(samples_) * share;
-    for (auto at = counts_.rbegin(); at != counts_.rend(); ++at)
-      if ((left -= static_cast<double>(at->second)) < 0) return step_db * (at->first + 1);
+    double left = share * std::accumulate(counts_.begin(), counts_.end(), 0.0);
+    for (std::size_t step = steps; step-- > 0;)
+      if ((left -= static_cast<double>(counts_[step])) < 0)
+        return static_cast<double>(least_db) + static_cast<double>(step_db) * static_cast<double>(step + 1);
     return 0;
   }
 
  private:
-  static constexpr double step_db = 0.25;
-  std::map<std::int32_t, std::size_t> counts_;
-  std::size_t samples_ = 0;
+  static constexpr float step_db = 0.25F, least_db = -500;
+  static constexpr std::size_t steps = 4000;
+  std::vector<std::size_t> counts_ = std::vector<std::size_t>(steps);
 };
 
 /// Classes that a ping may have boxes of: those of as many pixels as an object must have.
@@ -124,43 +128,42 @@ std::set<std::string> shown_classes(const Ping& ping, const DatasetOptions& o) {
   return shown;
 }
 
-/// Lists the classes that pings show, and returns the window of 60 dB whose top, a multiple of 5 dB, one sample in 1000
-/// of all images exceeds, or that of the options.
-GreyWindow survey_images(std::vector<DatasetSource>& sources, const DatasetOptions& o) {
-  LevelCounts levels;
-  for (DatasetSource& source : sources)
-    for_each_labelled_ping(source, [&](const Cube&, const Ping& ping, std::size_t) {
-      std::set<std::string>& shown = source.shows.emplace_back();
-      for (const std::size_t row : chosen_rows(ping, o)) {
-        const Ping image = row_of(ping, row);
-        shown.merge(shown_classes(image, o));
-        if (o.window.empty()) levels.add(dataset_levels(image, o));
-      }
-    });
-  if (!o.window.empty()) return parse_window("--window", o.window);
+/// What all images of a data set have in common.
+struct CommonOfImages {
+  std::vector<std::string> classes{"nothing", "shadow"};  ///< then those of the sources, in their order
+  GreyWindow window;
+};
+
+/// The window of 60 dB whose top, a multiple of 5 dB, one sample in 1000 of all images exceeds.
+GreyWindow window_of(const LevelCounts& levels) {
   const double max_db = 5 * std::ceil(levels.exceeded_by(0.001) / 5);
   return {max_db - 60, max_db};
 }
 
-/// All classes in the order of the sources; shadow and nothing come first.
-std::vector<std::string> classes_of_runs(const std::vector<DatasetSource>& sources, const DatasetOptions& o) {
-  std::vector<std::string> classes{"nothing", "shadow"};
-  for (const DatasetSource& source : sources) {
-    if (source.cubes.empty()) continue;
-    DatasetSource first = source;
-    first.cubes.resize(1);
-    bool begun = false;
-    for_each_labelled_ping(first, [&](const Cube&, const Ping& ping, std::size_t) {
-      if (std::exchange(begun, true)) return;
+/// Reads all pings once: lists the classes that each shows, and returns the classes of all with the window.
+CommonOfImages survey_images(std::vector<DatasetSource>& sources, const DatasetOptions& o) {
+  CommonOfImages common;
+  std::vector<std::string>& classes = common.classes;
+  LevelCounts levels;
+  for (DatasetSource& source : sources)
+    for_each_labelled_ping(source, [&](const Cube&, const Ping& ping, std::size_t place) {
       for (const std::string& name : ping.labels.names)
-        if (std::find(classes.begin(), classes.end(), name) == classes.end()) classes.push_back(name);
+        if (place == 0 && std::ranges::find(classes, name) == classes.end()) classes.push_back(name);
+      std::set<std::string>& shown = source.shows.emplace_back();
+      for (const std::size_t row : chosen_rows(ping, o)) {
+        const bool whole = rows_of(ping) == 1;
+        const Ping part = whole ? Ping{} : row_of(ping, row);
+        const Ping& image = whole ? ping : part;
+        shown.merge(shown_classes(image, o));
+        if (o.window.empty()) levels.add(dataset_levels(image, o));
+      }
     });
-  }
   for (const std::string& name : o.stuff)
     if (std::find(classes.begin() + 1, classes.end(), name) == classes.end())
       fail(ErrorKind::argument, "--stuff = ", name, " is no class of the runs; they have ",
            shortened_list(std::span(classes).subspan(1)));
-  return classes;
+  common.window = o.window.empty() ? window_of(levels) : parse_window("--window", o.window);
+  return common;
 }
 
 /// A line for each class: its boxes in the fan images of each part.
@@ -184,8 +187,7 @@ void dataset(const DatasetOptions& o) {
   std::vector<DatasetSource> sources = dataset_sources(o.runs);
   Progress progress(o.common, static_cast<int>(sources.size()) + 2);
   progress.step("reading");
-  const std::vector<std::string> classes = classes_of_runs(sources, o);
-  const GreyWindow window = survey_images(sources, o);
+  const auto [classes, window] = survey_images(sources, o);
   split_pings(sources, o.split_by, shares);
   RunDirectory directory(o.output, o.force, o.runs);
   DatasetWriter writer(directory, o, classes, window);

@@ -39,6 +39,17 @@ void drop_unused_materials(SceneCloud& cloud) {
   if (!used.empty()) cloud.materials = std::move(used);
 }
 
+/// Of all surface of a file, along its axes.
+Eigen::Vector3d size_of(const LoadedScene& loaded) {
+  Bounds box = bounds(loaded.scene);
+  if (loaded.mesh)
+    for (const Eigen::Vector3f& corner : loaded.mesh->point) {
+      const Eigen::Vector3d at = loaded.mesh->origin + corner.cast<double>();
+      box = {box.min.cwiseMin(at), box.max.cwiseMax(at)};
+    }
+  return box.max - box.min;
+}
+
 /// The surfels of a file: of a mesh evenly spaced ones; all hide as discs.
 SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, const PartsOptions& o) {
   SceneCloud cloud = std::move(loaded.scene);
@@ -96,12 +107,14 @@ const SceneBody& PartFiles::body_of(const PartFile& file, bool captured) {
 
 SceneBody PartFiles::read(const PartFile& file, bool captured) {
   SceneCloud cloud;
+  SceneBody body;
   if (file.scene) {
     const PartsScene inner(file.path, options_);
     random_ |= inner.is_random();
     LoadedScene whole = inner.whole_at(0);
     add_report(whole.report, report_);
     if (captured) take_system_of(file.path, whole.report.meaning.system.value, report_.meaning);
+    body.size = size_of(whole);
     cloud = std::move(whole.scene);
     std::iota(cloud.id.begin(), cloud.id.end(), 0u);
   } else {
@@ -113,9 +126,9 @@ SceneBody PartFiles::read(const PartFile& file, bool captured) {
     LoadedScene loaded = load_scene(file.path, loading);
     add_report(loaded.report, report_);
     if (captured) take_system_of(file.path, loaded.report.meaning.system.value, report_.meaning);
+    body.size = size_of(loaded);
     cloud = surfels_of(loaded, file, captured, options_);
   }
-  SceneBody body;
   if (!captured) {
     // In axes of its own, near its coordinates, with numbers of its own.
     body.centre = cloud.origin;

@@ -208,6 +208,8 @@ ordered_json PartsScene::parts_json(double time, std::uint64_t draw) const {
       const HeadPlace at = head_place(part.world_from_file());
       json["position_m"] = vector_json(at.position);
       json["yaw_pitch_roll_deg"] = vector_json(Vector3d(degrees(1) * Vector3d(at.yaw, at.pitch, at.roll)));
+      json["scale"] = part.scale;
+      json["size_m"] = vector_json(part.size);
     }
     if (part.moves()) {
       const Vector3d arm = part.world_from_part.linear() * part.file_origin;

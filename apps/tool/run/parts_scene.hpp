@@ -47,7 +47,8 @@ class PartsScene {
   /// The same for one ping: of tiles what it reaches. `memory` [bytes]: limit for tiles. Throws Error(runtime) before
   /// reading if they need more.
   LoadedScene scene_of(const PingSimulator& simulator, const PingEvent& event, std::uint64_t draw, double memory) const;
-  /// Returns a list of the parts at `time`: name, label, file, surfels, pose, how they move.
+  /// Returns a list of the parts at `time`: name, label, file, surfels, pose, scale,
+  /// size, how they move.
   nlohmann::ordered_json parts_json(double time, std::uint64_t draw = 0) const;
 
  private:

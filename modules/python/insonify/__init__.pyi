@@ -49,6 +49,7 @@ class Ping:
     instance_image: Final[NDArray[np.uint32]]
     class_names: Final[list[str]]
     part_names: Final[list[str]]
+    parts: Final[list[dict[str, Any]]]
     range: Final[NDArray[np.float64]]
     azimuth: Final[NDArray[np.float64]]
     elevation: Final[NDArray[np.float64]]
