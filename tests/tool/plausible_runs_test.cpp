@@ -26,11 +26,11 @@ class PlausibleRuns : public ToolTest {
     columns.system = system;
     save_scene(path("bed.ply"), bed, columns);
   }
-  /// A mission of em2040 along way.csv.
+  /// A mission of an echo sounder along way.csv.
   void write_mission(const std::string& trajectory_keys = "", const std::string& survey_keys = "") const {
     write("m.toml", "schema = 1\n[survey]\nscene = \"bed.ply\"\nseed = 1\n" + survey_keys +
                         "[trajectory]\nfile = \"way.csv\"\n" + trajectory_keys +
-                        "[[head]]\nsonar = \"em2040\"\nname = \"mb\"\nrange = \"1:12\"\nset = [\"sonar.beams=8\"]\n"
+                        "[[head]]\nsonar = \"es200-7c\"\nname = \"mb\"\nrange = \"1:12\"\n"
                         "rate_hz = 1\n");
   }
   void write_way(const std::vector<std::pair<double, double>>& entries) const {
@@ -57,7 +57,7 @@ TEST_F(PlausibleRuns, a_profile_that_ends_above_the_bed_is_said) {
       if (shallow) return HasSubstr(note);
       return testing::Not(HasSubstr("profile ends"));
     };
-    EXPECT_THAT(said_by("ping bed.ply --sonar em2040 --set sonar.beams=8 --range 1:12 --environment sea.toml "
+    EXPECT_THAT(said_by("ping bed.ply --sonar es200-7c --range 1:12 --environment sea.toml "
                         "--pose=0,0,-1,0,0,0 --force -o one"),
                 expected());
     EXPECT_THAT(said_by("survey m.toml --plan"), expected());
@@ -73,21 +73,20 @@ TEST_F(PlausibleRuns, a_gap_of_a_trajectory_is_not_flown_over_in_a_straight_line
   write_mission();
   const std::string said = said_by("survey m.toml -o run");
   EXPECT_THAT(said,
-              HasSubstr("way.csv: 59 of 71 pings lie in gaps of more than 10 s and are left out; the longest is from 5 "
+              HasSubstr("way.csv: 59 of 70 pings lie in gaps of more than 10 s and are left out; the longest is from 5 "
                         "to 65 s. max_gap_s = 60 in [trajectory]"));
   succeed("merge -q run");
   const Cube cube = cube_of("run/mb");
-  ASSERT_EQ(cube.pings.size(), 12U);
+  ASSERT_EQ(cube.pings.size(), 11U);
   EXPECT_EQ(cube.pings[5].time, 5);
   EXPECT_EQ(cube.pings[6].time, 65);
   EXPECT_EQ(cube.pings[6].number, 6);
   write_mission("max_gap_s = 60\n");
   EXPECT_THAT(said_by("survey m.toml -o whole"), testing::Not(HasSubstr("gaps of more than")));
   succeed("merge -q whole");
-  EXPECT_EQ(cube_of("whole/mb").pings.size(), 71U);
-  EXPECT_THAT(
-      said_by("ping bed.ply --sonar em2040 --set sonar.beams=8 --range 1:12 --trajectory way.csv --time 30 -o one"),
-      HasSubstr("way.csv has no entry between 5 and 65 s: the pose at 30 s is that of a straight line"));
+  EXPECT_EQ(cube_of("whole/mb").pings.size(), 70U);
+  EXPECT_THAT(said_by("ping bed.ply --sonar es200-7c --range 1:12 --trajectory way.csv --time 30 -o one"),
+              HasSubstr("way.csv has no entry between 5 and 65 s: the pose at 30 s is that of a straight line"));
   write("m.toml", replaced(read("m.toml"), "file = \"way.csv\"", "waypoints_m = [[0,0,-1],[5,0,-1]]\nspeed_m_s = 1"));
   expect_refused("survey m.toml --plan", 3, {"m.toml", "max_gap_s"});
 }
@@ -117,7 +116,7 @@ TEST_F(PlausibleRuns, drafts_without_a_water_level_are_said) {
 
 TEST_F(PlausibleRuns, merged_pings_keep_the_coordinate_system_of_their_runs) {
   make_bed({500000, 5900000, 0}, utm_32);
-  const std::string ping = "ping bed.ply -q --sonar em2040 --set sonar.beams=8 --range 1:12 --pose=5000";
+  const std::string ping = "ping bed.ply -q --sonar es200-7c --range 1:12 --pose=5000";
   succeed(ping + "00,5900000,-1,0,0,0 -o a");
   succeed(ping + "01,5900000,-1,0,0,0 -o b");
   succeed("merge a b -q -o both");
@@ -136,10 +135,10 @@ TEST_F(PlausibleRuns, tiles_keep_the_coordinate_system_for_runs) {
   make_bed({500000, 5900000, 0}, utm_32);
   succeed("prepare bed.ply -q -o bed.tiles");
   EXPECT_EQ(json_of("info bed.tiles")["system"], utm_32);
-  succeed("ping bed.tiles -q --sonar em2040 --set sonar.beams=8 --range 1:12 --pose=500000,5900000,-1,0,0,0 -o a");
+  succeed("ping bed.tiles -q --sonar es200-7c --range 1:12 --pose=500000,5900000,-1,0,0,0 -o a");
   EXPECT_EQ(manifest_of("a")["scene"]["system"], utm_32);
   write("scene.toml", "schema = 1\n[[part]]\nname = \"bed\"\nfile = \"bed.tiles\"\n");
-  succeed("ping scene.toml -q --sonar em2040 --set sonar.beams=8 --range 1:12 --pose=500000,5900000,-1,0,0,0 -o b");
+  succeed("ping scene.toml -q --sonar es200-7c --range 1:12 --pose=500000,5900000,-1,0,0,0 -o b");
   EXPECT_EQ(manifest_of("b")["scene"]["system"], utm_32);
   write("way.csv",
         "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,500000,5900000,-1,0,0,0\n1,500001,5900000,-1,0,0,0\n");
