@@ -95,10 +95,9 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
     if (!is_json_text(rest, tags.system)) bad();
   } else if (key == "column") {
     const std::string_view name = take_word(rest);
-    if (std::string meant; is_json_text(rest, meant))
-      tags.columns.emplace_back(name, meant);
-    else
-      bad();
+    std::string meant;
+    if (!is_json_text(rest, meant)) bad();
+    tags.columns.emplace_back(name, meant);
   } else if (key == "material") {
     std::size_t index = 0;
     Material material;
