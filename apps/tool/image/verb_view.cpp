@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
