@@ -102,10 +102,10 @@ class Missions : public ToolTest {};
 
 TEST_F(Missions, that_are_made_can_be_surveyed_and_swept) {
   have("harbour.ply", "make-scene harbour --points 6000");
-  const std::string cheap = " --scene harbour.ply --speed 1 --range 1:6";
+  const std::string cheap = " --scene harbour.ply --speed 1 --range 1:6 --centre 0,0,-3";
   succeed("make-mission lawnmower -o lines.toml --size 6,4 --spacing 2 --rate 1 --sonar p900-45" + cheap);
   succeed("make-mission orbit -o orbit.toml --radius 3 --rate 1 --sonar p900-45" + cheap);
-  succeed("make-mission tunnel -o tunnel.toml --size 2,0 --centre 0,0,-5" + cheap);
+  succeed("make-mission tunnel -o tunnel.toml --size 2,0 --scene harbour.ply --speed 1 --range 1:6 --centre 0,0,-5");
   succeed("make-mission lawnmower -o sides.toml --size 6,4 --rate 1 --sonar starfish-450" + cheap);
   const std::vector<MissionHead> sides = load_mission(path("sides.toml")).mission.heads;
   ASSERT_EQ(sides.size(), 2U) << "one to port, one to starboard";
