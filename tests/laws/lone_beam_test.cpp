@@ -16,7 +16,7 @@ constexpr int soundings_of_a_bed = 250;
 /// A bed about the plane z = x tan(slope), with waves of relief that are shorter than a footprint.
 struct SounderBed {
   double slope_deg = 0;
-  double relief = 0;     ///< root mean square height [m]
+  double relief = 0;     ///< root mean square altitude [m]
   double reach = 0;      ///< half its side [m]
   double spacing = 0.1;  ///< of surfels [m]
 };
@@ -38,15 +38,15 @@ std::vector<ReliefWave> relief_waves() {
 
 SceneCloud scene_of(const SounderBed& bed) {
   const std::vector<ReliefWave> waves = relief_waves();
-  const double height = bed.relief * std::sqrt(2.0 / static_cast<double>(waves.size()));
+  const double altitude = bed.relief * std::sqrt(2.0 / static_cast<double>(waves.size()));
   SceneCloud scene;
   for (double x = -bed.reach; x < bed.reach; x += bed.spacing)
     for (double y = -bed.reach; y < bed.reach; y += bed.spacing) {
       double z = x * std::tan(radians(bed.slope_deg)), dx = std::tan(radians(bed.slope_deg)), dy = 0;
       for (const ReliefWave& w : waves) {
         const double phase = w.along * x + w.across * y + w.phase;
-        z += height * std::cos(phase);
-        dx -= height * w.along * std::sin(phase), dy -= height * w.across * std::sin(phase);
+        z += altitude * std::cos(phase);
+        dx -= altitude * w.along * std::sin(phase), dy -= altitude * w.across * std::sin(phase);
       }
       const Eigen::Vector3d up(-dx, -dy, 1);
       add_surfel(scene, {x, y, z}, up.normalized(), bed.spacing * bed.spacing * up.norm());
@@ -54,10 +54,10 @@ SceneCloud scene_of(const SounderBed& bed) {
   return scene;
 }
 
-/// Errors of an echo sounder at a height above the plane of a bed, rolled and pitched by up to five degrees.
+/// Errors of an echo sounder at a altitude above the plane of a bed, rolled and pitched by up to five degrees.
 struct SounderErrors {
   double bias = 0, observed = 0, predicted = 0, normalised = 0;
-  double height = 0;  ///< of the head [m]
+  double altitude = 0;  ///< of the head [m]
   int found = 0;
 };
 
@@ -67,11 +67,11 @@ struct SoundingError {
 
 /// None if the ping has no sounding that is kept.
 std::optional<SoundingError> error_of_ping(const PingSimulator& sounder, const PreparedScene& scene,
-                                           const SounderBed& bed, double height, std::size_t number) {
+                                           const SounderBed& bed, double altitude, std::size_t number) {
   std::mt19937 draw(static_cast<unsigned>(number) + 7);
   std::uniform_real_distribution<double> place(-1, 1), tilt(radians(-5), radians(5)), heading(0, 2 * pi);
   const double x = place(draw), y = place(draw), slope = std::tan(radians(bed.slope_deg));
-  const Eigen::Vector3d at(x, y, x * slope + height), up(-slope, 0, 1);
+  const Eigen::Vector3d at(x, y, x * slope + altitude), up(-slope, 0, 1);
   const Pose pose = pose_from_yaw_pitch_roll(at, heading(draw), pi / 2 + tilt(draw), tilt(draw));
   SimulationOptions o = sounder.options();
   o.seed = number;
@@ -103,9 +103,9 @@ SounderErrors sum_of(const std::vector<std::optional<SoundingError>>& errors) {
   return all;
 }
 
-SounderErrors errors_of(const std::string& sonar, double height, const SounderBed& bed) {
+SounderErrors errors_of(const std::string& sonar, double altitude, const SounderBed& bed) {
   SonarSpec spec = find_sonar(sonar).spec;
-  spec.min_range = 0.3 * height, spec.max_range = 2 * height;
+  spec.min_range = 0.3 * altitude, spec.max_range = 2 * altitude;
   const SceneCloud scene = scene_of(bed);
   const PreparedScene prepared(scene, 0);
   SimulationOptions o;
@@ -114,9 +114,10 @@ SounderErrors errors_of(const std::string& sonar, double height, const SounderBe
   o.threads = 1;  // pings are side by side
   const PingSimulator sounder(make_head(spec, sound_speed(Water{})), {}, o);
   std::vector<std::optional<SoundingError>> errors(soundings_of_a_bed);
-  parallel_for(errors.size(), 0, [&](std::size_t p) { errors[p] = error_of_ping(sounder, prepared, bed, height, p); });
+  parallel_for(errors.size(), 0,
+               [&](std::size_t p) { errors[p] = error_of_ping(sounder, prepared, bed, altitude, p); });
   SounderErrors all = sum_of(errors);
-  all.height = height;
+  all.altitude = altitude;
   return all;
 }
 
@@ -133,7 +134,7 @@ void expect_errors_as_predicted(const std::string& name, const SounderErrors& er
   EXPECT_GT(errors.observed, 0.8 * errors.predicted) << name;
   EXPECT_LT(errors.normalised, 1.25) << name;
   EXPECT_GT(errors.normalised, 0.8) << name;
-  EXPECT_LT(std::abs(errors.bias), 0.0025 * errors.height) << name;
+  EXPECT_LT(std::abs(errors.bias), 0.0025 * errors.altitude) << name;
 }
 
 }  // namespace
