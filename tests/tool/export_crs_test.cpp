@@ -12,12 +12,6 @@
 
 namespace {
 
-#ifdef INSONIFY_TEST_GDAL
-constexpr bool with_gdal = true;
-#else
-constexpr bool with_gdal = false;
-#endif
-
 /// A Lambert conformal conic projection with two standard parallels on GRS 80; angles in degrees, easting and northing
 /// in metres. Snyder 1987, "Map projections", equations 14-15, 15-1 to 15-11.
 struct LambertConic {

@@ -9,6 +9,13 @@
 #include "store/cube.hpp"
 #include "support/test.hpp"
 
+/// Whether the tool was built with GDAL.
+#ifdef INSONIFY_TEST_GDAL
+inline constexpr bool with_gdal = true;
+#else
+inline constexpr bool with_gdal = false;
+#endif
+
 /// What a run of the tool left behind.
 struct ToolResult {
   int exit_code = -1;

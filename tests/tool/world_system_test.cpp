@@ -10,12 +10,6 @@
 
 namespace {
 
-#ifdef INSONIFY_TEST_GDAL
-constexpr bool with_gdal = true;
-#else
-constexpr bool with_gdal = false;
-#endif
-
 constexpr double west = 500060, south = 5900050;
 
 /// A transverse Mercator system about 9 degrees east, as a file .prj has it.
