@@ -13,7 +13,6 @@
 #include "hdf/hdf5_internal.hpp"
 #include "store/cube_arrays_internal.hpp"
 #include "store/cube_axes_internal.hpp"
-#include "store/cube_layout_internal.hpp"
 
 namespace insonify {
 
@@ -99,8 +98,7 @@ Extent read_values_of(const FileContext& place, hid_t file, Track& track, hsize_
 void add_track(const FileContext& place, hid_t file, Track& track, hsize_t pings) {
   const Extent extent = read_values_of(place, file, track, pings);
   if (extent.empty()) return;
-  if (track.extent.empty())
-    track.extent = {0}, track.extent.insert(track.extent.end(), extent.begin() + 1, extent.end());
+  if (track.extent.empty()) (track.extent = extent)[0] = 0;
   if (!std::equal(extent.begin() + 1, extent.end(), track.extent.begin() + 1, track.extent.end()))
     fail(ErrorKind::content, place.path, ": ", track.name.path,
          " has another shape than in the cubes before; make all of them with one version of insonify");
