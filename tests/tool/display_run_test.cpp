@@ -34,7 +34,7 @@ TEST_F(DisplayRun, is_read_by_pictures_comparisons_and_exports) {
   const auto compared = json_of("compare cells samples");
   EXPECT_LT(std::abs(compared["levels"]["bias_db"].get<double>()), 0.3) << compared;
   succeed("export cells --to png -o levels.png -q");
-  succeed("dataset cells samples -o set -q --stuff sand");
+  expect_refused("dataset cells samples -o set -q --stuff sand", 3, {"cells/cube.h5", "has no labels"});
   EXPECT_GT(std::filesystem::file_size(path("cells.png")), 10000u);
 }
 
