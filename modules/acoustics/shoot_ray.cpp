@@ -81,7 +81,8 @@ RayTube shoot_vertically(const SoundSpeedProfile& profile, double depth, bool do
     const RayLayer layer = layer_at(profile, depth, down);
     const double c = sound_speed_at(profile, depth), g = sign * layer.gradient;
     const double way = sign * ((down ? layer.bottom : layer.top) - depth);
-    const double needed = std::abs(g) * way < 1e-9 * c ? way / c : std::log1p(g * way / c) / g;
+    // Beyond the profile a layer has no end and no gradient.
+    const double needed = g == 0 || std::abs(g) * way < 1e-9 * c ? way / c : std::log1p(g * way / c) / g;
     if (needed >= time) {
       const double far = std::abs(g) * time < 1e-9 ? c * time : c * std::expm1(g * time) / g;
       tube.way += far * (c + 0.5 * g * far);

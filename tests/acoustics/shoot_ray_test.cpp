@@ -20,6 +20,15 @@ TEST(ShootRay, goes_straight_in_water_of_one_speed) {
 }
 
 // The fastest ray between two points, found by another method, leads from the one to the other.
+TEST(ShootRay, straight_up_and_down_leaves_the_profile) {
+  // Water of one speed goes on above and below.
+  const SoundSpeedProfile profile{{5, 6}, {1500, 1490}};
+  EXPECT_NEAR(shoot_ray(profile, 2, pi / 2, 0.01).depth, 2 - 15, 1e-9);
+  EXPECT_NEAR(shoot_ray(profile, 7, -pi / 2, 0.01).depth, 7 + 14.9, 1e-9);
+  const double through = std::log(1500 / 1490.0) / 10;  // [s], of the layer
+  EXPECT_NEAR(shoot_ray(profile, 4, -pi / 2, 1 / 1500.0 + through + 2 / 1490.0).depth, 8, 1e-9);
+}
+
 TEST(ShootRay, follows_the_eigenray_to_its_end) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(0, 1);
