@@ -32,12 +32,12 @@ TEST_F(FirstHour, info_proposes_commands_that_run_as_they_stand) {
   const json reef = info("reef.pcd");
   EXPECT_THAT(next_of(reef), HasSubstr("insonify prepare reef.pcd --viewpoint x,y,z"));
   EXPECT_THAT(next_of(reef), HasSubstr("insonify materials"));
-  const std::string all = succeed("info reef.pcd");
+  // The viewpoint is the user's to fill in; later lines take the prepared scene.
+  const std::string all = replaced(succeed("info reef.pcd"), "x,y,z", "0,0,0");
   for (const char* begin : {"insonify prepare ", "insonify ping ", "insonify make-mission "}) {
     const std::size_t at = all.find(begin);
     ASSERT_NE(at, all.npos) << begin;
-    // The viewpoint is the user's to fill in; later lines take the prepared scene.
-    std::string command = replaced(all.substr(at + 9, all.find('\n', at) - at - 9), "x,y,z", "0,0,0");
+    std::string command = all.substr(at + 9, all.find('\n', at) - at - 9);
     command.resize(std::min(command.size(), command.find('#')));
     succeed(command + " -q" + (command.starts_with("ping") ? " --no-picture" : ""));
   }
