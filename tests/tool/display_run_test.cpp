@@ -30,7 +30,7 @@ TEST_F(DisplayRun, holds_levels_in_a_small_file) {
 
 TEST_F(DisplayRun, is_read_by_pictures_comparisons_and_exports) {
   succeed("image cells -o cells.png -q");
-  succeed("info cells cells/cube.h5");
+  EXPECT_EQ(json_of("info cells/cube.h5")["holds"], "display cells");
   const auto compared = json_of("compare cells samples");
   EXPECT_LT(std::abs(compared["levels"]["bias_db"].get<double>()), 0.3) << compared;
   succeed("export cells --to png -o levels.png -q");

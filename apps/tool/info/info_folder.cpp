@@ -221,6 +221,7 @@ ordered_json info_of_cube(const std::string& path) {
           {"pings", cube.pings.size()},
           {"beams", first.fan.beams()},
           {"bins", first.gate.bins()},
+          {"holds", first.display_cells ? "display cells" : first.expected_level ? "expected levels" : "samples"},
           {"min_range_m", first.gate.min_range},
           {"max_range_m", first.gate.max_range},
           {"bin_size_m", first.gate.bin_size},
