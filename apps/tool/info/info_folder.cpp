@@ -213,6 +213,7 @@ ordered_json info_of_cube(const std::string& path) {
     if ((*least).*number == (*most).*number) return first.*number;
     return {(*least).*number, (*most).*number};
   };
+  const char* holds = first.display_cells ? "display cells" : first.expected_level ? "expected levels" : "samples";
   float peak = silence_db;
   for (const Ping& ping : cube.pings) peak = std::max(peak, level_db(ping).maxCoeff());
   return {{"path", file},
@@ -221,7 +222,7 @@ ordered_json info_of_cube(const std::string& path) {
           {"pings", cube.pings.size()},
           {"beams", first.fan.beams()},
           {"bins", first.gate.bins()},
-          {"holds", first.display_cells ? "display cells" : first.expected_level ? "expected levels" : "samples"},
+          {"holds", holds},
           {"min_range_m", first.gate.min_range},
           {"max_range_m", first.gate.max_range},
           {"bin_size_m", first.gate.bin_size},
