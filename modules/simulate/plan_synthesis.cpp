@@ -64,7 +64,7 @@ Choice asked_true_delays(const SimulationOptions& options) {
 }
 
 constexpr double least_samples_per_cell = 4;
-constexpr double drawn_cell_error = 0.02;  // of an expected cell, in amplitude, docs/results/display.md
+constexpr double drawn_cell_error = 0.035;  // of an expected cell, in amplitude: 0.3 dB (docs/results/display.md)
 
 /// Why display cells must be means of samples (E180); nullptr: they need not.
 const char* reason_for_phases(const PlanCause& of) {
@@ -73,6 +73,7 @@ const char* reason_for_phases(const PlanCause& of) {
   if (o.outputs.display_bins == 0) return "the output is pressure";
   if (o.synthesis.phases) return "asked for";
   if (o.outputs.layers) return "layers are means of samples";
+  if (o.sampling.kind == SamplingKind::rays) return "rays meet points, which have no extent to spread energy over";
   if (of.samples_per_cell < least_samples_per_cell) return "a display cell has fewer than four samples";
   if (sums_pressures(o) && o.amplitude != SurfaceAmplitude::complex_normal) return "amplitudes are not Gaussian";
   if (std::any_of(of.scene.materials.begin(), of.scene.materials.end(), keeps_phase))

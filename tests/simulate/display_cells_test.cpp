@@ -40,7 +40,7 @@ Grid<double> intensity_of(const SimulatedPing& p) { return p.ping.pressure.cast<
 
 struct Moments {
   Grid<double> mean, square;
-  /// Of cells within 30 dB of the loudest.
+  /// Returns the contrast of cells within 30 dB of the loudest.
   double contrast() const {
     double sum = 0, n = 0;
     for (Eigen::Index i = 0; i < mean.size(); ++i)
@@ -89,7 +89,7 @@ TEST(DisplayPing, neighbouring_beams_are_as_alike_as_those_of_samples) {
   const auto apart = [](bool phases, const Moments& m) {
     const Grid<double> image = intensity_of(ping_of(display(phases, 99)));
     const Eigen::Index last = image.rows() - 1;
-    // As if both beams had the mean of the first.
+    // Scale the second beam to the mean of the first.
     const Grid<double> second = image.bottomRows(last) / m.mean.bottomRows(last).max(1e-30) * m.mean.topRows(last);
     return correlation(image.topRows(last), second, m.mean.topRows(last));
   };
@@ -155,6 +155,8 @@ TEST(DisplayPing, forms_samples_for_a_reason) {
   SimulationOptions o = display(false);
   o.outputs.layers = true;
   EXPECT_EQ(row(o, seabed()), "layers are means of samples");
+  o = display(false), o.sampling.kind = SamplingKind::rays;
+  EXPECT_EQ(row(o, seabed()), "rays meet points, which have no extent to spread energy over");
   o = display(false), o.outputs.display_bins = 500;
   EXPECT_EQ(row(o, seabed()), "a display cell has fewer than four samples");
   o = display(false), o.amplitude = SurfaceAmplitude::coherent;
