@@ -107,7 +107,7 @@ class ChainSearch {
     return second;
   }
 
-  /// Those of the rays.
+  /// Returns the derivatives of the rays, or none where a piece has no ray.
   std::optional<Eigen::MatrixXd> ray_derivatives() const {
     double step = 0.05;
     for (std::size_t k = 0; k <= planes_.size(); ++k) step = std::min(step, 1e-2 * piece_length(k));

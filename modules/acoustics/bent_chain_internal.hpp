@@ -12,7 +12,7 @@ namespace insonify {
 /// A ray from the head by planes, one after the other, to a place.
 struct BentChain {
   Eigen::Vector3d sent;  ///< unit vector along the ray where it leaves the head
-  BentLeg leg;           ///< as one leg to the place: `apparent` along `sent`, `arrival` that of the last piece
+  BentLeg leg;           ///< all pieces as one leg to the place: `apparent` along `sent`, `arrival` of the last piece
   std::vector<Eigen::Vector3d> bounces, meets;  ///< where it meets the planes, and unit vectors along it just before
 
   /// Returns the grazing angle [rad] on the k-th plane.

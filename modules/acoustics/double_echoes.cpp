@@ -44,7 +44,7 @@ struct DrawnRay {
 /// Two surfels that a ray connects, and the way by them.
 struct Pair {
   std::uint32_t first, last;
-  PathAngles here{}, there{};  ///< of the straight way: in from the head, out to the other one
+  PathAngles here{}, there{};  ///< angles of the straight way at both patches: in from the head, out to the other patch
   double density = 0;          ///< of surface where the ray ends (SurfaceRayEnd)
   std::optional<PairWay> way;  ///< none: no ray has it
 };

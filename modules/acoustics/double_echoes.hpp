@@ -67,7 +67,7 @@ struct SurfacePlace {
   Eigen::Vector3d at, normal;
 };
 
-/// What a profile makes of the echo by way of two places.
+/// Change that a profile makes to the echo by way of two places.
 struct BentPair {
   std::size_t first = 0, last = 0;
   PathAngles here{}, there{};  ///< of the laws: in from the head, out to the other one

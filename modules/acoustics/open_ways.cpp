@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What surfels do to ways by mirrors and targets: all surfels against all ways, those of one body at once if they can.
+// Effect of surfels on ways by mirrors and targets: all surfels are tested against all ways, those of one body at once if possible.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr std::size_t surfels_of_a_test = 4096;
 constexpr double most_covered = 2;  // distance of a surfel from the place that it covers, in its spacings
 
-/// What surfels do to ways: block them, or cover the place at which a target reflects.
+/// Effect of surfels on ways: they block them, or cover the place at which a target reflects.
 class SurfelTests {
  public:
   SurfelTests(const SceneCloud& scene, const View& view, const std::vector<ImageWay>& ways)

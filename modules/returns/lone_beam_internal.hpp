@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// What a plane does to the echo of a beam that has no others beside it.
+/// Effect of a plane on the echo of a lone beam.
 struct LonePlane {
   double pulse = 0;      ///< variance of the pulse's intensity in range [m^2]
   double curvature = 0;  ///< variance of ranges on a plane across the beam, weighted by its pattern [m^2]

@@ -57,7 +57,6 @@ void CellSum::finish(SimulatedPing& result) {
   CellOptions options;
   options.seed = o.seed, options.ping = ping_.event.number, options.threads = o.threads;
   options.speckle = o.synthesis.method != SynthesisMethod::incoherent;
-  options.bin_size = ping_.samples.bin_size;
   if (o.effects.noise) {
     options.element_noise_db = ping_.element_noise_db;
     report_.push_back({"noise", 0});

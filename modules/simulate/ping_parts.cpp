@@ -36,7 +36,7 @@ RefractionReport refract(const SceneCloud& scene, const ResolvedPing& ping, Scat
   return {bound, ping.options.effects.refraction == Choice::always, bend(scene, ping, patches)};
 }
 
-/// What legs run through: the profile of the environment, if rays are bent.
+/// Returns the environment whose profile legs run through; nullptr: rays are straight.
 const Environment* profile_of(const ResolvedPing& ping) {
   return ping.options.effects.refraction == Choice::always ? &ping.environment : nullptr;
 }

@@ -63,7 +63,7 @@ double bound_of_changed_echoes(const PlanFacts& facts, const Change& change) {
 /// may miss, it is an estimate.
 double double_echo_bound(const PlanFacts& facts);
 
-/// What straight legs cost double echoes in the profile of the environment, from pairs of some 50 places of the sample.
+/// Returns what straight legs cost double echoes in the profile of the environment, from pairs of some 50 places of the sample.
 struct StraightDoubleEchoes {
   double bound = 0;  ///< relative error of the image by it; 0 if double echoes are not asked for
   double range = 0;  ///< largest error of the apparent range [m] of those above -40 dB of the largest

@@ -80,7 +80,7 @@ TEST(CubeLevels, of_display_cells_come_back_within_half_a_hundredth_of_a_decibel
   EXPECT_EQ(raw_extent(file, "/level").size(), 3u);
   EXPECT_EQ(raw_text(file, "/level", "units"), "dB re 1 uPa");
   EXPECT_EQ(raw_text(file, "/", "display_cells"), "mean intensity over the area of each cell, without phase");
-  // What is read and written again is the same.
+  // Levels that are read and written again stay the same.
   EXPECT_TRUE((read_cube(write(back, "again.h5")).pings[1].pressure == back.pings[1].pressure).all());
   EXPECT_EQ(read_track(path).size(), 2u);
   EXPECT_THAT(error_with_kind([&] { read_beam(path, 0, 1, 0); }), HasSubstr("without --display"));

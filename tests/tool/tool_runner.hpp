@@ -9,7 +9,7 @@
 #include "store/cube.hpp"
 #include "support/test.hpp"
 
-/// Whether the tool was built with GDAL.
+/// True if the tool was built with GDAL.
 #ifdef INSONIFY_TEST_GDAL
 inline constexpr bool with_gdal = true;
 #else

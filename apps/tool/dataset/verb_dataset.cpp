@@ -128,7 +128,7 @@ std::set<std::string> shown_classes(const Ping& ping, const DatasetOptions& o) {
   return shown;
 }
 
-/// What all images of a data set have in common.
+/// Settings that all images of a data set share.
 struct CommonOfImages {
   std::vector<std::string> classes{"nothing", "shadow"};  ///< then those of the sources, in their order
   GreyWindow window;

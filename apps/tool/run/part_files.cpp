@@ -39,7 +39,7 @@ void drop_unused_materials(SceneCloud& cloud) {
   if (!used.empty()) cloud.materials = std::move(used);
 }
 
-/// Of all surface of a file, along its axes.
+/// Returns the extents of all surface of a file along its axes [m].
 Eigen::Vector3d size_of(const LoadedScene& loaded) {
   Bounds box = bounds(loaded.scene);
   if (loaded.mesh)

@@ -10,7 +10,7 @@
 
 namespace insonify::tool {
 
-/// What this build has of the parts that it can do without, e.g. "Embree 3, GDAL 3.6.2, Python 3.11, VTK 9.1.0".
+/// Returns the optional packages that this build has, with their versions, e.g. "Embree 3, GDAL 3.6.2, Python 3.11, VTK 9.1.0".
 std::string built_with();
 
 /// Writes the last file of a run, manifest.json, with built_with() and the SHA-256 of all others; what `manifest` has of

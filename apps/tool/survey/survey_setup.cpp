@@ -122,7 +122,7 @@ struct PingsOutside {
   double farthest = 0;  // [m]
 
   void add(const Pose& head, const Bounds& box) {
-    constexpr double steep = -0.7;  // of the axis of a head that looks down
+    constexpr double steep = -0.7;  // z of the axis of a head, below which the head looks down
     const Eigen::Vector2d at = head.translation().head<2>();
     const double away = (at - at.cwiseMax(box.min.head<2>()).cwiseMin(box.max.head<2>())).norm();
     ++all;

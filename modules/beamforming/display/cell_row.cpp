@@ -12,10 +12,8 @@
 namespace insonify {
 namespace {
 
-constexpr double strong_part = 0.1;   // of a cell, from which on an echo is added as a pressure (E184)
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
-constexpr double least_interference = 0.1;
-constexpr std::size_t guards = 4;  // samples about a period
+constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
 
 /// Length of the overlap of [low, high] with [first, last].
 double overlap(double low, double high, double first, double last) {
@@ -144,49 +142,6 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides) {
   }
 }
 
-void CellRow::part_strong(Side& side) {
-  const auto strong = [&](const Part& part) {
-    const double energy = part.energy / part.echo->pieces;
-    if (part.echo->fixed || energy > strong_part * side.energy) return true;
-    const std::int32_t beam = plan_.beam_near[plan_.node_of(part.echo->u)];
-    return beam >= 0 && energy > strong_part * side.mean[static_cast<std::size_t>(beam)];
-  };
-  const auto first = std::stable_partition(side.even.begin(), side.even.end(), [&](auto& p) { return !strong(p); });
-  side.strong.assign(first, side.even.end());
-  side.even.erase(first, side.even.end());
-}
-
-void CellRow::sum_strong(Side& side) {
-  side.groups = 0;
-  if (side.strong.empty()) return;
-  // Echoes within a pulse of each other add up as pressures, others as intensities.
-  std::stable_sort(side.strong.begin(), side.strong.end(),
-                   [](const Part& a, const Part& b) { return a.echo->range < b.echo->range; });
-  std::vector<Complex>& elements = nodes_[0];
-  for (auto first = side.strong.begin(); first != side.strong.end();) {
-    const double last = first->echo->range + 2 * plan_.pulse.half_length();
-    std::fill(elements.begin(), elements.end(), Complex(0));
-    for (; first != side.strong.end() && first->echo->range < last; ++first) add_strong(*first, elements, side.mean);
-    if (side.groups == side.strong_field.size()) side.strong_field.emplace_back(plan_.period_samples + guards);
-    form_period(elements.data(), side.strong_field[side.groups++]);
-  }
-  for (double& mean : side.mean) mean = std::max(mean, element_noise_ * plan_.lag[0]);
-}
-
-void CellRow::add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const {
-  const CellEcho& echo = *part.echo;
-  const double step = 2 * pi / (plan_.node_width * static_cast<double>(plan_.period));
-  const double away = echo.u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
-  const std::size_t count = plan_.shading.size();
-  const Complex turn = std::polar(1.0, -step * away);
-  Complex at = echo.pressure * std::sqrt(part.energy / std::norm(echo.pressure)) * echo.amplitude[0] *
-               std::polar(1.0, -step * away * element_place(0, count));
-  for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
-  // What even ground gives is without it.
-  for (std::size_t b = 0; b < mean.size(); ++b)
-    mean[b] -= part.energy * plan_.response.intensity(echo.u - plan_.u_beam[b]);
-}
-
 void CellRow::sum_fields(std::size_t cell, Side& side) {
   for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), Complex(0));
   for (const Part& part : side.even) {
@@ -223,7 +178,13 @@ void CellRow::form_period(const Complex* elements, std::vector<Complex>& samples
     const std::size_t from = (plan_.first_element + m) % plan_.period;
     at[(length - count / 2 + m) % length] = plan_.shading[m] * elements[from];
   }
+  transform_period(samples);
+}
+
+void CellRow::transform_period(std::vector<Complex>& samples) const {
+  Complex* const at = samples.data() + 1;
   plan_.to_period.run(at);
+  const std::size_t length = plan_.period_samples;
   samples[0] = at[length - 1], at[length] = at[0], at[length + 1] = at[1];
 }
 
@@ -243,8 +204,7 @@ void CellRow::sum_powers(std::size_t sides) {
     if (m > 0) at[length - m] = plan_.lag[m] * nodes[plan_.period - m];
   }
   at[0] += Complex(side_[0].noise, sides > 1 ? side_[1].noise : 0);
-  plan_.to_period.run(at);
-  power_[0] = at[length - 1], at[length] = at[0], at[length + 1] = at[1];
+  transform_period(power_);
 }
 
 void CellRow::count_looks(std::size_t cell, Side& side) {

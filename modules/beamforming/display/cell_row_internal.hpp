@@ -25,6 +25,9 @@ struct CellEcho {
 /// Deviations of a pulse's energy in range beyond which it is left out.
 inline constexpr double reach_of_pulse = 4;
 
+/// Samples about a period of u: one before it, and three behind.
+inline constexpr std::size_t guards = 4;
+
 /// The echoes of each cell: those of cell c are echo[first[c]] .. echo[first[c + 1] - 1].
 struct EchoesByCell {
   std::vector<std::size_t> first;
@@ -52,7 +55,7 @@ class CellRow {
     double energy;  ///< [Pa^2]
     double field;   ///< the same, of an echo from its middle [Pa^2]
   };
-  /// What one of the two cells is made of.
+  /// One of the two cells: its echoes, and the sums over them.
   struct Side {
     std::vector<Part> even, strong;  ///< echoes that are part of even ground, and those that are added as pressures
     double energy = 0;               ///< of all [Pa^2]
@@ -74,6 +77,8 @@ class CellRow {
   void count_looks(std::size_t cell, Side& side);
   void add_noise(std::size_t cell, Side& side);
   void form_period(const Complex* elements, std::vector<Complex>& samples) const;
+  /// Turns elements into samples of a period, and copies those at its ends to the guards.
+  void transform_period(std::vector<Complex>& samples) const;
   double drawn(std::size_t beam, const Side& side, double power) const;
 
   const DisplayPlan& plan_;

@@ -38,7 +38,7 @@ SonarHead head_of(const std::string& preset, double min_range, double max_range)
   return make_head(spec, sound_speed(Water{}));
 }
 
-/// What is needed to ping display cells in both ways.
+/// A scene, a head and a number of cells, which are pinged in both ways.
 struct Rig {
   PreparedScene scene;
   SonarHead head;
@@ -82,7 +82,7 @@ Moments moments_of(const Rig& rig, bool phases, const Pose& pose, int seeds) {
   return m;
 }
 
-/// Of cells within 40 dB of the strongest.
+/// Differences of two images, over cells within 40 dB of the strongest.
 struct Difference {
   double total = 0, band = 0, rms = 0, off = 0, contrast[2] = {0, 0};
   double middle[2] = {0, 0};  ///< contrast of the middle half of the beams, which hear no grating lobes
