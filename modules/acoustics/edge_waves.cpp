@@ -71,7 +71,7 @@ Share windowed(const PhasedLine& line, double begin, double end, double centre, 
     // s = scale sinh(t): even a peak of this width at the foot is smooth in t.
     const double by_phase = std::asinh(line.place_after(s, panel_phase) / line.scale);
     double next = std::min(t + panel_length, by_phase);
-    if (!(next < last)) next = last;
+    if (!(next < last && next > t)) next = last;  // where doubles end, so do panels
     const double half = 0.5 * (next - t), middle = 0.5 * (next + t);
     for (std::size_t k = 0; k < gauss_node.size(); ++k)
       for (const double side : {-1.0, 1.0}) {

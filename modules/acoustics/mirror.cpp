@@ -15,6 +15,15 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Beyond these bounds doubles do not resolve the phases along an edge.
+constexpr double furthest_place = 1e9, largest_extent = 1e7;  // [m]
+
+/// Throws Error unless a place is finite and within reach.
+void require_place(const Vector3d& place, const char* who, const char* name) {
+  require(place.allFinite() && place.norm() <= furthest_place, who, name, place.norm(), "m",
+          "finite, within 1e9 m of the origin");
+}
+
 /// Twice the area of a polygon, along its normal.
 Vector3d area_of(const std::vector<Vector3d>& corners) {
   Vector3d area = Vector3d::Zero();
@@ -72,7 +81,8 @@ void require_valid(const Mirror& m, const char* who) {
   const char* me = at.c_str();
   require(std::abs(m.reflection) <= 1, me, "reflection", m.reflection, "", "within -1 and 1");
   require(m.rms_height >= 0 && std::isfinite(m.rms_height), me, "rms_height", m.rms_height, "m", "finite and >= 0");
-  require(m.place.allFinite() && m.normal.allFinite(), me, "place and normal", m.place.norm(), "m", "finite");
+  require_place(m.place, me, "distance of place from the origin");
+  require(m.normal.allFinite(), me, "length of normal", m.normal.norm(), "", "finite");
   require(m.normal.norm() > 0, me, "length of normal", m.normal.norm(), "",
           m.corners.empty() ? "> 0" : "> 0: three corners on one line, or equal ones, span no plane");
   if (m.solid) {
@@ -85,13 +95,18 @@ void require_valid(const Mirror& m, const char* who) {
   if (m.corners.empty()) return;
   const auto corners = static_cast<double>(m.corners.size());
   require(corners >= 3 && corners <= most_corners, me, "number of corners", corners, "", "within 3 and 64");
+  double extent = 0;
+  for (const Vector3d& corner : m.corners) extent = std::max(extent, (corner - m.place).norm());
+  require(extent <= largest_extent, me, "distance of a corner from the middle", extent, "m", "at most 1e7 m");
   require(convex_and_flat(m), me, "corners", corners, "", "those of a flat convex polygon, in order");
 }
 
 void require_valid(const Tank& tank, const char* who) {
   require(tank.size.allFinite() && tank.size.minCoeff() > 0, who, "least of tank.size", tank.size.minCoeff(), "m",
           "finite and > 0");
-  require(tank.corner.allFinite(), who, "tank.corner", tank.corner.norm(), "m", "finite");
+  require(tank.size.maxCoeff() <= largest_extent, who, "largest of tank.size", tank.size.maxCoeff(), "m",
+          "at most 1e7 m");
+  require_place(tank.corner, who, "distance of tank.corner from the origin");
   require(std::abs(tank.reflection) <= 1, who, "tank.reflection", tank.reflection, "", "within -1 and 1");
   require(tank.rms_height >= 0 && std::isfinite(tank.rms_height), who, "tank.rms_height", tank.rms_height, "m",
           "finite and >= 0");

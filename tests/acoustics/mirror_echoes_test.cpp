@@ -182,6 +182,18 @@ TEST(MirrorEchoes, refuse_a_head_that_does_not_face_a_wall) {
   expect_error(ErrorKind::argument, {"64 mirrors face the head", "at most 63"}, [&] { b.compute(); });
 }
 
+// Along an edge that is longer, doubles do not resolve the phase: its integral would never end.
+TEST(MirrorEchoes, refuse_edges_whose_phase_doubles_do_not_resolve) {
+  GhostBench b({0, 0, 0}, {10, 1, 0}, {-1, 0, 0});
+  b.mirrors = {with_size({"wall", {0, 3, 0}, {0, -1, 0}}, 1e9, 4)};
+  expect_error(ErrorKind::argument, {"wall", "distance of a corner from the middle", "at most 1e7 m"},
+               [&] { b.compute(); });
+  b.mirrors = {{"wall", {0, 3e9, 0}, {0, -1, 0}}};
+  expect_error(ErrorKind::argument, {"wall", "within 1e9 m of the origin"}, [&] { b.compute(); });
+  b.mirrors = {with_size({"wall", {0, 3, 0}, {0, -1, 0}}, 1e6, 4)};
+  EXPECT_EQ(b.compute().echoes.size(), 3u);
+}
+
 // A wall behind the head shows nothing to a fan ahead; one beside the head does.
 TEST(MirrorEchoes, have_no_legs_outside_of_the_fan) {
   GhostBench b({0, 0, 0}, {10, 1, 0}, {-1, 0.3, 0});

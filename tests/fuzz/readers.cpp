@@ -100,12 +100,12 @@ void ping_with_four_beams(const SceneCloud& scene, const Environment& environmen
   simulate_ping(scene, make_head(spec, slowest_sound(environment)), pose, environment, options);
 }
 
-/// A wall of 60 x 60 surfels across the beams, with these materials in columns.
+/// A wall of 30 x 30 surfels across the beams, with these materials in columns.
 SceneCloud wall_of(const std::vector<Material>& materials) {
   SceneCloud wall;
   wall.materials = materials;
-  for (std::size_t i = 0; i < 3600; ++i) {
-    const double y = -1.5 + 0.05 * static_cast<double>(i % 60), z = -5 + 0.05 * static_cast<double>(i / 60);
+  for (std::size_t i = 0; i < 900; ++i) {
+    const double y = -0.75 + 0.05 * static_cast<double>(i % 30), z = -4.5 + 0.05 * static_cast<double>(i / 30);
     add_surfel(wall, {5, y, z}, {-1, 0, 0}, 0.0025, static_cast<std::uint16_t>(i % materials.size()));
   }
   return wall;

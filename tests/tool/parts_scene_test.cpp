@@ -19,10 +19,11 @@ TEST_F(PartsOfTool, info_lists_parts_where_they_stand) {
   // Sizes are those of the mesh, whatever is buried, and as the scatter scales it.
   EXPECT_EQ(crate["scale"], 1);
   EXPECT_EQ(crate["size_m"], nlohmann::json({0.5, 0.5, 0.5}));
-  const double scale = named(info["parts"], "pot-1")["scale"];
+  const nlohmann::json pot = named(info["parts"], "pot-1");
+  const double scale = pot["scale"];
   EXPECT_GT(scale, 0.5);
   EXPECT_LT(scale, 1);
-  for (const auto& size : named(info["parts"], "pot-1")["size_m"]) EXPECT_DOUBLE_EQ(size.get<double>(), 0.5 * scale);
+  for (const auto& size : pot["size_m"]) EXPECT_DOUBLE_EQ(size.get<double>(), 0.5 * scale);
   EXPECT_FALSE(named(info["parts"], "harbour").contains("scale"));
   EXPECT_EQ(info["scatters"][0]["most"], 4);
   EXPECT_THAT(info["next"].dump(), HasSubstr("insonify ping drawn.toml"));
