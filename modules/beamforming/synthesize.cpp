@@ -2,7 +2,7 @@
 #include "beamforming/synthesize.hpp"
 
 #include "acoustics/echo_stream.hpp"
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/engine.hpp"
 #include "beamforming/synthesizer.hpp"
 
 namespace insonify {
@@ -17,9 +17,6 @@ ComplexGrid synthesize(const EchoStream& stream, const SonarHead& head, const Me
   return Synthesizer(head, medium, method, options).pressure(stream);
 }
 
-bool streamed(const SonarHead& head, SynthesisMethod method) {
-  if (method == SynthesisMethod::true_delays) return !head.column && fan_rows(head.fan).size() == 1;
-  return method == SynthesisMethod::gridded && PingSynthesizer::suits(head);
-}
+bool streamed(const SonarHead& head, SynthesisMethod method) { return engine_of(method).streams(head); }
 
 }  // namespace insonify

@@ -6,6 +6,9 @@
 
 namespace insonify {
 
+class ImageEngine;
+struct Engine;
+
 /// Forms the beams of one head in one medium by one method for many images. The first image makes plans, tables,
 /// transforms and buffers; later images reuse them. Methods, errors and bytes of an image are those of `synthesize`.
 /// Copies share what has been made. Several threads may call `pressure` at once. With true delays the object holds 10
@@ -23,14 +26,14 @@ class Synthesizer {
   ComplexGrid pressure(const EchoStream& stream) const;
 
  private:
-  struct Engines;
-  ComplexGrid pressure_of_row(const Echoes& echoes, const SonarHead& row, bool only_row) const;
+  struct Kept;
+  const ImageEngine& kept(const SonarHead& head) const;
 
   SonarHead head_;
   Medium medium_;
-  SynthesisMethod method_;
+  const Engine* engine_;
   SynthesisOptions options_;
-  std::shared_ptr<Engines> engines_;
+  std::shared_ptr<Kept> kept_;
 };
 
 }  // namespace insonify

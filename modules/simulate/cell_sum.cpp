@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "acoustics/multipath_echoes.hpp"
+#include "beamforming/engine.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "simulate/cell_sum_internal.hpp"
@@ -56,7 +57,7 @@ void CellSum::finish(SimulatedPing& result) {
   const SimulationOptions& o = ping_.options;
   CellOptions options;
   options.seed = o.seed, options.ping = ping_.event.number, options.threads = o.threads;
-  options.speckle = o.synthesis.method != SynthesisMethod::incoherent;
+  options.speckle = !gives_power(o.synthesis.method);
   if (o.effects.noise) {
     options.element_noise_db = ping_.element_noise_db;
     report_.push_back({"noise", 0});

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "acoustics/echo_stream.hpp"
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/engine.hpp"
 #include "beamforming/split_aperture.hpp"
 #include "beamforming/synthesize_noise.hpp"
 #include "core/units.hpp"
@@ -39,9 +39,7 @@ Ping ping_of(const ResolvedPing& ping, const RangeGate& gate, ComplexGridF image
 }
 
 LayerSum::LayerSum(const ResolvedPing& ping, SynthesizerTable& synthesizers)
-    : ping_(ping),
-      synthesizers_(synthesizers),
-      incoherent_(ping.options.synthesis.method == SynthesisMethod::incoherent) {
+    : ping_(ping), synthesizers_(synthesizers), incoherent_(gives_power(ping.options.synthesis.method)) {
   // Refused before any work.
   if (ping.options.outputs.split_phase) half_head(ApertureSide::port);
 }
@@ -57,11 +55,9 @@ std::shared_ptr<const Synthesizer> LayerSum::half(ApertureSide side) const {
   const auto part =
       side == ApertureSide::port ? SynthesizerTable::Part::port_half : SynthesizerTable::Part::starboard_half;
   // Expected intensities have no phase: halves have the speckle of one realisation.
-  if (incoherent_)
-    return synthesizers_.of(part, half_head(side), ping_.sent.medium, SynthesisMethod::gridded,
-                            {std::max(o.synthesis.tolerance, min_gridding_tolerance), o.threads});
-  return synthesizers_.of(part, half_head(side), ping_.sent.medium, o.synthesis.method,
-                          {o.synthesis.tolerance, o.threads});
+  const SynthesisMethod method =
+      incoherent_ ? engine_for(ImageModel::narrow_band, o.synthesis.tolerance).method : o.synthesis.method;
+  return synthesizers_.of(part, half_head(side), ping_.sent.medium, method, {o.synthesis.tolerance, o.threads});
 }
 
 template <typename Image>

@@ -14,7 +14,7 @@ namespace insonify {
 /// Returns the ping of an image, with its water and motion.
 Ping ping_of(const ResolvedPing& ping, const RangeGate& gate, ComplexGridF image);
 
-/// Forms beams of one kind of echo after another and adds them up; for SynthesisMethod::incoherent, by their squares.
+/// Forms beams of one kind of echo after another and adds them up; images of expected power, by their squares.
 class LayerSum {
  public:
   /// Keeps references to both arguments, which must outlive it.
@@ -24,7 +24,7 @@ class LayerSum {
   void add(const std::string& name, const Echoes& echoes);
   /// The same of a stream, whose echoes need not be stored for a head and method that are `streamed`.
   void add(const std::string& name, const EchoStream& stream);
-  /// Adds the noise of all elements; for SynthesisMethod::incoherent, its expected intensity.
+  /// Adds the noise of all elements; in an image of expected power, its expected intensity.
   void add_noise();
 
   /// Moves into `result` the ping (the sum in single precision, with its layers), the report of layers, and the sum of

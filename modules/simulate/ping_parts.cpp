@@ -5,6 +5,7 @@
 #include "acoustics/bend_paths.hpp"
 #include "acoustics/direct_stream.hpp"
 #include "acoustics/glints.hpp"
+#include "beamforming/engine.hpp"
 #include "simulate/cell_sum_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
@@ -112,7 +113,7 @@ void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingPa
   std::size_t unreached = 0;
   append(all, glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent,
                            {.refraction = refraction,
-                            .over_band = ping.options.synthesis.method != SynthesisMethod::incoherent,
+                            .over_band = !gives_power(ping.options.synthesis.method),
                             .unreached = &unreached}));
   parts.unreached += parts.mirrors.unreached + unreached;
   layers.add("mirrors", all);

@@ -5,6 +5,7 @@
 #include "acoustics/reverberation_echoes.hpp"
 #include "acoustics/surface_laws.hpp"
 #include "acoustics/trace_paths.hpp"
+#include "beamforming/engine.hpp"
 #include "core/stop_watch.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
@@ -129,8 +130,7 @@ std::vector<PingNote> scene_notes(const SceneCloud& scene, const ResolvedPing& p
 
 /// Whether beams formed over the whole band hear beside their sector as in main lobes, at its upper end.
 bool hears_all_ahead(const ResolvedPing& ping) {
-  const SynthesisMethod method = ping.options.synthesis.method;
-  if (method != SynthesisMethod::true_delays && method != SynthesisMethod::element_exact) return false;
+  if (!hears_whole_band(ping.options.synthesis.method)) return false;
   const double highest = ping.head.pulse.centre_frequency + spectrum_nodes(ping.head.pulse).back().frequency;
   return has_further_lobes(ping.head, ping.sent.medium.sound_speed / highest);
 }

@@ -2,24 +2,26 @@
 // Stages of the plan that are ways of forming beams.
 #include <algorithm>
 
+#include "beamforming/engine.hpp"
 #include "beamforming/narrow_band/narrow_band_error.hpp"
-#include "beamforming/reference/element_series.hpp"
 #include "simulate/plan_stages_internal.hpp"
 
 namespace insonify {
 namespace {
 
-bool sums_pressures(const SimulationOptions& options) {
-  return options.synthesis.method != SynthesisMethod::incoherent;
+bool sums_pressures(const SimulationOptions& options) { return !gives_power(options.synthesis.method); }
+
+bool is_direct_sum(const SimulationOptions& options) {
+  return options.synthesis.method == referee_for(ImageModel::narrow_band).method;
 }
 
 /// Sets the direct sum, or leaves it for gridding if it is the one in force; another method stays as it is.
 void force_direct_sum(bool included, Environment&, SimulationOptions& options) {
-  SynthesisMethod& method = options.synthesis.method;
+  auto& [method, tolerance, true_delays, phases] = options.synthesis;
   if (included && sums_pressures(options))
-    method = SynthesisMethod::direct;
-  else if (method == SynthesisMethod::direct)
-    method = SynthesisMethod::gridded;
+    method = referee_for(ImageModel::narrow_band).method;
+  else if (is_direct_sum(options))
+    method = engine_for(ImageModel::narrow_band, tolerance).method;
 }
 
 double tolerance_of(const PlanFacts& facts) { return facts.ping.options.synthesis.tolerance; }
@@ -41,26 +43,18 @@ void force_true_delays(bool included, Environment&, SimulationOptions& options) 
   auto& [method, tolerance, true_delays, phases] = options.synthesis;
   true_delays = chosen(included);
   if (!included) {
-    if (method == SynthesisMethod::true_delays || method == SynthesisMethod::element_exact)
-      method = SynthesisMethod::gridded;
+    if (hears_whole_band(method)) method = engine_for(ImageModel::narrow_band, tolerance).method;
     return;
   }
-  const bool fast = tolerance >= min_true_delay_tolerance;  // finer than that only the referee is
-  method = fast ? SynthesisMethod::true_delays : SynthesisMethod::element_exact;
-  tolerance = std::min(tolerance, max_element_tolerance);
+  const Engine& engine = engine_for(ImageModel::true_delays, tolerance);
+  method = engine.method;
+  tolerance = std::min(tolerance, engine.most_tolerance);
 }
 
-/// A method given by name is what it is; gridding leaves it to `true_delays`.
+/// A method given by name is what it is; a replaceable one leaves it to `true_delays`.
 Choice asked_true_delays(const SimulationOptions& options) {
-  switch (options.synthesis.method) {
-    case SynthesisMethod::gridded:
-      return options.synthesis.true_delays;
-    case SynthesisMethod::true_delays:
-    case SynthesisMethod::element_exact:
-      return Choice::always;
-    default:
-      return Choice::never;
-  }
+  const auto& [method, tolerance, true_delays, phases] = options.synthesis;
+  return engine_of(method).replaceable ? true_delays : chosen(hears_whole_band(method));
 }
 
 constexpr double least_samples_per_cell = 4;
@@ -84,8 +78,7 @@ const char* reason_for_phases(const PlanCause& of) {
 }
 
 constexpr PlanStage stages[] = {
-    {"direct-sum", DecidedBy::choice,
-     [](const PlanCause& of) { return of.options.synthesis.method == SynthesisMethod::direct; }, "asked for",
+    {"direct-sum", DecidedBy::choice, [](const PlanCause& of) { return is_direct_sum(of.options); }, "asked for",
      "gridding keeps the tolerance; intensities of method incoherent are no sums of pressures", tolerance_of,
      force_direct_sum},
     {"phases", DecidedBy::choice, [](const PlanCause& of) { return reason_for_phases(of) != nullptr; }, "asked for",
@@ -99,8 +92,8 @@ constexpr PlanStage stages[] = {
      "intensities have no delays across the array", narrow_band_bound, force_true_delays, asked_true_delays,
      [](const PlanFacts& facts) { return facts.ping.head.column.has_value(); }},
     {"double-precision", DecidedBy::scene,
-     [](const PlanCause& of) { return of.options.synthesis.method == SynthesisMethod::direct || !of.single_precision; },
-     "the tolerance needs it", "the tolerance leaves room for single precision", tolerance_of}};
+     [](const PlanCause& of) { return is_direct_sum(of.options) || !of.single_precision; }, "the tolerance needs it",
+     "the tolerance leaves room for single precision", tolerance_of}};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "beamforming/engine.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -20,7 +21,7 @@ constexpr double rounding = 1.001;  // of the ball that holds all paths
 
 EchoOptions echo_options_of(const SonarHead& head, const SimulationOptions& o) {
   EchoOptions echoes;
-  const bool of_power = o.synthesis.method == SynthesisMethod::incoherent || draws_cells(o);
+  const bool of_power = gives_power(o.synthesis.method) || draws_cells(o);
   echoes.amplitude = of_power ? SurfaceAmplitude::mean_power : o.amplitude;
   echoes.seed = o.seed;
   echoes.threads = o.threads;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "acoustics/direct_echoes.hpp"
+#include "beamforming/engine.hpp"
 #include "beamforming/received_energy.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
@@ -118,8 +119,8 @@ double left_in_gate(const ResolvedPing& ping, double r) {
 /// Whether beams are formed of all frequencies of the pulse, or may be as far as the options say.
 bool may_have_true_delays(const ResolvedPing& ping) {
   const auto& [method, tolerance, true_delays, phases] = ping.options.synthesis;
-  if (method == SynthesisMethod::gridded) return true_delays != Choice::never && !ping.head.column;
-  return method == SynthesisMethod::true_delays || method == SynthesisMethod::element_exact;
+  if (engine_of(method).replaceable) return true_delays != Choice::never && !ping.head.column;
+  return hears_whole_band(method);
 }
 
 /// What beams receive of a surfel, spread over its disc if it may be split: parts of it reach beyond the middle's u.

@@ -7,9 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/engine.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace insonify {
 namespace {
@@ -26,7 +27,7 @@ struct Checker {
   const char* group;
 
   template <typename Value>
-  void require(bool good, const char* name, Value value, const char* rule) const {
+  void require(bool good, const char* name, Value value, const std::string& rule) const {
     if (good || problem) return;
     std::ostringstream text;
     text.precision(10);
@@ -52,15 +53,12 @@ void check(const SynthesisSettings& s, bool elements, std::optional<OptionProble
   const Checker check{problem, "synthesis."};
   const double t = s.tolerance;
   check.require(t > 0 && t < 1, "tolerance", t, "above 0 and below 1");
-  if (s.method == SynthesisMethod::gridded)
-    check.require(t >= min_gridding_tolerance, "tolerance", t,
-                  "at least 1e-13 with method gridded; below that use direct");
-  if (elements || s.method == SynthesisMethod::element_exact)
-    check.require(t >= min_element_tolerance && t <= max_element_tolerance, "tolerance", t,
-                  "within 1e-12 and 0.1 for method element_exact and the output of elements");
-  if (s.method == SynthesisMethod::true_delays)
-    check.require(t >= min_true_delay_tolerance && t <= 0.1, "tolerance", t,
-                  "within 1e-5 and 0.1 for method true_delays");
+  const auto require_within = [&](double least, double most, const std::string& of) {
+    check.require(t >= least && t <= most, "tolerance", t, printed("within %g and %g for ", least, most) + of);
+  };
+  const Engine& engine = engine_of(s.method);
+  require_within(engine.least_tolerance, engine.most_tolerance, std::string("method ").append(engine.word));
+  if (elements) require_within(min_element_tolerance, max_element_tolerance, "the output of elements");
 }
 
 void check(const EffectSettings& e, std::optional<OptionProblem>& problem) {
@@ -111,11 +109,11 @@ std::optional<OptionProblem> problem_of(const SimulationOptions& o) {
   for (const auto& [looks, name] :
        {std::pair(o.outputs.looks_range, "looks_range"), std::pair(o.outputs.looks_pings, "looks_pings")})
     outputs.require(looks >= 1 && looks <= most_looks, name, looks, "within 1 and 1024");
-  outputs.require(o.outputs.looks_pings == 1 || o.synthesis.method != SynthesisMethod::incoherent, "looks_pings",
-                  o.outputs.looks_pings, "1 with method incoherent: an expected intensity has no looks to average");
-  outputs.require(!(o.outputs.elements && o.synthesis.method == SynthesisMethod::incoherent), "elements", "true",
+  outputs.require(o.outputs.looks_pings == 1 || !gives_power(o.synthesis.method), "looks_pings", o.outputs.looks_pings,
+                  "1 with method incoherent: an expected intensity has no looks to average");
+  outputs.require(!(o.outputs.elements && gives_power(o.synthesis.method)), "elements", "true",
                   "false with method incoherent: an expected intensity has no pressures at elements; use gridded");
-  outputs.require(!(o.outputs.split_phase && o.synthesis.method == SynthesisMethod::incoherent), "split_phase", "true",
+  outputs.require(!(o.outputs.split_phase && gives_power(o.synthesis.method)), "split_phase", "true",
                   "false with method incoherent: an expected intensity has no phase; use gridded");
   check_display(o.outputs, problem);
   const Checker top{problem, ""};

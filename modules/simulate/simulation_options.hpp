@@ -40,9 +40,6 @@ struct SamplingSettings {
   Choice outer_azimuths = Choice::as_needed;    ///< always: all azimuths are sampled for side lobes, for any margin
 };
 
-/// The smallest tolerance that method true_delays keeps.
-constexpr double min_true_delay_tolerance = 1e-5;
-
 /// Settings for forming beams from echoes.
 struct SynthesisSettings {
   /// `incoherent` gives the expected level without speckle (E65): all amplitudes are of mean power, and layers and

@@ -66,10 +66,10 @@ TEST(PingOptions, have_the_tolerance_that_their_method_can_keep) {
     for (const double tolerance : {0.0, 1.0, not_a_number})
       EXPECT_THAT(error_of_tolerance(method, tolerance), HasSubstr("must be above 0 and below 1"));
   EXPECT_THAT(error_of_tolerance(gridded, 1e-14),
-              HasSubstr("synthesis.tolerance = 1e-14, must be at least 1e-13 with method gridded"));
+              HasSubstr("synthesis.tolerance = 1e-14, must be within 1e-13 and 1 for method gridded"));
   for (const double tolerance : {1e-6, 0.2})
     EXPECT_THAT(error_of_tolerance(true_delays, tolerance),
-                HasSubstr("must be within 1e-5 and 0.1 for method true_delays"));
+                HasSubstr("must be within 1e-05 and 0.1 for method true-delays"));
   for (const SynthesisMethod method : {direct, spectrum, incoherent})
     EXPECT_EQ(error_of_tolerance(method, 1e-14), "no error");
   for (const double tolerance : {1e-13, 0.2}) {

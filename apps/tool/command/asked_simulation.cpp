@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "beamforming/engine.hpp"
 #include "core/error.hpp"
 #include "store/toml_tree_internal.hpp"
 #include "tool/command/parse_values.hpp"
@@ -76,7 +77,10 @@ SimulationOptions asked_simulation(const CommonOptions& common, const PingOption
 }
 
 SynthesisSettings asked_synthesis(const RunOptions& o) {
-  return {*find_named(method_words, o.method), o.tolerance, o.method == "gridded" ? Choice::never : Choice::as_needed};
+  const SynthesisSettings planned;
+  if (o.method == planned_word) return {planned.method, o.tolerance};
+  const Engine& engine = *std::ranges::find(engines(), o.method, &Engine::word);
+  return {engine.method, o.tolerance, engine.replaceable ? Choice::never : Choice::as_needed};
 }
 
 bool keeps(const PingOptions& options, const std::string& what) {

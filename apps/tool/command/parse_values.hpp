@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "acoustics/direct_echoes.hpp"
-#include "beamforming/synthesize.hpp"
 #include "core/error.hpp"
 #include "core/pose.hpp"
 #include "core/text.hpp"
@@ -15,12 +14,8 @@
 /// and rule, with an example.
 namespace insonify::tool {
 
-constexpr Named<SynthesisMethod> method_words[] = {{"gridded", SynthesisMethod::gridded},
-                                                   {"planned", SynthesisMethod::gridded},  // true delays where needed
-                                                   {"true-delays", SynthesisMethod::true_delays},
-                                                   {"direct", SynthesisMethod::direct},
-                                                   {"element-exact", SynthesisMethod::element_exact},
-                                                   {"incoherent", SynthesisMethod::incoherent}};
+/// The word for the plan's choice among engines, whose words are those of `engines`.
+constexpr const char* planned_word = "planned";
 constexpr Named<SamplingKind> sampling_words[] = {{"surfels", SamplingKind::surfels}, {"rays", SamplingKind::rays}};
 constexpr Named<SurfaceAmplitude> amplitude_words[] = {{"speckle", SurfaceAmplitude::complex_normal},
                                                        {"random-phase", SurfaceAmplitude::random_phase},

@@ -3,14 +3,24 @@
 #include <map>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "beamforming/engine.hpp"
+#include "core/text.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/run_settings.hpp"
 
 namespace insonify::tool {
 namespace {
 
+std::vector<std::string> words_of_methods() {
+  std::vector<std::string> words{planned_word};
+  for (const Engine& engine : engines()) words.emplace_back(engine.word);
+  return words;
+}
+
 const OptionRules scene{.required = true}, file, positive{.positive = true}, stages{.one_each = true};
-const OptionRules methods{.words = words_of(method_words)};
+const OptionRules methods{.words = words_of_methods()};
 const OptionRules worlds{.words = {"z-up", "ned"}};
 const OptionRules samplings{.words = words_of(sampling_words)};
 const OptionRules amplitudes{.words = words_of(amplitude_words)};
@@ -74,9 +84,8 @@ std::vector<RunSetting> synthesis_settings(RunOptions& o) {
   std::vector<RunSetting> settings{
       {"", "tolerance", "--tolerance", &o.tolerance, "relative error of the synthesis"},
       {"", "method", "--method", &o.method,
-       "planned: true-delays if the error of the narrow band is too large, else gridded; gridded: narrow band, far "
-       "field; true-delays: wide band and near field, slow within three array lengths; direct, element-exact: slow "
-       "reference methods for these two; incoherent: expected level without speckle",
+       std::string(planned_word) + ": true-delays if the error of the narrow band is too large, else gridded; " +
+           joined(engines(), "; ", [](const Engine& e) { return fmt::format("{}: {}", e.word, e.says); }),
        methods},
   };
   return under_titles(std::move(settings), {{"tolerance", accuracy_title}});

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "beamforming/engine.hpp"
 #include "core/units.hpp"
 #include "simulate/ping_notes.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
@@ -146,7 +146,7 @@ ordered_json plan_json(const PingPlan& plan) {
           {"left_out_db", number(plan.left_out_db)},
           {"stages", stages},
           {"synthesis",
-           {{"method", name_of(method_words, plan.options.synthesis.method)},
+           {{"method", engine_of(plan.options.synthesis.method).word},
             {"precision", plan.synthesis.single_precision ? "single" : "double"},
             {"kernel_width", plan.synthesis.kernel_width},
             {"grid", plan.synthesis.grid},
@@ -164,9 +164,8 @@ void print_plan(const PingPlan& plan) {
       plan.options.accuracy_db);
   fmt::print("all stages left out: {:.2g} dB at most\n", plan.left_out_db);
   fmt::print("synthesis: {}, {} precision, kernel {} on a grid of {} steps, {} samples per pulse\n",
-             name_of(method_words, plan.options.synthesis.method),
-             plan.synthesis.single_precision ? "single" : "double", plan.synthesis.kernel_width, plan.synthesis.grid,
-             plan.synthesis.pulse_samples);
+             engine_of(plan.options.synthesis.method).word, plan.synthesis.single_precision ? "single" : "double",
+             plan.synthesis.kernel_width, plan.synthesis.grid, plan.synthesis.pulse_samples);
 }
 
 }  // namespace insonify::tool

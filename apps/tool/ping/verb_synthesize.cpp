@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "acoustics/direct_echoes.hpp"
+#include "beamforming/engine.hpp"
 #include "beamforming/head_patterns.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/stop_watch.hpp"
@@ -83,7 +84,7 @@ void synthesize(const SynthesizeOptions& o) {
   const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, *settled.effects.absorption_order);
   const ComplexGrid pressure = synthesize(echoes, head, medium, method, {tolerance, common.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
-  ping.expected_level = method == SynthesisMethod::incoherent;
+  ping.expected_level = gives_power(method);
   note_water(medium, ping);
   const double seconds = watch.lap();
 
@@ -93,8 +94,7 @@ void synthesize(const SynthesizeOptions& o) {
       {"insonify_version", INSONIFY_VERSION},
       {"seed", common.seed},
       {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
-      {"synthesis",
-       {{"method", name_of(method_words, method)}, {"absorption_order", *settled.effects.absorption_order}}},
+      {"synthesis", {{"method", engine_of(method).word}, {"absorption_order", *settled.effects.absorption_order}}},
       {"notes", nlohmann::ordered_json::array()}};
   for (const std::string& note : setup.notes) {
     progress.note(note);

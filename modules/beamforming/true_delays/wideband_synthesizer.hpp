@@ -8,6 +8,9 @@
 
 namespace insonify {
 
+/// The smallest tolerance that true delays keep.
+constexpr double min_true_delay_tolerance = 1e-5;
+
 /// Synthesizes the complex baseband pressure of many pings of one head with true delays, focused at every range (E61,
 /// E62), for any bandwidth. The relative L2 error is below the tolerance (E68). The image is that of element_series and
 /// beam_from_elements, at about the cost of gridding:
