@@ -149,6 +149,33 @@ TEXT
 rows "$sweep" 'c("method") == "absorption-order"' 'print "| " c("absorption_order"), c("parameter"), c("error") " |"'
 cat <<TEXT
 
+## Engines
+
+Every engine on tasks in which they differ: 1000 echoes, 48 beams of 1.5 degrees, 256 bins, unless the name says otherwise. **Error**: against the referee of the engine's own
+model on the same echoes (gridded, direct, spectrum: the direct sum; true-delays, element-exact: element-exact at 1e-12; incoherent: the sum of |P|^2 over echoes, E65). **Model**: what the
+narrow band leaves out, against the image with true delays, beside the **bound** by which the plan decides. Engines that the plan takes are bold.
+
+![Engines](../images/accuracy/engines.png)
+
+| task | engine | tolerance | error | model | bound | time |
+|---|---|---|---|---|---|---|
+TEXT
+engine_rows() {
+  rows "$sweep" "c(\"sweep\") == \"$1\"" 'print "| " c("task"), (c("planned") ? "**" c("method") "**" : c("method")), (c("tolerance") > 0 ? c("tolerance") : ""), (c("refused") != "" ? "refused: " c("refused") : c("error")), (c("model_error") > 0 ? c("model_error") : ""), (c("model_bound") > 0 ? c("model_bound") : ""), (c("refused") != "" ? "" : span()) " |"'
+}
+engine_rows engines
+cat <<TEXT
+
+## Where arithmetic is strained
+
+The same, at a tolerance of 1e-4. Local error: of the eighth of the range axis that is worst, relative to its own level.
+
+| case | engine | error | local error | holds |
+|---|---|---|---|---|
+TEXT
+rows "$sweep" 'c("sweep") == "stability"' 't = c("tolerance") > 0 ? c("tolerance") : 1e-4; print "| " c("task"), c("method"), (c("refused") != "" ? "refused: " c("refused") : c("error")), (c("refused") != "" ? "" : c("local_error")), (c("refused") != "" ? "" : c("error") > t ? "no" : c("local_error") > t ? "in the whole image" : "yes") " |"'
+cat <<TEXT
+
 ## Sampling
 
 Error of the mean level of a flat bottom, without speckle, for a given number of rays or surfels. With independent random rays it falls with the root of their number.

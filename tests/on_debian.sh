@@ -28,7 +28,7 @@ printf '  %s\n' "${commands[@]}"
 
 work=$PWD/build/on_debian/$suite root=$PWD/build/on_debian/$suite/root
 clean() {
-  for mounted in dev/shm dev proc; do if mountpoint -q "$root/$mounted"; then umount "$root/$mounted"; fi; done
+  for mounted in dev/shm dev/pts dev proc; do if mountpoint -q "$root/$mounted"; then umount "$root/$mounted"; fi; done
   [[ -n ${INSONIFY_KEEP:-} ]] || rm -rf --one-file-system "$root"
 }
 trap clean EXIT
@@ -40,6 +40,7 @@ fi
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
 mount -t tmpfs shm "$root/dev/shm"
+mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"
 rm -rf "$root/insonify"
 git clone -q . "$root/insonify"
 

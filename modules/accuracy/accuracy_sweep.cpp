@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "accuracy/engine_tasks.hpp"
 #include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -12,6 +13,8 @@ namespace insonify {
 namespace {
 
 using Runs = std::vector<AccuracyRun>;
+
+constexpr double least_tolerance_of_power = 1e-12;
 
 AccuracyRun direct_run() {
   return {"direct", [](const AccuracyBench& b) { return b.direct(); }};
@@ -64,6 +67,23 @@ Runs work_precision(const SweepOptions& o) {
       size == SweepSize::quick ? std::vector<double>{4} : std::vector<double>{1, 4, 16, 64};
   return joined(
       {gridded_runs(tolerances(o)), {direct_run(), spectrum_run()}, windowed_runs(windows), short_cuts(nulls)});
+}
+
+/// All engines, each at the tolerances that it takes. Engines without a tolerance are measured once.
+Runs engine_runs(const std::vector<double>& tolerances) {
+  Runs runs;
+  for (const Engine& engine : engines()) {
+    const auto add = [&](double t) {
+      runs.push_back({std::string(engine.word), [&engine, t](const AccuracyBench& b) { return b.engine(engine, t); }});
+    };
+    if (engine.least_tolerance == 0 && !gives_power(engine.method)) {
+      add(0);
+      continue;
+    }
+    for (const double t : tolerances)
+      if (t >= std::max(engine.least_tolerance, least_tolerance_of_power) && t <= engine.most_tolerance) add(t);
+  }
+  return runs;
 }
 
 /// Settings of the methods whose run times are compared over the number of scatterers.
@@ -170,6 +190,28 @@ class Sweep {
     }
   }
 
+  /// Engines of all models where they differ, and where arithmetic is strained.
+  void add_engines() {
+    const bool quick = size_ == SweepSize::quick;
+    const std::vector<double>&asked = options_.tolerances, one = asked.empty() ? std::vector<double>{1e-4} : asked,
+          most = quick ? one : tolerances(options_);
+    const auto add_task = [&](const char* sweep, const EngineTask& task, const std::vector<double>& at) {
+      const auto named = [task] {
+        AccuracyTask made = task.make();
+        made.name = task.name;
+        return made;
+      };
+      steps_.push_back({sweep, std::string(sweep) + ": " + task.name, named, engine_runs(at)});
+    };
+    const auto some = [quick](std::vector<EngineTask> tasks) {  // every third, of a quick sweep
+      std::vector<EngineTask> kept;
+      for (std::size_t k = 0; k < tasks.size(); k += quick ? 3 : 1) kept.push_back(std::move(tasks[k]));
+      return kept;
+    };
+    for (const EngineTask& task : some(engine_tasks(quick ? 40 : 1000, options_.seed))) add_task("engines", task, most);
+    for (const EngineTask& task : some(stability_tasks(options_.seed))) add_task("stability", task, one);
+  }
+
   std::vector<AccuracyStep> steps() && { return std::move(steps_); }
 
  private:
@@ -185,6 +227,7 @@ std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options) {
   Sweep sweep(options);
   sweep.add_large();
   sweep.add_small();
+  sweep.add_engines();
   return chosen(std::move(sweep).steps(), options.methods);
 }
 
@@ -203,7 +246,11 @@ std::vector<AccuracyStep> accuracy_sweep_of(const AccuracyTask& task, const Swee
 }
 
 std::vector<std::string> accuracy_methods() {
-  return {"gridded", "direct", "spectrum", "windowed-direct", "nearest-bin", "pattern-cut", "absorption-order"};
+  std::vector<std::string> methods;
+  for (const Engine& engine : engines()) methods.emplace_back(engine.word);
+  for (const char* short_cut : {"windowed-direct", "nearest-bin", "pattern-cut", "absorption-order"})
+    methods.emplace_back(short_cut);
+  return methods;
 }
 
 }  // namespace insonify

@@ -41,6 +41,8 @@ struct AccuracyStep {
 ///   band, absorption, dynamic-range
 ///   scaling          time of direct, measured whole and scaled up from a part (full size only)
 ///   threads          gridded on one, two ... all cores
+///   engines          all engines of synthesis on engine_tasks: own error, error of their model, time
+///   stability        the same on stability_tasks
 /// Gridded runs at tolerances from 1e-2 to 1e-12 in all of them.
 /// Throws Error for an unknown method, naming the known ones, or a tolerance out of reach.
 std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/units.hpp"
@@ -10,9 +11,10 @@ namespace insonify {
 
 /// Echoes and the head that receives them: the input of every method of synthesis.
 struct AccuracyTask {
-  SonarHead head;  ///< of one row of beams
+  SonarHead head;
   Medium medium;
   Echoes echoes;
+  std::string name{};  ///< among the tasks of a sweep
 };
 
 /// A synthetic task: 600 kHz, half-wavelength line array with Taylor shading, bins of 0.44 c / 2B from 1 m on.

@@ -65,13 +65,14 @@ AccuracyBench::AccuracyBench(std::string sweep, AccuracyTask task, const Measure
                                                     std::min(least_beams, beams), std::min(most_beams, beams));
   beams_ = picked(beams, count);
   checked_head_ = some_beams(task_.head, count);
-  referee_ = synthesize_direct(task_.echoes, checked_head_, task_.medium, {1e-4, options.threads});
+  referee_ = synthesize(task_.echoes, checked_head_, task_.medium, SynthesisMethod::direct, {1e-4, options.threads});
 }
 
 AccuracyRow AccuracyBench::row(const std::string& method) const {
   AccuracyRow r;
   r.sweep = sweep_;
   r.method = method;
+  r.task = task_.name;
   r.precision = "double";
   r.scatterers = r.timed_scatterers = task_.echoes.size();
   r.beams = r.timed_beams = task_.head.fan.beams();
@@ -98,11 +99,11 @@ std::size_t AccuracyBench::timed(double affordable) const {
   return std::min(task_.echoes.size(), std::max(least_timed, most));
 }
 
-void AccuracyBench::compare(const ComplexGrid& pressure, AccuracyRow& row) const {
-  const ImageError error = image_error(pressure, referee_, eighths_with_echo(task_.echoes, task_));
+void AccuracyBench::compare(const ComplexGrid& pressure, const ComplexGrid& referee, AccuracyRow& row) const {
+  const ImageError error = image_error(pressure, referee, eighths_with_echo(task_.echoes, task_));
   row.error = error.whole;
   row.local_error = error.worst_eighth;
-  if (referee_.abs2().sum() > 0) row.max_level_db = compare_images(pressure, referee_, 60).max_level_db;
+  if (referee.abs2().sum() > 0) row.max_level_db = compare_images(pressure, referee, 60).max_level_db;
 }
 
 void AccuracyBench::time_all(const Synthesis& run, AccuracyRow& row) const {
@@ -158,7 +159,7 @@ AccuracyRow AccuracyBench::direct_whole() const {
   r.seconds = r.seconds_min = r.seconds_max = watch.lap();
   r.peak_mib = peak_memory_mib();
   r.repeats = 1;
-  compare(checked(pressure), r);
+  compare(checked(pressure), referee_, r);
   return r;
 }
 
@@ -171,7 +172,7 @@ AccuracyRow AccuracyBench::gridded(double tolerance, int threads) const {
   r.tolerance = tolerance;
   if (plan.choice().single_precision) r.precision = "single";
   r.kernel_width = plan.choice().kernel_width;
-  compare(checked(plan.pressure(task_.echoes)), r);
+  compare(checked(plan.pressure(task_.echoes)), referee_, r);
   time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
   return r;
 }
@@ -194,7 +195,7 @@ AccuracyRow AccuracyBench::spectrum() const {
 
 AccuracyRow AccuracyBench::windowed_row(AccuracyRow r, const WindowedOptions& options) const {
   r.timed_scatterers = timed(options_.windowed_work / work(1, r.beams, 1));
-  compare(synthesize_windowed(task_.echoes, checked_head_, task_.medium, options), r);
+  compare(synthesize_windowed(task_.echoes, checked_head_, task_.medium, options), referee_, r);
   StopWatch watch;
   const auto run = windowed_synthesizer(task_.head, task_.medium, options);
   r.plan_seconds = watch.lap();
@@ -225,7 +226,7 @@ AccuracyRow AccuracyBench::absorption_order(int order) const {
   const Medium medium{task_.medium.sound_speed, of_order(task_.medium.absorption, order)};
   const PingSynthesizer plan(task_.head, medium, {r.tolerance, options_.threads});
   r.kernel_width = plan.choice().kernel_width;
-  compare(checked(plan.pressure(task_.echoes)), r);
+  compare(checked(plan.pressure(task_.echoes)), referee_, r);
   time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
   return r;
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "accuracy/accuracy_task.hpp"
 #include "accuracy/reference_sums.hpp"
+#include "beamforming/engine.hpp"
 #include "core/grid.hpp"
 
 namespace insonify {
 
-/// One method at one setting on one task.
+/// One method at one setting on one task. Errors of engines are against the referee of their model.
 struct AccuracyRow {
   std::string sweep;      ///< name of the sweep
   std::string method;     ///< direct, spectrum, gridded, windowed-direct, nearest-bin, pattern-cut, absorption-order
@@ -30,6 +32,12 @@ struct AccuracyRow {
   std::size_t timed_scatterers = 0;  ///< if fewer than scatterers, time is scaled up in proportion
   std::size_t timed_beams = 0;       ///< the same for beams
   std::size_t checked_beams = 0;
+  std::string task{};  ///< name of the task, of the sweeps over engines
+  double model_error =
+      0;  ///< ||P_ref - P_true|| / ||P_true||: what the engine's model leaves out, P_true with true delays
+  double model_bound = 0;  ///< the plan's bound of model_error (NarrowBandError)
+  bool planned = false;    ///< the plan takes this engine at this tolerance
+  std::string refused{};   ///< error of an engine that cannot form the image
 };
 
 /// Limits of the measurement of a method.
@@ -44,7 +52,7 @@ struct MeasureOptions {
   std::size_t twice_checked = 2000;  ///< echoes for which the referee itself is checked
 };
 
-/// Measures methods on one task against the direct sum in double. The referee sums all echoes and all bins, in as many
+/// Measures methods on one task against the direct sum in double, and engines against the referees of their models. The referee sums all echoes and all bins, in as many
 /// evenly picked beams as referee_work allows (at least 4, see picked).
 class AccuracyBench {
  public:
@@ -56,6 +64,9 @@ class AccuracyBench {
   AccuracyRow direct() const;
   /// Measures the direct sum of all echoes once, without repeats, to check the scaling.
   AccuracyRow direct_whole() const;
+  /// Measures an engine at a tolerance against the referee of its model on the same echoes: the direct sum,
+  /// element-exact at 1e-12, or the sum of |P_i|^2 over echoes (E65). The row says if the engine refuses.
+  AccuracyRow engine(const Engine& engine, double tolerance) const;
   /// Measures the gridded synthesis; the plan is made beforehand. threads 0: those of the options.
   AccuracyRow gridded(double tolerance, int threads = 0) const;
   /// Measures the spectrum on a part of echoes and beams, against the direct sum on the same part.
@@ -79,7 +90,9 @@ class AccuracyBench {
   AccuracyRow row(const std::string& method) const;
   ComplexGrid checked(const ComplexGrid& pressure) const;
   std::size_t timed(double affordable) const;
-  void compare(const ComplexGrid& pressure, AccuracyRow& row) const;
+  void compare(const ComplexGrid& pressure, const ComplexGrid& referee, AccuracyRow& row) const;
+  const ComplexGrid& referee_of(ImageModel model) const;
+  void measure_engine(const Engine& engine, AccuracyRow& row) const;
   void time_all(const Synthesis& run, AccuracyRow& row) const;
   AccuracyRow windowed_row(AccuracyRow row, const WindowedOptions& options) const;
 
@@ -89,6 +102,7 @@ class AccuracyBench {
   std::vector<std::size_t> beams_;  ///< that are checked
   SonarHead checked_head_;
   ComplexGrid referee_;
+  mutable std::map<ImageModel, ComplexGrid> model_referees_;  ///< of other models, made when they are asked for
 };
 
 /// Relative L2 error of an image, and the largest such error in eighths of the bins, without eighths in which the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pieces of the sweep of error against run time.
 #include "accuracy/accuracy_sweep.hpp"
+#include "accuracy/engine_tasks.hpp"
 #include "accuracy/reference_sums.hpp"
 #include "accuracy/sampling_error.hpp"
 #include "beamforming/synthesize.hpp"
@@ -134,4 +135,47 @@ TEST(SamplingError, falls_as_the_root_of_random_rays_and_faster_for_jittered_one
   for (const SamplingErrorRow& r : rows)
     if (r.sampling == "surfels") (coarse == 0 ? coarse : fine) = r.error;
   EXPECT_LT(fine, 0.2 * coarse);
+}
+
+// Each engine that the table lists keeps its tolerance on every task that it takes, and says what its model leaves out.
+TEST(Accuracy, engines_keep_their_tolerance_against_the_referee_of_their_model) {
+  std::size_t measured = 0;
+  for (const EngineTask& task : engine_tasks(30, 5)) {
+    const AccuracyBench bench("engines", task.make(), {.threads = 2, .repeats = 1, .most_seconds = 0});
+    for (const Engine& engine : engines()) {
+      if (engine.method == SynthesisMethod::spectrum) continue;  // a minute
+      const AccuracyRow row = bench.engine(engine, std::max(1e-4, engine.least_tolerance));
+      EXPECT_EQ(row.refused, "") << task.name << ", " << row.method;
+      EXPECT_LE(row.error, 1e-4) << task.name << ", " << row.method;
+      const bool narrow = engine.model == ImageModel::narrow_band;
+      EXPECT_EQ(row.model_error > 1e-3, narrow) << task.name << ", " << row.method;
+      EXPECT_GE(row.model_bound, 0.7 * row.model_error) << task.name << ", " << row.method;
+      ++measured;
+    }
+  }
+  EXPECT_EQ(measured, 50u);
+}
+
+// The direct sum of each of two echoes is what an image of 300 dB less would drown.
+TEST(Accuracy, engines_hold_where_arithmetic_is_strained) {
+  for (const EngineTask& task : stability_tasks(3)) {
+    const AccuracyBench bench("stability", task.make(), {.threads = 2, .repeats = 1, .most_seconds = 0});
+    for (const SynthesisMethod method : {SynthesisMethod::gridded, SynthesisMethod::true_delays,
+                                         SynthesisMethod::element_exact, SynthesisMethod::incoherent}) {
+      const AccuracyRow row = bench.engine(engine_of(method), 1e-4);
+      EXPECT_EQ(row.refused, "") << task.name << ", " << row.method;
+      EXPECT_LE(row.error, 1e-4) << task.name << ", " << row.method;
+      if (task.name == "two echoes 300 dB apart") {
+        EXPECT_LE(row.local_error, 1e-4) << row.method;
+      }
+    }
+  }
+}
+
+TEST(Accuracy, an_engine_that_refuses_says_so_in_its_row) {
+  AccuracyTask task = make_task(small);
+  const AccuracyBench bench("engines", task, {.repeats = 1});
+  const AccuracyRow row = bench.engine(engine_of(SynthesisMethod::true_delays), 1e-7);
+  EXPECT_THAT(row.refused, HasSubstr("tolerance"));
+  EXPECT_TRUE(std::isnan(row.error));
 }

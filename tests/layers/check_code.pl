@@ -30,7 +30,6 @@ my %lent = (
   'sampling/gate_surfels_internal.hpp' => 'viewer',  # the viewer explains why a surfel is not seen
   'sampling/hit_rule_internal.hpp' => 'viewer',      #
   'sonar/element_kernels_internal.hpp' => 'beamforming',
-  'simulate/stage_options_internal.hpp' => 'accuracy',
 );
 my %signal_path = map { $_ => 1 } qw(sonar sampling acoustics beamforming returns simulate survey);
 my %long_file = ();      # path => why it may be longer

@@ -42,6 +42,10 @@ TEST_F(AccuracyVerb, every_row_is_complete_and_every_promise_kept) {
   std::map<std::string, int> methods;
   for (auto& row : rows_of(read("run/sweep.csv"))) {
     ++methods[row["method"]];
+    if (!row["refused"].empty()) {
+      EXPECT_EQ(row["sweep"], "stability") << row["task"] << ": " << row["refused"];
+      continue;
+    }
     EXPECT_GT(number(row["seconds"]), 0);
     EXPECT_LE(number(row["seconds_min"]), number(row["seconds"]));
     EXPECT_GE(number(row["seconds_max"]), number(row["seconds"]));
@@ -49,7 +53,9 @@ TEST_F(AccuracyVerb, every_row_is_complete_and_every_promise_kept) {
     EXPECT_GT(number(row["elements"]), 0);
     if (row["method"] == "gridded") {
       EXPECT_LE(number(row["error"]), number(row["tolerance"])) << row["sweep"];
-      EXPECT_GT(number(row["kernel_width"]), 1);
+      if (row["task"].empty()) {
+        EXPECT_GT(number(row["kernel_width"]), 1);
+      }
     }
     // The referee itself: sums of a few hundred terms in double.
     if (row["method"] == "direct") {
@@ -108,7 +114,7 @@ TEST_F(AccuracyVerb, samples_a_mesh_as_a_ping_does) {
 }
 
 TEST_F(AccuracyVerb, refuses_what_it_cannot_do_before_it_works) {
-  expect_refused("accuracy --quick --methods magic -o run", 2, {"--methods", "'magic' is unknown", "gridded, direct"});
+  expect_refused("accuracy --quick --methods magic -o run", 2, {"--methods", "'magic' is unknown", "gridded, true-delays"});
   expect_refused("accuracy --quick --tolerances 2 -o run", 2, {"--tolerances", "2", "[1e-13, 1)"});
   expect_refused("accuracy --quick --tolerances fine -o run", 2, {"--tolerances", "'fine' is not a number"});
   expect_refused("accuracy --quick --repeats 0 -o run", 2, {"--repeats = 0"});

@@ -153,6 +153,16 @@ bool draw_promise(const Rows& rows, const std::string& path) {
   return plot.draw(path);
 }
 
+/// Own error of each engine against time, on the wide band; for the narrow band that of its model too.
+bool draw_engines(const Rows& all, const std::string& path) {
+  Plot plot(log_log("Engines on a wide band: 200 kHz about 600 kHz, 48 beams, 1 000 echoes",
+                    "Relative L2 error against the image with true delays, or of the expected level", time_title));
+  for (const AccuracyRow& r : of_sweep(all, "engines"))
+    if (r.task == "wide band" && r.refused.empty())
+      plot.add(r.method, at_least(std::hypot(r.error, r.model_error), smallest_error), r.seconds, setting_text(r));
+  return plot.draw(path);
+}
+
 bool draw_local_error(const Rows& all, const std::string& path) {
   LineChart chart = log_log("The error where the echoes are weakest", "Dynamic range over the range axis [dB]",
                             "Relative L2 error, worst eighth of the range axis");
@@ -195,6 +205,7 @@ std::vector<std::string> draw_accuracy(const Rows& rows, const std::vector<Sampl
   keep(draw_crossover, "crossover.png");
   keep(draw_promise, "promise.png");
   keep(draw_local_error, "local_error.png");
+  keep(draw_engines, "engines.png");
   if (draw_sampling(sampling, directory.file("sampling.png"))) drawn.emplace_back("sampling.png");
   return drawn;
 }

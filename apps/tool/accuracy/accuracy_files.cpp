@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "beamforming/engine.hpp"
+
 namespace insonify::tool {
 namespace {
 
@@ -77,6 +79,55 @@ ordered_json promise_json(const std::vector<AccuracyRow>& rows) {
   return promise;
 }
 
+/// Of each engine over its rows: what it keeps of its tolerance, and how far the plan's bound of its model reaches.
+ordered_json engines_json(const std::vector<AccuracyRow>& rows) {
+  std::map<std::string, ordered_json> engines;
+  for (const AccuracyRow& r : rows) {
+    if (r.sweep != "engines" && r.sweep != "stability") continue;
+    ordered_json& of =
+        engines
+            .try_emplace(
+                r.method,
+                ordered_json{{"engine", r.method}, {"rows", 0}, {"refused", 0}, {"worst_error_over_tolerance", 0.0}})
+            .first->second;
+    of["rows"] = of["rows"].get<int>() + 1;
+    if (!r.refused.empty())
+      of["refused"] = of["refused"].get<int>() + 1;
+    else if (r.tolerance > 0)
+      of["worst_error_over_tolerance"] =
+          std::max(of["worst_error_over_tolerance"].get<double>(), r.error / r.tolerance);
+  }
+  ordered_json all = ordered_json::array();
+  for (auto& [word, of] : engines) all.push_back(std::move(of));
+  return all;
+}
+
+/// How much slower the plan's engine is than the fastest of its model that holds the tolerance. (The model is chosen by
+/// its error, not by time.)
+ordered_json plan_json(const std::vector<AccuracyRow>& rows) {
+  ordered_json worst;
+  const auto model_of = [](const AccuracyRow& r) {
+    return std::ranges::find(engines(), r.method, &Engine::word)->model;
+  };
+  const auto holds = [](const AccuracyRow& r) { return r.refused.empty() && r.error <= r.tolerance; };
+  for (const AccuracyRow& planned : rows) {
+    if (!planned.planned || !holds(planned) || planned.sweep != "engines") continue;
+    for (const AccuracyRow& other : rows) {
+      if (other.sweep != planned.sweep || other.task != planned.task || model_of(other) != model_of(planned)) continue;
+      const double ratio = planned.seconds / other.seconds;
+      if ((other.tolerance > 0 && other.tolerance != planned.tolerance) || !(holds(other) || other.tolerance == 0) ||
+          (!worst.is_null() && ratio <= worst["slower"].get<double>()))
+        continue;
+      worst = {{"task", planned.task},
+               {"tolerance", planned.tolerance},
+               {"planned", planned.method},
+               {"fastest", other.method},
+               {"slower", ratio}};
+    }
+  }
+  return worst;
+}
+
 std::string first_value(const std::string& path, const std::string& key) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);)
@@ -93,15 +144,15 @@ std::string sweep_csv(const std::vector<AccuracyRow>& rows) {
   std::string csv =
       "method,precision,scatterers,beams,elements,bins,tolerance,kernel_width,error,local_error,seconds,seconds_min,"
       "seconds_max,peak_mib,max_level_db,plan_seconds,sweep,parameter,bandwidth_hz,dynamic_range_db,absorption_order,"
-      "threads,repeats,timed_scatterers,timed_beams,checked_beams\n";
+      "threads,repeats,timed_scatterers,timed_beams,checked_beams,task,model_error,model_bound,refused,planned\n";
   for (const AccuracyRow& r : rows)
     csv += fmt::format(
         "{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.6g},{:.6g},{:.6g},{:.1f},{:.4g},{:.4g},{},{},{},{:.4g},{},{},{},{},{}"
-        ",{}\n",
+        ",{},{},{:.4g},{:.4g},{},{:d}\n",
         r.method, r.precision, r.scatterers, r.beams, r.elements, r.bins, r.tolerance, r.kernel_width, r.error,
         r.local_error, r.seconds, r.seconds_min, r.seconds_max, r.peak_mib, r.max_level_db, r.plan_seconds, r.sweep,
         r.parameter, r.bandwidth, r.dynamic_range_db, r.absorption_order, r.threads, r.repeats, r.timed_scatterers,
-        r.timed_beams, r.checked_beams);
+        r.timed_beams, r.checked_beams, r.task, r.model_error, r.model_bound, r.refused, r.planned);
   return csv;
 }
 
@@ -125,10 +176,9 @@ ordered_json machine_json() {
 }
 
 ordered_json accuracy_summary(const std::vector<AccuracyRow>& rows) {
-  ordered_json summary = {{"speed", ordered_json::array()},
-                          {"second_core", ordered_json::array()},
-                          {"crossover", ordered_json::array()},
-                          {"promise", promise_json(rows)}};
+  ordered_json summary = {{"speed", ordered_json::array()},     {"second_core", ordered_json::array()},
+                          {"crossover", ordered_json::array()}, {"promise", promise_json(rows)},
+                          {"engines", engines_json(rows)},      {"plan", plan_json(rows)}};
   for (const AccuracyRow& r : rows) {
     if (r.method != "gridded") continue;
     if (r.sweep == "scatterers")

@@ -44,7 +44,7 @@ void add_options(OptionList list, AccuracyOptions& o) {
   add_world(list, o.world);
   list.add("--range", &o.run.range, "min:max [m]; default: the sonar's range");
   list.add("--material", &o.scene.material, "name of one material for the whole scene, e.g. sand");
-  list.add("--methods", &o.methods, "methods that are measured, e.g. gridded,direct; default: all",
+  list.add("--methods", &o.methods, "methods that are measured: " + joined(accuracy_methods()) + "; default: all",
            {.comma_separated = true});
   list.add("--tolerances", &o.tolerances, "tolerances of gridded, e.g. 1e-3,1e-6", {.comma_separated = true});
   list.add("--repeats", &o.repeats, "timed runs of each method, after one to warm up; fewer if they take long");
@@ -155,6 +155,14 @@ void print_table(const std::string& output, const std::vector<AccuracyRow>& rows
     if (!c["faster_from"].is_null())
       fmt::print("gridded at {:.0e} is faster than {} from {} scatterers on\n", c["tolerance"].get<double>(),
                  c["against"].get<std::string>(), c["faster_from"].get<std::size_t>());
+  for (const auto& e : summary["engines"])
+    fmt::print("{:<14} {:>3} images by engines, {} refused; worst error {:.2f} of the tolerance\n",
+               e["engine"].get<std::string>(), e["rows"].get<int>(), e["refused"].get<int>(),
+               e["worst_error_over_tolerance"].get<double>());
+  if (const auto& plan = summary["plan"]; !plan.is_null())
+    fmt::print("the plan's engine takes at most {:.2f} times as long as {} where both hold ({}, {:.0e})\n",
+               plan["slower"].get<double>(), plan["fastest"].get<std::string>(), plan["task"].get<std::string>(),
+               plan["tolerance"].get<double>());
   fmt::print("{}: {} measurements in sweep.csv\n", output, rows.size());
 }
 
