@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// Iterates over the lines of a text, without the mark of UTF-8 before them; line ends are \n or \r\n.
+/// Iterates over the lines of a text, without the mark of UTF-8 before them; lines end with LF or CR LF.
 class LineReader {
  public:
   /// lines_before   lines of the file before the text

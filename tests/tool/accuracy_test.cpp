@@ -114,7 +114,8 @@ TEST_F(AccuracyVerb, samples_a_mesh_as_a_ping_does) {
 }
 
 TEST_F(AccuracyVerb, refuses_what_it_cannot_do_before_it_works) {
-  expect_refused("accuracy --quick --methods magic -o run", 2, {"--methods", "'magic' is unknown", "gridded, true-delays"});
+  expect_refused("accuracy --quick --methods magic -o run", 2,
+                 {"--methods", "'magic' is unknown", "gridded, true-delays"});
   expect_refused("accuracy --quick --tolerances 2 -o run", 2, {"--tolerances", "2", "[1e-13, 1)"});
   expect_refused("accuracy --quick --tolerances fine -o run", 2, {"--tolerances", "'fine' is not a number"});
   expect_refused("accuracy --quick --repeats 0 -o run", 2, {"--repeats = 0"});
