@@ -10,11 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A surfel in head axes.
-struct SeenSurfel {
+/// A place of a surface in head axes.
+struct SeenPlace {
   Direction direction;
-  double range, solid_angle;  ///< [m], [sr]
-  double heard;               ///< azimuth of the beam that hears it [rad]
+  double range;  ///< [m]
+  double heard;  ///< azimuth of the beam that hears it [rad]
 };
 
 /// The pose of the axes of the part's file.
@@ -43,31 +43,47 @@ class PartViewer {
     const auto visibility = find_visibility(alone, look.world_from_head, look.fan, look.gate,
                                             std::vector<std::uint8_t>(alone.size(), 1), look.sampling);
     double all = 0, shown = 0;
+    if (!part.own->facet.empty()) widen_by_facets(part, alone.id, view);
+    const bool of_discs = std::isnan(view.range.least);
     for (std::size_t k = 0; k < alone.size(); ++k) {
       if (visibility[k] != Visibility::seen) continue;
-      const SeenSurfel surfel = in_head_axes(alone, k);
-      if (!in_fan(surfel)) continue;
-      all += surfel.solid_angle;
-      if (seen[k]) shown += surfel.solid_angle;
-      widen(view.azimuth, surfel.direction.azimuth);
-      widen(view.elevation, surfel.direction.elevation);
-      widen(view.range, surfel.range);
-      widen(view.heard, surfel.heard);
-      widen(view.ahead, surfel.range * std::cos(surfel.heard));
-      widen(view.port, surfel.range * std::sin(surfel.heard));
+      const Vector3d place = head_from_world_ * (alone.origin + alone.point[k].cast<double>());
+      if (!in_fan(seen_at(place))) continue;
+      const double solid_angle = solid_angle_of(alone, k, place);
+      all += solid_angle;
+      if (seen[k]) shown += solid_angle;
+      if (of_discs) widen(place, view);
     }
     if (all > 0) view.visible_share = shown / all;  // (E147)
     return view;
   }
 
  private:
-  SeenSurfel in_head_axes(const SceneCloud& scene, std::size_t i) const {
-    const Vector3d place = head_from_world_ * (scene.origin + scene.point[i].cast<double>());
+  /// Widens a view by what the head sees of some triangles of a part: discs of surfels stick out beyond the edge of a
+  /// face, where they would hide one that is nearly edge-on. Its corners bound a triangle as far as they are in the fan.
+  void widen_by_facets(const ScenePart& part, const std::vector<std::uint32_t>& surfels, PartView& view) const {
+    const SceneCloud own = subset(*part.own, surfels);
+    const View& look = ping_.view;
+    const auto visibility = find_visibility(own, part.world_from_part.inverse() * look.world_from_head, look.fan,
+                                            look.gate, std::vector<std::uint8_t>(own.size(), 1), look.sampling);
+    const Pose head_from_part = head_from_world_ * part.world_from_part;
+    const auto widen_at = [&](const Eigen::Vector3f& point) {
+      widen(head_from_part * (own.origin + point.cast<double>()), view);
+    };
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      if (visibility[k] != Visibility::seen) continue;
+      widen_at(own.point[k]);
+      for (const Eigen::Vector3f& corner : own.facet[k]) widen_at(corner);
+    }
+  }
+  double solid_angle_of(const SceneCloud& scene, std::size_t i, const Vector3d& place) const {
     const double range = place.norm();
     const double cosine = std::abs((head_from_world_.linear() * scene.normal[i].cast<double>()).dot(place)) / range;
+    return cosine * static_cast<double>(scene.area[i]) / (range * range);
+  }
+  SeenPlace seen_at(const Vector3d& place) const {
     const Direction direction = direction_of(place);
-    return {direction, range, cosine * static_cast<double>(scene.area[i]) / (range * range),
-            heard_azimuth(place, direction.elevation)};
+    return {direction, place.norm(), heard_azimuth(place, direction.elevation)};
   }
   /// The azimuth of the beam of the nearest row whose cone holds a place.
   double heard_azimuth(const Eigen::Vector3d& place, double elevation) const {
@@ -77,9 +93,20 @@ class PartViewer {
     const double cone = std::asin(std::clamp(place.y() / (place.norm() * std::cos(row)), -1.0, 1.0));
     return place.x() < 0 ? std::copysign(pi, cone) - cone : cone;
   }
-  bool in_fan(const SeenSurfel& s) const {
+  bool in_fan(const SeenPlace& s) const {
     return s.heard >= least_azimuth_ && s.heard <= most_azimuth_ && s.range >= ping_.head.gate.min_range &&
            s.range <= ping_.head.gate.max_range;
+  }
+  /// Widens a view by a place in head axes, if the fan holds it.
+  void widen(const Vector3d& place, PartView& view) const {
+    const SeenPlace s = seen_at(place);
+    if (!in_fan(s)) return;
+    widen(view.azimuth, s.direction.azimuth);
+    widen(view.elevation, s.direction.elevation);
+    widen(view.range, s.range);
+    widen(view.heard, s.heard);
+    widen(view.ahead, s.range * std::cos(s.heard));
+    widen(view.port, s.range * std::sin(s.heard));
   }
   static void widen(PartView::Extent& extent, double value) {
     extent.least = std::fmin(extent.least, value), extent.most = std::fmax(extent.most, value);

@@ -82,24 +82,31 @@ class Surface:
             self.normal = np.stack([points[k] for k in ("nx", "ny", "nz")], 1).astype(float)
             return
         faces = np.frombuffer(data, [("n", "u1"), ("corner", "<i4", 3)], count["face"], vertex.itemsize * len(points))
-        self._sample(place[faces["corner"]], coefficient[faces["corner"][:, 0]], step)
+        normal = np.stack([points[k] for k in ("nx", "ny", "nz")], 1).astype(float)
+        corner = faces["corner"]
+        self._sample(place[corner], normal[corner], coefficient[corner[:, 0]], step)
 
-    def _sample(self, corner: np.ndarray, coefficient: np.ndarray, step: float) -> None:
+    def _sample(self, corner: np.ndarray, turned: np.ndarray, coefficient: np.ndarray, step: float) -> None:
         cross = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
         double = np.linalg.norm(cross, axis=1)
         longest = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(1)
         parts = np.clip(np.ceil(longest / step), 1, 200).astype(int)
         place, normal, area, mu = [], [], [], []
+        # Middles of small triangles stand for the surface; their corners, which have no area, bound it.
         for n in np.unique(parts):
             some = np.flatnonzero((parts == n) & (double > 0))
             weights = [((i + k / 3) / n, (j + k / 3) / n) for i in range(n) for j in range(n - i) for k in (1, 2)
                        if k == 1 or i + j + 1 < n]
+            middles = len(weights)
+            weights += [(i / n, j / n) for i in range(n + 1) for j in range(n + 1 - i)]
             a, b = np.array(weights).T
             of = corner[some, None]
             place.append((of[:, :, 0] + a[:, None] * (of[:, :, 1] - of[:, :, 0])
                           + b[:, None] * (of[:, :, 2] - of[:, :, 0])).reshape(-1, 3))
-            normal.append(np.repeat(cross[some] / double[some, None], len(weights), 0))
-            area.append(np.repeat(double[some] / 2 / n**2, len(weights)))
+            # A face of a round body faces the head as the body does: its corners have the body's normals.
+            bent = np.einsum("wc,fcx->fwx", np.stack([1 - a - b, a, b], 1), turned[some]).reshape(-1, 3)
+            normal.append(bent / np.linalg.norm(bent, axis=1)[:, None])
+            area.append(np.outer(double[some] / 2 / n**2, np.arange(len(weights)) < middles).ravel())
             mu.append(np.repeat(coefficient[some], len(weights)))
         self.place, self.normal = np.concatenate(place), np.concatenate(normal)
         self.area, self.mu = np.concatenate(area), np.concatenate(mu)

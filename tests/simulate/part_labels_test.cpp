@@ -4,6 +4,7 @@
 
 #include "core/units.hpp"
 #include "returns/label_objects.hpp"
+#include "sampling/mesh_surfels.hpp"
 #include "scene/posed_scene.hpp"
 #include "support/heads.hpp"
 #include "support/scenes.hpp"
@@ -115,6 +116,42 @@ TEST(PartLabels, have_the_places_where_a_fan_draws_a_sphere) {
   // The sector of its ranges and azimuths reaches further.
   EXPECT_GT(view.range.most * std::sin(view.azimuth.most), port.most + 0.05);
   EXPECT_LT(view.heard.most, view.azimuth.most - 0.005);
+}
+
+/// A body between two corners, as a mesh and surfels 5 cm apart.
+SceneCloud chest(const Vector3d& low, const Vector3d& high) {
+  SceneMesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.point.push_back(
+        Vector3d((i & 1 ? high : low).x(), (i & 2 ? high : low).y(), (i & 4 ? high : low).z()).cast<float>());
+  mesh.material.assign(8, 0);
+  mesh.triangle = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  SceneCloud cloud = even_surfels(mesh, 0.05).scene;
+  cloud.part_of.reset();
+  return cloud;
+}
+
+// The head looks along the top, 0.1 to 1 degree from edge-on. Its surfels end before its edges do.
+TEST(PartLabels, bound_a_mesh_by_faces_that_are_nearly_edge_on) {
+  for (const double below : {0.01, 0.03, 0.1}) {
+    const PixelLabels labels =
+        labels_of({placed("chest", "chest", chest({-0.5, -0.3, -0.3}, {0.5, 0.3, -below}), {6, 0, 0})});
+    const PartView& view = labels.views.at(index_of(labels, "chest"));
+    const double far = std::hypot(6.5, 0.3, below), near = std::hypot(5.5, 0, below);
+    EXPECT_NEAR(view.range.most, far, 1e-3) << below;
+    EXPECT_NEAR(view.range.least, near, 5e-3) << below;
+    EXPECT_NEAR(view.ahead.most, std::hypot(6.5, below), 1e-3) << below;
+    EXPECT_NEAR(view.port.most, 0.3, 1e-3) << below;
+    EXPECT_NEAR(view.port.least, -0.3, 1e-3) << below;
+    EXPECT_NEAR(view.heard.most, std::asin(0.3 / std::hypot(5.5, 0.3, below)), 1e-3) << below;
+    EXPECT_NEAR(view.elevation.least, -std::atan2(0.3, 5.5), 1e-3) << below;
+    EXPECT_EQ(view.visible_share, 1) << below;
+  }
+  // Turned away it ends where its front does.
+  const PixelLabels above =
+      labels_of({placed("chest", "chest", chest({-0.5, -0.3, -0.3}, {0.5, 0.3, 0.01}), {6, 0, 0})});
+  EXPECT_NEAR(above.views.at(index_of(above, "chest")).range.most, std::hypot(5.5, 0.3, 0.3), 1e-3);
 }
 
 TEST(PartLabels, know_the_share_that_another_part_hides) {

@@ -50,7 +50,8 @@ Eigen::Vector3d size_of(const LoadedScene& loaded) {
   return box.max - box.min;
 }
 
-/// The surfels of a file: of a mesh evenly spaced ones; all hide as discs.
+/// The surfels of a file: of a mesh evenly spaced ones. All hide as discs; a body of a mesh keeps its triangles, by which
+/// its outline is found (part_views).
 SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, const PartsOptions& o) {
   SceneCloud cloud = std::move(loaded.scene);
   if (loaded.mesh && !loaded.columns.heights && !(captured && file.spacing == 0)) {
@@ -59,7 +60,7 @@ SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, 
                          {file.path, available_memory()})
                 .scene;
   }
-  cloud.facet.clear();
+  if (captured || file.thin > 0) cloud.facet.clear();
   cloud.part_of.reset();
   if (!captured || !file.material.empty()) drop_unused_materials(cloud);
   return file.thin > 0 ? thin_scene(cloud, file.thin) : cloud;
