@@ -217,6 +217,33 @@ TEST_F(Survey, plans_without_writing_anything) {
   EXPECT_LT(std::abs(std::log(plan["all"]["bytes"].get<double>() / bytes)), std::log(1.5)) << bytes;
 }
 
+// Of a swath with the phase between the halves of its array, which takes a third of the disk.
+TEST_F(Survey, plan_says_the_disk_that_split_phase_takes) {
+  write("swath.toml", R"(schema = 1
+[survey]
+scene = "harbour.ply"
+seed = 3
+[trajectory]
+waypoints_m = [[4, -2, -1], [8, 2, -1]]
+speed_m_s = 1
+[[head]]
+sonar = "em2040"
+set = ["sonar.beams=32"]
+range = "1:12"
+rate_hz = 1
+[ping]
+noise = true
+split = true
+)");
+  const double said =
+      nlohmann::json::parse(succeed("survey swath.toml --plan --json -q"))["all"]["bytes"].get<double>();
+  succeed("survey swath.toml -q -o swath");
+  double written = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(path("swath")))
+    if (entry.is_regular_file()) written += static_cast<double>(entry.file_size());
+  EXPECT_NEAR(said / written, 1, 0.1) << written;
+}
+
 TEST_F(Survey, refuses_what_cannot_be) {
   const auto refuses = [&](const std::string& from, const std::string& to, const std::vector<std::string>& parts) {
     write("bad.toml", replaced(survey_mission, from, to));
