@@ -43,7 +43,10 @@ TEST_F(DisplayRun, needs_samples_for_some_outputs) {
   expect_refused(swath + "--display 200 --keep elements -o no", 2, {"--display = 200", "samples of pressure"});
   expect_refused(swath + "--display 200 --looks-range 2 -o no", 2, {"--display = 200", "looks"});
   expect_refused(swath + "--display -3 -o no", 2, {"--display"});
-  expect_refused("export cells --to gsf --anchor 54,8 -o no.gsf", 2, {"cells", "display cells", "without --display"});
+  for (const char* kind : {"gsf", "las", "csv", "mcap", "geotiff"})
+    expect_refused(std::string("export cells --anchor 54,8 -o no --to ") + kind, 2,
+                   {"cells", "display cells", "without --display"});
+  expect_refused("dataset cells -o no", 3, {"cells", "--keep contributors", "without --display"});
 }
 
 TEST_F(DisplayRun, survey_of_cells_merges) {

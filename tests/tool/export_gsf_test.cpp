@@ -155,6 +155,28 @@ TEST_F(ExportGsf, attitude_course_and_speed_are_those_of_the_ship) {
   }
 }
 
+// GSF counts from port, a cube along its azimuths, which are positive to port.
+TEST_F(ExportGsf, beams_are_those_of_the_cube_from_the_other_side) {
+  succeed("export run --to csv -q -o beams.csv");
+  const decode::GsfContent gsf = content();
+  std::istringstream lines(read("beams.csv"));
+  std::string line;
+  std::getline(lines, line);
+  ASSERT_THAT(line, testing::StartsWith("ping,time_s,beam,x_m,y_m,z_m,range_m,"));
+  std::size_t soundings = 0;
+  while (std::getline(lines, line)) {
+    std::vector<double> row;
+    std::istringstream fields(line);
+    for (std::string field; row.size() < 7 && std::getline(fields, field, ',');) row.push_back(std::stod(field));
+    const decode::GsfSwath& s = gsf.swaths.at(static_cast<std::size_t>(row[0]));
+    const std::size_t entry = s.flags.size() - 1 - static_cast<std::size_t>(row[2]);
+    EXPECT_EQ(s.flags.at(entry), 0) << line;
+    EXPECT_NEAR(s.arrays.at(1)[entry], -row[5], 0.006) << line;
+    ++soundings;
+  }
+  EXPECT_GT(soundings, 100U);
+}
+
 // Of one ping on a trajectory, or with a velocity, course and speed are those, though its places are one.
 TEST_F(ExportGsf, single_pings_have_the_course_and_speed_of_their_trajectory) {
   write("sea.toml", "[surface]\nheight_m = 0.5\n");
