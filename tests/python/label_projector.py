@@ -352,8 +352,8 @@ class Referee:
             left, top, width, height = a["bbox_whole"]
             off = np.abs([left + 0.5 - column.min(), left + width - 0.5 - column.max(), top + 0.5 - row.min(),
                           top + height - 0.5 - row.max()])
-            spacing = 0.04 / form.cell  # of the surfels that the body is made of, beside half a pixel
-            if (off[:2] > (1 + spacing if form.name == "fan" else 2.5)).any() or (off[2:] > 1 + spacing).any():
+            # Half a pixel and what is between two points here; and the far side of a round body lies within a triangle.
+            if (off[:2] > 1.2).any() or (off[2:] > 2.5).any():
                 self.complain("whole box off", f"{where}: {np.round(off, 1)} of {width} x {height}")
 
     def judge_missing(self, form: Form, parts: dict[str, Seen], bed: Seen, facing: dict, boxed: dict,
