@@ -34,6 +34,28 @@ std::vector<complex> beam_terms(const SonarHead& head, double step) {
   return terms;
 }
 
+/// Squared responses of all rows, added up over v from -1 to 1.
+std::vector<double> sum_over_rows(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows) {
+  constexpr double entries_per_lobe = 32;
+  const double lobes = head.column
+                           ? 2 * head.column->spacing / wavelength * static_cast<double>(head.column->elements())
+                           : 2 / std::max(head.fan.elevation_width, 1e-3);
+  std::vector<double> sums(static_cast<std::size_t>(std::clamp(entries_per_lobe * lobes, 256.0, 65536.0)) + 2, 0);
+  for (const FanRow& row : rows) {
+    RowResponse response(head, wavelength, row.elevation);
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      sums[k] += std::pow(response.at(2 * static_cast<double>(k) / static_cast<double>(sums.size() - 1) - 1), 2);
+  }
+  return sums;
+}
+
+/// Value at x of a table over x from -1 to 1.
+double between_entries(const std::vector<double>& table, double x) {
+  const double place = 0.5 * (std::clamp(x, -1.0, 1.0) + 1) * static_cast<double>(table.size() - 1);
+  const std::size_t left = std::min(static_cast<std::size_t>(place), table.size() - 2);
+  return std::lerp(table[left], table[left + 1], place - static_cast<double>(left));
+}
+
 }  // namespace
 
 ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double half_width, bool over_band) {
@@ -49,8 +71,7 @@ ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double 
     add_frequency(head, step, half_width, 1);
   const std::vector<FanRow> rows = fan_rows(head.fan);
   for (double& entry : table_) entry /= static_cast<double>(rows.size());
-  if (rows.size() > 1 || head.column)
-    for (const FanRow& row : rows) rows_.emplace_back(head, wavelength, row.elevation);
+  if (rows.size() > 1 || head.column) rows_ = sum_over_rows(head, wavelength, rows);
 }
 
 void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double half_width, double part) {
@@ -81,16 +102,10 @@ void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double ha
   }
 }
 
-double ReceivedEnergy::along_array(double u) const {
-  const double place = 0.5 * (std::clamp(u, -1.0, 1.0) + 1) * static_cast<double>(table_.size() - 1);
-  const std::size_t left = std::min(static_cast<std::size_t>(place), table_.size() - 2);
-  return std::lerp(table_[left], table_[left + 1], place - static_cast<double>(left));
-}
+double ReceivedEnergy::along_array(double u) const { return between_entries(table_, u); }
 
-double ReceivedEnergy::at(double u, double v) {
-  double rows = rows_.empty() ? 1 : 0;
-  for (RowResponse& row : rows_) rows += std::pow(row.at(v), 2);
-  return along_array(u) * rows;
+double ReceivedEnergy::at(double u, double v) const {
+  return along_array(u) * (rows_.empty() ? 1 : between_entries(rows_, v));
 }
 
 }  // namespace insonify

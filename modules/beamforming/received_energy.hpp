@@ -7,7 +7,7 @@
 namespace insonify {
 
 /// Table of the energy that all beams of a head together receive from a plane wave: the sum over beams of the squared
-/// response, side lobes included (E10, E56). Interpolation over u is accurate to 1 % within a main lobe and to 5 %
+/// response, side lobes included (E10, E56). Interpolation over u and v is accurate to 1 % within a main lobe and to 5 %
 /// where only side lobes receive.
 class ReceivedEnergy {
  public:
@@ -15,7 +15,7 @@ class ReceivedEnergy {
   /// `over_band`, each entry is the mean over the frequencies of the pulse, as for beams formed with true delays.
   ReceivedEnergy(const SonarHead& head, double wavelength, double half_width = 0, bool over_band = false);
   /// Returns the sum at direction cosines u along the array and v upwards.
-  double at(double u, double v);
+  double at(double u, double v) const;
   /// Returns the sum for the array alone, without elevation patterns.
   double along_array(double u) const;
 
@@ -24,7 +24,7 @@ class ReceivedEnergy {
   void add_frequency(const SonarHead& head, double step, double half_width, double part);
 
   std::vector<double> table_;  // over u from -1 to 1
-  std::vector<RowResponse> rows_;
+  std::vector<double> rows_;   // sum over rows of their squared responses, over v from -1 to 1; empty: 1
 };
 
 }  // namespace insonify

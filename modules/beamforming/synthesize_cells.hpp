@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "acoustics/echoes.hpp"
@@ -42,9 +43,25 @@ struct CellOptions {
 /// amplitudes are not random.
 ///
 /// Accuracy against cells of true_delays samples, of 14 looks or more and off grating lobes (docs/results/display.md):
-/// bands of range 0.07 dB, cells 0.3 dB rms in the mean; contrast 5 %. Doppler shifts are ignored. Throws Error for an invalid head or medium, for arrays of
-/// different lengths, and for a head with several rows or a column unless echoes.v has one entry per echo.
+/// bands of range 0.07 dB, cells 0.3 dB rms in the mean; contrast 5 %. Doppler shifts are ignored. Throws Error for an
+/// invalid head or medium, for arrays of different lengths, and for a head with several rows or a column unless echoes.v
+/// has one entry per echo.
 Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed, const SonarHead& head,
                               const Medium& medium, const CellOptions& options = {});
+
+/// The same for many pings of one head, whose patterns and transforms are made once. Several threads may call.
+class CellSynthesizer {
+ public:
+  /// Throws Error for an invalid head or medium.
+  CellSynthesizer(const SonarHead& head, const Medium& medium);
+  ~CellSynthesizer();
+
+  /// Returns what synthesize_cells returns, to the byte. Throws Error as that does.
+  Grid<double> cells(const SurfaceEchoes& surface, const Echoes& fixed, const CellOptions& options = {}) const;
+
+ private:
+  struct Plan;
+  std::unique_ptr<const Plan> plan_;
+};
 
 }  // namespace insonify

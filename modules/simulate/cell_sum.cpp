@@ -62,7 +62,7 @@ void CellSum::finish(SimulatedPing& result) {
     options.element_noise_db = ping_.element_noise_db;
     report_.push_back({"noise", 0});
   }
-  const Grid<double> cells = synthesize_cells(all_, {}, ping_.head, ping_.sent.medium, options);
+  const Grid<double> cells = synthesizers_.cells_of(ping_.head, ping_.sent.medium)->cells(all_, {}, options);
   result.ping =
       ping_of(ping_, ping_.head.gate, stored_pressure(cells.sqrt().cast<std::complex<double>>(), "PingSimulator"));
   result.ping.expected_level = !options.speckle;

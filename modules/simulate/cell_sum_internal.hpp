@@ -11,8 +11,8 @@ namespace insonify {
 /// Draws display cells from the energies of all echoes (E180).
 class CellSum {
  public:
-  /// Keeps a reference to `ping`, which must outlive it.
-  explicit CellSum(const ResolvedPing& ping) : ping_(ping) {}
+  /// Keeps references to both arguments, which must outlive it.
+  CellSum(const ResolvedPing& ping, SynthesizerTable& synthesizers) : ping_(ping), synthesizers_(synthesizers) {}
 
   /// Adds direct echoes, of roots of mean power, with the patches that they are of.
   void add_direct(const Scatterers& patches, const Echoes& echoes);
@@ -24,6 +24,7 @@ class CellSum {
 
  private:
   const ResolvedPing& ping_;
+  SynthesizerTable& synthesizers_;
   SurfaceEchoes all_;
   std::vector<LayerReport> report_;
 };

@@ -131,8 +131,9 @@ void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, 
   layers.add("double-echoes", parts.doubles.echoes);
 }
 
-void draw_cells(const ResolvedPing& ping, const PingParts& parts, SimulatedPing& result) {
-  CellSum cells(ping);
+void draw_cells(const ResolvedPing& ping, const PingParts& parts, SynthesizerTable& synthesizers,
+                SimulatedPing& result) {
+  CellSum cells(ping, synthesizers);
   cells.add_direct(parts.sampling.scatterers, parts.direct);
   std::size_t number = 0;
   for (Reverberation& part : reverberation_echoes(ping))

@@ -184,7 +184,7 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
   begin_stage("synthesis");
   if (draws_cells(ping.options)) {
-    draw_cells(ping, parts, result);
+    draw_cells(ping, parts, *shared_->synthesizers, result);
   } else {
     LayerSum layers(ping, *shared_->synthesizers);
     layers.add("direct", *direct);

@@ -14,6 +14,7 @@
 namespace insonify {
 
 class LayerSum;
+class SynthesizerTable;
 
 /// Patches of surface and their direct echoes. They are stored if a later stage asks for all of them. Otherwise they
 /// are counted, and made where they are used.
@@ -48,7 +49,8 @@ void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingPa
 void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
 
 /// Draws the display cells of direct echoes, reverberation and noise (E180): the ping of `result`.
-void draw_cells(const ResolvedPing& ping, const PingParts& parts, SimulatedPing& result);
+void draw_cells(const ResolvedPing& ping, const PingParts& parts, SynthesizerTable& synthesizers,
+                SimulatedPing& result);
 
 /// Returns the soundings of a ping. Their contributors may be double echoes, if there are any.
 Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,

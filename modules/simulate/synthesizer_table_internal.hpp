@@ -5,6 +5,7 @@
 #include <mutex>
 #include <vector>
 
+#include "beamforming/synthesize_cells.hpp"
 #include "beamforming/synthesizer.hpp"
 
 namespace insonify {
@@ -20,6 +21,9 @@ class SynthesizerTable {
   /// Throws Error as the constructor of Synthesizer.
   std::shared_ptr<const Synthesizer> of(Part part, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                                         const SynthesisOptions& options);
+  /// Returns what draws the display cells of a head, the same in all calls but for its gate. Throws Error as the
+  /// constructor of CellSynthesizer.
+  std::shared_ptr<const CellSynthesizer> cells_of(const SonarHead& head, const Medium& medium);
 
  private:
   static constexpr std::size_t most_media = 2;
@@ -29,8 +33,14 @@ class SynthesizerTable {
     SynthesisOptions options;
     std::shared_ptr<const Synthesizer> synthesizer;
   };
+  struct CellsRow {
+    Medium medium;
+    RangeGate gate;
+    std::shared_ptr<const CellSynthesizer> synthesizer;
+  };
   std::mutex guard_;
   std::array<std::vector<Row>, 3> rows_;  ///< of each part, the last used first
+  std::vector<CellsRow> cells_;           ///< the last used first
 };
 
 }  // namespace insonify

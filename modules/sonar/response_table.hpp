@@ -18,11 +18,14 @@ class ResponseTable {
   double intensity(double offset) const {
     double x = offset < 0 ? -offset : offset;
     if (x > half_period_) x = folded(x);
-    x *= per_unit_;
-    const auto whole = static_cast<std::size_t>(x);
-    const double below = amplitude_[whole], t = x - static_cast<double>(whole);
-    const double b = below + t * (amplitude_[whole + 1] - below);
+    const double b = within_period(x);
     return b * b;
+  }
+  /// Returns B there; beyond half a period of B^2 the sign is that of the period's first half.
+  double amplitude(double offset) const {
+    double x = offset < 0 ? -offset : offset;
+    if (x > half_period_) x = folded(x);
+    return within_period(x);
   }
 
   /// Returns the least offset from the centre of the main lobe or a grating lobe beyond which B^2 stays below `floor`;
@@ -38,6 +41,12 @@ class ResponseTable {
   }
 
  private:
+  double within_period(double x) const {
+    x *= per_unit_;
+    const auto whole = static_cast<std::size_t>(x);
+    const double below = amplitude_[whole], t = x - static_cast<double>(whole);
+    return below + t * (amplitude_[whole + 1] - below);
+  }
   double folded(double offset) const;
   bool at_grating_lobe(double nearest, double farthest, double reach) const;
 

@@ -252,6 +252,16 @@ TEST(DisplayCells, are_linear_and_the_same_for_any_threads) {
   EXPECT_LT(worst_db(1e14 * synthesize_cells(ground, {}, head, lossy), one), 1e-3);
 }
 
+TEST(DisplayCells, of_a_kept_synthesizer_are_those_of_a_new_one) {
+  const SonarHead head = cells_head(samples_head(), 5);
+  const CellSynthesizer kept(head, lossy);
+  for (const std::uint64_t key : {3, 4}) {
+    const SurfaceEchoes ground = even_ground(300 * key, key);
+    const CellOptions options{.seed = key, .ping = 2, .element_noise_db = 60};
+    EXPECT_TRUE(same(kept.cells(ground, {}, options), synthesize_cells(ground, {}, head, lossy, options)));
+  }
+}
+
 TEST(DisplayCells, of_a_planar_array_are_weighted_by_its_rows) {
   SonarHead head = cells_head(samples_head(3), 5);
   head.fan.azimuth = {-0.2, 0, 0.2, -0.2, 0, 0.2};

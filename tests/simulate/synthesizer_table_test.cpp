@@ -67,3 +67,16 @@ TEST(SynthesizerTable, refuses_what_cannot_be_made_every_time) {
   for (int k = 0; k < 2; ++k)
     EXPECT_THROW(table.of(Part::whole, table_head, {-1, {}}, SynthesisMethod::gridded, {1e-3, 1}), Error) << k;
 }
+
+TEST(SynthesizerTable, keeps_what_draws_display_cells_by_medium_and_gate) {
+  SynthesizerTable table;
+  const auto first = table.cells_of(table_head, medium_of_speed(1490));
+  EXPECT_EQ(table.cells_of(table_head, medium_of_speed(1490)), first);
+  SonarHead coarser = table_head;
+  coarser.gate.bin_size *= 2;
+  const auto other = table.cells_of(coarser, medium_of_speed(1490));
+  EXPECT_NE(other, first);
+  EXPECT_EQ(table.cells_of(table_head, medium_of_speed(1490)), first);
+  EXPECT_NE(table.cells_of(table_head, medium_of_speed(1491)), first);
+  EXPECT_NE(table.cells_of(coarser, medium_of_speed(1490)), other) << "of three, the one used first is made anew";
+}

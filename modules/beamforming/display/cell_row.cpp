@@ -4,15 +4,16 @@
 #include <limits>
 #include <numbers>
 
+#include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/cell_row_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
-#include "core/random.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
+constexpr std::uint64_t ping_seed = 0x9e3779b97f4a7c15, stage_seed = 0xd1b54a32d192ed03;  // odd, far from each other
 constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
 
 /// Length of the overlap of [low, high] with [first, last].
@@ -20,19 +21,9 @@ double overlap(double low, double high, double first, double last) {
   return std::max(0.0, std::min(high, last) - std::max(low, first));
 }
 
-/// Part of an echo's energy between two ranges: its surface is a box, and so is the pulse with it where the surface is
-/// deeper than the pulse; else both are a normal law.
-double part_between(const CellEcho& echo, double sigma, double low, double high) {
-  if (echo.half_depth > sigma) {
-    const double half = std::hypot(echo.half_depth, std::numbers::sqrt3 * sigma);
-    return overlap(echo.range - half, echo.range + half, low, high) / (2 * half);
-  }
-  const double deviation = std::hypot(sigma, echo.half_depth / std::numbers::sqrt3);
-  const auto below = [&](double range) {
-    const double away = (range - echo.range) / deviation;
-    return away < -reach_of_pulse ? 0 : away > reach_of_pulse ? 1 : 0.5 * std::erfc(-away / std::numbers::sqrt2);
-  };
-  return below(high) - below(low);
+/// Seed of the noise of a ping, far from those of the amplitudes of surfaces.
+std::uint64_t noise_seed(const CellOptions& options) {
+  return (options.seed ^ stage_seed) + static_cast<std::uint64_t>(options.ping) * ping_seed;
 }
 
 /// Turns a gamma variate of mean 1 and `from` looks into one of `to` looks (Wilson and Hilferty 1931; E183).
@@ -43,21 +34,22 @@ double with_looks(double variate, double from, double to) {
 
 }  // namespace
 
-CellRow::CellRow(const DisplayPlan& plan, std::span<const CellEcho> echoes, const EchoesByCell& lists,
-                 const CellOptions& options, double element_noise, std::size_t first_element)
+CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const HeardByRow& row, const CellOptions& options)
     : plan_(plan),
-      echoes_(echoes),
       lists_(lists),
+      row_(row),
+      beams_(row.beams),
       options_(options),
-      element_noise_(element_noise),
-      first_element_(first_element),
       all_(plan.all_length),
       all_samples_(plan.all_samples),
       power_(plan.period_samples + guards),
-      energy_(plan.broad * kernels::part_stride) {
+      energy_(plan.broad * kernels::row_length(plan.parts)),
+      noise_id_(plan.shading.size()),
+      noise_re_(plan.shading.size()),
+      noise_im_(plan.shading.size()) {
   for (Side& side : side_) {
-    side.mean.resize(plan.u_beam.size());
-    side.looks.resize(plan.broad_used.size());
+    side.mean.resize(row.beams.u_beam.size());
+    side.looks.resize(row.beams.broad_used.size());
     for (auto& field : side.field) field.resize(plan.period_samples + guards);
   }
   for (auto& nodes : nodes_) nodes.resize(plan.period);
@@ -70,7 +62,7 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
   const auto column = static_cast<Eigen::Index>(cell);
   if (!options_.speckle) {
     for (std::size_t s = 0; s < sides; ++s)
-      for (std::size_t b = 0; b < plan_.u_beam.size(); ++b)
+      for (std::size_t b = 0; b < beams_.u_beam.size(); ++b)
         image(static_cast<Eigen::Index>(b), column + static_cast<Eigen::Index>(s)) = side_[s].mean[b];
     return;
   }
@@ -82,8 +74,8 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
     sum_fields(cell + s, side);
   }
   sum_powers(sides);
-  for (std::size_t b = 0; b < plan_.u_beam.size(); ++b) {
-    const Complex power = plan_.in_period[b].of(power_.data());
+  for (std::size_t b = 0; b < beams_.u_beam.size(); ++b) {
+    const Complex power = beams_.in_period[b].of(power_.data());
     image(static_cast<Eigen::Index>(b), column) = drawn(b, side_[0], power.real());
     if (sides > 1) image(static_cast<Eigen::Index>(b), column + 1) = drawn(b, side_[1], power.imag());
   }
@@ -92,20 +84,16 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
 void CellRow::list_parts(std::size_t cell, Side& side) {
   side.even.clear(), side.strong.clear();
   side.energy = 0;
-  const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length,
-               last = first + plan_.cell_length, middle = 0.5 * (first + last);
   for (std::size_t k = lists_.first[cell]; k < lists_.first[cell + 1]; ++k) {
-    const CellEcho& echo = echoes_[lists_.echo[k]];
-    // The mean is over area, which grows with range.
-    const double weight = std::clamp(echo.range, first, last) / middle, half = plan_.pulse.half_length();
-    const double energy =
-        echo.energy > 0 ? echo.energy * weight * part_between(echo, plan_.pulse.deviation(), first, last) : 0;
-    const double field =
-        std::norm(echo.pressure) * weight * overlap(echo.range - half, echo.range + half, first, last) / (2 * half);
-    if (energy > 0 || field > 0) side.even.push_back({&echo, energy, field});
+    const EchoInCell& in = lists_.part[k];
+    const CellEcho& echo = lists_.echoes[in.echo];
+    const double response = row_.response.empty() ? 1 : row_.response[in.echo];
+    const double energy = response * response * echo.energy * in.energy,
+                 field = response * response * echo.strength * in.field;
+    if (energy > 0 || field > 0) side.even.push_back({&echo, energy, field, response < 0 ? -1.0 : 1.0});
     side.energy += energy;
   }
-  side.noise = std::max(element_noise_, least_noise * side.energy) * plan_.lag[0];
+  side.noise = std::max(row_.element_noise, least_noise * side.energy) * plan_.lag[0];
 }
 
 void CellRow::sum_means(std::size_t cell, std::size_t sides) {
@@ -134,9 +122,9 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides) {
   for (std::size_t q = 0; q < half; ++q) all_samples_[q] = all_[q] * kernel[q];
   for (std::size_t q = half + 1; q < n; ++q) all_samples_[n + q] = all_[q] * kernel[q];
   plan_.from_all.run(all_samples_.data());
-  const double noise = element_noise_ * plan_.lag[0];
-  for (std::size_t b = 0; b < plan_.u_beam.size(); ++b) {
-    const Complex mean = plan_.in_all[b].of(all_samples_.data());
+  const double noise = row_.element_noise * plan_.lag[0];
+  for (std::size_t b = 0; b < beams_.u_beam.size(); ++b) {
+    const Complex mean = beams_.in_all[b].of(all_samples_.data());
     side_[0].mean[b] = std::max(0.0, mean.real()) + noise;  // (E181)
     side_[1].mean[b] = std::max(0.0, mean.imag()) + noise;
   }
@@ -147,9 +135,9 @@ void CellRow::sum_fields(std::size_t cell, Side& side) {
   for (const Part& part : side.even) {
     const CellEcho& echo = *part.echo;
     if (!(part.field > 0)) continue;
-    const std::size_t node = plan_.node_of(echo.u), place = node % plan_.period;
-    Complex pressure = echo.pressure * std::sqrt(part.field / std::norm(echo.pressure));
-    if (plan_.half_places) pressure *= plan_.turn[node];
+    const std::size_t place = echo.node % plan_.period;
+    Complex pressure = part.sign * std::sqrt(part.field) * echo.phase;
+    if (plan_.half_places) pressure *= plan_.turn[echo.node];
     nodes_[0][place] += pressure * echo.amplitude[0];
     nodes_[1][place] += pressure * echo.amplitude[1];
   }
@@ -161,12 +149,12 @@ void CellRow::sum_fields(std::size_t cell, Side& side) {
 void CellRow::add_noise(std::size_t cell, Side& side) {
   const double root = std::sqrt(side.noise / plan_.lag[0]);
   if (root == 0) return;
-  for (std::size_t m = 0; m < plan_.shading.size(); ++m) {
-    const auto u = random_uniform(options_.seed, RandomStage::noise,
-                                  {static_cast<std::uint64_t>(options_.ping), first_element_ + m, cell});
-    for (std::size_t q = 0; q < 2; ++q)
-      nodes_[q][(plan_.first_element + m) % plan_.period] +=
-          root * std::polar(std::sqrt(-std::log(u[2 * q])), 2 * pi * u[2 * q + 1]);
+  for (std::size_t q = 0; q < 2; ++q) {
+    for (std::size_t m = 0; m < noise_id_.size(); ++m)
+      noise_id_[m] = ((row_.first_element + m) * plan_.cells + cell) * 2 + q;
+    random_amplitudes(noise_seed(options_), noise_id_, noise_re_.data(), noise_im_.data());
+    for (std::size_t m = 0; m < noise_id_.size(); ++m)
+      nodes_[q][(plan_.first_element + m) % plan_.period] += root * Complex(noise_re_[m], noise_im_[m]);
   }
 }
 
@@ -194,7 +182,7 @@ void CellRow::sum_powers(std::size_t sides) {
   std::fill(nodes.begin(), nodes.end(), Complex(0));
   for (std::size_t s = 0; s < sides; ++s)
     for (const Part& part : side_[s].even)
-      reinterpret_cast<double*>(&nodes[plan_.node_of(part.echo->u) % plan_.period])[s] += part.field;
+      reinterpret_cast<double*>(&nodes[part.echo->node % plan_.period])[s] += part.field;
   plan_.to_elements.run(nodes.data());
   std::fill(power_.begin(), power_.end(), Complex(0));
   const std::size_t length = plan_.period_samples;
@@ -209,38 +197,36 @@ void CellRow::sum_powers(std::size_t sides) {
 
 void CellRow::count_looks(std::size_t cell, Side& side) {
   // Energies by range, for broad nodes of u.
-  const std::size_t parts = plan_.parts;
+  const std::size_t parts = plan_.parts, row = kernels::row_length(parts);
   std::fill(energy_.begin(), energy_.end(), 0.f);
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double length = plan_.cell_length / static_cast<double>(parts), unit = side.energy + side.noise;
   for (const Part& part : side.even) {
     const CellEcho& echo = *part.echo;
     if (part.energy == 0) continue;
-    const double reach = std::hypot(echo.half_depth, plan_.pulse.half_length());
-    const double low = std::max(0.0, (echo.range - reach - first) / length),
-                 high = std::min(static_cast<double>(parts), (echo.range + reach - first) / length);
+    const double low = std::max(0.0, (echo.range - echo.reach - first) / length),
+                 high = std::min(static_cast<double>(parts), (echo.range + echo.reach - first) / length);
     if (!(high > low)) continue;
-    const std::size_t port = plan_.node_of(echo.u + echo.half_width) / 2,
-                      starboard = plan_.node_of(echo.u - echo.half_width) / 2;
+    const std::size_t port = echo.port, starboard = echo.starboard;
     const auto density =
         static_cast<float>(part.energy / unit / (high - low) / static_cast<double>(port - starboard + 1));
     const auto k = static_cast<std::size_t>(low), end = std::min(parts, static_cast<std::size_t>(std::ceil(high)));
     for (std::size_t n = k; n < end; ++n) {
       const float share =
           density * static_cast<float>(overlap(low, high, static_cast<double>(n), static_cast<double>(n + 1)));
-      for (std::size_t j = starboard; j <= port; ++j) energy_[j * kernels::part_stride + n] += share;
+      for (std::size_t j = starboard; j <= port; ++j) energy_[j * row + n] += share;
     }
   }
   kernels::CellEnergies of{energy_.data(),     plan_.broad,       parts, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
                            plan_.looks.data(), plan_.looks.size()};
   of.beside = static_cast<float>(plan_.beside_lobe);
   of.noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(parts)) : 0;
-  kernels::count_looks(of, plan_.broad_used.data(), plan_.broad_used.size(), side.looks.data());
+  kernels::count_looks(of, beams_.broad_used.data(), beams_.broad_used.size(), side.looks.data());
 }
 
 double CellRow::drawn(std::size_t beam, const Side& side, double power) const {
-  const double mean = side.mean[beam], looks = side.looks[plan_.broad_of[beam]];
-  const BetweenFour& place = plan_.in_period[beam];
+  const double mean = side.mean[beam], looks = side.looks[beams_.broad_of[beam]];
+  const BetweenFour& place = beams_.in_period[beam];
   power = std::max({power, side.noise, std::numeric_limits<double>::min()});
   const Complex f = place.of(side.field[0].data()), g = place.of(side.field[1].data());
   const double unit = mean / (looks * power);  // of one look of the even ground

@@ -3,7 +3,6 @@
 #include <array>
 #include <complex>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "beamforming/display/display_plan_internal.hpp"
@@ -11,14 +10,19 @@
 
 namespace insonify {
 
-/// An echo, as the cells of a row of beams take it.
+/// An echo, as the cells of all rows of beams take it, at the peak of their responses.
 struct CellEcho {
   double range, half_depth;                       ///< [m]
-  double u, half_width;                           ///< in u
+  double reach;                                   ///< half length of surface and pulse together [m]
+  double u;                                       ///< of its middle
   double energy;                                  ///< of its surface, in a cell that holds all of it [Pa^2]
-  std::complex<double> pressure;                  ///< root of its own energy in such a cell [Pa], with phase
+  double strength;                                ///< its own energy in such a cell [Pa^2]
+  std::complex<double> phase;                     ///< of its own pressure, of size 1
   std::array<std::complex<double>, 2> amplitude;  ///< random, of mean power 1; of a fixed echo the first is 1
+  double half_width = 0;                          ///< in u
   double pieces = 1;                              ///< independent echoes that samples would have of it
+  std::uint32_t node = 0;                         ///< of its middle
+  std::uint32_t port = 0, starboard = 0;          ///< broad nodes of its ends
   bool fixed = false;                             ///< its amplitude is not random
 };
 
@@ -28,19 +32,34 @@ inline constexpr double reach_of_pulse = 4;
 /// Samples about a period of u: one before it, and three behind.
 inline constexpr std::size_t guards = 4;
 
-/// The echoes of each cell: those of cell c are echo[first[c]] .. echo[first[c + 1] - 1].
+/// An echo in a cell.
+struct EchoInCell {
+  std::uint32_t echo;
+  double energy;  ///< part of its surface's energy there
+  double field;   ///< the same of an echo from its middle
+};
+
+/// The echoes of each cell: those of cell c are part[first[c]] .. part[first[c + 1] - 1].
 struct EchoesByCell {
+  std::vector<CellEcho> echoes;
   std::vector<std::size_t> first;
-  std::vector<std::uint32_t> echo;
+  std::vector<EchoInCell> part;
+};
+
+/// What a row of beams hears: its response to each echo, 0 where it hears nothing; empty: 1. Its beams, its first
+/// element's number among those of the head, and the mean noise power at one of its elements [Pa^2].
+struct HeardByRow {
+  BeamPlaces beams;
+  std::vector<double> response;
+  std::size_t first_element = 0;
+  double element_noise = 0;
 };
 
 /// Forms the cells of two neighbouring ranges at once, for all beams of a line array (E180); holds the memory for that.
 class CellRow {
  public:
-  /// Keeps references to all arguments, which must outlive it. element_noise: mean power at an element [Pa^2];
-  /// first_element: number of its first element among those of the head.
-  CellRow(const DisplayPlan& plan, std::span<const CellEcho> echoes, const EchoesByCell& lists,
-          const CellOptions& options, double element_noise, std::size_t first_element);
+  /// Keeps references to all arguments, which must outlive it.
+  CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const HeardByRow& row, const CellOptions& options);
 
   /// Writes the intensities of cell `cell` and, if there is one, of the next, to these columns of `image` (beams x
   /// cells).
@@ -54,6 +73,7 @@ class CellRow {
     const CellEcho* echo;
     double energy;  ///< [Pa^2]
     double field;   ///< the same, of an echo from its middle [Pa^2]
+    double sign;    ///< of the response
   };
   /// One of the two cells: its echoes, and the sums over them.
   struct Side {
@@ -82,15 +102,16 @@ class CellRow {
   double drawn(std::size_t beam, const Side& side, double power) const;
 
   const DisplayPlan& plan_;
-  std::span<const CellEcho> echoes_;
   const EchoesByCell& lists_;
+  const HeardByRow& row_;
+  const BeamPlaces& beams_;
   const CellOptions& options_;
-  double element_noise_;
-  std::size_t first_element_;
   std::array<Side, 2> side_;
   std::vector<Complex> all_, all_samples_, power_;
   std::array<std::vector<Complex>, 2> nodes_;
   std::vector<float> energy_;
+  std::vector<std::uint64_t> noise_id_;
+  std::vector<double> noise_re_, noise_im_;
 };
 
 }  // namespace insonify

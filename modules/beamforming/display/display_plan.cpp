@@ -69,38 +69,38 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
   if (half_places)
     for (std::size_t i = 0; i < nodes; ++i)
       turn.push_back(std::polar(1.0, -pi * (static_cast<double>(i) + 0.5) / static_cast<double>(period)));
-  place_beams(head.fan);
   fill_kernels(head, medium);
   fill_looks(head);
 }
 
-void DisplayPlan::place_beams(const BeamFan& fan) {
+BeamPlaces DisplayPlan::places_of(const BeamFan& fan) const {
   constexpr double samples_per_node = 2;
-  u_beam = beam_cosines(fan);
-  in_all.clear(), in_period.clear(), broad_of.clear();
-  for (const double u : u_beam) {
+  BeamPlaces at;
+  at.u_beam = beam_cosines(fan);
+  for (const double u : at.u_beam) {
     const double node = (u + 1) / node_width - 0.5;  // centres of nodes are whole numbers
-    in_all.push_back(between_four(samples_per_node * (node + 1)));
+    at.in_all.push_back(between_four(samples_per_node * (node + 1)));
     const double turns = node / static_cast<double>(period), within = turns - std::floor(turns);
-    in_period.push_back(between_four(within * static_cast<double>(period_samples) + 1));  // a guard stands before
-    broad_of.push_back(node_of(u) / 2);
+    at.in_period.push_back(between_four(within * static_cast<double>(period_samples) + 1));  // a guard stands before
+    at.broad_of.push_back(node_of(u) / 2);
   }
-  broad_used = broad_of;
-  std::sort(broad_used.begin(), broad_used.end());
-  broad_used.erase(std::unique(broad_used.begin(), broad_used.end()), broad_used.end());
-  for (std::size_t& node : broad_of)
-    node = static_cast<std::size_t>(std::ranges::lower_bound(broad_used, node) - broad_used.begin());
+  at.broad_used = at.broad_of;
+  std::sort(at.broad_used.begin(), at.broad_used.end());
+  at.broad_used.erase(std::unique(at.broad_used.begin(), at.broad_used.end()), at.broad_used.end());
+  for (std::size_t& node : at.broad_of)
+    node = static_cast<std::size_t>(std::ranges::lower_bound(at.broad_used, node) - at.broad_used.begin());
 
-  beam_near.assign(nodes, -1);
+  at.beam_near.assign(nodes, -1);
   const double reach = main_lobe_reach * fan.beam_width;
   std::vector<double> nearest(nodes, reach);
-  for (std::size_t b = 0; b < u_beam.size(); ++b) {
-    const std::size_t first = node_of(u_beam[b] - reach), last = node_of(u_beam[b] + reach);
+  for (std::size_t b = 0; b < at.u_beam.size(); ++b) {
+    const std::size_t first = node_of(at.u_beam[b] - reach), last = node_of(at.u_beam[b] + reach);
     for (std::size_t i = first; i <= last; ++i) {
-      const double away = std::abs((static_cast<double>(i) + 0.5) * node_width - 1 - u_beam[b]);
-      if (away < nearest[i]) nearest[i] = away, beam_near[i] = static_cast<std::int32_t>(b);
+      const double away = std::abs((static_cast<double>(i) + 0.5) * node_width - 1 - at.u_beam[b]);
+      if (away < nearest[i]) nearest[i] = away, at.beam_near[i] = static_cast<std::int32_t>(b);
     }
   }
+  return at;
 }
 
 double DisplayPlan::response_at(double offset) const {

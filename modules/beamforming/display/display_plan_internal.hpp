@@ -24,7 +24,17 @@ struct BetweenFour {
   }
 };
 
-/// Directions, patterns and transforms of the display cells of a line array, made once for a ping (E180).
+/// Where the beams of a row stand among the nodes and samples of a DisplayPlan.
+struct BeamPlaces {
+  std::vector<double> u_beam;           ///< directions
+  std::vector<std::int32_t> beam_near;  ///< of each node: the beam that hears it best; -1: none has it in its lobe
+  std::vector<std::size_t> broad_of;    ///< index into broad_used of each beam
+  std::vector<std::size_t> broad_used;  ///< broad nodes of beams, each once
+  std::vector<BetweenFour> in_period;   ///< place of each beam among the samples of a transformed period
+  std::vector<BetweenFour> in_all;      ///< the same among those of all directions
+};
+
+/// Directions, patterns and transforms of the display cells of a line array, made once for many pings (E180).
 ///
 /// Nodes of u are `node_width` wide, evenly over [-1, 1]: `nodes` in all, `period` of them in one period of the array's
 /// response. Broad nodes of two hold the energies from which looks are counted.
@@ -39,12 +49,6 @@ struct DisplayPlan {
     return place <= 0 ? 0 : std::min(static_cast<std::size_t>(place), nodes - 1);
   }
 
-  std::vector<double> u_beam;           ///< directions of the beams
-  std::vector<std::int32_t> beam_near;  ///< of each node: the beam that hears it best; -1: none has it in its lobe
-  std::vector<std::size_t> broad_of;    ///< index into broad_used of each beam
-  std::vector<std::size_t> broad_used;  ///< broad nodes of beams, each once
-  std::vector<BetweenFour> in_period;   ///< place of each beam among the samples of a transformed period
-  std::vector<BetweenFour> in_all;      ///< the same among those of all directions
   std::size_t period_samples, all_length, all_samples;
 
   std::vector<double> lag;                 ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
@@ -68,8 +72,8 @@ struct DisplayPlan {
 
   Fft<double> to_elements, to_period, to_all, from_all;
 
-  /// Sets the directions of the beams; those of a fan of one elevation.
-  void place_beams(const BeamFan& fan);
+  /// Returns the places of the beams of a fan of one elevation.
+  BeamPlaces places_of(const BeamFan& fan) const;
 
  private:
   double response_at(double offset) const;  // of any size

@@ -7,20 +7,20 @@
 namespace insonify::kernels {
 
 INSONIFY_CLONES void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks) {
-  const std::size_t whole = (cell.parts + part_lanes - 1) / part_lanes * part_lanes;
+  const std::size_t whole = row_length(cell.parts);
   // Energies of all nodes, as side lobes hear them; of ranges beyond the cell nothing.
-  float everywhere[part_stride] = {};
+  float everywhere[most_parts] = {};
   for (std::size_t j = 0; j < cell.nodes; ++j)
-    for (std::size_t n = 0; n < whole; ++n) everywhere[n] += cell.energy[j * part_stride + n];
+    for (std::size_t n = 0; n < whole; ++n) everywhere[n] += cell.energy[j * whole + n];
   for (std::size_t n = 0; n < cell.parts; ++n) everywhere[n] = cell.noise + cell.beside * everywhere[n];
 
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t j = at[k], reach = cell.lobe_reach - 1;
-    float heard[2 * part_stride] = {};  // what lies beyond is 0
+    float heard[2 * most_parts] = {};  // what lies beyond is 0
     for (std::size_t n = 0; n < whole; ++n) heard[n] = everywhere[n];
     for (std::size_t i = j > reach ? j - reach : 0; i <= std::min(j + reach, cell.nodes - 1); ++i) {
       const float weight = cell.lobe[i > j ? i - j : j - i];
-      for (std::size_t n = 0; n < whole; ++n) heard[n] += weight * cell.energy[i * part_stride + n];
+      for (std::size_t n = 0; n < whole; ++n) heard[n] += weight * cell.energy[i * whole + n];
     }
     float sums[part_lanes] = {}, products[part_lanes] = {};
     for (std::size_t n = 0; n < whole; n += part_lanes)

@@ -6,10 +6,14 @@
 // on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
-/// Ranges of a cell whose energies are kept apart, at most, and numbers of a row of them.
-constexpr std::size_t most_parts = 48, part_lanes = 16, part_stride = 64;
+/// Ranges of a cell whose energies are kept apart, at most, and numbers that are summed side by side.
+constexpr std::size_t most_parts = 48, part_lanes = 16;
 
-/// Energies in a cell: of node j of u and range n at j part_stride + n, 0 for n >= parts; and the pattern of a beam.
+/// Returns the length of a row of so many ranges, in whole lanes.
+constexpr std::size_t row_length(std::size_t parts) { return (parts + part_lanes - 1) / part_lanes * part_lanes; }
+
+/// Energies in a cell: of node j of u and range n at j row_length(parts) + n, 0 for n >= parts; and the pattern of a
+/// beam.
 struct CellEnergies {
   const float* energy;
   std::size_t nodes, parts;

@@ -17,7 +17,7 @@ void CellRow::part_strong(Side& side) {
   const auto strong = [&](const Part& part) {
     const double energy = part.energy / part.echo->pieces;
     if (part.echo->fixed || energy > strong_part * side.energy) return true;
-    const std::int32_t beam = plan_.beam_near[plan_.node_of(part.echo->u)];
+    const std::int32_t beam = beams_.beam_near[part.echo->node];
     return beam >= 0 && energy > strong_part * side.mean[static_cast<std::size_t>(beam)];
   };
   const auto first = std::stable_partition(side.even.begin(), side.even.end(), [&](auto& p) { return !strong(p); });
@@ -39,7 +39,7 @@ void CellRow::sum_strong(Side& side) {
     if (side.groups == side.strong_field.size()) side.strong_field.emplace_back(plan_.period_samples + guards);
     form_period(elements.data(), side.strong_field[side.groups++]);
   }
-  for (double& mean : side.mean) mean = std::max(mean, element_noise_ * plan_.lag[0]);
+  for (double& mean : side.mean) mean = std::max(mean, row_.element_noise * plan_.lag[0]);
 }
 
 void CellRow::add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const {
@@ -48,12 +48,12 @@ void CellRow::add_strong(const Part& part, std::vector<Complex>& elements, std::
   const double away = echo.u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
   const std::size_t count = plan_.shading.size();
   const Complex turn = std::polar(1.0, -step * away);
-  Complex at = echo.pressure * std::sqrt(part.energy / std::norm(echo.pressure)) * echo.amplitude[0] *
+  Complex at = part.sign * std::sqrt(part.energy) * echo.phase * echo.amplitude[0] *
                std::polar(1.0, -step * away * element_place(0, count));
   for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
   // The mean of even ground excludes it.
   for (std::size_t b = 0; b < mean.size(); ++b)
-    mean[b] -= part.energy * plan_.response.intensity(echo.u - plan_.u_beam[b]);
+    mean[b] -= part.energy * plan_.response.intensity(echo.u - beams_.u_beam[b]);
 }
 
 }  // namespace insonify

@@ -3,6 +3,7 @@
 //   ping_speed work [NAME]     some pings of the harbour of a million surfels: medians of five, or of eleven short ones
 //   ping_speed presets [NAME]  every preset on harbour and plane: medians of three, of eleven short ones, or one if the first
 //                              takes more than a second
+//   ping_speed display [NAME [CELLS]]  every preset as display images of 600 cells with noise, on the harbour: the same
 // NAME: only those whose names contain it.
 #include <algorithm>
 #include <cstdio>
@@ -111,6 +112,12 @@ void time_work(const std::string& part) {
   time("waterlinked-3d15, 0.3:15 m", preset("waterlinked-3d15", 0.3, 15));
 }
 
+/// Where a preset stands in the harbour, as it is mounted.
+Pose pose_of(const SonarFile& file) {
+  const Eigen::Vector3d tilt = file.mounting.isZero(0) ? Eigen::Vector3d(0, radians(10), 0) : file.mounting;
+  return pose_from_yaw_pitch_roll({5, 0, -3}, tilt.x(), tilt.y(), tilt.z());
+}
+
 void time_presets(const std::string& part) {
   const SceneCloud harbour = make_built_in_scene("harbour", {.points = 300000});
   SceneCloud plane = make_built_in_scene("plane", {.points = 300000, .size = {60, 60}});
@@ -126,8 +133,7 @@ void time_presets(const std::string& part) {
     if (file.spec.name.find(part) == std::string::npos) continue;
     const double far = std::min(file.spec.max_range, 30.0), near = std::min(file.spec.min_range, 0.5 * far);
     const SonarHead head = preset(file.spec.name, near, far);
-    const Eigen::Vector3d tilt = file.mounting.isZero(0) ? Eigen::Vector3d(0, radians(10), 0) : file.mounting;
-    const Pose pose = pose_from_yaw_pitch_roll({5, 0, -3}, tilt.x(), tilt.y(), tilt.z());
+    const Pose pose = pose_of(file);
     const double rate = std::min(10.0, sound_speed(fresh_water.water) / (2 * far));
     const PingTime over_harbour = median_ping(3, scenes[0], head, pose),
                    over_plane = median_ping(3, scenes[1], head, pose);
@@ -146,6 +152,30 @@ void time_presets(const std::string& part) {
   std::printf("\n%d of %d presets keep their own rate on the harbour.\n", in_real_time, all);
 }
 
+/// Display images of every preset on the harbour, by the rate of the sonar.
+void time_display(const std::string& part, int cells) {
+  const PreparedScene harbour(make_built_in_scene("harbour", {.points = 300000}));
+  std::printf(
+      "| preset | range [m] | beams x cells | scatterers | ms per image | CPU [ms] | real-time factor | sampling / "
+      "echoes / drawing / detection [%% of wall] |\n|---|---|---|---|---|---|---|---|\n");
+  int in_real_time = 0, all = 0;
+  for (const SonarFile& file : list_sonars()) {
+    if (file.spec.name.find(part) == std::string::npos) continue;
+    const double far = std::min(file.spec.max_range, 30.0), near = std::min(file.spec.min_range, 0.5 * far);
+    const SonarHead head = preset(file.spec.name, near, far);
+    const SimulationOptions options{.effects = {.noise = true}, .outputs = {.display_bins = cells}};
+    const PingTime t = median_ping(3, harbour, head, pose_of(file), options);
+    const double rate = std::min(10.0, sound_speed(fresh_water.water) / (2 * far)), percent = 100 / t.wall;
+    std::printf("| %s | %.3g:%.3g | %zu x %d | %zu | %.0f | %.0f | %.2f | %.0f / %.0f / %.0f / %.0f |\n",
+                file.spec.name.c_str(), near, far, head.fan.beams(), cells, t.scatterers, 1e3 * t.wall, 1e3 * t.cpu,
+                1 / (rate * t.wall), percent * t.stages.sampling, percent * t.stages.acoustics,
+                percent * t.stages.synthesis, percent * t.stages.detection);
+    std::fflush(stdout);
+    ++all, in_real_time += rate * t.wall <= 1;
+  }
+  std::printf("\n%d of %d presets keep their own rate as display images.\n", in_real_time, all);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -153,6 +183,7 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "", part = argc > 2 ? argv[2] : "";
   if (what == "work") return time_work(part), 0;
   if (what == "presets") return time_presets(part), 0;
-  std::fprintf(stderr, "ping_speed work|presets [NAME]\n");
+  if (what == "display") return time_display(part, argc > 3 ? std::stoi(argv[3]) : 600), 0;
+  std::fprintf(stderr, "ping_speed work|presets|display [NAME [CELLS]]\n");
   return 2;
 }
