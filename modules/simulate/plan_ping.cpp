@@ -71,6 +71,7 @@ PlannedStage judge(const PlanStage& stage, const PlanFacts& facts, double share,
   if (stage.reason && draws_cells(options)) {
     Environment unchanged = facts.ping.environment;
     stage.force(caused, unchanged, decided);
+    if (caused && stage.adapt) stage.adapt(cause, decided);
   }
   if (is_open(stage, options)) {
     const bool too_dear = stage.only_if_forced && stage.only_if_forced(facts);

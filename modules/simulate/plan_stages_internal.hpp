@@ -95,6 +95,8 @@ struct PlanStage {
   /// Returns why the stage is in, by its cause; nullptr: `with`. Causes are those of the options as the stages
   /// before are decided.
   const char* (*reason)(const PlanCause&) = nullptr;
+  /// Adapts the options to the stage where the plan has put it in by a reason; nullptr: not at all.
+  void (*adapt)(const PlanCause&, SimulationOptions&) = nullptr;
 };
 
 std::span<const PlanStage> geometry_stages();

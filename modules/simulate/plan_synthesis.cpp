@@ -68,13 +68,25 @@ const char* reason_for_phases(const PlanCause& of) {
   if (o.synthesis.phases) return "asked for";
   if (o.outputs.layers) return "layers are means of samples";
   if (o.sampling.kind == SamplingKind::rays) return "rays meet points, which have no extent to spread energy over";
-  if (of.samples_per_cell < least_samples_per_cell) return "a display cell has fewer than four samples";
+  if (of.samples_per_cell < least_samples_per_cell)
+    return "a display cell has fewer than four samples, formed to 0.1 dB of its mean and 5 % of its contrast";
   if (sums_pressures(o) && o.amplitude != SurfaceAmplitude::complex_normal) return "amplitudes are not Gaussian";
   if (std::any_of(of.scene.materials.begin(), of.scene.materials.end(), keeps_phase))
     return "a material has a coherent fraction";
   if (o.effects.multipath == Choice::always || o.effects.mirrors == Choice::always || o.effects.double_echoes > 0)
     return "paths by way of other surfaces add up with their phases";
   return nullptr;
+}
+
+/// Forms samples of coarse heads, of which a display cell holds a few, as well as a display shows them: means within
+/// 0.1 dB of cells down to 40 dB below the loudest, contrast within 5 %. What is not the default stands.
+void adapt_to_display(const PlanCause& of, SimulationOptions& o) {
+  constexpr double display_tolerance = 1e-3, display_scatterers = 3;
+  if (!(of.samples_per_cell < least_samples_per_cell) || o.outputs.layers || o.sampling.kind == SamplingKind::rays)
+    return;
+  if (o.synthesis.tolerance == SynthesisSettings{}.tolerance) o.synthesis.tolerance = display_tolerance;
+  if (o.sampling.scatterers_per_cell == SamplingSettings{}.scatterers_per_cell)
+    o.sampling.scatterers_per_cell = display_scatterers;
 }
 
 constexpr PlanStage stages[] = {
@@ -85,7 +97,7 @@ constexpr PlanStage stages[] = {
      "display cells are drawn from expected energies, with speckle of the scene",
      [](const PlanFacts&) { return drawn_cell_error; },
      [](bool in, Environment&, SimulationOptions& o) { o.synthesis.phases = in; }, nullptr, nullptr, false, nullptr,
-     reason_for_phases},
+     reason_for_phases, adapt_to_display},
     {"true-delays", DecidedBy::budget,
      [](const PlanCause& of) { return sums_pressures(of.options) && !draws_cells(of.options); },
      "elements receive wide bands and near echoes at other times: one pattern does not hold",

@@ -158,7 +158,8 @@ TEST(DisplayPing, forms_samples_for_a_reason) {
   o = display(false), o.sampling.kind = SamplingKind::rays;
   EXPECT_EQ(row(o, seabed()), "rays meet points, which have no extent to spread energy over");
   o = display(false), o.outputs.display_bins = 500;
-  EXPECT_EQ(row(o, seabed()), "a display cell has fewer than four samples");
+  EXPECT_EQ(row(o, seabed()),
+            "a display cell has fewer than four samples, formed to 0.1 dB of its mean and 5 % of its contrast");
   o = display(false), o.amplitude = SurfaceAmplitude::coherent;
   EXPECT_EQ(row(o, seabed()), "amplitudes are not Gaussian");
   SceneCloud shiny = seabed();
@@ -167,6 +168,41 @@ TEST(DisplayPing, forms_samples_for_a_reason) {
   Environment walls;
   walls.surface = SeaSurface{4, 1e-4};
   EXPECT_EQ(row(display(false), seabed(), walls), "paths by way of other surfaces add up with their phases");
+}
+
+TEST(DisplayPing, of_few_samples_is_formed_as_well_as_a_display_shows) {
+  constexpr int fine = 300;  // 1.8 samples a cell
+  const auto decided = [](SimulationOptions o) {
+    o.outputs.display_bins = fine;
+    return plan_ping(seabed(), head, {.world_from_head = tilted()}, {}, o).options;
+  };
+  EXPECT_EQ(decided(display(false)).sampling.scatterers_per_cell, 3);
+  EXPECT_EQ(decided(display(false)).synthesis.tolerance, 1e-3);
+  // What is asked for stands.
+  EXPECT_EQ(decided(display(true)).sampling.scatterers_per_cell, SamplingOptions{}.scatterers_per_cell);
+  EXPECT_EQ(decided(display(true)).synthesis.tolerance, SynthesisSettings{}.tolerance);
+  SimulationOptions asked = display(false);
+  asked.sampling.scatterers_per_cell = 5, asked.synthesis.tolerance = 1e-5;
+  EXPECT_EQ(decided(asked).sampling.scatterers_per_cell, 5);
+  EXPECT_EQ(decided(asked).synthesis.tolerance, 1e-5);
+
+  // Bands of range and contrast are those of all scatterers at the usual tolerance.
+  Moments coarse, all;
+  std::size_t few = 0, many = 0;
+  constexpr int seeds = 24;
+  for (int seed = 1; seed <= seeds; ++seed)
+    for (Moments* m : {&coarse, &all}) {
+      SimulationOptions o = display(m == &all, static_cast<std::uint64_t>(seed));
+      o.outputs.display_bins = fine;
+      const SimulatedPing p = ping_of(o);
+      (m == &all ? many : few) = p.report.sampling.scatterers;
+      const Grid<double> image = intensity_of(p);
+      if (seed == 1) m->mean = m->square = Grid<double>::Zero(image.rows(), image.cols());
+      m->mean += image / seeds, m->square += image.square() / seeds;
+    }
+  EXPECT_LT(2 * few, many);
+  EXPECT_NEAR(db_from_power(coarse.mean.sum() / all.mean.sum()), 0, 0.1);
+  EXPECT_NEAR(coarse.contrast() / all.contrast(), 1, 0.05);
 }
 
 TEST(DisplayPing, of_samples_is_their_mean_over_area) {
