@@ -210,11 +210,14 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
     const std::size_t port = echo.port, starboard = echo.starboard;
     const auto density =
         static_cast<float>(part.energy / unit / (high - low) / static_cast<double>(port - starboard + 1));
-    const auto k = static_cast<std::size_t>(low), end = std::min(parts, static_cast<std::size_t>(std::ceil(high)));
-    for (std::size_t n = k; n < end; ++n) {
-      const float share =
-          density * static_cast<float>(overlap(low, high, static_cast<double>(n), static_cast<double>(n + 1)));
-      for (std::size_t j = starboard; j <= port; ++j) energy_[j * row + n] += share;
+    // The first and the last range are met in part.
+    const auto k = static_cast<std::size_t>(low), last = std::min(parts, static_cast<std::size_t>(std::ceil(high))) - 1;
+    const float before = density * static_cast<float>(low - static_cast<double>(k)),
+                beyond = density * static_cast<float>(static_cast<double>(last + 1) - high);
+    for (std::size_t j = starboard; j <= port; ++j) {
+      float* const energy = energy_.data() + j * row;
+      for (std::size_t n = k; n <= last; ++n) energy[n] += density;
+      energy[k] -= before, energy[last] -= beyond;
     }
   }
   kernels::CellEnergies of{energy_.data(),     plan_.broad,       parts, plan_.lobe.data(), plan_.lobe.size(), 0, 0,

@@ -12,11 +12,11 @@ namespace insonify {
 
 /// An echo, as the cells of all rows of beams take it, at the peak of their responses.
 struct CellEcho {
-  double range, half_depth;                       ///< [m]
-  double reach;                                   ///< half length of surface and pulse together [m]
-  double u;                                       ///< of its middle
-  double energy;                                  ///< of its surface, in a cell that holds all of it [Pa^2]
-  double strength;                                ///< its own energy in such a cell [Pa^2]
+  double range = 0, half_depth = 0;               ///< [m]
+  double reach = 0;                               ///< half length of surface and pulse together [m]
+  double u = 0;                                   ///< of its middle
+  double energy = 0;                              ///< of its surface, in a cell that holds all of it [Pa^2]
+  double strength = 0;                            ///< its own energy in such a cell [Pa^2]
   std::complex<double> phase;                     ///< of its own pressure, of size 1
   std::array<std::complex<double>, 2> amplitude;  ///< random, of mean power 1; of a fixed echo the first is 1
   double half_width = 0;                          ///< in u

@@ -103,6 +103,10 @@ void time_work(const std::string& part) {
   time("512 beams, 12 cm, 0.5:30 m", wide_head(6250, 30));
   time("512 beams, 12 cm, 0.5:30 m, unsplit", wide_head(6250, 30), unsplit);
   time("512 beams, 12 cm, 0.5:30 m, merged", wide_head(6250, 30), merged);
+  SimulationOptions display, merged_display = merged;
+  display.outputs.display_bins = merged_display.outputs.display_bins = 500;
+  time("512 beams, 12 cm, 0.5:30 m, 500 display cells", wide_head(6250, 30), display);
+  time("512 beams, 12 cm, 0.5:30 m, 500 display cells, merged", wide_head(6250, 30), merged_display);
   time("512 beams, 2.5 cm, 0.5:8 m, unsplit", wide_head(30e3, 8), unsplit);
   time("oculus-m750d, 0.5:30 m", preset("oculus-m750d", 0.5, 30));
   time("oculus-m750d, 0.5:40 m", preset("oculus-m750d", 0.5, 40));
