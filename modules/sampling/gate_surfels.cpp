@@ -19,11 +19,6 @@ constexpr double min_distance = 1e-6;  // [m]; nearer points belong to the head 
 constexpr double surfel_core = 0.65;
 constexpr double node_core = 0.5, node_footprint = 0.8;
 
-/// A node has an unevenness of its own, a surfel its spacing (E137).
-bool is_node(const SceneCloud& scene, std::size_t i) {
-  return !scene.unevenness.empty() && scene.unevenness[i] != std::sqrt(scene.area[i]);
-}
-
 struct Gate {
   const SceneCloud& scene;
   const HeadFrame& head;
@@ -114,6 +109,10 @@ GatedSurfels join(const std::vector<GatedSurfels>& parts, int threads) {
 constexpr std::size_t gate_block = 1 << 15;
 
 }  // namespace
+
+bool is_node(const SceneCloud& scene, std::size_t surfel) {
+  return !scene.unevenness.empty() && scene.unevenness[surfel] != std::sqrt(scene.area[surfel]);
+}
 
 HeadFrame::HeadFrame(const SceneCloud& scene, const Pose& world_from_head)
     : scene_(scene),

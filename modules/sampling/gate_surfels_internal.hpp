@@ -49,6 +49,9 @@ struct GatedSurfels : UninitializedVector<GatedSurfel> {
 /// Distance from a surfel's centre within which it helps to occlude others, in radii of its disc.
 inline constexpr float hiding_reach = 1.5f;
 
+/// Returns whether a surfel of a cut is a node: it has an unevenness of its own, a surfel its spacing (E137).
+bool is_node(const SceneCloud& scene, std::size_t surfel);
+
 /// Transforms places of a scene to head axes in double: subtracts the large world coordinates first. Surfels of a part
 /// with axes of its own are transformed from there, so that what moves together with the head stays as it is. Refers to
 /// the scene.

@@ -2,15 +2,13 @@
 #include "sampling/scene_cut.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <bit>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "core/radix_sort.hpp"
+#include "sampling/cut_parts_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
+#include "sampling/silhouettes_internal.hpp"
 #include "scene/detail_levels.hpp"
 
 namespace insonify {
@@ -25,12 +23,8 @@ constexpr double most_thickness = 0.25;  // in cells of range
 constexpr float per_thickness = 16;      // how far below a node's plane its surface may lie, as far as its disc reaches
 constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
 constexpr std::size_t blocks_at_once = 16;
-
-/// What stands for the surfels of some blocks.
-struct CutPart {
-  SceneCloud scene;
-  std::vector<std::uint32_t> stands_for;
-};
+constexpr double per_node = 20;                // directions across the widest node, in which silhouettes are looked for
+constexpr std::size_t many_surfels = 1 << 19;  // of a scene without noise, from which on silhouettes stay coarse
 
 /// Mean square sine of the angles between a node's normal and those of its surfels.
 double spread_of(const DetailNode& node) { return 1 - quadratic_form(node.normals, node.normal.cast<double>()); }
@@ -64,8 +58,13 @@ class LevelWalk {
         spacing_(options.most_spacing),
         thickness_(most_thickness * options.range_resolution) {}
 
-  /// Adds what stands for a root or child; `inside`: its cell is known to lie within the region.
-  void visit(const Walked& of, std::uint32_t index, bool inside, CutPart& out) const {
+  /// Divides the nodes that stand for surfels of these ids (ascending) down to surfels.
+  void divide(std::vector<std::uint32_t> divided) { divided_ = std::move(divided); }
+  bool divides(std::uint32_t id) const { return std::ranges::binary_search(divided_, id); }
+
+  /// Adds what stands for a root or child; `inside`: its cell is known to lie within the region; `divided`: it belongs
+  /// to a node that is divided.
+  void visit(const Walked& of, std::uint32_t index, bool inside, CutPart& out, bool divided = false) const {
     if (index < of.levels.surfels) return add_surfel(of, index, out);
     if (of.piece) of.piece->need_node(index - of.levels.surfels);
     const DetailNode& node = of.levels.node[index - of.levels.surfels];
@@ -74,13 +73,16 @@ class LevelWalk {
     const double range = p.norm();
     if (range - node.extent > max_range_ || !sector_.holds(p, 2 * hiding_reach * node.extent)) return;
     inside = inside || holds_cell(node);
-    if (inside && unresolved(node, range)) {
+    if (inside && !divided && unresolved(node, range)) {
       const Vector3d direction = head_.to_head().transpose() * (p / range);
       const double cosine_square = std::pow(node.normal.cast<double>().dot(direction), 2);
-      if (spread_of(node) <= most_spread(node, range, cosine_square))
-        return add_node(of, node, factor_of(quadratic_form(node.normals, direction), cosine_square), out);
+      if (spread_of(node) <= most_spread(node, range, cosine_square)) {
+        divided = divides(of.piece ? node.nearest : of.scene.id[node.nearest]);
+        if (!divided) return add_node(of, node, factor_of(quadratic_form(node.normals, direction), cosine_square), out);
+      }
     }
-    for (std::uint32_t k = 0; k < node.children; ++k) visit(of, of.levels.child[node.first_child + k], inside, out);
+    for (std::uint32_t k = 0; k < node.children; ++k)
+      visit(of, of.levels.child[node.first_child + k], inside, out, divided);
   }
 
  private:
@@ -140,81 +142,29 @@ class LevelWalk {
   double max_range_;
   RangeGate gate_;
   double width_, spacing_, thickness_;
+  std::vector<std::uint32_t> divided_{};
 };
 
-/// The ranks of marked surfels: their indices in a cut, which keeps the order of the scene however its surfels are
-/// arranged in levels.
-class Ranks {
- public:
-  Ranks(const std::vector<CutPart>& parts, std::size_t surfels, int threads) {
-    marks_.words.resize((surfels + 63) / 64);
-    parallel_for(parts.size(), threads, [&](std::size_t p) {
-      for (const std::uint32_t i : parts[p].stands_for)
-        std::atomic_ref(marks_.words[i / 64]).fetch_or(std::uint64_t{1} << i % 64, std::memory_order_relaxed);
-    });
-    before_.reserve(marks_.words.size());
-    for (const std::uint64_t word : marks_.words) {
-      before_.push_back(all_);
-      all_ += static_cast<std::uint32_t>(std::popcount(word));
-    }
-  }
-  std::size_t all() const { return all_; }
-  std::uint32_t of(std::uint32_t surfel) const {
-    const std::uint64_t below = marks_.words[surfel / 64] & ((std::uint64_t{1} << surfel % 64) - 1);
-    return before_[surfel / 64] + static_cast<std::uint32_t>(std::popcount(below));
-  }
-
- private:
-  SurfelMarks marks_;
-  std::vector<std::uint32_t> before_;  // each word
-  std::uint32_t all_ = 0;
-};
-
-/// First numbers of the surfels of each part, and the number of all.
-std::vector<std::size_t> firsts_of(const std::vector<CutPart>& parts) {
-  std::vector<std::size_t> first{0};
-  for (const CutPart& part : parts) first.push_back(first.back() + part.stands_for.size());
-  return first;
+/// Whether nodes at silhouettes are divided (E172). Nodes of one spacing do not depend on where they are seen from.
+bool has_sharp_silhouettes(const CutOptions& options, bool noisy, const WholeScene& whole) {
+  return options.most_width > 0 && !(options.most_spacing > 0) && (noisy || whole.surfels < many_surfels);
 }
 
-/// Moves the surfels of a part to their places in the cut.
-template <typename... Arrays>
-void scatter(const SceneCloud& from, std::span<const std::uint32_t> places, SceneCloud& to, Arrays... arrays) {
-  const auto move = [&](auto array) {
-    for (std::size_t k = 0; k < (from.*array).size(); ++k) (to.*array)[places[k]] = (from.*array)[k];
-  };
-  (move(arrays), ...);
+/// The ids of the nodes of a cut that stand at silhouettes, ascending.
+std::vector<std::uint32_t> divided_of(const SceneCloud& cut, const InsonifiedRegion& region, const BeamFan& fan,
+                                      const CutOptions& options) {
+  const double cell = options.most_width * fan.beam_width / per_node;
+  const std::vector<std::uint8_t> found = at_silhouettes(cut, region, cell, options.threads);
+  std::vector<std::uint32_t> ids;
+  for (std::size_t i = 0; i < cut.size(); ++i)
+    if (found[i] && is_node(cut, i)) ids.push_back(cut.id[i]);
+  std::ranges::sort(ids);
+  return ids;
 }
 
-/// The parts as one scene with all but the surfels of `like`. `places`: in it, of the surfels of all parts.
-SceneCloud joined(const std::vector<CutPart>& parts, const std::vector<std::uint32_t>& places, const SceneCloud& like,
-                  bool noisy, int threads) {
-  SceneCloud cut;
-  const auto resize = [&](auto... arrays) { ((cut.*arrays).resize(places.size()), ...); };
-  resize(&SceneCloud::point, &SceneCloud::normal, &SceneCloud::area, &SceneCloud::material, &SceneCloud::id,
-         &SceneCloud::unevenness);
-  if (noisy) resize(&SceneCloud::noise);
-  const std::vector<std::size_t> first = firsts_of(parts);
-  parallel_for(parts.size(), threads, [&](std::size_t p) {
-    scatter(parts[p].scene, std::span(places).subspan(first[p], first[p + 1] - first[p]), cut, &SceneCloud::point,
-            &SceneCloud::normal, &SceneCloud::area, &SceneCloud::material, &SceneCloud::id, &SceneCloud::unevenness,
-            &SceneCloud::noise);
-  });
-  cut.origin = like.origin;
-  cut.materials = like.materials;
-  cut.normals_oriented = like.normals_oriented;
-  return cut;
-}
-
-}  // namespace
-
-SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,
-                   const RangeGate& gate, const CutOptions& options) {
-  const int threads = options.threads;
-  const SceneCloud& scene = prepared.scene();
-  const DetailLevels& levels = prepared.levels(threads);
-  const bool noisy = !scene.noise.empty();
-  const LevelWalk walk(scene, noisy, region, fan, gate, options);
+/// What stands for the surfels of a scene, block by block.
+std::vector<CutPart> walked(const LevelWalk& walk, const SceneCloud& scene, const DetailLevels& levels,
+                            const InsonifiedRegion& region, int threads) {
   std::vector<CutPart> parts((levels.block.size() + blocks_at_once - 1) / blocks_at_once);
   parallel_blocks(levels.block.size(), blocks_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -225,41 +175,61 @@ SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region
         walk.visit({scene, levels}, levels.root[k], false, parts[begin / blocks_at_once]);
     }
   });
-  // Join the parts in the order of the scene.
-  const Ranks ranks(parts, scene.size(), threads);
-  std::vector<std::uint32_t> stands_for(ranks.all()), order(ranks.all());
-  const std::vector<std::size_t> first = firsts_of(parts);
+  return parts;
+}
+
+/// Finds what stands for the surfels of the pieces of a source; of pieces that are known already, again for those of which
+/// the walk divides a node.
+void walk_pieces(const LevelWalk& walk, const LevelSource& source, int threads, std::vector<CutPart>& parts) {
+  const bool first = parts.empty();
+  parts.resize(source.pieces());
   parallel_for(parts.size(), threads, [&](std::size_t p) {
-    for (std::size_t k = 0; k < parts[p].stands_for.size(); ++k) {
-      const std::uint32_t surfel = parts[p].stands_for[k];
-      order[first[p] + k] = ranks.of(surfel);
-      stands_for[order[first[p] + k]] = surfel;
-    }
+    if (!first && std::ranges::none_of(parts[p].stands_for, [&](std::uint32_t id) { return walk.divides(id); })) return;
+    const std::unique_ptr<LoadedLevels> piece = source.open(p);
+    const Walked of{piece->scene, piece->levels, piece.get()};
+    CutPart found;
+    for (const std::uint32_t root : piece->levels.root) walk.visit(of, root, false, found);
+    source.note(found.stands_for.size() - parts[p].stands_for.size());
+    parts[p] = std::move(found);
   });
-  SceneCloud cut = joined(parts, order, scene, noisy, threads);
-  cut.part_of = prepared.whole();
-  return {PreparedScene(std::move(cut), std::move(order), threads), std::move(stands_for)};
+}
+
+}  // namespace
+
+SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,
+                   const RangeGate& gate, const CutOptions& options) {
+  const SceneCloud& scene = prepared.scene();
+  const DetailLevels& levels = prepared.levels(options.threads);
+  LevelWalk walk(scene, !scene.noise.empty(), region, fan, gate, options);
+  const auto cut_now = [&] {
+    return OrderedCut(walked(walk, scene, levels, region, options.threads), scene, options.threads);
+  };
+  OrderedCut found = cut_now();
+  if (has_sharp_silhouettes(options, !scene.noise.empty(), prepared.whole())) {
+    if (std::vector<std::uint32_t> divided = divided_of(found.cut, region, fan, options); !divided.empty()) {
+      walk.divide(std::move(divided));
+      found = cut_now();
+    }
+  }
+  found.cut.part_of = prepared.whole();
+  return {PreparedScene(std::move(found.cut), std::move(found.order), options.threads), std::move(found.stands_for)};
 }
 
 SceneCloud cut_levels(const LevelSource& source, const InsonifiedRegion& region, const BeamFan& fan,
                       const RangeGate& gate, const CutOptions& options) {
-  const LevelWalk walk(source.like(), source.noisy(), region, fan, gate, options);
-  std::vector<CutPart> parts(source.pieces());
-  parallel_for(parts.size(), options.threads, [&](std::size_t p) {
-    const std::unique_ptr<LoadedLevels> piece = source.open(p);
-    const Walked of{piece->scene, piece->levels, piece.get()};
-    for (const std::uint32_t root : piece->levels.root) walk.visit(of, root, false, parts[p]);
-    source.note(parts[p].stands_for.size());
-  });
-  // Join the parts by ascending id.
-  std::vector<std::uint64_t> by_id;  // id, number in the order of the parts
-  for (const CutPart& part : parts)
-    for (const std::uint32_t id : part.stands_for) by_id.push_back(std::uint64_t{id} << 32 | by_id.size());
-  radix_sort(by_id, 32, 64, [](std::uint64_t k) { return k; });
-  std::vector<std::uint32_t> order(by_id.size());
-  for (std::size_t k = 0; k < by_id.size(); ++k)
-    order[static_cast<std::uint32_t>(by_id[k])] = static_cast<std::uint32_t>(k);
-  SceneCloud cut = joined(parts, order, source.like(), source.noisy(), options.threads);
+  LevelWalk walk(source.like(), source.noisy(), region, fan, gate, options);
+  std::vector<CutPart> parts;
+  const auto cut_now = [&] {
+    walk_pieces(walk, source, options.threads, parts);
+    return joined_by_id(parts, source.like(), source.noisy(), options.threads);
+  };
+  SceneCloud cut = cut_now();
+  if (has_sharp_silhouettes(options, source.noisy(), *source.like().part_of)) {
+    if (std::vector<std::uint32_t> divided = divided_of(cut, region, fan, options); !divided.empty()) {
+      walk.divide(std::move(divided));
+      cut = cut_now();
+    }
+  }
   cut.part_of = source.like().part_of;
   return cut;
 }

@@ -12,9 +12,10 @@ namespace insonify {
 /// Root mean square of the differences [dB] of what lies within 40 dB of the strongest, none counted as more than 30;
 /// and the share of those of more than 10 dB.
 inline std::pair<double, double> difference(const Grid<double>& level, const Grid<double>& exact) {
+  const double least = 1e-4 * exact.maxCoeff();
   double squares = 0, cells = 0, far = 0;
   for (Eigen::Index i = 0; i < exact.size(); ++i) {
-    if (exact.data()[i] < 1e-4 * exact.maxCoeff()) continue;
+    if (exact.data()[i] < least) continue;
     const double off = std::clamp(db_from_power(std::max(1e-30, level.data()[i] / exact.data()[i])), -30.0, 30.0);
     squares += off * off, ++cells, far += std::abs(off) > 10;
   }

@@ -236,3 +236,60 @@ TEST(SceneCut, of_one_spacing_has_the_same_nodes_from_everywhere) {
   EXPECT_LT(lost({.most_spacing = 0.3}), 0.01);
   EXPECT_GT(lost({.most_width = 0.5}), 0.1);
 }
+
+namespace {
+
+/// A plate of 2 x 2 m, 5 m ahead of the origin and turned by 20 degrees about the vertical, and a wall 8 m ahead.
+struct PlateBeforeAWall {
+  static constexpr double side = 2;
+  Eigen::Vector3d along{side * std::sin(radians(20.0)), side*std::cos(radians(20.0)), 0}, up{0, 0, side};
+  Eigen::Vector3d corner = Eigen::Vector3d(5, 0, 0) - (along + up) / 2, normal = up.cross(along).normalized();
+  SceneCloud scene;
+
+  PlateBeforeAWall() {
+    add_rectangle(scene, {8, -4, -1.5}, {0, 8, 0}, {0, 0, 3}, {-1, 0, 0}, 0.01);
+    add_rectangle(scene, corner, along, up, normal, 0.01);
+  }
+  /// Distance from the plate's outline of the direction to a place, in the plane of the plate [m].
+  double from_outline(const Eigen::Vector3d& place) const {
+    const Eigen::Vector3d meets = place * corner.dot(normal) / place.dot(normal) - corner;
+    const Eigen::Array2d at(meets.dot(along) / side, meets.dot(up) / side);
+    const Eigen::Array2d beyond = (at - side / 2).abs() - side / 2;
+    return beyond.maxCoeff() < 0 ? -beyond.maxCoeff() : beyond.max(0.0).matrix().norm();
+  }
+  /// Numbers of the nodes of a cut across which the outline runs, of other nodes, and of surfels at the outline.
+  std::array<std::size_t, 3> counted(const SceneCloud& of) const {
+    const SceneCut cut = cut_of(of, Reach(Pose::Identity()));
+    const SceneCloud& s = cut.scene.scene();
+    std::array<std::size_t, 3> count{};
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const Eigen::Vector3d place = world(s, i);
+      const double scale = corner.dot(normal) / place.dot(normal), half = scale * std::sqrt(s.area[i]) / 2;
+      if (s.area[i] > 1.5 * of.area[cut.stands_for[i]])
+        ++count[from_outline(place) < 0.8 * half ? 0 : 1];
+      else
+        count[2] += from_outline(place) < half;
+    }
+    return count;
+  }
+};
+
+}  // namespace
+
+// A node is seen whole or not at all. Across the edge of what stands before it, half of it is hidden.
+TEST(SceneCut, divides_nodes_at_silhouettes) {
+  PlateBeforeAWall of;
+  const auto [across, elsewhere, surfels] = of.counted(of.scene);
+  EXPECT_EQ(across, 0U);
+  EXPECT_GT(elsewhere, 800U);
+  EXPECT_GT(surfels, 500U);
+}
+
+TEST(SceneCut, divides_nodes_of_scans_and_of_small_scenes) {
+  PlateBeforeAWall of;
+  of.scene.part_of = whole_of(of.scene);
+  of.scene.part_of->surfels = 1 << 20;
+  EXPECT_GT(of.counted(of.scene)[0], 40U);
+  of.scene.noise.assign(of.scene.size(), 1e-4F);
+  EXPECT_EQ(of.counted(of.scene)[0], 0U);
+}

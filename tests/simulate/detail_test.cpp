@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pings of scenes whose surfels are merged as far as the detail_head resolves them (E137), against those of all surfels.
 #include <numeric>
+#include <random>
 
+#include "../benchmarks/compared_levels.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/plan_ping.hpp"
 #include "support/heads.hpp"
@@ -76,11 +78,45 @@ TEST(Detail, keeps_shadows_dark_and_their_edges_in_place) {
 // Nodes are four cells of range wide there, and a node is seen whole or not at all. If nodes hid as widely as surfels do,
 // shadows would be 1.1 cells longer.
 TEST(Detail, leaves_edges_of_shadows_where_they_are) {
-  const std::vector<double> off = shadow_edge_errors({.detail_width = usual_detail_width});
+  const std::vector<double> off = shadow_edge_errors({.detail_width = usual_detail_width}, true);
   ASSERT_GT(off.size(), 100U);
   EXPECT_NEAR(std::accumulate(off.begin(), off.end(), 0.0) / static_cast<double>(off.size()), 0, 0.3);
   EXPECT_LT(std::abs(off[off.size() / 2]), 1.8);
   EXPECT_LT(std::abs(off[off.size() * 95 / 100]), 3);
+}
+
+// There all surfels make shadows 0.4 cells longer.
+TEST(Detail, has_the_shadows_of_all_surfels_where_silhouettes_are_sharp) {
+  const std::vector<double> off = shadow_edge_errors({.detail_width = usual_detail_width});
+  ASSERT_GT(off.size(), 100U);
+  EXPECT_NEAR(std::accumulate(off.begin(), off.end(), 0.0) / static_cast<double>(off.size()), 0.4, 0.1);
+  EXPECT_LT(std::abs(off[off.size() / 2]), 0.6);
+  EXPECT_LT(std::abs(off[off.size() * 95 / 100]), 1);
+}
+
+// Strips as wide as a node, in any direction: half of what the head sees are edges. If nodes were not divided at
+// silhouettes, one cell in a hundred would be off by 10 dB.
+TEST(Detail, keeps_the_levels_behind_a_fence) {
+  SceneCloud scene;
+  add_rectangle(scene, {9, -8, -2}, {0, 16, 0}, {0, 0, 4}, {-1, 0, 0}, 0.02);
+  std::mt19937 random(11);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int k = 0; k < 80; ++k) {
+    const double turn = between(-0.6, 0.6), lean = between(-0.3, 0.3);
+    const Eigen::Vector3d across = 0.2 * Eigen::Vector3d(std::sin(turn), std::cos(turn), 0);
+    const Eigen::Vector3d up = 2.5 * Eigen::Vector3d(0, std::sin(lean), std::cos(lean));
+    add_rectangle(scene, {between(4, 8), between(-5, 5), -1.25}, across, up, up.cross(across).normalized(), 0.02);
+  }
+  const auto levels = [&](const SceneCloud& pinged, bool detail) {
+    return detail_ping(pinged, mean_level(detail), Pose::Identity()).ping.pressure.abs2().cast<double>().eval();
+  };
+  const Grid<double> exact = levels(scene, false), sharp = levels(scene, true);
+  EXPECT_LT(difference(sharp, exact).second, 0.001);
+  EXPECT_LT(std::abs(worst_band(sharp, exact)), 0.1);
+  // Of a large scene without noise, silhouettes stay coarse.
+  scene.part_of = whole_of(scene);
+  scene.part_of->surfels = 1 << 20;
+  EXPECT_GT(difference(levels(scene, true), exact).second, 0.004);
 }
 
 TEST(Detail, hides_nothing_of_a_scan_from_its_own_viewpoint) {

@@ -11,7 +11,7 @@
 
 namespace insonify {
 
-std::vector<double> shadow_edge_errors(const SamplingSettings& sampling) {
+std::vector<double> shadow_edge_errors(const SamplingSettings& sampling, bool large) {
   const SonarHead head = small_head({.min_range = 1, .max_range = 25});
   const double height = 3, ahead = 5, cell = 750 / head.pulse.bandwidth;
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, height}, 0, radians(20), 0);
@@ -27,6 +27,8 @@ std::vector<double> shadow_edge_errors(const SamplingSettings& sampling) {
   for (const double plate : {0.8, 0.83, 0.86, 0.89, 0.92, 0.95, 0.98, 1.01}) {
     SceneCloud scene = ground;
     add_rectangle(scene, {ahead, -2, 0}, {0, 4, 0}, {0, 0, plate}, {-1, 0, 0}, 0.02, 0.4);
+    scene.part_of = whole_of(scene);
+    if (large) scene.part_of->surfels = 1 << 20;
     const auto lit = energy(scene, sampling);
     for (Eigen::Index row = 0; row < lit.rows(); ++row) {
       const double azimuth = head.fan.azimuth[static_cast<std::size_t>(row)];

@@ -11,6 +11,7 @@ namespace insonify {
 ///
 /// The plates of 0.8 to 1.01 m stand 5 m ahead on level ground, 3 m below the head, as surfels 2 cm apart. What is missing
 /// of the expected energy of the bare ground says where a shadow ends. `sampling` merges surfels or does not.
-std::vector<double> shadow_edge_errors(const SamplingSettings& sampling);
+/// `large`: as in a scene of a million surfels, whose nodes at silhouettes are not divided (E172).
+std::vector<double> shadow_edge_errors(const SamplingSettings& sampling, bool large = false);
 
 }  // namespace insonify

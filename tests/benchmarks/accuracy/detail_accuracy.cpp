@@ -91,7 +91,7 @@ ChartLine print_rows(const View& view, std::size_t surfels, const Grid<double>& 
 void print_edges() {
   std::printf("\n| widest node [beam widths] | mean | median | 95 %% |\n|---|---|---|---|\n");
   for (const double width : widths) {
-    const std::vector<double> off = shadow_edge_errors({.detail_width = width});
+    const std::vector<double> off = shadow_edge_errors({.detail_width = width}, true);
     std::printf("| %.3g | %+.1f | %.1f | %.1f |\n", width,
                 std::accumulate(off.begin(), off.end(), 0.0) / static_cast<double>(off.size()),
                 std::abs(off[off.size() / 2]), std::abs(off[off.size() * 95 / 100]));
