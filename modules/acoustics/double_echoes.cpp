@@ -9,7 +9,6 @@
 #include "acoustics/double_echoes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -34,6 +33,7 @@ constexpr std::size_t surfels_per_piece = 1024;  // neighbours, whose rays meet 
 constexpr std::size_t least_trials = 2048;       // rays of all pieces that find out how often, or
 constexpr std::size_t trials_of_piece = 32;      // so many of each if that is more; an eighth of them first
 constexpr double least_share = 0.01;             // of rays that meet one, where no trial does
+constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
 
 /// A ray that leaves a surfel, with the density of probability [1/sr] of its direction.
 struct DrawnRay {
@@ -47,6 +47,12 @@ struct Pair {
   PathAngles here{}, there{};  ///< angles of the straight way at both patches: in from the head, out to the other patch
   double density = 0;          ///< of surface where the ray ends (SurfaceRayEnd)
   std::optional<PairWay> way;  ///< none: no ray has it
+};
+
+/// Surfels of an echo, and the id of their pair.
+struct PairEnds {
+  std::uint32_t first, last;
+  std::uint64_t id;
 };
 
 class PairBuilder {
@@ -73,7 +79,7 @@ class PairBuilder {
   }
 
   /// Adds the echoes of the rays from surfel i; returns how many it sent, and adds to `unreached`.
-  std::size_t add(std::uint32_t i, Echoes& echoes, std::vector<std::uint32_t>& ends, std::size_t& unreached) const {
+  std::size_t add(std::uint32_t i, Echoes& echoes, std::vector<PairEnds>& ends, std::size_t& unreached) const {
     const double part = random_uniform(options_.seed, RandomStage::surface_ray, {scene_.random_id(i), 0, 1})[0];
     const auto count = static_cast<std::size_t>(number_[i] + part);
     for (std::size_t k = 0; k < count; ++k)
@@ -174,7 +180,7 @@ class PairBuilder {
   double rays_per_area(std::uint32_t i) const { return scene_.area[i] > 0 ? number_[i] / scene_.area[i] : 0; }
 
   /// Adds one echo for each sense of the pair that the k-th ray has found.
-  void add_pair(const Pair& pair, std::uint64_t k, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
+  void add_pair(const Pair& pair, std::uint64_t k, Echoes& echoes, std::vector<PairEnds>& ends) const {
     const SurfaceScattering &law = *laws_[scene_.material[pair.first]], &law_there = *laws_[scene_.material[pair.last]];
     const double rays =
         rays_per_area(pair.first) * sampling_density(law.lobe_slope(), pair.here) * pair.there.cos_out +
@@ -184,16 +190,17 @@ class PairBuilder {
     const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * way.path);
     const double size = way.pressure * std::sqrt(power) / (way.out.range * way.back.range);  // (E159)
     const complex amplitude = source_ * xi(pair.first, k) * std::polar(size, phase);
-    add_sense(way.out, way.back, way.path, amplitude, {pair.first, pair.last}, echoes, ends);
-    add_sense(way.back, way.out, way.path, amplitude, {pair.last, pair.first}, echoes, ends);
+    const std::uint64_t id = scene_.random_id(pair.first) ^ (k + 1) * golden;
+    add_sense(way.out, way.back, way.path, amplitude, {pair.first, pair.last, id}, echoes, ends);
+    add_sense(way.back, way.out, way.path, amplitude, {pair.last, pair.first, id}, echoes, ends);
   }
 
-  void add_sense(const HeadLeg& out, const HeadLeg& back, double path, complex amplitude,
-                 std::array<std::uint32_t, 2> from_to, Echoes& echoes, std::vector<std::uint32_t>& ends) const {
+  void add_sense(const HeadLeg& out, const HeadLeg& back, double path, complex amplitude, const PairEnds& from_to,
+                 Echoes& echoes, std::vector<PairEnds>& ends) const {
     const complex gain = out.sent * back.gain;
     if (!(std::norm(gain) >= echo_floor * echo_floor)) return;
     add_echo(echoes, path / sound_speed_, back.u, back.v, amplitude * gain);  // (E158)
-    ends.insert(ends.end(), from_to.begin(), from_to.end());
+    ends.push_back(from_to);
   }
 
   /// The random number of a pair.
@@ -229,7 +236,7 @@ DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::u
   DoubleEchoes result;
   if (seen.empty()) return result;
   const PairBuilder builder(prepared, seen, view, sent, options);
-  std::vector<std::vector<std::uint32_t>> ends((seen.size() + surfels_per_block - 1) / surfels_per_block);
+  std::vector<std::vector<PairEnds>> ends((seen.size() + surfels_per_block - 1) / surfels_per_block);
   std::atomic<std::size_t> rays{0}, unreached{0};
   result.echoes = collect_echoes(seen.size(), surfels_per_block, sent.echo_options.threads,
                                  [&](std::size_t begin, std::size_t end, Echoes& echoes) {
@@ -239,9 +246,9 @@ DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::u
                                    rays += sent_here, unreached += lost;
                                  });
   result.rays = rays, result.unreached = unreached;
-  for (const std::vector<std::uint32_t>& of_block : ends)
-    for (std::size_t k = 0; k < of_block.size(); k += 2)
-      result.first.push_back(of_block[k]), result.last.push_back(of_block[k + 1]);
+  for (const std::vector<PairEnds>& of_block : ends)
+    for (const auto& [first, last, id] : of_block)
+      result.first.push_back(first), result.last.push_back(last), result.id.push_back(id);
   return result;
 }
 

@@ -13,8 +13,12 @@
 namespace insonify {
 
 /// Echoes of random amplitude, and the pieces of surface that they stand for. One entry per echo in every array. A
-/// surface may have several echoes, which carry its speckle; one of them has the energy of all.
+/// surface may have several echoes, which carry its speckle; one of them has the energy of all. Both senses of a path
+/// are two echoes of one id, which add up as pressures: an entry of id `of_both` behind them is what that adds to their
+/// energy (E190), and has no pressure of its own.
 struct SurfaceEchoes {
+  static constexpr std::uint64_t of_both = 0xffffffffffffffff;
+
   Echoes echoes;                  ///< roots of the mean power, with the phase of the carrier (mean_power)
   std::vector<std::uint64_t> id;  ///< of the random amplitude, as RandomCounter::first
   std::vector<double> power;      ///< mean power of all echoes of the surface [Pa^2]; 0: another echo has it

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "acoustics/multipath_echoes.hpp"
@@ -15,12 +16,12 @@ namespace {
 
 constexpr std::size_t patches_at_once = 4096;
 constexpr double least_cosine = 1e-3;
+constexpr double no_noise_db = -std::numeric_limits<double>::infinity();
 constexpr double spread_of_disc = 0.866;  // half width of the box with the variance of a disc, in its radius
 
 }  // namespace
 
 void CellSum::add_direct(const Scatterers& patches, const Echoes& echoes) {
-  report_.push_back({"direct", echoes.size()});
   const std::size_t before = all_.id.size();
   append(all_.echoes, echoes);
   all_.id.insert(all_.id.end(), patches.id.begin(), patches.id.end());
@@ -40,10 +41,11 @@ void CellSum::add_direct(const Scatterers& patches, const Echoes& echoes) {
       all_.width[before + i] = static_cast<float>(spread_of_disc * radius / patches.range[i]);
     }
   });
+  note("direct", before, 0);
 }
 
 void CellSum::add_reverberation(const std::string& name, Echoes echoes, std::size_t number) {
-  report_.push_back({name, echoes.size()});
+  const std::size_t before = all_.id.size();
   // Numbers of their own, far from those of surfels.
   const std::uint64_t first = (0xffff0000 + number) << 32;
   for (std::size_t i = 0; i < echoes.size(); ++i)
@@ -51,21 +53,60 @@ void CellSum::add_reverberation(const std::string& name, Echoes echoes, std::siz
   for (const std::complex<double>& amplitude : echoes.amplitude) all_.power.push_back(std::norm(amplitude));
   append(all_.echoes, echoes);
   all_.depth.resize(all_.id.size(), 0), all_.width.resize(all_.id.size(), 0);
+  note(name, before, fixed_.size());
 }
 
-void CellSum::finish(SimulatedPing& result) {
+void CellSum::add(const std::string& name, const SurfaceEchoes& surface, const Echoes& fixed) {
+  const std::size_t before = all_.id.size(), before_fixed = fixed_.size();
+  append(all_.echoes, surface.echoes), append(fixed_, fixed);
+  all_.id.insert(all_.id.end(), surface.id.begin(), surface.id.end());
+  all_.power.insert(all_.power.end(), surface.power.begin(), surface.power.end());
+  all_.depth.insert(all_.depth.end(), surface.depth.begin(), surface.depth.end());
+  all_.width.insert(all_.width.end(), surface.width.begin(), surface.width.end());
+  note(name, before, before_fixed);
+}
+
+void CellSum::note(const std::string& name, std::size_t first, std::size_t first_fixed) {
+  layers_.push_back({name, first, all_.id.size(), first_fixed, fixed_.size()});
+  const auto both = std::count(all_.id.begin() + static_cast<std::ptrdiff_t>(first), all_.id.end(), all_.of_both);
+  report_.push_back({name, all_.id.size() - first - static_cast<std::size_t>(both) + fixed_.size() - first_fixed});
+}
+
+ComplexGridF CellSum::drawn(const SurfaceEchoes& surface, const Echoes& fixed, double noise_db) const {
   const SimulationOptions& o = ping_.options;
   CellOptions options;
   options.seed = o.seed, options.ping = ping_.event.number, options.threads = o.threads;
   options.speckle = !gives_power(o.synthesis.method);
-  if (o.effects.noise) {
-    options.element_noise_db = ping_.element_noise_db;
-    report_.push_back({"noise", 0});
+  options.element_noise_db = noise_db;
+  const Grid<double> cells = synthesizers_.cells_of(ping_.head, ping_.sent.medium)->cells(surface, fixed, options);
+  return stored_pressure(cells.sqrt().cast<std::complex<double>>(), "PingSimulator");
+}
+
+ComplexGridF CellSum::drawn(const Span& layer) const {
+  const auto part = [](const auto& all, std::size_t first, std::size_t end) {
+    return std::remove_cvref_t<decltype(all)>(all.begin() + static_cast<std::ptrdiff_t>(first),
+                                              all.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  const auto echoes = [&](const Echoes& all, std::size_t first, std::size_t end) {
+    return Echoes{part(all.delay, first, end), part(all.u, first, end), part(all.amplitude, first, end),
+                  part(all.v, first, end)};
+  };
+  const auto& [name, first, end, first_fixed, end_fixed] = layer;
+  return drawn({echoes(all_.echoes, first, end), part(all_.id, first, end), part(all_.power, first, end),
+                part(all_.depth, first, end), part(all_.width, first, end)},
+               echoes(fixed_, first_fixed, end_fixed), no_noise_db);
+}
+
+void CellSum::finish(SimulatedPing& result) {
+  const SimulationOptions& o = ping_.options;
+  const double noise_db = o.effects.noise ? ping_.element_noise_db : no_noise_db;
+  result.ping = ping_of(ping_, ping_.head.gate, drawn(all_, fixed_, noise_db));
+  if (o.outputs.layers) {
+    for (const Span& layer : layers_) result.ping.layers.push_back({layer.name, drawn(layer)});
+    if (o.effects.noise) result.ping.layers.push_back({"noise", drawn({}, {}, noise_db)});
   }
-  const Grid<double> cells = synthesizers_.cells_of(ping_.head, ping_.sent.medium)->cells(all_, {}, options);
-  result.ping =
-      ping_of(ping_, ping_.head.gate, stored_pressure(cells.sqrt().cast<std::complex<double>>(), "PingSimulator"));
-  result.ping.expected_level = !options.speckle;
+  if (o.effects.noise) report_.push_back({"noise", 0});
+  result.ping.expected_level = gives_power(o.synthesis.method);
   result.ping.display_cells = true;
   result.report.layers = std::move(report_);
 }

@@ -8,7 +8,8 @@
 
 namespace insonify {
 
-/// Draws display cells from the energies of all echoes (E180).
+/// Draws display cells from the energies of all echoes (E180). A layer has the cells of its echoes alone, with the
+/// random amplitudes that they have in the sum.
 class CellSum {
  public:
   /// Keeps references to both arguments, which must outlive it.
@@ -18,14 +19,27 @@ class CellSum {
   void add_direct(const Scatterers& patches, const Echoes& echoes);
   /// Adds echoes of reverberation, which are new in each ping: the `number`-th kind of them.
   void add_reverberation(const std::string& name, Echoes echoes, std::size_t number);
+  /// Adds echoes of surfaces by way of others, and those of no random amplitude.
+  void add(const std::string& name, const SurfaceEchoes& surface, const Echoes& fixed = {});
 
   /// Draws the cells of all echoes and noise, and moves ping and report of layers into `result`.
   void finish(SimulatedPing& result);
 
  private:
+  /// The echoes of a layer, and those before it.
+  struct Span {
+    std::string name;
+    std::size_t first, end, first_fixed, end_fixed;
+  };
+  void note(const std::string& name, std::size_t first, std::size_t first_fixed);
+  ComplexGridF drawn(const SurfaceEchoes& surface, const Echoes& fixed, double noise_db) const;
+  ComplexGridF drawn(const Span& layer) const;
+
   const ResolvedPing& ping_;
   SynthesizerTable& synthesizers_;
   SurfaceEchoes all_;
+  Echoes fixed_;
+  std::vector<Span> layers_;
   std::vector<LayerReport> report_;
 };
 

@@ -6,6 +6,7 @@
 #include "acoustics/direct_stream.hpp"
 #include "acoustics/glints.hpp"
 #include "beamforming/engine.hpp"
+#include "simulate/cell_paths_internal.hpp"
 #include "simulate/cell_sum_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
@@ -85,7 +86,7 @@ std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const R
   return std::make_unique<StoredEchoes>(parts.sampling.scatterers, parts.direct, "PingSimulator");
 }
 
-void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers) {
+void find_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts) {
   const bool multipath = ping.options.effects.multipath == Choice::always;
   const bool mirrors = ping.options.effects.mirrors == Choice::always;
   if (!multipath && !mirrors) return;
@@ -104,22 +105,18 @@ void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingPa
   if (multipath) {
     parts.multipath = multipath_echoes(scene, seen, ping.environment, view, ping.sent, legs);
     parts.unreached += parts.multipath.unreached;
-    layers.add("multipath", parts.multipath.echoes);
   }
   if (!mirrors) return;
   if (!ping.smooth.mirrors.empty())
     parts.mirrors = mirror_echoes(scene, seen, ping.environment, ping.smooth.mirrors, multipath, view, ping.sent, legs);
-  Echoes all = parts.mirrors.echoes;
   std::size_t unreached = 0;
-  append(all, glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent,
-                           {.refraction = refraction,
-                            .over_band = !gives_power(ping.options.synthesis.method),
-                            .unreached = &unreached}));
+  const bool of_power = gives_power(ping.options.synthesis.method) || draws_cells(ping.options);
+  parts.glints = glint_echoes(scene, ping.smooth, ping.environment, multipath, view, ping.sent,
+                              {.refraction = refraction, .over_band = !of_power, .unreached = &unreached});
   parts.unreached += parts.mirrors.unreached + unreached;
-  layers.add("mirrors", all);
 }
 
-void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers) {
+void find_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts) {
   const double rays_per_cell = ping.options.effects.double_echoes;
   if (!(rays_per_cell > 0)) return;
   std::vector<std::uint32_t> seen =
@@ -128,13 +125,28 @@ void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, 
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   parts.doubles = double_echoes(prepared, seen, ping.view, ping.sent, {rays_per_cell, profile_of(ping)});
   parts.unreached += parts.doubles.unreached;
-  layers.add("double-echoes", parts.doubles.echoes);
 }
 
-void draw_cells(const ResolvedPing& ping, const PingParts& parts, SynthesizerTable& synthesizers,
-                SimulatedPing& result) {
+void add_paths(const ResolvedPing& ping, const PingParts& parts, LayerSum& layers) {
+  const EffectSettings& effects = ping.options.effects;
+  if (effects.multipath == Choice::always) layers.add("multipath", parts.multipath.echoes);
+  if (effects.mirrors == Choice::always) {
+    Echoes all = parts.mirrors.echoes;
+    append(all, parts.glints);
+    layers.add("mirrors", all);
+  }
+  if (effects.double_echoes > 0) layers.add("double-echoes", parts.doubles.echoes);
+}
+
+void draw_cells(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
+                SynthesizerTable& synthesizers, SimulatedPing& result) {
   CellSum cells(ping, synthesizers);
   cells.add_direct(parts.sampling.scatterers, parts.direct);
+  const EffectSettings& effects = ping.options.effects;
+  const CellPaths paths(scene, ping);
+  if (effects.multipath == Choice::always) cells.add("multipath", paths.of(parts.multipath, 1));
+  if (effects.mirrors == Choice::always) cells.add("mirrors", paths.of(parts.mirrors, 2), parts.glints);
+  if (effects.double_echoes > 0) cells.add("double-echoes", paths.of(parts.doubles));
   std::size_t number = 0;
   for (Reverberation& part : reverberation_echoes(ping))
     cells.add_reverberation(part.name, std::move(part.echoes), number++);

@@ -183,13 +183,14 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
 
   // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
   begin_stage("synthesis");
+  find_bounces(scene, ping, parts);
+  find_double_echoes(scene, ping, parts);
   if (draws_cells(ping.options)) {
-    draw_cells(ping, parts, *shared_->synthesizers, result);
+    draw_cells(scene.scene(), ping, parts, *shared_->synthesizers, result);
   } else {
     LayerSum layers(ping, *shared_->synthesizers);
     layers.add("direct", *direct);
-    add_bounces(scene, ping, parts, layers);
-    add_double_echoes(scene, ping, parts, layers);
+    add_paths(ping, parts, layers);
     for (const Reverberation& part : reverberation_echoes(ping)) layers.add(part.name, part.echoes);
     if (ping.options.effects.noise) layers.add_noise();
     layers.finish(result);

@@ -25,6 +25,7 @@ struct PingParts {
   Echoes direct{};           ///< if stored
   Multipath multipath{};
   Multipath mirrors{};  ///< without glints, which belong to no surfel
+  Echoes glints{};
   DoubleEchoes doubles{};
   std::size_t unreached = 0;  ///< of legs of such echoes and of glints, those that no ray of the profile has
 };
@@ -39,18 +40,20 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
 /// parts.direct.
 std::unique_ptr<const EchoStream> direct_stream(const SceneCloud& scene, const ResolvedPing& ping, PingParts& parts);
 
-/// Adds the layers of echoes by way of the boundaries and of the mirrors, if the options say so, and leaves them in
-/// parts. An echo by a boundary may arrive in a main lobe where the direct one arrives in a side lobe. All visible
-/// surfels are therefore split as finely as in main lobes, apart from the direct echoes, whose scatterers stay the
-/// same.
-void add_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
+/// Finds the echoes by way of the boundaries and of the mirrors, if the options say so. An echo by a boundary may
+/// arrive in a main lobe where the direct one arrives in a side lobe. All visible surfels are therefore split as finely
+/// as in main lobes, apart from the direct echoes, whose scatterers stay the same.
+void find_bounces(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts);
 
-/// Adds the layer of echoes by way of two surfaces (E158), if the options say so, and leaves them in parts.doubles.
-void add_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts, LayerSum& layers);
+/// Finds the echoes by way of two surfaces (E158), if the options say so.
+void find_double_echoes(const PreparedScene& prepared, const ResolvedPing& ping, PingParts& parts);
 
-/// Draws the display cells of direct echoes, reverberation and noise (E180): the ping of `result`.
-void draw_cells(const ResolvedPing& ping, const PingParts& parts, SynthesizerTable& synthesizers,
-                SimulatedPing& result);
+/// Adds the layers of echoes by way of boundaries, of mirrors and of two surfaces that the options ask for.
+void add_paths(const ResolvedPing& ping, const PingParts& parts, LayerSum& layers);
+
+/// Draws the display cells of all echoes and noise (E180): the ping of `result`.
+void draw_cells(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
+                SynthesizerTable& synthesizers, SimulatedPing& result);
 
 /// Returns the soundings of a ping. Their contributors may be double echoes, if there are any.
 Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,

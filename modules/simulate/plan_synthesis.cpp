@@ -66,15 +66,12 @@ const char* reason_for_phases(const PlanCause& of) {
   const auto keeps_phase = [](const Material& m) { return m.coherent_fraction > 0; };
   if (o.outputs.display_bins == 0) return "the output is pressure";
   if (o.synthesis.phases) return "asked for";
-  if (o.outputs.layers) return "layers are means of samples";
   if (o.sampling.kind == SamplingKind::rays) return "rays meet points, which have no extent to spread energy over";
   if (of.samples_per_cell < least_samples_per_cell)
     return "a display cell has fewer than four samples, formed to 0.1 dB of its mean and 5 % of its contrast";
   if (sums_pressures(o) && o.amplitude != SurfaceAmplitude::complex_normal) return "amplitudes are not Gaussian";
   if (std::any_of(of.scene.materials.begin(), of.scene.materials.end(), keeps_phase))
     return "a material has a coherent fraction";
-  if (o.effects.multipath == Choice::always || o.effects.mirrors == Choice::always || o.effects.double_echoes > 0)
-    return "paths by way of other surfaces add up with their phases";
   return nullptr;
 }
 

@@ -154,7 +154,7 @@ TEST(DisplayPing, forms_samples_for_a_reason) {
   EXPECT_EQ(row(display(true), seabed()), "asked for");
   SimulationOptions o = display(false);
   o.outputs.layers = true;
-  EXPECT_EQ(row(o, seabed()), "layers are means of samples");
+  EXPECT_EQ(row(o, seabed()), "");
   o = display(false), o.sampling.kind = SamplingKind::rays;
   EXPECT_EQ(row(o, seabed()), "rays meet points, which have no extent to spread energy over");
   o = display(false), o.outputs.display_bins = 500;
@@ -167,7 +167,7 @@ TEST(DisplayPing, forms_samples_for_a_reason) {
   EXPECT_EQ(row(display(false), shiny), "a material has a coherent fraction");
   Environment walls;
   walls.surface = SeaSurface{4, 1e-4};
-  EXPECT_EQ(row(display(false), seabed(), walls), "paths by way of other surfaces add up with their phases");
+  EXPECT_EQ(row(display(false), seabed(), walls), "") << "both senses of a path add up as pressures";
 }
 
 TEST(DisplayPing, of_few_samples_is_formed_as_well_as_a_display_shows) {

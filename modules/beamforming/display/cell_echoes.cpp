@@ -79,7 +79,8 @@ class EchoMaker {
       // The first is that of samples of the same seed (E9).
       random_amplitudes(options_.seed + q * other_seed, {surface_.id.data() + begin, end - begin}, re.data(),
                         im.data());
-      for (std::size_t k = 0; k < re.size(); ++k) echoes[begin + k].amplitude[q] = {re[k], im[k]};
+      for (std::size_t k = 0; k < re.size(); ++k)
+        if (!is_both(begin + k)) echoes[begin + k].amplitude[q] = {re[k], im[k]};
     }
   }
 
@@ -92,6 +93,7 @@ class EchoMaker {
       echo.half_depth = static_cast<double>(surface_.depth[i]);
       echo.half_width = surface_.width[i];
       echo.pieces = pieces_of(echo.range, i);
+      echo.together = together(i);
     }
     place(echo);
     return echo;
@@ -130,6 +132,15 @@ class EchoMaker {
     const double sine = radius > 0 ? std::min(1.0, surface_.depth[i] / spread_of_disc / radius) : 1;
     const double length = std::min(resolved / std::max(sine, 1e-9), 2 * std::sqrt(2 * range * resolved));
     return std::max(1.0, pieces_per_cell * pi * radius * radius / (length * range * plan_.beam_width));
+  }
+
+  bool is_both(std::size_t i) const { return i < surface_.id.size() && surface_.id[i] == surface_.of_both; }
+
+  /// Returns the energy of both senses of a path, in that of entry i; 1 of an echo that has no other sense.
+  double together(std::size_t i) const {
+    const std::size_t both = is_both(i) ? i : is_both(i + 1) ? i + 1 : i + 2;
+    if (both < 2 || !is_both(both)) return 1;
+    return (surface_.power[both - 2] + surface_.power[both - 1] + surface_.power[both]) / surface_.power[i];
   }
 
   CellSpan cells_of(const CellEcho& echo) const {

@@ -24,6 +24,7 @@ struct CellEcho {
   std::uint32_t node = 0;                         ///< of its middle
   std::uint32_t port = 0, starboard = 0;          ///< broad nodes of its ends
   bool fixed = false;                             ///< its amplitude is not random
+  double together = 1;  ///< energy of all echoes of one amplitude that are added as pressures, in its own
 };
 
 /// Deviations of a pulse's energy in range beyond which it is left out.

@@ -15,7 +15,7 @@ constexpr double strong_part = 0.1;  // of a cell, from which on an echo is adde
 
 void CellRow::part_strong(Side& side) {
   const auto strong = [&](const Part& part) {
-    const double energy = part.energy / part.echo->pieces;
+    const double energy = part.energy * part.echo->together / part.echo->pieces;
     if (part.echo->fixed || energy > strong_part * side.energy) return true;
     const std::int32_t beam = beams_.beam_near[part.echo->node];
     return beam >= 0 && energy > strong_part * side.mean[static_cast<std::size_t>(beam)];
