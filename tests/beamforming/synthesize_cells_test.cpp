@@ -206,6 +206,45 @@ TEST(DisplayCells, an_echo_alone_is_exponential) {
   EXPECT_NEAR(square / seeds, 2, 0.5);
 }
 
+/// Even ground with two facets in each of five cells, which hold 45 and 25 % of what the middle beam hears there.
+SurfaceEchoes ground_with_facets(const SonarHead& head) {
+  SurfaceEchoes s = even_ground(4000);
+  const Grid<double> ground = synthesize_cells(s, {}, head, lossless, {.speckle = false});
+  for (std::size_t cell = 0; cell < 5; ++cell)
+    for (const auto& [aside, part] : {std::pair(-0.05, 0.45), std::pair(0.05, 0.25)}) {
+      SurfaceEchoes one = even_ground(1);
+      const double range = head.gate.centre(cell) + aside;
+      one.echoes.u[0] = 0, one.echoes.delay[0] = 2 * range / lossy.sound_speed;
+      const double alone =
+          synthesize_cells(one, {}, head, lossless, {.speckle = false})(4, static_cast<Eigen::Index>(cell));
+      const double power = part / 0.3 * ground(4, static_cast<Eigen::Index>(cell)) / alone;
+      s.echoes.delay.push_back(one.echoes.delay[0]), s.echoes.u.push_back(0);
+      s.echoes.amplitude.push_back(std::polar(std::sqrt(power), 4 * pi * range * centre / lossy.sound_speed));
+      s.id.push_back(s.id.size()), s.power.push_back(power), s.depth.push_back(0), s.width.push_back(0);
+    }
+  return s;
+}
+
+// Drawn as even ground alone they would be dark a third as often.
+TEST(DisplayCells, of_two_bright_facets_are_dark_as_often_as_those_of_samples) {
+  const SonarHead samples = samples_head(), head = cells_head(samples, 5);
+  const SurfaceEchoes ground = ground_with_facets(head);
+  const Grid<double> expected = synthesize_cells(ground, {}, head, lossless, {.speckle = false});
+  constexpr int seeds = 300;
+  double dark[] = {0, 0};
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto key = static_cast<std::uint64_t>(seed);
+    const ComplexGrid p = synthesize(drawn(ground, key), samples, lossless, SynthesisMethod::gridded);
+    const Grid<double> images[] = {mean_over_cells(p.abs2(), samples.gate, head.gate),
+                                   synthesize_cells(ground, {}, head, lossless, {.seed = key})};
+    for (const int k : {0, 1})
+      for (Eigen::Index cell = 0; cell < 5; ++cell) dark[k] += images[k](4, cell) < 0.4 * expected(4, cell);
+  }
+  const double of_samples = dark[0] / (5 * seeds), of_drawn = dark[1] / (5 * seeds);
+  EXPECT_GT(of_samples, 0.05);
+  EXPECT_NEAR(of_drawn, of_samples, 0.02);
+}
+
 TEST(DisplayCells, fixed_echoes_add_up_as_pressures) {
   const SonarHead head = cells_head(samples_head(), 5);
   const auto fixed = [&](std::complex<double> more) {
