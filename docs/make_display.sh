@@ -10,7 +10,7 @@ page=docs/results/display.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-for table in scenes cells motion; do
+for table in scenes cells motion paths; do
   { echo; "$programs/display_accuracy" "$table"; echo; } >"$work/$table"
 done
 # Each table between its two marks of the page.

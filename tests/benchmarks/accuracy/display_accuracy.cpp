@@ -4,6 +4,7 @@
 //   display_accuracy scenes [SEEDS]   level, contrast and likeness, by scene and head, with noise (24 seeds)
 //   display_accuracy cells [SEEDS]    error and CPU time by number of cells (12 seeds)
 //   display_accuracy motion           how alike images are after a move
+//   display_accuracy paths [SEEDS]    levels of echoes by way of other surfaces (8 seeds)
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -44,6 +45,8 @@ struct Rig {
   SonarHead head;
   int cells;
   bool noise;
+  Environment environment{};
+  EffectSettings effects{};
 
   struct Image {
     Grid<double> intensity;
@@ -52,10 +55,10 @@ struct Rig {
   };
   Image ping(bool phases, std::uint64_t seed, const Pose& pose) const {
     SimulationOptions o;
-    o.seed = seed, o.threads = 1, o.effects.noise = noise;
+    o.seed = seed, o.threads = 1, o.effects = effects, o.effects.noise = noise;
     o.outputs.display_bins = cells, o.synthesis.phases = phases;
     const std::clock_t begin = std::clock();
-    const SimulatedPing made = PingSimulator(head, {}, o).ping(scene, {pose});
+    const SimulatedPing made = PingSimulator(head, environment, o).ping(scene, {pose});
     const double cpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     return {made.ping.pressure.cast<std::complex<double>>().abs2(), cpu, !made.report.options.synthesis.phases};
   }
@@ -197,6 +200,41 @@ void print_motion() {
   }
 }
 
+/// A row of print_paths; index: of a scene in `views`.
+void print_paths_of(const char* name, std::size_t index, const Environment& environment, const EffectSettings& effects,
+                    int seeds) {
+  const View& view = views[index];
+  const Rig rig{PreparedScene(make_built_in_scene(view.scene, {.points = 100000})),
+                head_of("oculus-m750d", 3, 8),
+                100,
+                false,
+                environment,
+                effects};
+  const Moments a = moments_of(rig, false, view.pose(), seeds), b = moments_of(rig, true, view.pose(), seeds);
+  const Difference d = difference(a, b, seeds);
+  std::printf("| %s%s | %+.3f | %+.3f | %.2f | %.1f | %.3f / %.3f | %.3f / %.3f |\n", name, a.drawn ? "" : " (samples)",
+              d.total, d.band, d.rms, d.off, d.contrast[0], d.contrast[1], a.median_cpu(), b.median_cpu());
+  std::fflush(stdout);
+}
+
+void print_paths(int seeds) {
+  std::puts(
+      "| paths | total [dB] | worst band [dB] | rms of cells [dB] | cells off by 1 dB [%] | contrast drawn / of "
+      "samples "
+      "| CPU drawn / of samples [s] |");
+  std::puts("|---|---|---|---|---|---|---|");
+  Environment sea, tank;
+  sea.surface = SeaSurface{0, 1e-4};
+  tank.tank = Tank{{12, 12, 6}, {-4, -6, -6}, 0.7};
+  EffectSettings effects;
+  effects.multipath = Choice::always;
+  print_paths_of("harbour below a calm surface", 0, sea, effects, seeds);
+  effects = {}, effects.mirrors = Choice::always;
+  print_paths_of("reef in a tank: ghosts and glints", 1, tank, effects, seeds);
+  effects = {}, effects.double_echoes = 1;
+  print_paths_of("reef, double echoes", 1, {}, effects, seeds);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -206,6 +244,8 @@ int main(int argc, char** argv) {
     print_cells(argc > 2 ? seeds : 12);
   else if (table == "motion")
     print_motion();
+  else if (table == "paths")
+    print_paths(argc > 2 ? seeds : 8);
   else
     print_scenes(seeds);
 }
