@@ -19,8 +19,9 @@ struct PlanCause {
   const Environment& environment;
   const SimulationOptions& options;
   const PingEvent& event;
-  bool single_precision = false;  ///< of tiles and transforms
-  double samples_per_cell = 0;    ///< of a display
+  bool single_precision = false;               ///< of tiles and transforms
+  double samples_per_cell = 0;                 ///< of a display
+  double max_range = 0, range_resolution = 0;  ///< of the head [m]
 };
 
 /// The data from which stages are judged.
@@ -35,8 +36,14 @@ struct PlanFacts {
   /// Returns the same for other options.
   PlanCause cause(const SimulationOptions& options) const {
     const double cells = std::max(1, options.outputs.display_bins);
-    return {scene,      ping.environment,           options,
-            ping.event, synthesis.single_precision, static_cast<double>(ping.samples.bins()) / cells};
+    return {scene,
+            ping.environment,
+            options,
+            ping.event,
+            synthesis.single_precision,
+            static_cast<double>(ping.samples.bins()) / cells,
+            ping.head.gate.max_range,
+            range_resolution(ping.head.pulse, ping.sent.medium.sound_speed)};
   }
 };
 

@@ -60,6 +60,20 @@ Choice asked_true_delays(const SimulationOptions& options) {
 constexpr double least_samples_per_cell = 4;
 constexpr double drawn_cell_error = 0.035;  // of an expected cell, in amplitude: 0.3 dB (docs/results/display.md)
 
+/// Whether surfels stand so near to a boundary that echoes by way of it arrive within a pulse of direct ones: at height h
+/// over it, heard at a height H and range R, a leg by way of it is longer by 2 h H / R.
+bool fringes_at_boundaries(const PlanCause& of) {
+  const auto near_plane = [&](double height) {
+    const double of_head = std::abs(of.event.world_from_head.translation().z() - height);
+    const double least = of.max_range * of.range_resolution / std::max(of_head, of.range_resolution);
+    return std::any_of(of.scene.point.begin(), of.scene.point.end(), [&](const Eigen::Vector3f& point) {
+      return std::abs(of.scene.origin.z() + static_cast<double>(point.z()) - height) < least;
+    });
+  };
+  const Environment& e = of.environment;
+  return (e.surface && near_plane(e.surface->height)) || (e.bottom && near_plane(e.bottom->height));
+}
+
 /// Why display cells must be means of samples (E180); nullptr: they need not.
 const char* reason_for_phases(const PlanCause& of) {
   const SimulationOptions& o = of.options;
@@ -72,6 +86,8 @@ const char* reason_for_phases(const PlanCause& of) {
   if (sums_pressures(o) && o.amplitude != SurfaceAmplitude::complex_normal) return "amplitudes are not Gaussian";
   if (std::any_of(of.scene.materials.begin(), of.scene.materials.end(), keeps_phase))
     return "a material has a coherent fraction";
+  if (o.effects.multipath == Choice::always && fringes_at_boundaries(of))
+    return "echoes by a boundary arrive within a pulse of direct ones, to which they add with their phases";
   return nullptr;
 }
 

@@ -267,6 +267,26 @@ TEST(DisplayCells, fixed_echoes_add_up_as_pressures) {
   EXPECT_NEAR(db_from_power(synthesize_cells({}, one, head, lossy)(4, 2) / exact(4, 2)), 0, 0.05);
 }
 
+// Two cells share their transforms. In one of them stands a patch whose energy another patch has, so that it expects
+// nothing: what the loud one rounds off there is no level to divide by.
+TEST(DisplayCells, a_cell_without_energy_is_silent_beside_a_loud_one) {
+  const SonarHead head = cells_head(samples_head(), 20);
+  SurfaceEchoes s;
+  const double loud = head.gate.centre(8), silent = head.gate.centre(9);
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const bool even = i % 2 == 0;
+    s.echoes.delay.push_back(2 * (even ? loud : silent) / lossy.sound_speed);
+    s.echoes.u.push_back(0.04 * static_cast<double>(i) - 0.8);
+    s.echoes.amplitude.push_back(even ? 1e6 : 1e-4);
+    s.id.push_back(i), s.power.push_back(even ? 1e12 : 0);
+  }
+  s.depth.assign(40, 0), s.width.assign(40, 0);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Grid<double> cells = synthesize_cells(s, {}, head, lossy, {.seed = seed});
+    EXPECT_LT(cells.col(9).maxCoeff(), 1e-9 * cells.col(8).maxCoeff()) << seed;
+  }
+}
+
 TEST(DisplayCells, noise_has_level_and_looks_of_the_samples) {
   const SonarHead samples = samples_head(), head = cells_head(samples, 10);
   double sum = 0, square = 0, n = 0;

@@ -167,7 +167,12 @@ TEST(DisplayPing, forms_samples_for_a_reason) {
   EXPECT_EQ(row(display(false), shiny), "a material has a coherent fraction");
   Environment walls;
   walls.surface = SeaSurface{4, 1e-4};
-  EXPECT_EQ(row(display(false), seabed(), walls), "") << "both senses of a path add up as pressures";
+  o = display(false), o.effects.multipath = Choice::always;
+  EXPECT_EQ(row(o, seabed(), walls), "") << "both senses of a path add up as pressures";
+  SceneCloud pile = seabed();
+  add_surfel(pile, {5, 0, 3.95}, {-1, 0, 0}, 0.01);
+  EXPECT_EQ(row(o, pile, walls),
+            "echoes by a boundary arrive within a pulse of direct ones, to which they add with their phases");
 }
 
 TEST(DisplayPing, of_few_samples_is_formed_as_well_as_a_display_shows) {

@@ -13,6 +13,7 @@ namespace insonify {
 namespace {
 
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
+constexpr double rounding = 1e-13;    // of the louder of two cells that transforms form together, in the other
 constexpr std::uint64_t ping_seed = 0x9e3779b97f4a7c15, stage_seed = 0xd1b54a32d192ed03;  // odd, far from each other
 constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
 
@@ -57,7 +58,13 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const Heard
 
 void CellRow::form(std::size_t cell, Grid<double>& image) {
   const std::size_t sides = std::min<std::size_t>(2, plan_.cells - cell);
-  for (std::size_t s = 0; s < sides; ++s) list_parts(cell + s, side_[s]);
+  double loudest = 0;
+  for (std::size_t s = 0; s < sides; ++s) {
+    list_parts(cell + s, side_[s]);
+    loudest = std::max(loudest, side_[s].energy);
+  }
+  for (std::size_t s = 0; s < sides; ++s)
+    side_[s].noise = std::max({row_.element_noise, least_noise * side_[s].energy, rounding * loudest}) * plan_.lag[0];
   sum_means(cell, sides);
   const auto column = static_cast<Eigen::Index>(cell);
   if (!options_.speckle) {
@@ -93,7 +100,6 @@ void CellRow::list_parts(std::size_t cell, Side& side) {
     if (energy > 0 || field > 0) side.even.push_back({&echo, energy, field, response < 0 ? -1.0 : 1.0});
     side.energy += energy;
   }
-  side.noise = std::max(row_.element_noise, least_noise * side.energy) * plan_.lag[0];
 }
 
 void CellRow::sum_means(std::size_t cell, std::size_t sides) {

@@ -224,11 +224,11 @@ void print_paths(int seeds) {
       "| CPU drawn / of samples [s] |");
   std::puts("|---|---|---|---|---|---|---|");
   Environment sea, tank;
-  sea.surface = SeaSurface{0, 1e-4};
+  sea.surface = SeaSurface{3.5, 1e-4};
   tank.tank = Tank{{12, 12, 6}, {-4, -6, -6}, 0.7};
   EffectSettings effects;
   effects.multipath = Choice::always;
-  print_paths_of("harbour below a calm surface", 0, sea, effects, seeds);
+  print_paths_of("plane, calm surface 1 m above the head", 3, sea, effects, seeds);
   effects = {}, effects.mirrors = Choice::always;
   print_paths_of("reef in a tank: ghosts and glints", 1, tank, effects, seeds);
   effects = {}, effects.double_echoes = 1;
