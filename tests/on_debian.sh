@@ -6,7 +6,7 @@
 #
 #   tests/on_debian.sh SUITE [COMMAND...]    bookworm, trixie or noble; COMMANDs, e.g. tests/packages.sh, replace those of the pages
 #
-# noble needs the package ubuntu-keyring. INSONIFY_MIRROR is the archive, if not that of Debian or Ubuntu.
+# noble needs the keys of Ubuntu (the package ubuntu-keyring, or INSONIFY_DEBOOTSTRAP=--keyring=FILE). INSONIFY_MIRROR is the archive, if not that of Debian or Ubuntu.
 # INSONIFY_KEEP=1 keeps the system, which a later run then uses.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -34,8 +34,11 @@ clean() {
 trap clean EXIT
 mkdir -p "$work"
 if [[ ! -e $root/usr/bin/git ]]; then
-  debootstrap --variant=minbase --include=git,ca-certificates --components="$components" "$suite" "$root" "$mirror" >"$work/debootstrap.log" 2>&1 ||
-    { tail -n 3 "$work/debootstrap.log" >&2; exit 1; }
+  scripts=/usr/share/debootstrap/scripts script=()
+  [[ -e $scripts/$suite ]] || script=("$scripts/gutsy")  # of all newer suites of Ubuntu
+  # shellcheck disable=SC2086
+  debootstrap ${INSONIFY_DEBOOTSTRAP:-} --variant=minbase --include=git,ca-certificates --components="$components" "$suite" "$root" "$mirror" \
+    "${script[@]}" >"$work/debootstrap.log" 2>&1 || { tail -n 3 "$work/debootstrap.log" >&2; exit 1; }
 fi
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
