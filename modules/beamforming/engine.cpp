@@ -61,7 +61,7 @@ bool no_head(const SonarHead&) { return false; }
 using Method = SynthesisMethod;
 using Model = ImageModel;
 
-constexpr Engine table[] = {
+constexpr Engine engine_table[] = {
     {Method::gridded, "gridded", "narrow band, far field", Model::narrow_band, Method::direct, min_gridding_tolerance,
      1, true, false, PingSynthesizer::suits, PingSynthesizer::suits, made<KeepingEngine<PingSynthesizer>>},
     {Method::true_delays, "true-delays", "wide band and near field, slow within three array lengths",
@@ -79,18 +79,19 @@ constexpr Engine table[] = {
 
 }  // namespace
 
-std::span<const Engine> engines() { return table; }
+std::span<const Engine> engines() { return engine_table; }
 
-const Engine& engine_of(SynthesisMethod method) { return *std::ranges::find(table, method, &Engine::method); }
+const Engine& engine_of(SynthesisMethod method) { return *std::ranges::find(engine_table, method, &Engine::method); }
 
 const Engine& engine_for(ImageModel model, double tolerance) {
   const auto keeps = [&](const Engine& e) { return e.model == model && tolerance >= e.least_tolerance; };
-  const auto found = std::ranges::find_if(table, keeps);
-  return found == std::end(table) ? referee_for(model) : *found;
+  const auto found = std::ranges::find_if(engine_table, keeps);
+  return found == std::end(engine_table) ? referee_for(model) : *found;
 }
 
 const Engine& referee_for(ImageModel model) {
-  return *std::ranges::find_if(table, [&](const Engine& e) { return e.model == model && e.referee == e.method; });
+  return *std::ranges::find_if(engine_table,
+                               [&](const Engine& e) { return e.model == model && e.referee == e.method; });
 }
 
 }  // namespace insonify

@@ -6,14 +6,14 @@
 #include "beamforming/head_patterns.hpp"
 #include "core/units.hpp"
 #include "simulate/cell_paths_internal.hpp"
+#include "simulate/cell_sum_internal.hpp"
 
 namespace insonify {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double spread_of_disc = 0.866;  // half width of the box with the variance of a disc, in its radius
-constexpr double least_of_both = 1e-3;    // of the energy of two echoes, below which they are independent
+constexpr double least_of_both = 1e-3;  // of the energy of two echoes, below which they are independent
 constexpr std::uint64_t far_apart = 0x9e3779b97f4a7c15;
 constexpr std::uint64_t of_double_echoes = 7;
 

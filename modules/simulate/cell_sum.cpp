@@ -17,7 +17,6 @@ namespace {
 constexpr std::size_t patches_at_once = 4096;
 constexpr double least_cosine = 1e-3;
 constexpr double no_noise_db = -std::numeric_limits<double>::infinity();
-constexpr double spread_of_disc = 0.866;  // half width of the box with the variance of a disc, in its radius
 
 }  // namespace
 

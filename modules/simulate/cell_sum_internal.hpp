@@ -8,6 +8,9 @@
 
 namespace insonify {
 
+/// Half width of the box with the variance of a disc, in the radius of the disc.
+inline constexpr double spread_of_disc = 0.866;
+
 /// Draws display cells from the energies of all echoes (E180). A layer has the cells of its echoes alone, with the
 /// random amplitudes that they have in the sum.
 class CellSum {
