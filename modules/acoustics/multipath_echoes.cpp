@@ -223,6 +223,10 @@ Multipath mirror_echoes(const SceneCloud& scene, const Scatterers& direct, const
 }
 
 void append(Echoes& echoes, const Echoes& more) {
+  if (!echoes.doppler.empty() || !more.doppler.empty()) {
+    echoes.doppler.resize(echoes.size());
+    for (std::size_t i = 0; i < more.size(); ++i) echoes.doppler.push_back(more.doppler_of(i));
+  }
   for (std::size_t i = 0; i < more.size(); ++i)
     add_echo(echoes, more.delay[i], more.u[i], more.v[i], more.amplitude[i]);
 }

@@ -99,7 +99,7 @@ Multipath mirror_echoes(const SceneCloud& scene, const Scatterers& direct, const
                         std::span<const Mirror> mirrors, bool with_levels, const View& view,
                         const Transmission& transmission, const MultipathOptions& options = {});
 
-/// Adds `more` at the end of `echoes`, both with v and at rest.
+/// Adds `more`, which has v, at the end of `echoes`. If either has Doppler shifts, those of the other are 0.
 void append(Echoes& echoes, const Echoes& more);
 
 /// Returns the range [m] beyond which neither a surfel nor its image takes part in multipath_echoes. By the triangle

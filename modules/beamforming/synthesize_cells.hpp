@@ -59,6 +59,7 @@ class CellSynthesizer {
   /// Throws Error for an invalid head or medium.
   CellSynthesizer(const SonarHead& head, const Medium& medium);
   ~CellSynthesizer();
+  CellSynthesizer(CellSynthesizer&&) noexcept;
 
   /// Returns what synthesize_cells returns, to the byte. Throws Error as that does.
   Grid<double> cells(const SurfaceEchoes& surface, const Echoes& fixed, const CellOptions& options = {}) const;

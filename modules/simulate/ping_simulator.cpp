@@ -4,7 +4,6 @@
 
 #include <complex>
 #include <limits>
-#include <mutex>
 #include <utility>
 
 #include "acoustics/echo_stream.hpp"
@@ -12,6 +11,7 @@
 #include "core/work_progress.hpp"
 #include "returns/looks.hpp"
 #include "sampling/scene_cut.hpp"
+#include "simulate/last_made_internal.hpp"
 #include "simulate/layer_sum_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
@@ -21,25 +21,14 @@ namespace insonify {
 
 namespace {
 
-/// The laws of the last ping's materials: the same water and scene as a rule, and some ms of work for each sea bed.
-class KeptSurfaces {
- public:
-  SurfaceTable of(const std::vector<Material>& materials, const Transmission& sent) {
-    const std::lock_guard lock(guard_);
-    if (!(materials == materials_ && sent.pulse.centre_frequency == frequency_ &&
-          sent.medium.sound_speed == sound_speed_)) {
-      table_ = surface_table(materials, sent.pulse.centre_frequency, sent.medium.sound_speed);
-      materials_ = materials, frequency_ = sent.pulse.centre_frequency, sound_speed_ = sent.medium.sound_speed;
-    }
-    return table_;
-  }
-
- private:
-  std::mutex guard_;
-  std::vector<Material> materials_;
-  double frequency_ = 0, sound_speed_ = 0;
-  SurfaceTable table_;
+/// What a table of surface laws is made of. Most pings share it; pings of a dive have a sound speed each.
+struct SurfaceKey {
+  std::vector<Material> materials;
+  double frequency, sound_speed;
+  bool operator==(const SurfaceKey&) const = default;
 };
+
+constexpr std::size_t kept_surfaces = 16;
 
 }  // namespace
 
@@ -48,7 +37,12 @@ struct PingSimulator::Shared {
   Environment environment;
   SimulationOptions options;
   std::shared_ptr<SynthesizerTable> synthesizers = std::make_shared<SynthesizerTable>();
-  KeptSurfaces surfaces{};
+  LastMade<SurfaceKey, SurfaceTable> surfaces{kept_surfaces};
+
+  SurfaceTable surfaces_of(const std::vector<Material>& materials, const Transmission& sent) {
+    const SurfaceKey key{materials, sent.pulse.centre_frequency, sent.medium.sound_speed};
+    return *surfaces.of(key, [&] { return surface_table(materials, key.frequency, key.sound_speed); });
+  }
 };
 
 namespace {
@@ -127,13 +121,13 @@ ResolvedPing PingSimulator::resolve(const WholeScene& scene, const PingEvent& ev
 
 PingPlan PingSimulator::plan(const PreparedScene& scene, const PingEvent& event) const {
   ResolvedPing ping = resolve(scene.whole(), event);
-  ping.sent.surfaces = shared_->surfaces.of(scene.scene().materials, ping.sent);
+  ping.sent.surfaces = shared_->surfaces_of(scene.scene().materials, ping.sent);
   return with_detail(scene, ping, [&](const PreparedScene& pinged) { return plan_of(pinged, ping); });
 }
 
 SamplingReport PingSimulator::count(const PreparedScene& scene, const PingEvent& event) const {
   ResolvedPing ping = resolve(scene.whole(), event);
-  ping.sent.surfaces = shared_->surfaces.of(scene.scene().materials, ping.sent);
+  ping.sent.surfaces = shared_->surfaces_of(scene.scene().materials, ping.sent);
   SamplingReport report = with_detail(scene, ping, [&](const PreparedScene& pinged) {
     decide_effects(pinged, ping);
     return visible_surfels(pinged, ping).report;
@@ -151,7 +145,7 @@ InsonifiedRegion PingSimulator::reach(const WholeScene& scene, const PingEvent& 
 
 SimulatedPing PingSimulator::ping(const PreparedScene& scene, const PingEvent& event) const {
   ResolvedPing ping = resolve(scene.whole(), event);
-  ping.sent.surfaces = shared_->surfaces.of(scene.scene().materials, ping.sent);
+  ping.sent.surfaces = shared_->surfaces_of(scene.scene().materials, ping.sent);
   StopWatch watch;
   SimulatedPing result = with_detail(scene, ping, [&](const PreparedScene& pinged) {
     decide_effects(pinged, ping);

@@ -25,16 +25,7 @@ std::shared_ptr<const Synthesizer> SynthesizerTable::of(Part part, const SonarHe
 }
 
 std::shared_ptr<const CellSynthesizer> SynthesizerTable::cells_of(const SonarHead& head, const Medium& medium) {
-  const std::scoped_lock lock(guard_);
-  const auto at = std::find_if(cells_.begin(), cells_.end(),
-                               [&](const CellsRow& row) { return row.medium == medium && row.gate == head.gate; });
-  if (at != cells_.end()) {
-    std::rotate(cells_.begin(), at, at + 1);
-    return cells_.front().synthesizer;
-  }
-  cells_.insert(cells_.begin(), {medium, head.gate, std::make_shared<const CellSynthesizer>(head, medium)});
-  if (cells_.size() > most_media) cells_.pop_back();
-  return cells_.front().synthesizer;
+  return cells_.of({medium, head.gate}, [&] { return CellSynthesizer(head, medium); });
 }
 
 }  // namespace insonify

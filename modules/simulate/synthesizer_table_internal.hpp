@@ -7,6 +7,7 @@
 
 #include "beamforming/synthesize_cells.hpp"
 #include "beamforming/synthesizer.hpp"
+#include "simulate/last_made_internal.hpp"
 
 namespace insonify {
 
@@ -33,14 +34,14 @@ class SynthesizerTable {
     SynthesisOptions options;
     std::shared_ptr<const Synthesizer> synthesizer;
   };
-  struct CellsRow {
+  struct CellsKey {
     Medium medium;
     RangeGate gate;
-    std::shared_ptr<const CellSynthesizer> synthesizer;
+    bool operator==(const CellsKey&) const = default;
   };
   std::mutex guard_;
   std::array<std::vector<Row>, 3> rows_;  ///< of each part, the last used first
-  std::vector<CellsRow> cells_;           ///< the last used first
+  LastMade<CellsKey, CellSynthesizer> cells_{most_media};
 };
 
 }  // namespace insonify

@@ -241,3 +241,12 @@ TEST(MultipathEchoes, pairs_the_transmitters_gain_on_the_leg_out_with_the_direct
   EXPECT_NEAR(std::abs(e.amplitude[by_surface]) / std::abs(e.amplitude[1 - by_surface]),
               gaussian_lobe(0.5, direct.azimuth) / gaussian_lobe(0.5, image.azimuth), 1e-5);
 }
+
+TEST(MultipathEchoes, append_keeps_the_doppler_shifts_of_both) {
+  Echoes still{{1, 2}, {0, 0.1}, {1, 1}, {0, 0}}, moving{{3}, {0.2}, {1}, {0}, {40}};
+  append(still, moving);
+  EXPECT_EQ(still.doppler, (std::vector<double>{0, 0, 40}));
+  EXPECT_EQ(still.delay, (std::vector<double>{1, 2, 3}));
+  append(moving, {{4}, {0.3}, {1}, {0}});
+  EXPECT_EQ(moving.doppler, (std::vector<double>{40, 0}));
+}

@@ -69,6 +69,7 @@ CellSynthesizer::CellSynthesizer(const SonarHead& head, const Medium& medium) {
   plan_ = std::make_unique<const Plan>(head, medium);
 }
 CellSynthesizer::~CellSynthesizer() = default;
+CellSynthesizer::CellSynthesizer(CellSynthesizer&&) noexcept = default;
 
 Grid<double> CellSynthesizer::cells(const SurfaceEchoes& surface, const Echoes& fixed,
                                     const CellOptions& options) const {
