@@ -191,7 +191,7 @@ TEST(DisplayPing, of_few_samples_is_formed_as_well_as_a_display_shows) {
   EXPECT_EQ(decided(asked).sampling.scatterers_per_cell, 5);
   EXPECT_EQ(decided(asked).synthesis.tolerance, 1e-5);
 
-  // Bands of range and contrast are those of all scatterers at the usual tolerance.
+  // Level and contrast are those of all scatterers at the usual tolerance.
   Moments coarse, all;
   std::size_t few = 0, many = 0;
   constexpr int seeds = 24;
