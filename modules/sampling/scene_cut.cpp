@@ -178,19 +178,28 @@ std::vector<CutPart> walked(const LevelWalk& walk, const SceneCloud& scene, cons
   return parts;
 }
 
+/// The pieces of a source: what stands for the surfels of each, and what has been read of it, which is kept of small scenes.
+struct WalkedPieces {
+  std::vector<CutPart> parts;
+  std::vector<std::unique_ptr<LoadedLevels>> read;
+};
+
 /// Finds what stands for the surfels of the pieces of a source; of pieces that are known already, again for those of which
 /// the walk divides a node.
-void walk_pieces(const LevelWalk& walk, const LevelSource& source, int threads, std::vector<CutPart>& parts) {
-  const bool first = parts.empty();
-  parts.resize(source.pieces());
-  parallel_for(parts.size(), threads, [&](std::size_t p) {
-    if (!first && std::ranges::none_of(parts[p].stands_for, [&](std::uint32_t id) { return walk.divides(id); })) return;
-    const std::unique_ptr<LoadedLevels> piece = source.open(p);
-    const Walked of{piece->scene, piece->levels, piece.get()};
+void walk_pieces(const LevelWalk& walk, const LevelSource& source, int threads, WalkedPieces& pieces) {
+  const bool first = pieces.parts.empty(), keeps = source.like().part_of->surfels < many_surfels;
+  pieces.parts.resize(source.pieces()), pieces.read.resize(source.pieces());
+  parallel_for(pieces.parts.size(), threads, [&](std::size_t p) {
+    CutPart& part = pieces.parts[p];
+    std::unique_ptr<LoadedLevels>& levels = pieces.read[p];
+    if (!first && std::ranges::none_of(part.stands_for, [&](std::uint32_t id) { return walk.divides(id); })) return;
+    if (!levels) levels = source.open(p);
+    const Walked of{levels->scene, levels->levels, levels.get()};
     CutPart found;
-    for (const std::uint32_t root : piece->levels.root) walk.visit(of, root, false, found);
-    source.note(found.stands_for.size() - parts[p].stands_for.size());
-    parts[p] = std::move(found);
+    for (const std::uint32_t root : levels->levels.root) walk.visit(of, root, false, found);
+    source.note(found.stands_for.size() - part.stands_for.size());
+    part = std::move(found);
+    if (!keeps) levels.reset();
   });
 }
 
@@ -218,10 +227,10 @@ SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region
 SceneCloud cut_levels(const LevelSource& source, const InsonifiedRegion& region, const BeamFan& fan,
                       const RangeGate& gate, const CutOptions& options) {
   LevelWalk walk(source.like(), source.noisy(), region, fan, gate, options);
-  std::vector<CutPart> parts;
+  WalkedPieces pieces;
   const auto cut_now = [&] {
-    walk_pieces(walk, source, options.threads, parts);
-    return joined_by_id(parts, source.like(), source.noisy(), options.threads);
+    walk_pieces(walk, source, options.threads, pieces);
+    return joined_by_id(pieces.parts, source.like(), source.noisy(), options.threads);
   };
   SceneCloud cut = cut_now();
   if (has_sharp_silhouettes(options, source.noisy(), *source.like().part_of)) {

@@ -57,7 +57,10 @@ void check(const SynthesisSettings& s, bool elements, std::optional<OptionProble
     check.require(t >= least && t <= most, "tolerance", t, printed("within %g and %g for ", least, most) + of);
   };
   const Engine& engine = engine_of(s.method);
-  require_within(engine.least_tolerance, engine.most_tolerance, std::string("method ").append(engine.word));
+  const std::string_view finer = engine_of(engine.referee).word;
+  require_within(engine.least_tolerance, engine.most_tolerance,
+                 std::string("method ").append(engine.word) +
+                     (finer == engine.word ? "" : std::string("; below that use ").append(finer)));
   if (elements) require_within(min_element_tolerance, max_element_tolerance, "the output of elements");
 }
 
