@@ -16,6 +16,11 @@ Vector3d place_of_patch(const Scatterers& patches, std::size_t i) {
   return patches.range[i] * unit_vector({patches.azimuth[i], patches.elevation[i]});
 }
 
+/// Grazing angle of a straight leg to an image at this range.
+double grazing_of(const Boundary& boundary, const Vector3d& image, double range) {
+  return std::asin(std::min(1.0, std::abs(boundary.normal.dot(image)) / range));
+}
+
 }  // namespace
 
 PatchLegs::PatchLegs(const SceneCloud& scene, const std::vector<Boundary>& boundaries, const View& view,
@@ -95,42 +100,58 @@ std::optional<PatchLegs::Way> PatchLegs::tilted_way_to(const Vector3d& image, co
   return way;
 }
 
-/// The leg to a place, by boundary `by` to its image; none in a shadow zone.
-std::optional<PatchLegs::Way> PatchLegs::way_to(const Vector3d& place, std::size_t by) const {
-  Way way{{place, place.normalized(), 1}};
-  const BentLegs* rays = rays_.empty() || !rays_[by] ? nullptr : &*rays_[by];
-  if (rays) {
-    const auto bent = rays->to(place);
-    if (!bent) return std::nullopt;
-    way.leg = *bent;
-  }
+/// The leg through the profile to a place, by boundary `by` to its image; none in a shadow zone.
+std::optional<PatchLegs::Way> PatchLegs::bent_way_to(const Vector3d& place, std::size_t by) const {
+  if (!rays_[by]) return tilted_way_to(place, boundaries_[by - 1]);
+  const auto bent = rays_[by]->to(place);
+  if (!bent) return std::nullopt;
+  Way way{*bent};
   if (by == 0) return way;
   const Boundary& boundary = boundaries_[by - 1];
-  if (!rays_.empty() && !rays) return tilted_way_to(place, boundary);
-  const bool level = rays && tilt_of(boundary) == BoundaryTilt::level;
-  const double sine = std::min(1.0, std::abs(boundary.normal.dot(place)) / place.norm());
-  const double grazing =
-      level ? rays->grazing_at(depth_of(boundary, rays->head_depth()), way.leg.apparent) : std::asin(sine);
+  const double grazing = tilt_of(boundary) == BoundaryTilt::level
+                             ? rays_[by]->grazing_at(depth_of(boundary, rays_[by]->head_depth()), way.leg.apparent)
+                             : grazing_of(boundary, place, place.norm());
   way.reflection = boundary.reflection(grazing) * boundary.edges(place);
   return way;
 }
 
-std::optional<Leg> PatchLegs::leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal,
-                                     std::size_t by) const {
-  const auto found = way_to(place, by);
-  if (!found) return std::nullopt;
-  const BentLeg& way = found->leg;
+Leg PatchLegs::leg_along(const BentLeg& way, double range, std::uint32_t surfel, const Vector3d& normal) const {
   Leg leg{};
-  leg.range = way.apparent.norm();
-  leg.u = way.apparent.y() / leg.range;
-  leg.v = way.apparent.z() / leg.range;
+  leg.range = range;
+  leg.u = way.apparent.y() / range;
+  leg.v = way.apparent.z() / range;
   leg.towards = -way.arrival;
   const double cosine = -normal.dot(way.arrival);
   leg.cosine = std::min(1.0, scene_.oriented(surfel) ? cosine : std::abs(cosine));
+  return leg;
+}
+
+void PatchLegs::set_gains(const BentLeg& way, complex reflection, std::size_t by, Leg& leg) const {
   leg.gain = way.pressure * one_way_pattern(echo_options_, leg.v);
-  if (by > 0) leg.gain *= found->reflection;
+  if (by > 0) leg.gain *= reflection;
   leg.sent = leg.gain * transmit_pattern(echo_options_, std::atan2(way.apparent.y(), way.apparent.x()));
   leg.by = static_cast<std::uint8_t>(by);
+}
+
+std::optional<Leg> PatchLegs::leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal,
+                                     std::size_t by) const {
+  if (rays_.empty()) {
+    const double range = place.norm();
+    const BentLeg straight{place, place / range, 1};
+    std::optional<Leg> leg = leg_along(straight, range, surfel, normal);
+    complex reflection = 1;
+    if (by > 0) {
+      if (!(leg->cosine > 0)) return leg;  // a back, whose gains nobody asks for
+      const Boundary& boundary = boundaries_[by - 1];
+      reflection = boundary.reflection(grazing_of(boundary, place, range)) * boundary.edges(place);
+    }
+    set_gains(straight, reflection, by, *leg);
+    return leg;
+  }
+  const auto found = bent_way_to(place, by);
+  if (!found) return std::nullopt;
+  std::optional<Leg> leg = leg_along(found->leg, found->leg.apparent.norm(), surfel, normal);
+  set_gains(found->leg, found->reflection, by, *leg);
   return leg;
 }
 

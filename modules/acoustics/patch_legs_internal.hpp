@@ -44,8 +44,11 @@ class PatchLegs {
     BentLeg leg;
     std::complex<double> reflection = 1;
   };
-  std::optional<Way> way_to(const Eigen::Vector3d& place, std::size_t by) const;
+  std::optional<Way> bent_way_to(const Eigen::Vector3d& place, std::size_t by) const;
   std::optional<Way> tilted_way_to(const Eigen::Vector3d& image, const Boundary& boundary) const;
+  /// Returns a leg without its gains.
+  Leg leg_along(const BentLeg& way, double range, std::uint32_t surfel, const Eigen::Vector3d& normal) const;
+  void set_gains(const BentLeg& way, std::complex<double> reflection, std::size_t by, Leg& leg) const;
   std::optional<Leg> leg_to(std::uint32_t surfel, const Eigen::Vector3d& place, const Eigen::Vector3d& normal,
                             std::size_t by) const;
 
