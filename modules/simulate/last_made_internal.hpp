@@ -22,14 +22,15 @@ class LastMade {
   template <typename Make>
   std::shared_ptr<const Made> of(const Key& key, const Make& make) {
     const std::shared_ptr<Row> row = row_of(key);
-    std::call_once(row->once, [&] { row->made.emplace(make()); });
+    const std::scoped_lock lock(row->guard);
+    if (!row->made) row->made.emplace(make());
     return {row, &*row->made};
   }
 
  private:
   struct Row {
     Key key;
-    std::once_flag once{};
+    std::mutex guard{};
     std::optional<Made> made{};
     explicit Row(Key of) : key(std::move(of)) {}
   };
