@@ -13,14 +13,14 @@ namespace {
 
 constexpr double centre_frequency = 600e3, beam_width = radians(1.5);
 
-/// What tasks differ in. Ranges and angles: [m], [rad].
+/// The numbers in which tasks differ: ranges [m], angles [rad].
 struct Variation {
   double bandwidth = 30e3, min_range = 3;
   std::size_t bins = 256;
   double field_of_view = radians(45);
   std::size_t beams = 48;
-  double speed = 0;              ///< of echoes along the line of sight, at most [m/s]
-  std::size_t rows = 1;          ///< of beams of a planar array; 1: a line array
+  double speed = 0;              ///< largest speed of echoes along the line of sight [m/s]
+  std::size_t rows = 1;          ///< number of rows of beams of a planar array; 1: a line array
   double from_u = -1, to_u = 1;  ///< echoes outside of the fan as far as this are left out
 };
 

@@ -102,7 +102,8 @@ class AccuracyBench {
   std::vector<std::size_t> beams_;  ///< that are checked
   SonarHead checked_head_;
   ComplexGrid referee_;
-  mutable std::map<ImageModel, ComplexGrid> model_referees_;  ///< of other models, made when they are asked for
+  mutable std::map<ImageModel, ComplexGrid>
+      model_referees_;  ///< images of the referees of other models, made when they are asked for
 };
 
 /// Relative L2 error of an image, and the largest such error in eighths of the bins, without eighths in which the

@@ -21,7 +21,7 @@ struct DoubleEchoes {
   Echoes echoes;                     ///< both senses of a pair are neighbours
   std::vector<std::uint32_t> first;  ///< of every echo, the surfel that sound met first, index in the scene
   std::vector<std::uint32_t> last;   ///< and the one that it came back from
-  std::vector<std::uint64_t> id;     ///< of the pair: that of its surfel and ray, one for both senses
+  std::vector<std::uint64_t> id;     ///< id of the pair, that of its surfel and ray, one for both senses
   std::size_t rays = 0;              ///< sent from surface to surface
   std::size_t unreached = 0;         ///< echoes left out since a leg of them is in a shadow zone of the profile
 };

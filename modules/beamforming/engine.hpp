@@ -31,7 +31,7 @@ struct Engine {
   SynthesisMethod method;
   std::string_view word;    ///< name in options, files and tables
   std::string_view says;    ///< help
-  ImageModel model;         ///< what its error is measured against
+  ImageModel model;         ///< image that the engine approximates
   SynthesisMethod referee;  ///< slower engine of the same model; the engine itself if there is none
   double least_tolerance, most_tolerance;
   bool replaceable;                      ///< true: the plan may take an engine of true delays instead

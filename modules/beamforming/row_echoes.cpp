@@ -36,12 +36,14 @@ std::vector<double> RowEchoes::responses(const FanRow& row) const {
 
 Echoes RowEchoes::of(const FanRow& row) const {
   Echoes of_row;
-  for_each_of(row, [&](std::size_t i, double response) {
+  const std::vector<double> response = responses(row);
+  for (std::size_t i = 0; i < response.size(); ++i) {
+    if (std::abs(response[i]) <= least_[i]) continue;
     of_row.delay.push_back(echoes_.delay[i]);
     of_row.u.push_back(echoes_.u[i]);
-    of_row.amplitude.push_back(echoes_.amplitude[i] * response);
+    of_row.amplitude.push_back(echoes_.amplitude[i] * response[i]);
     if (!echoes_.doppler.empty()) of_row.doppler.push_back(echoes_.doppler[i]);
-  });
+  }
   return of_row;
 }
 

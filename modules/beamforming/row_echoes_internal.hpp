@@ -15,14 +15,8 @@ class RowEchoes {
   /// echo. A `cutoff` of 0 omits no echo.
   RowEchoes(const Echoes& echoes, const SonarHead& head, double wavelength, const std::vector<FanRow>& rows,
             double cutoff, int threads);
+  /// Returns the echoes that a row hears, weighted by its response, in order.
   Echoes of(const FanRow& row) const;
-  /// Calls use(i, response) for every echo i that the row hears, in order.
-  template <typename Use>
-  void for_each_of(const FanRow& row, const Use& use) const {
-    const std::vector<double> response = responses(row);
-    for (std::size_t i = 0; i < response.size(); ++i)
-      if (!(std::abs(response[i]) <= least_[i])) use(i, response[i]);
-  }
 
  private:
   std::vector<double> responses(const FanRow& row) const;

@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// What stands for the surfels of some blocks.
+/// Surfels and nodes that stand for the surfels of some blocks.
 struct CutPart {
   SceneCloud scene;
   std::vector<std::uint32_t> stands_for;  ///< surfel of the scene, or its id
@@ -17,7 +17,7 @@ struct CutPart {
 struct OrderedCut {
   SceneCloud cut;
   std::vector<std::uint32_t> order;       ///< places in the cut of the surfels of all parts
-  std::vector<std::uint32_t> stands_for;  ///< of each of the cut
+  std::vector<std::uint32_t> stands_for;  ///< surfels that those of the cut stand for
 
   OrderedCut(const std::vector<CutPart>& parts, const SceneCloud& scene, int threads);
 };

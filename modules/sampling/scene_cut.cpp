@@ -23,8 +23,9 @@ constexpr double most_thickness = 0.25;  // in cells of range
 constexpr float per_thickness = 16;      // how far below a node's plane its surface may lie, as far as its disc reaches
 constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
 constexpr std::size_t blocks_at_once = 16;
-constexpr double per_node = 20;                // directions across the widest node, in which silhouettes are looked for
-constexpr std::size_t many_surfels = 1 << 19;  // of a scene without noise, from which on silhouettes stay coarse
+constexpr double per_node = 20;  // directions across the widest node, in which silhouettes are looked for
+constexpr std::size_t many_surfels =
+    1 << 19;  // scenes without noise of so many surfels and more have coarse silhouettes
 
 /// Mean square sine of the angles between a node's normal and those of its surfels.
 double spread_of(const DetailNode& node) { return 1 - quadratic_form(node.normals, node.normal.cast<double>()); }
@@ -145,7 +146,7 @@ class LevelWalk {
   std::vector<std::uint32_t> divided_{};
 };
 
-/// Whether nodes at silhouettes are divided (E172). Nodes of one spacing do not depend on where they are seen from.
+/// Returns true if nodes at silhouettes are divided (E172). Nodes of one spacing do not depend on where they are seen from.
 bool has_sharp_silhouettes(const CutOptions& options, bool noisy, const WholeScene& whole) {
   return options.most_width > 0 && !(options.most_spacing > 0) && (noisy || whole.surfels < many_surfels);
 }
@@ -162,7 +163,7 @@ std::vector<std::uint32_t> divided_of(const SceneCloud& cut, const InsonifiedReg
   return ids;
 }
 
-/// What stands for the surfels of a scene, block by block.
+/// Returns what stands for the surfels of a scene, block by block.
 std::vector<CutPart> walked(const LevelWalk& walk, const SceneCloud& scene, const DetailLevels& levels,
                             const InsonifiedRegion& region, int threads) {
   std::vector<CutPart> parts((levels.block.size() + blocks_at_once - 1) / blocks_at_once);

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double least_of_both = 1e-3;  // of the energy of two echoes, below which they are independent
+constexpr double least_of_both = 1e-3;  // part of the energy of two echoes below which they count as independent
 constexpr std::uint64_t far_apart = 0x9e3779b97f4a7c15;
 constexpr std::uint64_t of_double_echoes = 7;
 

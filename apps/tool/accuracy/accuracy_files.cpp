@@ -79,7 +79,7 @@ ordered_json promise_json(const std::vector<AccuracyRow>& rows) {
   return promise;
 }
 
-/// Of each engine over its rows: what it keeps of its tolerance, and how far the plan's bound of its model reaches.
+/// Returns for each engine the number of its rows, of refusals, and its largest error over the tolerance.
 ordered_json engines_json(const std::vector<AccuracyRow>& rows) {
   std::map<std::string, ordered_json> engines;
   for (const AccuracyRow& r : rows) {

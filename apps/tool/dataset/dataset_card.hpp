@@ -11,7 +11,7 @@
 
 namespace insonify::tool {
 
-/// What the card of a data set is about.
+/// The facts that the card of a data set states.
 struct DatasetCard {
   const DatasetOptions& options;
   const std::vector<std::string>& classes;  ///< names of the masks' values

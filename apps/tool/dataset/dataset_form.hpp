@@ -10,17 +10,17 @@
 
 #include "store/run_directory.hpp"
 
-/// What lists the images of a data set and their boxes: COCO and YOLO.
+/// Lists of the images of a data set and of their boxes, as COCO and YOLO.
 namespace insonify::tool {
 
 /// One of the two forms of the images, polar or fan.
 struct DatasetForm {
   std::string name;
-  std::map<std::string, nlohmann::ordered_json> coco{};      ///< of each split
+  std::map<std::string, nlohmann::ordered_json> coco{};      ///< annotations of each split
   std::map<std::string, std::string> lists{};                ///< names of the images of each split, one a line
-  std::vector<std::size_t> pixels{};                         ///< of each class
+  std::vector<std::size_t> pixels{};                         ///< number of pixels of each class
   std::size_t boxes = 0, unboxed = 0;                        ///< unboxed: objects of too little contrast
-  std::map<std::string, nlohmann::ordered_json> outlines{};  ///< of each split: polygons of its annotations, in order
+  std::map<std::string, nlohmann::ordered_json> outlines{};  ///< polygons of the annotations of each split, in order
 };
 using FormPair = std::array<const DatasetForm*, 2>;
 

@@ -19,11 +19,6 @@ constexpr double half_maximum_of_box =
     0.68;                              // length at half maximum of a Gaussian, in that of the box of its variance
 constexpr double pieces_per_cell = 8;  // SamplingOptions::scatterers_per_cell
 
-/// Length of the overlap of [low, high] with [first, last].
-double common_length(double low, double high, double first, double last) {
-  return std::max(0.0, std::min(high, last) - std::max(low, first));
-}
-
 /// Part of a normal law below so many deviations, within 3e-6; 0 or 1 beyond reach_of_pulse.
 double below_deviations(double away) {
   constexpr std::size_t entries = 1025;
@@ -47,7 +42,7 @@ double below_deviations(double away) {
 double part_between(const CellEcho& echo, double sigma, double low, double high) {
   if (echo.half_depth > sigma) {
     const double half = std::hypot(echo.half_depth, std::numbers::sqrt3 * sigma);
-    return common_length(echo.range - half, echo.range + half, low, high) / (2 * half);
+    return overlap(echo.range - half, echo.range + half, low, high) / (2 * half);
   }
   const double deviation = std::hypot(sigma, echo.half_depth / std::numbers::sqrt3);
   return below_deviations((high - echo.range) / deviation) - below_deviations((low - echo.range) / deviation);
@@ -171,7 +166,7 @@ void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, Echo
       // The mean is over area, which grows with range.
       const double weight = std::clamp(echo.range, first, last) / middle;
       in.energy = echo.energy > 0 ? weight * part_between(echo, deviation, first, last) : 0;
-      in.field = weight * common_length(echo.range - half, echo.range + half, first, last) / (2 * half);
+      in.field = weight * overlap(echo.range - half, echo.range + half, first, last) / (2 * half);
     }
   }
 }

@@ -13,14 +13,9 @@ namespace insonify {
 namespace {
 
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
-constexpr double rounding = 1e-13;    // of the louder of two cells that transforms form together, in the other
+constexpr double rounding = 1e-13;    // part of the louder of two cells that transforms leave in the other
 constexpr std::uint64_t ping_seed = 0x9e3779b97f4a7c15, stage_seed = 0xd1b54a32d192ed03;  // odd, far from each other
 constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
-
-/// Length of the overlap of [low, high] with [first, last].
-double overlap(double low, double high, double first, double last) {
-  return std::max(0.0, std::min(high, last) - std::max(low, first));
-}
 
 /// Seed of the noise of a ping, far from those of the amplitudes of surfaces.
 std::uint64_t noise_seed(const CellOptions& options) {

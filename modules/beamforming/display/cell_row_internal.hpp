@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
 #include <complex>
 #include <cstdint>
@@ -14,18 +15,23 @@ namespace insonify {
 struct CellEcho {
   double range = 0, half_depth = 0;               ///< [m]
   double reach = 0;                               ///< half length of surface and pulse together [m]
-  double u = 0;                                   ///< of its middle
-  double energy = 0;                              ///< of its surface, in a cell that holds all of it [Pa^2]
+  double u = 0;                                   ///< direction cosine of its middle
+  double energy = 0;                              ///< energy of its surface in a cell that holds all of it [Pa^2]
   double strength = 0;                            ///< its own energy in such a cell [Pa^2]
-  std::complex<double> phase;                     ///< of its own pressure, of size 1
+  std::complex<double> phase;                     ///< phase of its own pressure, of size 1
   std::array<std::complex<double>, 2> amplitude;  ///< random, of mean power 1; of a fixed echo the first is 1
   double half_width = 0;                          ///< in u
   double pieces = 1;                              ///< independent echoes that samples would have of it
-  std::uint32_t node = 0;                         ///< of its middle
+  std::uint32_t node = 0;                         ///< node of its middle
   std::uint32_t port = 0, starboard = 0;          ///< broad nodes of its ends
   bool fixed = false;                             ///< its amplitude is not random
   double together = 1;  ///< energy of all echoes of one amplitude that are added as pressures, in its own
 };
+
+/// Returns the length of the overlap of [low, high] with [first, last].
+inline double overlap(double low, double high, double first, double last) {
+  return std::max(0.0, std::min(high, last) - std::max(low, first));
+}
 
 /// Deviations of a pulse's energy in range beyond which it is left out.
 inline constexpr double reach_of_pulse = 4;
@@ -47,7 +53,7 @@ struct EchoesByCell {
   std::vector<EchoInCell> part;
 };
 
-/// What a row of beams hears: its response to each echo, 0 where it hears nothing; empty: 1. Its beams, its first
+/// The echoes that a row of beams hears: its response to each echo, 0 where it hears nothing; empty: 1. Its beams, its first
 /// element's number among those of the head, and the mean noise power at one of its elements [Pa^2].
 struct HeardByRow {
   BeamPlaces beams;
