@@ -65,21 +65,21 @@ std::size_t PatchLegs::find(const Scatterers& patches, std::size_t i, LegSet ope
   const Vector3d normal = to_head_ * scene_.normal[surfel].cast<double>();
   legs.clear();
   std::size_t unreached = 0;
-  const auto add = [&](const std::optional<Leg>& leg) {
-    if (leg && leg->cosine > 0) legs.push_back(*leg);
-    unreached += !leg;
-  };
   if (open & direct_leg) {
-    std::optional<Leg> leg = leg_to(surfel, place, normal, 0);
-    if (leg && cosines && rays_.empty()) leg->cosine = patches.cos_incidence[i];
-    add(leg);
+    Leg& leg = legs.emplace_back();
+    const bool reached = set_leg_to(surfel, place, normal, 0, leg);
+    if (cosines && rays_.empty()) leg.cosine = patches.cos_incidence[i];
+    unreached += !reached;
+    if (!(reached && leg.cosine > 0)) legs.pop_back();
   }
   for (std::size_t b = 0; b < boundaries_.size(); ++b) {
     const Boundary& boundary = boundaries_[b];
     if (!(open & leg_by(b)) || boundary.distance(place) <= 0) continue;
-    std::optional<Leg> leg = leg_to(surfel, boundary.mirrored(place), boundary.mirrored_direction(normal), b + 1);
-    if (leg) leg->towards = boundary.mirrored_direction(leg->towards);
-    add(leg);
+    Leg& leg = legs.emplace_back();
+    const bool reached = set_leg_to(surfel, boundary.mirrored(place), boundary.mirrored_direction(normal), b + 1, leg);
+    leg.towards = boundary.mirrored_direction(leg.towards);
+    unreached += !reached;
+    if (!(reached && leg.cosine > 0)) legs.pop_back();
   }
   return unreached;
 }
@@ -115,15 +115,14 @@ std::optional<PatchLegs::Way> PatchLegs::bent_way_to(const Vector3d& place, std:
   return way;
 }
 
-Leg PatchLegs::leg_along(const BentLeg& way, double range, std::uint32_t surfel, const Vector3d& normal) const {
-  Leg leg{};
+void PatchLegs::set_leg(const BentLeg& way, double range, std::uint32_t surfel, const Vector3d& normal,
+                        Leg& leg) const {
   leg.range = range;
   leg.u = way.apparent.y() / range;
   leg.v = way.apparent.z() / range;
   leg.towards = -way.arrival;
   const double cosine = -normal.dot(way.arrival);
   leg.cosine = std::min(1.0, scene_.oriented(surfel) ? cosine : std::abs(cosine));
-  return leg;
 }
 
 void PatchLegs::set_gains(const BentLeg& way, complex reflection, std::size_t by, Leg& leg) const {
@@ -133,26 +132,26 @@ void PatchLegs::set_gains(const BentLeg& way, complex reflection, std::size_t by
   leg.by = static_cast<std::uint8_t>(by);
 }
 
-std::optional<Leg> PatchLegs::leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal,
-                                     std::size_t by) const {
+bool PatchLegs::set_leg_to(std::uint32_t surfel, const Vector3d& place, const Vector3d& normal, std::size_t by,
+                           Leg& leg) const {
   if (rays_.empty()) {
     const double range = place.norm();
     const BentLeg straight{place, place / range, 1};
-    std::optional<Leg> leg = leg_along(straight, range, surfel, normal);
+    set_leg(straight, range, surfel, normal, leg);
+    if (by > 0 && !(leg.cosine > 0)) return true;  // a back, whose gains nobody asks for
     complex reflection = 1;
     if (by > 0) {
-      if (!(leg->cosine > 0)) return leg;  // a back, whose gains nobody asks for
       const Boundary& boundary = boundaries_[by - 1];
       reflection = boundary.reflection(grazing_of(boundary, place, range)) * boundary.edges(place);
     }
-    set_gains(straight, reflection, by, *leg);
-    return leg;
+    set_gains(straight, reflection, by, leg);
+    return true;
   }
   const auto found = bent_way_to(place, by);
-  if (!found) return std::nullopt;
-  std::optional<Leg> leg = leg_along(found->leg, found->leg.apparent.norm(), surfel, normal);
-  set_gains(found->leg, found->reflection, by, *leg);
-  return leg;
+  if (!found) return false;
+  set_leg(found->leg, found->leg.apparent.norm(), surfel, normal, leg);
+  set_gains(found->leg, found->reflection, by, leg);
+  return true;
 }
 
 }  // namespace insonify

@@ -46,11 +46,12 @@ class PatchLegs {
   };
   std::optional<Way> bent_way_to(const Eigen::Vector3d& place, std::size_t by) const;
   std::optional<Way> tilted_way_to(const Eigen::Vector3d& image, const Boundary& boundary) const;
-  /// Returns a leg without its gains.
-  Leg leg_along(const BentLeg& way, double range, std::uint32_t surfel, const Eigen::Vector3d& normal) const;
+  /// Sets a leg but for its gains.
+  void set_leg(const BentLeg& way, double range, std::uint32_t surfel, const Eigen::Vector3d& normal, Leg& leg) const;
   void set_gains(const BentLeg& way, std::complex<double> reflection, std::size_t by, Leg& leg) const;
-  std::optional<Leg> leg_to(std::uint32_t surfel, const Eigen::Vector3d& place, const Eigen::Vector3d& normal,
-                            std::size_t by) const;
+  /// Sets the leg to a place, or by boundary `by` to its image; false if no ray reaches it.
+  bool set_leg_to(std::uint32_t surfel, const Eigen::Vector3d& place, const Eigen::Vector3d& normal, std::size_t by,
+                  Leg& leg) const;
 
   const SceneCloud& scene_;
   const std::vector<Boundary>& boundaries_;
