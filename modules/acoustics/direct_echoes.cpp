@@ -59,14 +59,14 @@ struct EchoBuilder {
   }
 };
 
-// By two threads, since new memory costs as much as writing to it.
+// In parallel, since new memory costs as much as writing to it; a stop request ends the loop between two arrays.
 Echoes room_for(std::size_t n, int threads) {
   Echoes echoes;
-  parallel_for(2, threads, [&](std::size_t part) {
-    if (part == 0)
+  parallel_for(4, threads, [&](std::size_t array) {
+    if (array == 0)
       echoes.amplitude.resize(n);
     else
-      echoes.delay.resize(n), echoes.u.resize(n), echoes.v.resize(n);
+      std::array{&echoes.delay, &echoes.u, &echoes.v}[array - 1]->resize(n);
   });
   return echoes;
 }
