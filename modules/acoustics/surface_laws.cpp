@@ -27,36 +27,8 @@ class LambertSurface final : public SurfaceScattering {
   double mu_;
 };
 
-/// Where a law is known to hold [Hz], and by how much it may be off beyond [dB].
-struct Validity {
-  double least, most;
-  const char* of;
-  double off_db;
-};
-
-/// TR 9407 for its own range: 3 dB for sand and silt, 10 dB for gravel and rock. Beyond, to 400 kHz, within 5 dB of a
-/// later model for sand and finer sediments at grazing angles from 20 degrees on, 6 to 19 dB for coarser ones.
-double off_beyond(const Sediment& bed, double frequency) {
-  constexpr double sandy_gravel = 1.3;  // speed ratio that parts sand from gravel
-  return bed.speed_ratio < sandy_gravel && frequency <= 400e3 ? 5 : bed.speed_ratio < sandy_gravel ? 10 : 19;
-}
-
-struct ValidityOf {
-  double frequency;
-  Validity operator()(const LambertLaw&) const { return {0, HUGE_VAL, "", 0}; }
-  Validity operator()(const SeabedLaw& law) const { return {10e3, 100e3, "TR 9407", off_beyond(law, frequency)}; }
-  Validity operator()(const SmallSlopeLaw& law) const {
-    return {10e3, 300e3, "the sediment's numbers", off_beyond(law, frequency)};
-  }
-  Validity operator()(const RoughLaw&) const { return {0, HUGE_VAL, "", 0}; }
-  Validity operator()(const TableLaw& law) const {
-    if (law.frequency.empty()) return {0, HUGE_VAL, "", 0};
-    return {law.frequency.front(), law.frequency.back(), "its table", 10};
-  }
-};
-
-/// What a note says of a bed whose diffuse part is cut at Lambert's limit; empty if that costs less than 0.5 dB from 5
-/// degrees of grazing on.
+/// Returns the text of a note on a bed whose diffuse part is cut at Lambert's limit; empty if the cut is below 0.5 dB from
+/// 5 degrees of grazing on.
 std::string cut_note(const Sediment& bed, double frequency, double sound_speed) {
   constexpr double noted_db = 0.5;
   constexpr int least_deg = 5;
@@ -72,14 +44,14 @@ std::string cut_note(const Sediment& bed, double frequency, double sound_speed) 
   return text.str();
 }
 
-/// What a note says of a law that is not known at `frequency`; empty if it is.
+/// Returns the text of a note on a law that is not known at `frequency`; empty if it is known there.
 std::string validity_note(const SurfaceLaw& law, double frequency) {
-  const Validity v = std::visit(ValidityOf{frequency}, law);
+  const LawValidity v = validity_of(law, frequency);
   if (frequency >= v.least * (1 - 1e-9) && frequency <= v.most * (1 + 1e-9)) return "";
 
   std::ostringstream text;
-  text << " is known from " << v.least * 1e-3 << " to " << v.most * 1e-3 << " kHz (" << v.of << "), not at "
-       << frequency * 1e-3 << " kHz: its level may be off by " << v.off_db << " dB";
+  text << " is known from " << v.least * 1e-3 << " to " << v.most * 1e-3 << " kHz (" << v.source << "), not at "
+       << frequency * 1e-3 << " kHz: its level may be off by " << v.error_db << " dB";
   return text.str();
 }
 

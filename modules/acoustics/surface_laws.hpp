@@ -48,6 +48,8 @@ std::shared_ptr<const SurfaceScattering> surface_of(const SeabedLaw& law, double
 std::shared_ptr<const SurfaceScattering> surface_of(const SmallSlopeLaw& law, double frequency, double sound_speed);
 /// Facets with micro-roughness (E142, E143).
 std::shared_ptr<const SurfaceScattering> surface_of(const RoughLaw& law, double frequency, double sound_speed);
+/// Ellis and Crowe's Lambert part and facets (E200).
+std::shared_ptr<const SurfaceScattering> surface_of(const EllisCroweLaw& law, double frequency, double sound_speed);
 /// Table (E144).
 std::shared_ptr<const SurfaceScattering> surface_of(const TableLaw& law, double frequency, double sound_speed);
 

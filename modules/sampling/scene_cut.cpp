@@ -89,7 +89,7 @@ class LevelWalk {
  private:
   /// Whether the head does not resolve the surfels of a node (E137), and the mean of their law is known.
   bool unresolved(const DetailNode& node, double range) const {
-    if (!std::holds_alternative<LambertLaw>(scene_.materials[node.material].law)) return false;
+    if (!traits_of(scene_.materials[node.material].law).merges) return false;
     const double nearest = range - node.extent, farthest = range + node.extent;
     const auto divides = [&](double end) { return nearest < end && end < farthest; };
     if (!(nearest > 0) || std::sqrt(node.area) > most_width(node, range) || node.thickness > thickness_) return false;

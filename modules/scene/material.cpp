@@ -17,7 +17,7 @@ void require_valid(const Material& material, const char* who, ErrorKind kind) {
   }
   if (const std::string problem = problem_of(material.law); !problem.empty())
     fail(kind, who, ": law '", name_of(material.law), "' of material '", material.name, "': ", problem);
-  if (material.relief_slope > 0 && has_own_slopes(material.law))
+  if (material.relief_slope > 0 && traits_of(material.law).own_slopes)
     fail(kind, who, ": relief_slope of material '", material.name, "' = ", material.relief_slope, ", must be 0: law '",
          name_of(material.law), "' has slopes of its own");
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,8 +12,25 @@
 
 namespace insonify {
 
-/// Lambert's law (E4), of Material::lambert_mu.
+/// Properties of a law that code outside it asks for. Each law states them in a constant `traits`. A law may also have the
+/// members `std::string problem() const`, which returns the defect of its numbers together (problem_of), and
+/// `LawValidity validity(double frequency) const` (validity_of).
+struct LawTraits {
+  const char* name;  ///< word for the law in files
+  bool own_slopes;   ///< true: the law includes slopes of facets, which micro-relief of the surface would count twice
+  bool merges;       ///< true: the mean over surfels of different slopes is known (E137), so that they may be merged
+};
+
+/// Frequencies at which a law is known to hold, and its possible error elsewhere.
+struct LawValidity {
+  double least = 0, most = HUGE_VAL;  ///< [Hz], included
+  const char* source = "";            ///< where the limits come from
+  double error_db = 0;                ///< possible error at other frequencies [dB]
+};
+
+/// Lambert's law (E4). Its coefficient is Material::lambert_mu.
 struct LambertLaw {
+  static constexpr LawTraits traits{.name = "lambert", .own_slopes = false, .merges = true};
   bool operator==(const LambertLaw&) const = default;
 };
 
@@ -25,21 +43,26 @@ struct Sediment {
   double spectral_strength_cm4 = 0.00444600;  ///< of the relief, at 1 / cm
   double spectral_exponent = 3.25;            ///< of the relief
   double grain_size = 0;  ///< [m]; frequencies count as at most sound speed / (pi grain size); 0: unknown
+  LawValidity validity(double frequency) const;  ///< TR 9407 for its own frequencies
   bool operator==(const Sediment&) const = default;
 };
 
 /// Roughness and volume of a sea bed by TR 9407 (E139, E140).
 struct SeabedLaw : Sediment {
+  static constexpr LawTraits traits{.name = "seabed", .own_slopes = true, .merges = false};
   bool operator==(const SeabedLaw&) const = default;
 };
 
-/// The same sea bed by the small-slope approximation (E141): bistatic, for sand and mud.
+/// A sea bed by the small-slope approximation (E141): bistatic, for sand and mud.
 struct SmallSlopeLaw : Sediment {
+  static constexpr LawTraits traits{.name = "small_slope", .own_slopes = true, .merges = false};
+  LawValidity validity(double frequency) const;  ///< to 300 kHz
   bool operator==(const SmallSlopeLaw&) const = default;
 };
 
 /// Facets of a solid or fluid with finer roughness on them, for metal, concrete and rock (E142, E143).
 struct RoughLaw {
+  static constexpr LawTraits traits{.name = "rough", .own_slopes = true, .merges = false};
   double slope = 0.2;            ///< rms slope of the facets over both axes
   double micro_roughness = 0;    ///< rms height on a facet [m]
   double diffuse_mu = 0;         ///< [1/sr], coefficient of Lambert's law, which is added
@@ -47,26 +70,42 @@ struct RoughLaw {
   double density = 0;            ///< [kg/m^3]; 0: see reflection
   double compression_speed = 0;  ///< of sound [m/s]
   double shear_speed = 0;        ///< [m/s]; 0: a fluid
+  std::string problem() const;   ///< a density needs speeds
   bool operator==(const RoughLaw&) const = default;
+};
+
+/// Lambert's law and a lobe of facets about the mirror direction (E200), as fitted to measured bistatic levels.
+struct EllisCroweLaw {
+  static constexpr LawTraits traits{.name = "ellis_crowe", .own_slopes = true, .merges = false};
+  double diffuse_mu = 0.002;      ///< coefficient of Lambert's law [1/sr]
+  double facet_strength = 0.1;    ///< cross-section per area straight back at normal incidence [1/sr]
+  double facet_slope = 0.176327;  ///< rms slope of the facets along one axis; 10 degrees
+  bool operator==(const EllisCroweLaw&) const = default;
 };
 
 /// A measured backscattering strength (E144).
 struct TableLaw {
+  static constexpr LawTraits traits{.name = "table", .own_slopes = false, .merges = false};
   std::vector<double> incidence;  ///< [rad], ascending from 0 to 75 degrees or more, below 90
   std::vector<double> frequency;  ///< [Hz], ascending; empty: the strength does not depend on frequency
   std::vector<double> sigma_db;   ///< [dB re 1/sr] = 10 log10 of the cross-section per area, frequency by frequency
-  bool half_vector = false;  ///< bistatic strength: true: that at the half vector (lobes); false: the geometric mean
+  bool half_vector = false;     ///< bistatic strength: true: that at the half vector (lobes); false: the geometric mean
+  std::string problem() const;  ///< angles ascend from 0 to 75 degrees or more
+  LawValidity validity(double frequency) const;  ///< from the first to the last frequency
   bool operator==(const TableLaw&) const = default;
 };
 
-/// The law by which a surface scatters.
-using SurfaceLaw = std::variant<LambertLaw, SeabedLaw, SmallSlopeLaw, RoughLaw, TableLaw>;
+/// The law by which a surface scatters. This list is the table of laws.
+using SurfaceLaw = std::variant<LambertLaw, SeabedLaw, SmallSlopeLaw, RoughLaw, EllisCroweLaw, TableLaw>;
 
-/// Names of the laws in files, in the order of SurfaceLaw.
-inline constexpr const char* surface_law_names[] = {"lambert", "seabed", "small_slope", "rough", "table"};
-
+/// Returns the traits of a law.
+inline const LawTraits& traits_of(const SurfaceLaw& law) {
+  return std::visit([](const auto& l) -> const LawTraits& { return l.traits; }, law);
+}
 /// Returns the name of a law.
-const char* name_of(const SurfaceLaw& law);
+inline const char* name_of(const SurfaceLaw& law) { return traits_of(law).name; }
+/// Returns each law with its default numbers, in the order of SurfaceLaw.
+std::vector<SurfaceLaw> surface_laws();
 /// Returns the law of this name with its default numbers; nothing for an unknown name.
 std::optional<SurfaceLaw> law_named(std::string_view name);
 
@@ -98,6 +137,11 @@ double* of(SurfaceLaw& law) {
       },
       law);
 }
+/// Returns the coefficient of the diffuse part of a law; nullptr if the law has none.
+inline double* diffuse_mu(SurfaceLaw& law) {
+  double* const rough = of<RoughLaw, &RoughLaw::diffuse_mu>(law);
+  return rough ? rough : of<EllisCroweLaw, &EllisCroweLaw::diffuse_mu>(law);
+}
 }  // namespace law_members
 
 /// All numbers of laws.
@@ -125,9 +169,14 @@ inline constexpr LawNumber law_numbers[] = {
      "law rough: rms slope of the facets, both axes together; a smoother surface is a mirror"},
     {law_members::of<RoughLaw, &RoughLaw::micro_roughness>, "micro_roughness", "m", 0, 1, false, "micro_roughness_mm",
      "mm", 1e3, false, false, "law rough: rms height of the roughness that is finer than a facet"},
-    {law_members::of<RoughLaw, &RoughLaw::diffuse_mu>, "diffuse_mu", "1/sr", 0, 1 / pi, false, "diffuse_mu_db",
-     "dB re 1/sr", 1, true, false,
-     "law rough: Lambert coefficient of a diffuse echo that adds to that of the facets; default: no such echo"},
+    {law_members::diffuse_mu, "diffuse_mu", "1/sr", 0, 1 / pi, false, "diffuse_mu_db", "dB re 1/sr", 1, true, false,
+     "laws rough and ellis_crowe: Lambert coefficient of a diffuse echo that adds to that of the facets; default: no "
+     "such echo (rough), -27 (ellis_crowe)"},
+    {law_members::of<EllisCroweLaw, &EllisCroweLaw::facet_strength>, "facet_strength", "1/sr", 0, 1e3, false,
+     "facet_strength_db", "dB re 1/sr", 1, true, true,
+     "law ellis_crowe: backscattering strength of the facets at normal incidence"},
+    {law_members::of<EllisCroweLaw, &EllisCroweLaw::facet_slope>, "facet_slope", "", 0.02, 1, false, "facet_slope", "",
+     1, false, true, "law ellis_crowe: rms slope of the facets along one axis, 0.18 for 10 degrees"},
     {law_members::of<RoughLaw, &RoughLaw::reflection>, "reflection", "", 0, 1, false, "reflection", "", 1, false, false,
      "law rough: reflection coefficient of pressure, the same at all angles; give this key, or density and speeds"},
     {law_members::of<RoughLaw, &RoughLaw::density>, "density", "kg/m^3", 0, 3e4, false, "density", "kg/m^3", 1, false,
@@ -138,8 +187,11 @@ inline constexpr LawNumber law_numbers[] = {
      false, false, "law rough: speed of shear waves in the solid; 0: it is a fluid"},
 };
 
-/// Returns whether the law includes the slopes of facets; micro-relief would then count them twice.
-bool has_own_slopes(const SurfaceLaw& law);
+/// Returns where a law is known to hold; everywhere for a law that does not say.
+LawValidity validity_of(const SurfaceLaw& law, double frequency);
+
+/// Returns `law` and the others that take its numbers: a sediment scatters by two laws.
+std::vector<SurfaceLaw> laws_alike(const SurfaceLaw& law);
 
 /// Returns the defect of an invalid law, e.g. "slope = 0.01, must be within 0.02 and 2"; empty for a valid law.
 std::string problem_of(const SurfaceLaw& law);

@@ -64,14 +64,19 @@ SurfaceLaw law_of(const std::string& path, const MaterialEntry& entry, int begin
   return law;
 }
 
+std::vector<std::string> names_of_laws() {
+  std::vector<std::string> names;
+  for (const SurfaceLaw& law : surface_laws()) names.emplace_back(name_of(law));
+  return names;
+}
+
 }  // namespace
 
 std::vector<Key> material_keys(MaterialEntry& entry) {
   Material& material = entry.sourced.material;
   std::vector<Key> keys = {
       {"material", "name", "", text(material.name), "name of the material", true},
-      {"material", "law", "", word(entry.law, {std::begin(surface_law_names), std::end(surface_law_names)}),
-       "scattering law; default: lambert"},
+      {"material", "law", "", word(entry.law, names_of_laws()), "scattering law; default: lambert"},
       {"material", "like", "", text(entry.like), "name of a material whose numbers are the defaults of this one"}};
   for (const MaterialNumber& n : material_numbers)
     keys.push_back({"material", n.key, n.in_decibels ? "dB" : n.unit, number_of(material, n), n.help, n.required});

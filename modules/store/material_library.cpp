@@ -33,13 +33,13 @@ std::vector<std::string> stems() {
 
 /// The material of a file by each of its laws: a sediment has two.
 std::vector<MaterialFile> by_each_law(const std::string& stem) {
-  std::vector<MaterialFile> all = {load_material_file(file_of(stem))};
-  if (const auto* bed = std::get_if<SeabedLaw>(&all[0].material.law)) {
-    const SmallSlopeLaw other{*bed};
-    all.push_back(all[0]);
-    all[1].material.law = other;
+  std::vector<MaterialFile> all;
+  const MaterialFile file = load_material_file(file_of(stem));
+  for (const SurfaceLaw& law : laws_alike(file.material.law)) {
+    all.push_back(file);
+    all.back().material.law = law;
+    all.back().material.name = stem + "@" + name_of(law);
   }
-  for (MaterialFile& file : all) file.material.name = stem + "@" + name_of(file.material.law);
   return all;
 }
 

@@ -27,7 +27,7 @@ SurfaceLaw random_law(std::uint64_t k) {
   const auto v = random_uniform(7, RandomStage::scene_points, {k, 1, 0});
   Sediment bed = bed_rows[k % std::size(bed_rows)].sediment;
   bed.loss *= 0.5 + u[0], bed.spectral_exponent = 2.8 + 0.8 * u[1];
-  switch (k % 4) {
+  switch (k % 5) {
     case 0:
       return SeabedLaw{bed};
     case 1:
@@ -38,6 +38,8 @@ SurfaceLaw random_law(std::uint64_t k) {
                       .density = 1000 + 7000 * u[2],
                       .compression_speed = 1600 + 4000 * v[0],
                       .shear_speed = 1500 * v[1]};
+    case 3:
+      return EllisCroweLaw{.diffuse_mu = 0.1 * u[0], .facet_strength = u[1], .facet_slope = 0.05 + 0.3 * u[2]};
     default:
       return TableLaw{{0, radians(40), radians(80)}, {}, {-10 * u[0], -15 - 5 * u[1], -30}, u[2] < 0.5};
   }
