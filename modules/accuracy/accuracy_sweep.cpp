@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "accuracy/engine_tasks.hpp"
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
 #include "core/stop_watch.hpp"
@@ -167,7 +167,7 @@ AccuracyRow AccuracyBench::gridded(double tolerance, int threads) const {
   AccuracyRow r = row("gridded");
   if (threads > 0) r.threads = threads;
   StopWatch watch;
-  const PingSynthesizer plan(task_.head, task_.medium, {tolerance, r.threads});
+  const GriddedEngine plan(task_.head, task_.medium, {tolerance, r.threads});
   r.plan_seconds = watch.lap();
   r.tolerance = tolerance;
   if (plan.choice().single_precision) r.precision = "single";
@@ -224,7 +224,7 @@ AccuracyRow AccuracyBench::absorption_order(int order) const {
   r.parameter = order;
   r.tolerance = 1e-8;
   const Medium medium{task_.medium.sound_speed, of_order(task_.medium.absorption, order)};
-  const PingSynthesizer plan(task_.head, medium, {r.tolerance, options_.threads});
+  const GriddedEngine plan(task_.head, medium, {r.tolerance, options_.threads});
   r.kernel_width = plan.choice().kernel_width;
   compare(checked(plan.pressure(task_.echoes)), referee_, r);
   time_all([&](const Echoes& e) { return plan.pressure(e); }, r);

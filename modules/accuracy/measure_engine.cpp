@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "accuracy/measure_accuracy.hpp"
-#include "beamforming/narrow_band/narrow_band_error.hpp"
+#include "beamforming/gridded/narrow_band_error.hpp"
 #include "beamforming/synthesizer.hpp"
 #include "core/error.hpp"
 #include "core/stop_watch.hpp"

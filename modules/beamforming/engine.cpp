@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "beamforming/synthesize_intensity.hpp"
-#include "beamforming/true_delays/wideband_synthesizer.hpp"
+#include "beamforming/true_delays/true_delay_engine.hpp"
 
 namespace insonify {
 namespace {
@@ -63,10 +63,10 @@ using Model = ImageModel;
 
 constexpr Engine engine_table[] = {
     {Method::gridded, "gridded", "narrow band, far field", Model::narrow_band, Method::direct, min_gridding_tolerance,
-     1, true, false, PingSynthesizer::suits, PingSynthesizer::suits, made<KeepingEngine<PingSynthesizer>>},
+     1, true, false, GriddedEngine::suits, GriddedEngine::suits, made<KeepingEngine<GriddedEngine>>},
     {Method::true_delays, "true-delays", "wide band and near field, slow within three array lengths",
      Model::true_delays, Method::element_exact, min_true_delay_tolerance, max_element_tolerance, false, false, one_line,
-     one_line, made<KeepingEngine<WidebandSynthesizer>>},
+     one_line, made<KeepingEngine<TrueDelayEngine>>},
     {Method::direct, "direct", "slow reference of gridded", Model::narrow_band, Method::direct, 0, 1, false, true,
      one_line, no_head, made<FunctionEngine<synthesize_direct>>},
     {Method::spectrum, "spectrum", "slow check of direct, frequency by frequency", Model::narrow_band, Method::direct,

@@ -37,7 +37,7 @@ struct SynthesisOptions {
 ///
 ///   element_exact   makes no narrow-band far-field assumption: true delays per element, focused beams (element_series,
 ///                   beam_from_elements, E61, E62); tolerance within [1e-12, 0.1]
-///   true_delays     gives the same image at about the cost of gridding (WidebandSynthesizer, E68); tolerance within
+///   true_delays     gives the same image at about the cost of gridding (TrueDelayEngine, E68); tolerance within
 ///                   [1e-5, 0.1]
 ///   incoherent      gives the root of the expected intensity (E65) as a real pressure. Levels and detections apply to
 ///                   it; its phases have no meaning, and such images add by their squares.
@@ -69,7 +69,7 @@ ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const
                               const SynthesisOptions& options = {});
 
 /// Returns the same by gridding (E13, E60), with a relative L2 error below `tolerance`, within [1e-13, 1): a
-/// PingSynthesizer constructed for one image. No wrap-around in range; bits do not depend on the number of threads.
+/// GriddedEngine constructed for one image. No wrap-around in range; bits do not depend on the number of threads.
 ComplexGrid synthesize_gridded(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                const SynthesisOptions& options = {});
 

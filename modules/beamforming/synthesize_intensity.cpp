@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/pulses/time_axis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "beamforming/narrow_band/synthesis_choice.hpp"
+#include "beamforming/gridded/synthesis_choice.hpp"
 #include "simulate/simulation_options.hpp"
 
 namespace insonify {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "simulate/plan_stages_internal.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "beamforming/engine.hpp"
-#include "beamforming/narrow_band/narrow_band_error.hpp"
+#include "beamforming/gridded/narrow_band_error.hpp"
 #include "simulate/plan_stages_internal.hpp"
 
 namespace insonify {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Gridding for every kind of pulse and absorption, of few echoes and of many.
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "core/random.hpp"
 #include "sonar/shading.hpp"
 #include "support/heads.hpp"
@@ -35,7 +35,7 @@ Echoes crowd(std::size_t count, double doppler) {
 void expect_promise(const SonarHead& head, const Medium& medium, double doppler = 0) {
   for (const std::size_t count : {3, 1000})
     for (const double tolerance : {1e-2, 1e-4, 1e-7, 1e-11}) {
-      const PingSynthesizer plan(head, medium, {tolerance, 2});
+      const GriddedEngine plan(head, medium, {tolerance, 2});
       const Echoes echoes = crowd(count, doppler);
       const ComplexGrid exact = synthesize_direct(echoes, head, medium);
       EXPECT_LE(relative_l2(plan.pressure(echoes), exact), tolerance) << count << " echoes, " << tolerance;
@@ -78,7 +78,7 @@ TEST(GriddedEchoes, keep_the_tolerance_outside_all_beams) {
   head.fan = make_fan(64, radians(8), radians(2), radians(20));
   const Medium medium = medium_of(false, false);
   for (const double tolerance : {1e-2, 1e-4, 1e-8}) {
-    const PingSynthesizer plan(head, medium, {tolerance, 2});
+    const GriddedEngine plan(head, medium, {tolerance, 2});
     Echoes echoes = crowd(1000, 0);
     for (double& u : echoes.u) u = 0.75 + 0.1 * u;
     EXPECT_LE(relative_l2(plan.pressure(echoes), synthesize_direct(echoes, head, medium)), tolerance) << tolerance;

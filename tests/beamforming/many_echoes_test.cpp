@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ten million echoes, and a million in one bin: bounded memory, sums that add up.
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
@@ -45,7 +45,7 @@ TEST(TenMillionEchoes, ten_million_echoes_take_no_more_memory_than_lists_image_a
   Medium medium;
   medium.sound_speed = sound;
   const double tolerance = 1e-4;
-  const PingSynthesizer plan(head, medium, {tolerance, 2});
+  const GriddedEngine plan(head, medium, {tolerance, 2});
   ComplexGrid whole;
   {
     const Echoes all = crowd(head, 0, many);
@@ -90,7 +90,7 @@ TEST(ManyEchoes, a_million_echoes_in_one_bin_keep_the_tolerance_in_single_precis
       e.amplitude.push_back(a);
       sums.amplitude[i % places] += a;
     }
-    const PingSynthesizer plan(head, medium, {1e-4, 0});
+    const GriddedEngine plan(head, medium, {1e-4, 0});
     ASSERT_TRUE(plan.choice().single_precision);
     EXPECT_LE(relative_l2(plan.pressure(e), synthesize_direct(sums, head, medium)), 1e-4) << alike;
   }

@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "beamforming/narrow_band/gridding_loops_internal.hpp"
+#include "beamforming/gridded/gridding_loops_internal.hpp"
 #include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
 #include "beamforming/pulses/pulse_loops_internal.hpp"

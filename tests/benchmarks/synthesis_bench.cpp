@@ -6,8 +6,8 @@
 
 #include "accuracy/accuracy_task.hpp"
 #include "accuracy/reference_sums.hpp"
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
-#include "beamforming/true_delays/wideband_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
+#include "beamforming/true_delays/true_delay_engine.hpp"
 
 using namespace insonify;
 
@@ -19,26 +19,26 @@ AccuracyTask task_for(const benchmark::State& state) {
 
 double tolerance_for(const benchmark::State& state) { return std::pow(10.0, -static_cast<double>(state.range(1))); }
 
-void ping_synthesizer(benchmark::State& state) {
+void gridded_engine(benchmark::State& state) {
   const AccuracyTask task = task_for(state);
-  const PingSynthesizer plan(task.head, task.medium, {tolerance_for(state), static_cast<int>(state.range(2))});
+  const GriddedEngine plan(task.head, task.medium, {tolerance_for(state), static_cast<int>(state.range(2))});
   for (auto _ : state) benchmark::DoNotOptimize(plan.pressure(task.echoes));
   state.SetItemsProcessed(state.iterations() * state.range(0));
   state.counters["width"] = static_cast<double>(plan.choice().kernel_width);
 }
-BENCHMARK(ping_synthesizer)
+BENCHMARK(gridded_engine)
     ->ArgsProduct({{1000, 50000, 500000}, {3, 4, 6}, {1, 2}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// True delays for every element: against ping_synthesizer of the same arguments. 600 kHz, 5 to 40 m.
-void wideband_synthesizer(benchmark::State& state) {
+/// True delays for every element: against gridded_engine of the same arguments. 600 kHz, 5 to 40 m.
+void true_delay_engine(benchmark::State& state) {
   const AccuracyTask task = task_for(state);
-  const WidebandSynthesizer plan(task.head, task.medium, {tolerance_for(state), static_cast<int>(state.range(2))});
+  const TrueDelayEngine plan(task.head, task.medium, {tolerance_for(state), static_cast<int>(state.range(2))});
   for (auto _ : state) benchmark::DoNotOptimize(plan.pressure(task.echoes));
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
-BENCHMARK(wideband_synthesizer)
+BENCHMARK(true_delay_engine)
     ->ArgsProduct({{1000, 50000, 500000}, {3, 4}, {1, 2}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
@@ -48,7 +48,7 @@ void few_echoes(benchmark::State& state) {
   const AccuracyTask task =
       make_task({.scatterers = static_cast<std::size_t>(state.range(0)), .beams = 512, .bins = 2000});
   const SynthesisOptions options{1e-6, 1};
-  const PingSynthesizer plan(task.head, task.medium, options);
+  const GriddedEngine plan(task.head, task.medium, options);
   for (auto _ : state) {
     if (state.range(1) == 0) benchmark::DoNotOptimize(plan.pressure(task.echoes));
     if (state.range(1) == 1) benchmark::DoNotOptimize(synthesize_direct(task.echoes, task.head, task.medium, options));
@@ -59,12 +59,12 @@ BENCHMARK(few_echoes)
     ->ArgsProduct({{1, 10, 100}, {1}})
     ->Unit(benchmark::kMillisecond);
 
-void make_ping_synthesizer(benchmark::State& state) {
+void make_gridded_engine(benchmark::State& state) {
   const AccuracyTask task = task_for(state);
   for (auto _ : state)
-    benchmark::DoNotOptimize(PingSynthesizer(task.head, task.medium, {tolerance_for(state), 1}).choice());
+    benchmark::DoNotOptimize(GriddedEngine(task.head, task.medium, {tolerance_for(state), 1}).choice());
 }
-BENCHMARK(make_ping_synthesizer)->Args({1, 4, 1})->Args({1, 6, 1})->Unit(benchmark::kMillisecond);
+BENCHMARK(make_gridded_engine)->Args({1, 4, 1})->Args({1, 6, 1})->Unit(benchmark::kMillisecond);
 
 void windowed_direct(benchmark::State& state) {
   const AccuracyTask task = task_for(state);

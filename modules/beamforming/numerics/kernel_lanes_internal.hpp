@@ -2,7 +2,7 @@
 #pragma once
 #include <cstddef>
 
-#include "beamforming/narrow_band/gridding_loops_internal.hpp"
+#include "beamforming/gridded/gridding_loops_internal.hpp"
 
 namespace insonify::kernels {
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "beamforming/narrow_band/gridding_loops_internal.hpp"
+#include "beamforming/gridded/gridding_loops_internal.hpp"
 
 // Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
 // on each. They do not include Eigen, so wide registers are safe.

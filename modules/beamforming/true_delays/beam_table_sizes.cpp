@@ -8,7 +8,7 @@
 #include "beamforming/true_delays/beam_table_internal.hpp"
 #include "beamforming/true_delays/beam_table_loops_internal.hpp"
 #include "beamforming/true_delays/node_functions_internal.hpp"
-#include "beamforming/true_delays/wideband_plan_internal.hpp"
+#include "beamforming/true_delays/true_delay_plan_internal.hpp"
 
 namespace insonify {
 namespace {

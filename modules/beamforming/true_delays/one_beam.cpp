@@ -112,7 +112,7 @@ std::unique_ptr<const OneBeam> OneBeam::make(const SonarHead& head, const Medium
   return work <= most_work && bytes <= most_bytes ? std::move(one) : nullptr;
 }
 
-void OneBeam::add_image(const WidebandFeed& feed, int threads, ComplexGrid& pressure) const {
+void OneBeam::add_image(const EchoFeed& feed, int threads, ComplexGrid& pressure) const {
   // Stretches share bins: each has an image of its own, and they are added in order.
   const std::vector<double>& edge = stretches_.edge;
   std::vector<std::vector<std::complex<double>>> images(stretches_.size() - 1);

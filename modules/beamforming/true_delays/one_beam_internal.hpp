@@ -6,7 +6,7 @@
 
 #include "beamforming/numerics/lazy_internal.hpp"
 #include "beamforming/true_delays/beam_table_internal.hpp"
-#include "beamforming/true_delays/wideband_feed_internal.hpp"
+#include "beamforming/true_delays/echo_feed_internal.hpp"
 #include "core/grid.hpp"
 
 namespace insonify {
@@ -48,10 +48,10 @@ class OneBeam {
                                              double widest);
 
   /// Returns the stretches of time: first the ranges that are too near for tables, then stretches of at most 256 bins.
-  const WidebandStretches& stretches() const { return stretches_; }
+  const TimeStretches& stretches() const { return stretches_; }
   /// Adds the echoes of all stretches but the first to the image of 1 x bins [Pa]. The bits do not depend on `threads`.
   /// Doppler shifts must be within most_shifted of the carrier.
-  void add_image(const WidebandFeed& feed, int threads, ComplexGrid& pressure) const;
+  void add_image(const EchoFeed& feed, int threads, ComplexGrid& pressure) const;
 
  private:
   OneBeam(const SonarHead& head, const Medium& medium, double tolerance, double widest, double split);
@@ -60,7 +60,7 @@ class OneBeam {
   BeamTables whole_;                 ///< for smaller |u|
   std::unique_ptr<BeamTables> end_;  ///< for larger |u|; nullptr: no such echoes
   double guard_;                     ///< bins that responses reach
-  WidebandStretches stretches_;
+  TimeStretches stretches_;
 };
 
 }  // namespace insonify

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "accuracy/accuracy_task.hpp"
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "beamforming/reference/element_series.hpp"
-#include "beamforming/true_delays/wideband_synthesizer.hpp"
+#include "beamforming/true_delays/true_delay_engine.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "store/sonar_file.hpp"
@@ -64,9 +64,9 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 /// Processor time of an image by both methods, one after the other, on one thread.
 void print_times(const Echoes& echoes, const SonarHead& head, const Medium& medium) {
-  const PingSynthesizer narrow(head, medium, {1e-3, 1});
+  const GriddedEngine narrow(head, medium, {1e-3, 1});
   for (const double tolerance : {1e-3, 1e-4}) {
-    const WidebandSynthesizer wide(head, medium, {tolerance, 1});
+    const TrueDelayEngine wide(head, medium, {tolerance, 1});
     std::vector<double> narrow_seconds, wide_seconds;
     for (int k = 0; k < repeats; ++k) {
       const double start = cpu_seconds();

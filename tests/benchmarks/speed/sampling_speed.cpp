@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "acoustics/direct_echoes.hpp"
+#include "beamforming/gridded/gridded_engine.hpp"
 #include "beamforming/head_patterns.hpp"
-#include "beamforming/narrow_band/ping_synthesizer.hpp"
 #include "core/units.hpp"
 #include "sampling/find_scatterers.hpp"
 #include "scene/built_in_scenes.hpp"
@@ -102,7 +102,7 @@ struct Times {
 
 void print_row(const char* name, const PreparedScene& scene, double max_range, double per_cell, int repeats) {
   const SonarHead head = head_to(max_range);
-  const PingSynthesizer synthesizer(head, water, {1e-4, 0});
+  const GriddedEngine synthesizer(head, water, {1e-4, 0});
   const EchoOptions echo_options = with_patterns({}, head);
   Times one_core, sampling, sound, ping;
   SamplingReport report;

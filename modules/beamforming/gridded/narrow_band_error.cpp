@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "beamforming/gridded/narrow_band_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "beamforming/gridded/error_loops_internal.hpp"
+#include "core/parallel.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t near_beams = 16, far_beams = 8;
+
+}  // namespace
+
+NarrowBandError::NarrowBandError(const SonarHead& head, double sound_speed)
+    : head_(head), nodes_(spectrum_nodes(head.pulse)) {
+  cycles_per_m_ = head.pulse.centre_frequency / sound_speed;
+  off_focus_ = std::sqrt(3 * std::numbers::ln2 / 2) * sound_speed / (2 * pi * head.pulse.bandwidth);
+  for (std::size_t b = 0; b < head.fan.beams(); ++b)
+    u_beam_.push_back(std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
+  for (std::size_t m = 0; m < head.array.elements(); ++m)
+    y_.push_back(head.array.spacing * element_place(m, head.array.elements()));
+  shading_ = head.array.shading;
+  while (y_.size() % kernels::phasor_lanes != 0) y_.push_back(0), shading_.push_back(0);
+}
+
+NarrowBandError::Sums NarrowBandError::of(const Scatterers& places, const std::vector<double>& power,
+                                          int threads) const {
+  // Some of the places, and how many parts of the power each stands for.
+  const double parts = std::max(32.0, 768.0 / static_cast<double>(std::min(u_beam_.size(), near_beams)));
+  const double part = std::accumulate(power.begin(), power.end(), 0.0) / parts;
+  double passed = -0.5 * part;
+  std::vector<std::pair<std::size_t, double>> chosen;
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    passed += power[i];
+    if (power[i] == 0 || passed < 0) continue;
+    chosen.emplace_back(i, std::floor(passed / part) + 1);
+    passed -= chosen.back().second * part;
+  }
+  // Their errors, added in their order.
+  std::vector<Sums> sums(chosen.size());
+  parallel_blocks(chosen.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto [i, times] = chosen[k];
+      sums[k] = of_echo(places.range[i], std::cos(places.elevation[i]) * std::sin(places.azimuth[i]), times);
+    }
+  });
+  Sums sum;
+  for (const Sums& of_place : sums) sum.error += part * of_place.error, sum.image += part * of_place.image;
+  return sum;
+}
+
+// An echo that stands for `times`: in all beams that have it in or near their main lobes, and in a few that stand for
+// the rest.
+NarrowBandError::Sums NarrowBandError::of_echo(double range, double u, double times) const {
+  std::vector<double> u_beam = u_beam_;
+  const std::size_t beams = u_beam.size(), near = std::min(near_beams, beams);
+  std::sort(u_beam.begin(), u_beam.end(), [u](double a, double b) { return std::abs(a - u) < std::abs(b - u); });
+  Sums sums;
+  std::vector<double> workspace(2 * kernels::EchoPhasors::rows * y_.size());
+  for (std::size_t b = 0; b < near; ++b) add_beam(range, u, u_beam[b], times, workspace, sums);
+  const std::size_t rest = beams - near, step = std::max<std::size_t>(1, rest / far_beams);
+  for (std::size_t b = near + step / 2; b < beams; b += step)
+    add_beam(range, u, u_beam[b], times * static_cast<double>(step), workspace, sums);
+  return sums;
+}
+
+// Nodes of the spectrum with the focus at the echo, and nodes of the pulse's length at the carrier: both at once are
+// of higher order.
+void NarrowBandError::add_beam(double range, double u, double u_beam, double weight, std::vector<double>& workspace,
+                               Sums& sums) const {
+  kernels::EchoPhasors p{};
+  for (std::size_t row = 0; row < kernels::EchoPhasors::rows; ++row)
+    p.cosine[row] = workspace.data() + 2 * row * y_.size(), p.sine[row] = p.cosine[row] + y_.size();
+  const double carrier = head_.pulse.centre_frequency;
+  kernels::echo_phasors(y_.data(), y_.size(),
+                        {range, u, u_beam, std::max(range - off_focus_, 0.3 * range), range + off_focus_, cycles_per_m_,
+                         nodes_[3].frequency / carrier, nodes_[4].frequency / carrier},
+                        p);
+  const kernels::PhasorSums all = kernels::sum_phasors(shading_.data(), y_.size(), p);
+  const auto sum_of = [](const double(&parts)[2]) { return std::complex(parts[0], parts[1]); };
+  const std::complex<double> narrow = sum_of(all.row[p.narrow]), before = sum_of(all.row[p.before]),
+                             behind = sum_of(all.row[p.behind]);
+  std::complex<double> truth[5];  // nodes come in pairs about the carrier
+  truth[2] = sum_of(all.row[p.carrier]);
+  for (const int n : {1, 2}) {
+    const std::complex<double> by_cosine = sum_of(all.by_cosine[n - 1]), by_sine = sum_of(all.by_sine[n - 1]);
+    truth[2 + n] = by_cosine + by_sine, truth[2 - n] = by_cosine - by_sine;
+  }
+  const auto add_node = [&](const std::complex<double>& t, double part) {
+    sums.error += weight * part * std::norm(t - narrow);
+    sums.image += weight * part * std::norm(t);
+  };
+  for (std::size_t n = 0; n < nodes_.size(); ++n) add_node(truth[n], nodes_[n].weight - (n == 2 ? 1.0 / 3 : 0));
+  add_node(before, 1.0 / 6);
+  add_node(behind, 1.0 / 6);
+}
+
+}  // namespace insonify

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <vector>
+
+#include "sampling/scatterers.hpp"
+#include "sonar/pulse_spectrum.hpp"
+#include "sonar/sonar_head.hpp"
+
+namespace insonify {
+
+/// Expected error of the narrow-band, far-field image (E10), compared with the pressure that elements receive. The
+/// paths from echo and focus to an element at y differ. At frequency f off the carrier, the true phase of the element
+/// is k (1 + f / f_c) times this difference (E61, E62); the narrow-band image uses -k y (u - u_b). The focus is at the
+/// range of the bin; the error is evaluated with the focus one pulse length before and behind the echo. A planar array
+/// is represented by its middle row.
+class NarrowBandError {
+ public:
+  /// Keeps a reference to `head`, which must outlive the object; sound_speed [m/s].
+  NarrowBandError(const SonarHead& head, double sound_speed);
+
+  /// Sums over beams [Pa^2] of the squared error and of the squared image.
+  struct Sums {
+    double error = 0, image = 0;
+  };
+
+  /// Returns the expected sums for echoes from `places` whose power at an element is `power` [Pa^2]; zero sums if
+  /// `power` is empty. The sums are estimated from 32 to 48 places that each represent the same power, in the nearest
+  /// 16 beams and in 8 of the other beams.
+  Sums of(const Scatterers& places, const std::vector<double>& power, int threads = 0) const;
+
+ private:
+  Sums of_echo(double range, double u, double times) const;
+  void add_beam(double range, double u, double u_beam, double weight, std::vector<double>& workspace, Sums& sums) const;
+
+  const SonarHead& head_;
+  std::array<SpectrumNode, 5> nodes_;
+  double cycles_per_m_, off_focus_;
+  std::vector<double> u_beam_, y_, shading_;
+};
+
+}  // namespace insonify

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "beamforming/gridded/tile_lists_internal.hpp"
+#include "beamforming/pulses/pulse_loops_internal.hpp"
+#include "core/parallel.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t min_block = 4096;  // least number of echoes per block of work
+constexpr std::size_t max_blocks = 256;
+
+/// Calls visit(tile, i) for every tile that the pulse of echo i in [first, last) overlaps.
+template <typename Visit>
+void each_tile(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins,
+               std::size_t first, std::size_t last, Visit&& visit) {
+  constexpr std::size_t at_once = 512;
+  std::uint32_t begin[at_once], end[at_once];
+  for (; first < last; first += at_once) {
+    const std::size_t count = std::min(at_once, last - first);
+    kernels::reached_bins(echoes.delay.data() + first, count,
+                          {axis.start, axis.step, reach.half, reach.growth, 0, static_cast<double>(axis.bins)}, begin,
+                          end);
+    for (std::size_t i = 0; i < count; ++i)
+      if (begin[i] < end[i])
+        for (std::size_t t = begin[i] / tile_bins; t <= (end[i] - 1) / tile_bins; ++t) visit(t, first + i);
+  }
+}
+
+}  // namespace
+
+TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins,
+                     int threads) {
+  const std::size_t tiles = (axis.bins + tile_bins - 1) / tile_bins;
+  const std::size_t block = std::max(min_block, (echoes.size() + max_blocks - 1) / max_blocks);
+  const std::size_t blocks = (echoes.size() + block - 1) / block;
+
+  // Count the entries of each block of echoes in each tile.
+  std::vector<std::size_t> next(blocks * tiles, 0);
+  parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
+    std::size_t* count = next.data() + first / block * tiles;
+    each_tile(echoes, axis, reach, tile_bins, first, last, [&](std::size_t t, std::size_t) { ++count[t]; });
+  });
+
+  // Assign positions tile by tile, within a tile block by block, so the lists do not depend on the division into
+  // blocks.
+  begin.assign(1, 0);
+  std::size_t place = 0;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    for (std::size_t k = 0; k < blocks; ++k) {
+      const std::size_t count = next[k * tiles + t];
+      next[k * tiles + t] = place;
+      place += count;
+    }
+    begin.push_back(place);
+  }
+
+  echo.resize(place);
+  parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
+    std::size_t* to = next.data() + first / block * tiles;
+    each_tile(echoes, axis, reach, tile_bins, first, last,
+              [&](std::size_t t, std::size_t i) { echo[to[t]++] = static_cast<std::uint32_t>(i); });
+  });
+}
+
+}  // namespace insonify

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "beamforming/true_delays/true_delay_plan_internal.hpp"
+
+namespace insonify {
+
+/// The wavefront curvature over a block of time, as a short sum of products (E68). An element at y receives a wave from
+/// (r, u) later than the plane wave's delay -y u / c by b / c, with b = sqrt(r^2 - 2 r y u + y^2) - r + y u. At
+/// frequency F the element is at k = F y period / c on the axis of harmonics, and
+///
+///   exp(2 pi i F (b - b0(y)) / c) = sum over terms q of along_q(u, t) sum over s < band[q] of row_qs(k) power_s(F)
+///
+/// power_s is TrueDelayPlan::line_power. b0 is the curvature at one range and direction; echoes and beams of a block
+/// use the same b0, so it cancels. The sum is found from sampled values by elimination and singular values, to a
+/// tolerance relative to their root mean square. The factors also undo the gridding over directions and the
+/// interpolation between harmonics.
+struct CurvatureSeries {
+  std::size_t terms = 0;
+  std::size_t powers = 0;         ///< of time in [-1, 1] over the block, highest first
+  double middle = 0, half = 1;    ///< of the block [s]
+  std::size_t stride = 0;         ///< steps of the grid of directions, filled up to a multiple of 8
+  std::vector<float> along;       ///< terms x powers x 2 (real, imaginary) x stride
+  std::vector<std::size_t> band;  ///< number of powers of frequency of each term, in falling order
+  AlignedFloats rows;             ///< for kernels::RowMix
+  std::vector<std::size_t> ins;   ///< of each out of it,
+  std::size_t most_ins = 0;       ///< out of so many
+};
+
+/// Least-squares fits of functions of frequency by powers of frequency, for each row of harmonics. All blocks of a plan
+/// share them.
+struct RowFits {
+  struct Row {
+    Eigen::VectorXd weight;        ///< of frequencies
+    Eigen::MatrixXd across, root;  ///< root x coefficients = across x weighted values
+    double counts = 0;             ///< weight of the row
+  };
+  Eigen::MatrixXd place;  ///< where rows lie on the array, by row and frequency [m]
+  std::vector<Row> row;
+  double all = 0;  ///< errors are relative to the root of this
+
+  explicit RowFits(const TrueDelayPlan& plan);
+};
+
+/// Returns the series for the echoes of a block from bin `first` to `last`: terms become powers of frequency. Gridding
+/// spreads an echo over the length of its pulse, during which the curvature changes; the series corrects for that.
+CurvatureSeries curvature_of_echoes(const TrueDelayPlan& plan, const RowFits& fits, double first, double last);
+
+/// Returns the conjugate series for the beams of a block: powers of frequency become terms.
+CurvatureSeries curvature_of_beams(const TrueDelayPlan& plan, const RowFits& fits, double first, double last);
+
+}  // namespace insonify
