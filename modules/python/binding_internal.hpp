@@ -11,7 +11,7 @@
 
 #include "core/ordered_work.hpp"
 #include "returns/label_objects.hpp"
-#include "store/key_table_internal.hpp"
+#include "store/key_table.hpp"
 #include "survey/parts_source.hpp"
 #include "tool/run/ping_setup.hpp"
 

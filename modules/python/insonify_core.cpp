@@ -11,7 +11,7 @@
 #include "returns/looks.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "store/environment_file.hpp"
-#include "store/sonar_keys_internal.hpp"
+#include "store/sonar_keys.hpp"
 
 namespace insonify::python {
 namespace {

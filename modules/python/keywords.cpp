@@ -9,9 +9,9 @@
 
 #include "core/error.hpp"
 #include "python/binding_internal.hpp"
-#include "store/environment_keys_internal.hpp"
+#include "store/environment_keys.hpp"
 #include "store/nearest_word.hpp"
-#include "store/sonar_keys_internal.hpp"
+#include "store/sonar_keys.hpp"
 #include "tool/command/run_settings.hpp"
 
 namespace insonify::python {

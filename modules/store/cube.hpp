@@ -15,6 +15,9 @@
 
 namespace insonify {
 
+/// What cubes, manifests and pictures say of pings at their expected level.
+inline constexpr const char* expected_level_text = "expected level, no speckle";
+
 /// The contents of cube.h5: one or more pings of one sonar.
 struct Cube {
   static constexpr int all_bits = 24;  ///< significant bits of a float

@@ -55,7 +55,6 @@ constexpr const char* notes_attribute = "notes";
 constexpr const char* keep_bits_attribute = "keep_bits";
 /// Root attribute that marks a cube whose pressures are roots of expected intensities.
 constexpr const char* expected_level_attribute = "expected_level";
-constexpr const char* expected_level_text = "expected level, no speckle";
 constexpr DatasetName range_name{"/range", "m", "middle of the bins, one way"};
 constexpr DatasetName azimuth_name{"/azimuth", "rad", "of the beams about the z axis of the head, positive to port"};
 constexpr DatasetName elevation_name{"/elevation", "rad", "of the beams above the x-y plane of the head, positive up"};

@@ -3,7 +3,7 @@
 
 #include "acoustics/boundary_count.hpp"
 #include "core/error.hpp"
-#include "store/environment_keys_internal.hpp"
+#include "store/environment_keys.hpp"
 
 namespace insonify {
 namespace {

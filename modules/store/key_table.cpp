@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "store/key_table.hpp"
+
 #include <algorithm>
 #include <sstream>
 
 #include "core/error.hpp"
 #include "core/message.hpp"
-#include "store/key_table_internal.hpp"
 #include "store/nearest_word.hpp"
 
 namespace insonify {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "store/key_table_internal.hpp"
+#include "store/key_table.hpp"
 
 namespace insonify {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "store/key_table_internal.hpp"
+#include "store/key_table.hpp"
 #include "store/materials_file.hpp"
 
 namespace insonify {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "store/key_table_internal.hpp"
+#include "store/key_table.hpp"
 #include "store/mission_file.hpp"
 #include "survey/navigation_errors.hpp"
 #include "survey/waypoint_trajectory.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "store/sonar_keys_internal.hpp"
+#include "store/sonar_keys.hpp"
 #include "store/sourced_values_internal.hpp"
 
 namespace insonify {

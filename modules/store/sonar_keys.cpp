@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include "store/sonar_keys.hpp"
 
-#include "store/sonar_keys_internal.hpp"
+#include <algorithm>
 
 namespace insonify {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "store/key_table_internal.hpp"
+#include "store/key_table.hpp"
 #include "store/sourced_values_internal.hpp"
 
 namespace insonify {

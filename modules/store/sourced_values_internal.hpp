@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "store/sourced_number.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 
 namespace insonify {
 

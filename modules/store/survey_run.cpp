@@ -18,7 +18,7 @@
 #include "files/pending_file.hpp"
 #include "files/sha256.hpp"
 #include "store/run_directory.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 #include "survey/survey_pings.hpp"
 
 namespace insonify {

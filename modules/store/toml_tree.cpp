@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "store/toml_tree.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -13,7 +15,6 @@
 #include "core/text.hpp"
 #include "files/path_status.hpp"
 #include "store/run_directory.hpp"
-#include "store/toml_tree_internal.hpp"
 
 namespace insonify {
 namespace {

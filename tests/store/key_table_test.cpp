@@ -2,11 +2,11 @@
 // The tables of keys of files are those of the docs.
 #include <regex>
 
-#include "store/environment_keys_internal.hpp"
+#include "store/environment_keys.hpp"
 #include "store/material_keys_internal.hpp"
 #include "store/mission_keys_internal.hpp"
 #include "store/scene_file_keys_internal.hpp"
-#include "store/sonar_keys_internal.hpp"
+#include "store/sonar_keys.hpp"
 #include "support/page.hpp"
 #include "support/test.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "beamforming/engine.hpp"
 #include "core/error.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/run_settings.hpp"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "store/key_table_internal.hpp"
+#include "store/key_table.hpp"
 #include "tool/command/option_list.hpp"
 #include "tool/command/options.hpp"
 

@@ -8,7 +8,7 @@
 #include "core/text.hpp"
 #include "store/environment_file.hpp"
 #include "store/sonar_file.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
 #include "tool/info/material_list.hpp"

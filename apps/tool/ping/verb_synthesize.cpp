@@ -12,7 +12,7 @@
 #include "core/units.hpp"
 #include "simulate/plan_ping.hpp"
 #include "store/csv_tables.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/run_settings.hpp"

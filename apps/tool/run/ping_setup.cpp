@@ -18,7 +18,7 @@
 #include "store/material_library.hpp"
 #include "store/materials_file.hpp"
 #include "store/nearest_word.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 #include "survey/mission.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/run_settings.hpp"

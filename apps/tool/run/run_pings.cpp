@@ -13,7 +13,7 @@
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
 #include "store/survey_run.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/run/world_place.hpp"
 

@@ -14,7 +14,7 @@
 #include "scene_io/describe_file.hpp"
 #include "store/output_rules.hpp"
 #include "store/sonar_file.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/run_settings.hpp"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "acoustics/environment.hpp"
-#include "store/key_table_internal.hpp"
+#include "store/key_table.hpp"
 
 namespace insonify {
 

@@ -9,6 +9,7 @@ namespace insonify {
 
 /// A value of a TOML document with its line number.
 struct TomlValue {
+  /// What a value is.
   enum class Kind { boolean, integer, number, text, array, table, date };
   Kind kind = Kind::table;
   int line = 1;
@@ -17,6 +18,7 @@ struct TomlValue {
   std::vector<TomlValue> items{};   ///< of array and table
   std::vector<std::string> keys{};  ///< of table: keys[i] names items[i]
 
+  /// Returns whether it is a number, with or without a fraction.
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
   /// The value of `key`, or nullptr.
   const TomlValue* find(const std::string& key) const;
@@ -31,14 +33,18 @@ template <typename... Parts>
   fail(ErrorKind::content, path, ":", line, ": ", parts...);
 }
 
-/// A value as TOML: text with quotes and escapes, numbers with the fewest digits that read back to the same bits.
+/// Returns a text as TOML, with quotes and escapes.
 std::string as_toml(const std::string& text);
+/// Returns a number as TOML, with the fewest digits that read back to the same bits.
 std::string as_toml(double number);
+/// Returns a list of such numbers as TOML.
 std::string as_toml(const std::vector<double>& numbers);
+/// Returns a value as TOML; a table as a list of its keys in braces, for messages.
 std::string as_toml(const TomlValue& value);
 
-/// The text or number of a key; throws Error(content) with the line if it is missing or of another type.
+/// Returns the text of a key. Throws Error(content) with the line if it is missing or of another type.
 std::string toml_text(const std::string& path, const TomlValue& table, const std::string& key);
+/// Returns the number of a key. Throws as toml_text.
 double toml_number(const std::string& path, const TomlValue& table, const std::string& key);
 
 /// A path named in `file`: as it is if it exists or is absolute, else beside the file or in the folder above, else as

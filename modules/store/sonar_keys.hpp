@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "sonar/sonar_spec.hpp"
-#include "store/key_table_internal.hpp"
+#include "store/key_table.hpp"
 #include "store/sonar_file.hpp"
 
 namespace insonify {

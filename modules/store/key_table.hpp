@@ -13,11 +13,10 @@
 
 #include "core/text.hpp"
 #include "core/units.hpp"
-#include "store/toml_tree_internal.hpp"
+#include "store/toml_tree.hpp"
 
-// Private to store, tool and Python: the keys of TOML files as rows. The rows serve to read, check and write files, to
-// read --set, and to test the tables of the docs. Rows are bound to the object that they read and write, and must not
-// outlive it.
+// The keys of TOML files as rows. The rows serve to read, check and write files, to read --set, and to test the tables of
+// the docs. Rows are bound to the object that they read and write, and must not outlive it.
 namespace insonify {
 
 /// Where a value is. Setting it makes a part that holds it present.
@@ -26,6 +25,7 @@ struct Member {
   std::function<std::optional<T>()> get;  ///< nothing: files omit the key
   std::function<void(const T&)> set;
 
+  /// Reads and writes by functions.
   Member(std::function<std::optional<T>()> getter, std::function<void(const T&)> setter)
       : get(std::move(getter)), set(std::move(setter)) {}
   /// An object of the type, of an optional of it, or of one that it converts to: a count is a number.
@@ -118,8 +118,8 @@ std::vector<std::string> names_of(const std::vector<Key>& keys);
 
 /// The units of a number in files and in memory.
 struct Scale {
-  double (*from_file)(double);
-  double (*to_file)(double);
+  double (*from_file)(double);  ///< to the unit in memory
+  double (*to_file)(double);    ///< to the unit of files
 };
 /// Returns the degrees with the shortest text that reads back to the same radians.
 double shortest_degrees(double angle);
@@ -145,14 +145,22 @@ struct ListRule {
   const char* text = "";                                                  ///< the rule as text; "": of each entry
 };
 
+/// A number in the unit of files that `scale` converts.
 KeyValue number(const Member<double>& number, const NumberRule& rule = {}, const Scale& scale = as_it_is);
-KeyValue angle(const Member<double>& angle, const NumberRule& rule = {});  ///< in degrees in files
+/// An angle, in degrees in files.
+KeyValue angle(const Member<double>& angle, const NumberRule& rule = {});
+/// A list of numbers, each of them obeying `each`, all together obeying `rule`.
 KeyValue list(const Member<std::vector<double>>& numbers, const NumberRule& each = {}, const Scale& scale = as_it_is,
               const ListRule& rule = {});
+/// Three numbers; `meaning` is the rule as text.
 KeyValue vector(const Member<Eigen::Vector3d>& vector, const char* meaning, const Scale& scale = as_it_is);
+/// Points of three coordinates each [m].
 KeyValue points(const Member<std::vector<Eigen::Vector3d>>& points);
+/// Corners of a polygon, of two coordinates each [m].
 KeyValue polygon(const Member<std::vector<Eigen::Vector2d>>& corners);
+/// true or false.
 KeyValue flag(const Member<bool>& flag);
+/// A whole number of 64 bits.
 KeyValue seed(const Member<std::uint64_t>& seed);
 /// Text for which `allowed` returns true; `rule` states the condition.
 KeyValue text(
