@@ -11,6 +11,7 @@
 #include "python/binding_internal.hpp"
 #include "returns/sounding_columns.hpp"
 #include "simulate/plan_ping.hpp"
+#include "survey/mesh_source.hpp"
 
 namespace insonify::python {
 namespace {
@@ -114,7 +115,9 @@ std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const Ping
   const auto draw = static_cast<std::uint64_t>(ping.options.draw);
   if (ping.scene->moving) return ping.scene->moving->at({ping.event.time, draw});
   if (!ping.scene->loaded->mesh) return ping.scene->prepared;
-  tool::MeshSample sample = tool::mesh_sample_for(ping.options, simulator, ping.event, *ping.scene->loaded);
+  const LoadedScene& loaded = *ping.scene->loaded;
+  MeshSample sample =
+      mesh_sample_for(*loaded.mesh, loaded.scene.size(), ping.options.memory_limit, simulator, ping.event);
   if (!sample.scene) return ping.scene->prepared;
   return std::make_shared<const PreparedScene>(std::move(*sample.scene), simulator.options().threads);
 }

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "scene/posed_scene.hpp"
+#include "survey/mesh_source.hpp"
 #include "tool/run/any_scene.hpp"
 #include "tool/run/ping_setup.hpp"
 

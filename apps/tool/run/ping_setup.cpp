@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "files/path_status.hpp"
-#include "sampling/mesh_surfels.hpp"
 #include "simulate/plan_ping.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/csv_tables.hpp"
@@ -19,6 +18,7 @@
 #include "store/materials_file.hpp"
 #include "store/nearest_word.hpp"
 #include "store/toml_tree.hpp"
+#include "survey/mesh_source.hpp"
 #include "survey/mission.hpp"
 #include "tool/command/parse_values.hpp"
 #include "tool/command/run_settings.hpp"
@@ -280,30 +280,10 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
   return resolve_ping(scene, setup.head, {somewhere}, e, {.threads = threads}).view;
 }
 
-MeshSample mesh_sample_for(const PingOptions& o, const PingSimulator& simulator, const PingEvent& event,
-                           const LoadedScene& loaded) {
-  const ResolvedPing ping =
-      resolve_ping(loaded.mesh->whole, simulator.head(), event, simulator.environment(), simulator.options());
-  constexpr double bytes = bytes_to_ping + bytes_of_facet;
-  const auto most =
-      o.memory_limit > 0 ? static_cast<std::size_t>(std::ceil(o.memory_limit * 0x1p30 / bytes)) : default_mesh_surfels;
-  MeshSurfels fine = mesh_surfels(*loaded.mesh, ping.region, ping.head.fan, ping.view.sampling, most);
-  MeshSample sample;
-  if (fine.coarsening > 1)
-    sample.note = fmt::format(
-        "the mesh is sampled by at most {} surfels ({:.2g} GiB), {}; raise --memory-limit, or narrow the range", most,
-        static_cast<double>(most) * bytes / 0x1p30,
-        std::isinf(fine.coarsening)
-            ? fmt::format("fewer than its triangles within reach: an overview of {} surfels is taken",
-                          loaded.scene.size())
-            : fmt::format("which are {} times as large as the beams need", fine.coarsening));
-  if (!std::isinf(fine.coarsening)) sample.scene = std::move(fine.scene);
-  return sample;
-}
-
 void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& loaded) {
   if (!loaded.mesh) return;
-  MeshSample sample = mesh_sample_for(o, setup.simulator(), setup.event, loaded);
+  MeshSample sample =
+      mesh_sample_for(*loaded.mesh, loaded.scene.size(), o.memory_limit, setup.simulator(), setup.event);
   if (!sample.note.empty()) loaded.report.notes.push_back(std::move(sample.note));
   if (sample.scene) loaded.scene = std::move(*sample.scene);
 }

@@ -80,18 +80,8 @@ std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose&
 /// the pose in another frame.
 void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path);
 
-constexpr double bytes_to_ping = 192;  ///< per surfel read: surfel, index, scatterers and echoes
-constexpr double bytes_of_facet = 88;  ///< besides, per surfel of a mesh: its triangle, in the scene and in head axes
-
-/// Surfels of a mesh that a ping needs (E70), within --memory-limit.
-struct MeshSample {
-  std::optional<SceneCloud> scene;  ///< empty: the overview of the mesh
-  std::string note;                 ///< what could not be kept; empty: all is
-};
-MeshSample mesh_sample_for(const PingOptions& options, const PingSimulator& simulator, const PingEvent& event,
-                           const LoadedScene& loaded);
-
-/// Replaces the overview of a mesh by them, with the note; leaves other scenes as they are.
+/// Replaces the overview of a mesh by the surfels that the ping needs, within --memory-limit, with a note on what could
+/// not be kept; leaves other scenes as they are.
 void sample_for_ping(const PingOptions& options, const PingSetup& setup, LoadedScene& loaded);
 
 }  // namespace insonify::tool

@@ -11,6 +11,7 @@
 #include "sampling/scene_cut.hpp"
 #include "scene_io/cloud_field.hpp"
 #include "simulate/resolve_ping.hpp"
+#include "survey/mesh_source.hpp"
 #include "tool/ping/ping_report.hpp"
 #include "tool/run/parts_of_pings.hpp"
 #include "tool/run/scene_reach.hpp"

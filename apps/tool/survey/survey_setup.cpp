@@ -10,6 +10,7 @@
 #include "files/sha256.hpp"
 #include "store/environment_file.hpp"
 #include "store/material_library.hpp"
+#include "survey/mesh_source.hpp"
 #include "tool/command/run_settings.hpp"
 #include "tool/run/scene_files.hpp"
 #include "tool/run/scene_reach.hpp"
@@ -282,7 +283,7 @@ std::shared_ptr<const PreparedScene> SurveyScene::scene_for(const PingSimulator&
     PingScene part = load_ping_scene(options_, simulator, event, *tiles_);
     return std::make_shared<PreparedScene>(std::move(part.loaded.scene), 1);
   }
-  MeshSample fine = mesh_sample_for(options_, simulator, event, loaded_);
+  MeshSample fine = mesh_sample_for(*loaded_.mesh, loaded_.scene.size(), options_.memory_limit, simulator, event);
   if (!fine.scene) return std::make_shared<PreparedScene>(loaded_.scene, 1);
   return std::make_shared<PreparedScene>(std::move(*fine.scene), 1);
 }
