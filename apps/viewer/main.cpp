@@ -4,10 +4,10 @@
 #include <filesystem>
 
 #include "files/path_status.hpp"
+#include "run/parse_values.hpp"
 #include "store/output_rules.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/memory_guard.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/command/program.hpp"
 #include "viewer/show_viewer.hpp"
 #include "viewer/viewer_command.hpp"
@@ -19,9 +19,8 @@ namespace {
 // Checks the command line before reading data.
 ViewerOptions options_of(const ViewerCommand& command) {
   ViewerOptions options;
-  std::tie(options.width, options.height) = tool::parse_size(command.size);
-  tool::in_words_of("--size = " + command.size,
-                    [&] { lay_out_viewer(options.width, options.height, ViewerMode::run, {}); });
+  std::tie(options.width, options.height) = parse_size(command.size);
+  in_words_of("--size = " + command.size, [&] { lay_out_viewer(options.width, options.height, ViewerMode::run, {}); });
   options.events = parse_viewer_script(command.script.empty() ? "" : read_text_file(command.script));
   for (const ViewerEvent& event : parse_viewer_script(command.events)) options.events.push_back(event);
   options.say = [](const std::string& text) {

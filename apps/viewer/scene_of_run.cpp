@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "files/path_status.hpp"
+#include "run/ping_setup.hpp"
+#include "run/run_settings.hpp"
+#include "run_scenes/any_scene.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/scene_file.hpp"
-#include "tool/command/run_settings.hpp"
-#include "tool/run/any_scene.hpp"
-#include "tool/run/parts_of_pings.hpp"
-#include "tool/run/ping_setup.hpp"
 
 namespace insonify::viewer {
 namespace {
@@ -28,19 +28,19 @@ bool belong_together(const Contributors& list, const SceneCloud& scene) {
 }
 
 // Parts are, ping by ping, where they were when it was sent.
-void load_parts_of_run(const ViewerCommand& command, const tool::SceneOptions& options, const std::string& run_folder,
+void load_parts_of_run(const ViewerCommand& command, const SceneOptions& options, const std::string& run_folder,
                        LoadedView& view) {
-  const auto parts = tool::parts_of_run(options, run_folder, command.common.threads);
-  for (const std::string& note : tool::loading_notes(parts->scene().report())) view.notes.push_back(note);
+  const auto parts = parts_of_run(options, run_folder, command.common.threads);
+  for (const std::string& note : loading_notes(parts->scene().report())) view.notes.push_back(note);
   std::vector<SceneMoment> moments;
   for (const TrackPoint& ping : view.data.pings.places()) moments.push_back(parts->moment_of(ping.time, ping.number));
   view.data.scene_of_ping = [parts, moments](std::size_t ping) { return parts->cloud_at(moments.at(ping)); };
-  view.data.view = tool::view_of_run(run_folder, whole_of(*view.data.scene_of_ping(0)), command.common.threads);
+  view.data.view = view_of_run(run_folder, whole_of(*view.data.scene_of_ping(0)), command.common.threads);
 }
 
 void load_scene_of_run(const ViewerCommand& command, const std::string& run_folder, LoadedView& view) {
   if (command.no_scene) return;
-  tool::SceneOptions options = tool::scene_of_run(run_folder);
+  SceneOptions options = scene_of_run(run_folder);
   if (!command.scene.path.empty()) {
     const std::string path = command.scene.path;
     options = command.scene;
@@ -52,14 +52,14 @@ void load_scene_of_run(const ViewerCommand& command, const std::string& run_fold
     return;
   }
   if (is_scene_file(options.path)) return load_parts_of_run(command, options, run_folder, view);
-  LoadedScene loaded = tool::load_any_scene(command.common, options);
-  for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
+  LoadedScene loaded = load_any_scene(command.common, options);
+  for (const std::string& note : loading_notes(loaded.report)) view.notes.push_back(note);
   if (loaded.mesh && !view.data.contributors.empty()) {
-    const tool::PingOptions run = tool::load_ping_settings((fs::path(run_folder) / "run.toml").string());
-    tool::sample_for_ping(run, tool::set_up_ping(run), loaded);
+    const PingOptions run = load_ping_settings((fs::path(run_folder) / "run.toml").string());
+    sample_for_ping(run, set_up_ping(run), loaded);
   }
   view.data.scene = std::move(loaded.scene);
-  view.data.view = tool::view_of_run(run_folder, whole_of(view.data.scene), command.common.threads);
+  view.data.view = view_of_run(run_folder, whole_of(view.data.scene), command.common.threads);
 }
 
 }  // namespace

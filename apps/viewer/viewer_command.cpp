@@ -12,19 +12,19 @@
 #include "core/message.hpp"
 #include "core/text.hpp"
 #include "files/path_status.hpp"
+#include "run/parse_values.hpp"
+#include "run/ping_setup.hpp"
+#include "run/run_checks.hpp"
+#include "run/run_settings.hpp"
+#include "run/scene_reach.hpp"
+#include "run_scenes/any_scene.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/survey_run.hpp"
-#include "tool/command/parse_values.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
-#include "tool/run/any_scene.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "tool/run/record_file.hpp"
-#include "tool/run/run_checks.hpp"
-#include "tool/run/scene_reach.hpp"
 #include "viewer/scene_of_run.hpp"
 #include "viewer/survey_pings.hpp"
 #include "viewer/viewer_state.hpp"
@@ -136,7 +136,7 @@ void choose_start(const ViewerCommand& command, LoadedView& view) {
     fail(ErrorKind::argument, "--ping = ", start.ping, ", must be below ", extent.pings, ", the number of pings in ",
          command.target);
   if (!command.beam.empty()) {
-    const double beam = tool::parse_number("--beam", command.beam);
+    const double beam = parse_number("--beam", command.beam);
     if (!(beam >= 0 && beam < static_cast<double>(extent.beams) && beam == std::floor(beam)))
       fail(ErrorKind::argument, "--beam = ", command.beam, ", must be a whole number below ", extent.beams,
            ", the number of beams");
@@ -219,8 +219,7 @@ LoadedView load_run(const ViewerCommand& command) {
     fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no survey; leave --head out");
   open_cubes({{finished_cube(command.target), ""}}, view);
   for (const char* file : {"cube.h5", "returns.ply", "contributors.h5"})
-    if (const std::string doubt = tool::integrity_problem(command.target, file); !doubt.empty())
-      view.notes.push_back(doubt);
+    if (const std::string doubt = integrity_problem(command.target, file); !doubt.empty()) view.notes.push_back(doubt);
   const fs::path run(command.target), returns = run / "returns.ply";
   load_contributors(run, view);
   if (is_folder(run) && path_exists(returns)) view.data.returns = load_soundings(returns.string());
@@ -237,19 +236,19 @@ LoadedView load_inspection(const ViewerCommand& command) {
   if (command.pose.empty())
     fail(ErrorKind::argument, "--pose must be given to inspect a scene, e.g. --pose=0,0,-3,0,10,0");
   LoadedView view{{}, command.start, {}};
-  tool::HeadSetup setup = tool::set_up_head(command.common, command.run);
+  HeadSetup setup = set_up_head(command.common, command.run);
   view.start.mode = ViewerMode::inspect;
-  view.start.head = head_place(tool::parse_pose(command.pose, command.world) * setup.mount);
+  view.start.head = head_place(parse_pose(command.pose, command.world) * setup.mount);
   view.start.scene_colour = SceneColour::visibility;
   view.data.fan = setup.head.fan;
   view.data.vehicle_from_head = setup.mount;
-  tool::SceneOptions options = command.scene;
+  SceneOptions options = command.scene;
   options.path = command.target;
-  LoadedScene loaded = tool::load_any_scene(command.common, options);
-  for (const std::string& note : tool::loading_notes(loaded.report)) view.notes.push_back(note);
+  LoadedScene loaded = load_any_scene(command.common, options);
+  for (const std::string& note : loading_notes(loaded.report)) view.notes.push_back(note);
   view.data.title = setup.head.name + " before " + fs::path(command.target).filename().string();
   view.data.scene = std::move(loaded.scene);
-  tool::end_range_with_scene(setup, bounds(view.data.scene), pose_of(view.start.head));
+  end_range_with_scene(setup, bounds(view.data.scene), pose_of(view.start.head));
   view.data.gate = setup.head.gate;
   view.data.view =
       resolve_ping(whole_of(view.data.scene), setup.head, {pose_of(view.start.head)}, setup.environment).view;

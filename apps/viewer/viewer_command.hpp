@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "tool/command/options.hpp"
+#include "run/options.hpp"
 #include "viewer/viewer_data.hpp"
 
 namespace insonify::viewer {
 
 /// Options of insonify-view.
 struct ViewerCommand {
-  tool::CommonOptions common;
-  tool::SceneOptions scene;  ///< path: of --scene, or the target itself
-  tool::RunOptions run;      ///< of which sonar, range and environment count
-  std::string target;        ///< run directory, cube.h5, recording, or scene
+  CommonOptions common;
+  SceneOptions scene;  ///< path: of --scene, or the target itself
+  RunOptions run;      ///< of which sonar, range and environment count
+  std::string target;  ///< run directory, cube.h5, recording, or scene
   std::string pose;
   std::string world = "z-up";
   std::string head;   ///< of a survey, or channel of a side-scan's recording; empty: its first

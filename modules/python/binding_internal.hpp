@@ -11,11 +11,11 @@
 
 #include "core/ordered_work.hpp"
 #include "returns/label_objects.hpp"
+#include "run/ping_setup.hpp"
 #include "store/key_table.hpp"
 #include "survey/parts_source.hpp"
-#include "tool/run/ping_setup.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 class PartsOfPings;
 }
 
@@ -32,9 +32,9 @@ struct Keywords {
 struct Sonar;
 Keywords keywords(Sonar& sonar);
 Keywords keywords(Environment& environment);
-Keywords keywords(tool::SceneOptions& options);
+Keywords keywords(SceneOptions& options);
 /// Returns the keywords of a simulator, or of one of its pings.
-Keywords keywords(tool::PingOptions& options, bool of_ping = false);
+Keywords keywords(PingOptions& options, bool of_ping = false);
 
 /// Sets keys by keywords. A keyword is the key, after the name of its section unless that is the main one or no other
 /// section has the key; the units m, Hz, s and m/s at its end may be left out. None leaves a key as it is. Throws
@@ -67,7 +67,7 @@ using By = std::shared_ptr<const struct Simulator>;
 using Of = std::shared_ptr<const struct Scene>;
 /// A scene of parts, which another extension has loaded, at moments.
 struct MovingScene {
-  std::shared_ptr<const tool::PartsOfPings> parts;
+  std::shared_ptr<const PartsOfPings> parts;
   std::function<std::shared_ptr<const PreparedScene>(const SceneMoment&)> at;
   double begin = 0;  ///< time at which all parts are there [s]
   std::uint64_t seed = 1;
@@ -75,12 +75,12 @@ struct MovingScene {
 
 /// A scene that is prepared once for many pings.
 struct Scene {
-  Scene(LoadedScene loaded, tool::SceneOptions how = {}, SceneInstances of = {});
-  Scene(MovingScene of, LoadReport report, tool::SceneOptions how);
+  Scene(LoadedScene loaded, SceneOptions how = {}, SceneInstances of = {});
+  Scene(MovingScene of, LoadReport report, SceneOptions how);
   std::shared_ptr<const LoadedScene> loaded;      ///< of a scene of parts the report alone
   std::shared_ptr<const PreparedScene> prepared;  ///< of a scene of parts as it is when all are there
   std::optional<MovingScene> moving;
-  tool::SceneOptions options;  ///< how it was completed, for run.toml
+  SceneOptions options;  ///< how it was completed, for run.toml
   SceneInstances instances;
 };
 
@@ -88,8 +88,8 @@ struct Scene {
 struct Simulator {
   Simulator(const Sonar& sonar, const Environment& environment, const py::kwargs& keys);
   Sonar sonar;
-  tool::PingOptions options;  ///< for run.toml
-  tool::HeadSetup head;
+  PingOptions options;  ///< for run.toml
+  HeadSetup head;
   SimulationOptions simulation;
   std::optional<PingSimulator> simulator;
 };
@@ -98,7 +98,7 @@ struct Simulator {
 struct MadePing {
   By by;
   Of scene;
-  tool::PingOptions options;  ///< of the simulator, with pose, seed and what to keep
+  PingOptions options;  ///< of the simulator, with pose, seed and what to keep
   PingEvent event{};
   SimulationOptions simulation{};  ///< that was asked for
   SimulatedPing made{};

@@ -83,7 +83,7 @@ void add_heads(py::module_& m) {
 }
 
 void add_scene(py::module_& m) {
-  tool::SceneOptions any;
+  SceneOptions any;
   py::class_<Scene, std::shared_ptr<Scene>> scene(m, "Scene", "A scene that is prepared once for many pings.");
   scene.def(py::init(&scene_of_arrays), "points"_a, py::kw_only(), "normals"_a = py::none(), "areas"_a = py::none(),
             "material"_a = py::none(), "instance"_a = py::none(),
@@ -107,7 +107,7 @@ void add_scene(py::module_& m) {
   add(scene, "given_instances", "dict of int: the id given to an object, by the number that stands for it",
       [](const Scene& s) { return s.instances.renumbered; });
   add(scene, "notes", "list of str: what was dropped, repaired or assumed on loading",
-      [](const Scene& s) { return tool::loading_notes(s.loaded->report); });
+      [](const Scene& s) { return loading_notes(s.loaded->report); });
   const auto load = [](const Path& path, const py::kwargs& keys) { return io("load_scene")(path, **keys); };
   m.def("load_scene", load, "path"_a,
         with_docs("A cloud, mesh, raster or scene of parts from a file, completed with what it lacks.\n\n"
@@ -121,7 +121,7 @@ void add_scene(py::module_& m) {
 }
 
 void add_simulator(py::module_& m) {
-  tool::PingOptions any;
+  PingOptions any;
   py::class_<Simulator, std::shared_ptr<Simulator>> type(m, "PingSimulator", "A head in an environment, checked once.");
   type.def(py::init<const Sonar&, const Environment&, const py::kwargs&>(), "sonar"_a, "environment"_a = Environment{},
            with_docs("A simulator of pings; what forms its beams is made in the first one.", keywords(any)));

@@ -6,14 +6,14 @@
 
 #include "core/error.hpp"
 #include "python/binding_internal.hpp"
+#include "run/run_settings.hpp"
+#include "run/scene_reach.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "scene_io/pcl_bridge.hpp"
 #include "store/scene_file.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/ping/ping_report.hpp"
 #include "tool/ping/ping_run.hpp"
-#include "tool/run/parts_of_pings.hpp"
 #include "tool/run/scene_files.hpp"
-#include "tool/run/scene_reach.hpp"
 #include "view/ping_record.hpp"
 
 namespace insonify::python {
@@ -22,25 +22,25 @@ namespace {
 using namespace py::literals;
 using Path = std::filesystem::path;
 
-std::shared_ptr<Scene> load_parts(const tool::SceneOptions& how, std::uint64_t seed) {
-  tool::require_no_loading_options(how, "says itself how each part is read; give it there");
-  const auto parts = std::make_shared<const tool::PartsOfPings>(how.path, tool::PartsOfPingsOptions{{seed, {}}});
+std::shared_ptr<Scene> load_parts(const SceneOptions& how, std::uint64_t seed) {
+  require_no_loading_options(how, "says itself how each part is read; give it there");
+  const auto parts = std::make_shared<const PartsOfPings>(how.path, PartsOfPingsOptions{{seed, {}}});
   MovingScene moving{parts, [parts](const SceneMoment& moment) { return parts->whole_at(moment); },
                      parts->scene().parts()->begin(), seed};
   return std::make_shared<Scene>(std::move(moving), parts->scene().report(), how);
 }
 
 std::shared_ptr<Scene> load(const Path& path, const py::kwargs& keys) {
-  tool::SceneOptions how;
+  SceneOptions how;
   how.path = path.string();
-  tool::CommonOptions common;
+  CommonOptions common;
   Keywords all = keywords(how);
-  const tool::RunSetting seed = tool::seed_setting(common);
-  all.keys.push_back(tool::keys_of({seed}).front());
+  const RunSetting seed = seed_setting(common);
+  all.keys.push_back(keys_of({seed}).front());
   set_keywords(all, keys, "load_scene");
   const py::gil_scoped_release release;
   if (is_scene_file(how.path)) return load_parts(how, common.seed);
-  LoadedScene loaded = tool::load_any_scene(common, how);
+  LoadedScene loaded = load_any_scene(common, how);
   return std::make_shared<Scene>(std::move(loaded), how, tool::instances_of_scene(how.path));
 }
 
@@ -86,10 +86,10 @@ void complete(const py::capsule& capsule) {
 }
 
 /// The head of a ping as the tool sets it up at its depth.
-tool::HeadSetup head_of(const MadePing& ping) {
+HeadSetup head_of(const MadePing& ping) {
   const Simulator& by = *ping.by;
   const double z = ping.event.world_from_head.translation().z();
-  return tool::set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
+  return set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
 }
 
 /// What the tool notes on the same ping, but for what it notes on loading.
@@ -102,13 +102,13 @@ std::vector<std::string> notes(const MadePing& ping) {
   const auto draw = static_cast<std::uint64_t>(ping.options.draw);
   const Bounds box =
       scene.moving ? scene.moving->parts->scene().box_at(ping.event.time, draw) : bounds(scene.loaded->scene);
-  const tool::PingSetup setup{ping.event, head_of(ping), ping.simulation};
+  const PingSetup setup{ping.event, head_of(ping), ping.simulation};
   std::vector<std::string> all = setup.head.notes;
   const auto add = [&](std::vector<std::string> more) {
     for (std::string& note : more) all.push_back(std::move(note));
   };
-  add(tool::fit_notes(whole, box, setup));
-  const auto places = tool::sampled_places(whole, ping.event.world_from_head);
+  add(fit_notes(whole, box, setup));
+  const auto places = sampled_places(whole, ping.event.world_from_head);
   add(tool::ping_notes(ping.made, setup, places, !ping.options.mount.empty()));
   return all;
 }
@@ -117,17 +117,17 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   const py::gil_scoped_release release;
   const Simulator& by = *ping.by;
   const Scene& scene = *ping.scene;
-  tool::PingOptions o = ping.options;
+  PingOptions o = ping.options;
   o.common.quiet = true;
   o.scene = scene.options;
   o.run.output = path.string(), o.run.force = force, o.run.no_picture = !picture;
-  const tool::HeadSetup head = head_of(ping);
+  const HeadSetup head = head_of(ping);
   const PingSimulator simulator = by.simulator->with(ping.simulation);
   const auto pinged = surfels_of(ping, simulator);
   const SceneCloud& whole = scene.moving ? pinged->scene() : scene.loaded->scene;
   tool::PingInMemory made{ping.made, simulator, *pinged, whole, scene.loaded->report, scene.instances};
   if (scene.moving) {
-    const tool::PartsScene& parts = scene.moving->parts->scene();
+    const PartsScene& parts = scene.moving->parts->scene();
     if (parts.is_random() && scene.moving->seed != o.common.seed)
       fail(ErrorKind::argument, "save: seed = ", o.common.seed, ", but the scene is drawn with seed ",
            scene.moving->seed, ", and a run has one seed; load it by load_scene(path, seed=", o.common.seed, ")");

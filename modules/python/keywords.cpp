@@ -9,10 +9,10 @@
 
 #include "core/error.hpp"
 #include "python/binding_internal.hpp"
+#include "run/run_settings.hpp"
 #include "store/environment_keys.hpp"
 #include "store/nearest_word.hpp"
 #include "store/sonar_keys.hpp"
-#include "tool/command/run_settings.hpp"
 
 namespace insonify::python {
 namespace {
@@ -80,13 +80,13 @@ Keywords keywords(Sonar& sonar) {
   return of;
 }
 Keywords keywords(Environment& environment) { return {environment_keys(environment), "water"}; }
-Keywords keywords(tool::SceneOptions& options) {
-  const auto settings = tool::scene_settings(options);
-  return {tool::keys_of({settings.begin() + 1, settings.end()}), "scene"};  // all but the path
+Keywords keywords(SceneOptions& options) {
+  const auto settings = scene_settings(options);
+  return {keys_of({settings.begin() + 1, settings.end()}), "scene"};  // all but the path
 }
-Keywords keywords(tool::PingOptions& options, bool of_ping) {
-  if (!of_ping) return {tool::keys_of(tool::simulator_settings(options)), "ping"};
-  Keywords of{tool::keys_of(tool::all_settings(options)), "ping"};
+Keywords keywords(PingOptions& options, bool of_ping) {
+  if (!of_ping) return {keys_of(simulator_settings(options)), "ping"};
+  Keywords of{keys_of(all_settings(options)), "ping"};
   const std::vector<std::string> names{"seed", "keep", "contributors", "time", "ping", "draw", "velocity", "turn_rate"};
   std::erase_if(of.keys, [&](const Key& key) { return std::ranges::find(names, key.name) == names.end(); });
   return of;

@@ -82,12 +82,12 @@ py::object for_each_pose(const py::dict& keys, const char* name) {
 
 /// Settles event and options of a ping; returns its simulator.
 PingSimulator settle(MadePing& ping, int threads) {
-  ping.event = tool::asked_event(ping.options);
+  ping.event = asked_event(ping.options);
   ping.simulation = ping.by->simulation;
   ping.simulation.seed = ping.options.common.seed;
   ping.simulation.threads = threads;
-  ping.simulation.outputs = tool::asked_simulation(ping.options.common, ping.options).outputs;
-  tool::require_valid_settings(ping.options, ping.simulation, tool::NamedBy::keyword);
+  ping.simulation.outputs = asked_simulation(ping.options.common, ping.options).outputs;
+  require_valid_settings(ping.options, ping.simulation, NamedBy::keyword);
   return ping.by->simulator->with(ping.simulation);
 }
 
@@ -99,13 +99,13 @@ std::shared_ptr<MadePing> make(MadePing ping, int threads) {
 
 }  // namespace
 
-Scene::Scene(LoadedScene given, tool::SceneOptions how, SceneInstances of)
+Scene::Scene(LoadedScene given, SceneOptions how, SceneInstances of)
     : loaded(std::make_shared<const LoadedScene>(std::move(given))),
       prepared(std::make_shared<const PreparedScene>(std::shared_ptr<const SceneCloud>(loaded, &loaded->scene))),
       options(std::move(how)),
       instances(std::move(of)) {}
 
-Scene::Scene(MovingScene of, LoadReport report, tool::SceneOptions how)
+Scene::Scene(MovingScene of, LoadReport report, SceneOptions how)
     : loaded(std::make_shared<const LoadedScene>(LoadedScene{{}, std::move(report)})),
       prepared(of.at({of.begin, 0})),
       moving(std::move(of)),
@@ -123,14 +123,14 @@ std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const Ping
 }
 
 Simulator::Simulator(const Sonar& of, const Environment& environment, const py::kwargs& keys)
-    : sonar(of), head(tool::set_up_head(of.file, of.spec, environment)) {
+    : sonar(of), head(set_up_head(of.file, of.spec, environment)) {
   set_keywords(keywords(options), keys, "PingSimulator");
   options.run.sonar = sonar.file.path;
-  options.mount = tool::mounting_text(sonar.file);
-  simulation = tool::asked_simulation(options.common, options);
+  options.mount = mounting_text(sonar.file);
+  simulation = asked_simulation(options.common, options);
   for (const std::string& stage : options.with) force_stage(stage, true, {}, head.environment, simulation);
   for (const std::string& stage : options.without) force_stage(stage, false, {}, head.environment, simulation);
-  tool::require_valid_settings(options, simulation, tool::NamedBy::keyword);
+  require_valid_settings(options, simulation, NamedBy::keyword);
   require_depths_known(head.environment, "environment");
   simulator.emplace(head.head, head.environment, simulation);
 }
@@ -153,7 +153,7 @@ std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::objec
   }
   for (std::size_t i = 0; i < arrays.area.size(); ++i)
     if (arrays.area[i] < 0) fail(ErrorKind::argument, "Scene: areas[", i, "] = ", arrays.area[i], ", must be >= 0");
-  tool::SceneOptions how;
+  SceneOptions how;
   set_keywords(keywords(how), keys, "Scene");
   if (py::isinstance<py::str>(material))
     how.material = py::cast<std::string>(material);
@@ -163,7 +163,7 @@ std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::objec
   if (!instance.is_none())
     for (const auto of : whole_numbers<std::uint32_t>(instance, "Scene: instance", n, 4294967294.0))
       given.emplace_back(static_cast<std::uint32_t>(given.size()), of);
-  arrays.options = tool::load_options({}, how);
+  arrays.options = load_options({}, how);
   if (arrays.normal.empty() || arrays.area.empty())
     io("complete")(py::capsule(&arrays));
   else

@@ -25,11 +25,11 @@
 
 #include <unistd.h>
 
+#include "run/run_settings.hpp"
+#include "run_scenes/parts_scene.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/command_line.hpp"
-#include "tool/command/run_settings.hpp"
-#include "tool/run/parts_scene.hpp"
 #include "tool/run/record_file.hpp"
 #include "view/grey_file.hpp"
 #endif
@@ -119,7 +119,7 @@ void ping_mirrors(const std::string& path) { ping_with_four_beams(wall_of({Mater
 
 /// Scenes with more surfels than a ping takes in a few seconds, as of a box of 1 m sampled each 3 mm, are only read.
 void ping_parts(const std::string& path) {
-  const tool::PartsScene scene(path, {.threads = 1});
+  const PartsScene scene(path, {.threads = 1});
   std::size_t surfels = 0;
   for (const PlacedPart& part : scene.placed_at(0)) surfels += part.absent ? 0 : part.cloud->size();
   if (surfels < 700'000) ping_with_four_beams(scene.whole_at(0).scene);
@@ -165,7 +165,7 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"mirrors", ".toml", ping_mirrors, damage_toml},
       {"scene", ".toml", ping_parts, damage_toml},
       {"png", ".png", [](const std::string& path) { load_grey_png(path); }},
-      {"run", ".toml", [](const std::string& path) { tool::load_ping_settings(path); }},
+      {"run", ".toml", [](const std::string& path) { load_ping_settings(path); }},
       {"record", ".xtf", [](const std::string& path) { tool::read_record(path); }},
       {"levels", ".tiles", ping_tiles, damage_tiles},
       {"survey", ".folder", go_on_with_survey, damage_folder},

@@ -7,14 +7,16 @@ cmake_minimum_required(VERSION 3.25)
 set(WALK core files sonar scene sampling acoustics beamforming returns compare simulate survey accuracy)
 # Modules of the walk that may use files and processes.
 set(OPENS_FILES files accuracy)
-set(SIDE_DOORS hdf tiles scene_io store formats view viewer python)
+set(SIDE_DOORS hdf tiles scene_io store run run_scenes formats view viewer python)
 # What a side door may include beside itself and the walk. Python's module is a program as the tool is, and shares with it
 # how settings are read and runs are written (apps/tool).
 set(LENT_TO_tiles hdf)  # both read and write HDF5 files
 set(LENT_TO_store hdf)
 set(LENT_TO_scene_io tiles)  # prepared scenes are scenes
+set(LENT_TO_run scene_io store)  # settings of runs are files; what a scene is loaded with
+set(LENT_TO_run_scenes run scene_io store tiles)
 set(LENT_TO_viewer view)  # built from the parts of still pictures
-set(LENT_TO_python scene_io store view tool)
+set(LENT_TO_python run run_scenes scene_io store view tool)
 
 set(door_flann scene)
 set(door_embree scene)

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "run/ping_setup.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "store/cube.hpp"
 #include "tool/parts_fixture.hpp"
-#include "tool/run/parts_of_pings.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "view/test_pictures.hpp"
 
 namespace {
@@ -21,10 +21,10 @@ TEST_F(DoorsToParts, the_scene_of_a_ping_of_a_survey_is_that_which_was_pinged) {
   merged_cubes("run", {"fls"});
   const Cube cube = read_cube(path("run/fls/cube.h5"));
   ASSERT_GE(cube.pings.size(), 7U);
-  insonify::tool::SceneOptions scene = insonify::tool::scene_of_run(path("run/fls"));
+  insonify::SceneOptions scene = insonify::scene_of_run(path("run/fls"));
   EXPECT_EQ(scene.path, "drawn.toml");
   scene.path = path(scene.path);
-  const auto parts = insonify::tool::parts_of_run(scene, path("run/fls"));
+  const auto parts = insonify::parts_of_run(scene, path("run/fls"));
   std::size_t drawn = 0;
   std::set<std::pair<double, double>> places;
   for (const Ping& ping : cube.pings) {

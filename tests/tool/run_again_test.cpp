@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run.toml makes the same bytes again: every setting is in it and is read back, and the command line overrides it.
+#include "run/run_settings.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/tool_runner.hpp"
 
 using namespace insonify::tool;

@@ -12,10 +12,10 @@
 #include <unistd.h>
 
 #include "core/message.hpp"
+#include "run/run_checks.hpp"
 #include "store/nearest_word.hpp"
 #include "tool/command/exit_code.hpp"
 #include "tool/command/program.hpp"
-#include "tool/run/run_checks.hpp"
 
 namespace insonify::tool {
 

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstdint>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <variant>
-#include <vector>
 
+#include "run/option_rules.hpp"
 #include "tool/command/command_text.hpp"
 
 namespace CLI {
@@ -17,24 +13,6 @@ class App;
 }
 
 namespace insonify::tool {
-
-/// Where the value of an option goes. A bool is a flag: true if it is given, or what --name=false says. An
-/// optional<string> is an option that may stand without a value. A function is called with the value.
-using OptionValue = std::variant<std::string*, double*, int*, std::uint64_t*, bool*, std::vector<std::string>*,
-                                 std::optional<std::string>*, std::function<void(const std::string&)>>;
-
-/// Rules of an option beyond its name, value and help.
-struct OptionRules {
-  bool required = false;
-  std::vector<std::string> words = {};             ///< allowed values; empty: any
-  std::optional<std::pair<int, int>> within = {};  ///< lowest and highest value of an integer
-  bool positive = false;                           ///< of a number: must be > 0
-  bool one_each = false;                           ///< of a list: one entry each time that the option is given
-  bool comma_separated = false;                    ///< of a list: "a,b" is two entries
-  const char* excludes = nullptr;                  ///< an option, added before, that must not stand beside this one
-  const char* group = nullptr;                     ///< title under which --help lists it; "": nowhere
-  const char* shown_as = nullptr;                  ///< the value in --help; null: its type
-};
 
 /// The options of a program or of one of its verbs. Values are written by CommandLine::parse, in the order in which the
 /// options were added; an option that is not given leaves its value as it is. Names with a dash are options

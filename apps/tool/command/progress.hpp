@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "tool/command/options.hpp"
+#include "run/options.hpp"
 #include "tool/command/program.hpp"
 
 namespace insonify::tool {

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "run/ping_setup.hpp"
+#include "run/run_settings.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/sonar_file.hpp"
-#include "tool/command/run_settings.hpp"
-#include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
 

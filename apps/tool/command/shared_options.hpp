@@ -2,9 +2,9 @@
 #pragma once
 #include <optional>
 
+#include "run/options.hpp"
+#include "run/run_settings.hpp"
 #include "tool/command/option_list.hpp"
-#include "tool/command/options.hpp"
-#include "tool/command/run_settings.hpp"
 
 /// Options that several verbs share.
 namespace insonify::tool {

@@ -17,15 +17,15 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "files/path_status.hpp"
+#include "run/ping_setup.hpp"
+#include "run_scenes/any_scene.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "scene/scene_index.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/csv_tables.hpp"
 #include "store/cube.hpp"
 #include "store/scene_file.hpp"
 #include "tool/export/sounding_map.hpp"
-#include "tool/run/any_scene.hpp"
-#include "tool/run/parts_of_pings.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "tool/run/run_pings.hpp"
 
 namespace insonify::tool {

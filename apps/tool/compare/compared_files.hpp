@@ -9,7 +9,7 @@
 #include "compare/resample_image.hpp"
 #include "core/error.hpp"
 #include "core/pose.hpp"
-#include "tool/command/options.hpp"
+#include "run/options.hpp"
 
 /// What `compare` reads.
 namespace insonify::tool {

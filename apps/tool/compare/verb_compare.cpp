@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "run/run_checks.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
@@ -14,7 +15,6 @@
 #include "tool/compare/compare_ranges.hpp"
 #include "tool/compare/compare_soundings.hpp"
 #include "tool/run/record_file.hpp"
-#include "tool/run/run_checks.hpp"
 
 namespace insonify::tool {
 namespace {

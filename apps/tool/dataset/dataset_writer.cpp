@@ -15,12 +15,12 @@
 #include "files/sha256.hpp"
 #include "returns/fan_areas.hpp"
 #include "returns/looks.hpp"
+#include "run/run_checks.hpp"
 #include "store/run_manifest.hpp"
 #include "tool/dataset/box_contrast.hpp"
 #include "tool/dataset/dataset_card.hpp"
 #include "tool/dataset/image_meta.hpp"
 #include "tool/dataset/label_pictures.hpp"
-#include "tool/run/run_checks.hpp"
 #include "view/grey_file.hpp"
 #include "view/label_colours.hpp"
 

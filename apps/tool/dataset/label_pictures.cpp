@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "tool/command/parse_values.hpp"
+#include "run/parse_values.hpp"
 #include "view/label_colours.hpp"
 
 namespace insonify::tool {

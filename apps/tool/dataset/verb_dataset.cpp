@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/message.hpp"
 #include "files/peak_memory.hpp"
-#include "tool/command/parse_values.hpp"
+#include "run/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "tool/command/options.hpp"
+#include "run/options.hpp"
 #include "tool/run/world_place.hpp"
 
 namespace insonify::tool {

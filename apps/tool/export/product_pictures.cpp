@@ -8,8 +8,8 @@
 #include "files/pending_file.hpp"
 #include "formats/grey_fan.hpp"
 #include "returns/looks.hpp"
+#include "run/run_checks.hpp"
 #include "tool/export/product_run.hpp"
-#include "tool/run/run_checks.hpp"
 #include "view/grey_file.hpp"
 #include "view/show_image.hpp"
 

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "returns/looks.hpp"
 #include "returns/quantise.hpp"
+#include "run/run_checks.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/progress.hpp"
@@ -17,7 +18,6 @@
 #include "tool/export/export_product.hpp"
 #include "tool/export/raster_plane.hpp"
 #include "tool/run/record_file.hpp"
-#include "tool/run/run_checks.hpp"
 #include "tool/run/run_pings.hpp"
 #include "view/save_vtk.hpp"
 

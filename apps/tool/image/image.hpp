@@ -7,11 +7,11 @@
 #include <variant>
 #include <vector>
 
+#include "run/options.hpp"
+#include "run/parse_values.hpp"
 #include "sonar/sonar_head.hpp"
 #include "store/cube.hpp"
 #include "tool/command/option_list.hpp"
-#include "tool/command/options.hpp"
-#include "tool/command/parse_values.hpp"
 #include "view/ping_record.hpp"
 
 /// The parts of the verb `image`.

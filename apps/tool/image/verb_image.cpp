@@ -13,15 +13,15 @@
 #include "core/units.hpp"
 #include "files/pending_file.hpp"
 #include "files/sha256.hpp"
+#include "run/parse_values.hpp"
+#include "run/run_checks.hpp"
 #include "store/csv_tables.hpp"
 #include "store/run_directory.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/image/image.hpp"
 #include "tool/run/record_file.hpp"
-#include "tool/run/run_checks.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify::tool {

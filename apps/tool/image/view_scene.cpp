@@ -9,18 +9,18 @@
 
 #include "core/error.hpp"
 #include "files/path_status.hpp"
+#include "run/parse_values.hpp"
+#include "run/ping_setup.hpp"
+#include "run/scene_reach.hpp"
+#include "run_scenes/any_scene.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "sampling/find_holes.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/scene_file.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/image/image.hpp"
-#include "tool/run/any_scene.hpp"
-#include "tool/run/parts_of_pings.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "tool/run/run_files.hpp"
 #include "tool/run/run_pings.hpp"
-#include "tool/run/scene_reach.hpp"
 #include "view/show_scene.hpp"
 
 namespace insonify::tool {

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "run/options.hpp"
 #include "scene/scene_cloud.hpp"
-#include "tool/command/options.hpp"
 
 /// What `info` says of a file or folder: facts by name, and under `next` the commands that go on from there.
 namespace insonify::tool {

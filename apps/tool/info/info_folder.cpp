@@ -9,16 +9,16 @@
 #include "core/error.hpp"
 #include "files/path_status.hpp"
 #include "returns/looks.hpp"
+#include "run/run_settings.hpp"
+#include "run/scene_reach.hpp"
 #include "scene_io/projected_system.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
 #include "store/survey_run.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
 #include "tool/run/run_files.hpp"
 #include "tool/run/run_pings.hpp"
-#include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -8,14 +8,14 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "files/memory_limit.hpp"
+#include "run/ping_setup.hpp"
+#include "run/run_settings.hpp"
+#include "run/scene_reach.hpp"
 #include "scene_io/describe_file.hpp"
 #include "tiles/tiled_scene.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
 #include "tool/info/material_list.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "tool/run/scene_files.hpp"
-#include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -6,14 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
+#include "run/run_settings.hpp"
+#include "run/scene_reach.hpp"
+#include "run_scenes/parts_scene.hpp"
 #include "store/environment_file.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/info/info.hpp"
 #include "tool/info/material_list.hpp"
-#include "tool/run/parts_scene.hpp"
-#include "tool/run/scene_reach.hpp"
 #include "tool/survey/survey_setup.hpp"
 
 namespace insonify::tool {

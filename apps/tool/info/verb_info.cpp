@@ -6,11 +6,11 @@
 
 #include "core/message.hpp"
 #include "files/path_status.hpp"
+#include "run/run_checks.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/info/info.hpp"
 #include "tool/run/record_file.hpp"
-#include "tool/run/run_checks.hpp"
 #include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {

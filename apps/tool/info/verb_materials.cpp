@@ -9,9 +9,9 @@
 
 #include "acoustics/surface_laws.hpp"
 #include "core/error.hpp"
+#include "run/parse_values.hpp"
 #include "store/output_rules.hpp"
 #include "store/run_directory.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"

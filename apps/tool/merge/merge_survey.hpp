@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "tool/command/options.hpp"
+#include "run/options.hpp"
 #include "tool/run/world_place.hpp"
 
 namespace insonify::tool {

@@ -15,10 +15,10 @@
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "returns/image_mosaic.hpp"
+#include "run/parse_values.hpp"
 #include "scene_io/bed_of_returns.hpp"
 #include "store/cube.hpp"
 #include "store/sonar_file.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/export/sounding_map.hpp"
 #include "view/save_vtk.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "files/path_status.hpp"
+#include "run/run_checks.hpp"
 #include "store/merge_cubes_by_time.hpp"
 #include "store/run_directory.hpp"
 #include "store/survey_run.hpp"
@@ -15,7 +16,6 @@
 #include "tool/export/raster_plane.hpp"
 #include "tool/merge/merge_companions.hpp"
 #include "tool/merge/merge_survey.hpp"
-#include "tool/run/run_checks.hpp"
 #include "tool/run/run_pings.hpp"
 #include "tool/run/world_place.hpp"
 

@@ -8,8 +8,8 @@
 
 #include "beamforming/engine.hpp"
 #include "core/units.hpp"
+#include "run/scene_reach.hpp"
 #include "simulate/ping_notes.hpp"
-#include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
 

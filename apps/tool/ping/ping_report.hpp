@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
+#include "run/ping_setup.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/plan_ping.hpp"
-#include "tool/run/ping_setup.hpp"
 
 /// The parts of a ping's manifest, its notes, and its plan.
 namespace insonify::tool {

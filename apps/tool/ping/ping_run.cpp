@@ -9,13 +9,13 @@
 
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
+#include "run/run_checks.hpp"
+#include "run/run_settings.hpp"
+#include "run/scene_reach.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "simulate/ping_notes.hpp"
 #include "store/element_file.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/ping/ping_report.hpp"
-#include "tool/run/run_checks.hpp"
-#include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -7,13 +7,13 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "run/ping_setup.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/ping_plan.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "simulate/simulated_ping.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/progress.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "tool/run/run_files.hpp"
 
 namespace insonify::tool {

@@ -6,13 +6,13 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "run/parse_values.hpp"
+#include "run/ping_setup.hpp"
 #include "sonar/beam_pattern.hpp"
 #include "store/output_rules.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "view/show_image.hpp"
 
 namespace insonify::tool {

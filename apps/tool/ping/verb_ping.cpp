@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/stop_watch.hpp"
+#include "run/run_settings.hpp"
 #include "simulate/ping_simulator.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/ping/ping_run.hpp"

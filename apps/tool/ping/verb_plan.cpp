@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "run/ping_setup.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/ping/ping_report.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {

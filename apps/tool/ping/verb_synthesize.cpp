@@ -10,15 +10,15 @@
 #include "beamforming/synthesize.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
+#include "run/parse_values.hpp"
+#include "run/run_checks.hpp"
+#include "run/run_settings.hpp"
 #include "simulate/plan_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "store/toml_tree.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/run_checks.hpp"
 #include "tool/run/run_files.hpp"
 
 namespace insonify::tool {

@@ -10,13 +10,13 @@
 
 #include "returns/label_objects.hpp"
 #include "returns/ping.hpp"
+#include "run/options.hpp"
+#include "run/ping_setup.hpp"
 #include "simulate/simulated_ping.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
-#include "tool/command/options.hpp"
 #include "tool/command/progress.hpp"
-#include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
 

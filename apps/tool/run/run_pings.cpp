@@ -10,11 +10,11 @@
 #include "core/message.hpp"
 #include "core/units.hpp"
 #include "files/path_status.hpp"
+#include "run/parse_values.hpp"
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
 #include "store/survey_run.hpp"
 #include "store/toml_tree.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/run/world_place.hpp"
 
 namespace insonify::tool {

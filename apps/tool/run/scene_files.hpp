@@ -8,12 +8,12 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "returns/label_objects.hpp"
+#include "run/options.hpp"
+#include "run/ping_setup.hpp"
+#include "run_scenes/any_scene.hpp"
 #include "scene/prepared_scene.hpp"
 #include "scene_io/load_scene.hpp"
 #include "tiles/tiled_scene.hpp"
-#include "tool/command/options.hpp"
-#include "tool/run/any_scene.hpp"
-#include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
 

@@ -6,12 +6,12 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "run/parse_values.hpp"
 #include "scene/objects.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/material_library.hpp"
 #include "store/nearest_word.hpp"
 #include "store/output_rules.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"

@@ -6,6 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/message.hpp"
+#include "run/ping_setup.hpp"
+#include "run/run_settings.hpp"
 #include "scene/thin_scene.hpp"
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -13,10 +15,8 @@
 #include "store/scene_file.hpp"
 #include "tiles/tile_writer.hpp"
 #include "tool/command/progress.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/ping_setup.hpp"
 #include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {

@@ -8,12 +8,12 @@
 
 #include "core/error.hpp"
 #include "files/sha256.hpp"
+#include "run/run_settings.hpp"
+#include "run/scene_reach.hpp"
 #include "store/environment_file.hpp"
 #include "store/material_library.hpp"
 #include "survey/mesh_source.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/run/scene_files.hpp"
-#include "tool/run/scene_reach.hpp"
 #include "tool/run/world_place.hpp"
 
 namespace insonify::tool {

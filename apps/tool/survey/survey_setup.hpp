@@ -7,13 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "run/ping_setup.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 #include "survey/simulate_survey.hpp"
 #include "tiles/tiled_scene.hpp"
 #include "tool/command/progress.hpp"
-#include "tool/run/parts_of_pings.hpp"
-#include "tool/run/ping_setup.hpp"
 
 namespace insonify::tool {
 

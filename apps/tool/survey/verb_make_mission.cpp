@@ -11,18 +11,18 @@
 #include "core/units.hpp"
 #include "files/path_status.hpp"
 #include "files/pending_file.hpp"
+#include "run/parse_values.hpp"
+#include "run/run_settings.hpp"
+#include "run/scene_reach.hpp"
+#include "run_scenes/parts_scene.hpp"
 #include "scene_io/describe_file.hpp"
 #include "store/output_rules.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree.hpp"
-#include "tool/command/parse_values.hpp"
 #include "tool/command/progress.hpp"
-#include "tool/command/run_settings.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/parts_scene.hpp"
 #include "tool/run/scene_files.hpp"
-#include "tool/run/scene_reach.hpp"
 
 namespace insonify::tool {
 namespace {

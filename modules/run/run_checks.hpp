@@ -8,7 +8,7 @@
 
 #include "store/run_directory.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 /// Returns the optional packages that this build has, with their versions, e.g. "Embree 3, GDAL 3.6.2, Python 3.11, VTK 9.1.0".
 std::string built_with();
@@ -33,4 +33,4 @@ RunCheck check_run(const std::string& run, const std::string& only = {});
 /// whose manifest has no digests.
 std::string integrity_problem(const std::string& run, const std::string& file);
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -5,12 +5,12 @@
 #include <string>
 #include <tuple>
 
+#include "run/options.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/scene_file.hpp"
 #include "survey/scene_parts.hpp"
-#include "tool/command/options.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 /// How a scene of parts is loaded.
 struct PartsOptions {
@@ -51,4 +51,4 @@ class PartFiles {
   std::map<Settings, SceneBody> bodies_;
 };
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/run/scene_reach.hpp"
+#include "run/scene_reach.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "core/units.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 using Eigen::Vector3d;
@@ -130,4 +130,4 @@ std::string pose_text(const Vector3d& position, double yaw, double pitch) {
   return text + fmt::format("{:.6g},{:.6g},0", rounded(degrees(yaw), 0.01), rounded(degrees(pitch), 0.01));
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/run/any_scene.hpp"
+#include "run_scenes/any_scene.hpp"
 
 #include <filesystem>
 #include <map>
 
 #include "core/error.hpp"
 #include "files/sha256.hpp"
+#include "run/ping_setup.hpp"
+#include "run/run_settings.hpp"
+#include "run_scenes/parts_scene.hpp"
 #include "store/scene_file.hpp"
 #include "tiles/tiled_scene.hpp"
-#include "tool/command/run_settings.hpp"
-#include "tool/run/parts_scene.hpp"
-#include "tool/run/ping_setup.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 namespace fs = std::filesystem;
 
@@ -48,4 +48,4 @@ void require_no_loading_options(const SceneOptions& o, const std::string& why) {
       fail(ErrorKind::argument, settings[i].option, ": ", o.path, " ", why);
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

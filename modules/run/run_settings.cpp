@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/command/run_settings.hpp"
+#include "run/run_settings.hpp"
 
 #include <fmt/format.h>
 
-#include "tool/command/asked_simulation.hpp"
+#include "run/asked_simulation.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 /// The value of a setting as a key of run.toml has it.
@@ -86,4 +86,4 @@ PingOptions load_ping_settings(const std::string& path) {
   return options;
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

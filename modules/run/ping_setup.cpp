@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/run/ping_setup.hpp"
+#include "run/ping_setup.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,8 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "files/path_status.hpp"
+#include "run/parse_values.hpp"
+#include "run/run_settings.hpp"
 #include "simulate/plan_ping.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/csv_tables.hpp"
@@ -20,10 +22,8 @@
 #include "store/toml_tree.hpp"
 #include "survey/mesh_source.hpp"
 #include "survey/mission.hpp"
-#include "tool/command/parse_values.hpp"
-#include "tool/command/run_settings.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 /// Pose of the vehicle, and its motion if it follows a trajectory.
@@ -288,4 +288,4 @@ void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& 
   if (sample.scene) loaded.scene = std::move(*sample.scene);
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

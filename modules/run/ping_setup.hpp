@@ -8,18 +8,17 @@
 #include <Eigen/Core>
 
 #include "acoustics/multipath_echoes.hpp"
+#include "run/asked_simulation.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "sonar/sonar_spec.hpp"
 #include "store/sonar_file.hpp"
-#include "tool/command/asked_simulation.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
-/// Sonar and environment of a run: presets or files, then --set, then --range. The head does not depend on where it
-/// pings: its bins are fine enough for the slowest sound of the water. Throws Error(argument) for what
-/// environment_at refuses of a head at `head_height` [m], if that is given.
+/// Sonar and environment of a run. The head does not depend on where it pings: its bins are fine enough for the slowest
+/// sound of the water.
 struct HeadSetup {
   SonarSpec spec;
   SonarHead head;
@@ -31,6 +30,8 @@ struct HeadSetup {
   double farthest = std::numeric_limits<double>::infinity();  ///< greatest range of the sonar's file [m]; inf: a run's
   std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
 };
+/// Returns them: presets or files, then --set, then --range. Throws Error(argument) for what environment_at refuses of a
+/// head at `head_height` [m], if that is given.
 HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run,
                       std::optional<double> head_height = std::nullopt);
 /// The same of a sonar and an environment that are read already: `spec` is that of the file, changed perhaps.
@@ -61,6 +62,7 @@ struct PingSetup {
   HeadSetup head;
   SimulationOptions simulation;
 
+  /// Returns the simulator of the head with these options.
   PingSimulator simulator() const { return {head.head, head.environment, simulation}; }
 };
 
@@ -84,4 +86,4 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
 /// not be kept; leaves other scenes as they are.
 void sample_for_ping(const PingOptions& options, const PingSetup& setup, LoadedScene& loaded);
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -6,11 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "run/options.hpp"
+#include "run_scenes/parts_scene.hpp"
 #include "survey/parts_source.hpp"
-#include "tool/command/options.hpp"
-#include "tool/run/parts_scene.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 /// What the draws of a scene of parts follow from.
 struct RunDraws {
@@ -40,6 +40,7 @@ class PartsOfPings : public SceneSource {
   /// Throws as PartsScene.
   explicit PartsOfPings(const std::string& path, const PartsOfPingsOptions& options = {});
 
+  /// Returns the parts with what was read of them.
   const PartsScene& scene() const { return scene_; }
   /// Returns the moment of a ping with this time [s] and number.
   SceneMoment moment_of(double time, std::int64_t number) const {
@@ -66,4 +67,4 @@ class PartsOfPings : public SceneSource {
 /// Error(argument) for options of loading beside it.
 std::shared_ptr<const PartsOfPings> parts_of_run(const SceneOptions& scene, const std::string& run, int threads = 0);
 
-}  // namespace insonify::tool
+}  // namespace insonify

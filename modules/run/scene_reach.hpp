@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "run/ping_setup.hpp"
 #include "scene/scene_cloud.hpp"
-#include "tool/run/ping_setup.hpp"
 
 /// How far a scene reaches from a head: default ranges, and notes on heads that fit it badly.
-namespace insonify::tool {
+namespace insonify {
 
 /// Distance [m] from a head to the farthest corner of the box of a scene, straight or by way of the surface and the
 /// bottom of the environment; 0 for an empty box.
@@ -39,4 +39,4 @@ std::vector<std::string> fit_notes(const SceneCloud& cloud, const Bounds& box, c
 /// A pose as --pose takes it, in millimetres and hundredths of a degree.
 std::string pose_text(const Eigen::Vector3d& position, double yaw, double pitch);
 
-}  // namespace insonify::tool
+}  // namespace insonify

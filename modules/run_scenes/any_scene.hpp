@@ -2,11 +2,11 @@
 #pragma once
 #include <string>
 
+#include "run/options.hpp"
 #include "scene_io/load_scene.hpp"
-#include "tool/command/options.hpp"
 
 /// What is asked of scenes of all kinds: clouds, meshes, tiles and scenes of parts.
-namespace insonify::tool {
+namespace insonify {
 
 /// Loads a scene of any kind: a cloud, a mesh, tiles, or a scene of parts as it is at `time` [s]. Throws as load_scene
 /// and PartsScene; Error(argument) for options of loading beside a scene of parts.
@@ -22,4 +22,4 @@ void require_no_loading_options(const SceneOptions& options, const std::string& 
 /// True for a .tiles file: a scene on disk of which a ping reads only what its fan reaches.
 bool is_tiles(const std::string& path);
 
-}  // namespace insonify::tool
+}  // namespace insonify

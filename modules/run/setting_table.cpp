@@ -7,10 +7,10 @@
 
 #include "beamforming/engine.hpp"
 #include "core/text.hpp"
-#include "tool/command/parse_values.hpp"
-#include "tool/command/run_settings.hpp"
+#include "run/parse_values.hpp"
+#include "run/run_settings.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 std::vector<std::string> words_of_methods() {
@@ -19,7 +19,7 @@ std::vector<std::string> words_of_methods() {
   return words;
 }
 
-const OptionRules scene{.required = true}, file, positive{.positive = true}, stages{.one_each = true};
+const OptionRules scene{.required = true}, file, above_zero{.positive = true}, stages{.one_each = true};
 const OptionRules methods{.words = words_of_methods()};
 const OptionRules worlds{.words = {"z-up", "ned"}};
 const OptionRules samplings{.words = words_of(sampling_words)};
@@ -203,7 +203,7 @@ std::vector<RunSetting> kept_settings(PingOptions& o) {
       {"ping", "memory_limit_gib", "--memory-limit", &o.memory_limit,
        "[GiB] memory for the scene of a ping. Tiles that need more are refused before they are read; default: the "
        "available memory. A mesh that needs more is sampled more coarsely; default: 1.5",
-       positive},
+       above_zero},
       {"ping", "with", "--with", &o.with, "include this stage of the plan; may be given several times", stages},
       {"ping", "without", "--without", &o.without, "leave out this stage of the plan; may be given several times",
        stages},
@@ -271,4 +271,4 @@ std::vector<std::string> input_files(const std::vector<RunSetting>& settings) {
   return files;
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -12,7 +12,7 @@
 
 /// Words of options and what they mean, and parsers of other values. All throw Error(argument) that names option, value
 /// and rule, with an example.
-namespace insonify::tool {
+namespace insonify {
 
 /// The word for the plan's choice among engines, whose words are those of `engines`.
 constexpr const char* planned_word = "planned";
@@ -46,10 +46,11 @@ std::pair<double, double> parse_range(const std::string& text);
 /// "1400x1050" pixels.
 std::pair<int, int> parse_size(const std::string& text);
 
-/// "sonar.beams=256" to ("sonar", "beams", "256").
+/// A value of sonar or environment that --set replaces.
 struct Setting {
   std::string section, key, value;
 };
+/// Returns ("sonar", "beams", "256") of "sonar.beams=256".
 Setting parse_setting(const std::string& text);
 
 /// Runs `body`. What it refuses as an argument begins with `option` in place of the library's function:
@@ -69,4 +70,4 @@ void in_words_of(const std::string& option, const Body& body) {
 /// A whole text as one finite number.
 double parse_number(const std::string& option, const std::string& text);
 
-}  // namespace insonify::tool
+}  // namespace insonify

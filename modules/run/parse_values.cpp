@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/command/parse_values.hpp"
+#include "run/parse_values.hpp"
 
 #include <optional>
 
@@ -7,10 +7,10 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
-std::optional<double> number(std::string_view text) { return finite_number(trimmed(text, " ")); }
+std::optional<double> as_number(std::string_view text) { return finite_number(trimmed(text, " ")); }
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -26,7 +26,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }  // namespace
 
 double parse_number(const std::string& option, const std::string& text) {
-  const auto value = number(text);
+  const auto value = as_number(text);
   if (!value) fail(ErrorKind::argument, option, " = '", text, "' is not a number");
   return *value;
 }
@@ -39,7 +39,7 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
          meaning);
   std::vector<double> values;
   for (const std::string& part : parts) {
-    const auto value = number(part);
+    const auto value = as_number(part);
     if (!value) fail(ErrorKind::argument, option, " = '", text, "': '", part, "' is not a number; give ", meaning);
     values.push_back(*value);
   }
@@ -60,7 +60,7 @@ Pose parse_pose(const std::string& text, const std::string& world, const char* o
 
 std::pair<double, double> parse_range(const std::string& text) {
   const std::vector<std::string> parts = split(text, ':');
-  const auto min = number(parts[0]), max = number(parts.back());
+  const auto min = as_number(parts[0]), max = as_number(parts.back());
   if (parts.size() != 2 || !min || !max)
     fail(ErrorKind::argument, "--range = '", text, "' is not min:max in metres, e.g. --range 0.5:9");
   if (!(*min > 0)) fail(ErrorKind::argument, "--range = '", text, "': min range ", *min, " m must be > 0");
@@ -72,7 +72,7 @@ std::pair<double, double> parse_range(const std::string& text) {
 
 std::pair<int, int> parse_size(const std::string& text) {
   const std::vector<std::string> parts = split(text, 'x');
-  const auto width = number(parts[0]), height = number(parts.back());
+  const auto width = as_number(parts[0]), height = as_number(parts.back());
   if (parts.size() != 2 || !width || !height || *width < 100 || *height < 100 || *width > 16384 || *height > 16384)
     fail(ErrorKind::argument, "--size = '", text, "' is not WIDTHxHEIGHT within 100 and 16384 pixels, e.g. 1400x1050");
   return {static_cast<int>(*width), static_cast<int>(*height)};
@@ -85,4 +85,4 @@ Setting parse_setting(const std::string& text) {
   return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), text.substr(equals + 1)};
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -7,7 +7,7 @@
 #include "scene/asked_meaning.hpp"
 #include "simulate/simulation_options.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 /// Defaults of the library, which are those of the tool.
 inline const SimulationOptions library_options{};
@@ -87,4 +87,4 @@ struct PingOptions {
   std::vector<std::string> with, without;  ///< stages of the plan forced in or out
 };
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/command/asked_simulation.hpp"
+#include "run/asked_simulation.hpp"
 
 #include <algorithm>
 
@@ -7,11 +7,11 @@
 
 #include "beamforming/engine.hpp"
 #include "core/error.hpp"
+#include "run/parse_values.hpp"
+#include "run/run_settings.hpp"
 #include "store/toml_tree.hpp"
-#include "tool/command/parse_values.hpp"
-#include "tool/command/run_settings.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 constexpr int drawn_paths = 64;  // of each kind; more would hide one another
@@ -113,4 +113,4 @@ void require_valid_file(const std::string& path, const PingOptions& options) {
   }
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

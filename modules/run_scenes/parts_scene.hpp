@@ -9,14 +9,14 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "run_scenes/part_files.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "store/scene_file.hpp"
 #include "survey/scene_parts.hpp"
 #include "tiles/tiled_scene.hpp"
-#include "tool/run/part_files.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 /// A scene of parts with all its files. Captured .tiles stay on disk: of them the ground beneath the parts is read, then
 /// what each ping reaches.
@@ -27,7 +27,9 @@ class PartsScene {
   PartsScene(const PartsScene&) = delete;
   PartsScene& operator=(const PartsScene&) = delete;
 
+  /// Returns the scene as its file describes it.
   const SceneFile& file() const { return file_; }
+  /// Returns the parts with their surfels, but for tiles.
   const std::shared_ptr<const SceneParts>& parts() const { return parts_; }
   /// Returns what was read of all files, and the notes on each.
   const LoadReport& report() const { return report_; }
@@ -66,4 +68,4 @@ class PartsScene {
   std::shared_ptr<const SceneParts> parts_;
 };
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/run/part_files.hpp"
+#include "run_scenes/part_files.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -8,13 +8,13 @@
 
 #include "core/error.hpp"
 #include "files/memory_limit.hpp"
+#include "run/ping_setup.hpp"
+#include "run_scenes/any_scene.hpp"
+#include "run_scenes/parts_scene.hpp"
 #include "sampling/mesh_surfels.hpp"
 #include "scene/thin_scene.hpp"
-#include "tool/run/any_scene.hpp"
-#include "tool/run/parts_scene.hpp"
-#include "tool/run/ping_setup.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 constexpr double least_spacing = 0.002, most_spacing = 0.05, spacings_of_diagonal = 50;
@@ -140,4 +140,4 @@ SceneBody PartFiles::read(const PartFile& file, bool captured) {
   return body;
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

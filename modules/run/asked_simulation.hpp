@@ -2,10 +2,10 @@
 #pragma once
 #include <string>
 
-#include "tool/command/options.hpp"
+#include "run/options.hpp"
 
 /// Options of the command line, or settings of a file, as options of the library.
-namespace insonify::tool {
+namespace insonify {
 
 /// What the options ask of a simulator; the plan of a ping decides the rest.
 SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& options);
@@ -16,6 +16,7 @@ SynthesisSettings asked_synthesis(const RunOptions& options);
 /// Whether --keep names `what`.
 bool keeps(const PingOptions& options, const std::string& what);
 
+/// By what messages name a setting: --detail-width, or detail_width.
 enum class NamedBy { option, keyword };
 
 /// Throws Error(argument) for a problem of `simulation`, which was made of `options`. The message names the option of
@@ -27,4 +28,4 @@ void require_valid_settings(const PingOptions& options, const SimulationOptions&
 /// message names line and key: "run.toml:7: ping.detail_width = -1, must be within 0 and 4".
 void require_valid_file(const std::string& path, const PingOptions& options);
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/run/parts_scene.hpp"
+#include "run_scenes/parts_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "run/ping_setup.hpp"
+#include "run_scenes/any_scene.hpp"
 #include "scene/posed_scene.hpp"
 #include "survey/mesh_source.hpp"
-#include "tool/run/any_scene.hpp"
-#include "tool/run/ping_setup.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 using Eigen::Vector3d;
@@ -222,4 +222,4 @@ ordered_json PartsScene::parts_json(double time, std::uint64_t draw) const {
   return list;
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

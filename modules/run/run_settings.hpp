@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "run/option_rules.hpp"
+#include "run/options.hpp"
 #include "store/key_table.hpp"
-#include "tool/command/option_list.hpp"
-#include "tool/command/options.hpp"
 
 /// The settings of a run that run.toml records as they were given. Each is one row of a table, from which the options
 /// of the command line, the keys of run.toml and their checks are made.
-namespace insonify::tool {
+namespace insonify {
 
 /// A setting: what run.toml and the command line call it, where its value is, and what it may be.
 struct RunSetting {
@@ -42,8 +42,9 @@ std::vector<RunSetting> simulator_settings(PingOptions& options);
 std::vector<RunSetting> mission_settings(PingOptions& options);
 /// The seed.
 RunSetting seed_setting(CommonOptions& options);
-/// The budget of what is left out, and the order of absorption: of [ping], or of another section.
+/// The budget of what is left out: of [ping], or of another section.
 RunSetting accuracy_setting(double& accuracy_db, const char* section = "ping");
+/// The order of absorption, in the same way.
 RunSetting absorption_setting(int& order, const char* section = "ping");
 /// All settings of a ping, in the order of run.toml.
 std::vector<RunSetting> all_settings(PingOptions& options);
@@ -69,4 +70,4 @@ PingOptions load_mission_settings(const std::string& path);
 /// Reads [scene] alone, in the same way.
 SceneOptions load_scene_settings(const std::string& path);
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/run/parts_of_pings.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 
 #include <filesystem>
 
 #include "core/error.hpp"
 #include "files/memory_limit.hpp"
 #include "files/path_status.hpp"
+#include "run/run_checks.hpp"
+#include "run/run_settings.hpp"
+#include "run_scenes/any_scene.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
-#include "tool/command/run_settings.hpp"
-#include "tool/run/any_scene.hpp"
-#include "tool/run/run_checks.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 namespace fs = std::filesystem;
 
@@ -81,4 +81,4 @@ std::shared_ptr<const PartsOfPings> parts_of_run(const SceneOptions& scene, cons
   return std::make_shared<const PartsOfPings>(scene.path, PartsOfPingsOptions{draws_of_run(run), threads});
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

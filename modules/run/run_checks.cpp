@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/run/run_checks.hpp"
+#include "run/run_checks.hpp"
 
 #include <filesystem>
 #include <map>
@@ -12,7 +12,7 @@
 #include "store/run_manifest.hpp"
 #include "store/survey_run.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ std::string integrity_problem(const std::string& run, const std::string& file) {
   return check.problems.empty() ? "" : run + ": " + check.problems.front() + " since the run was made";
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

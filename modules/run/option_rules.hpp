@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace insonify {
+
+/// Where the value of an option goes. A bool is a flag: true if it is given, or what --name=false says. An
+/// optional<string> is an option that may stand without a value. A function is called with the value.
+using OptionValue = std::variant<std::string*, double*, int*, std::uint64_t*, bool*, std::vector<std::string>*,
+                                 std::optional<std::string>*, std::function<void(const std::string&)>>;
+
+/// Rules of an option beyond its name, value and help.
+struct OptionRules {
+  bool required = false;
+  std::vector<std::string> words = {};             ///< allowed values; empty: any
+  std::optional<std::pair<int, int>> within = {};  ///< lowest and highest value of an integer
+  bool positive = false;                           ///< of a number: must be > 0
+  bool one_each = false;                           ///< of a list: one entry each time that the option is given
+  bool comma_separated = false;                    ///< of a list: "a,b" is two entries
+  const char* excludes = nullptr;                  ///< an option, added before, that must not stand beside this one
+  const char* group = nullptr;                     ///< title under which --help lists it; "": nowhere
+  const char* shown_as = nullptr;                  ///< the value in --help; null: its type
+};
+
+}  // namespace insonify
