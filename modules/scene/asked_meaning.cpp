@@ -10,7 +10,7 @@
 namespace insonify {
 namespace {
 
-/// Numbers with commas between them. Throws Error(argument) which says what the option must be.
+/// Returns the numbers of a list with commas. Throws Error(argument) that states the rule of the option.
 std::vector<double> numbers_of(const char* option, const std::string& text, const char* rule) {
   std::vector<double> numbers;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -32,7 +32,7 @@ double parse_unit(const std::string& text) {
   return *value;
 }
 
-/// Whether `text` is the first of two words. Throws Error(argument) if it is neither.
+/// Returns true if `text` is the first of two words. Throws Error(argument) if it is neither.
 bool is_first(const char* option, const std::string& text, const char* first, const char* second) {
   if (text != first && text != second)
     fail(ErrorKind::argument, option, " = '", text, "' must be ", first, " or ", second);

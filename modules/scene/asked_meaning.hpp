@@ -15,7 +15,7 @@ using PointClasses = std::bitset<256>;
 /// convention of its format.
 struct AskedMeaning {
   std::optional<double> unit;  ///< [m] of one unit of all coordinates
-  std::optional<bool> z_down;  ///< z is a depth: it counts downwards
+  std::optional<bool> z_down;  ///< true: z is a depth and counts downwards
   std::optional<bool> y_up;    ///< the y axis points up: (x, y, z) becomes (x, -z, y)
   std::string band;            ///< number from 1, or name, of the band or variable of a raster that holds the heights
   std::optional<std::vector<double>> no_data;  ///< heights that mark holes [units of the file]; may be none
@@ -31,8 +31,8 @@ struct MeaningText {
 
 /// A row of the table of MeaningText.
 struct MeaningOption {
-  const char* key;     ///< in TOML files and Python
-  const char* option;  ///< on the command line
+  const char* key;     ///< key in TOML files and Python
+  const char* option;  ///< option of the command line
   std::string MeaningText::*text;
   const char* help;
 };

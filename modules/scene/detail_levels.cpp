@@ -21,22 +21,22 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr int finest_below_spacing = 3;  // halvings of the spacing
+constexpr int finest_below_spacing = 3;  // halvings of the spacing down to the finest cells
 constexpr std::size_t entries_at_once = 1 << 14;
 constexpr std::size_t roots_per_block = 64;
 
 /// A surfel or node that no other node holds yet.
 struct Entry {
-  std::uint64_t code;   // of its finest cell
-  std::uint32_t index;  // as of DetailLevels::child
+  std::uint64_t code;   // Morton code of its finest cell
+  std::uint32_t index;  // number as in DetailLevels::child
 };
 
-/// Finest cells: coordinates are counted from far below, so that they are not negative.
+/// Morton codes of finest cells. Coordinates are counted from far below, so that they are not negative.
 class FinestCells {
  public:
   explicit FinestCells(double spacing) : exponent_(std::ilogb(finest_cell(spacing))) {}
   double edge(int level) const { return std::ldexp(1.0, exponent_ + level); }
-  /// Whether a point has a code; those too far from the origin have none.
+  /// Returns true if a point has a code. Points too far from the origin have none.
   bool holds(const Vector3f& p) const {
     return (p.cast<double>() / edge(0)).cwiseAbs().maxCoeff() < (1 << (morton_bits - 1)) - 1;
   }
@@ -52,11 +52,11 @@ class FinestCells {
   int exponent_;
 };
 
-/// What one part of a level became.
+/// The result of merging one run of a level's cells.
 struct LevelPart {
   std::vector<DetailNode> nodes;
   std::vector<std::uint32_t> children;
-  std::vector<Entry> open, closed;  // `index` of a new node: new_node + its number in `nodes`
+  std::vector<Entry> open, closed;  // the index of a new node is new_node + its number in `nodes`
 };
 
 constexpr std::uint32_t new_node = std::uint32_t{1} << 31;  // above all numbers of surfels and nodes
@@ -87,7 +87,7 @@ void merge_cell(const MergedPieces& pieces, std::span<const Entry> cell, double 
   }
 }
 
-/// First entries of parts that do not divide a cell of this level.
+/// Divides the entries into runs that share no cell of this level. Returns the first entry of each run, and the end.
 std::vector<std::size_t> part_begins(const std::vector<Entry>& entries, int shift) {
   std::vector<std::size_t> begin{0};
   for (std::size_t at = entries_at_once; at < entries.size(); at = begin.back() + entries_at_once) {
@@ -99,7 +99,7 @@ std::vector<std::size_t> part_begins(const std::vector<Entry>& entries, int shif
   return begin;
 }
 
-/// The surfels along the curve; those too far out are roots.
+/// Returns the surfels as entries, sorted along the Morton curve. Surfels without a code become roots.
 std::vector<Entry> entries_of(const SceneCloud& scene, const FinestCells& cells, int threads,
                               std::vector<std::uint32_t>& roots) {
   std::vector<Entry> entries;
@@ -117,9 +117,8 @@ std::vector<Entry> entries_of(const SceneCloud& scene, const FinestCells& cells,
   return entries;
 }
 
-/// Adds what a part of a level became.
+/// Appends the result of one run to the levels, with the numbers of its nodes and children counted among all.
 void take(const LevelPart& part, DetailLevels& levels, std::vector<Entry>& open, std::vector<Entry>& closed) {
-  // The numbers that nodes and children have among all.
   const auto nodes_before = static_cast<std::uint32_t>(levels.surfels + levels.node.size());
   const auto children_before = static_cast<std::uint32_t>(levels.child.size());
   for (DetailNode node : part.nodes) {
@@ -134,7 +133,7 @@ void take(const LevelPart& part, DetailLevels& levels, std::vector<Entry>& open,
   }
 }
 
-/// Merges what is open and lies in one cell of a level, in parts that divide no cell.
+/// Merges the open entries that share a cell of this level. Threads work on runs that share no cell.
 void merge_level(const SceneCloud& scene, int level, double edge, int threads, DetailLevels& levels,
                  std::vector<Entry>& open, std::vector<Entry>& closed) {
   const int shift = 3 * level;
@@ -182,7 +181,7 @@ DetailLevels detail_levels(const SceneCloud& scene, double spacing, int threads)
   for (int level = 0; spacing > 0 && level <= detail_doublings; ++level)
     merge_level(scene, level, cells.edge(level), threads, levels, open, closed);
 
-  // What no node holds, along the curve again.
+  // Sort the roots that the last level left along the curve again.
   open.insert(open.end(), closed.begin(), closed.end());
   radix_sort(open, 0, 3 * morton_bits, [](const Entry& e) { return e.code; });
   for (const Entry& e : open) levels.root.push_back(e.index);

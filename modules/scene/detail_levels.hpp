@@ -27,20 +27,20 @@ struct DetailNode {
   float thickness = 0;        ///< largest distance of a child's centre from the plane, plus its thickness [m]
   float resultant = 0;        ///< length of the area-weighted mean of the surfels' normals
   SymmetricMatrix normals{};  ///< area-weighted mean of n n^T over the surfels' normals n
-  std::uint32_t nearest = 0;  ///< surfel for which the child nearest to `point` stands; the node has its id
-  Eigen::Vector3f place = Eigen::Vector3f::Zero();  ///< of that surfel [m], relative to the scene's origin
-  float own_area = 0;                               ///< of that surfel [m^2]
-  std::uint32_t first_child = 0;                    ///< in DetailLevels::child
-  std::uint16_t children = 0;                       ///< number of them
-  std::uint16_t material = 0;                       ///< of all of them
-  float cell = 0;                                   ///< edge of the cubic cell that holds their centres [m]
+  std::uint32_t nearest = 0;  ///< surfel that the child nearest to `point` stands for; the node has its id
+  Eigen::Vector3f place = Eigen::Vector3f::Zero();  ///< centre of that surfel [m], relative to the scene's origin
+  float own_area = 0;                               ///< area of that surfel [m^2]
+  std::uint32_t first_child = 0;                    ///< index into DetailLevels::child
+  std::uint16_t children = 0;                       ///< number of children
+  std::uint16_t material = 0;                       ///< material of all surfels below
+  float cell = 0;                                   ///< edge of the cubic cell that holds the children's centres [m]
 };
 
 /// Consecutive roots of the levels, and a bounding ball of the surfels below them.
 struct DetailBlock {
   Eigen::Vector3f centre;            ///< [m], relative to the scene's origin
   float radius = 0;                  ///< [m]
-  float largest_area = 0;            ///< of a surfel [m^2]
+  float largest_area = 0;            ///< area of the largest surfel [m^2]
   std::uint32_t begin = 0, end = 0;  ///< range of DetailLevels::root
 };
 
@@ -50,15 +50,15 @@ struct DetailBlock {
 ///
 /// Within a cell, children of one material whose normals lie within 30 degrees of each other are merged if together
 /// they are one compact, flat piece. Such a piece is no thicker than a tenth of its extent, and neither sparse nor in
-/// several sheets: its area is 0.65 to 1.75 times that of a square with the same moment. Rods, nets and rough ground may
-/// fail this test in one cell and merge in a larger one; otherwise their surfels stay single (rows of single surfels
-/// merge in pairs).
+/// several sheets: its area is 0.65 to 1.75 times that of a square with the same moment. Rods, nets and rough ground
+/// may fail this test in one cell and merge in a larger one; otherwise their surfels stay single (rows of single
+/// surfels merge in pairs).
 struct DetailLevels {
-  std::size_t surfels = 0;           ///< of the scene
+  std::size_t surfels = 0;           ///< number of surfels in the scene
   std::vector<DetailNode> node;      ///< each stands for at least two children
-  std::vector<std::uint32_t> child;  ///< of all nodes: below `surfels`, a surfel; else `surfels` + the index of a node
+  std::vector<std::uint32_t> child;  ///< by node: below `surfels`, a surfel; else `surfels` + index of a node
   std::vector<std::uint32_t> root;   ///< nodes and surfels without a parent, along a Morton curve; numbered as `child`
-  std::vector<DetailBlock> block;    ///< of roots
+  std::vector<DetailBlock> block;    ///< blocks of roots
 };
 
 /// Returns d^T m d: for the normals of a node, the mean square cosine of the angle between them and `d`.

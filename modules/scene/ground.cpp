@@ -18,10 +18,10 @@ using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
 
 namespace {
 
-constexpr double touching = 1e-5;      // below the ground by so much is on it [m]
-constexpr double least_support = 0.5;  // part of the footprint that must have ground
-constexpr double free_spacings = 3;    // above the ground beneath a part by so much: nothing touches
-constexpr int cells_across = 100;      // of a footprint, of which the lowest surfels are looked at
+constexpr double touching = 1e-5;      // depth below the ground that counts as on it [m]
+constexpr double least_support = 0.5;  // fraction of the footprint that must have ground
+constexpr double free_spacings = 3;    // height above the ground beyond which nothing touches, in spacings
+constexpr int cells_across = 100;      // cells across a footprint; the lowest surfel of each is tested
 
 void require_surfels(const PlacedPart& part, const char* who) {
   if (!part.cloud || part.cloud->size() == 0) fail(ErrorKind::argument, who, ": part '", part.name, "' has no surfels");
@@ -29,7 +29,7 @@ void require_surfels(const PlacedPart& part, const char* who) {
     fail(ErrorKind::argument, who, ": the pose of part '", part.name, "' must be finite");
 }
 
-/// The square of a grid that holds a place.
+/// Returns the square of a level's grid that holds a position.
 std::array<double, 3> square_of(const Vector2d& place, int level) {
   const double side = std::ldexp(1.0, level);
   return {static_cast<double>(level), std::floor(place.x() / side), std::floor(place.y() / side)};
@@ -43,7 +43,7 @@ void Ground::add(const PlacedPart& part) {
     const Bounds box = bounds(*part.cloud);
     captured_box_ = {captured_box_.min.cwiseMin(box.min), captured_box_.max.cwiseMax(box.max)};
   }
-  // A part that stands where another one does adds no ground.
+  // Surfels that coincide with those of another part add no ground.
   auto added = std::make_shared<const Sheet>(part);
   std::vector<std::size_t>& alike = by_hash_[added->hash()];
   if (std::ranges::any_of(alike, [&](std::size_t other) { return sheets_[other]->coincides(*added); })) return;
@@ -62,7 +62,7 @@ void Ground::add(const PlacedPart& part) {
 }
 
 std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
-  // The first sheet of those that are equally high.
+  // Of equally high sheets the first one counts.
   std::optional<GroundPlace> top;
   std::size_t topmost = 0;
   for (const int level : levels_) {
@@ -80,13 +80,13 @@ std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
 
 namespace {
 
-/// How far a surfel is above the ground [m].
+/// Height of a surfel above the ground [m].
 struct Meeting {
   std::uint32_t surfel;
   double height;
 };
 
-/// The lowest surfels of a part, one of each cell of its footprint: cells of two spacings of the ground.
+/// Returns the lowest surfel of each cell of a part's footprint. Cells are two spacings of the ground wide.
 std::vector<Vector3d> underside(const PlacedPart& part, double spacing) {
   Bounds box;
   for_each_surfel(part, [&](std::size_t, const Vector3d& p) { box = {box.min.cwiseMin(p), box.max.cwiseMax(p)}; });
@@ -107,7 +107,8 @@ std::vector<Vector3d> underside(const PlacedPart& part, double spacing) {
        " (a hole of the scan, or beyond its end); move it, or give its height: position_m = [x, y, z]");
 }
 
-/// The ground at each of the places, which must be there at the part's own place and under half of its footprint.
+/// Returns the ground below each of `places`. Throws Error(content) without ground below the part or half its
+/// footprint.
 std::vector<std::optional<GroundPlace>> ground_under(const PlacedPart& part, const Ground& ground,
                                                      const std::vector<Vector3d>& places) {
   const Vector3d own = part.world_from_part.translation();
@@ -120,7 +121,7 @@ std::vector<std::optional<GroundPlace>> ground_under(const PlacedPart& part, con
   return under;
 }
 
-/// The upward normal of the plane z = a x + b y + c that fits the ground under a footprint best.
+/// Returns the upward normal of the plane z = a x + b y + c that is fitted to the ground under a footprint.
 Vector3d normal_under(const Ground& ground, const Vector3d& own, const std::vector<Vector3d>& places,
                       const std::vector<std::optional<GroundPlace>>& under) {
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -150,7 +151,7 @@ std::optional<PlacedPart> place_on_ground(PlacedPart part, const Ground& ground,
     part.world_from_part.linear() =
         Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up) * part.world_from_part.linear();
   }
-  // Heights are looked up where the part may touch or be buried: near what a coarse look at its underside says.
+  // Look up heights only where the part may touch or be buried, judged by the ground below its lowest surfels.
   const std::vector<Vector3d> places = underside(part, ground.spacing());
   const auto under = ground_under(part, ground, places);
   double least = -std::numeric_limits<double>::infinity(), top = least;
@@ -164,7 +165,7 @@ std::optional<PlacedPart> place_on_ground(PlacedPart part, const Ground& ground,
     meetings.push_back({static_cast<std::uint32_t>(i), here ? p.z() - here->height : free});
     if (here) shift = std::max(shift, here->height - p.z());
   });
-  // Lowered, or raised, until the first surfel touches; then as deep as it is buried. What is below is not there.
+  // Shift the part until its first surfel touches, then bury it. Surfels below the ground are left out.
   part.world_from_part.translation().z() += shift - bury;
   std::vector<std::uint32_t> above;
   for (const Meeting& m : meetings)

@@ -28,9 +28,10 @@ struct GroundPlace {
 /// threads may query it at once. Copies share the parts.
 class Ground {
  public:
-  /// Adds the surfels of a part; one that coincides with a part that was added costs no more time in at(). Throws Error(argument) for a part without surfels or with a pose that is not finite.
+  /// Adds the surfels of a part. A part that coincides with an earlier one costs no more time in at(). Throws
+  /// Error(argument) for a part without surfels or with a pose that is not finite.
   void add(const PlacedPart& part);
-  /// True if there is no surfel.
+  /// Returns true if there is no surfel.
   bool empty() const { return sheets_.empty(); }
   /// Returns the mean spacing of the surfels in the part with the widest spacing [m]; 0 if there is no surfel.
   double spacing() const { return spacing_; }
@@ -46,8 +47,8 @@ class Ground {
  private:
   struct Sheet;
   std::vector<std::shared_ptr<const Sheet>> sheets_;
-  /// Numbers of the sheets that may have ground in a square, by level, x and y of the square in units of its side, which
-  /// is 2^level m. A sheet is listed at one level, at which it reaches into two squares along x and along y at most.
+  /// Numbers of the sheets that may have ground in a square, by level, x and y of the square in units of its side of
+  /// 2^level m. A sheet is listed at one level, at which it reaches into two squares along x and along y at most.
   std::map<std::array<double, 3>, std::vector<std::size_t>> squares_;
   std::set<int> levels_;
   std::unordered_map<std::size_t, std::vector<std::size_t>> by_hash_;  // numbers of sheets

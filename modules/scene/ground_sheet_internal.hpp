@@ -16,7 +16,7 @@
 // Private to scene: the ground of one part.
 namespace insonify {
 
-/// Calls use(i, position in the world) for the surfels of a part that are there.
+/// Calls use(i, world position) for each surfel of a part that is in the scene.
 template <typename Use>
 void for_each_surfel(const PlacedPart& part, const Use& use) {
   const SceneCloud& cloud = *part.cloud;
@@ -29,20 +29,20 @@ void for_each_surfel(const PlacedPart& part, const Use& use) {
     for (const std::uint32_t i : part.surfels) use(i, place(i));
 }
 
-/// What a surfel says of the height at a place beside it.
+/// Height of the ground at a query position by the tangent plane of one surfel.
 struct HeightHint {
   double height, distance, noise;
   Eigen::Vector3d normal;
-  bool reaches;  ///< the place is within what the surfel stands for
+  bool reaches;  ///< true: the query lies on the surfel's own patch
 };
 
-/// The surfels of one part, found by x and y.
+/// The surfels of one part with an index over x and y.
 struct Ground::Sheet {
   static constexpr double hole_spacings = 3, reach_spacings = 1.25, weight_of_reach = 0.6;
   static constexpr double most_of_mean = 4;  // a surfel's spacing counts as within a factor of the mean one
-  // Below the top of a sheet by a spacing and so many deviations: another sheet.
+  // Surfels more than a spacing and four deviations below the top of a sheet belong to another sheet.
   static constexpr double sheet_noises = 4;
-  // Of a normal: steeper surfels than 80 degrees have no height beside themselves.
+  // Smallest z of a normal: steeper surfels than 80 degrees give no height beside themselves.
   static constexpr double least_rise = 0.17;
 
   explicit Sheet(const PlacedPart& part) {
@@ -91,7 +91,7 @@ struct Ground::Sheet {
     return std::clamp(static_cast<double>(own), mean_spacing / most_of_mean, mean_spacing * most_of_mean);
   }
 
-  /// The tangent plane of a surfel holds about as far as the surfel reaches in it: of a steep one not far to the side.
+  /// Returns the height by the tangent plane of a surfel. A steep surfel reaches less far to the side.
   HeightHint hint_of(const Eigen::Vector3f& query, const Neighbour& neighbour) const {
     const std::uint32_t i = neighbour.index;
     const Eigen::Vector3d d = (query - place[i]).cast<double>(), n = normal[i].cast<double>();
@@ -109,7 +109,8 @@ struct Ground::Sheet {
     hints.clear();
     for (const Neighbour& neighbour : found)
       if (const HeightHint hint = hint_of(query, neighbour); hint.reaches) hints.push_back(hint);
-    // Between the surfels of a cliff, and at the edge of a hole: heights beside them, which rise by 45 degrees at most.
+    // Between the surfels of a cliff and at the edge of a hole, use the heights of neighbours, which rise by 45 degrees
+    // at most.
     if (hints.empty())
       for (const Neighbour& neighbour : found) {
         HeightHint hint = hint_of(query, neighbour);
@@ -137,12 +138,12 @@ struct Ground::Sheet {
                        mean.norm() > 0 ? Eigen::Vector3d(mean.normalized()) : Eigen::Vector3d::UnitZ()};
   }
 
-  /// Both give the same ground everywhere: their surfels coincide.
+  /// Returns true if both sheets give the same ground everywhere because their surfels coincide.
   bool coincides(const Sheet& other) const {
     return origin == other.origin && place == other.place && normal == other.normal && spacing == other.spacing &&
            noise == other.noise;
   }
-  /// Equal for sheets that coincide.
+  /// Returns a hash that is equal for sheets that coincide.
   std::size_t hash() const {
     const auto of = [](const auto& list) {
       return std::hash<std::string_view>{}(
@@ -152,10 +153,10 @@ struct Ground::Sheet {
   }
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;  // of the places at which there may be ground
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;  // box of positions with ground
   std::vector<Eigen::Vector3f> place, normal;
   std::vector<float> spacing, noise;
-  double mean_spacing = 0, highest = -std::numeric_limits<double>::infinity();  // highest ground that there may be
+  double mean_spacing = 0, highest = -std::numeric_limits<double>::infinity();  // upper bound of all heights
   SceneIndex index{std::span<const Eigen::Vector3f>{}};
 };
 

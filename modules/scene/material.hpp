@@ -29,16 +29,16 @@ struct Material {
 /// Description of one number of a Material, >= 0, for checks, material files, comment lines of clouds, and tiles.
 struct MaterialNumber {
   double Material::*member;
-  const char* name;       ///< of the member, for messages
+  const char* name;       ///< name of the member, for messages
   const char* unit;       ///< "": none
-  double most;            ///< [unit] largest that is computed; infinity: any finite number
-  const char* key;        ///< in material files
-  bool in_decibels;       ///< the key holds 10 log10 of it
-  bool required;          ///< material files must give it
-  double most_in_files;   ///< [unit] largest that material files may give
-  const char* note;       ///< why, for messages; "": none
-  const char* help;       ///< what it is, for the docs
-  const char* word = "";  ///< word in files for 1 (0: the key is absent), e.g. "true", "fit"; "": files give a number
+  double most;            ///< [unit] largest valid number; infinity: any finite one
+  const char* key;        ///< key in material files
+  bool in_decibels;       ///< true: the key holds 10 log10 of the number
+  bool required;          ///< true: material files must give it
+  double most_in_files;   ///< [unit] largest number in material files
+  const char* note;       ///< reason for the limit, for messages; "": none
+  const char* help;       ///< description for the docs
+  const char* word = "";  ///< word in files for 1, e.g. "true", "fit" (0: the key is absent); "": files give a number
 };
 
 /// All numbers of a Material. A new number goes last, so that older files give it its default.
@@ -63,7 +63,7 @@ inline constexpr MaterialNumber material_numbers[] = {
      "", "rms height of the roughness of the mirrors and targets of this material"},
 };
 
-/// Returns whether parts of a material reflect as one body each: mirrors, plates, spheres, cylinders.
+/// Returns true if parts of a material reflect as one body each: mirrors, plates, spheres, cylinders.
 inline bool is_smooth(const Material& material) { return material.mirror > 0 || material.coherent > 0; }
 
 /// Throws Error of `kind` unless every number is finite, >= 0 and at most its `most`, and the law is valid

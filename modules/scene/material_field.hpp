@@ -16,8 +16,8 @@ struct MaterialInterval {
 
 /// The field of a cloud that gives the material of each point.
 struct MaterialField {
-  std::string name;  ///< of the scalar field; case and CloudCompare's prefix "scalar_" do not matter. Empty: the first
-                     ///< of label, material, class, classification that exists
+  std::string name;  ///< name of the scalar field, in any case and without CloudCompare's prefix "scalar_". Empty: the
+                     ///< first of label, material, class, classification that exists
   std::vector<MaterialInterval> intervals;  ///< empty: the number itself is the index
 };
 

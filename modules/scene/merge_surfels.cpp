@@ -11,15 +11,15 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double least_cosine_in_group = 0.866;        // of a normal with the mean of its group
-constexpr double least_fill = 0.65, most_fill = 1.75;  // a square has 1, half of one 0.75, three squares in a row 0.6
+constexpr double least_cosine_in_group = 0.866;        // between a normal and the mean of its group
+constexpr double least_fill = 0.65, most_fill = 1.75;  // area over a square's of equal moment: half a square has 0.75
 constexpr float of_square = 6;                         // area of a square over the mean square distance from its centre
-constexpr float most_thickness = 0.1f;                 // in extents
-constexpr float uneven_noise = 1.1f;                   // of a piece, in that of the node
-constexpr float least_noise = 0.003f;                  // in widths of the node: less than this makes no difference
-constexpr float half_diagonal = 0.70710678f;           // of a square, in its widths
+constexpr float most_thickness = 0.1f;                 // largest thickness of a node, in extents
+constexpr float uneven_noise = 1.1f;                   // largest noise of a merged surfel, in that of the node
+constexpr float least_noise = 0.003f;                  // noise that makes no difference, in widths of the node
+constexpr float half_diagonal = 0.70710678f;           // half the diagonal of a square, in its widths
 
-/// n n^T.
+/// Returns n n^T.
 SymmetricMatrix square_of(const Vector3f& n) {
   return {n.x() * n.x(), n.x() * n.y(), n.x() * n.z(), n.y() * n.y(), n.y() * n.z(), n.z() * n.z()};
 }
@@ -96,7 +96,7 @@ std::optional<DetailNode> MergedPieces::merged(const Group& group, std::span<con
   node.area = static_cast<float>(group.area);
   node.resultant = static_cast<float>(std::min(1.0, group.normals.norm() / group.area));
   node.noise = static_cast<float>(std::sqrt(noise / group.area));
-  // A scan knows that nothing stood before surfels of large noise: the mean would hide what they do not.
+  // A surfel of large noise hides little. A node with the smaller mean noise would hide more, so these do not merge.
   if (most_noise > uneven_noise * node.noise + least_noise * std::sqrt(node.area)) return {};
   for (std::size_t k = 0; k < normals.size(); ++k) node.normals[k] = static_cast<float>(normals[k] / group.area);
   node.material = group.material;

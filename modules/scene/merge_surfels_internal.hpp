@@ -19,7 +19,7 @@ class MergedPieces {
   /// Keeps references to both arguments.
   MergedPieces(const SceneCloud& scene, std::span<const DetailNode> nodes) : scene_(scene), nodes_(nodes) {}
 
-  /// A group of a cell's members, by their places in the cell.
+  /// A group of a cell's members, by their index in the cell.
   struct Group {
     std::array<std::uint8_t, most> member;
     std::uint8_t members = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SurfaceRays of a build without Embree.
+// Implements SurfaceRays for builds without Embree.
 #include "core/error.hpp"
 #include "scene/surface_rays.hpp"
 

@@ -10,10 +10,10 @@ namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 
-/// The pose by which the axis of a body of revolution, x, points up.
+/// Returns the pose that turns the axis of a body of revolution from x to up.
 Pose axis_up() { return Pose(Eigen::AngleAxisd(-pi / 2, Vector3d::UnitY())); }
 
-/// Lays or stands a body of revolution, by its option `upright`.
+/// Lays or stands a body of revolution, as its option `upright` says.
 void lay(const ObjectSizes& sizes, ObjectMesh& mesh) {
   if (sizes("upright") == 1) mesh.set_pose(axis_up());
 }
@@ -103,7 +103,7 @@ void build_tyre(const ObjectSizes& sizes, ObjectMesh& mesh) {
   sizes.require_below("wall_m", std::min(half, bulge), "half of width_m - tread_m, and of the height of its sides");
   mesh.set_material("rubber");
   if (sizes("upright") == 1)
-    mesh.set_pose(Pose(Eigen::AngleAxisd(pi / 2, Vector3d::UnitZ())));  // its axis across
+    mesh.set_pose(Pose(Eigen::AngleAxisd(pi / 2, Vector3d::UnitZ())));  // axis across
   else
     mesh.set_pose(axis_up());
   std::vector<OutlinePiece> outline = {elliptic({-tread, middle}, {bulge, half}, -pi / 2, pi / 2, tolerance),

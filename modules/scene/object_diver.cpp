@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A diver who swims along x, prone, the bottle on the back.
+// The diver swims along x, prone, with the bottle on the back.
 #include <algorithm>
 
 #include <Eigen/Geometry>
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A part of the body: an ellipsoid between two ends, its half width and half thickness, all in statures. Lengths of
+/// A part of the body: an ellipsoid between two ends, with half width and half thickness, all in statures. Lengths of
 /// limbs are those of Drillis and Contini (1966).
 struct BodyPart {
   Vector3d from, to;

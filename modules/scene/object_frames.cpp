@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 
-/// Parallel wires across a disc, along x and along y, about `spacing` apart.
+/// Adds parallel wires across a disc, along x and along y, about `spacing` apart.
 void add_net(ObjectMesh& mesh, double z, double radius, double spacing, double wire) {
   const int each_side = static_cast<int>(radius / spacing);
   for (int i = -each_side; i <= each_side; ++i) {
@@ -24,7 +24,7 @@ void add_net(ObjectMesh& mesh, double z, double radius, double spacing, double w
   }
 }
 
-/// Uprights on a circle, from z = low to high.
+/// Adds uprights on a circle, from z = low to high.
 void add_uprights(ObjectMesh& mesh, int count, double radius, double low, double high, double bar) {
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * pi * (i + 0.5) / count;
@@ -33,7 +33,7 @@ void add_uprights(ObjectMesh& mesh, int count, double radius, double low, double
   }
 }
 
-/// The arms of an anchor with their palms: an arc in the plane y = 0 from tip to tip, whose crown is the origin.
+/// Adds the arms of an anchor with their palms: an arc in the plane y = 0 from tip to tip, its crown at the origin.
 void add_arms(ObjectMesh& mesh, double span, double bar) {
   constexpr double half_angle = radians(60.0);
   const double radius = span / 2 / std::sin(half_angle);
@@ -105,7 +105,7 @@ void build_anchor(const ObjectSizes& sizes, ObjectMesh& mesh) {
     mesh.add_ellipsoid(Vector3d::Constant(2.2 * thickness));
   }
   mesh.set_pose(Pose::Identity());
-  // It lies as it comes down, on the ends of its stock and one arm.
+  // Turn the anchor until it rests on the ends of its stock and one arm.
   Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
   for (int pass = 0; pass < 3; ++pass) {
     Vector3d rests(eye, 0, 0);
@@ -121,7 +121,7 @@ void build_anchor(const ObjectSizes& sizes, ObjectMesh& mesh) {
     mesh.turn(turn);
     turned = turn * turned;
   }
-  // Its ring lies beside it.
+  // Lay the ring beside the anchor.
   double ground = 0;
   for (const Vector3d& p : mesh.corners()) ground = std::min(ground, p.z());
   Vector3d ring = turned * Vector3d(length + 1.6 * bar, 0, 0);

@@ -15,7 +15,7 @@ using Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr std::size_t most_corners = 3'000'000;
 
-/// Cosine and sine of the angle `i / n` of a turn, the same to the bit for opposite quadrants.
+/// Returns cosine and sine of `i / n` of a turn, equal to the bit for opposite quadrants.
 Vector2d on_circle(int i, int n) {
   const int quadrant = 4 * (i % n) / n, rest = 4 * (i % n) - quadrant * n;
   const double angle = 2 * pi * rest / (4.0 * n);
@@ -26,10 +26,10 @@ Vector2d on_circle(int i, int n) {
                          : Vector2d(s, -c);
 }
 
-/// A polygon that stands for a circle of radius 1 with the same perimeter.
+/// A polygon with the perimeter of a circle of radius 1.
 struct BarSection {
   int sides;
-  double corner;  ///< radius of its corners
+  double corner;  ///< circumradius
 };
 
 BarSection section_of(double radius, double tolerance) {
@@ -93,7 +93,7 @@ void ObjectMesh::revolve(const std::vector<OutlinePiece>& outline) {
   for (const OutlinePiece& piece : outline) {
     const auto first = static_cast<std::uint32_t>(point_.size());
     for (const OutlinePoint& p : piece) {
-      // Ends that meet are the same to the bit, so that the triangles share their edges.
+      // Make ends that meet equal to the bit, so that triangles share their edges.
       constexpr double close = 1e-9;
       const bool meets = before && &p == &piece.front() && std::abs(p.along - before->along) < close &&
                          std::abs(p.radius - before->radius) < close;

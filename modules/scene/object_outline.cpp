@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-/// The number itself, but for the rounding of sines of multiples of pi.
+/// Returns the sine, or 0 where only rounding makes it differ from 0.
 double without_rounding(double sine) { return std::abs(sine) < 1e-14 ? 0 : sine; }
 
 }  // namespace
@@ -24,7 +24,7 @@ OutlinePiece elliptic(const Eigen::Vector2d& centre, const Eigen::Vector2d& half
   constexpr double widest = pi / 6;
   const double sag = std::min(tolerance / half.maxCoeff(), 1.0);
   const double step = std::min(2 * std::acos(1 - sag), widest);
-  const int chords = 2 * static_cast<int>(std::ceil(std::abs(to - from) / step / 2 - 1e-9));  // one ends in the middle
+  const int chords = 2 * static_cast<int>(std::ceil(std::abs(to - from) / step / 2 - 1e-9));  // even: joint at half
   OutlinePiece piece;
   for (int i = 0; i <= chords; ++i) {
     const double angle = from + (to - from) * i / chords;

@@ -2,7 +2,7 @@
 #pragma once
 #include "scene/object_mesh_internal.hpp"
 
-// Private to scene: the builders of the table of objects. Throw Error(argument) for sizes that do not fit each other.
+// Private to scene: the builders of the table of objects. They throw Error(argument) for sizes that do not match.
 namespace insonify {
 
 void build_cylinder_mine(const ObjectSizes& sizes, ObjectMesh& mesh);

@@ -11,12 +11,12 @@
 namespace insonify {
 namespace {
 
-constexpr double smallest = 0.001, largest = 100;  ///< of a size [m]
+constexpr double smallest = 0.001, largest = 100;  ///< limits of a size [m]
 
 constexpr ObjectOption size(const char* key, double standard, const char* help) {
   return {key, "m", standard, smallest, largest, help};
 }
-/// A size that may be 0.
+/// Returns the row of a size that may be 0.
 constexpr ObjectOption size_or_none(const char* key, double standard, const char* help) {
   return {key, "m", standard, 0, largest, help};
 }

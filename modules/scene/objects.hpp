@@ -16,20 +16,20 @@ class ObjectSizes;
 struct ObjectOption {
   const char* key;
   const char* unit;  ///< "": none
-  double standard;   ///< the value if it is not set
+  double standard;   ///< default value
   double least, most;
   const char* help;
-  bool whole = false;  ///< must be a whole number
+  bool whole = false;  ///< true: must be a whole number
 };
 
 /// An object that make_object builds: its description, the source of its outline, and its options.
 struct ObjectKind {
   const char* name;
   const char* description;
-  const char* source;                      ///< of its outline
+  const char* source;                      ///< source of the outline
   bool one_solid;                          ///< false: several closed solids, which overlap where they are joined
-  std::span<const ObjectOption> options;   ///< besides those of all objects
-  std::span<const char* const> materials;  ///< names in the library of materials
+  std::span<const ObjectOption> options;   ///< options beyond those of all objects
+  std::span<const char* const> materials;  ///< names in the material library
   /// Adds the object to a mesh.
   void (*build)(const ObjectSizes& sizes, ObjectMesh& mesh);
 };

@@ -19,8 +19,8 @@ struct PlacedPart {
   std::shared_ptr<const SceneCloud> cloud{};  ///< in the part's own axes; surfel i has the id i unless `captured`
   /// True: the part's own axes are those of the world, and it rests there. Other parts stand on it as the ground.
   bool captured = false;
-  Pose world_from_part = Pose::Identity();              ///< at the time of transmission
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< of the origin of its axes, in the world [m/s]
+  Pose world_from_part = Pose::Identity();              ///< pose at the time of transmission
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< velocity of the part's origin, in the world [m/s]
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< rotation vector per second, in the world [rad/s]
   /// Surfels of the part that are in the scene, ascending; those below the ground are left out. Empty: all.
   std::vector<std::uint32_t> surfels{};
@@ -32,14 +32,14 @@ struct PlacedPart {
   /// Origin of the axes of the part's file, in the part's own axes, which begin near its surfels [m].
   Eigen::Vector3d file_origin = Eigen::Vector3d::Zero();
 
-  double scale = 1;  ///< that `cloud` has of the lengths of the part's file
+  double scale = 1;  ///< lengths of `cloud` over those of the part's file
   /// Extents of the part along its own axes, as scaled [m], e.g. of the mesh that its surfels are a sample of. Zero:
   /// those of the box of its surfels.
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 
   /// Returns the pose of the axes of the part's file.
   Pose world_from_file() const { return world_from_part * Eigen::Translation3d(file_origin); }
-  /// Returns whether the part moves.
+  /// Returns true if the part moves.
   bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }
 };
 

@@ -14,19 +14,19 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double least_area = 1e-7;  // of the area of a polygon
+constexpr double least_area = 1e-7;  // fraction of a polygon's area
 
-/// Twice the area of a triangle in the plane, positive if it is counter-clockwise.
+/// Returns twice the area of a triangle in the plane, positive if it is counter-clockwise.
 double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Area of a polygon in space, and how far its corners lie from a plane.
+/// Plane of a polygon in space, and the distance of the corners from it.
 struct PolygonPlane {
-  Vector3d normal = Vector3d::Zero();  ///< of a length of twice the area; loops of opposite sense cancel
+  Vector3d normal = Vector3d::Zero();  ///< of length twice the area; loops of opposite sense cancel
   double widest = 0;                   ///< twice the largest area of a triangle with the first corner
-  double off = 0;                      ///< greatest distance from the plane through the middle, by the size
-  Vector3d low, high;                  ///< of the box round the corners
+  double off = 0;                      ///< greatest distance from the plane through the middle, in diagonals of the box
+  Vector3d low, high;                  ///< box of the corners
 };
 
 PolygonPlane plane_of(std::span<const Vector3d> corners) {
@@ -57,7 +57,7 @@ class FlatPolygon {
     for (const Vector3d& p : corners) at_.emplace_back(p[u], p[v]);
   }
 
-  /// Whether the fan of triangles from the first corner covers the polygon once.
+  /// Returns true if the fan of triangles from the first corner covers the polygon once.
   bool is_fan() const {
     double folded = 0;
     for (std::size_t i = 1; i + 1 < at_.size(); ++i) {
@@ -67,8 +67,8 @@ class FlatPolygon {
     return folded <= least_area * area2_;
   }
 
-  /// Whether two edges cross, beyond rounding. Edges are compared with those that begin within them along the axis on
-  /// which edges are shorter.
+  /// Returns true if two edges cross, beyond rounding. Edges are compared with those that begin within them along the
+  /// axis on which edges are shorter.
   bool crosses() {
     const int n = static_cast<int>(at_.size());
     Vector2d travel = Vector2d::Zero();
@@ -94,7 +94,7 @@ class FlatPolygon {
     for (int i = 0; i < n; ++i) next_[i] = (i + 1) % n, last_[i] = (i + n - 1) % n;
     ears.clear();
     const double whole = size_.norm();
-    double reach = whole / side_;  // of ears that are cut
+    double reach = whole / side_;  // largest extent of ears that are cut
     int i = 0;
     for (int left = n, passed = 0; left > 3;) {
       if (is_ear(i, reach, reach > whole)) {
@@ -122,7 +122,7 @@ class FlatPolygon {
     return apart(turn(a, b, c), turn(a, b, d)) && apart(turn(c, d, a), turn(c, d, b));
   }
 
-  /// The cell of a point in a grid of as many cells as there are corners.
+  /// Returns the cell of a point in a grid of as many cells as there are corners.
   Eigen::Vector2i cell_of(const Vector2d& p) const {
     return ((p - low_).cwiseQuotient(size_) * side_).cast<int>().cwiseMin(side_ - 1);
   }
@@ -139,8 +139,8 @@ class FlatPolygon {
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   }
 
-  /// Whether corner i and its neighbours, at most `reach` apart, make a triangle that holds no other corner; with
-  /// `touching` other corners may lie on its edges. A triangle without area is an ear.
+  /// Returns true if corner i and its neighbours, at most `reach` apart, make a triangle that holds no other corner. If
+  /// `touching`, other corners may lie on its edges. A triangle without area is an ear.
   bool is_ear(int i, double reach, bool touching) {
     const Vector2d &a = at_[last_[i]], &b = at_[i], &c = at_[next_[i]];
     if ((c - a).norm() > reach) return false;
@@ -163,9 +163,9 @@ class FlatPolygon {
     return true;
   }
 
-  /// The first and the last cell of a row that a triangle touches.
+  /// Returns the first and the last cell of a row that a triangle touches.
   std::array<int, 2> cells_in_row(int row, const std::array<Vector2d, 3>& corners) const {
-    constexpr double margin = 1e-6;  // of a cell
+    constexpr double margin = 1e-6;  // fraction of a cell
     const double height = size_.y() / side_, low = low_.y() + (row - margin) * height,
                  high = low + (1 + 2 * margin) * height;
     Vector2d from(size_ + low_), to(low_);
@@ -184,9 +184,9 @@ class FlatPolygon {
 
   std::size_t& tests_left_;
   std::vector<Vector2d> at_;
-  Vector2d low_, size_;  // of the box round the corners
+  Vector2d low_, size_;  // corner and size of the box of all corners
   double area2_ = 0;     // twice the area
-  int side_ = 0;         // of the grid [cells]
+  int side_ = 0;         // width of the grid [cells]
   std::vector<int> order_, begin_, next_, last_;
   std::vector<char> left_;
 };

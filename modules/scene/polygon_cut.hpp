@@ -12,8 +12,8 @@ namespace insonify {
 /// Triangles that cover a polygon in space.
 struct PolygonCut {
   std::vector<std::array<int, 3>> ears;  ///< corners of the triangles; empty: the fan from the first corner
-  double off_plane = 0;  ///< greatest distance of a corner from the polygon's plane, by the diagonal of its box
-  bool crosses = false;  ///< edges cross, or tests were used up: no triangles cover it
+  double off_plane = 0;  ///< greatest distance of a corner from the polygon's plane, over the diagonal of its box
+  bool crosses = false;  ///< true: edges cross, or tests were used up, and no triangles cover it
 };
 
 /// Cuts a polygon of at least three corners, which may have holes that pairs of coincident edges join to it, into two

@@ -18,7 +18,7 @@ constexpr std::size_t most_parts_of_scene = 65000;
 
 using PartList = std::vector<const PlacedPart*>;
 
-/// The parts in the order of their names, which are unique.
+/// Returns the parts, sorted by name. Throws Error(argument) for invalid parts and for two of one name.
 PartList by_name(std::span<const PlacedPart> parts, const char* who) {
   PartList list;
   for (const PlacedPart& part : parts) {
@@ -39,7 +39,7 @@ void require_distinct(const std::vector<ScenePart>& parts, const char* who) {
     fail(ErrorKind::argument, who, ": two parts are called '", *twice, "'; give each a name of its own");
 }
 
-/// Index of a material in the table, which it is added to if it is new.
+/// Returns the index of a material in the table. A new material is appended.
 std::uint16_t index_of(const Material& material, std::vector<Material>& table, const char* who) {
   const auto at = std::find(table.begin(), table.end(), material);
   if (at == table.end()) {
@@ -50,7 +50,7 @@ std::uint16_t index_of(const Material& material, std::vector<Material>& table, c
   return static_cast<std::uint16_t>(at - table.begin());
 }
 
-/// Where the coordinates of a scene of these parts begin: as of the first captured part, else near the first part.
+/// Returns the origin of the scene: that of the first captured part, otherwise a point near the first part.
 Vector3d origin_of(const PartList& parts) {
   for (const PlacedPart* part : parts)
     if (part->captured && !part->absent) return part->cloud->origin;
@@ -82,14 +82,14 @@ ScenePart scene_part(const PlacedPart& placed) {
           .size = size_of(placed)};
 }
 
-/// From the part's coordinates, relative to its cloud's origin, to those of the scene.
+/// Returns the pose that maps the cloud's coordinates to the scene's, each relative to its origin.
 Eigen::Isometry3d scene_from_cloud(const SceneCloud& scene, const PlacedPart& placed) {
   Eigen::Isometry3d turn = placed.world_from_part;
   turn.translation() += placed.world_from_part.linear() * placed.cloud->origin - scene.origin;
   return turn;
 }
 
-/// Appends noise and unevenness of the surfels of a part, if it or those before have them.
+/// Appends noise and unevenness of a part's surfels if this part or one before has them.
 void add_heights(const PlacedPart& placed, std::size_t before, SceneCloud& scene) {
   const SceneCloud& cloud = *placed.cloud;
   const auto spacing = [&](std::size_t i) { return std::sqrt(static_cast<double>(scene.area[i])); };
@@ -104,14 +104,14 @@ void add_heights(const PlacedPart& placed, std::size_t before, SceneCloud& scene
                                                                         : static_cast<float>(spacing(i)));
 }
 
-/// Makes room for so many surfels more.
+/// Reserves memory for `more` surfels.
 void reserve(std::size_t more, SceneCloud& scene) {
   const std::size_t all = scene.size() + more;
   scene.point.reserve(all), scene.normal.reserve(all), scene.area.reserve(all), scene.material.reserve(all);
   scene.id.reserve(all), scene.part.reserve(all);
 }
 
-/// How many surfels parts have.
+/// Returns the number of surfels of all parts.
 std::size_t surfels_of(const PartList& list) {
   std::size_t sum = 0;
   for (const PlacedPart* part : list)
@@ -144,7 +144,7 @@ void append(const PlacedPart& placed, SceneCloud& scene, const char* who) {
   scene.normals_oriented = scene.normals_oriented && cloud.normals_oriented;
 }
 
-/// An empty scene of parts.
+/// Returns a scene of parts without surfels.
 SceneCloud empty_scene(const Vector3d& origin) {
   SceneCloud scene;
   scene.origin = origin;
@@ -152,7 +152,7 @@ SceneCloud empty_scene(const Vector3d& origin) {
   return scene;
 }
 
-/// Speed of the fastest surfel of a part [m/s], at most.
+/// Returns an upper bound of the speed of a part's surfels [m/s].
 double fastest_of(const PlacedPart& placed, const SurfelBlock* begin, const SurfelBlock* end) {
   double arm = 0;
   for (const SurfelBlock* b = begin; b != end; ++b)
@@ -201,7 +201,7 @@ SceneCloud merge_parts(std::span<const PlacedPart> parts, std::span<const Materi
 struct PosedScene::State {
   std::shared_ptr<SceneCloud> scene;
   PreparedScene prepared;
-  std::size_t surfels, blocks, materials, parts;  // of what rests
+  std::size_t surfels, blocks, materials, parts;  // sizes of the resting scene
   WholeScene resting;
   bool oriented, noisy, uneven;
   std::map<std::shared_ptr<const SceneCloud>, std::shared_ptr<const PreparedScene>> bodies{};
@@ -218,7 +218,7 @@ struct PosedScene::State {
         noisy(!scene->noise.empty()),
         uneven(!scene->unevenness.empty()) {}
 
-  /// Leaves what rests.
+  /// Truncates the scene to its resting parts.
   void forget_others() {
     SceneCloud& s = *scene;
     for (auto* array : {&s.point, &s.normal}) array->resize(surfels);
@@ -229,7 +229,7 @@ struct PosedScene::State {
     s.normals_oriented = oriented;
   }
 
-  /// The blocks of a part in its own axes: made once, but for one of which surfels are left out.
+  /// Returns the blocks of a part in its own axes. They are cached unless surfels of the part are left out.
   std::shared_ptr<const PreparedScene> body_of(const PlacedPart& placed) {
     if (!placed.surfels.empty()) return std::make_shared<PreparedScene>(subset(*placed.cloud, placed.surfels), 1);
     std::shared_ptr<const PreparedScene>& body = bodies[placed.cloud];
@@ -265,7 +265,7 @@ std::shared_ptr<const PreparedScene> PosedScene::pose(std::span<const PlacedPart
     if (placed->moves())
       fastest = std::max(fastest, fastest_of(*placed, of_body.data(), of_body.data() + of_body.size()));
   }
-  // Bodies that are drawn anew, each of a size of its own, would fill the memory.
+  // Forget bodies that are not in the list: bodies drawn anew, each of its own size, would fill the memory.
   std::erase_if(state.bodies, [&](const auto& body) {
     return std::ranges::none_of(list, [&](const PlacedPart* placed) { return placed->cloud == body.first; });
   });

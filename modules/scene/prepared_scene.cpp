@@ -18,7 +18,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t block_surfels = 128;
-constexpr std::uint32_t steps_per_axis = 1 << 10;  // cells of the Morton curve along each axis
+constexpr std::uint32_t steps_per_axis = 1 << 10;  // cells of the Morton curve
 constexpr int code_bits = 30;
 constexpr float rounding = 1 + 1e-5f;
 
@@ -51,7 +51,7 @@ class Quantiser {
 
  private:
   Eigen::Vector3f low_;
-  double extent_ = 0;  // of the longest axis; used for all axes, so cells are cubes
+  double extent_ = 0;  // length of the longest axis; all axes use it, so that cells are cubes
 };
 
 std::vector<std::uint32_t> morton_order(const std::vector<Eigen::Vector3f>& points, int threads) {

@@ -16,9 +16,9 @@ using Eigen::Vector2d, Eigen::Vector3d;
 
 enum ReefMaterial : std::uint16_t { coral_sand, reef_rock, coral };
 
-constexpr double reef_length = 12;  ///< [m] along x, and across y
+constexpr double reef_length = 12;  ///< length along x and width across y [m]
 
-/// Independent numbers in (0, 1) for one thing of the reef.
+/// Returns independent numbers in (0, 1) for one object of the reef.
 std::array<double, 4> numbers_of(std::uint64_t seed, std::uint64_t thing, std::uint64_t part = 0) {
   return random_uniform(seed, RandomStage::scene_points, {~1ull, thing, part});
 }
@@ -54,7 +54,7 @@ class ReefBed {
   std::array<Wave, 15> waves_{};
 };
 
-/// The part of the bed over x from `low` to `high`.
+/// Returns the bed over x from `low` to `high`.
 Patch bed_patch(const ReefBed& bed, double low, double high, ReefMaterial material) {
   return {[bed, low, high](double u, double v) {
             const double x = low + (high - low) * u, y = reef_length * (v - 0.5);
@@ -63,7 +63,7 @@ Patch bed_patch(const ReefBed& bed, double low, double high, ReefMaterial materi
           material};
 }
 
-/// A lump with meandering grooves.
+/// Returns a lump with meandering grooves.
 Patch massive_coral(const Vector3d& centre, double radius, double phase) {
   Patch lump = ellipsoid(centre, {radius, radius, 0.75 * radius});
   lump.at = [ball = lump.at, centre, phase](double u, double v) {
@@ -119,8 +119,7 @@ std::vector<Patch> reef_patches(std::uint64_t seed) {
 }
 
 std::vector<Material> reef_materials() {
-  // Orders of magnitude at imaging frequencies, as those of the harbour: sand and rock of APL-UW TR 9407; not
-  // calibrated.
+  // Orders of magnitude at imaging frequencies, as in the harbour: sand and rock of APL-UW TR 9407; not calibrated.
   return {{"coral_sand", power_from_db(-21)}, {"reef_rock", power_from_db(-12)}, {"coral", power_from_db(-10)}};
 }
 

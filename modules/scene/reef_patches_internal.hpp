@@ -7,11 +7,11 @@
 
 namespace insonify {
 
-/// The surfaces of the built-in reef: rough spurs of rock with sand between them, massive, branching and table corals.
-/// `seed` determines roughness and places.
+/// Returns the surfaces of the built-in reef: rough spurs of rock with sand between them, massive, branching and table
+/// corals. `seed` determines roughness and positions.
 std::vector<Patch> reef_patches(std::uint64_t seed);
 
-/// Its materials, in the order of the numbers that the patches hold.
+/// Returns the materials of the reef, in the order of the numbers that the patches hold.
 std::vector<Material> reef_materials();
 
 }  // namespace insonify

@@ -15,11 +15,11 @@ using Eigen::Vector2d, Eigen::Vector3d;
 
 enum RiverMaterial : std::uint16_t { river_sand, boulder };
 
-constexpr double tile_length = 8, tile_width = 4;  ///< of the bed's tiles along x and across [m]
+constexpr double tile_length = 8, tile_width = 4;  ///< size of the bed's tiles along x and across [m]
 constexpr int tiles_along = 5, tiles_across = 4;
-constexpr double bank = 0.5 * tile_width * tiles_across;  ///< how far the bed reaches to either side [m]
+constexpr double bank = 0.5 * tile_width * tiles_across;  ///< distance of the bed's edges from the middle [m]
 
-/// Independent numbers in (0, 1) for one thing of the river.
+/// Returns independent numbers in (0, 1) for one object of the river.
 std::array<double, 4> river_numbers(std::uint64_t seed, std::uint64_t thing) {
   return random_uniform(seed, RandomStage::scene_points, {~2ull, thing, 0});
 }
@@ -54,7 +54,7 @@ class RiverBed {
   std::array<Pit, 4> pits_{};
 };
 
-/// A part of the bed over a rectangle of the level plane, given by a map from the unit square to it.
+/// Returns the bed over a rectangle of the level plane. `level` maps the unit square to the rectangle.
 template <typename Level>
 Patch bed_over(const RiverBed& bed, const Level& level) {
   return facing_away_from({0, 0, -1000}, {[bed, level](double u, double v) {
@@ -64,7 +64,7 @@ Patch bed_over(const RiverBed& bed, const Level& level) {
                                           river_sand});
 }
 
-/// A tile with an elliptic gap: four parts, each between a quarter of the gap's edge and a side of the tile.
+/// Adds a tile with an elliptic gap as four patches, each between a quarter of the gap's edge and a side of the tile.
 void add_tile_with_gap(std::vector<Patch>& patches, const RiverBed& bed, const Vector2d& middle, const Vector2d& gap,
                        const Vector2d& radii) {
   const Vector2d half(tile_length / 2, tile_width / 2);
@@ -110,7 +110,7 @@ std::vector<Patch> river_patches(std::uint64_t seed) {
 }
 
 std::vector<Material> river_materials() {
-  // As those of the reef: orders of magnitude of sand and rock in APL-UW TR 9407; not calibrated.
+  // Orders of magnitude, as in the reef: sand and rock of APL-UW TR 9407; not calibrated.
   return {{"river_sand", power_from_db(-20)}, {"boulder", power_from_db(-10)}};
 }
 

@@ -7,11 +7,11 @@
 
 namespace insonify {
 
-/// The surfaces of the built-in river bed: dunes with ripples, pits and boulders between two banks, and gaps where a
-/// scan of it saw nothing. `seed` determines phases and places.
+/// Returns the surfaces of the built-in river bed: dunes with ripples, pits and boulders between two banks, and gaps
+/// where a scan saw nothing. `seed` determines phases and positions.
 std::vector<Patch> river_patches(std::uint64_t seed);
 
-/// Its materials, in the order of the numbers that the patches hold.
+/// Returns the materials of the river, in the order of the numbers that the patches hold.
 std::vector<Material> river_materials();
 
 }  // namespace insonify

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Normal vector d/du x d/dv by central differences; its length is the area per unit of (u, v).
+// Returns the normal vector d/du x d/dv by central differences; its length is the area per unit of (u, v).
 Vector3d area_vector(const Patch& patch, double u, double v) {
   constexpr double h = 1e-5;
   const Vector3d along_u = (patch.at(u + h, v) - patch.at(u - h, v)) / (2 * h);
@@ -24,7 +24,7 @@ Vector3d area_vector(const Patch& patch, double u, double v) {
   return (patch.flip ? -1.0 : 1.0) * along_u.cross(along_v);
 }
 
-// Cumulative arc length along u at equal steps of u, averaged over several lines of constant v.
+// Returns the cumulative arc length along u at equal steps of u, averaged over several lines of constant v.
 std::vector<double> length_along_u(const Patch& patch) {
   constexpr int lines = 8, steps = 1024;
   std::vector<double> length = {0.0};
@@ -39,7 +39,7 @@ std::vector<double> length_along_u(const Patch& patch) {
   return length;
 }
 
-// Edges in u of rows of equal arc length, also on surfaces that are steep across u.
+// Returns the edges in u of rows of equal arc length, also on surfaces that are steep across u.
 std::vector<double> row_edges(const std::vector<double>& length, std::size_t rows) {
   std::vector<double> edges = {0.0};
   std::size_t step = 0;
@@ -53,7 +53,7 @@ std::vector<double> row_edges(const std::vector<double>& length, std::size_t row
   return edges;
 }
 
-// Areas of the rows between `edges`, by the midpoint rule.
+// Returns the areas of the rows between `edges`, by the midpoint rule.
 std::vector<double> row_areas(const Patch& patch, const std::vector<double>& edges, int steps_v) {
   std::vector<double> areas(edges.size() - 1, 0.0);
   parallel_for(areas.size(), 0, [&](std::size_t r) {
@@ -103,7 +103,7 @@ std::vector<Row> plan_rows(const std::vector<double>& row_area, double per_area,
   return plan;
 }
 
-// The areas of the jittered samples do not add up exactly to the area of the patch; this factor corrects their sum.
+// Returns the factor that makes the areas of the jittered samples add up to the area of the patch.
 float area_factor(double area, double sum) { return static_cast<float>(sum > 0 ? area / sum : 1); }
 
 void resize(SceneCloud& scene, std::size_t surfels) {

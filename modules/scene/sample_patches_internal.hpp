@@ -24,11 +24,11 @@ struct Patch {
 Patch facing_away_from(const Eigen::Vector3d& inside, Patch patch);
 
 Patch rectangle(const Eigen::Vector3d& corner, const Eigen::Vector3d& edge_u, const Eigen::Vector3d& edge_v);
-/// The lateral surface of a cylinder; normal outward.
+/// Returns the lateral surface of a cylinder; normal outward.
 Patch cylinder(const Eigen::Vector3d& base, const Eigen::Vector3d& axis, double radius);
-/// An ellipsoid with axes along x, y, z; normal outward.
+/// Returns an ellipsoid with axes along x, y, z; normal outward.
 Patch ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& radii);
-/// A torus around the vertical axis through `centre`; normal outward.
+/// Returns a torus around the vertical axis through `centre`; normal outward.
 Patch torus(const Eigen::Vector3d& centre, double radius, double tube_radius);
 
 /// Appends about `points` surfels, distributed over the patches by area times density, in rows of constant u with one

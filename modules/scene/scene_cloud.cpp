@@ -18,7 +18,7 @@ void require_length(std::size_t length, std::size_t points, const char* name, co
          ")");
 }
 
-/// Tells `refuse(array, what, remedy)` what is wrong with the values of a surfel.
+/// Calls refuse(array, what, remedy) for each invalid value of a surfel.
 template <typename Refuse>
 void check_surfel(const SceneCloud& scene, std::size_t i, std::size_t materials, const Refuse& refuse) {
   const auto text = [](const auto&... parts) {
@@ -48,7 +48,7 @@ void check_surfel(const SceneCloud& scene, std::size_t i, std::size_t materials,
     refuse("material", text(" = ", scene.material[i], ", must be below the number of materials, ", materials), "");
 }
 
-/// Speed of the fastest surfel [m/s].
+/// Returns the speed of the fastest surfel [m/s].
 double fastest_surfel(const SceneCloud& scene) {
   double fastest = 0;
   if (!moves(scene)) return fastest;

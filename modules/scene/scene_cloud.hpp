@@ -13,13 +13,13 @@
 
 namespace insonify {
 
-/// Statistics of a whole scene. A cloud that holds only the part of a scene near a head keeps them, so that a ping of
-/// the part equals a ping of the whole scene.
+/// Statistics of a whole scene. A cloud cut from a scene near a head keeps them, so that a ping of the cut equals a
+/// ping of the whole scene.
 struct WholeScene {
   std::size_t surfels = 0;
   double mean_spacing = 0;  ///< root of the mean surfel area [m]
   float largest_area = 0;   ///< area of the largest surfel [m^2]
-  bool smooth = false;      ///< a material is smooth (is_smooth): its mirrors or targets reflect as one body
+  bool smooth = false;      ///< true: a material is smooth (is_smooth), its mirrors or targets reflect as one body
   double fastest = 0;       ///< speed of the fastest surfel of a moving part [m/s]
 };
 
@@ -42,7 +42,7 @@ struct SceneCloud {
   /// Triangle of a surface for each surfel; the surfel lies anywhere in its triangle and hides what the triangle hides.
   /// Empty: surfels hide as discs.
   std::vector<Facet> facet{};
-  std::vector<std::uint16_t> part{};  ///< of each surfel, index into `parts`; empty: the scene is one part
+  std::vector<std::uint16_t> part{};  ///< part of each surfel, index into `parts`; empty: the scene is one part
   std::vector<ScenePart> parts{};     ///< parts of a merged scene (merge_parts); empty: the scene is one part
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;         ///< false: the sign of a normal has no meaning and both sides reflect
@@ -52,7 +52,7 @@ struct SceneCloud {
   std::size_t size() const { return point.size(); }
   /// Returns the part of a surfel; null if the scene is one part.
   const ScenePart* part_of_surfel(std::size_t surfel) const { return part.empty() ? nullptr : &parts[part[surfel]]; }
-  /// Returns whether the normal of a surfel has a sign.
+  /// Returns true if the normal of a surfel has a sign.
   bool oriented(std::size_t surfel) const {
     return part.empty() ? normals_oriented : parts[part[surfel]].normals_oriented;
   }
@@ -73,7 +73,7 @@ struct SceneCloud {
   }
 };
 
-/// Returns whether some part of the scene moves.
+/// Returns true if some part of the scene moves.
 bool moves(const SceneCloud& scene);
 
 /// Appends one surfel at world_position [m] with an area [m^2]. Its id is the id of the last surfel plus 1, which is

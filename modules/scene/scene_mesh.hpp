@@ -16,8 +16,8 @@ namespace insonify {
 struct SceneMesh {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< [m]; world position = origin + point
   std::vector<Eigen::Vector3f> point;                  ///< corners [m], relative to origin
-  std::vector<Eigen::Vector3f> normal;                 ///< of the corners, of any length; empty: those of the faces
-  std::vector<std::uint16_t> material;                 ///< of the corners, index into `materials`
+  std::vector<Eigen::Vector3f> normal;                 ///< normals of corners, of any length; empty: those of the faces
+  std::vector<std::uint16_t> material;                 ///< materials of the corners, index into `materials`
   std::vector<std::array<std::uint32_t, 3>> triangle;  ///< corners, counter-clockwise seen from outside; none is flat
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;  ///< false: the winding has no meaning and both sides reflect
@@ -37,15 +37,15 @@ Corners corners_of(const SceneMesh& mesh, std::size_t triangle);
 /// length.
 double area_of(const Corners& corners);
 
-/// A place on a mesh.
+/// A point on a mesh.
 struct MeshPlace {
   Eigen::Vector3d position;  ///< [m], relative to the origin of the mesh
   Eigen::Vector3d normal;    ///< unit vector
-  std::uint16_t material;    ///< of the nearest corner
-  std::uint32_t corner;      ///< the nearest one
+  std::uint16_t material;    ///< material of the nearest corner
+  std::uint32_t corner;      ///< index of the nearest corner
 };
 
-/// Returns the place with these barycentric weights in a triangle. If the normals of all three corners are on one side
+/// Returns the point with these barycentric weights in a triangle. If the normals of all three corners are on one side
 /// of the face, they are interpolated. Otherwise the normal is that of the face, on the side of the sum of the corner
 /// normals.
 MeshPlace place_on(const SceneMesh& mesh, std::size_t triangle, const Eigen::Vector3d& weights);

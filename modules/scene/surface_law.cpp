@@ -34,7 +34,7 @@ double error_beyond(const Sediment& bed, double frequency) {
   return bed.speed_ratio < sandy_gravel && frequency <= 400e3 ? 5 : bed.speed_ratio < sandy_gravel ? 10 : 19;
 }
 
-/// Shortest text that reads back as the same double.
+/// Returns the shortest text that reads back as the same double.
 std::string exact(double value) {
   char text[32];
   return std::string(text, std::to_chars(text, text + sizeof(text), value).ptr);

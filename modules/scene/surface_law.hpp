@@ -36,24 +36,24 @@ struct LambertLaw {
 
 /// A sea bed as the six numbers of APL-UW TR 9407 (1994); by default medium sand.
 struct Sediment {
-  double density_ratio = 1.845;               ///< over water
-  double speed_ratio = 1.1782;                ///< of sound, over water
+  double density_ratio = 1.845;               ///< density over that of water
+  double speed_ratio = 1.1782;                ///< sound speed over that of water
   double loss = 0.01624;                      ///< imaginary over real part of the wavenumber
   double volume_parameter = 0.002;            ///< ratio of volume scattering to attenuation
-  double spectral_strength_cm4 = 0.00444600;  ///< of the relief, at 1 / cm
-  double spectral_exponent = 3.25;            ///< of the relief
+  double spectral_strength_cm4 = 0.00444600;  ///< spectral strength of the relief at 1 / cm
+  double spectral_exponent = 3.25;            ///< spectral exponent of the relief
   double grain_size = 0;  ///< [m]; frequencies count as at most sound speed / (pi grain size); 0: unknown
   LawValidity validity(double frequency) const;  ///< TR 9407 for its own frequencies
   bool operator==(const Sediment&) const = default;
 };
 
-/// Roughness and volume of a sea bed by TR 9407 (E139, E140).
+/// The scattering of a sea bed by roughness and volume, by TR 9407 (E139, E140).
 struct SeabedLaw : Sediment {
   static constexpr LawTraits traits{.name = "seabed", .own_slopes = true, .merges = false};
   bool operator==(const SeabedLaw&) const = default;
 };
 
-/// A sea bed by the small-slope approximation (E141): bistatic, for sand and mud.
+/// The scattering of a sea bed by the small-slope approximation (E141): bistatic, for sand and mud.
 struct SmallSlopeLaw : Sediment {
   static constexpr LawTraits traits{.name = "small_slope", .own_slopes = true, .merges = false};
   LawValidity validity(double frequency) const;  ///< to 300 kHz
@@ -65,11 +65,11 @@ struct RoughLaw {
   static constexpr LawTraits traits{.name = "rough", .own_slopes = true, .merges = false};
   double slope = 0.2;            ///< rms slope of the facets over both axes
   double micro_roughness = 0;    ///< rms height on a facet [m]
-  double diffuse_mu = 0;         ///< [1/sr], coefficient of Lambert's law, which is added
+  double diffuse_mu = 0;         ///< coefficient of the added Lambert's law [1/sr]
   double reflection = 1;         ///< reflection coefficient of pressure at all angles; unused if density is given
   double density = 0;            ///< [kg/m^3]; 0: see reflection
-  double compression_speed = 0;  ///< of sound [m/s]
-  double shear_speed = 0;        ///< [m/s]; 0: a fluid
+  double compression_speed = 0;  ///< speed of compression waves [m/s]
+  double shear_speed = 0;        ///< speed of shear waves [m/s]; 0: a fluid
   std::string problem() const;   ///< a density needs speeds
   bool operator==(const RoughLaw&) const = default;
 };
@@ -89,8 +89,8 @@ struct TableLaw {
   std::vector<double> incidence;  ///< [rad], ascending from 0 to 75 degrees or more, below 90
   std::vector<double> frequency;  ///< [Hz], ascending; empty: the strength does not depend on frequency
   std::vector<double> sigma_db;   ///< [dB re 1/sr] = 10 log10 of the cross-section per area, frequency by frequency
-  bool half_vector = false;     ///< bistatic strength: true: that at the half vector (lobes); false: the geometric mean
-  std::string problem() const;  ///< angles ascend from 0 to 75 degrees or more
+  bool half_vector = false;  ///< true: bistatic strength is that at the half vector (lobes); false: the geometric mean
+  std::string problem() const;                   ///< angles ascend from 0 to 75 degrees or more
   LawValidity validity(double frequency) const;  ///< from the first to the last frequency
   bool operator==(const TableLaw&) const = default;
 };
@@ -112,16 +112,16 @@ std::optional<SurfaceLaw> law_named(std::string_view name);
 /// Description of one number of laws, for checks, material files, comment lines of clouds, and tiles.
 struct LawNumber {
   double* (*in)(SurfaceLaw&);  ///< returns the number in a law, nullptr if the law does not have it
-  const char* name;            ///< of the member, and in comment lines
+  const char* name;            ///< name of the member, also in comment lines
   const char* unit;            ///< "": none
   double least, most;          ///< [unit]
-  bool above;                  ///< `least` itself is refused
-  const char* key;             ///< in material files
+  bool above;                  ///< true: the number must be greater than `least`
+  const char* key;             ///< key in material files
   const char* file_unit;
   double in_file;    ///< file units in one unit
-  bool in_decibels;  ///< files hold 10 log10 of it
-  bool required;     ///< of files
-  const char* help;  ///< what it is, for the docs
+  bool in_decibels;  ///< true: files hold 10 log10 of the number
+  bool required;     ///< true: files must give the number
+  const char* help;  ///< description for the docs
 };
 
 namespace law_members {
@@ -144,7 +144,7 @@ inline double* diffuse_mu(SurfaceLaw& law) {
 }
 }  // namespace law_members
 
-/// All numbers of laws.
+/// All numbers of all laws.
 inline constexpr LawNumber law_numbers[] = {
     {law_members::of<Sediment, &Sediment::density_ratio>, "density_ratio", "", 0.5, 10, false, "density_ratio", "", 1,
      false, true, "laws seabed and small_slope: density of the sediment, divided by that of water"},

@@ -19,10 +19,10 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float near_radii = 3;      // so near, backs belong to the surface that the ray leaves
-constexpr float noise_widths = 3;    // so near to its plane, a start belongs to a surfel's surface
-constexpr float cluster_radii = 2;   // along the ray, what is one place of one surface
-constexpr float cluster_height = 1;  // across it, in radii
+constexpr float near_radii = 3;      // distance within which a back belongs to the surface that the ray leaves
+constexpr float noise_widths = 3;    // distance from a surfel's plane within which a ray starts on its surface
+constexpr float cluster_radii = 2;   // extent along the ray of one hit of one surface
+constexpr float cluster_height = 1;  // extent across the surface, in radii
 constexpr float like_normals = 0.7f;
 constexpr float kernel = 0.6f;  // radius over the root of the area: as small as the scatter of the density allows
 
@@ -47,7 +47,7 @@ struct Query {
   const SceneCloud& scene;
   float footprint;
   const SurfaceRay& ray;
-  /// Where the first surface is met; surfels met beside it are added up. nullptr: it is looked for.
+  /// The first surface that is met. Surfels met beside it are added up. nullptr: not yet found.
   struct Place {
     Vector3f at, normal;
     float radius;
@@ -59,7 +59,7 @@ struct Query {
   float radius(std::uint32_t j) const { return footprint * std::sqrt(scene.area[j]); }
   float noise(std::uint32_t j) const { return scene.noise.empty() ? 0 : scene.noise[j]; }
 
-  /// Whether surfel j at `distance` belongs to the surface that the ray leaves.
+  /// Returns true if surfel j at `distance` belongs to the surface that the ray leaves.
   bool passes(std::uint32_t j, float distance) const {
     if (j == ray.surfel) return true;
     float height = scene.normal[j].dot(ray.from - scene.point[j]);
@@ -67,7 +67,7 @@ struct Query {
     if (height <= 0 && distance < near_radii * radius(j)) return true;
     return std::abs(height) <= noise_widths * (noise(j) + noise(ray.surfel));
   }
-  /// Adds surfel j, met at `distance`, if it belongs to the place.
+  /// Adds surfel j, met at `distance`, if it belongs to the surface.
   void add(std::uint32_t j, float distance) const {
     const Vector3f at = ray.from + distance * ray.direction;
     float alike = scene.normal[j].dot(place->normal);
@@ -79,7 +79,7 @@ struct Query {
     place->nearest = j, place->squared_distance = squared;
   }
 
-  /// Takes or refuses the disc that a ray has met.
+  /// Accepts or rejects the disc that a ray has met, for Embree.
   static void filter(const RTCFilterFunctionNArguments* met) {
     if (met->valid[0] != -1) return;
     const auto& query = *reinterpret_cast<const Query*>(met->context);
@@ -90,7 +90,7 @@ struct Query {
     if (query.place || passes) met->valid[0] = 0;
   }
 
-  /// Sends a ray through the discs, each of which the filter sees.
+  /// Traces a ray through the discs; the filter sees each of them.
   void send(RTCScene discs, RTCRayHit& along) {
 #if INSONIFY_EMBREE >= 4
     rtcInitRayQueryContext(&context);
@@ -165,7 +165,7 @@ SurfaceRayEnd SurfaceRays::first_hit(const SurfaceRay& ray) const {
   const SceneCloud& scene = tree_->scene;
   Query query{{}, scene, tree_->footprint, ray};
 
-  // The nearest disc.
+  // Find the nearest disc.
   RTCRayHit first = ray_within(ray, 0, std::numeric_limits<float>::infinity());
   query.send(tree_->discs.get(), first);
   if (first.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
@@ -173,7 +173,7 @@ SurfaceRayEnd SurfaceRays::first_hit(const SurfaceRay& ray) const {
   const float distance = first.ray.tfar;
   if (scene.normals_oriented && scene.normal[met].dot(ray.direction) >= 0) return {};
 
-  // All discs of that surface there.
+  // Add up all discs of that surface along the ray.
   Query::Place place{ray.from + distance * ray.direction,
                      scene.normal[met],
                      query.radius(met),
@@ -184,7 +184,7 @@ SurfaceRayEnd SurfaceRays::first_hit(const SurfaceRay& ray) const {
   RTCRayHit beside =
       ray_within(ray, std::max(0.0f, distance - cluster_radii * place.radius), distance + cluster_radii * place.radius);
   query.send(tree_->discs.get(), beside);
-  const float share = 1 / (static_cast<float>(pi) * kernel * kernel);           // of a kernel's area that is surfel
+  const float share = 1 / (static_cast<float>(pi) * kernel * kernel);           // kernel area covered by a surfel
   return {place.nearest, distance, static_cast<float>(place.surfels) * share};  // (E159)
 }
 

@@ -17,11 +17,11 @@ struct SurfaceRay {
   Eigen::Vector3f direction;  ///< unit vector
 };
 
-/// Where a ray first meets a surface.
+/// First hit of a ray on a surface.
 struct SurfaceRayEnd {
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t surfel = none;  ///< met surfel with the nearest centre; none: the ray meets no surface
-  float distance = 0;           ///< from the start of the ray [m]
+  float distance = 0;           ///< distance from the start of the ray [m]
   /// Area of surface per area: a sum of kernels of radius 0.6 sqrt(area) about the surfels, where each kernel holds the
   /// area of its surfel. The mean over a surface is 1. The integral over all places where rays can meet a piece of
   /// surface is the area of that piece, also at free edges. Where two surfaces meet in a corner, each loses about 0.13
@@ -33,7 +33,7 @@ struct SurfaceRayEnd {
 /// concurrently, and do not depend on the number of threads.
 class SurfaceRays {
  public:
-  /// Returns whether this build of insonify has Embree. Without it the constructor throws.
+  /// Returns true if this build has Embree. Without it the constructor throws.
   static bool available();
 
   /// Builds the tree over the surfels of a scene, which must outlive it. A surfel is a disc of radius `footprint`

@@ -11,9 +11,9 @@ namespace insonify {
 /// A value of a surfel that require_valid refuses.
 struct SurfelFault {
   std::size_t surfel = 0;
-  const char* array = "";   ///< of SceneCloud
+  const char* array = "";   ///< name of the array in SceneCloud
   std::string what;         ///< the value with its unit, and the rule: " = -1 m^2, must be finite and >= 0"
-  const char* remedy = "";  ///< for who made the scene: "; remove such points"
+  const char* remedy = "";  ///< advice to the maker of the scene: "; remove such points"
 };
 
 /// Returns the first fault of surfels [begin, end) of a scene with this number of materials; nothing if there is none.

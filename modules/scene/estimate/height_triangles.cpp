@@ -8,20 +8,20 @@
 #include "scene/estimate/surfel_cell_internal.hpp"
 #include "scene/scene_index.hpp"
 
-// Each point finds its own triangles: between two neighbouring sides of its Voronoi cell stands the middle of the
-// circle through the point and the two neighbours across, which holds no other point. All who could lie in a circle of
-// radius R through a point are within 2 R of it, so a cell is exact as far as neighbours were sought. A triangle is
-// listed by its first corner. Where four points lie on a circle, as on a grid, their cells must agree: places are moved
-// by a ten-thousandth of a spacing, by a hash of their index.
+// Each point finds its own triangles. A corner of its Voronoi cell, between two neighbouring sides, is the centre of
+// the circle through the point and the two neighbours across; that circle holds no other point. All points that could
+// lie in a circle of radius R through a point are within 2 R of it, so a cell is exact as far as neighbours were
+// sought. A triangle is listed by its first corner. Where four points lie on a circle, as on a grid, their cells must
+// agree: positions are moved by a ten-thousandth of a spacing, by a hash of their index.
 namespace insonify {
 namespace {
 
 using namespace cells;
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr std::size_t first_look = 24, most_looked_at = 1024;  // neighbours
-constexpr double widest_circle = 2;                            // radius, in spacings
-constexpr double moved = 1e-4;                                 // spacings
+constexpr std::size_t first_look = 24, most_looked_at = 1024;  // numbers of neighbours
+constexpr double widest_circle = 2;                            // largest circumradius, in spacings
+constexpr double moved = 1e-4;                                 // jitter, in spacings
 
 double hashed(std::uint64_t n) {  // in [-0.5, 0.5) (splitmix64)
   n = (n + 1) * 0x9e3779b97f4a7c15u;
@@ -42,12 +42,12 @@ class Stars {
       places_.emplace_back(flat_[i].x() + most * hashed(2 * i), flat_[i].y() + most * hashed(2 * i + 1));
   }
 
-  /// Appends the triangles of which point i is the first corner.
+  /// Appends the triangles whose first corner is point i.
   void add(std::uint32_t i, Workspace& work, std::vector<Triangle>& triangles) const {
     const double widest = find_cell(i, work);
     const Polygon& cell = work.cell;
     for (std::size_t a = 0, b = cell.size() - 1; a < cell.size(); b = a++) {
-      // The corner at which the side of one neighbour ends and that of the next begins.
+      // This corner ends the side of one neighbour and begins that of the next.
       if (cell[b].place == no_place || cell[a].place == no_place || cell[a].at.norm() > widest) continue;
       const std::uint32_t j = work.found[cell[b].place].index, k = work.found[cell[a].place].index;
       if (i < j && i < k) triangles.push_back({i, j, k});
@@ -70,7 +70,7 @@ class Stars {
     }
   }
 
-  /// Distance of the farthest corner, with room for how far places were moved.
+  /// Returns the distance of the farthest corner, with a margin for the jitter.
   static double reach_of(const Polygon& cell) {
     double squared = 0;
     for (const Corner& c : cell) squared = std::max(squared, c.at.squaredNorm());

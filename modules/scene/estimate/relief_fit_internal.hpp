@@ -8,13 +8,13 @@
 
 #include "scene/estimate/surfel_cell_internal.hpp"
 
-// Private to scene: the rise of a surface over a plane, as a polynomial of the place on that plane (E69).
+// Private to scene: the rise of a surface over a plane, as a polynomial of the position on that plane (E69).
 namespace insonify::cells {
 
 struct ReliefFit {
-  Vector2d slope = Vector2d::Zero();  // at the point
-  double misfit = 0;                  // [m^2], mean square of what the polynomial leaves, per degree of freedom
-  bool found = false;                 // the places determine it
+  Vector2d slope = Vector2d::Zero();  // slope at the point
+  double misfit = 0;                  // mean square residual per degree of freedom [m^2]
+  bool found = false;                 // true: the positions determine the polynomial
 };
 
 template <int Degree>
@@ -24,7 +24,7 @@ using Terms = Eigen::Matrix<double, terms_of<Degree>, 1>;
 
 inline constexpr double least_pivot = 1e-7;  // smallest pivot of a well-determined fit, over the largest
 
-// The terms of a polynomial at a place.
+// Returns the terms of a polynomial at (x, y).
 template <int Degree>
 Terms<Degree> terms_at(double x, double y) {
   Terms<Degree> power;
@@ -36,7 +36,7 @@ Terms<Degree> terms_at(double x, double y) {
   return power;
 }
 
-// Least squares through the point and its neighbours, all of one weight; `up` is the normal of the plane.
+// Fits a polynomial through the point and its neighbours, all of one weight; `up` is the normal of the plane.
 template <int Degree>
 ReliefFit fit_relief(std::span<const Place> places, const Vector3d& up) {
   constexpr int terms = terms_of<Degree>;

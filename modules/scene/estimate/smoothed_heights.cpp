@@ -12,46 +12,46 @@
 #include "scene/estimate/surfel_cell_internal.hpp"
 #include "scene/scene_index.hpp"
 
-// Wide cubics lose the short waves of a surface, narrow ones leave noise on it. Which is the less is seen of points
-// that are left out of them (cross-validation): their mean square distance from a cubic is the noise, the same for all,
-// and its error. Where that is least, about as much slope is lost of the waves as noise adds, so that the surface is as
-// rough as it is.
+// Wide cubics lose the short waves of a surface; narrow ones leave noise on it. The width is chosen by
+// cross-validation: the mean square distance of points from cubics fitted without them is the noise, equal for all
+// widths, plus the error of the cubic. Where the sum is least, waves lose about as much slope as noise adds, and the
+// surface is as rough as the true one.
 //
-// Steps and objects are no noise. A cubic is fitted again without the neighbours that stand off it (Tukey's weights),
-// and is no use where more of them stray than noise explains: then a narrower one is tried, and at last none.
+// Steps and objects are not noise. A cubic is fitted again without the neighbours that stand off it (Tukey's weights).
+// It is rejected where more of them stray than noise explains; then narrower ones are tried.
 namespace insonify {
 namespace {
 
 using namespace cells;
 
 constexpr std::array<std::size_t, 8> widths = {16, 25, 40, 63, 100, 160, 250, 400};  // neighbours of a cubic
-constexpr std::size_t of_points = 16;                                                // one is asked
-constexpr std::size_t asked_around = 512;                                            // that decide together
-constexpr std::size_t blended = 4;                                                   // choices
-constexpr double next_narrower = 0.4;                                                // the next cubic that is tried
+constexpr std::size_t of_points = 16;                                                // points per tried point
+constexpr std::size_t asked_around = 512;                                            // tried points that share a choice
+constexpr std::size_t blended = 4;                                                   // choices averaged at a point
+constexpr double next_narrower = 0.4;                                                // next width over a rejected one
 
-// In standard deviations of the noise:
+// Limits in standard deviations of the noise:
 constexpr double farthest_move = 2.9;   // move of a point; three if the noise is estimated 3 % too large
-constexpr double off_object = 5;        // a point farther off the cubic belongs to something else
-constexpr double counted_within = 4.7;  // of the cubic, neighbours count (Tukey: 95 % efficient for a normal law)
-constexpr double capped_at = 3;         // what neighbours add to the mean square of what the cubic leaves
-// Noise explains a mean square above the variance by so much of it, over the root of the degrees of freedom: four
+constexpr double off_object = 5;        // distance from the cubic beyond which a point belongs to an object
+constexpr double counted_within = 4.7;  // largest residual that counts (Tukey: 95 % efficient for a normal law)
+constexpr double capped_at = 3;         // largest residual of a neighbour that the mean square counts
+// Noise explains a mean square residual up to 1 + misfit_doubt / sqrt(degrees of freedom) variances, which is four
 // standard deviations.
 constexpr double misfit_doubt = 6;
 constexpr int fits_of_cubic = 3;
 
-using Errors = std::array<float, widths.size()>;  // of each width, over the variance of the noise
+using Errors = std::array<float, widths.size()>;  // by width, over the variance of the noise
 
-/// What its neighbours say of the height of a point.
+/// Height of a point as its neighbours predict it.
 struct Foretold {
-  double rise = 0;      // over the point [m]
-  double variance = 0;  // of the rise, over that of the noise
+  double rise = 0;      // rise over the point [m]
+  double variance = 0;  // variance of the rise, over that of the noise
 };
 
 /// Fits cubics through the neighbours of points.
 class CubicFit {
  public:
-  /// Empty if the neighbours do not determine a cubic, or stray from it by more than their noise.
+  /// Returns nothing if the neighbours do not determine a cubic, or stray from it by more than their noise.
   std::optional<Foretold> operator()(std::span<const Place> places, double noise) {
     if (places.size() <= terms_of<3>) return {};
     set_places(places);
@@ -83,18 +83,18 @@ class CubicFit {
       power_.block<1, 2>(n, 1) = p.flat.transpose() * per_reach;
       rise_[n] = p.offset.z();
     }
-    // As terms_at: x times each term of one degree less, then y times the last of these.
+    // Build the terms of terms_at: x times each term of one degree less, then y times the last of these.
     for (int degree = 2, t = 3; degree <= 3; t += ++degree) {
       for (int k = 0; k < degree; ++k) power_.col(t + k) = power_.col(1) * power_.col(t - degree + k);
       power_.col(t + degree) = power_.col(2) * power_.col(t - 1);
     }
   }
 
-  /// Weighted least squares; sets what is left of the rises. The products of two terms are powers, of which many are
-  /// equal: their sums are found once.
+  /// Solves the weighted least squares and sets the residuals. The products of two terms are powers, many of them
+  /// equal; their sums are computed once.
   std::optional<Foretold> solve() {
     weighted_ = power_.colwise() * weight_;
-    std::array<std::array<double, 7>, 7> moment{};  // of x^i y^j
+    std::array<std::array<double, 7>, 7> moment{};  // sums of x^i y^j
     for (std::size_t t = 0; t < terms_of<3>; ++t) {
       const auto [i, j] = exponents[t];
       moment[i][j] = weighted_.col(static_cast<Eigen::Index>(t)).sum();
@@ -102,7 +102,7 @@ class CubicFit {
     // Powers beyond the third are a term of degree 3 (from number 6 on) times one of degree `rest`.
     for (std::size_t rest = 1; rest <= 3; ++rest)
       for (std::size_t j = 0; j <= rest + 3; ++j) {
-        const std::size_t in_first = std::min<std::size_t>(j, 3);  // of the y
+        const std::size_t in_first = std::min<std::size_t>(j, 3);  // power of y
         const auto first = static_cast<Eigen::Index>(6 + in_first);
         const auto second = static_cast<Eigen::Index>(rest * (rest + 1) / 2 + j - in_first);
         moment[rest + 3 - j][j] = weighted_.col(first).matrix().dot(power_.col(second).matrix());
@@ -119,7 +119,7 @@ class CubicFit {
     return Foretold{cubic[0], solver.solve(Terms<3>::Unit(0))[0]};
   }
 
-  /// The standard deviation of what is left, by its median.
+  /// Returns the standard deviation of the residuals, estimated by their median.
   double spread() {
     sorted_.assign(left_.begin(), left_.end());
     const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(sorted_.size() / 2);
@@ -128,19 +128,20 @@ class CubicFit {
   }
 
   static constexpr std::array<std::array<std::size_t, 2>, terms_of<3>> exponents = {
-      {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1}, {1, 2}, {0, 3}}};  // of x and y in each term
-  Eigen::Array<double, Eigen::Dynamic, terms_of<3>> power_, weighted_;                    // a row for each neighbour
+      {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1}, {1, 2}, {0, 3}}};  // powers of x, y of each term
+  Eigen::Array<double, Eigen::Dynamic, terms_of<3>> power_, weighted_;                    // one row for each neighbour
   Eigen::ArrayXd rise_, weight_, left_;
   std::vector<double> sorted_;
 };
 
-/// The neighbours of points. A search begins with the radius of the one before: far from a border it finds few too many.
+/// A search for neighbours that begins with the last radius: far from a border it rarely finds too few.
 class Neighbourhood {
  public:
   Neighbourhood(std::span<const Vector3f> points, std::span<const Vector3f> flat, const SceneIndex& index)
       : points_(points), flat_(flat), index_(index) {}
 
-  /// The `count` neighbours nearest to a point, or all others; equal distances by index. In no order unless `sorted`.
+  /// Returns the `count` neighbours nearest to a point, or all others. Equal distances sort by index. Unordered unless
+  /// `sorted`.
   std::span<const Place> look_around(std::size_t i, std::size_t count, bool sorted = false) {
     const std::size_t wanted = std::min(count + 1, flat_.size());
     auto radius = static_cast<float>(1.02 * std::sqrt(area_per_point_ * static_cast<double>(wanted)));
@@ -168,7 +169,7 @@ class Neighbourhood {
   static constexpr int widenings = 8;
   std::span<const Vector3f> points_, flat_;
   const SceneIndex& index_;
-  double area_per_point_ = 0;  // over pi
+  double area_per_point_ = 0;  // area per point over pi
   std::vector<Neighbour> found_;
   std::vector<Place> places_;
 };
@@ -181,7 +182,8 @@ class Heights {
   const Vector3f& flat(std::size_t i) const { return flat_[i]; }
   Neighbourhood neighbourhood() const { return {points_, flat_, index_}; }
 
-  /// The mean square error of cubics at a point, over its variance, of each width: capped, as objects are no error.
+  /// Returns the mean square error of each width at a point, over the noise variance. It is capped: objects are not
+  /// errors.
   Errors errors_at(std::size_t i, Neighbourhood& near, CubicFit& fit) const {
     const std::span<const Place> places = near.look_around(i, widths.back(), true);
     const double noise = noise_[i];
@@ -195,7 +197,7 @@ class Heights {
     return errors;
   }
 
-  /// How far a point is to be raised onto the cubic of a width, or of a narrower one [m] (E160).
+  /// Returns the move of a point onto the cubic of a width, or onto a narrower one [m] (E160).
   double rise_at(std::size_t i, std::size_t width, Neighbourhood& near, CubicFit& fit) const {
     const double noise = noise_[i];
     std::optional<Foretold> found = fit(near.look_around(i, width), noise);
@@ -214,7 +216,7 @@ class Heights {
   SceneIndex index_;
 };
 
-/// How wide cubics should be: asked of some points, each with those around it.
+/// Best widths of cubics, chosen at some of the points, each with those around it.
 class Widths {
  public:
   Widths(const Heights& heights, const std::vector<std::uint32_t>& asked, int threads)
@@ -268,7 +270,7 @@ std::vector<float> smoothed_heights(std::span<const Vector3f> points, std::span<
   smooth.reserve(points.size());
   for (const Vector3f& p : points) smooth.push_back(p.z());
   std::vector<std::uint32_t> asked;
-  std::uint32_t turn = 0;  // by the golden ratio: spread evenly whatever the length of the rows of a raster
+  std::uint32_t turn = 0;  // steps by the golden ratio, which spread evenly whatever the row length of a raster
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (!(noise[i] > 0)) continue;
     if (turn <= ~0u / of_points) asked.push_back(i);

@@ -21,12 +21,12 @@ namespace insonify::cells {
 using Eigen::Vector2d, Eigen::Vector3d, Eigen::Vector3f;
 
 inline constexpr double border_gap = radians(120);  // wider gaps between neighbours are borders
-inline constexpr double isolation = 4;         // farther from the nearest point, in spacings of that point: an outlier
-inline constexpr double largest_spacing = 16;  // of a cell, in median spacings of the cloud
-inline constexpr double same_sheet = 1;        // a neighbour rises over the tangent plane by no more than it is away
-inline constexpr double same_rough_sheet = 3;  // and over the base plane of a rough surface
+inline constexpr double isolation = 4;              // distance of an outlier, in spacings of its nearest point
+inline constexpr double largest_spacing = 16;       // largest width of a cell, in median spacings of the cloud
+inline constexpr double same_sheet = 1;             // steepest rise of a neighbour over the tangent plane
+inline constexpr double same_rough_sheet = 3;       // the same over the base plane of a rough surface
 
-// Where points stand on their plan.
+// Returns the points with z = 0.
 inline std::vector<Vector3f> plan_of(std::span<const Vector3f> points) {
   std::vector<Vector3f> flat;
   flat.reserve(points.size());
@@ -34,13 +34,13 @@ inline std::vector<Vector3f> plan_of(std::span<const Vector3f> points) {
   return flat;
 }
 
-// A neighbour in the tangent plane, and where it is from the point.
+// A neighbour: its position in the tangent plane, and in space relative to the point.
 struct Place {
   Vector2d flat;
   Vector3d offset;
 };
 
-// A convex polygon with the point itself at (0, 0); from each corner to the next runs the bisector to a place.
+// A corner of a convex polygon around (0, 0). From it to the next runs the bisector to a neighbour.
 struct Corner {
   Vector2d at;
   std::uint32_t place;
@@ -91,8 +91,8 @@ struct Workspace {
 // Distinct points of a cloud and how often each occurs.
 struct DistinctPoints {
   std::vector<std::uint32_t> first;     // one point of the cloud for each distinct position
-  std::vector<std::uint32_t> position;  // of each point of the cloud, index into `first`
-  std::vector<std::uint32_t> copies;    // at each distinct position
+  std::vector<std::uint32_t> position;  // index into `first` for each point of the cloud
+  std::vector<std::uint32_t> copies;    // number of points at each distinct position
 };
 
 inline DistinctPoints find_distinct(std::span<const Vector3f> points) {
@@ -118,7 +118,7 @@ class AreaEstimator {
  public:
   AreaEstimator(std::span<const Vector3f> points, int neighbours, double steepest)
       : AreaEstimator(points, points, neighbours, steepest) {}
-  // Neighbours are sought, and cells lie, among `charted`: where the points stand on a plane, or in which directions.
+  // Searches neighbours and forms cells among `charted`: the points projected on a plane, or their directions.
   AreaEstimator(std::span<const Vector3f> charted, std::span<const Vector3f> points, int neighbours, double steepest)
       : charted_(charted),
         points_(points),
@@ -142,8 +142,8 @@ class AreaEstimator {
     return clipped_area(work);
   }
 
-  // The direction of the facets between the point and the neighbours whose bisectors bound its cell, as `area` left
-  // them; zero if there are none.
+  // Returns the direction of the facets between the point and the neighbours whose bisectors bound its cell after
+  // `area`; zero if there are none.
   static Vector3d facet_normal(const Workspace& work) {
     Vector3d sum = Vector3d::Zero();
     if (work.cell.size() < 3) return sum;
@@ -157,7 +157,7 @@ class AreaEstimator {
   const SceneIndex& index() const { return index_; }
 
  private:
-  // Neighbours on the same sheet of surface, in the tangent plane, and the gaps between their directions.
+  // Finds the neighbours on the same sheet of surface, in the tangent plane, and the gaps between their directions.
   void find_flat_neighbours(std::size_t i, const Vector3f& normal, std::size_t k, Workspace& work) const {
     const Vector3d n = normal.cast<double>();
     const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
@@ -184,7 +184,7 @@ class AreaEstimator {
     }
   }
 
-  // Distance from the nearest neighbour to its own third nearest point.
+  // Returns the distance from the nearest neighbour to its own third nearest point.
   double spacing_at_nearest(std::size_t i, Workspace& work) const {
     std::uint32_t nearest = static_cast<std::uint32_t>(i);
     for (auto n = work.found.rbegin(); n != work.found.rend(); ++n)
@@ -193,9 +193,8 @@ class AreaEstimator {
     return std::sqrt(static_cast<double>(work.found.back().squared_distance));
   }
 
-  // Fills borders with mirror images of the neighbours opposite, so that a cell ends as far beyond its point
-  // as it does inside; where a gap stays wider than the limit, with points at the distance of the nearest
-  // neighbour.
+  // Fills borders with mirror images of the neighbours opposite, so that a cell extends as far beyond its point as
+  // within. Gaps that stay wider than the limit get points at the distance of the nearest neighbour.
   static void close_gaps(double nearest, Workspace& work) {
     const std::size_t real = work.places.size();
     const std::vector<Gap> gaps = work.gaps;
@@ -233,10 +232,10 @@ class AreaEstimator {
   std::span<const Vector3f> charted_, points_;
   SceneIndex index_;
   std::size_t neighbours_;
-  double steepest_;  // a neighbour may rise by so much of its distance
+  double steepest_;  // largest rise of a neighbour over its distance
 };
 
-// No cell may be absurdly large: an outlier's disc would hide whole scenes.
+// Limits the areas of outliers, whose discs would hide whole scenes.
 inline void limit_cells(std::vector<double>& areas) {
   std::vector<double> sorted = areas;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -245,7 +244,7 @@ inline void limit_cells(std::vector<double>& areas) {
     for (double& a : areas) a = std::min(a, *middle * largest_spacing * largest_spacing);
 }
 
-// Distinct positions, and what is estimated of them.
+// Distinct positions with their estimates.
 struct Estimate {
   DistinctPoints distinct;
   std::vector<Vector3f> position;
@@ -260,7 +259,7 @@ inline void require_valid(std::span<const Vector3f> points, std::span<const Vect
     fail(ErrorKind::argument, who, ": neighbours = ", options.neighbours, ", must be at least 6");
 }
 
-// Coincident points count as one; its cell is shared among them at the end.
+// Merges coincident points. The cell of a position is divided among its points at the end.
 inline Estimate distinct_points(std::span<const Vector3f> points) {
   Estimate e;
   e.distinct = find_distinct(points);

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d, Eigen::Vector3f;
 
-// Distance from their plane within which two thirds of the points lie.
+// Returns the distance from their plane within which two thirds of the points lie.
 double spread_about_plane(std::span<const Vector3f> points, const std::vector<Neighbour>& nearest,
                           std::vector<double>& distance) {
   Vector3d mean = Vector3d::Zero();
@@ -33,7 +33,7 @@ double spread_about_plane(std::span<const Vector3f> points, const std::vector<Ne
   const auto middle = distance.begin() + static_cast<std::ptrdiff_t>(distance.size() * 2 / 3);
   std::nth_element(distance.begin(), middle, distance.end());
   const auto count = static_cast<double>(distance.size());
-  return *middle * std::sqrt(count / (count - 3));  // (E67): a plane takes three degrees of freedom
+  return *middle * std::sqrt(count / (count - 3));  // (E67): the plane takes three degrees of freedom
 }
 
 }  // namespace

@@ -13,10 +13,10 @@ struct SurfelNoiseOptions {
   int threads = 0;      ///< 0: all cores
 };
 
-/// Noise of the surface about each point [m]: the distance from their common plane within which two thirds of the
-/// nearest
-/// points lie, one standard deviation of a normal law within 20 % (E67). Points of another surface, up to a third, do
-/// not count. Relief as fine as the points themselves looks like noise. Fewer points than neighbours give 0.
+/// Returns the noise of the surface about each point [m]: the distance from their common plane within which two thirds
+/// of the nearest points lie, one standard deviation of a normal law within 20 % (E67). Points of another surface, up
+/// to a third, do not count. Relief as fine as the points themselves looks like noise. Fewer points than neighbours
+/// give 0.
 std::vector<float> estimate_surfel_noise(std::span<const Eigen::Vector3f> points,
                                          const SurfelNoiseOptions& options = {});
 

@@ -16,10 +16,10 @@ using namespace cells;
 namespace {
 
 constexpr double least_cosine = 0.1;           // between a surface and the plane on which its cells lie
-constexpr double least_seen_cosine = 0.1;      // and between a surface and the direction in which it was seen
-constexpr std::size_t neighbours_fitted = 16;  // by a cubic, which has ten terms
+constexpr double least_seen_cosine = 0.1;      // between a surface and the direction in which it was seen
+constexpr std::size_t neighbours_fitted = 16;  // neighbours of a cubic, which has ten terms
 constexpr std::size_t around = 17;             // points that decide together
-constexpr std::size_t compared_cells = 20000;  // at most some that decide whether a cloud was seen at once
+constexpr std::size_t compared_cells = 20000;  // largest number of cells that decide whether a cloud was seen at once
 constexpr double flat_chart = 100;             // rise of a neighbour on a chart, which has none but for rounding
 
 double median_of(std::vector<double>& values) {
@@ -30,14 +30,14 @@ double median_of(std::vector<double>& values) {
 
 Vector3f on_plan(const Vector3f& point) { return {point.x(), point.y(), 0}; }
 
-// Points seen from above.
+// Points as seen from above.
 struct Plan {
-  std::vector<std::uint32_t> points;  // all but those that hang alone over the others
-  std::vector<std::uint8_t> single;   // of each point of the cloud: of a height field
+  std::vector<std::uint32_t> points;  // all points but those that hang alone over the others
+  std::vector<std::uint8_t> single;   // 1 for each point of the cloud that belongs to a height field
 };
 
-// Height fields have one height each: none of the four links of a point to its neighbours is steeper than five to one,
-// or at most a third of those around are. Between surfaces one above the other more are.
+// Finds height fields, which have one height at each position: none of the four links of a point to its neighbours is
+// steeper than five to one, or at most a third of those around are. Surfaces one above the other have more.
 Plan find_height_fields(std::span<const Vector3f> points, int threads) {
   constexpr std::size_t links = 4;
   std::vector<Vector3f> flat;
@@ -76,13 +76,13 @@ Plan find_height_fields(std::span<const Vector3f> points, int threads) {
   return plan;
 }
 
-// What the neighbours of a point show of its surface.
+// Shape of the surface around a point, as its neighbours show it.
 struct Look {
   Vector3f frame;          // normal of the plane on which the cell lies
-  Vector3f relief, plane;  // normals that follow the neighbours one by one, or all of them together
-  double cell = 0;         // [m^2] on that plane
-  double left_by_relief = 0, left_by_plane = 0;  // [m^2], mean squares
-  bool charted = false;                          // on the plan of a height field
+  Vector3f relief, plane;  // normals that follow the neighbours one by one, and all of them together
+  double cell = 0;         // area on that plane [m^2]
+  double left_by_relief = 0, left_by_plane = 0;  // mean square residuals [m^2]
+  bool charted = false;                          // true: the cell lies on the plan of a height field
 };
 
 Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& frame, bool charted, Workspace& work) {
@@ -98,7 +98,7 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
   if (work.places.size() < neighbours_fitted) return look;
   const std::span<const Place> all(work.places), near = all.first(neighbours_fitted);
   ReliefFit cubic = fit_relief<3>(near, up), flat = fit_relief<1>(near, up);
-  if (!cubic.found) cubic = fit_relief<2>(all, up), flat = fit_relief<1>(all, up);  // on three lines of a scan
+  if (!cubic.found) cubic = fit_relief<2>(all, up), flat = fit_relief<1>(all, up);  // for three lines of a scan
   if (!cubic.found) return look;
   look.left_by_relief = cubic.misfit;
   look.left_by_plane = flat.misfit;
@@ -108,7 +108,7 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
   return look;
 }
 
-// Height fields on their plan; elsewhere on the base planes.
+// Returns the shapes around all points: height fields on their plan, others on the base planes.
 std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& base, const AreaEstimator& estimator,
                               const ShapeOptions& options) {
   std::vector<Look> looks(e.position.size());
@@ -135,13 +135,13 @@ std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& ba
   return looks;
 }
 
-// Noise of the heights of height fields (E160): what cubics leave where they leave least, in a quarter of the places, of
-// which those at steps, objects and relief are left out that leave more than noise does. Zero if it is no more than the
-// rounding of coordinates.
+// Returns the noise of the heights of height fields (E160), from the residuals of cubics. It is the lower quartile of
+// all that are no larger than noise leaves, so that steps, objects and relief do not count. Zero if it is no more than
+// the rounding of coordinates.
 float height_noise_of(const std::vector<Look>& looks, const std::vector<Vector3f>& positions) {
-  constexpr double most = 2;               // squares of noise, of 17 points less ten terms: 95 % of chi^2 are below
-  constexpr double quarter_of = 0.5924;    // squares of noise: the lower quartile of these
-  constexpr double float_steps = 0x1p-22;  // of the largest coordinate: four
+  constexpr double most = 2;               // squares of noise: 95 % of chi^2 / 7 (17 points less ten terms) lie below
+  constexpr double quarter_of = 0.5924;    // lower quartile of these residuals, in squares of noise
+  constexpr double float_steps = 0x1p-22;  // four steps of the largest coordinate
   std::vector<double> left;
   float largest = 0;
   for (std::size_t i = 0; i < looks.size(); ++i) {
@@ -158,9 +158,9 @@ float height_noise_of(const std::vector<Look>& looks, const std::vector<Vector3f
   return std::sqrt(square) > float_steps * largest ? static_cast<float>(std::sqrt(square)) : 0;
 }
 
-// Relief where a cubic leaves at most half of what a plane leaves, as it does not of noise; else the mean plane around.
-// The cell on its plane becomes one on the surface (E69). Strays, cells far larger than those around, take the area
-// that is typical there unless `keep_strays`.
+// Chooses the normal of the relief where a cubic leaves at most half of a plane's residual, which it does not for
+// noise; otherwise that of the mean plane around. Projects the cell onto the surface (E69). Strays, whose cells are far
+// larger than those around, get the area that is typical there unless `keep_strays`.
 void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, const ShapeOptions& options, Estimate& e,
                    std::vector<Vector3f>& normals, SurfelShapes& counts) {
   constexpr double far_larger = 16;
@@ -198,14 +198,14 @@ void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, cons
   counts.heights = heights;
 }
 
-// Shapes of points whose lines of sight are not known.
+// Estimates the shapes of points whose lines of sight are unknown.
 void estimate_around(const ShapeOptions& options, Estimate& e, std::vector<Vector3f>& normals, SurfelShapes& counts) {
   const AreaEstimator estimator(e.position, 2 * options.neighbours, same_rough_sheet);
   choose_shapes(look_at_all(e, normals, estimator, options), estimator.index(), options, e, normals, counts);
 }
 
-// Voronoi cells among `places`, unit vectors or points of a plan, of every `step`th, whose tangent planes have the
-// normals `up`.
+// Returns the areas of the Voronoi cells of every `step`th of `places`, unit vectors or points of a plan, with the
+// tangent planes' normals `up`.
 std::vector<double> cells_among(const AreaEstimator& estimator, const std::vector<Vector3f>& up, std::size_t step,
                                 int threads) {
   std::vector<double> cells(up.size() / step);
@@ -216,16 +216,16 @@ std::vector<double> cells_among(const AreaEstimator& estimator, const std::vecto
   return cells;
 }
 
-// Median deviation from the median, as a part of it.
+// Returns the median deviation from the median, over the median.
 double spread_of(std::vector<double> cells) {
   const double typical = median_of(cells);
   for (double& cell : cells) cell = std::abs(cell - typical);
   return typical > 0 ? median_of(cells) / typical : 0;
 }
 
-// Areas of points that were all seen from one place: their cells among the directions in which they were seen (E73).
-// False if the cells are not `evenness` times as even there as on the plan: then the cloud is a raster of heights, or
-// was not seen at once.
+// Estimates the areas of points that were all seen from one place by their cells among the directions from there (E73).
+// Returns false if the cells are not `evenness` times as even there as on the plan: the cloud is a raster of heights,
+// or was not seen at once.
 bool estimate_seen(const Vector3d& viewpoint, double evenness, const std::vector<Vector3f>& normals,
                    const AreaOptions& options, Estimate& e) {
   std::vector<Vector3f> direction, flat;
