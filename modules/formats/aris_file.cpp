@@ -13,7 +13,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t aris_header_bytes = 1024;
-constexpr std::uint32_t aris_version = 0x05464444, aris_swapped = 0x44444605;  // "DDF" and 5
+constexpr std::uint32_t aris_version = 0x05464444, aris_swapped = 0x44444605;  // "DDF" and 5, in either byte order
 constexpr std::uint32_t aris_3000 = 1;
 constexpr double aris_farthest = 1000;  // [m], beyond any ARIS
 
@@ -40,7 +40,7 @@ std::size_t beams_of_mode(const std::string& path, std::uint32_t mode) {
   return beams[mode];
 }
 
-/// Directions of the beams behind the lenses, by polynomials through the tables of the SDK: x from -1 to 1 across.
+/// Returns the directions of the beams behind the lenses, by polynomials fitted to the tables of the SDK.
 BeamFan aris_fan(std::size_t beams, std::uint32_t model, bool telephoto) {
   BeamFan fan;
   const double half = 0.5 * static_cast<double>(beams);

@@ -19,10 +19,10 @@ struct ArisFrame {
   Grid<std::uint8_t> grey;   ///< beams x samples
   BeamFan fan;               ///< azimuths to 0.2 degrees, from the lens of the model; widths are the mean spacing
   RangeGate gate;            ///< samples are bins
-  std::size_t frames = 0;    ///< in the file
+  std::size_t frames = 0;    ///< number of frames in the file
   double time = 0;           ///< UTC, seconds since 1970
   double sound_speed = 0;    ///< [m/s]
-  double temperature_c = 0;  ///< of the water
+  double temperature_c = 0;  ///< temperature of the water
   double pulse_length = 0;   ///< [s]
   double receiver_gain_db = 0;
   std::string model;  ///< ARIS 1200, 1800 or 3000
@@ -32,7 +32,8 @@ struct ArisFrame {
 /// each has a header of 1024 bytes and beams x samples of 8 bits, sample by sample, the starboard beam first. The
 /// layout follows the public headers of SoundMetrics/aris-file-sdk. Throws Error(file) if the file cannot be read;
 /// Error(content) if it is not such a recording, is of the other byte order, is truncated, lacks the geometry (sound
-/// speed, sample period) or has one beyond any sonar's (1 km), or has samples that are not in order; Error(argument) unless number < frames.
+/// speed, sample period) or reaches beyond any sonar's (1 km), or has samples out of order; Error(argument) unless
+/// number < frames.
 ArisFrame read_aris_frame(const std::string& path, std::size_t number);
 
 /// Returns the levels of a frame [dB re unknown], beams x samples.

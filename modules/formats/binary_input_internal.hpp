@@ -4,18 +4,18 @@
 #include <fstream>
 #include <string>
 
-// Private to formats: files that are read part by part.
+// Private to formats: files that are read piece by piece.
 namespace insonify {
 
-/// A binary file of which parts are read.
+/// A binary file that is read piece by piece.
 class BinaryInput {
  public:
   /// Throws Error(file) if the file cannot be read.
   explicit BinaryInput(const std::string& path);
 
-  /// Bytes of the file.
+  /// Returns the size of the file [bytes].
   std::size_t size() const { return size_; }
-  /// The bytes from `offset` on. Throws Error(content) if the file ends within them; `what` names them.
+  /// Returns `length` bytes from `offset` on. Throws Error(content) if the file ends within them; `what` names them.
   std::string part(std::size_t offset, std::size_t length, const std::string& what);
 
  private:

@@ -16,7 +16,7 @@ constexpr const char* geotiff_call = "write_geotiff";
 constexpr const char* local_grid_name = "local grid of metres";
 enum TiffType : std::uint16_t { tiff_ascii = 2, tiff_short = 3, tiff_long = 4, tiff_double = 12 };
 
-/// A directory entry: its values as bytes, put behind the directory if they are more than four.
+/// A directory entry with its values as bytes. More than four bytes stand behind the directory.
 struct TiffEntry {
   std::uint16_t tag;
   TiffType type;
@@ -35,7 +35,7 @@ TiffEntry tiff_text(std::uint16_t tag, std::string text) {
   return {tag, tiff_ascii, static_cast<std::uint32_t>(text.size()), text};
 }
 
-/// Names and units of the bands, as GDAL keeps them.
+/// Returns names and units of the bands in GDAL's form.
 std::string band_metadata(const std::vector<GeoBand>& bands) {
   std::string text = "<GDALMetadata>\n";
   const auto add = [&](const char* name, const char* role, std::size_t band, const std::string& value) {
@@ -50,7 +50,7 @@ std::string band_metadata(const std::vector<GeoBand>& bands) {
   return text + "</GDALMetadata>\n";
 }
 
-/// The keys of a projected system, or of a plane of its own in metres: a user-defined model with a name.
+/// Returns the keys of a projected system, or of a plane of its own in metres (a user-defined model with a name).
 std::vector<TiffEntry> geo_keys_of(int epsg) {
   using Shorts = std::vector<std::uint16_t>;
   if (epsg > 0)
@@ -64,7 +64,7 @@ std::vector<TiffEntry> geo_keys_of(int epsg) {
           tiff_text(34737, name)};
 }
 
-/// Entries in the order of their tags; the first band begins at `data`.
+/// Returns the entries in the order of their tags; the first band begins at `data`.
 std::vector<TiffEntry> tiff_entries(const std::vector<GeoBand>& bands, const GeoGrid& grid, std::uint32_t data) {
   const auto rows = static_cast<std::uint32_t>(bands[0].values.rows());
   const auto columns = static_cast<std::uint32_t>(bands[0].values.cols());
@@ -76,14 +76,14 @@ std::vector<TiffEntry> tiff_entries(const std::vector<GeoBand>& bands, const Geo
   using Longs = std::vector<std::uint32_t>;
   std::vector<TiffEntry> entries = {tiff_entry(256, tiff_long, Longs{columns}), tiff_entry(257, tiff_long, Longs{rows}),
                                     tiff_entry(258, tiff_short, Shorts(count, 32)),
-                                    tiff_entry(259, tiff_short, Shorts{1}),   // not compressed
-                                    tiff_entry(262, tiff_short, Shorts{1})};  // dark is low
+                                    tiff_entry(259, tiff_short, Shorts{1}),   // uncompressed
+                                    tiff_entry(262, tiff_short, Shorts{1})};  // black is zero
   if (!grid.remark.empty()) entries.push_back(tiff_text(270, grid.remark));
   entries.push_back(tiff_entry(273, tiff_long, places));
   entries.push_back(tiff_entry(277, tiff_short, Shorts{static_cast<std::uint16_t>(count)}));
   entries.push_back(tiff_entry(278, tiff_long, Longs{rows}));
   entries.push_back(tiff_entry(279, tiff_long, sizes));
-  entries.push_back(tiff_entry(284, tiff_short, Shorts{2}));  // band after band
+  entries.push_back(tiff_entry(284, tiff_short, Shorts{2}));  // one band after the other
   if (count > 1) entries.push_back(tiff_entry(338, tiff_short, Shorts(count - 1, 0)));
   entries.push_back(tiff_entry(339, tiff_short, Shorts(count, 3)));  // floats
   const double cell = grid.cell / grid.unit, north = grid.south + grid.cell * rows;
@@ -139,7 +139,7 @@ void write_geotiff(const std::string& path, const std::vector<GeoBand>& bands, c
   std::ofstream out(pending.temporary(), std::ios::binary);
   out << tiff_directory(tiff_entries(bands, grid, static_cast<std::uint32_t>(at_zero.size())));
   for (const GeoBand& band : bands)
-    for (Eigen::Index row = rows; row-- > 0;)  // from the north
+    for (Eigen::Index row = rows; row-- > 0;)  // rows from north to south
       out.write(reinterpret_cast<const char*>(band.values.row(row).data()), static_cast<std::streamsize>(4 * columns));
   pending.commit(out);
 }

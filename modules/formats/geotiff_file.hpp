@@ -18,8 +18,8 @@ struct GeoGrid {
   int epsg = 0;                ///< code of its projected system, from 1024 to 32767; 0: a plane of its own
   double west = 0, south = 0;  ///< corner of the cell of row 0, column 0 [m]
   double cell = 1;             ///< size [m]
-  double unit = 1;             ///< of the system [m]: coordinates are written in it
-  std::string remark{};        ///< of the whole file (ImageDescription); empty: none
+  double unit = 1;             ///< length of the unit of the coordinates [m]
+  std::string remark{};        ///< remark on the file (ImageDescription); empty: none
 };
 
 /// Writes bands as a GeoTIFF 1.1 of 32-bit floats, north up, not compressed. Cells are areas; NaN means no value. The

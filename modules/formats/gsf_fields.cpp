@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-/// Appends `value`, rounded; Error(content) if it has no room in a number of this type.
+/// Appends `value`, rounded. Throws Error(content) if a number of this type cannot hold it.
 template <typename Number>
 void put_rounded(std::string& bytes, double value, const char* name, const std::string& where) {
   const double rounded = std::nearbyint(value);

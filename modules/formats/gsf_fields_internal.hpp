@@ -22,7 +22,7 @@ template <typename Record>
 struct GsfField {
   const char* name;
   GsfType type;
-  double steps;      ///< raw numbers to a unit; of text and zeros the number of bytes
+  double steps;      ///< raw counts per unit; text and zeros: number of bytes
   const char* unit;  ///< "": a number
   const char* meaning;
   double (*value)(const Record& record) = nullptr;
@@ -31,14 +31,14 @@ struct GsfField {
 
 /// An array of one number per beam: raw = (value + offset) times multiplier, rounded.
 struct GsfArray {
-  std::uint8_t id, size_flag;  ///< of the field: 0 the usual, 0x20 two bytes, 0x40 four
+  std::uint8_t id, size_flag;  ///< number and size of the field: 0 the usual, 0x20 two bytes, 0x40 four
   GsfType type;
   std::int32_t multiplier, offset;
   const char* name;
   const char* unit;
   const char* meaning;
   double (*value)(const GsfBeam& beam);
-  double none = 0;  ///< of a beam without a sounding
+  double none = 0;  ///< value for a beam without a sounding
 };
 
 /// A processing parameter, written as KEY=VALUE.
@@ -72,11 +72,11 @@ std::span<const GsfField<GsfSurvey>> gsf_comment_fields();
 std::span<const GsfField<GsfSurvey>> gsf_history_fields();
 std::span<const GsfField<GsfSurvey>> gsf_position_error_fields();
 std::span<const GsfField<GsfAttitudeHead>> gsf_attitude_fields();
-/// Of attitudes whose time counts from the first one of the record.
+/// Returns the fields of one attitude. Its time counts from the first attitude of the record.
 std::span<const GsfField<GsfAttitude>> gsf_attitude_entry_fields();
 std::span<const GsfField<GsfSummary>> gsf_summary_fields();
 
-/// Appends a raw number. Throws Error(content), naming the field and `where`, if it has no room there.
+/// Appends a raw number. Throws Error(content) that names the field and `where` if the type cannot hold it.
 void put_gsf_number(std::string& bytes, GsfType type, double raw, const char* name, const std::string& where);
 /// Appends a text, or as many zeros as the field has.
 void put_gsf_text(std::string& bytes, GsfType type, double size, const std::string& text);
@@ -95,11 +95,11 @@ void put_gsf_fields(std::string& bytes, std::span<const GsfField<Record>> fields
 /// Returns an angle in degrees within [0, 360), also after rounding to `steps` steps per degree.
 double gsf_compass(double angle, double steps);
 
-/// The two fields of a time; the nanoseconds never round up to a second.
+/// Return the whole seconds and the fraction of a time. The fraction never rounds up to a second.
 inline double gsf_seconds(double time) { return std::floor(time); }
 inline double gsf_fraction(double time) { return std::min(0.999999999, time - std::floor(time)); }
 
-/// A longitude within -180 and 180 degrees.
+/// Returns a longitude in degrees, within -180 and 180.
 inline double gsf_longitude(double longitude) { return degrees(std::remainder(longitude, 2 * pi)); }
 
 }  // namespace insonify

@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-// Records, and the subrecord of a ping that says how arrays are scaled.
+// Records, and the subrecord of a ping with the scales of its arrays.
 enum : std::uint32_t {
   header_record = 1,
   ping_record = 2,
@@ -22,9 +22,9 @@ enum : std::uint32_t {
   attitude_record = 12
 };
 constexpr std::uint8_t scale_factors_id = 100;
-constexpr std::size_t most_beams = 18000;  // of 29 bytes: a record has at most 2^19
-constexpr double most_attitude_time = 60;  // [s], of a record
-constexpr std::streamoff summary_at = 20;  // behind the header
+constexpr std::size_t most_beams = 18000;  // beams of 29 bytes; a record has at most 2^19
+constexpr double most_attitude_time = 60;  // largest span of a record [s]
+constexpr std::streamoff summary_at = 20;  // offset behind the header
 
 void require_time(double time) {
   if (!(time >= 0 && time < 4294967296.0))
@@ -100,7 +100,7 @@ GsfFile::GsfFile(const std::string& path, const GsfSurvey& survey)
       sensor_(survey.sensor) {
   require_time(survey.time);
   record(header_record, std::string("GSF-v03.11\0\0", 12));
-  record(summary_record, fields_of(gsf_summary_fields(), summary_, "the summary"));  // again when all is known
+  record(summary_record, fields_of(gsf_summary_fields(), summary_, "the summary"));  // written again by finish()
   record(comment_record, fields_of(gsf_comment_fields(), survey, "the comment"));
   record(history_record, fields_of(gsf_history_fields(), survey, "the history"));
   record(parameter_record, parameters_of(survey));

@@ -12,10 +12,10 @@ using Swath = GsfPing;
 constexpr double confidence_95 = 1.959963985;
 constexpr double knots_per_m_s = 3600.0 / 1852;
 
-/// Whether a correction fits into the centimetres of TIDE_CORRECTOR; else it is one of GPS_TIDE_CORRECTOR.
+/// Returns true if a correction fits into the centimetres of TIDE_CORRECTOR. Larger ones go to GPS_TIDE_CORRECTOR.
 bool is_small_tide(double tide) { return std::abs(tide) < 327; }
 
-/// The GSF library takes an EM 2040 whose centre is before the middle for the starboard one of two heads.
+/// Returns the middle beam. The GSF library takes an EM 2040 whose centre is before it for the starboard of two heads.
 double middle_beam(const GsfPing& p) { return static_cast<double>(p.beams.size() / 2); }
 
 double detections(const GsfPing& p) {
@@ -24,7 +24,7 @@ double detections(const GsfPing& p) {
 
 double low_16_bits(std::uint32_t number) { return number & 0xffffU; }
 
-/// An absorption in dB per km, at most `most`.
+/// Returns the absorption [dB/km], at most `most`.
 double absorption_db_per_km(const GsfPing& p, double most) { return std::min(most, 1000 * p.absorption_db_per_m); }
 
 const GsfField<Swath> ping_fields[] = {

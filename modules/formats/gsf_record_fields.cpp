@@ -11,7 +11,7 @@ using Survey = GsfSurvey;
 using Summary = GsfSummary;
 using Processing = GsfProcessing;
 
-// As GSF writes metres and degrees of parameters: two decimals, a sign and five places at least.
+// Formats a number like GSF's parameters in metres and degrees: a sign, two decimals, at least six characters.
 std::string parameter_number(double value) { return printed("%+06.2f", value + 0.0); }
 
 std::string parameter_vector(const Eigen::Vector3d& v) {

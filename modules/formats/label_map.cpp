@@ -14,10 +14,10 @@ namespace {
 struct PartBounds {
   Annotation annotation;
   int right = 0, bottom = 0;
-  std::array<std::size_t, 256> pixels{};  // of each category
+  std::array<std::size_t, 256> pixels{};  // by category
 };
 
-// Run lengths down the columns, one column after the other.
+// Returns the run lengths of an object's mask down the columns, one column after the other.
 std::vector<std::uint32_t> run_lengths(const Grid<std::uint16_t>& instance, std::uint16_t number) {
   std::vector<std::uint32_t> counts{0};
   bool inside = false;
@@ -33,7 +33,7 @@ using Corner = std::array<int, 2>;
 enum { to_right, downwards, to_left, upwards };  // directions of sides, clockwise
 constexpr int steps_x[] = {1, 0, -1, 0}, steps_y[] = {0, 1, 0, -1};
 
-/// Directions in which sides of the object leave each corner, the object to their right.
+/// Returns the directions in which sides of the object leave each corner, with the object on their right.
 std::map<Corner, std::array<bool, 4>> sides_of(const Grid<std::uint16_t>& instance, std::uint16_t number) {
   const auto inside = [&](Eigen::Index row, Eigen::Index column) {
     return row >= 0 && column >= 0 && row < instance.rows() && column < instance.cols() &&
@@ -52,8 +52,8 @@ std::map<Corner, std::array<bool, 4>> sides_of(const Grid<std::uint16_t>& instan
   return sides;
 }
 
-/// Takes the closed line of sides that begins at a corner, its corners where it turns. Where two lines touch it turns
-/// right, so that parts which touch at a corner alone stay apart.
+/// Removes the closed outline that begins at a corner and returns the corners where it turns. Where two outlines touch
+/// it turns right, so that areas which touch only at a corner stay apart.
 std::vector<int> take_line(std::map<Corner, std::array<bool, 4>>& sides, Corner at, int direction) {
   std::vector<int> line{at[0], at[1]};
   const Corner begin = at;
@@ -67,11 +67,11 @@ std::vector<int> take_line(std::map<Corner, std::array<bool, 4>>& sides, Corner 
     if (next != direction) line.insert(line.end(), {at[0], at[1]});
     direction = next;
   }
-  if (direction == first) line.erase(line.begin(), line.begin() + 2);  // the begin is no turn
+  if (direction == first) line.erase(line.begin(), line.begin() + 2);  // the outline does not turn at its begin
   return line;
 }
 
-/// Twice the area within a line, positive if it is clockwise as it is seen.
+/// Returns twice the area within an outline, positive if it is clockwise as seen.
 long area_twice(const std::vector<int>& line) {
   long area = 0;
   for (std::size_t k = 0; k < line.size(); k += 2) {

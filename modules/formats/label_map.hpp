@@ -19,7 +19,7 @@ struct Annotation {
   std::uint16_t instance = 0;
   std::uint8_t category = 0;
   std::size_t area = 0;                          ///< [pixels]
-  int left = 0, top = 0, width = 0, height = 0;  ///< of the box [pixels]
+  int left = 0, top = 0, width = 0, height = 0;  ///< box of the object [pixels]
   std::vector<std::uint32_t>
       counts;  ///< run lengths of the mask, column by column, beginning with pixels outside the object
 };

@@ -17,12 +17,12 @@
 namespace insonify {
 namespace {
 
-constexpr double las_step = 1e-4;          // of coordinates [m]
-constexpr double scan_angle_step = 0.006;  // [deg]
+constexpr double las_step = 1e-4;          // step of coordinates [m]
+constexpr double scan_angle_step = 0.006;  // step of scan angles [deg]
 constexpr std::uint16_t extra_bytes_length = 4 + 4 + 4 + 2;
-constexpr double adjusted_by = 1e9;  // of adjusted GPS time [s]
+constexpr double adjusted_by = 1e9;  // offset of adjusted GPS time [s]
 
-/// What differs between versions.
+/// The numbers that differ between versions of LAS.
 struct LasVersion {
   int minor;
   std::uint16_t header_bytes;
@@ -40,7 +40,7 @@ const LasVersion& las_version(int minor) {
   fail(ErrorKind::argument, "LasFile: options.minor = ", minor, ", must be 2 or 4");
 }
 
-/// An extra dimension; types as the specification numbers them.
+/// An extra dimension, with the type's number in the specification.
 struct ExtraBytes {
   std::uint8_t type;
   const char* name;
@@ -74,7 +74,7 @@ std::string extra_bytes_record() {
   return data;
 }
 
-/// The keys of GeoTIFF for a projected zone, cells not said.
+/// Returns the GeoTIFF keys of a projected zone; cells are left undefined.
 std::string geo_keys(const UtmZone& zone) {
   std::string data;
   const auto code = static_cast<std::uint16_t>(epsg_code(zone));
@@ -84,7 +84,7 @@ std::string geo_keys(const UtmZone& zone) {
   return data;
 }
 
-/// Day of the year, from 1, and year of a time; 0, 0 for 0.
+/// Returns the day of the year, from 1, and the year of a time; 0, 0 for 0.
 std::pair<std::uint16_t, std::uint16_t> day_and_year(double utc) {
   using namespace std::chrono;
   if (utc == 0) return {0, 0};
@@ -119,7 +119,7 @@ LasFile::LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vect
   out_ << header();
 }
 
-/// Public header block and variable length records.
+/// Returns the public header block and the variable length records.
 std::string LasFile::header() const {
   const LasVersion& version = las_version(options_.minor);
   std::string records;
@@ -137,14 +137,14 @@ std::string LasFile::header() const {
   bytes.push_back(1), bytes.push_back(static_cast<char>(version.minor));
   put_field(bytes, "insonify", 32);
   put_field(bytes, "insonify export", 32);
-  const auto [day, year] = day_and_year(options_.start);  // of the survey: the same points, the same bytes
+  const auto [day, year] = day_and_year(options_.start);  // date of the survey: same points, same bytes
   put_little(bytes, day), put_little(bytes, year);
   put_little(bytes, version.header_bytes);
   put_little(bytes, static_cast<std::uint32_t>(version.header_bytes + records.size()));
-  put_little(bytes, std::uint32_t{options_.remark.empty() ? 2U : 3U});  // variable length records
+  put_little(bytes, std::uint32_t{options_.remark.empty() ? 2U : 3U});  // number of variable length records
   put_little(bytes, version.point_format);
   put_little(bytes, version.point_bytes);
-  const bool legacy = version.minor < 4;  // counts of 32 bits, which later versions leave empty
+  const bool legacy = version.minor < 4;  // 32-bit counts, empty in later versions
   put_little(bytes, static_cast<std::uint32_t>(legacy ? points_ : 0));
   for (std::size_t k = 0; k < 5; ++k) put_little(bytes, static_cast<std::uint32_t>(legacy ? by_return_[k] : 0));
   for (int axis = 0; axis < 3; ++axis) put_little(bytes, las_step);
@@ -154,8 +154,8 @@ std::string LasFile::header() const {
     put_little(bytes, points_ > 0 ? least_[axis] : 0.0);
   }
   if (!legacy) {
-    put_little(bytes, std::uint64_t{0});  // waveforms
-    put_little(bytes, std::uint64_t{0});  // extended records: start and number
+    put_little(bytes, std::uint64_t{0});  // start of waveforms
+    put_little(bytes, std::uint64_t{0});  // start and number of extended records
     put_little(bytes, std::uint32_t{0});
     put_little(bytes, points_);
     for (const std::uint64_t count : by_return_) put_little(bytes, count);

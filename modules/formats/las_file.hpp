@@ -23,20 +23,20 @@ struct LasPoint {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< easting, northing, height [m]
   double time = 0;                                     ///< UTC, seconds since 1970
   float level_db = 0;                                  ///< dB re 1 uPa
-  float deviation = 0;                                 ///< of the range [m]
+  float deviation = 0;                                 ///< standard deviation of the range [m]
   std::uint32_t ping = 0;
   std::uint16_t beam = 0;
   std::uint16_t source = 0;                     ///< number of the line of the survey, from 1; 0: no line
   std::uint8_t return_number = 1, returns = 1;  ///< among the soundings of its beam, nearest first
-  double scan_angle = 0;                        ///< from straight down [rad], positive to starboard
-  bool withheld = false;                        ///< not to be used
+  double scan_angle = 0;                        ///< angle from straight down [rad], positive to starboard
+  bool withheld = false;                        ///< true: not to be used
 };
 
 /// Options of a LasFile.
 struct LasOptions {
-  int minor = 4;         ///< of the version: 4, point format 6; or 2, point format 1
+  int minor = 4;         ///< minor version: 4, point format 6; or 2, point format 1
   double start = 0;      ///< UTC, seconds since 1970: day and year of the header; 0: not known
-  std::string remark{};  ///< of the whole file, as a text area description; empty: none
+  std::string remark{};  ///< remark on the file, as a text area description; empty: none
 };
 
 /// Writes points as LAS. Points stream: only the header is written twice.
@@ -44,9 +44,8 @@ struct LasOptions {
 ///   1.4 (ASPRS 2019)   point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB from 0, class 40
 ///                      (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation,
 ///                      ping and beam as extra bytes; the zone as well-known text
-///   1.2                for readers that know no other: point format 1, class 2 (ground, because there is no 40), at
-///   most
-///                      five returns, scan angles in whole degrees, the zone as GeoTIFF keys
+/// for readers that know no other: point format 1, class 2 (ground, because there is no 40), at
+///                      most five returns, scan angles in whole degrees, the zone as GeoTIFF keys
 class LasFile {
  public:
   /// Begins a file. `offset` [m] is subtracted from coordinates, which may be up to 214 km from it. Throws Error(file)
@@ -54,7 +53,7 @@ class LasFile {
   LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset, const LasOptions& options = {});
   /// Writes a point. Throws Error(content) for a point that is not finite or too far from the offset.
   void add(const LasPoint& point);
-  /// Throws Error(file) if not all could be written.
+  /// Completes the file. Throws Error(file) if not all could be written.
   void finish();
 
  private:

@@ -7,11 +7,11 @@
 
 namespace insonify {
 
-/// As chunks name it; "" for none.
+/// Returns the name of a compression in chunks; "" for none.
 std::string_view mcap_compression_name(McapCompression compression);
 
-/// Bytes as one frame of the compression; they themselves for none. Throws Error(argument) for one that this build
-/// lacks.
+/// Returns the bytes as one frame of the compression, unchanged for none. Throws Error(argument) for a compression that
+/// this build lacks.
 std::string compressed(McapCompression compression, std::string_view bytes);
 
 }  // namespace insonify

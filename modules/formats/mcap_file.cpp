@@ -146,7 +146,7 @@ std::string McapFile::metadata_indexes() const {
   return indexes;
 }
 
-/// All records between data and footer, in groups, and where the groups are.
+/// Returns all records between data and footer: groups of records, and the offsets of the groups.
 std::string McapFile::summary() const {
   std::string schemas, channels, indexes, counts, statistics;
   std::uint64_t messages = 0, first = 0, last = 0;

@@ -38,12 +38,12 @@ class McapFile {
 
  private:
   struct Topic {
-    std::string schema, channel;  ///< their records
+    std::string schema, channel;  ///< encoded records
     std::uint32_t messages = 0;
   };
   struct Chunk {
     std::uint64_t first = 0, last = 0, start = 0, length = 0, index_length = 0, size = 0, packed = 0;
-    std::map<std::uint16_t, std::uint64_t> index_of;  ///< places of its message indexes
+    std::map<std::uint16_t, std::uint64_t> index_of;  ///< offset of each topic's message index
   };
   struct Metadata {
     std::string name;
@@ -62,9 +62,9 @@ class McapFile {
   std::vector<Topic> topics_;
   std::vector<Chunk> chunks_;
   std::vector<Metadata> metadata_;
-  std::string records_;                                                                  ///< of the open chunk
-  std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index_;  ///< of it: times and places
-  std::uint64_t first_ = 0, last_ = 0;                                                   ///< times in it
+  std::string records_;                                                                  ///< records of the open chunk
+  std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> index_;  ///< times, offsets by topic
+  std::uint64_t first_ = 0, last_ = 0;                                                   ///< first and last time there
 };
 
 }  // namespace insonify

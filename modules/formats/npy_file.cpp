@@ -19,7 +19,7 @@ namespace {
 
 const std::string npy_magic = "\x93NUMPY";
 
-/// The text after 'key': in the header, a dictionary of Python.
+/// Returns the text after 'key': in the header, which is a Python dictionary.
 std::string npy_value(const std::string& path, const std::string& header, const std::string& key, char end) {
   const std::size_t at = header.find("'" + key + "':");
   const std::size_t stop = at == header.npos ? at : header.find(end, at + key.size() + 3);

@@ -9,8 +9,8 @@ namespace insonify {
 /// An array of a .npy file with two dimensions.
 struct NpyArray {
   Grid<double> real;
-  Grid<double> imaginary{};  ///< of complex numbers; else empty
-  int unsigned_bits = 0;     ///< 8 or 16 of grey values; 0 of other numbers
+  Grid<double> imaginary{};  ///< imaginary part; empty: the numbers are real
+  int unsigned_bits = 0;     ///< 8 or 16 for grey values; 0 for other numbers
 };
 
 /// Returns the array of a .npy file of numpy (format 1 to 3): little-endian float32 or float64, complex64 or
@@ -19,7 +19,7 @@ struct NpyArray {
 /// have two dimensions of at least 1.
 NpyArray read_npy(const std::string& path);
 
-/// Writes an array as float32 in the order of C. Throws Error(file).
+/// Writes an array as float32 in C order. Throws Error(file).
 void write_npy(const std::string& path, const Grid<float>& array);
 
 }  // namespace insonify

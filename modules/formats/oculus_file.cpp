@@ -13,7 +13,7 @@
 namespace insonify {
 namespace {
 
-// A message of the SDK begins with its mark; a log of the maker's viewer, and each of its items, with others.
+// A message of the SDK begins with its own mark; a log of the maker's viewer and its items begin with others.
 constexpr std::uint16_t oculus_mark = 0x4f53, oculus_ping_result = 0x23;
 constexpr std::uint32_t oculus_log_mark = 0x11223344, oculus_item_mark = 0xaabbccdd;
 constexpr std::uint16_t oculus_sonar_item = 10;
@@ -30,19 +30,19 @@ enum OculusOffset : std::size_t {
   oculus_gain = 29
 };
 
-/// Offsets that differ between the versions of the message. Heading, pitch and roll follow each other; 0: there are none.
+/// Offsets that differ between the versions of the message; 0: absent. Heading, pitch and roll follow each other.
 struct ResultLayout {
   std::size_t number, frequency, attitude, speed, time, size, resolution, ranges, beams, image, image_bytes, bearings;
 };
 constexpr ResultLayout result_1{53, 61, 0, 85, 0, 97, 98, 106, 108, 110, 114, 122};
 constexpr ResultLayout result_2{89, 97, 121, 145, 153, 161, 162, 170, 172, 190, 194, 202};
 
-/// Where a message is in the file.
+/// Offset and size of a message in the file.
 struct MessagePlace {
   std::size_t at = 0, bytes = 0;
 };
 
-/// The message at `at`: its place if it is of a ping, and where it ends.
+/// Sets `place` to the message at `at`. Returns true if it is a ping. Throws Error(content) for damaged messages.
 bool take_message(BinaryInput& file, const std::string& path, std::size_t at, MessagePlace& place) {
   const std::string head = file.part(at, oculus_head_bytes, "the header of a message");
   if (little_at<std::uint16_t>(head, 0) != oculus_mark)
@@ -56,7 +56,7 @@ bool take_message(BinaryInput& file, const std::string& path, std::size_t at, Me
   return little_at<std::uint16_t>(head, oculus_message) == oculus_ping_result;
 }
 
-/// The messages of pings that the items of a log hold.
+/// Returns the ping messages that the items of a log hold.
 std::vector<MessagePlace> messages_of_items(BinaryInput& file, const std::string& path) {
   std::vector<MessagePlace> places;
   std::size_t at = little_at<std::uint32_t>(file.part(0, 8, "its header"), 4);
@@ -97,7 +97,7 @@ int bits_of(const std::string& where, std::uint8_t code) {
   fail(ErrorKind::content, where, " has samples of type ", int{code}, ", must be 0 (8 bits), 1 (16) or 3 (32)");
 }
 
-/// Directions as the message lists them [0.01 degrees, positive to starboard].
+/// Returns the directions that the message lists [0.01 degrees, positive to starboard].
 BeamFan oculus_fan(const std::string& message, const ResultLayout& layout, std::size_t beams, bool high,
                    const std::string& where) {
   BeamFan fan;
@@ -111,11 +111,11 @@ BeamFan oculus_fan(const std::string& message, const ResultLayout& layout, std::
   const auto [low, high_end] = std::minmax_element(fan.azimuth.begin(), fan.azimuth.end());
   if (!(*high_end > *low)) fail(ErrorKind::content, where, " has all its ", beams, " beams in one direction");
   fan.beam_width = (*high_end - *low) / static_cast<double>(beams - 1);
-  fan.elevation_width = radians(high ? 12 : 20);  // of the M-series, as the maker gives them
+  fan.elevation_width = radians(high ? 12 : 20);  // widths of the M-series by the maker
   return fan;
 }
 
-/// Reads the samples range by range, each behind its gain if that is sent.
+/// Reads the samples range by range; each range begins with its gain if gains are sent.
 void read_image(const std::string& message, std::size_t image, bool with_gain, OculusPing& ping) {
   const auto bytes = static_cast<std::size_t>(ping.bits / 8);
   std::size_t at = image;
@@ -146,7 +146,7 @@ OculusPing ping_of(const std::string& message, const std::string& where) {
     ping.roll = radians(little_at<double>(message, layout.attitude + 16));
   }
 
-  // What must agree before the image is read.
+  // Check the geometry before the image is read.
   const double bin = little_at<double>(message, layout.resolution);
   const std::size_t ranges = little_at<std::uint16_t>(message, layout.ranges),
                     beams = little_at<std::uint16_t>(message, layout.beams);
@@ -155,7 +155,7 @@ OculusPing ping_of(const std::string& message, const std::string& where) {
     fail(ErrorKind::content, where, " has no geometry: ", beams, " beams, ", ranges, " ranges of ", bin,
          " m, sound speed ", ping.sound_speed, " m/s; must be 2 and 1 at least, > 0, and 1000 to 2000 m/s");
   ping.bits = bits_of(where, static_cast<std::uint8_t>(message[layout.size]));
-  // Recorders set the flag of gains that they do not send: the size of the image decides.
+  // Recorders set the flag of gains that they do not send, so the size of the image decides.
   const std::size_t row = beams * static_cast<std::size_t>(ping.bits / 8),
                     image = little_at<std::uint32_t>(message, layout.image),
                     bytes = little_at<std::uint32_t>(message, layout.image_bytes);

@@ -14,18 +14,18 @@ namespace insonify {
 /// One ping of an Oculus imaging sonar.
 struct OculusPing {
   Grid<std::uint32_t> value;  ///< beams x ranges, as stored
-  int bits = 8;               ///< of a value: 8, 16 or 32
-  BeamFan fan;     ///< bearings as stored; the width is the mean spacing, that of elevation follows from the mode
-  RangeGate gate;  ///< ranges are bins, from 0 on
-  std::size_t pings = 0;                    ///< in the file
-  std::uint32_t number = 0;                 ///< counted by the sonar
-  double frequency = 0;                     ///< [Hz]
-  double sound_speed = 0;                   ///< used by the sonar [m/s]
-  double time = 0;                          ///< since the sonar was switched on [s]; 0: unknown
+  int bits = 8;               ///< size of a value: 8, 16 or 32
+  BeamFan fan;                ///< bearings as stored; width: mean spacing; elevation width: follows from the mode
+  RangeGate gate;             ///< ranges are bins, from 0 on
+  std::size_t pings = 0;      ///< number of pings in the file
+  std::uint32_t number = 0;   ///< number of the ping, counted by the sonar
+  double frequency = 0;       ///< [Hz]
+  double sound_speed = 0;     ///< sound speed in the sonar's settings [m/s]
+  double time = 0;            ///< time since the sonar was switched on [s]; 0: unknown
   double heading = 0, pitch = 0, roll = 0;  ///< [rad], as stored; 0 if the message has none
   double gain_percent = 0;
   double gamma = 1;            ///< value ~ amplitude^gamma
-  std::vector<float> gains{};  ///< of each range, if they were sent
+  std::vector<float> gains{};  ///< gain of each range; empty: not sent
   bool high_frequency = false;
 };
 

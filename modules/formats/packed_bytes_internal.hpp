@@ -34,7 +34,7 @@ void put_little_at(std::string& bytes, std::size_t offset, Number number) {
   std::memcpy(bytes.data() + offset, &number, sizeof number);
 }
 
-/// The number at `offset`, lowest byte first.
+/// Returns the number at `offset`, lowest byte first.
 template <typename Number>
 Number little_at(std::string_view bytes, std::size_t offset) {
   Number number{};
@@ -42,7 +42,7 @@ Number little_at(std::string_view bytes, std::size_t offset) {
   return number;
 }
 
-/// The text of a field that ends at its first zero, or with the field.
+/// Returns the text of a field, which ends at its first zero or with the field.
 inline std::string field_at(std::string_view bytes, std::size_t offset, std::size_t length) {
   const std::string_view field = bytes.substr(offset, length);
   return std::string(field.substr(0, field.find('\0')));
@@ -54,7 +54,7 @@ inline void put_field(std::string& bytes, std::string_view text, std::size_t len
   bytes.append(length - std::min(length, text.size()), '\0');
 }
 
-/// CRC-32 of IEEE 802.3, of bytes that follow others whose value is `before`.
+/// Returns the CRC-32 (IEEE 802.3) of bytes that follow others with the CRC `before`.
 inline std::uint32_t crc_32(std::string_view bytes, std::uint32_t before = 0) {
   static const auto table = [] {
     std::array<std::uint32_t, 256> t{};

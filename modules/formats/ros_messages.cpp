@@ -16,7 +16,7 @@
 namespace insonify {
 namespace {
 
-/// A message being packed: every number is aligned to its size, counted from behind the four bytes of the head.
+/// A message being packed. Every number is aligned to its size, counted from behind the four bytes of the head.
 class CdrMessage {
  public:
   template <typename Number>
@@ -46,7 +46,7 @@ const std::string header_part = part_line + "std_msgs/Header\nbuiltin_interfaces
                                 part_line + "builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
 const std::string vector_part = part_line + "geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
 constexpr std::uint32_t dtype_uint8 = 0, dtype_uint32 = 4;
-constexpr std::uint8_t uint32_field = 6, float32_field = 7;  // of PointField
+constexpr std::uint8_t uint32_field = 6, float32_field = 7;  // types in PointField
 
 Grid<std::uint8_t> greys_of(const Ping& ping, const Tvg& tvg, const GreyWindow& window) {
   return quantise_8(apply_tvg(shown_level_db(ping), ping.gate, tvg), window);
@@ -189,7 +189,7 @@ std::string point_cloud(const BottomSoundings& found, const Eigen::Vector3d& ori
     put_little(message.raw(), static_cast<std::uint32_t>(found.method[i]));
     put_little(message.raw(), static_cast<std::uint32_t>(found.reject[i]));
   }
-  message.put(std::uint8_t{1});  // all are finite
+  message.put(std::uint8_t{1});  // true: all points are finite
   return message.raw();
 }
 
@@ -224,11 +224,11 @@ std::string sonar_transform(std::uint64_t time) {
 std::string nav_sat_fix(const GeoPlace& place, std::uint64_t time) {
   CdrMessage message;
   message.header(time, "head");
-  message.put(std::int8_t{0});    // a fix
-  message.put(std::uint16_t{1});  // of GPS
+  message.put(std::int8_t{0});    // status: fix
+  message.put(std::uint16_t{1});  // service: GPS
   for (const double number : {degrees(place.latitude), degrees(place.longitude), place.height}) message.put(number);
   for (int k = 0; k < 9; ++k) message.put(0.0);
-  message.put(std::uint8_t{0});  // the covariance is not known
+  message.put(std::uint8_t{0});  // covariance unknown
   return message.raw();
 }
 

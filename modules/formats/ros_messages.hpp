@@ -13,7 +13,7 @@
 // Messages of ROS 2 as bytes (CDR, little-endian), for McapFile. Times are UTC [ns since 1970].
 namespace insonify {
 
-/// A type of message and its definition, with those of its parts.
+/// A message type: its name, and its definition with those of its members.
 struct RosType {
   std::string name, text;
 };
@@ -23,7 +23,7 @@ RosType point_cloud_type();            ///< sensor_msgs/msg/PointCloud2
 RosType transforms_type();             ///< tf2_msgs/msg/TFMessage
 RosType nav_sat_fix_type();            ///< sensor_msgs/msg/NavSatFix
 
-/// Scale of the numbers of an image.
+/// Scale of the numbers in an image.
 struct SonarImageScale {
   bool linear = false;  ///< UINT32, 2^32 - 1 at `full_scale`; else UINT8, nearest grey of `window`: black 0, white 255
   GreyWindow window{};  ///< [dB re 1 uPa at 1 m]
@@ -37,15 +37,15 @@ struct SonarImageScale {
 std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double frequency, double sound_speed,
                                   const Tvg& tvg, const SonarImageScale& scale);
 
-/// Returns an Image (mono8) of the fan seen from above, the head at the bottom: `height` rows, starboard to the right,
-/// nearest beam and bin, 0 outside.
+/// Returns an Image (mono8) of the fan seen from above with `height` rows (grey_fan): the head below the middle of the
+/// last row, starboard to the right, 0 outside.
 std::string fan_image(const Ping& ping, std::uint64_t time, const Tvg& tvg, const GreyWindow& window, int height);
 
 /// A field of the points of point_cloud.
 struct RosPointField {
   const char *name, *type, *unit, *meaning;
 };
-/// The fields in the order of the message; types are those of PointField.
+/// Fields of point_cloud in the order of the message, with the types of PointField.
 inline constexpr RosPointField ros_point_fields[] = {
     {"x", "float32", "m", "position in the world, less the origin in the metadata"},
     {"y", "float32", "m", "position in the world, less the origin in the metadata"},
@@ -58,7 +58,7 @@ inline constexpr RosPointField ros_point_fields[] = {
     {"method", "uint32", "", "1: by amplitude, 2: by phase"},
     {"reject", "uint32", "", "0, or with --keep-rejected the bits of the reasons"}};
 
-/// Returns a PointCloud2 of soundings in the frame "world", less `origin` [m]: ros_point_fields.
+/// Returns a PointCloud2 of soundings in the frame "world", less `origin` [m], with the fields of ros_point_fields.
 std::string point_cloud(const BottomSoundings& found, const Eigen::Vector3d& origin, std::uint64_t time);
 
 /// Returns the transform from world to head (less `origin`), and the constant transform from head to head_sonar.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double hundredths_of_a_day = 8640000;
 
-/// Puts numbers into the fields of a ping, and refuses those that no field holds.
+/// Writes numbers into the fields of a ping. Throws Error(content) for a number that its field cannot hold.
 struct PingFields {
   std::string& bytes;
   std::uint32_t ping;
@@ -41,7 +41,7 @@ std::uint16_t kilohertz(double frequency) {
   return static_cast<std::uint16_t>(std::clamp(std::round(frequency / 1000), 0.0, 65535.0));
 }
 
-/// Date and time of day, to the nearest hundredth of a second.
+/// Writes date and time of day, to the nearest hundredth of a second.
 void put_time(std::string& bytes, double time, std::uint32_t ping) {
   using namespace std::chrono;
   if (!(time >= 0 && time < 4294967296.0))
@@ -67,10 +67,10 @@ std::string channel_bytes(const XtfChannel& channel, std::size_t number) {
   std::string bytes(xtf_channel_bytes, '\0');
   bytes[xtf_side_at] = static_cast<char>(channel.side);
   bytes[xtf_sub_channel_at] = static_cast<char>(number);
-  put_little_at(bytes, xtf_correction_at, std::uint16_t{1});  // by slant range
+  put_little_at(bytes, xtf_correction_at, std::uint16_t{1});  // corrected to slant range
   put_little_at(bytes, xtf_unipolar_at, std::uint16_t{1});
   put_little_at(bytes, xtf_sample_bytes_at, static_cast<std::uint16_t>(sample_bytes(channel.samples)));
-  put_little_at(bytes, xtf_old_samples_at, std::uint32_t{1024});  // as the specification advises
+  put_little_at(bytes, xtf_old_samples_at, std::uint32_t{1024});  // value that the specification advises
   bytes.replace(xtf_channel_name_at, std::min<std::size_t>(channel.name.size(), 16), channel.name, 0, 16);
   put_little_at(bytes, xtf_volts_at, 5.0F);
   put_little_at(bytes, xtf_channel_frequency_at, static_cast<float>(channel.frequency / 1000));
@@ -105,14 +105,14 @@ std::string note_bytes(const std::string& text) {
   put_little_at(bytes, xtf_magic_at, xtf_magic);
   bytes[xtf_packet_type_at] = static_cast<char>(xtf_notes_packet);
   put_little_at(bytes, xtf_packet_bytes_at, static_cast<std::uint32_t>(xtf_note_bytes));
-  put_little_at(bytes, xtf_year_at, std::uint16_t{1970});  // an annotation has a date: 1 January
+  put_little_at(bytes, xtf_year_at, std::uint16_t{1970});  // an annotation must have a date: 1 January
   bytes[xtf_month_at] = bytes[xtf_day_at] = 1;
   const std::size_t room = xtf_note_bytes - xtf_note_text_at;
   bytes.replace(xtf_note_text_at, std::min(text.size(), room), text, 0, room);
   return bytes;
 }
 
-/// The samples as they are stored: port from afar.
+/// Returns the samples as stored: those of port with the farthest first.
 std::string samples_of(const XtfTrace& trace, const XtfChannel& channel, std::uint32_t ping) {
   std::string bytes;
   const auto put = [&](float sample) {
@@ -156,7 +156,7 @@ void put_ping(const XtfPing& ping, std::string& bytes) {
   const PingFields fields{bytes, ping.number};
   put_time(bytes, ping.time, ping.number);
   put_little_at(bytes, xtf_ping_number_at, ping.number);
-  fields.put(xtf_sound_speed_at, ping.sound_speed / 2, "sound speed");  // of one way, as recorders have it
+  fields.put(xtf_sound_speed_at, ping.sound_speed / 2, "sound speed");  // halved, as in recorders' files (one way)
   fields.put(xtf_computed_speed_at, ping.sound_speed, "sound speed");
   fields.put(xtf_ship_speed_at, ping.speed / xtf_knot, "speed");
   fields.put(xtf_sensor_speed_at, ping.speed / xtf_knot, "speed");

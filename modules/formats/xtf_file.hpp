@@ -29,15 +29,15 @@ struct XtfChannel {
   XtfSamples samples = XtfSamples::integer_16;
   std::string name{};
   double frequency = 0;                                        ///< [Hz]; 0: unknown
-  double beam_width = 0, elevation_width = 0, depression = 0;  ///< along, across and of the axis [rad]; 0: unknown
+  double beam_width = 0, elevation_width = 0, depression = 0;  ///< along, across, of the axis [rad]; 0: unknown
 };
 
-/// The samples of one channel in a ping, from `begin` to `end` [m], the nearest first.
+/// The samples of one channel in a ping, over ranges from `begin` to `end` [m], the nearest first.
 struct XtfTrace {
   std::size_t channel = 0;  ///< number in the file
   double begin = 0, end = 0;
   double frequency = 0;    ///< [Hz]; 0: unknown
-  bool with_gain = false;  ///< a time-varied gain is part of the samples
+  bool with_gain = false;  ///< true: the samples contain a time-varied gain
   std::vector<float> samples{};
 };
 
@@ -46,13 +46,13 @@ struct XtfPing {
   std::uint32_t number = 0;
   double time = 0;         ///< UTC, seconds since 1970, to a hundredth; 0: not stated
   double sound_speed = 0;  ///< [m/s]; 0: unknown
-  double period = 0;       ///< since the ping before [s]; 0: unknown
+  double period = 0;       ///< time since the last ping [s]; 0: unknown
   Eigen::Vector2d ship = Eigen::Vector2d::Zero(), sensor = Eigen::Vector2d::Zero();  ///< longitude and latitude [deg]
   double ship_heading = 0, heading = 0, pitch = 0, roll = 0;  ///< [rad]: clockwise from north, bow up, starboard down
   double yaw = 0;       ///< direction of a scanning head relative to `heading` [rad], positive to starboard
-  double speed = 0;     ///< over ground [m/s]
-  double depth = 0;     ///< of the sonar below the water level [m]
-  double altitude = 0;  ///< of the sonar above the bottom [m]; 0: unknown
+  double speed = 0;     ///< speed over ground [m/s]
+  double depth = 0;     ///< depth of the sonar below the water level [m]
+  double altitude = 0;  ///< altitude of the sonar above the bottom [m]; 0: unknown
   std::vector<XtfTrace> traces{};
 };
 
@@ -61,7 +61,7 @@ struct XtfHeader {
   std::string program{}, version{};  ///< recording program, 8 characters each
   std::string sonar{};               ///< 16 characters
   std::string note{};                ///< 64 characters
-  bool in_degrees = true;            ///< true: places are longitude and latitude; false: easting and northing [m]
+  bool in_degrees = true;            ///< true: positions are longitude and latitude; false: easting and northing [m]
   std::vector<XtfChannel> channels{};
   std::vector<std::string> notes{};  ///< annotations of at most 200 characters
 };
@@ -78,7 +78,7 @@ class XtfFile {
   /// ping without traces, a number that its field cannot hold, a sample that is not finite, or a time before 1970 or
   /// after 2106.
   void add(const XtfPing& ping);
-  /// Throws Error(file) if not all could be written.
+  /// Completes the file. Throws Error(file) if not all could be written.
   void finish();
 
  private:

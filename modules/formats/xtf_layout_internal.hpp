@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-// Private to formats: where XTF has its fields, after the specification X41 (Triton Imaging, 2016), tables C, D, F, H and I.
+// Private to formats: offsets of XTF's fields, from the specification X41 (Triton Imaging, 2016), tables C, D, F, H, I.
 namespace insonify {
 
 constexpr std::uint8_t xtf_file_format = 123;
@@ -15,7 +15,7 @@ constexpr std::size_t xtf_channels_in_header = 6;
 constexpr std::uint16_t xtf_degrees = 3, xtf_tvg_flag = 4;
 constexpr double xtf_knot = 1852.0 / 3600;  // [m/s]
 
-/// Of the file's header, 1024 bytes and more.
+/// Offsets in the file's header, which has a multiple of 1024 bytes.
 enum XtfHeaderOffset : std::size_t {
   xtf_format_at = 0,
   xtf_system_at = 1,
@@ -34,7 +34,7 @@ enum XtfHeaderOffset : std::size_t {
   xtf_channels_at = 256
 };
 
-/// Of a channel in the file's header, 128 bytes.
+/// Offsets in the description of a channel in the file's header, 128 bytes.
 enum XtfChannelOffset : std::size_t {
   xtf_side_at = 0,
   xtf_sub_channel_at = 1,
@@ -51,7 +51,7 @@ enum XtfChannelOffset : std::size_t {
   xtf_sample_format_at = 74
 };
 
-/// Of a packet; from the year on of those of pings, 256 bytes, and of annotations.
+/// Offsets in a packet. From the year on they are those of pings (256 bytes) and annotations.
 enum XtfPacketOffset : std::size_t {
   xtf_magic_at = 0,
   xtf_packet_type_at = 2,
@@ -88,7 +88,7 @@ enum XtfPacketOffset : std::size_t {
   xtf_clock_hour_at = 236
 };
 
-/// Of a channel in the packet of a ping, 64 bytes before its samples.
+/// Offsets in the header of a channel in a ping's packet, 64 bytes before its samples.
 enum XtfTraceOffset : std::size_t {
   xtf_trace_channel_at = 0,
   xtf_slant_range_at = 4,

@@ -15,8 +15,8 @@ namespace insonify {
 namespace {
 
 constexpr double farthest_range = 1e5;        // [m], beyond any side-scan
-constexpr double slowest_sound = 1000;        // [m/s]: below it a speed is that of one way
-constexpr double highest_in_kilohertz = 1e4;  // a frequency above is in Hz
+constexpr double slowest_sound = 1000;        // [m/s]; lower speeds are half the true one
+constexpr double highest_in_kilohertz = 1e4;  // higher numbers are in Hz
 
 double number_of(float value) { return std::isfinite(value) ? static_cast<double>(value) : 0.0; }
 double real_at(std::string_view bytes, std::size_t at) { return number_of(little_at<float>(bytes, at)); }
@@ -24,14 +24,14 @@ std::uint8_t byte_at(std::string_view bytes, std::size_t at) { return static_cas
 
 double hertz(double frequency) { return frequency > highest_in_kilohertz ? frequency : 1000 * frequency; }
 
-/// A number of IBM's: a sign, seven bits of exponent to 16, and a fraction of 24 bits.
+/// Converts an IBM float: a sign, seven bits of exponent to base 16, and a fraction of 24 bits.
 float ibm_float(std::uint32_t raw) {
   const double fraction = std::ldexp(static_cast<double>(raw & 0xffffffu), -24);
   const double value = std::ldexp(fraction, 4 * (static_cast<int>(raw >> 24 & 0x7fu) - 64));
   return static_cast<float>(raw >> 31 ? -value : value);
 }
 
-/// How samples are stored: as the format says, or in files before it by their size.
+/// Returns the storage of samples: as the format field says, in older files by their size.
 XtfSamples samples_of(const std::string& path, std::string_view channel, std::size_t number) {
   const std::uint8_t format = byte_at(channel, xtf_sample_format_at);
   const auto size = little_at<std::uint16_t>(channel, xtf_sample_bytes_at);
@@ -61,7 +61,7 @@ XtfChannel channel_of(const std::string& path, std::string_view bytes, std::size
   return channel;
 }
 
-/// All channels that the header describes, whatever they are of.
+/// Returns the number of channels of any kind that the header describes.
 std::size_t described_channels(std::string_view head) {
   return std::size_t{little_at<std::uint16_t>(head, xtf_sonar_channels_at)} +
          little_at<std::uint16_t>(head, xtf_bathymetry_channels_at) + byte_at(head, xtf_snippet_channels_at) +
@@ -69,7 +69,7 @@ std::size_t described_channels(std::string_view head) {
          byte_at(head, xtf_interferometry_channels_at);
 }
 
-/// The header and where the packets begin: it grows by 1024 bytes where they have no room for all channels.
+/// Reads the header and returns its size: 1024 bytes, and as many again while not all channels fit in.
 std::size_t read_header(BinaryInput& file, const std::string& path, XtfHeader& header) {
   const std::string format = file.part(0, 1, "its header");
   if (byte_at(format, xtf_format_at) != xtf_file_format)
@@ -92,7 +92,7 @@ std::size_t read_header(BinaryInput& file, const std::string& path, XtfHeader& h
   return size;
 }
 
-/// UTC; 0 where no date is said.
+/// Returns the time of a packet, UTC; 0 if it has no date.
 double time_of(std::string_view packet, const std::string& where) {
   using namespace std::chrono;
   const auto year_number = little_at<std::uint16_t>(packet, xtf_year_at);
@@ -124,7 +124,7 @@ float sample_at(std::string_view bytes, std::size_t at, XtfSamples samples) {
   return 0;
 }
 
-/// The samples of a channel, weighted, the nearest first.
+/// Returns the samples of a channel, weighted, the nearest first.
 std::vector<float> samples_of(std::string_view bytes, const XtfChannel& channel, int weight, const std::string& where) {
   const std::size_t size = sample_bytes(channel.samples);
   std::vector<float> values(bytes.size() / size);
@@ -144,7 +144,7 @@ double sound_speed_of(std::string_view packet) {
   return speed < slowest_sound ? 2 * speed : speed;
 }
 
-/// A channel of a ping that begins at `at`, which goes on behind its samples.
+/// Reads the channel of a ping that begins at `at`, and moves `at` behind its samples.
 XtfTrace trace_of(std::string_view packet, std::size_t& at, std::size_t place, const XtfHeader& header,
                   double sound_speed, const std::string& where) {
   if (packet.size() - at < xtf_trace_bytes)
