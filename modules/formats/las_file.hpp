@@ -44,7 +44,7 @@ struct LasOptions {
 ///   1.4 (ASPRS 2019)   point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB from 0, class 40
 ///                      (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation,
 ///                      ping and beam as extra bytes; the zone as well-known text
-/// for readers that know no other: point format 1, class 2 (ground, because there is no 40), at
+///   1.2                for readers that know no other: point format 1, class 2 (ground, because there is no 40), at
 ///                      most five returns, scan angles in whole degrees, the zone as GeoTIFF keys
 class LasFile {
  public:

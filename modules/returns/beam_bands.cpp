@@ -22,7 +22,7 @@ BeamBands beam_bands(const SonarHead& head, int per_pixel, double mib) {
   for (std::size_t r = 1; r < ends.size(); ++r) {
     auto& [first, end] = bands.back();
     const bool fits = contributor_mib((ends[r] - first) * head.gate.bins(), per_pixel) <= mib;
-    // The last row does not stand alone.
+    // The last row joins the band before it.
     if (fits || in_band < 2 || r + 1 == ends.size()) {
       end = ends[r], ++in_band;
     } else {

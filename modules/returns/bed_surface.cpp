@@ -10,8 +10,8 @@
 namespace insonify {
 namespace {
 
-/// The value between the middles of cells, beyond the outermost ones as at them; columns and rows count from the first
-/// corner.
+/// Returns the value at a position, bilinear between the middles of cells and constant beyond the outermost. Columns
+/// and rows count from the corner of the first cell.
 template <typename Cells>
 double bilinear(const Cells& cells, double column, double row) {
   const auto place = [](double at, Eigen::Index size) {
@@ -28,7 +28,7 @@ double bilinear(const Cells& cells, double column, double row) {
          u * ((1 - v) * value(i + 1, j) + v * value(i + 1, j + 1));
 }
 
-/// Means of the cells; those of empty ones from the grid with cells twice as large.
+/// Returns the means of the cells. An empty cell gets its value from a grid with cells twice as large.
 Grid<double> filled_means(const Grid<double>& sum, const Grid<double>& count) {
   if ((count > 0).all()) return sum / count;
   const Eigen::Index columns = (count.rows() + 1) / 2, rows = (count.cols() + 1) / 2;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* bottom_call = "detect_bottom";
 
-/// The place of a sounding in the world.
+/// Returns the position of a sounding in the world.
 Eigen::Vector3d place_of(const Ping& ping, const BottomOptions& options, std::size_t beam, double range) {
   const Eigen::Vector3d axis = unit_vector({ping.fan.azimuth[beam], ping.fan.elevation[beam]});
   const Eigen::Vector3d head = ping.world_from_head.translation();
@@ -33,10 +33,10 @@ Eigen::Vector3d place_of(const Ping& ping, const BottomOptions& options, std::si
           head.z() - (end.depth - options.head_depth)};
 }
 
-/// The better of both methods, and whether it is that by phase.
+/// Returns the better of both estimates, and true if it is that by phase.
 std::pair<BottomEstimate, bool> fit_of(const BottomPing& prepared, const BottomBeam& beam, const BottomEcho& echo,
                                        double range) {
-  // Neighbours, which a lone beam has not, tell the slope that a phase needs.
+  // A lone beam has no neighbours to give the slope that a phase needs.
   if (prepared.has_one_beam()) return {range_of_lone_beam(beam, prepared.lone_plane_at(range), range), false};
   const BottomEstimate amplitude = centre_of_gravity(beam, echo, range);
   const BottomEstimate phase =
@@ -81,11 +81,11 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
   const BottomPing prepared(ping, options);
   const std::size_t beams = ping.fan.beams();
 
-  // Where the echoes are, refined by their centres of gravity on a level bottom.
+  // Find the echoes, refined by their centres of gravity on a level bottom.
   std::vector<std::vector<BottomFind>> found(beams);
   parallel_for(beams, options.threads, [&](std::size_t b) { found[b] = prepared.find(b); });
 
-  // How the bottom slopes in each beam, and with it the better of both methods.
+  // Estimate the bottom's slope in each beam, and with it the better of both methods.
   struct Sounding {
     BottomEstimate best;
     BottomMethod method;
@@ -108,7 +108,7 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
       const double cell = std::max(echo.half_power_reach, ping.gate.bin_size);
       if (!std::isfinite(best.deviation) || !(best.range > ping.gate.min_range)) best = {find.range, cell};
       const auto met = [&](const Sounding& s) { return std::abs(s.best.range - best.range) < cell; };
-      if (std::any_of(soundings[b].begin(), soundings[b].end(), met)) continue;  // both fits are of one echo
+      if (std::any_of(soundings[b].begin(), soundings[b].end(), met)) continue;  // both fits found one echo
       soundings[b].push_back(
           {best, by_phase ? BottomMethod::phase : BottomMethod::amplitude,
            prepared.level_db_near(b, best.range, std::max(echo.half_power_reach, echo.along_deviation)), echo});

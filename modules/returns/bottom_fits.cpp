@@ -16,18 +16,18 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double width_of_deviation = 2.354820045;  // full width at half maximum of a Gaussian
-constexpr double most_sine = 0.999;                 // of the angle of a beam from the head's axis
-constexpr double prior_looks = 16;                  // that the expected variance of a fit counts for
+constexpr double most_sine = 0.999;                 // largest sine of a beam's angle from the head's axis
+constexpr double prior_looks = 16;                  // looks that the expected variance of a fit counts for
 constexpr double fewest_cells = 8;                  // independent samples of a fit of phases
-constexpr double fewest_of_slope = 2;               // of a slope that is not taken alone
-constexpr double most_cells = 64;                   // of its last pass: over more the line would bend
-constexpr double phase_reach = 0.8;                 // of it, in half-power reaches: within, phases are far from +-pi
-constexpr double widths_of_echo = 3;                // standard deviations on either side of a centre of gravity
-constexpr double slope_error = 0.05;                // relative, of the slope that a phase is expected to have
+constexpr double fewest_of_slope = 2;               // independent samples of a slope alone
+constexpr double most_cells = 64;                   // independent samples of the last pass: more would bend the line
+constexpr double phase_reach = 0.8;                 // reach in half-power reaches: phases stay far from +-pi
+constexpr double widths_of_echo = 3;                // reach of a centre of gravity, in standard deviations
+constexpr double slope_error = 0.05;                // relative error of the slope that a phase is expected to have
 constexpr double cell_of_pulse =
     3.545;  // 2 sqrt(pi): effective independent spacing, in standard deviations of the pulse
 
-/// Bins within `reach` of `centre`, first and behind the last.
+/// Returns the bins within `reach` of `centre`: the first, and one past the last.
 std::pair<std::size_t, std::size_t> bins_within(const BottomBeam& beam, double centre, double reach) {
   const double count = static_cast<double>(beam.intensity.size());
   const double low = std::ceil((centre - reach - beam.first) / beam.step);
@@ -44,7 +44,7 @@ struct PhaseLine {
   double at(double r) const { return at_centre + slope * (r - centre); }
 };
 
-/// The line by pulse pairs: the slope from phases a quarter of the interval apart, then the offset of all.
+/// Returns the line by pulse pairs: the slope from phases a quarter of the interval apart, then the mean offset.
 PhaseLine first_line(const BottomBeam& beam, std::size_t begin, std::size_t end, double centre) {
   const std::size_t lag = std::max<std::size_t>(1, (end - begin) / 4);
   std::complex<double> pairs = 0, all = 0;
@@ -58,7 +58,7 @@ PhaseLine first_line(const BottomBeam& beam, std::size_t begin, std::size_t end,
   return line;
 }
 
-/// Weighted sums over an interval, of a fitted line.
+/// Weighted sums over an interval, relative to a fitted line.
 struct PhaseSums {
   double weight = 0, x = 0, xx = 0, y = 0, xy = 0, squares = 0;
 };
@@ -73,7 +73,7 @@ PhaseSums sums_about(const BottomBeam& beam, std::size_t begin, std::size_t end,
   return s;
 }
 
-/// Least squares of the residuals, about the weighted middle of the interval.
+/// Returns the line after a least-squares fit of the residuals, about the weighted middle of the interval.
 PhaseLine refined(const BottomBeam& beam, std::size_t begin, std::size_t end, PhaseLine line) {
   const PhaseSums s = sums_about(beam, begin, end, line);
   const double middle = s.x / s.weight, spread = s.xx - s.x * middle;
@@ -81,7 +81,7 @@ PhaseLine refined(const BottomBeam& beam, std::size_t begin, std::size_t end, Ph
   return {line.centre + middle, line.at_centre + line.slope * middle + s.y / s.weight, line.slope + slope};
 }
 
-/// Variances of offset and slope of a fit from its residuals, which are correlated over the length of a pulse. (E95)
+/// Returns the variances of offset and slope from the residuals, which a pulse's length correlates. (E95)
 std::pair<double, double> variances_of(const BottomBeam& beam, std::size_t begin, std::size_t end,
                                        const PhaseLine& line, double cells) {
   const auto correlated = static_cast<std::size_t>(std::ceil(cell_of_pulse / 2 * 1.5 * cells));
@@ -103,27 +103,27 @@ std::pair<double, double> variances_of(const BottomBeam& beam, std::size_t begin
   return {sum_of(offset) / (weight * weight), sum_of(slope) / (spread * spread)};
 }
 
-/// Variance of the phase of one look [rad^2]: (1 - g^2) / 2 g^2, g the coherence of the halves, which see the angles of
-/// a pulse's length at once, with a deviation of their phases of `turn`, and have noise of their own. (E95)
+/// Returns the variance of the phase of one look [rad^2]: (1 - g^2) / 2 g^2. The coherence g of the halves falls with
+/// the deviation `turn` of the phases that a pulse's length covers, and with the halves' independent noise. (E95)
 double variance_of_looks(const BottomBeam& beam, double turn, double mean_intensity) {
   const double noise = 2 * beam.noise / std::max(mean_intensity - beam.noise, 0.01 * mean_intensity);
   const double coherence = std::exp(-0.5 * turn * turn) / (1 + noise);
   return (1 - coherence * coherence) / (2 * coherence * coherence);
 }
 
-/// Part of the phase's slope that a pulse leaves: at each range it sees the middle of the beam more than its edges.
+/// Returns the fraction of the phase's slope that a pulse leaves: at each range it favours the middle of the beam.
 double seen_slope(const BottomEcho& echo) {
   const double pulse = echo.pulse_deviation * echo.pulse_deviation;
   const double footprint = echo.footprint_deviation * echo.footprint_deviation;
   return footprint / (footprint + pulse);
 }
 
-/// Bins in an independent sample.
+/// Returns the number of bins in an independent sample.
 double bins_of_cell(const BottomBeam& beam, const BottomEcho& echo) {
   return std::max(1.0, cell_of_pulse * echo.pulse_deviation / beam.step);
 }
 
-/// The zero of a line of the slope that the bottom gives it: of an echo with too few samples to show its own. (E95)
+/// Returns the zero of a line of known slope, for an echo with too few samples to show its own slope. (E95)
 BottomEstimate zero_of_known_slope(const BottomBeam& beam, const BottomEcho& echo, double start) {
   const double slope = echo.phase_slope * seen_slope(echo);
   const double reach = std::max(phase_reach * echo.half_power_reach, echo.pulse_deviation);
@@ -147,7 +147,7 @@ BottomEstimate zero_of_known_slope(const BottomBeam& beam, const BottomEcho& ech
   const double turn = echo.phase_slope * std::sqrt(seen_slope(echo)) * echo.pulse_deviation;
   const double variance = variance_of_looks(beam, turn, s.weight / static_cast<double>(end - begin)) / looks;
   const double away = slope_error * s.x / s.weight;
-  // At a range the pulse sees a part of the footprint, whose ranges bend over direction. (E132)
+  // At one range the pulse covers a piece of the footprint, whose ranges curve over direction. (E132)
   const double across =
       echo.footprint_deviation * echo.footprint_deviation - echo.along_deviation * echo.along_deviation;
   const double seen = seen_slope(echo);
@@ -175,7 +175,7 @@ double noise_of(std::vector<double> values) {
 BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double slope, double pulse_deviation) {
   const double width = 2 * std::sin(0.5 * fan.beam_width);
   const double across = width / width_of_deviation, along = fan.elevation_width / width_of_deviation;
-  // Over the angle of the fan r'' = r + 2 r'^2 / r; along the way a plane bends away from the cone of a beam. (E132)
+  // In the fan r'' = r + 2 r'^2 / r; along the track a plane bends away from the cone of a beam. (E132)
   const double u = std::clamp(sine, -most_sine, most_sine), down = std::sqrt(1 - u * u), turned = slope * down;
   const double second = (range + 2 * turned * turned / range + turned * u / down) / (down * down);
   const double away = range + std::max(0.0, turned * u / down);
@@ -184,7 +184,7 @@ BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double s
   BottomEcho echo{pulse_deviation, std::sqrt(spread), 0.5 * std::abs(slope) * width};
   echo.along_deviation = away * along * along / std::sqrt(2.0);
   echo.lengthening_along = 0.5 * away * along * along;
-  // The second order in direction, as far as it is the smaller one: neighbours over an edge show no plane.
+  // Limit the second-order term to the first-order one: neighbours over an edge do not define a plane.
   const double bent = std::min(0.5 * second * across * across, echo.footprint_deviation);
   echo.lengthening = bent + echo.lengthening_along;
   echo.bend = slope != 0 ? bent / (slope * slope * across * across) : 0;
@@ -210,7 +210,7 @@ BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo,
     if (std::abs(moment / sum) < 1e-3 * beam.step) break;
   }
   const double speckle = 0.5 * footprint / std::sqrt(1 + footprint / pulse);  // (E94)
-  // Noise: of its own square, and of its product with the echo, bins as long as a pulse being independent.
+  // Noise adds its own variance and that of its product with the echo; bins a pulse's length apart are independent.
   const double at = beam.first + beam.step * std::round((centre - beam.first) / beam.step);
   const auto nearest = static_cast<std::size_t>(
       std::clamp((at - beam.first) / beam.step, 0.0, static_cast<double>(beam.intensity.size() - 1)));
@@ -230,7 +230,7 @@ std::optional<double> phase_slope(const BottomBeam& beam, const BottomEcho& echo
 }
 
 BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, double start) {
-  // Where a footprint is long along the way its ranges do not tell the directions of the fan.
+  // A footprint that is long along the track smears the range, so that it does not give the direction in the fan.
   if (beam.phase.empty() || echo.lengthening_along > echo.half_power_reach) return {start, infinite};
   const double cells = bins_of_cell(beam, echo);
   const double widest = phase_reach * echo.half_power_reach;
@@ -254,14 +254,14 @@ BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, dou
   const auto [of_offset, of_slope] = variances_of(beam, begin, end, line, cells);
   const double away = centre - line.centre;
   const double residual = of_offset + away * away * of_slope;
-  // What theory expects of so many looks, as far as the fit has too few to judge itself; speckle halves `independent`,
-  // but not the precision, since phases are the better known the stronger they are.
+  // Mix in the variance expected for so many looks while the fit has too few to judge itself. Speckle halves
+  // `independent`, but not the precision: strong samples have the more precise phases.
   const double expected =
       variance_of_looks(beam, line.slope * echo.pulse_deviation, s.weight / static_cast<double>(end - begin));
   const double spread = 1 + away * away * s.weight / std::max(s.xx, 1e-30);
   const double variance = (independent * residual + prior_looks * expected * spread / (2 * independent)) /
                           (independent + prior_looks) / (line.slope * line.slope);  // (E95)
-  // The line is straight, the range of a plane over direction is not.
+  // The fitted line is straight, but a plane's range over direction curves.
   const double bent = echo.bend * (s.xx / s.weight - away * away);
   return {centre - std::clamp(bent, -0.5 * widest, 0.5 * widest) - echo.lengthening_along, std::sqrt(variance)};
 }

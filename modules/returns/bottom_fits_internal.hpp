@@ -14,9 +14,9 @@ struct BottomBeam {
   std::span<const double> intensity;  ///< [Pa^2]
   std::span<const double> floor;      ///< samples up to this intensity are side lobes [Pa^2]
   std::span<const double> gain;       ///< r^4 and absorption
-  std::span<const float> phase;       ///< between the halves [rad]; empty: none
-  double noise = 0;                   ///< mean intensity [Pa^2]
-  double first = 0, step = 0;         ///< range of bin 0 and between bins [m]
+  std::span<const float> phase;       ///< phase between the halves [rad]; empty: none
+  double noise = 0;                   ///< mean intensity of the noise [Pa^2]
+  double first = 0, step = 0;         ///< range of bin 0, distance between bins [m]
 
   /// Returns intensity less noise, times gain; 0 for a side lobe. May be negative.
   double compensated(std::size_t n) const { return intensity[n] > floor[n] ? (intensity[n] - noise) * gain[n] : 0; }
@@ -29,18 +29,18 @@ struct BottomEcho {
   double pulse_deviation = 0;      ///< standard deviation of the pulse's intensity in range [m]
   double footprint_deviation = 0;  ///< standard deviation of the ranges in the beam, weighted by its pattern [m]
   double half_power_reach = 0;     ///< half the range between the beam's -3 dB directions [m]
-  double phase_slope = 0;          ///< of the phase between the halves, over range [rad/m]
+  double phase_slope = 0;          ///< slope of the phase between the halves over range [rad/m]
   double lengthening = 0;          ///< mean range of a plane over the footprint, less that on the beam's axis [m]
   double lengthening_along = 0;    ///< part of `lengthening` that is due to the footprint along the track [m]
   double along_deviation = 0;      ///< part of footprint_deviation that is due to the footprint along the track [m]
   double bend = 0;                 ///< r'' / (2 r'^2) of a plane's range over the direction cosine of the fan [1/m]
 };
 
-/// Returns the echo of a plane that crosses the axis of a beam of direction cosine `sine` at `range` [m]; `slope` is
-/// dr/du there [m], the pulse's deviation in range [m]. (E94, E132)
+/// Returns the echo of a plane that crosses the axis of a beam of direction cosine `sine` at `range` [m]. `slope` is
+/// dr/du there [m], `pulse_deviation` the pulse's standard deviation in range [m]. (E94, E132)
 BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double slope, double pulse_deviation);
 
-/// An estimate of a range with its standard deviation [m]; infinite if there is none.
+/// A range with its standard deviation [m], which is infinite if there is no estimate.
 struct BottomEstimate {
   double range = 0, deviation = 0;
 };
@@ -59,8 +59,8 @@ double noise_of(std::vector<double> values);
 /// noise adds to it.
 BottomEstimate centre_of_gravity(const BottomBeam& beam, const BottomEcho& echo, double start);
 
-/// Slope of the phase over range near `start`, as of a short pulse [rad/m]; absent with fewer than two independent
-/// samples.
+/// Returns the slope of the phase over range near `start` for a short pulse [rad/m]. Returns nothing with fewer than
+/// two independent samples.
 std::optional<double> phase_slope(const BottomBeam& beam, const BottomEcho& echo, double start);
 
 /// Returns the range at which the line through the phases near `start`, weighted by intensity, crosses zero (E95). The

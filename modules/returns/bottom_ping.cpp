@@ -14,16 +14,16 @@ namespace insonify {
 namespace {
 
 constexpr double gaussian_width = 2.354820045;  // full width at half maximum of a Gaussian
-constexpr double steepest_view = 1.3;           // [rad] from the vertical, of the footprint that is assumed at first
+constexpr double steepest_view = 1.3;           // largest angle from the vertical of the first assumed footprint [rad]
 constexpr int neighbours = 3;                   // beams on either side whose ranges give dr/du
-constexpr double turn_of_width = 1.2 * half_power_of_line * pi;  // of the phase across a line's -3 dB width [rad]
-constexpr double part_of_noise = 0.25;    // of the floor, below which a beam holds no noise of the receiver
-constexpr std::size_t fewest_slopes = 5;  // beams whose phases say how it turns in this ping
+constexpr double turn_of_width = 1.2 * half_power_of_line * pi;  // phase across a line's -3 dB width [rad]
+constexpr double part_of_noise = 0.25;    // fraction of the floor below which a beam contains no receiver noise
+constexpr std::size_t fewest_slopes = 5;  // fewest beams whose phases determine the phase per cosine
 constexpr double reference_intensity = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
 
 }  // namespace
 
-// Sound from u reaches the ends of an array steered to u_b by L |u - u_b| / 2c earlier and later: by L / 2 in range.
+// Sound from u reaches the ends of an array steered to u_b by L |u - u_b| / 2c earlier or later: by L / 2 in range.
 double BottomPing::side_lobe_reach() const {
   const double wavelength = options_.centre_frequency > 0 ? options_.sound_speed / options_.centre_frequency : 0;
   return 0.5 * half_power_of_line * wavelength / ping_.fan.beam_width;
@@ -53,8 +53,8 @@ BottomPing::BottomPing(const Ping& ping, const BottomOptions& options)
       gain_(ping.pressure.cols()) {
   const double resolution = options.range_resolution > 0 ? options.range_resolution : ping.gate.bin_size;
   pulse_deviation_ = resolution / gaussian_width;
-  // Of so many independent cells of noise the strongest exceeds this, above the estimate of their mean, with the
-  // false-alarm rate. (E78)
+  // The strongest of so many independent noise cells exceeds `factor` times the estimated mean with the false-alarm
+  // rate. (E78)
   const double cells =
       std::max(1.0, static_cast<double>(ping.gate.bins()) * std::min(1.0, ping.gate.bin_size / resolution));
   const double rate_of_cell = -std::expm1(std::log1p(-options.false_alarm_rate) / cells);
@@ -97,7 +97,7 @@ std::vector<BottomFind> BottomPing::find(std::size_t beam) const {
   const auto bins = static_cast<std::size_t>(intensity_.cols());
   const BottomBeam view = beam_of(beam);
   const double tangent = std::tan(down_[beam]), cosine = std::cos(down_[beam]);
-  std::vector<double> sum(bins + 1, 0), moment(bins + 1, 0);  // of compensated intensities before a bin
+  std::vector<double> sum(bins + 1, 0), moment(bins + 1, 0);  // of compensated intensity before each bin
   for (std::size_t n = 0; n < bins; ++n) {
     const double here = view.compensated(n);
     sum[n + 1] = sum[n] + here;
@@ -116,7 +116,7 @@ std::vector<BottomFind> BottomPing::find(std::size_t beam) const {
       if (energy > most) most = energy, best = n;
     }
     if (best == bins) break;
-    // Where in the interval most energy is: any that holds a short echo has as much as the one about it.
+    // Move to the centroid of the interval: any interval that holds a short echo has the energy of the one about it.
     std::size_t reach = reach_of(tangent, cosine, ping_.gate.centre(best));
     const std::size_t begin = best - std::min(best, reach), end = std::min(bins, best + reach + 1);
     const double middle = std::clamp((moment[end] - moment[begin]) / (sum[end] - sum[begin]),
@@ -130,7 +130,7 @@ std::vector<BottomFind> BottomPing::find(std::size_t beam) const {
     std::fill(taken.begin() + static_cast<std::ptrdiff_t>(best - std::min(best, reach)),
               taken.begin() + static_cast<std::ptrdiff_t>(std::min(bins, best + reach + 1)), 1);
   }
-  if (found.empty() && !in_lobes.empty()) found.push_back(in_lobes.front());  // to be judged
+  if (found.empty() && !in_lobes.empty()) found.push_back(in_lobes.front());  // judged later
   return found;
 }
 
@@ -141,7 +141,7 @@ double BottomPing::slope_at(std::size_t beam, const std::vector<std::vector<Bott
     for (std::size_t j = i + 1; j < to; ++j)
       if (!found[i].empty() && !found[j].empty() && cosine_[i] != cosine_[j])
         slopes.push_back((found[j].front().range - found[i].front().range) / (cosine_[j] - cosine_[i]));
-  if (slopes.empty()) {  // on its own: as of a level bottom
+  if (slopes.empty()) {  // a lone beam: as on a level bottom
     const double range = found[beam].front().range;
     return range * std::tan(down_[beam]) / std::max(0.1, std::sqrt(1 - cosine_[beam] * cosine_[beam]));
   }

@@ -22,16 +22,16 @@ class BottomPing {
  public:
   BottomPing(const Ping& ping, const BottomOptions& options);
 
-  /// Echoes of a beam by falling energy; at most options.per_beam.
+  /// Returns the echoes of a beam by falling energy; at most options.per_beam.
   std::vector<BottomFind> find(std::size_t beam) const;
-  /// dr/du about a beam from the first echoes of its neighbours [m].
+  /// Returns dr/du about a beam from the first echoes of its neighbours [m].
   double slope_at(std::size_t beam, const std::vector<std::vector<BottomFind>>& found) const;
   /// Returns the predicted echo of a plane of this slope.
   BottomEcho echo_at(std::size_t beam, double range, double slope, double turn) const;
   bool has_one_beam() const { return ping_.fan.beams() == 1; }
   /// Returns the level bed in the only beam of a ping.
   LonePlane lone_plane_at(double range) const;
-  /// Phase between the halves per direction cosine [rad], by the median of all beams.
+  /// Returns the phase between the halves per direction cosine [rad], the median of all beams.
   double phase_per_cosine(const std::vector<std::vector<BottomFind>>& found, const std::vector<double>& slopes) const;
   BottomBeam beam_of(std::size_t beam) const;
   float level_db_near(std::size_t beam, double range, double reach) const;
@@ -49,7 +49,7 @@ class BottomPing {
   const Ping& ping_;
   const BottomOptions& options_;
   Grid<double> intensity_;
-  Eigen::Array<double, 1, Eigen::Dynamic> all_, floor_, gain_;  ///< of each bin
+  Eigen::Array<double, 1, Eigen::Dynamic> all_, floor_, gain_;  ///< by bin
   std::vector<double> noise_, threshold_, cosine_, down_;
   double pulse_deviation_ = 0;
 };

@@ -32,7 +32,7 @@ class Beams {
     }
   }
 
-  /// A beam: its row, and its direction cosine.
+  /// A beam of the fan: its row and direction cosine.
   struct Beam {
     std::size_t row = 0;
     double u = 0;
@@ -53,8 +53,8 @@ class Beams {
     return best;
   }
 
-  /// Width in direction cosine of a rectangle of a beam's peak and integral, over eight beam widths to either side:
-  /// grating lobes do not count.
+  /// Returns the integral of a beam's response over its peak, in direction cosine, over eight beam widths to either
+  /// side. Grating lobes are not counted.
   double equivalent_width(double beam_width) const {
     const double step = beam_width / 64;
     double sum = 0.5 * table_.intensity(0);
@@ -83,10 +83,10 @@ class Beams {
 struct SurfelContribution {
   std::uint32_t surfel;
   Beams::Beam beam;
-  double intensity = 0;                ///< [Pa^2], mean square
-  double on_axis = 0;                  ///< [Pa^2], in a beam of that row that looks there
+  double intensity = 0;                ///< mean square [Pa^2]
+  double on_axis = 0;                  ///< the same in a beam of that row that looks there [Pa^2]
   double cross_section = 0, area = 0;  ///< [m^2]
-  double cell = 0;                     ///< [m^2], resolution cell on the surface, at the first part
+  double cell = 0;                     ///< resolution cell on the surface at the first part [m^2]
   bool hit = false;
   float cosine = 0, range = 0;  ///< extremes over the parts that count as insonified
 };

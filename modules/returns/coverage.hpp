@@ -18,8 +18,8 @@ struct CoveredSurfel {
   std::uint32_t id = 0;                                      ///< SceneCloud::id
   std::uint32_t pings = 0;                                   ///< number of pings that insonified it
   Eigen::Vector3d position = Eigen::Vector3d::Zero();        ///< world [m]
-  float grazing_angle = 0;                                   ///< largest [rad]; pi/2: normal incidence
-  float range = 0;                                           ///< least [m]
+  float grazing_angle = 0;                                   ///< largest grazing angle [rad]; pi/2: normal incidence
+  float range = 0;                                           ///< least range [m]
   double intensity = 0;                                      ///< sum over the pings [Pa^2] of the mean square (E64)
   float level_db = -std::numeric_limits<float>::infinity();  ///< highest level (E64) [dB re 1 uPa]
   float scattering_db = -std::numeric_limits<

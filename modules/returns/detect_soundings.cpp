@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* me = "detect_soundings";
 constexpr Eigen::Index guard_cells = 2;                 // resolution cells on either side that are not background
-constexpr Eigen::Index background_cells = 16;           // on either side
+constexpr Eigen::Index background_cells = 16;           // resolution cells of background on either side
 constexpr double unit = 2 * micropascal * micropascal;  // |pressure|^2 at 0 dB re 1 uPa rms [Pa^2] (E6)
 constexpr double nothing = 1e-20 * unit;                // -200 dB
 
@@ -25,14 +25,14 @@ constexpr double nothing = 1e-20 * unit;                // -200 dB
 struct Cell {
   std::uint32_t bin;
   float level_db;
-  float offset = 0;  ///< of the peak from the middle of the bin [bins]
+  float offset = 0;  ///< offset of the peak from the middle of the bin [bins]
 };
 
 float level_of(double intensity) { return static_cast<float>(db_from_power(std::max(intensity, nothing) / unit)); }
 
-/// A local maximum at the peak of the parabola through its level and those of its neighbours. (E72)
+/// Returns a local maximum at the peak of the parabola through its level and those of its neighbours. (E72)
 Cell peak_between(float before, Cell at, float after) {
-  constexpr float steepest_fall = 24.1F;  // of a Gaussian as long as a bin, from one bin to the next; more is a null
+  constexpr float steepest_fall = 24.1F;  // between bins, of a Gaussian as long as a bin; a steeper one is a null
   before = std::max(before, at.level_db - steepest_fall);
   after = std::max(after, at.level_db - steepest_fall);
   at.offset = 0.5F * (before - after) / (before - 2 * at.level_db + after);
@@ -77,7 +77,7 @@ class Detector {
  private:
   static std::uint32_t bin_of(Eigen::Index n) { return static_cast<std::uint32_t>(n); }
 
-  /// Of each bin the intensity below which a sample is a side lobe of the strongest beam there. (E19)
+  /// Sets the intensity in each bin below which a sample is a side lobe of the strongest beam there. (E19)
   void find_strongest() {
     const double margin = power_from_db(-options_.side_lobe_margin_db);
     parallel_blocks(strongest_.size(), 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
@@ -103,7 +103,7 @@ class Detector {
     }
     return true;
   }
-  /// Compares with the mean of the cells around, one sample of each, so that they are independent. (E78)
+  /// Returns true if a sample exceeds the mean of one sample of each cell around, so that these are independent. (E78)
   bool exceeds_background(const Eigen::ArrayXd& row, Eigen::Index n) const {
     double sum = 0;
     std::size_t count = 0;
@@ -121,11 +121,11 @@ class Detector {
   Eigen::Index cell_;  // length of a resolution cell [bins]
   double threshold_;   // [Pa^2]
   std::vector<double> strongest_;
-  std::vector<double> factor_;  // above the sum of so many cells
+  std::vector<double> factor_;  // threshold over the sum of so many cells
 };
 
-/// The way from the head at transmission to a sounding [m], in world axes. Beams point as the head lies at reception,
-/// directions of contributors as it lay at transmission.
+/// Returns the vector from the head at transmission to a sounding [m, world axes]. Beams are directed by the attitude
+/// at reception, contributors by that at transmission.
 Eigen::Vector3d way_of(const Ping& ping, double range, const Direction& direction, bool at_transmission) {
   const Eigen::Vector3d axis = unit_vector(direction);
   if (ping.motion.none()) return ping.world_from_head.linear() * (range * axis);
@@ -133,7 +133,7 @@ Eigen::Vector3d way_of(const Ping& ping, double range, const Direction& directio
   return distance_of_echo(ping, axis, range, ping.sound_speed) * (ping.world_from_head.linear() * axis);
 }
 
-/// Appends the sounding of one detection, in the direction of its strongest contributor or, without one, of the beam.
+/// Appends the sounding of one detection, in the direction of its strongest contributor, otherwise of the beam.
 void add_sounding(Soundings& s, const Ping& ping, std::size_t beam, Cell cell, const StrongestContributor& from) {
   const double range = ping.gate.centre(cell.bin) + static_cast<double>(cell.offset) * ping.gate.bin_size;
   const bool known = from.power > 0;

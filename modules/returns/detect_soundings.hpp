@@ -15,7 +15,7 @@ struct SceneCloud;
 /// Thresholds of detect_soundings.
 struct DetectionOptions {
   double noise_floor_db = -std::numeric_limits<double>::infinity();  ///< noise level in a beam [dB re 1 uPa]
-  double threshold_db = 11.4;       ///< above the noise floor; 11.4 dB is one false alarm in 10^6 (E19)
+  double threshold_db = 11.4;       ///< threshold above the noise floor; 11.4 dB is one false alarm in 10^6 (E19)
   double side_lobe_margin_db = 25;  ///< samples this far below the strongest beam near their range are side lobes
   /// "Near" in side_lobe_margin_db [m]; 0: the same bin. With a wide band, side lobes reach half the array's length in
   /// range, because an echo from beside the beam meets the elements at different times.
@@ -24,8 +24,8 @@ struct DetectionOptions {
   /// 0 and 1; 1: surroundings are ignored.
   double false_alarm_rate = 1e-3;
   double range_resolution = 0;  ///< length of a resolution cell [m]: a beam has at most one sounding in it; 0: a bin
-  bool all_bins = false;        ///< detect every bin above `above_db`, not only local maxima
-  double above_db = -std::numeric_limits<double>::infinity();  ///< [dB re 1 uPa], with all_bins
+  bool all_bins = false;        ///< true: detect every bin above `above_db`, not only local maxima
+  double above_db = -std::numeric_limits<double>::infinity();  ///< least level with all_bins [dB re 1 uPa]
   int threads = 0;                                             ///< 0: all cores
   /// Scene of the scatterers, whose ids true_surfel holds. Null: true_surfel is the upper half of Scatterers::id.
   const SceneCloud* scene = nullptr;
@@ -59,11 +59,11 @@ double background_factor(double false_alarm_rate, int cells);
 /// depend on options.threads. Throws Error for a rate outside (0, 1], or a resolution or reach that is not >= 0.
 Soundings detect_soundings(const Ping& ping, const EchoStream& stream, const DetectionOptions& options = {});
 
-/// Returns the same with double echoes (`doubles`, at apparent_places) beside the direct ones; sets true_order.
+/// As above, with double echoes (`doubles`, at apparent_places) beside the direct ones; sets true_order.
 Soundings detect_soundings(const Ping& ping, const EchoStream& direct, const EchoStream& doubles,
                            const DetectionOptions& options);
 
-/// Returns the same for stored scatterers and echoes, matched by index. Throws Error if their numbers differ.
+/// As above, for stored scatterers and echoes, matched by index. Throws Error if their numbers differ.
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,
                            const DetectionOptions& options = {});
 

@@ -14,7 +14,7 @@ Eigen::Vector3d way_of_echo(const Ping& ping, const Eigen::Vector3d& direction, 
   const double c = sound_speed, duration = 2 * range / c, turn = ping.motion.turn_rate.norm();
   const Eigen::AngleAxisd turned(turn * duration, ping.motion.turn_rate.stableNormalized());
   const Eigen::Vector3d back = turned * from;
-  // Where the head is at reception, and from there back to the scatterer. (E44)
+  // Vector to the head at reception, and from there back to the scatterer. (E44)
   return v * duration + (c * c - v.squaredNorm()) * duration / (2 * (c + v.dot(back))) * back;
 }
 

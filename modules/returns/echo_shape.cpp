@@ -9,16 +9,16 @@
 namespace insonify {
 namespace {
 
-constexpr double half_maximum_width = 2.354820045;  // of a normal law, in standard deviations
-constexpr double widest_slope = 0.6;                // of a bottom along the way, where its echo is measured
-constexpr double mean_part = 0.6;                   // of what an echo's skewness says that counts as deviation
-constexpr double width_part = 0.25;                 // of an echo's excess width along the way that counts as deviation
-constexpr double coherence_reach = 20;              // at least, in standard deviations of the pulse
-constexpr double fewest_samples = 8;                // independent ones, for a coherence
-constexpr double most_coherent = 0.7;               // of samples a pulse's length apart that speckle gives
-constexpr double most_off = 0.6;                    // from the coherence of the pulse
+constexpr double half_maximum_width = 2.354820045;  // width of a normal law at half maximum, in deviations
+constexpr double widest_slope = 0.6;                // largest slope along the track of a bottom whose echo is measured
+constexpr double mean_part = 0.6;                   // fraction of the shift by skewness that counts as deviation
+constexpr double width_part = 0.25;                 // fraction of an echo's excess width that counts as deviation
+constexpr double coherence_reach = 20;              // smallest reach, in standard deviations of the pulse
+constexpr double fewest_samples = 8;                // independent samples for a coherence
+constexpr double most_coherent = 0.7;               // largest coherence of speckle a pulse's length apart
+constexpr double most_off = 0.6;                    // largest distance from the coherence of the pulse
 
-/// Moments of an echo in range about a place: mean [m], variance [m^2] and third central one [m^3].
+/// Moments of an echo's range about a position: mean [m], variance [m^2] and third central one [m^3].
 struct EchoMoments {
   double mean = 0, variance = 0, third = 0;
 };
@@ -72,7 +72,8 @@ double deviation_along(const JudgedPing& judged, std::size_t beam, double range,
   const EchoMoments of = moments_about(judged, beam, range, std::max(3 * plane, 2 * slope));
   const double along = of.variance - plane * plane + echo.along_deviation * echo.along_deviation;
   if (!(along > 0)) return echo.lengthening_along;
-  // Of range s v + c v^2 / 2, v a normal angle along the way: what c moves the mean by, from variance and skewness.
+  // Fit the range s v + c v^2 / 2 with a normal angle v along the track: variance and skewness give the mean shift by
+  // c.
   const double skewness = of.third / std::pow(along, 1.5);
   const double mean = std::sqrt(2 * along) * std::sin(std::asin(std::clamp(skewness / std::sqrt(8.0), -1.0, 1.0)) / 3);
   const double excess = std::sqrt(std::max(0.0, of.variance - plane * plane));

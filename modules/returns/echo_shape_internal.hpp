@@ -4,15 +4,15 @@
 
 namespace insonify {
 
-/// Bins about a range, first and behind the last.
+/// An interval of bins about a range: the first, and one past the last.
 struct Bins {
   Eigen::Index first, end;
 };
 
-/// The bins of a ping within `reach` of a range [m], at least one.
+/// Returns the bins of a ping within `reach` of a range [m], at least one.
 Bins bins_about(const Ping& ping, double range, double reach);
 
-/// Returns whether an echo within `reach` of a range comes from a grating lobe (E133). Such an echo is shifted in phase
+/// Returns true if an echo within `reach` of a range comes from a grating lobe (E133). Such an echo is shifted in phase
 /// along the pulse and coherent for longer than the pulse: it comes from beyond the fan, and the beam receives only the
 /// frequencies whose grating lobe lies there.
 bool is_of_grating_lobe(const Ping& ping, std::size_t beam, double range, double reach, double pulse_deviation);

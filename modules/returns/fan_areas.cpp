@@ -17,10 +17,10 @@
 namespace insonify {
 namespace {
 
-// Samples of one beam: energy from the first bin on, and where class or object change.
+// Samples of one beam: cumulative energy, and the bins where class or object change.
 struct BeamEnergy {
   struct Run {
-    std::size_t first;  // bin
+    std::size_t first;  // first bin
     std::uint8_t category;
     std::uint16_t instance;
   };
@@ -45,7 +45,7 @@ BeamEnergy energy_of_beam(const FanSamples& samples, Eigen::Index beam, const Ra
   return of;
 }
 
-// What a pixel holds of a class and object.
+// Energy and area of one class and object in a pixel.
 struct Held {
   std::uint8_t category;
   std::uint16_t instance;
@@ -60,12 +60,12 @@ struct Square {
 };
 
 // The middle of a slice of a beam, thinner than a pixel. Along a ray one pixel ends where the next one begins, so that
-// every part of a sample is in exactly one pixel.
+// every piece of a sample is in exactly one pixel.
 struct Ray {
-  double bearing, cosine, sine, wide;  // wide: of its slice [rad]
-  std::size_t beam;                    // from port
+  double bearing, cosine, sine, wide;  // wide: width of its slice [rad]
+  std::size_t beam;                    // index from port
 
-  // Ranges at which it enters and leaves a square; none if the latter is less.
+  // Returns the ranges at which the ray enters and leaves a square. There is no chord if the second is smaller.
   std::pair<double, double> chord(const Square& square) const {
     const auto [ahead_in, ahead_out] = std::minmax({square.behind / cosine, square.ahead / cosine});
     const auto [side_in, side_out] = std::minmax({square.port / sine, square.starboard / sine});
@@ -97,7 +97,7 @@ class FanAreas {
     parallel_for(beams.size(), threads, [&](std::size_t k) { beam_[k] = energy_of_beam(samples, beams[k], gate); });
   }
 
-  // Lists what a pixel holds.
+  // Lists the classes and objects in a pixel.
   void hold(Eigen::Index row, Eigen::Index column, std::vector<Held>& held) const {
     const double m = raster_.metres_per_pixel, ahead = (raster_.head_row - static_cast<double>(row)) * m,
                  port = (static_cast<double>(column) - raster_.head_column) * m;
@@ -105,7 +105,7 @@ class FanAreas {
     held.clear();
     double first = -pi, last = pi;
     if (!square.holds_head()) {
-      if (square.behind < 0 && square.port < 0 && square.starboard > 0) return;  // astern, where no beam is
+      if (square.behind < 0 && square.port < 0 && square.starboard > 0) return;  // astern, outside all beams
       const auto [least, most] =
           std::minmax({std::atan2(square.port, square.behind), std::atan2(square.port, square.ahead),
                        std::atan2(square.starboard, square.behind), std::atan2(square.starboard, square.ahead)});
@@ -119,7 +119,7 @@ class FanAreas {
   }
 
  private:
-  // Energy of a beam up to a range, in proportion to the area within a bin.
+  // Returns the energy of a beam up to a range, in proportion to the area within a bin.
   double energy_before(const BeamEnergy& beam, double range) const {
     const double place = (range - gate_.min_range) / gate_.bin_size;
     const auto n = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(beam.before.size() - 2)));
@@ -128,7 +128,7 @@ class FanAreas {
     return beam.before[n] + (beam.before[n + 1] - beam.before[n]) * share;
   }
 
-  // Adds a slice of a beam between two ranges, `wide` in bearing [rad].
+  // Adds a slice of a beam between two ranges; `wide` is its width in bearing [rad].
   void add(const BeamEnergy& beam, double in, double out, double wide, std::vector<Held>& held) const {
     if (!(out > in)) return;
     const auto bin = static_cast<std::size_t>(std::max(0.0, std::floor((in - gate_.min_range) / gate_.bin_size)));
@@ -158,7 +158,7 @@ class FanAreas {
   std::vector<BeamEnergy> beam_;  // from port
 };
 
-// The class with most energy, and of it the object with most.
+// Returns the object with most energy among those of the class with most energy.
 const Held& strongest_of(const std::vector<Held>& held) {
   double total = 0;
   for (const Held& h : held) total += h.energy;
@@ -172,7 +172,7 @@ const Held& strongest_of(const std::vector<Held>& held) {
   return *best;
 }
 
-// As fan_pixels, with the level `outside` beside the fan.
+// Returns the pixels of fan_pixels with the level `outside` beside the fan.
 FanPixels pixels_of(const FanSamples& samples, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
                     float outside, int threads) {
   const FanAreas areas(samples, fan, gate, raster, threads);

@@ -18,24 +18,23 @@ struct FanSamples {
 
 /// Pixels of a picture in true geometry, rows from the top.
 struct FanPixels {
-  Grid<float> level_db;         ///< of the mean intensity; silence_db beside the fan
-  Grid<std::uint8_t> category;  ///< 0 beside the fan, as the instance
+  Grid<float> level_db;         ///< level of the mean intensity; silence_db beside the fan
+  Grid<std::uint8_t> category;  ///< 0 beside the fan, like the instance
   Grid<std::uint16_t> instance;
 };
 
-/// Returns what the area of each pixel of a raster holds of the samples (E168).
+/// Returns level, class and object of the area of each pixel of a raster (E168).
 ///
 /// A sample is the area between two ranges and two bearings: its bin, and half the way to the bearings of the next
-/// beams. Every sample counts by the area that it shares with the square of the pixel: along rays a quarter of a pixel
-/// apart at the far end, or less, which each stand for a slice of a beam. Along a ray shares are exact, so that all of
-/// each sample is in the picture. The level is that of the mean intensity over
-/// the area. The class is the one that most of the energy comes from, the object the one that most of the energy of
-/// this class comes from; area decides where no energy is. Throws Error(argument) if the samples differ in size from
-/// fan and gate, Error(content) for a level that is not a number.
+/// beams. Every sample counts by the area that it shares with the square of the pixel. The areas are slices of beams,
+/// at most a quarter of a pixel wide at the far end; along each slice they are exact, so that the picture contains all
+/// of each sample. The level is that of the mean intensity over the area. The class is the one with most of the energy,
+/// the object the one with most of that class's energy; area decides where there is no energy. Throws Error(argument)
+/// if the samples differ in size from fan and gate, Error(content) for a level that is not a number.
 FanPixels fan_pixels(const FanSamples& samples, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
                      int threads = 0);
 
-/// Returns the levels of that alone [dB], and minus infinity beside the fan. Throws as fan_pixels.
+/// Returns only the levels of fan_pixels [dB], minus infinity beside the fan. Throws as fan_pixels.
 Grid<float> fan_levels(const Grid<float>& level_db, const BeamFan& fan, const RangeGate& gate, const FanRaster& raster,
                        int threads = 0);
 

@@ -162,7 +162,7 @@ class Search {
     return p;
   }
 
-  /// Intensity response of a row to the elevations of the arrivals.
+  /// Returns the intensity response of a row to the elevations of the arrivals.
   std::vector<double> row_weights(const FanRow& row, const Pulses& pulses) const {
     RowResponse response(head_, wavelength_, row.elevation);
     std::vector<double> weights(pulses.bin.size());

@@ -12,7 +12,7 @@
 
 namespace insonify {
 
-/// Echoes of surfels with their origin.
+/// Echoes of surfels with their origins.
 struct SurfelEchoes {
   const Echoes& echoes;                   ///< must have upward direction cosines v
   std::span<const std::uint32_t> surfel;  ///< surfel of every echo, index in the scene

@@ -12,13 +12,13 @@
 namespace insonify {
 
 std::optional<double> first_return(const Grid<float>& row_db, const RangeGate& gate, const FirstReturnOptions& o) {
-  constexpr double least_water = 1e-5;  // of the strongest mean
+  constexpr double least_water = 1e-5;  // fraction of the strongest mean
   const auto bins = static_cast<std::size_t>(row_db.size());
   if (row_db.rows() != 1 || bins != gate.bins())
     fail(ErrorKind::argument, "first_return: a row of ", row_db.rows(), " x ", row_db.cols(), " levels, must be 1 x ",
          gate.bins());
 
-  // Sums of intensity before each bin, from which means over a window follow.
+  // Integrate the intensity before each bin; differences give means over a window.
   std::vector<double> before(bins + 1, 0.0);
   for (std::size_t n = 0; n < bins; ++n)
     before[n + 1] = before[n] + power_from_db(static_cast<double>(row_db(0, static_cast<Eigen::Index>(n))));
@@ -31,7 +31,7 @@ std::optional<double> first_return(const Grid<float>& row_db, const RangeGate& g
   double strongest = 0;
   for (std::size_t n = begin; n + window <= bins; ++n) strongest = std::max(strongest, mean(n));
 
-  // The first step that is high enough, and within a window of it the place that two means of speckle explain best. (E135)
+  // Find the first step that is high enough, and near it the bin where two means of speckle fit best. (E135)
   const auto water = [&](double mean_before) { return std::max(mean_before, least_water * strongest); };
   for (std::size_t n = begin; n + window <= bins && strongest > 0; ++n) {
     if (!(mean(n) >= power_from_db(o.step_db) * water(mean(n - window)))) continue;

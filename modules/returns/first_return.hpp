@@ -9,9 +9,9 @@ namespace insonify {
 
 /// Definition of the first return of a bottom.
 struct FirstReturnOptions {
-  double blanking = 1;  ///< [m] ranges up to this are ignored: the transmission and its ringing
-  double window = 0.5;  ///< [m] length of the windows before and behind a range, over which intensities are averaged
-  double step_db = 10;  ///< the level behind must exceed the level before by this [dB]
+  double blanking = 1;  ///< ranges up to this [m] are ignored: the transmission and its ringing
+  double window = 0.5;  ///< length [m] of the windows before and behind a range, over which intensities are averaged
+  double step_db = 10;  ///< least level behind over the level before [dB]
 };
 
 /// Returns the range [m] at which the bottom begins in a row of levels [dB] of one beam (E135). The first step finds

@@ -15,29 +15,29 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double most_mosaic_cells = 0x1p26;
-// Equivalent width over full width at half maximum of a Gaussian, and nearly of other pulses and main lobes (E74).
+// Equivalent width over full width at half maximum (E74), exact for a Gaussian, close for other pulses and main lobes.
 const double equivalent = std::sqrt(pi / (4 * std::log(2)));
 constexpr double resolved_cells = 4;
 constexpr double faintest_gain = 0.01;                        // of the elevation pattern, -20 dB
-constexpr double level_unit = 2 * micropascal * micropascal;  // of an intensity, re 1 uPa rms
+constexpr double level_unit = 2 * micropascal * micropascal;  // intensity at 0 dB re 1 uPa rms
 
-/// What a ping heard from a place.
-struct Heard {
-  double strength = 0;  ///< sum over the samples
+/// Samples that a ping received from one position.
+struct Received {
+  double strength = 0;  ///< sum of backscattering strengths, not in dB
   int samples = 0;
-  double width = 0;  ///< of the beam there [m]
+  double width = 0;  ///< width of the beam there [m]
 };
 
-/// A beam of a row, by its cone, and the cones up to which it stands for its surroundings.
+/// A beam of a row by its cone, with the limits of the cones that it covers.
 struct MosaicBeam {
   double cone, low, high;
   Eigen::Index beam;
 };
 
-/// Answers what a ping heard from places on a bed.
-class PingEar {
+/// Finds the samples that a ping received from positions on a bed.
+class PingOnBed {
  public:
-  PingEar(const Ping& ping, const MosaicSource& source, double cell)
+  PingOnBed(const Ping& ping, const MosaicSource& source, double cell)
       : ping_(ping), source_(source), cell_(cell), head_from_world_(ping.world_from_head.inverse()) {
     const double width = ping.fan.beam_width;
     turn_width_ = ping.fan.row_width > 0 ? ping.fan.row_width : ping.fan.elevation_width;
@@ -59,20 +59,20 @@ class PingEar {
     }
   }
 
-  /// What came from a place, as if the head were up to `strip` further along its way if it hears nothing from where it
-  /// is.
-  Heard hear(const Vector3d& place, const Vector3d& strip) const {
+  /// Returns the samples from a position. Without samples, the head is assumed to be abeam of the position, up to
+  /// `strip` further along its way.
+  Received samples_from(const Vector3d& place, const Vector3d& strip) const {
     const Vector3d p = head_from_world_ * place;
-    Heard heard = hear(p);
+    Received received = samples_from(p);
     const double half = strip.norm();
-    if (heard.samples > 0 || !(half > 0)) return heard;
+    if (received.samples > 0 || !(half > 0)) return received;
     const Vector3d along = head_from_world_.linear() * (strip / half);
     // Only heads that look athwart sweep a strip.
-    if (std::abs(along.x()) > 0.5) return heard;
-    return hear(p - std::clamp(p.dot(along), -half, half) * along);
+    if (std::abs(along.x()) > 0.5) return received;
+    return samples_from(p - std::clamp(p.dot(along), -half, half) * along);
   }
 
-  /// Corners of a box about all places that the ping may hear, on the ground.
+  /// Returns a horizontal box of all positions that the ping may have received, enlarged by `margin`.
   Eigen::AlignedBox2d reach(double margin) const {
     const double range = ping_.gate.min_range + static_cast<double>(ping_.gate.bins()) * ping_.gate.bin_size;
     Eigen::AlignedBox2d box(Eigen::Vector2d(ping_.world_from_head.translation().head<2>()));
@@ -92,22 +92,22 @@ class PingEar {
  private:
   struct Row {
     double turn = 0;
-    std::vector<MosaicBeam> beams;  ///< by cone
+    std::vector<MosaicBeam> beams;  ///< by ascending cone
   };
 
-  Heard hear(const Vector3d& p) const {
-    Heard heard;
+  Received samples_from(const Vector3d& p) const {
+    Received received;
     const double range = p.norm();
     const RangeGate& gate = ping_.gate;
     const double bin = (range - gate.min_range) / gate.bin_size;
-    if (!(bin >= 0 && bin < static_cast<double>(ping_.pressure.cols()))) return heard;
+    if (!(bin >= 0 && bin < static_cast<double>(ping_.pressure.cols()))) return received;
     const double cone = cone_azimuth(p), turn = std::atan2(p.z(), std::abs(p.x()));
     for (const Row& row : rows_) {
       if (std::abs(turn - row.turn) > turn_width_) continue;
       const MosaicBeam* beam = beam_at(row, cone);
-      if (beam) add_samples(p, range, *beam, heard);
+      if (beam) add_samples(p, range, *beam, received);
     }
-    return heard;
+    return received;
   }
 
   static const MosaicBeam* beam_at(const Row& row, double cone) {
@@ -117,21 +117,21 @@ class PingEar {
     return cone >= at->low && cone <= at->high ? &*at : nullptr;
   }
 
-  /// Two-way intensity response in elevation towards a place in head axes (E14), of a head whose ranges tell elevations
-  /// apart: across the pattern the range of a level bed changes by several resolution cells. Of other heads, such as
-  /// swaths, a sample holds the whole beam whatever the cell: 1.
+  /// Returns the two-way intensity response in elevation towards a position in head axes (E14). It applies where ranges
+  /// distinguish elevations: where the range of a level bed changes by several resolution cells across the pattern.
+  /// Otherwise, as for swaths, a sample contains the whole beam, and the response is 1.
   double elevation_gain(const Vector3d& p, double range) const {
     if (!(source_.elevation_width > 0)) return 1;
     const Vector3d ahead = p / range, up = head_from_world_.linear().col(2);
     const Vector3d rising = (Vector3d::UnitZ() - ahead.z() * ahead).normalized();
-    const double change = range * std::abs(up.dot(rising)) * source_.elevation_width;  // over the cosine of incidence
+    const double change = range * std::abs(up.dot(rising)) * source_.elevation_width;  // times the cosine of incidence
     if (!(change > resolved_cells * source_.range_resolution * std::abs(up.dot(ahead)))) return 1;
     const double off = std::asin(std::clamp(ahead.z(), -1.0, 1.0)) - source_.elevation_centre;
     return std::pow(elevation_response(source_.elevation_shape, source_.elevation_width, off), 2);
   }
 
-  /// Adds the samples of a beam that the cell, or the resolution cell about its middle, holds.
-  void add_samples(const Vector3d& p, double range, const MosaicBeam& beam, Heard& heard) const {
+  /// Adds the samples of a beam within the cell, or within the resolution cell about its middle.
+  void add_samples(const Vector3d& p, double range, const MosaicBeam& beam, Received& received) const {
     const Vector3d up = head_from_world_.linear().col(2);
     const double cosine = std::min(1.0, std::abs(up.dot(p)) / range), sine = std::sqrt(1 - cosine * cosine);
     const double pattern = elevation_gain(p, range);
@@ -147,8 +147,8 @@ class PingEar {
     const double gain = std::pow(range, 4) *
                         power_from_db(2 * source_.absorption_db_per_m * range - source_.source_level_db) /
                         (level_unit * area * pattern);
-    for (Eigen::Index n = begin; n < end; ++n, ++heard.samples) heard.strength += gain * intensity(beam.beam, n);
-    heard.width = range * width;
+    for (Eigen::Index n = begin; n < end; ++n, ++received.samples) received.strength += gain * intensity(beam.beam, n);
+    received.width = range * width;
   }
 
   double intensity(Eigen::Index b, Eigen::Index n) const {
@@ -176,8 +176,8 @@ void ImageMosaic::add(const Ping& ping, const MosaicSource& source, const Vector
   require_valid(ping.gate, "ImageMosaic");
   if (!(source.range_resolution > 0))
     fail(ErrorKind::argument, "ImageMosaic: range_resolution = ", source.range_resolution, " m, must be > 0");
-  const PingEar ear(ping, source, cell_);
-  const Eigen::AlignedBox2d box = ear.reach(strip.norm() + cell_);
+  const PingOnBed on_bed(ping, source, cell_);
+  const Eigen::AlignedBox2d box = on_bed.reach(strip.norm() + cell_);
   const double tile = side * cell_;
   const Eigen::Array2d low = (box.min().array() / tile).floor(), high = (box.max().array() / tile).floor();
   if (!((high - low + 1).prod() * side * side <= most_mosaic_cells && low.abs().maxCoeff() < 0x1p30))
@@ -193,16 +193,16 @@ void ImageMosaic::add(const Ping& ping, const MosaicSource& source, const Vector
     for (int k = 0; k < side * side; ++k) {
       const double x = (static_cast<double>(place.first) * side + k % side + 0.5) * cell_;
       const double y = (static_cast<double>(place.second) * side + k / side + 0.5) * cell_;
-      const Heard heard = ear.hear({x, y, bed.at(x, y)}, strip);
-      if (heard.samples == 0) continue;
+      const Received received = on_bed.samples_from({x, y, bed.at(x, y)}, strip);
+      if (received.samples == 0) continue;
       const auto at = static_cast<std::size_t>(k);
       if (rule_ == MosaicRule::best) {
-        if (into->samples[at] > 0 && into->width[at] <= static_cast<float>(heard.width)) continue;
+        if (into->samples[at] > 0 && into->width[at] <= static_cast<float>(received.width)) continue;
         into->strength[at] = into->samples[at] = 0;
-        into->width[at] = static_cast<float>(heard.width);
+        into->width[at] = static_cast<float>(received.width);
       }
-      into->strength[at] += heard.strength;
-      into->samples[at] += static_cast<float>(heard.samples);
+      into->strength[at] += received.strength;
+      into->samples[at] += static_cast<float>(received.samples);
     }
   });
   for (const auto& [place, into] : touched)
@@ -211,7 +211,7 @@ void ImageMosaic::add(const Ping& ping, const MosaicSource& source, const Vector
 
 MosaicMap ImageMosaic::map() const {
   if (tiles_.empty()) fail(ErrorKind::content, "ImageMosaic: no ping hears the bed");
-  Eigen::AlignedBox<std::int64_t, 2> box;  // of the cells that were heard
+  Eigen::AlignedBox<std::int64_t, 2> box;  // box of the cells with samples
   const auto each_cell = [&](const auto& use) {
     for (const auto& [place, tile] : tiles_)
       for (std::size_t k = 0; k < tile.samples.size(); ++k) {

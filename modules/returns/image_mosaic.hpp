@@ -15,11 +15,11 @@
 
 namespace insonify {
 
-/// What a cell of a mosaic shows: the mean intensity of all pings, or the intensity of the ping whose beam is narrowest
+/// Value of a mosaic's cell: the mean intensity of all pings, or the intensity of the ping with the narrowest beam
 /// there.
 enum class MosaicRule { mean, best };
 
-/// Numbers that turn the levels of a ping into backscattering strengths.
+/// Numbers that convert the levels of a ping to backscattering strengths.
 struct MosaicSource {
   double source_level_db = 0;      ///< dB re 1 uPa at 1 m
   double absorption_db_per_m = 0;  ///< at the centre frequency
@@ -70,13 +70,13 @@ class ImageMosaic {
   struct Tile {
     std::vector<double> strength = std::vector<double>(side * side);  ///< sums, not in dB
     std::vector<float> samples = std::vector<float>(side * side);
-    std::vector<float> width = std::vector<float>(side * side);  ///< of the beam [m], for MosaicRule::best
+    std::vector<float> width = std::vector<float>(side * side);  ///< width of the beam [m], for MosaicRule::best
   };
   using Place = std::pair<std::int32_t, std::int32_t>;
 
   double cell_;
   MosaicRule rule_;
-  std::map<Place, Tile> tiles_;  ///< only where pings were heard
+  std::map<Place, Tile> tiles_;  ///< only tiles with samples
 };
 
 }  // namespace insonify

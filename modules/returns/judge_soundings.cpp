@@ -11,27 +11,27 @@ namespace insonify {
 namespace {
 
 constexpr double side_lobe_sum_db = 22;  // below the sum of all other bearings, in beams as wide as a main lobe
-constexpr double main_lobe = 1.5;        // half of one, with its skirts, in beam widths
-constexpr double faint_db = 18;          // below the louder quarter of the bottom about a beam
-constexpr double bottom_about = pi / 6;  // to either side [rad]
-constexpr double skirt_margin_db = 8;    // below what a louder beam's main lobe brings into this one
-constexpr double partly_skirt_db = 2;    // from there on a sounding may lie off its beam, in the direction of that one
-constexpr double skirt_reach = 3;        // beam widths to either side
-constexpr double lone_margin_db = 10;  // above the limits of side lobes and of noise, of a sounding that none confirms
+constexpr double main_lobe = 1.5;        // half a main lobe with its skirts, in beam widths
+constexpr double faint_db = 18;          // level below the louder quarter of the bottom around
+constexpr double bottom_about = pi / 6;  // angle around on either side [rad]
+constexpr double skirt_margin_db = 8;    // below the level that a louder beam's main lobe brings into this one
+constexpr double partly_skirt_db = 2;    // from here on a sounding may lie off its beam, towards the louder one
+constexpr double skirt_reach = 3;        // beam widths on either side
+constexpr double lone_margin_db = 10;    // above the limits of side lobes and noise, for a sounding without neighbours
 constexpr double lone_noise_db = 20;
-constexpr double reference_of_levels = 2 * micropascal * micropascal;  // at 0 dB re 1 uPa rms [Pa^2]
-constexpr double steepest = 4;               // dr / (r dtheta) up to which beams see one surface: 76 degrees
-constexpr std::size_t witnesses = 2;         // soundings beside one that confirm it
+constexpr double reference_of_levels = 2 * micropascal * micropascal;  // intensity at 0 dB re 1 uPa rms [Pa^2]
+constexpr double steepest = 4;               // largest dr / (r dtheta) of one surface: 76 degrees
+constexpr std::size_t witnesses = 2;         // neighbours that confirm a sounding
 constexpr double median_of_normal = 1.4826;  // standard deviations in a median absolute deviation
-constexpr double own_part = 0.5;             // of the largest step beside a sounding that counts as its deviation
-constexpr double sure_of_relief = 2.5;       // variances that errors alone may give
+constexpr double own_part = 0.5;             // fraction of the largest step beside it that counts as deviation
+constexpr double sure_of_relief = 2.5;       // variances that may come from errors alone
 
-/// How far a sounding lies off its neighbours [m], and the variance that their errors alone give [m^2].
+/// Distance of a sounding from the plane of its neighbours [m], and the variance that errors alone give it [m^2].
 struct Bend {
   double off, expected;
 };
 
-/// What a beam beside a sounding explains of it: as a part of its intensity, from how far [rad].
+/// Contribution of a neighbouring beam's main lobe to a sounding: fraction of its intensity, angle between them [rad].
 struct Skirt {
   double part = 0, away = 0;
 };
@@ -40,12 +40,12 @@ class Judge {
  public:
   Judge(const JudgedPing& judged, const BottomSoundings& soundings);
 
-  /// What a beam beside a sounding explains of it.
+  /// Returns the largest contribution of a neighbouring beam to a sounding.
   Skirt skirt_at(std::size_t i) const;
   std::uint8_t reject(std::size_t i, const Skirt& skirt) const;
-  /// How far each sounding that is kept lies off those about it, for relief_variance.
+  /// Finds the residuals of all soundings that are kept, for relief_variance.
   void find_bends();
-  /// Variance that the relief of the bottom adds to the range of a sounding [m^2].
+  /// Returns the variance that the relief of the bottom adds to the range of a sounding [m^2].
   double relief_variance(std::size_t i, const Skirt& skirt) const;
 
  private:
@@ -53,7 +53,7 @@ class Judge {
   double side_lobes_at(std::size_t i) const;
   bool is_faint(std::size_t i) const;
   bool is_confirmed(std::size_t i) const;
-  /// The sounding of a beam that has most energy; none if it has none.
+  /// Returns the sounding of a beam with most energy; nothing for a beam without soundings.
   std::optional<std::size_t> sounding_of(std::ptrdiff_t beam) const;
   std::optional<Bend> bend_at(std::ptrdiff_t beam) const;
   const std::optional<Bend>& bend_of(std::ptrdiff_t beam) const {
@@ -64,14 +64,14 @@ class Judge {
 
   const JudgedPing& judged_;
   const BottomSoundings& soundings_;
-  std::vector<std::ptrdiff_t> first_;       ///< of each beam its first sounding; -1: none
-  std::vector<float> own_;                  ///< deviations as the echoes predict them [m]
-  std::vector<double> sine_, angle_;        ///< of each beam in the plane of the fan
-  std::vector<std::optional<Bend>> bends_;  ///< of each beam
-  std::vector<double> loudness_db_;         ///< of each sounding, without what range costs a bottom
-  std::ptrdiff_t lag_ = 1;                  ///< beams in a beam's width
+  std::vector<std::ptrdiff_t> first_;       ///< first sounding of each beam; -1: none
+  std::vector<float> own_;                  ///< deviations predicted from the echoes [m]
+  std::vector<double> sine_, angle_;        ///< of the beams in the plane of the fan
+  std::vector<std::optional<Bend>> bends_;  ///< by beam
+  std::vector<double> loudness_db_;         ///< level of each sounding, compensated for its range
+  std::ptrdiff_t lag_ = 1;                  ///< number of beams in a beam's width
   std::ptrdiff_t relief_lag_ = 1;           ///< beams in the longer side of a footprint, at most a sixteenth of all
-  double share_ = 1;                        ///< of a beam's width between two beams
+  double share_ = 1;                        ///< distance between two beams, in beam widths
 };
 
 Judge::Judge(const JudgedPing& judged, const BottomSoundings& soundings)
@@ -97,7 +97,7 @@ double Judge::strongest(std::size_t beam, Bins bins) const {
   return judged_.intensity.row(static_cast<Eigen::Index>(beam)).segment(bins.first, bins.end - bins.first).maxCoeff();
 }
 
-/// The largest intensity that side lobes may bring in at the range of a sounding.
+/// Returns the largest intensity that side lobes may bring in at the range of a sounding.
 double Judge::side_lobes_at(std::size_t i) const {  // (E129)
   const Bins bins =
       bins_about(judged_.ping, soundings_.range[i], judged_.side_lobe_reach + 2 * judged_.echoes[i].pulse_deviation);
@@ -109,7 +109,7 @@ double Judge::side_lobes_at(std::size_t i) const {  // (E129)
   return std::max(0.0, others.maxCoeff()) * std::min(1.0, share_) * power_from_db(-side_lobe_sum_db);
 }
 
-/// Whether the bottom about a sounding is far louder.
+/// Returns true if the bottom about a sounding is far louder.
 bool Judge::is_faint(std::size_t i) const {  // (E130)
   std::size_t about = 0, louder = 0;
   for (std::size_t k = 0; k < soundings_.size(); ++k) {
@@ -119,7 +119,7 @@ bool Judge::is_faint(std::size_t i) const {  // (E130)
   return louder >= about - about * 3 / 4;  // the sounding at three quarters is among them
 }
 
-/// The beam within a few widths whose main lobe brings most into that of a sounding.
+/// Returns the beam within a few widths whose main lobe brings most into that of a sounding.
 Skirt Judge::skirt_at(std::size_t i) const {
   const std::size_t beam = soundings_.beam[i];
   const Bins bins = bins_about(judged_.ping, soundings_.range[i], 4 * judged_.echoes[i].pulse_deviation);
@@ -128,9 +128,9 @@ Skirt Judge::skirt_at(std::size_t i) const {
   Skirt most;
   for (std::size_t b = beam - std::min(beam, reach); b <= std::min(sine_.size() - 1, beam + reach); ++b) {
     const double there = strongest(b, bins);
-    if (there / here <= most.part) continue;  // even on its axis
+    if (there / here <= most.part) continue;  // too faint even on its axis
     const double off = (sine_[b] - sine_[beam]) / judged_.ping.fan.beam_width;
-    const double part = there * std::exp2(-4 * off * off) / here;  // a Gaussian main lobe
+    const double part = there * std::exp2(-4 * off * off) / here;  // Gaussian main lobe
     if (b != beam && part > most.part) most = {part, std::abs(angle_[b] - angle_[beam])};
   }
   return most;
@@ -142,7 +142,7 @@ std::optional<std::size_t> Judge::sounding_of(std::ptrdiff_t beam) const {
   return static_cast<std::size_t>(first_[static_cast<std::size_t>(beam)]);
 }
 
-/// Whether two soundings beside it lie on a surface with it.
+/// Returns true if two neighbours lie on one surface with the sounding.
 bool Judge::is_confirmed(std::size_t i) const {
   const auto beam = static_cast<std::ptrdiff_t>(soundings_.beam[i]);
   const double range = soundings_.range[i];
@@ -172,8 +172,8 @@ std::uint8_t Judge::reject(std::size_t i, const Skirt& skirt) const {
   return reasons;
 }
 
-/// Of a sounding against the plane through those a beam's width to either side, whose 1 / r is linear in the cosine and
-/// sine of the angle.
+/// Returns the residual of a sounding from the plane through its neighbours a footprint to either side. On a plane 1 /
+/// r is linear in the cosine and sine of the angle.
 std::optional<Bend> Judge::bend_at(std::ptrdiff_t beam) const {
   const auto before = sounding_of(beam - relief_lag_), here = sounding_of(beam),
              after = sounding_of(beam + relief_lag_);
@@ -196,7 +196,7 @@ void Judge::find_bends() {
 }
 
 double Judge::relief_variance(std::size_t i, const Skirt& skirt) const {  // (E131)
-  if (first_.size() == 1) return 0;  // the width of its own echo is in its deviation (E171)
+  if (first_.size() == 1) return 0;  // its deviation includes the width of its echo (E171)
   const auto beam = static_cast<std::ptrdiff_t>(soundings_.beam[i]);
   std::vector<double> bends, expected;
   for (std::ptrdiff_t b = beam - 2 * relief_lag_; b <= beam + 2 * relief_lag_; ++b)

@@ -8,23 +8,23 @@
 
 namespace insonify {
 
-/// Energies of one kind of surface in the cell of a pixel; there or nearer to the cell than the radius of a surfel,
-/// which closes gaps between surfels; and in the main lobe. And the surfels of the strongest parts of the first two.
+/// Energies of one kind of surface at a pixel: in its cell, near it (within the radius of a surfel, which closes gaps
+/// between surfels), and in the main lobe. Also the surfels with the strongest pieces in the cell and near it.
 struct KindHere {
   double cell = 0, near = 0, lobe = 0;
   double in_cell = 0, in_near = 0;
   std::uint32_t of_cell = 0, of_near = 0;
 };
 
-/// Energies of the kinds of surface that one beam receives. A kind takes memory only from its first bin to its last one,
-/// so that the memory grows with the extents of bodies, and not with bins x kinds.
+/// Energies of the kinds of surface that one beam receives. A kind takes memory only from its first to its last bin, so
+/// that the memory grows with the extents of bodies, not with bins x kinds.
 class KindsInBeam {
  public:
-  /// The kinds have the numbers 0 to kinds - 1; bins those from 0 to bins - 1.
+  /// Numbers the kinds from 0 to kinds - 1, the bins from 0 to bins - 1.
   KindsInBeam(std::size_t kinds, std::size_t bins) : spans_(kinds), bins_(bins) {}
 
-  /// Extends a kind over `length` bins from `first` on, as far as they exist. To be called for all bins of all kinds
-  /// before make_room.
+  /// Extends a kind over `length` bins from `first` on, as far as they exist. Call it for all bins of all kinds before
+  /// make_room.
   void extend(std::size_t kind, std::int64_t first, std::size_t length) {
     const std::int64_t begin = std::max<std::int64_t>(first, 0);
     const std::int64_t end = std::min<std::int64_t>(first + static_cast<std::int64_t>(length), bins());
@@ -42,12 +42,12 @@ class KindsInBeam {
     return here_[spans_[kind].at + static_cast<std::size_t>(bin - spans_[kind].begin)];
   }
 
-  /// The kind with the most of an energy in a bin, the first one of equals; null: none has any.
+  /// The kind with the most energy in a bin, the lowest of equal ones; null: no kind has energy.
   struct Most {
     const KindHere* here = nullptr;
     std::uint16_t kind = 0;
   };
-  /// Returns this kind for each bin.
+  /// Returns the kind with the most energy for each bin.
   std::vector<Most> most(double KindHere::*energy) const {
     std::vector<Most> most(bins_);
     for (std::size_t kind = 0; kind < spans_.size(); ++kind)

@@ -13,7 +13,7 @@ namespace insonify {
 /// Number of the label of each surfel: the label of its part, or its material if the part has no label.
 struct LabelKinds {
   static constexpr std::size_t of_material = ~std::size_t{0};
-  std::vector<std::size_t> of_part{};  ///< of each part; of_material: its materials are the labels
+  std::vector<std::size_t> of_part{};  ///< label of each part; of_material: its materials are the labels
 
   /// Returns the label of a surfel, index into PixelLabels::names.
   std::size_t of(const SceneCloud& scene, std::uint32_t surfel) const {
@@ -26,7 +26,7 @@ struct LabelKinds {
 /// Also lists the parts.
 inline LabelKinds name_kinds(const SceneCloud& scene, PixelLabels& labels) {
   LabelKinds kinds;
-  std::unordered_map<std::string, std::size_t> known;  // number of each name, of the first one of equals
+  std::unordered_map<std::string, std::size_t> known;  // number of each name, the first of equal ones
   for (const Material& material : scene.materials) {
     known.try_emplace(material.name, labels.names.size());
     labels.names.push_back(material.name);

@@ -40,7 +40,7 @@ SceneInstances number_instances(const std::vector<std::pair<std::uint32_t, std::
   std::set<std::uint32_t> ids;
   for (const auto& [surfel, id] : given)
     if (id != 0) ids.insert(id);
-  // Ids that are too large take the lowest numbers that no other object has.
+  // Give ids that are too large the lowest free numbers.
   SceneInstances all;
   std::unordered_map<std::uint32_t, std::uint32_t> number_of;
   std::uint32_t next = 1;
@@ -63,7 +63,7 @@ Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<s
   if (kind.rows() != id.rows() || kind.cols() != id.cols())
     fail(ErrorKind::argument, "number_objects: kinds of ", kind.rows(), " x ", kind.cols(), " pixels and ids of ",
          id.rows(), " x ", id.cols(), ", must be of one size");
-  // Instances of the scene keep their numbers; the rest is of what touches.
+  // Keep the numbers of the scene's instances; number the connected parts of the rest.
   Grid<std::uint32_t> objects = Grid<std::uint32_t>::Zero(kind.rows(), kind.cols()), rest = kind;
   std::unordered_map<std::uint32_t, std::size_t> pixels;
   for (Eigen::Index i = 0; i < kind.size(); ++i) {

@@ -32,10 +32,10 @@ SceneInstances number_instances(const std::vector<std::pair<std::uint32_t, std::
 /// `least_pixels` get 0.
 Grid<std::uint32_t> connected_parts(const Grid<std::uint32_t>& key, std::size_t least_pixels);
 
-/// Returns the objects of a picture. Pixels whose surfel `id` belongs to an instance have the number of the instance,
-/// of whatever kind they are. Connected parts of one kind without instances have the numbers after instances.most, in
-/// the order of their first pixels. Pixels of kind 0 and objects of less than `least_pixels` get 0. Throws
-/// Error(argument) if the pictures differ in size.
+/// Returns the objects of a picture. Pixels of any kind whose surfel `id` belongs to an instance have the number of the
+/// instance. Connected parts of one kind without instances have the numbers after instances.most, in the order of their
+/// first pixels. Pixels of kind 0 and objects of less than `least_pixels` get 0. Throws Error(argument) if the pictures
+/// differ in size.
 Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<std::uint32_t>& id,
                                    const SceneInstances& instances, std::size_t least_pixels = 1);
 

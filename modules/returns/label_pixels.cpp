@@ -16,11 +16,11 @@
 #include "sonar/pulse.hpp"
 #include "sonar/response_table.hpp"
 
-// Labels pixels by what lies in their cells (E125):
+// Labels pixels by the surfaces in their cells (E125):
 //   1. order the visible parts by direction cosine, with the energy of their pulses in the bins around;
 //   2. mark as shadow the cells that hold surfels that are hidden or face away;
-//   3. for each beam, add the energies of the parts in its main lobe by bin and label, and those in the cell alone; cells
-//      with visible surface are no shadow.
+//   3. for each beam, add the energies of the parts in its main lobe by bin and label, and those in the cell alone;
+//      cells with visible surface are no shadow.
 // Cost: parts x beams of a main lobe x bins of a pulse, some 2 ns each; parallel over beams.
 namespace insonify {
 namespace {
@@ -81,7 +81,7 @@ double radius_of(const SceneCloud& scene, std::size_t surfel, std::uint32_t part
 struct VisibleParts {
   std::size_t length = 0;
   std::vector<double> u, v, range;
-  std::vector<double> radius;  // of the share that a part has of its surfel's area [m]
+  std::vector<double> radius;  // radius of the part's fraction of its surfel's area [m]
   std::vector<std::uint32_t> surfel;
   std::vector<std::int64_t> first;
   std::vector<float> energy;
@@ -207,7 +207,7 @@ class Labelling {
       label_pixel(beam.second, n, most_in_cell[static_cast<std::size_t>(n)], most_near[static_cast<std::size_t>(n)]);
   }
 
-  // The kind with most energy in the cell of a pixel; near it, if there is neither visible nor hidden surface.
+  // Labels a pixel with the kind of most energy in its cell, or near it if the cell has no surface, seen or hidden.
   void label_pixel(std::size_t beam, Eigen::Index bin, const KindsInBeam::Most& in_cell,
                    const KindsInBeam::Most& near_cell) {
     const auto row = static_cast<Eigen::Index>(beam);
@@ -223,7 +223,7 @@ class Labelling {
     labels_.share(row, bin) = total > 0 ? static_cast<float>(std::min(1.0, most->lobe / total)) : 0.0F;  // (E125)
   }
 
-  // Marks the cells that a surfel reaches into.
+  // Labels the cells that a surfel reaches into.
   void mark(std::size_t i, std::uint16_t label) {
     const Eigen::Vector3d p = head_from_world_ * (scene_.origin + scene_.point[i].cast<double>());
     const double range = std::max(p.norm(), 1e-9), u = p.y() / range, elevation = std::asin(p.z() / range);

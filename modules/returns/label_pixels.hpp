@@ -17,9 +17,9 @@ namespace insonify {
 struct SeenSurface {
   const SurfelEchoes& direct;  ///< direct echoes of all visible parts
   const std::vector<Visibility>&
-      others;               ///< one entry per surfel: of those without an echo whether they are hidden, turned
-                            ///< away, or seen (by no ray); all else does not count
-  const Contributors& all;  ///< of this ping, with their total energy
+      others;               ///< one entry per surfel: those without an echo are hidden, turned away, or seen (by no
+                            ///< ray); others do not count
+  const Contributors& all;  ///< contributors of this ping, with their total energy
 };
 
 /// Returns the labels of the pixels of a ping (E125).

@@ -10,13 +10,13 @@ namespace insonify {
 namespace {
 
 constexpr double width_of_gaussian = 2.354820045;  // full width at half maximum, in standard deviations
-constexpr double steepest_lone = 1.3;              // [rad] from the vertical, of a beam on a level bed
-constexpr double steep_bed = 0.4363;               // [rad] off the normal, up to which a whole echo is looked for
-constexpr double reach_of_echo = 4;                // standard deviations on either side of a centre of gravity
+constexpr double steepest_lone = 1.3;              // largest angle of a beam from the vertical, on a level bed [rad]
+constexpr double steep_bed = 0.4363;               // largest angle off the normal of a whole echo's search [rad]
+constexpr double reach_of_echo = 4;                // reach of a centre of gravity, in standard deviations
 constexpr double cell_in_deviations = 3.545;       // 2 sqrt(pi): effective spacing of independent samples
 constexpr int most_passes = 20;
 
-/// Moments of an echo about a place: energy, mean [m], variance [m^2], and the sums that its errors need.
+/// Moments of an echo about a position: energy, mean [m], variance [m^2], and the sums for its errors.
 struct LoneEcho {
   double energy = 0, mean = 0, variance = 0;
   double squares = 0;    ///< sum of x^2 over the bins, about the mean [m^2]
@@ -46,14 +46,14 @@ LoneEcho lone_echo(const BottomBeam& beam, double centre, double reach) {
   return echo;
 }
 
-/// Intensity of noise at a range, compensated as echoes are.
+/// Returns the intensity of noise at a range, compensated like echoes.
 double compensated_noise(const BottomBeam& beam, double range) {
   const auto n = static_cast<std::size_t>(
       std::clamp(std::round((range - beam.first) / beam.step), 0.0, static_cast<double>(beam.intensity.size() - 1)));
   return beam.noise * beam.gain[n];
 }
 
-/// Variance of the mean of an echo that speckle gives.
+/// Returns the variance of an echo's mean due to speckle.
 double variance_by_speckle(const BottomBeam& beam, const LonePlane& plane, const LoneEcho& echo) {  // (E171)
   const double extent = std::max(echo.variance - plane.pulse, plane.curvature + plane.slope);
   const double shape = 1 + (pi - 1) * std::min(1.0, plane.curvature / extent);
@@ -88,7 +88,7 @@ BottomEstimate range_of_lone_beam(const BottomBeam& beam, const LonePlane& plane
   const double least = std::sqrt(plane.pulse + plane.curvature + plane.slope);
   double width = std::sqrt(plane.pulse + plane.curvature + plane.slope + plane.steep), centre = start;
   LoneEcho echo;
-  for (int pass = 0; pass < most_passes; ++pass) {  // from a wide window inwards
+  for (int pass = 0; pass < most_passes; ++pass) {  // shrink a wide window
     echo = lone_echo(beam, centre, std::max(reach_of_echo * width, 1.01 * beam.step));
     if (!(echo.energy > 0) || !std::isfinite(echo.mean)) return {start, std::numeric_limits<double>::infinity()};
     const double moved = std::abs(echo.mean - centre), before = width;

@@ -12,8 +12,8 @@ Grid<float> mean_over_bins(const Grid<double>& intensity, int bins);
 /// Returns the gate of `count` display cells, evenly over `gate`.
 RangeGate display_gate(const RangeGate& gate, int count);
 
-/// Returns the mean intensity of display cells, beams x cells: of each the mean over the area between its ranges of the
-/// intensity of samples, beams x bins (E180). Throws Error(argument) if `intensity` has not the bins of `samples`.
+/// Returns the mean intensity of display cells, beams x cells: the mean over the area between the ranges of each cell
+/// (E180). `intensity` has the bins of `samples`; otherwise Error(argument) is thrown.
 Grid<double> mean_over_cells(const Grid<double>& intensity, const RangeGate& samples, const RangeGate& cells);
 
 /// Returns the level that a display shows for every sample, beams x bins [dB re 1 uPa rms]: the level of

@@ -19,7 +19,7 @@ struct Bearings {
     for (const Eigen::Index b : beam) at.push_back(-fan.azimuth[static_cast<std::size_t>(b)]);
   }
 
-  // The beam whose bearing is nearest.
+  // Returns the beam with the nearest bearing.
   Eigen::Index nearest(double bearing) const {
     const auto above = static_cast<std::size_t>(std::lower_bound(at.begin(), at.end(), bearing) - at.begin());
     std::size_t k = std::min(above, at.size() - 1);
@@ -31,7 +31,7 @@ struct Bearings {
   std::vector<double> at;
 };
 
-// Fills the pixels of a raster whose scale and head are known; beams show to `margin` beyond the outermost ones.
+// Fills the pixels of a raster with known scale and head. Beams extend to `margin` beyond the outermost ones.
 void fill_raster(FanRaster& raster, Eigen::Index rows, Eigen::Index columns, const Bearings& bearings, double margin,
                  const RangeGate& gate) {
   raster.margin = margin;
@@ -71,7 +71,7 @@ FanRaster fan_raster(const BeamFan& fan, const RangeGate& gate, int columns) {
   const double beams = static_cast<double>(bearings.at.size());
   const double margin = beams > 1 ? 0.5 * (last - first) / (beams - 1) : 0.5 * fan.beam_width;
 
-  // The box about the fan: sides at the far ends of the outermost beams, bottom at the nearest range of these.
+  // Bound the fan by a box: the far ends of the outermost beams, and below their nearest ranges.
   const double low = first - margin, high = last + margin, reach = gate.max_range;
   const double left = std::min(0.0, reach * std::sin(low)), right = std::max(0.0, reach * std::sin(high));
   const double bottom = gate.min_range * std::min(std::cos(low), std::cos(high));

@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// The beams from port to starboard: the columns of a picture of beams x range. Beams of equal azimuth stay in order.
+/// Returns the beams from port to starboard: the columns of a picture. Beams of equal azimuth stay in order.
 std::vector<Eigen::Index> columns_from_port(const BeamFan& fan);
 
 /// Returns the samples (beams x bins) as a picture in the layout of show_grey: one column per beam from port to
@@ -25,13 +25,13 @@ Grid<Value> polar_picture(const Grid<Value>& samples, const BeamFan& fan) {
   return picture;
 }
 
-/// Where the pixels of a picture in true geometry lie, and the sample at the centre of each; fan_pixels gives all that a
-/// pixel holds. Forward is up, starboard right.
+/// The sample at the centre of each pixel of a picture in true geometry, forward up, starboard right. fan_pixels adds
+/// the areas of all samples in a pixel.
 struct FanRaster {
   Grid<std::int32_t> beam, bin;  ///< rows from the top; -1 outside the fan
   double metres_per_pixel = 0;
-  double margin = 0;                     ///< [rad] to which the outermost beams show beyond their axes
-  double head_column = 0, head_row = 0;  ///< where the head is [pixels], from the corner of the first pixel
+  double margin = 0;                     ///< extent of the outermost beams beyond their axes [rad]
+  double head_column = 0, head_row = 0;  ///< position of the head [pixels], from the corner of the first pixel
 };
 
 /// Returns the sample nearest to the centre of each pixel, for a picture of `columns` columns that holds the fan; the
@@ -39,7 +39,7 @@ struct FanRaster {
 /// outside 16 to 8192.
 FanRaster fan_raster(const BeamFan& fan, const RangeGate& gate, int columns);
 
-/// Returns the same for a picture of `rows` rows that reaches from the head to the far end of the gate. The head is
+/// Returns the raster of a picture of `rows` rows that reaches from the head to the far end of the gate. The head is
 /// below the middle of the last row. The outermost beams extend half a beam width beyond their axes. Throws
 /// Error(argument) for a fan of several elevations, or without rows.
 FanRaster fan_raster_from_head(const BeamFan& fan, const RangeGate& gate, int rows);

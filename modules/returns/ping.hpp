@@ -21,10 +21,10 @@ struct Layer {
   ComplexGridF pressure;  ///< beams x bins [Pa]
 };
 
-/// Direction of a scanning head: the turn of the head itself, which is part of the ping's pose.
+/// Direction of a scanning head: the turn of the head itself, included in the ping's pose.
 struct ScanPlace {
   std::int64_t sweep = 0;  ///< number of the sweep, from 0
-  double angle = 0;        ///< about the head's z axis [rad], positive to port
+  double angle = 0;        ///< turn about the head's z axis [rad], positive to port
 };
 
 /// The result of one transmission.
@@ -36,19 +36,19 @@ struct Ping {
   RangeGate gate;
   ComplexGridF pressure;        ///< beams x bins [Pa], analytic baseband, linear
   std::vector<Layer> layers{};  ///< parts that add up to `pressure`; empty unless requested
-  bool expected_level = false;  ///< `pressure` is the root of an expected intensity (E65), without speckle and phase;
-                                ///< squares of the layers add up
-  bool display_cells = false;   ///< bins are cells of a display: `pressure` is the root of the mean intensity over the
-                                ///< area of each, without phase
+  bool expected_level = false;  ///< true: `pressure` is the root of an expected intensity (E65), without phase; squares
+                                ///< of layers add up
+  bool display_cells = false;   ///< true: bins are cells of a display, and `pressure` is the root of the mean intensity
+                                ///< over the area of each, without phase
   Grid<float> intensity{};  ///< mean of |pressure|^2 over the looks of a display, beams x bins [Pa^2] (E71); or empty
   Grid<std::uint8_t> unknown{};  ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
   Grid<float>
-      split_phase{};     ///< between the halves of the array [rad], beams x bins, positive towards port (E92); or empty
+      split_phase{};     ///< phase between the array's halves [rad], beams x bins, positive to port (E92); or empty
   PixelLabels labels{};  ///< surface of every pixel, if contributors were kept; or empty
   std::optional<ScanPlace> scan{};  ///< for a scanning head; its turn is included in world_from_head
   double sound_speed = 0;           ///< in the water at the head [m/s]; it converts delays to ranges; 0: not known
-  double absorption_db_per_m = 0;   ///< of the water at the head, at the centre frequency
-  Motion motion{};                  ///< of the head from transmission on, as simulated in its echoes
+  double absorption_db_per_m = 0;   ///< absorption of the water at the head, at the centre frequency
+  Motion motion{};                  ///< motion of the head from transmission on, as simulated in its echoes
 };
 
 /// Sets sound speed and absorption of `ping` to those of the water at the head.
@@ -73,18 +73,18 @@ Grid<float> range_compensated_level_db(const Ping& ping, double absorption_db_pe
 /// -inf if there are none.
 double mean_level_db(const Ping& ping, double min_range, double max_range);
 
-/// When and from where a ping was sent.
+/// Time and pose of a ping, without its samples.
 struct TrackPoint {
   std::int64_t number = 0;
   double time = 0;  ///< [s]
   Pose world_from_head = Pose::Identity();
   std::optional<ScanPlace> scan{};  ///< of a scanning head
-  double sound_speed = 0;           ///< as Ping::sound_speed
-  double absorption_db_per_m = 0;   ///< as Ping::absorption_db_per_m
-  Motion motion{};                  ///< as Ping::motion
+  double sound_speed = 0;           ///< see Ping::sound_speed
+  double absorption_db_per_m = 0;   ///< see Ping::absorption_db_per_m
+  Motion motion{};                  ///< see Ping::motion
 };
 
-/// Returns the place of a ping.
+/// Returns time and pose of a ping.
 inline TrackPoint track_point_of(const Ping& ping) {
   return {ping.number, ping.time, ping.world_from_head, ping.scan, ping.sound_speed, ping.absorption_db_per_m,
           ping.motion};

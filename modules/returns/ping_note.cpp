@@ -8,7 +8,7 @@
 namespace insonify {
 namespace {
 
-/// Takes what stands before the next tab, or all.
+/// Removes the text before the next tab, or all of it, from `line` and returns it.
 std::string_view take_cell(std::string_view& line) {
   const std::size_t tab = std::min(line.find('\t'), line.size());
   const std::string_view cell = line.substr(0, tab);
@@ -48,7 +48,7 @@ std::string sentence(const PingNote& note, bool alone) {
 std::string as_lines(const std::vector<PingNote>& notes) {
   std::string lines;
   for (const PingNote& n : notes) {
-    std::string text = n.text;  // a name within it may hold anything
+    std::string text = n.text;  // names in it may contain anything
     std::replace(text.begin(), text.end(), '\n', ' ');
     lines += std::to_string(n.count) + '\t' + std::to_string(n.first) + '\t' + n.kind + '\t' + text + '\n';
   }

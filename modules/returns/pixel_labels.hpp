@@ -18,19 +18,19 @@ struct PartView {
     double least = std::numeric_limits<double>::quiet_NaN(), most = std::numeric_limits<double>::quiet_NaN();
     bool operator==(const Extent&) const = default;
   };
-  /// Of the axes of the part's file, as a scene of parts places them.
+  /// Pose of the axes of the part's file.
   Eigen::Isometry3d world_from_part = Eigen::Isometry3d::Identity();
   /// Visible fraction of the part: the solid angle that the head sees of it, over the solid angle that it would see of
   /// the part alone. NaN: it would see nothing.
   double visible_share = std::numeric_limits<double>::quiet_NaN();
   Extent azimuth{}, elevation{},
       range{};  ///< [rad], [rad], [m] of the surface that the head would see of the part alone
-  /// The same of the azimuth of the beam that hears it [rad]: a line array resolves cones about its axis, so that this
-  /// differs from the azimuth of what is high above or far below. And of the places at which pictures in true geometry
-  /// draw it, ahead of the head and to its port side: cosine and sine of the beam's azimuth times the range [m].
+  /// Extent of the azimuth of the beam that receives the part [rad]. A line array resolves cones about its axis, so
+  /// this differs from `azimuth` for surfaces high above or far below. `ahead` and `port` are the extents of its
+  /// position in pictures in true geometry: cosine and sine of the beam's azimuth times the range [m].
   Extent heard{}, ahead{}, port{};
-  /// Of the lengths of the part's file, and extents of the whole part along the axes of that file, as scaled [m]. NaN:
-  /// it stands as captured, or is not in the scene.
+  /// Lengths over those of the part's file, and extents of the whole part along the axes of that file [m]. NaN: the
+  /// part stands as captured, or is not in the scene.
   double scale = std::numeric_limits<double>::quiet_NaN();
   Eigen::Vector3d size = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
@@ -43,14 +43,14 @@ struct PixelLabels {
   static constexpr std::uint16_t no_part = 0xffff;
 
   Grid<std::uint16_t> material;    ///< index into names, or nothing or shadow
-  Grid<std::uint32_t> id;          ///< of the strongest surfel of that material in this cell; no_id if there is none
+  Grid<std::uint32_t> id;          ///< id of the strongest surfel of that material in this cell; no_id if there is none
   Grid<float> share;               ///< fraction of the pixel's energy from that material in the main lobe; else 0
-  std::vector<std::string> names;  ///< of materials; in a scene of parts, labels of parts replace their materials
+  std::vector<std::string> names;  ///< names of materials; in a scene of parts, labels of parts replace their materials
   Grid<std::uint16_t> part{};      ///< part of that surfel, index into `part_names`; no_part: none. Empty: no parts
   std::vector<std::string> part_names{}, part_labels{};  ///< of all parts of the scene (ScenePart)
-  std::vector<PartView> views{};                         ///< of all parts
+  std::vector<PartView> views{};                         ///< by part
 
-  /// Whether there are no labels.
+  /// Returns true if there are no labels.
   bool empty() const { return material.size() == 0; }
 };
 

@@ -33,7 +33,7 @@ struct GreyWindow {
 /// /65535; levels beyond the window give 0 or the largest value. Throws Error(argument) unless the window is finite
 /// with min_db < max_db, and Error(content) for a level that is not a number.
 Grid<std::uint8_t> quantise_8(const Grid<float>& level_db, const GreyWindow& window);
-/// The same in 65535 steps.
+/// Returns the nearest grey value of each level in 65535 steps, as quantise_8 does in 255.
 Grid<std::uint16_t> quantise_16(const Grid<float>& level_db, const GreyWindow& window);
 
 /// Returns the level of a grey value [dB], within half a step of the original for levels in the window. Throws

@@ -11,7 +11,7 @@ struct SoundingColumn {
   const char *name, *unit;
 };
 
-/// Returns the unit of a column for files with signed whole numbers: it says -1 in place of 4294967295.
+/// Returns the unit of a column for files with signed whole numbers, which hold -1 in place of 4294967295.
 inline std::string signed_unit(const SoundingColumn& column) {
   const std::string unit = column.unit, none = std::to_string(Soundings::none);
   const std::size_t at = unit.find(none);

@@ -18,13 +18,13 @@ struct Soundings {
   std::vector<Eigen::Vector3d> position;
   std::vector<float> level_db;   ///< dB re 1 uPa
   std::vector<float> range;      ///< [m]
-  std::vector<float> azimuth;    ///< of the beam [rad]
-  std::vector<float> elevation;  ///< of the beam [rad]; a head with one row cannot measure that of the echo
+  std::vector<float> azimuth;    ///< azimuth of the beam [rad]
+  std::vector<float> elevation;  ///< elevation of the beam [rad]; a head with one row cannot measure that of the echo
   std::vector<std::uint32_t> ping;
   std::vector<std::uint32_t> beam;
   std::vector<std::uint32_t> bin;
-  std::vector<float> true_elevation;         ///< of the strongest contributor [rad]; NaN: none
-  std::vector<std::uint32_t> true_surfel;    ///< its id in the scene
+  std::vector<float> true_elevation;         ///< elevation of the strongest contributor [rad]; NaN: none
+  std::vector<std::uint32_t> true_surfel;    ///< id in the scene of the strongest contributor
   std::vector<std::uint32_t> true_material;  ///< index into the scene's materials
   /// Number of surfaces on the path of the strongest contributor: 1, or 2 for a double echo, whose last surface is
   /// true_surfel. Empty if no double echoes were computed.

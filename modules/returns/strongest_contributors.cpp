@@ -13,7 +13,7 @@
 namespace insonify {
 namespace {
 
-/// Half extent of the search for contributors around a beam: in direction cosine, and in elevation [rad].
+/// Half extent of the search around a beam: in direction cosine, and in elevation [rad].
 struct AngularExtent {
   double u = 0, elevation = std::numeric_limits<double>::infinity();
 };
@@ -60,12 +60,12 @@ std::vector<BeamRegion> beam_regions(const BeamFan& fan) {
   return regions;
 }
 
-/// Bins of pixels that one thread searches: not so many that threads have to wait, nor so few that most surfels stand
-/// in several slabs.
+/// Returns the number of bins that one thread searches: small enough that no thread waits long, large enough that most
+/// surfels lie in one slab.
 std::size_t slab_bins(const RangeGate& gate) { return std::clamp<std::size_t>(gate.bins() / 16, 64, 512); }
 
-/// Tells whether a rectangle of bins and direction cosines may hold a pixel: a table of the sums over all cells below
-/// and left of each.
+/// A table that tells whether a rectangle of bins and direction cosines may contain a pixel. It holds the sums over all
+/// cells below and left of each.
 class PixelTable {
  public:
   PixelTable(std::size_t bins, double u_low, double u_high)
@@ -76,7 +76,7 @@ class PixelTable {
     for (std::size_t at = columns + 2; at < sum_.size(); ++at)
       if (at % (columns + 1) != 0) sum_[at] += sum_[at - 1] + sum_[at - columns - 1] - sum_[at - columns - 2];
   }
-  /// Bins [first, end).
+  /// Returns true if there may be a pixel in bins [first, end) and between two direction cosines.
   bool may_hold(std::size_t first, std::size_t end, double u_low, double u_high) const {
     const std::size_t low = column(u_low), high = column(u_high) + 1;
     const std::uint32_t *below = &sum_[first * (columns + 1)], *above = &sum_[end * (columns + 1)];
@@ -92,7 +92,7 @@ class PixelTable {
   std::vector<std::uint32_t> sum_;
 };
 
-/// The pixels of bins [first, end): offers each echo as contributor to those that it may contribute to, in order.
+/// The pixels of bins [first, end). It offers each echo, in order, to the pixels to which it may contribute.
 class SlabSearch final : public EchoSink {
  public:
   SlabSearch(const std::vector<Pixel>& pixels, const std::vector<std::size_t>& beam_begin,
@@ -131,7 +131,7 @@ class SlabSearch final : public EchoSink {
   bool overlaps(const ChunkBounds& chunk) const {
     return last_bin(chunk.max_range) >= first_ && first_bin(chunk.min_range) < end_;
   }
-  /// Whether a pixel is near.
+  /// Returns true if a pixel is near the surfel.
   bool wants(const SurfelBounds& s) const override {
     const std::size_t low = first_bin(s.range - s.reach), high = last_bin(s.range + s.reach);
     return may_hold(low, high + 1, s.u, widest_ + s.reach_u);
@@ -156,7 +156,7 @@ class SlabSearch final : public EchoSink {
     double u;
     std::size_t pixel;
   };
-  /// Whether a pixel may be in the bins [first, end) and within `reach` of u.
+  /// Returns true if there may be a pixel in bins [first, end) within `reach` of u.
   bool may_hold(std::size_t first, std::size_t end, double u, double reach) const {
     first = std::max(first, first_), end = std::min(end, end_);
     return first < end && table_->may_hold(first - first_, end - first_, u - reach, u + reach);
@@ -193,7 +193,7 @@ class SlabSearch final : public EchoSink {
   double widest_ = 0;
   const SceneCloud* scene_;
   std::vector<StrongestContributor>& found_;
-  std::vector<std::size_t> begin_;  // of the pixels of each bin, in wanted_
+  std::vector<std::size_t> begin_;  // first pixel of each bin, index into wanted_
   std::vector<Wanted> wanted_;      // by bin, then direction cosine of the beam
   std::optional<PixelTable> table_;
 };

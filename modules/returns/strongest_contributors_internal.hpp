@@ -18,13 +18,13 @@ struct Pixel {
 /// The strongest echo that contributes to a sample, and its origin.
 struct StrongestContributor {
   double power = 0;        ///< [Pa^2]; 0: there is none
-  bool own_share = false;  ///< lies in the beam's own cell of the fan
+  bool own_share = false;  ///< true: it lies in the beam's own cell of the fan
   Direction direction{};
-  std::uint32_t surfel = 0;  ///< id in the scene
+  std::uint32_t surfel = 0;  ///< id of its surfel in the scene
   std::uint16_t material = 0;
 };
 
-/// Returns whether `a` ranks before `b`: contributors in the beam's own cell of the fan come first, then the stronger
+/// Returns true if `a` ranks before `b`: contributors in the beam's own cell of the fan come first, then the stronger
 /// one.
 inline bool is_stronger(const StrongestContributor& a, const StrongestContributor& b) {
   return a.own_share == b.own_share ? a.power > b.power : a.own_share && a.power > 0;

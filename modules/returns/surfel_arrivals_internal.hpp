@@ -51,14 +51,14 @@ struct Group {
   float elevation;  ///< elevation of the strongest arrival [rad]
   std::size_t first, last;
   double u_low, u_high;
-  std::uint32_t before = Contributors::none;  ///< of the strongest arrival
+  std::uint32_t before = Contributors::none;  ///< value of the strongest arrival
 
   PathKind path() const {
     return before == Contributors::none ? static_cast<PathKind>(legs.bounces()) : PathKind::two_surfaces;
   }
 };
 
-/// Throws Error(argument) unless the echoes are complete, finite and of surfels of the scene.
+/// Throws Error(argument) unless the echoes are complete, finite and from surfels of the scene.
 void require_arrivals(const SceneCloud& scene, const SurfelEchoes& part, const char* who);
 
 /// Returns all echoes that overlap a bin, grouped by contributor, by ascending surfel and legs.
