@@ -38,7 +38,7 @@ ImageCharacter character_of(const Grid<float>& levels, const ComparedImage& imag
   return c;
 }
 
-// Levels of both images where both say something, with the logarithm of range.
+// Levels of the pixels that both images have, with the logarithm of range.
 struct LevelPairs {
   std::vector<double> a, b, decades;
 };
@@ -57,7 +57,7 @@ LevelPairs pairs_of(const Grid<float>& a, const Grid<float>& b, const std::optio
   return pairs;
 }
 
-// Measures pixel by pixel; returns the line of A - B over the decades of range.
+// Compares pixel by pixel. Returns the line of A - B over the decades of range.
 FittedLine compare_pairs(const LevelPairs& pairs, ImageComparison& c) {
   std::vector<double> difference(pairs.a.size());
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] = pairs.a[i] - pairs.b[i];
@@ -106,7 +106,7 @@ void compare_fitted(const ComparedImage& a, const ComparedImage& b, const Fitted
 
 double whole_looks(const SpeckleStatistics& s) { return std::clamp(s.looks, 1.0, 16.0); }
 
-// About the levels of the reference with its widths, or about the expected level if one of the images is that.
+// Returns the floor about the expected level if one of the images is that, otherwise about the reference.
 TwoSeedFloor floor_of(const ComparedImage& a, const ComparedImage& b, const Grid<float>& la, const Grid<float>& lb,
                       const ImageComparison& c, std::uint64_t seed) {
   const SpeckleStatistics &sa = c.a.speckle, &sb = c.b.speckle;
@@ -144,7 +144,7 @@ ImageComparison compare_level_images(const ComparedImage& a, const ComparedImage
   c.a = character_of(la, a), c.b = character_of(lb, b);
   compare_fitted(a, b, compare_pairs(pairs, c), c);
 
-  // One sample for each resolution cell of the coarser image.
+  // Take one sample for each resolution cell of the coarser image.
   const CorrelationWidths wa = c.a.speckle.width, wb = c.b.speckle.width;
   const CorrelationWidths coarser{std::max(wa.beams, wb.beams), std::max(wa.bins, wb.bins)};
   c.samples = kolmogorov_smirnov(one_per_cell(la, coarser), one_per_cell(lb, coarser));

@@ -11,7 +11,7 @@
 namespace insonify {
 namespace {
 
-// Correlation of the overlap at a shift, over every second pixel of either axis.
+// Returns the correlation of the overlap at a shift, over every second pixel of either axis.
 double overlap_correlation(const Grid<double>& a, const Grid<double>& b, Eigen::Index beams, Eigen::Index bins) {
   double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   for (Eigen::Index r = std::max<Eigen::Index>(0, -beams); r < std::min(b.rows(), b.rows() - beams); r += 2)
@@ -39,7 +39,7 @@ ImageShift find_shift(const Grid<float>& a, const Grid<float>& b, int max_beams,
     for (int bins = -max_bins; bins <= max_bins; ++bins)
       if (const double c = overlap_correlation(sa, sb, beams, bins); c > best.correlation)
         best.beams = beams, best.bins = bins, best.correlation = c;
-  // A shift that noise may have made is none: five deviations of the transformed correlation (Fisher), of as many
+  // Ignore a shift that noise may have made: five deviations of the transformed correlation (Fisher), of as many
   // independent pixels as boxes.
   const double boxes = static_cast<double>((!sb.isNaN()).count()) / 15;
   const double gain =

@@ -6,9 +6,9 @@ namespace insonify {
 
 /// Displacement of image A against image B.
 struct ImageShift {
-  int beams = 0, bins = 0;      ///< what B has at (beam, bin), A has at (beam + beams, bin + bins)
-  double correlation = 0;       ///< of the smoothed levels at that shift
-  double correlation_at_0 = 0;  ///< without a shift
+  int beams = 0, bins = 0;      ///< pixel (beam, bin) of B is pixel (beam + beams, bin + bins) of A
+  double correlation = 0;       ///< correlation of the smoothed levels at that shift
+  double correlation_at_0 = 0;  ///< correlation without a shift
 };
 
 /// Finds the whole shift of at most `max_beams` and `max_bins` at which the levels [dB], each averaged over 3 x 5

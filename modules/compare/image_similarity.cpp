@@ -15,7 +15,7 @@ namespace {
 constexpr int ssim_radius = 5;
 constexpr double ssim_deviation = 1.5;
 
-// Levels clamped to the window and counted from its lower end; NaN stays.
+// Returns the levels clamped to the window, less its lower end; NaN stays.
 Grid<double> declared_levels(const Grid<float>& level_db, const GreyWindow& window) {
   return level_db.unaryExpr([&](float level) {
     return std::isnan(level) ? std::numeric_limits<double>::quiet_NaN()
@@ -33,7 +33,7 @@ std::array<double, 2 * ssim_radius + 1> ssim_weights() {
   return weights;
 }
 
-// The weighted mean about every pixel whose window lies within the image.
+// Returns the weighted mean about every pixel whose window lies within the image.
 Grid<double> windowed(const Grid<double>& image) {
   static const auto weights = ssim_weights();
   Grid<double> rows = Grid<double>::Zero(image.rows() - 2 * ssim_radius, image.cols());

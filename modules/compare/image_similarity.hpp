@@ -16,10 +16,10 @@ struct ImageSimilarity {
 };
 
 /// Returns MSE, PSNR and SSIM (E120) of two images of levels [dB], both clamped to `window`. Pixels where either is NaN
-/// are left out, and of the SSIM all windows with such a pixel. SSIM as Wang et al. 2004: Gaussian window of 11 x 11
-/// with a deviation of 1.5, K1 = 0.01, K2 = 0.03, moments of the population, mean over windows that lie within the
-/// image. Throws Error(argument) if the images differ in size, the window is not finite with min_db < max_db;
-/// Error(content) if no pixel is left.
+/// are left out, as are all SSIM windows with such a pixel. SSIM as Wang et al. 2004: Gaussian window of 11 x 11 with a
+/// deviation of 1.5, K1 = 0.01, K2 = 0.03, moments of the population, mean over windows that lie within the image.
+/// Throws Error(argument) if the images differ in size or the window is not finite with min_db < max_db, Error(content)
+/// if no pixel is left.
 ImageSimilarity image_similarity(const Grid<float>& a, const Grid<float>& b, const GreyWindow& window);
 
 /// Returns 20 log10(span) - 10 log10(mse).

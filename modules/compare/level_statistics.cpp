@@ -14,7 +14,7 @@ void sort_sample(std::vector<double>& sample, const char* who) {
   std::sort(sample.begin(), sample.end());
 }
 
-// Kolmogorov's distribution: probability of a distance above D for an effective number of samples.
+// Returns the probability of a distance above D by Kolmogorov's distribution, for an effective number of samples.
 double kolmogorov_tail(double distance, double samples) {
   const double root = std::sqrt(samples), x = (root + 0.12 + 0.11 / root) * distance;
   if (x < 0.2) return 1;
@@ -43,7 +43,7 @@ MeanAndDeviation mean_and_deviation(const std::vector<double>& values) {
 
 double wasserstein_1(std::vector<double> a, std::vector<double> b) {
   sort_sample(a, "wasserstein_1"), sort_sample(b, "wasserstein_1");
-  // Both quantile functions are steps: go from step to step of either.
+  // Both quantile functions are steps: go through the steps of both.
   const double na = static_cast<double>(a.size()), nb = static_cast<double>(b.size());
   double sum = 0, share = 0;
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
@@ -96,7 +96,7 @@ LevelMap level_map(std::vector<double> from, std::vector<double> to) {
   LevelMap map;
   for (int k = 0; k <= 20; ++k) {
     const double level = quantile_of(from, k / 20.0);
-    if (!map.from.empty() && level <= map.from.back()) continue;  // equal levels have one image
+    if (!map.from.empty() && level <= map.from.back()) continue;  // map equal levels to one
     map.from.push_back(level);
     map.to.push_back(quantile_of(to, k / 20.0));
   }

@@ -19,7 +19,7 @@ double wasserstein_1(std::vector<double> a, std::vector<double> b);
 /// A Kolmogorov-Smirnov test.
 struct KolmogorovSmirnov {
   double distance = 0;     ///< largest difference of the distribution functions
-  double probability = 1;  ///< of a larger one if both samples are of one distribution (asymptotic)
+  double probability = 1;  ///< probability of a larger one if both samples have one distribution (asymptotic)
   std::size_t samples = 0, others = 0;
 };
 

@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-// Sums over boxes along the columns of each row, by differences of running sums.
+// Returns sums over boxes along the columns of each row, by differences of running sums.
 Grid<double> sums_along_rows(const Grid<double>& image, Eigen::Index half) {
   Grid<double> sums(image.rows(), image.cols());
   std::vector<double> running(static_cast<std::size_t>(image.cols()) + 1);

@@ -2,16 +2,15 @@
 #pragma once
 #include "core/grid.hpp"
 
-// Private to compare.
+// Private to compare: means over boxes.
 namespace insonify {
 
-/// A box about a pixel, by the numbers of pixels to either side.
+/// A box about a pixel: numbers of pixels on either side.
 struct HalfWindow {
   Eigen::Index beams = 0, bins = 0;
 };
 
-/// Returns the mean over the box about each pixel, cut at the edges, of the values that are not NaN; NaN where there
-/// are none.
+/// Returns the mean over the box about each pixel, cut at the edges. NaN is left out; a box of NaN alone gives NaN.
 Grid<double> local_mean(const Grid<double>& image, HalfWindow half);
 
 }  // namespace insonify

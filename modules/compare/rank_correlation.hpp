@@ -10,16 +10,16 @@ namespace insonify {
 /// list is constant. Throws Error(argument) unless both have the same length of two at least.
 double rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Levels predicted at points against levels measured there.
+/// Differences between predicted and measured levels at points.
 struct PointComparison {
   std::size_t points = 0;
-  double bias_db = 0, deviation_db = 0;     ///< of predicted - measured
-  double predicted_slope_db = 0;            ///< per decade of range
-  double measured_slope_db = 0;             ///< per decade of range
+  double bias_db = 0, deviation_db = 0;     ///< mean and deviation of predicted - measured
+  double predicted_slope_db = 0;            ///< slope per decade of range
+  double measured_slope_db = 0;             ///< slope per decade of range
   double rank = 0, rank_without_trend = 0;  ///< correlation before and after removing both lines of log10(range)
-  double deviation_without_trend_db = 0;    ///< of the difference after it
-  double far_below = 0;  ///< share of points predicted more than 20 dB below the median about the line
-  double ceiling = 0, ceiling_without_trend = 0;  ///< of one-look speckle about the prediction itself (E122)
+  double deviation_without_trend_db = 0;    ///< deviation of the difference after removing them
+  double far_below = 0;  ///< fraction of points predicted more than 20 dB below the median about the line
+  double ceiling = 0, ceiling_without_trend = 0;  ///< for one-look speckle about the prediction itself (E122)
 };
 
 /// Compares levels point by point; `seed` draws the ceiling. Throws Error(argument) unless all lists have the same

@@ -17,7 +17,7 @@ bool has_rows(const BeamFan& fan) {
   return std::any_of(fan.elevation.begin(), fan.elevation.end(), [&](double e) { return e != fan.elevation.front(); });
 }
 
-// Index of the beam nearest to a direction, and how far it is in azimuth and elevation.
+// The beam nearest to a direction, and its distance in azimuth and elevation.
 struct NearBeam {
   std::size_t beam = 0;
   double azimuth = 0, elevation = 0;
@@ -32,7 +32,7 @@ NearBeam nearest_direction(const BeamFan& fan, double azimuth, double elevation,
   return best;
 }
 
-// Half the largest step between neighbouring azimuths.
+// Returns half the largest step between neighbouring azimuths.
 double half_step(const BeamFan& fan) {
   std::vector<double> azimuth = fan.azimuth;
   std::sort(azimuth.begin(), azimuth.end());
@@ -41,7 +41,7 @@ double half_step(const BeamFan& fan) {
   return 0.5 * step;
 }
 
-// Mean level of the bins of a beam whose centres lie within a range; of the nearest if there is none.
+// Returns the mean level of the bins of a beam whose centres lie within a range; without any, that of the nearest bin.
 float level_between(const ComparedImage& image, Eigen::Index beam, double from, double to) {
   const RangeGate& gate = *image.gate;
   const double first = std::ceil((from - gate.min_range) / gate.bin_size - 0.5);

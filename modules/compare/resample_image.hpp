@@ -12,13 +12,13 @@
 
 namespace insonify {
 
-/// Levels of one image, of a run or of a record.
+/// Levels of one image, of a run or of a recording.
 struct ComparedImage {
   Grid<float> level_db;               ///< beams x bins; NaN: not measured
   std::optional<BeamFan> fan{};       ///< directions of the beams; nothing: unknown
-  std::optional<RangeGate> gate{};    ///< unknown without fan, but of the waterfall of a side-scan
-  std::optional<GreyWindow> scale{};  ///< of a record in grey values: levels at its ends are clipped
-  bool expected_level = false;        ///< without speckle
+  std::optional<RangeGate> gate{};    ///< range axis; nothing: unknown. Needs a fan except for side-scan waterfalls
+  std::optional<GreyWindow> scale{};  ///< scale of a recording in grey values: levels at its ends are clipped
+  bool expected_level = false;        ///< true: without speckle
 };
 
 /// Returns the level of `image` at every pixel of another fan and gate: the mean intensity of its samples whose centre
@@ -27,7 +27,7 @@ struct ComparedImage {
 /// Throws Error(argument) if `image` has no geometry, Error(content) if nothing overlaps.
 Grid<float> resampled(const ComparedImage& image, const BeamFan& fan, const RangeGate& gate);
 
-/// Returns the same for range alone, row by row, for waterfalls of pings x bins. Throws Error(argument) if the image
+/// As `resampled`, for range alone, row by row, for waterfalls of pings x bins. Throws Error(argument) if the image
 /// has no ranges, Error(content) if nothing overlaps.
 Grid<float> resampled_in_range(const ComparedImage& image, const RangeGate& gate);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr HalfWindow shadow_window{1, 4};
 
-/// Median of the numbers; NaN of none.
+/// Returns the median of the numbers; NaN without any.
 double median_of(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -23,7 +23,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-/// The smoothed intensity of the bed; NaN before the first return.
+/// Returns the smoothed intensity of the bed; NaN before the first return.
 Grid<double> bed_of(const Grid<float>& level_db, const RangeGate& gate, const SideScanStatistics& s) {
   const float nothing = std::numeric_limits<float>::quiet_NaN();
   Grid<float> bed = level_db;
@@ -40,8 +40,8 @@ Grid<double> bed_of(const Grid<float>& level_db, const RangeGate& gate, const Si
   return intensity.isNaN().select(std::numeric_limits<double>::quiet_NaN(), smooth);
 }
 
-/// At each range the intensity below which a bed is in shadow: by the median over pings, and over so much of range that a
-/// shadow along all pings is a small part of it. (E136)
+/// Returns the intensity at each range below which a bed is in shadow: the median over pings, and over so many ranges
+/// that a shadow along all pings is a small fraction of them. (E136)
 std::vector<double> darkest_bed(const Grid<double>& bed, const RangeGate& gate, const ShadowOptions& o) {
   std::vector<double> typical;  // from the first range with a bed on
   std::size_t first = 0;

@@ -12,16 +12,16 @@ namespace insonify {
 /// Definition of a shadow.
 struct ShadowOptions {
   double below_db = 10;  ///< least level of the bed above a shadow at its range
-  double least = 0.5;    ///< [m] of slant range: shorter ones do not count
-  double along = 5;      ///< [m] of slant range to either side over which the bed is smooth
+  double least = 0.5;    ///< shortest shadow [m of slant range]
+  double along = 5;      ///< slant range on either side over which the bed is smooth [m]
 };
 
 /// The bed and the shadows of one side of a side-scan.
 struct SideScanStatistics {
-  std::vector<std::optional<double>> first_return{};  ///< of each ping [m] (E135)
-  double shadow_share = 0;                            ///< of the samples of the bed
-  double longest_shadow = 0, longest_from = 0;        ///< [m] of slant range: its length and where it begins
-  std::size_t longest_ping = 0;                       ///< row of the longest
+  std::vector<std::optional<double>> first_return{};  ///< first return of each ping [m] (E135)
+  double shadow_share = 0;                            ///< fraction of the samples of the bed
+  double longest_shadow = 0, longest_from = 0;        ///< slant range: length and begin of the longest shadow [m]
+  std::size_t longest_ping = 0;                       ///< row of the longest shadow
   double shadow_depth_db = 0;                         ///< mean intensity of the bed over that of its shadows
 };
 

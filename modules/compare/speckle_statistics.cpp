@@ -25,7 +25,7 @@ Grid<double> normalised_intensity(const Grid<float>& level_db, int half_beams, i
   return (mean > 0).select(intensity / mean, std::numeric_limits<double>::quiet_NaN());
 }
 
-// Mean product of deviations at lags along one axis, relative to that at 0.
+// Returns the mean product of deviations at lags along one axis, relative to that at 0.
 std::vector<double> autocovariance(const Grid<double>& x, bool along_bins) {
   const Eigen::Index length = along_bins ? x.cols() : x.rows();
   std::vector<double> covariance;
@@ -45,7 +45,7 @@ std::vector<double> autocovariance(const Grid<double>& x, bool along_bins) {
   return covariance;
 }
 
-// Twice the lag at which it falls to a half.
+// Returns twice the lag at which the autocovariance falls to a half.
 double width_at_half(const std::vector<double>& covariance) {
   for (std::size_t lag = 1; lag < covariance.size(); ++lag)
     if (covariance[lag] < 0.5)
@@ -87,7 +87,7 @@ SpeckleStatistics speckle_statistics(const Grid<float>& level_db, int half_beams
   s.pixels = static_cast<std::size_t>(n);
   s.covariance_beams = autocovariance(x, false), s.covariance_bins = autocovariance(x, true);
   s.width = {width_at_half(s.covariance_beams), width_at_half(s.covariance_bins)};
-  // The local mean of N independent cells holds the pixel itself, which takes 1 / (N + 1) of the second moment (E123).
+  // The local mean of N independent cells includes the pixel, which takes 1 / (N + 1) of the second moment (E123).
   const double window = std::min<double>(static_cast<double>(x.rows()), 2.0 * half_beams + 1) *
                         std::min<double>(static_cast<double>(x.cols()), 2.0 * half_bins + 1);
   const double cells = window / (std::max(1.0, s.width.beams) * std::max(1.0, s.width.bins));

@@ -20,17 +20,17 @@ struct SpeckleStatistics {
   double looks = 0;               ///< 1 / scintillation
   double k_shape = 0;             ///< 2 / (scintillation - 1); infinite for a scintillation of at most 1
   double amplitude_contrast = 0;  ///< deviation / mean of the amplitude: 0.5227 for one look
-  double deviation_db = 0;        ///< of the level: 5.57 dB for one look
+  double deviation_db = 0;        ///< deviation of the level: 5.57 dB for one look
   CorrelationWidths width;
   std::vector<double> covariance_beams, covariance_bins;  ///< at lags of 0, 1, ... pixels, 1 at 0
 };
 
-/// Returns the statistics of an image of levels [dB]; NaN pixels are left out. The local mean is that of `half_beams`
-/// and `half_bins` to either side, which removes slopes but also texture that is longer. Throws Error(argument) if no
-/// pixel has a level, or all are silent.
+/// Returns the statistics of an image of levels [dB]; NaN pixels are left out. The local mean covers `half_beams` and
+/// `half_bins` on either side, which removes slopes but also longer texture. Throws Error(argument) if no pixel has a
+/// level, or all are silent.
 SpeckleStatistics speckle_statistics(const Grid<float>& level_db, int half_beams = 8, int half_bins = 16);
 
-/// Returns intensities over their local mean, one for each resolution cell: every ceil(width)th beam and bin, which are
+/// Returns intensities over their local mean, one for each resolution cell: every ceil(width)th beam and bin. They are
 /// nearly independent.
 std::vector<double> one_per_cell(const Grid<float>& level_db, const CorrelationWidths& width, int half_beams = 8,
                                  int half_bins = 16);
@@ -39,11 +39,11 @@ std::vector<double> one_per_cell(const Grid<float>& level_db, const CorrelationW
 /// intensity over 5 beams x 9 bins is highest, and the tenth where it is lowest.
 double shadow_contrast_db(const Grid<float>& level_db);
 
-/// Returns the deviation [dB] of the level of this number of independent looks: 10 / ln 10 sqrt(trigamma(looks)); 5.57
-/// dB for one.
+/// Returns the deviation [dB] of the level of `looks` independent looks: 10 / ln 10 sqrt(trigamma(looks)); 5.57 dB for
+/// one.
 double looks_deviation_db(double looks);
-/// Returns the mean level less the level of the mean [dB] of this number of looks: 10 / ln 10 (digamma(looks) - ln
-/// looks); -2.51 dB for one.
+/// Returns the mean level less the level of the mean [dB] of `looks` looks: 10 / ln 10 (digamma(looks) - ln looks);
+/// -2.51 dB for one.
 double looks_bias_db(double looks);
 
 }  // namespace insonify

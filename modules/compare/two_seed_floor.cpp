@@ -14,7 +14,7 @@
 namespace insonify {
 namespace {
 
-// A Gaussian filter that keeps the power of white noise, whose output has intensities correlated over `width` pixels.
+// Returns a Gaussian filter that keeps the power of white noise and correlates its intensity over `width` pixels.
 std::vector<double> correlating_filter(double width) {
   const double deviation = width / 2.354820045;  // sqrt(8 ln 2)
   const int half = width < 1 ? 0 : static_cast<int>(std::ceil(3 * deviation));
@@ -35,7 +35,7 @@ ComplexGrid filtered_along_rows(const ComplexGrid& noise, const std::vector<doub
   return out;
 }
 
-// Speckle intensity of mean 1, one look.
+// Returns the speckle intensity of one look, of mean 1.
 Grid<double> speckle_field(Eigen::Index beams, Eigen::Index bins, const FloorOptions& o, std::uint64_t draw,
                            std::uint64_t look) {
   const std::vector<double> across = correlating_filter(o.width.beams), along = correlating_filter(o.width.bins);
@@ -52,7 +52,7 @@ Grid<double> speckle_field(Eigen::Index beams, Eigen::Index bins, const FloorOpt
   return filtered_along_rows(rows, across).transpose().abs2();
 }
 
-// The mean of whole looks and of one of less weight, so that the variance is 1 / looks.
+// Returns the mean of whole looks and of one with less weight, so that the variance is 1 / looks.
 Grid<double> speckle_of_looks(Eigen::Index beams, Eigen::Index bins, const FloorOptions& o, double looks,
                               std::uint64_t draw) {
   const double whole = std::floor(std::max(1.0, looks)), part = std::max(1.0, looks) - whole;
@@ -66,7 +66,7 @@ Grid<double> speckle_of_looks(Eigen::Index beams, Eigen::Index bins, const Floor
   return sum / (whole + rest);
 }
 
-// The expected level about which an image of so many looks was drawn, NaN where it is clipped [dB].
+// Estimates the expected level of an image of so many looks [dB]; NaN where it is clipped.
 Grid<double> expected_levels(const Grid<double>& level, double looks, const FloorOptions& o) {
   if (o.expected) return level;
   const int half_bins = std::max(4, static_cast<int>(std::lround(2 * o.width.bins)));
@@ -84,7 +84,7 @@ struct DrawnPair {
   Grid<float> first, second;
 };
 
-// The draws about the expected level of `level_db`, which is of so many looks; where `held` they are that level itself.
+// Draws twice about the expected level of `level_db`, an image of so many looks. Pixels with `held` keep their level.
 DrawnPair drawn_pair(const Grid<float>& level_db, const Grid<bool>& held, double looks, const FloorOptions& o,
                      std::uint64_t draw) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -7,17 +7,17 @@
 
 namespace insonify {
 
-/// Similarity of two draws of speckle about the same expected level, which a perfect simulator reaches.
+/// Similarity of two draws of speckle about one expected level, which a perfect simulator reaches.
 struct TwoSeedFloor {
-  ImageSimilarity drawn;     ///< of two draws about the image's own expected level
-  ImageSimilarity analytic;  ///< of speckle on an even scene far within the window: pixels is 0 (E124)
+  ImageSimilarity drawn;     ///< similarity of two draws about the image's own expected level
+  ImageSimilarity analytic;  ///< the same for an even scene far within the window: pixels is 0 (E124)
 };
 
 /// Kinds of the compared images.
 struct FloorOptions {
-  double looks = 1, other_looks = 1;  ///< of the two images, >= 1
-  bool expected = false;              ///< the first one is an expected level, without speckle
-  CorrelationWidths width{1, 1};      ///< of the speckle [pixels]
+  double looks = 1, other_looks = 1;  ///< looks of the two images, >= 1
+  bool expected = false;              ///< true: the first image is an expected level, without speckle
+  CorrelationWidths width{1, 1};      ///< correlation widths of the speckle [pixels]
   std::uint64_t seed = 1;
 };
 

@@ -21,13 +21,13 @@ constexpr double flatness = wgs84_flattening;
 constexpr double eccentricity_squared = flatness * (2 - flatness);
 constexpr double scale_on_meridian = 0.9996, false_easting = 500000, false_northing = 10000000;
 
-/// Radius of curvature in the prime vertical [m].
+/// Returns the radius of curvature in the prime vertical [m].
 double normal_radius(double latitude) {
   const double s = std::sin(latitude);
   return wgs84_semi_major_axis / std::sqrt(1 - eccentricity_squared * s * s);
 }
 
-/// Rows: east, north, up at a place, in earth-centred axes.
+/// Returns the axes at a position, with rows east, north, up in earth-centred axes.
 Eigen::Matrix3d axes_at(double latitude, double longitude) {
   const double sp = std::sin(latitude), cp = std::cos(latitude), sl = std::sin(longitude), cl = std::cos(longitude);
   Eigen::Matrix3d axes;
@@ -35,7 +35,7 @@ Eigen::Matrix3d axes_at(double latitude, double longitude) {
   return axes;
 }
 
-/// Columns: the world's axes as east, north, up.
+/// Returns the world's axes in columns, as east, north, up.
 Eigen::Matrix3d world_axes(double heading) {
   const double s = std::sin(heading), c = std::cos(heading);
   Eigen::Matrix3d axes;
@@ -59,21 +59,21 @@ constexpr double rectifying_radius() {
   return wgs84_semi_major_axis / (1 + third_flattening) * (1 + n2 / 4 + n2 * n2 / 64 + n2 * n2 * n2 / 256);
 }
 
-/// What the series adds to the spherical transverse Mercator projection.
+/// Returns the difference of the series from the spherical transverse Mercator projection.
 Complex series_at(const Complex& sphere) {
   Complex sum = 0;
   for (int j = 1; j <= 6; ++j) sum += krueger_series()[static_cast<std::size_t>(j - 1)] * std::sin(2.0 * j * sphere);
   return sum;
 }
 
-/// Tangent of the conformal latitude from that of the latitude. (Karney 2011, eq. 7)
+/// Returns the tangent of the conformal latitude from that of the latitude. (Karney 2011, eq. 7)
 double conformal_tangent(double t) {
   const double e = std::sqrt(eccentricity_squared), root = std::sqrt(1 + t * t);
   const double s = std::sinh(e * std::atanh(e * t / root));
   return t * std::sqrt(1 + s * s) - s * root;
 }
 
-/// The inverse, by Newton's method. (Karney 2011, eq. 19 to 21)
+/// Inverts conformal_tangent by Newton's method. (Karney 2011, eq. 19 to 21)
 double tangent_from_conformal(double conformal) {
   double t = conformal / (1 - eccentricity_squared);
   for (int step = 0; step < 8; ++step) {
@@ -112,7 +112,7 @@ Eigen::Vector3d ecef_of(const GeoPlace& p) {
 GeoPlace geo_place_of(const Eigen::Vector3d& ecef) {
   const double equatorial = std::hypot(ecef.x(), ecef.y());
   GeoPlace place{std::atan2(ecef.z(), equatorial * (1 - eccentricity_squared)), std::atan2(ecef.y(), ecef.x()), 0};
-  for (int step = 0; step < 12; ++step)  // each divides the error by some 150 and more
+  for (int step = 0; step < 12; ++step)  // each step divides the error by 150 or more
     place.latitude = std::atan2(
         ecef.z() + eccentricity_squared * normal_radius(place.latitude) * std::sin(place.latitude), equatorial);
   const double s = std::sin(place.latitude), c = std::cos(place.latitude);
@@ -135,7 +135,7 @@ Eigen::Vector3d world_from_geo(const Anchor& anchor, const GeoPlace& place) {
 }
 
 UtmZone utm_zone_of(const GeoPlace& place) {
-  const double east = degrees(std::remainder(place.longitude, 2 * pi));  // -180 .. 180
+  const double east = degrees(std::remainder(place.longitude, 2 * pi));  // within -180 .. 180
   return {static_cast<int>(std::floor((east + 180) / 6)) % 60 + 1, place.latitude >= 0};
 }
 
@@ -155,7 +155,7 @@ GeoPlace geo_place_of(const UtmPlace& place, const UtmZone& zone) {
   const Complex plane = Complex(place.northing - (zone.north ? 0 : false_northing), place.easting - false_easting) /
                         (scale_on_meridian * rectifying_radius());
   Complex sphere = plane;
-  for (int step = 0; step < 12; ++step) sphere = plane - series_at(sphere);  // each divides the error by some 300
+  for (int step = 0; step < 12; ++step) sphere = plane - series_at(sphere);  // each step divides the error by about 300
   const double s = std::sinh(sphere.imag()), c = std::cos(sphere.real());
   const double t = tangent_from_conformal(std::sin(sphere.real()) / std::hypot(s, c));
   return {std::atan(t), std::remainder(middle + std::atan2(s, c), 2 * pi), 0};
@@ -202,7 +202,7 @@ Anchor parse_anchor(const std::string& text, const std::string& option) {
 }
 
 void require_plausible(const Georeference& reference, const Eigen::Vector3d& world, const std::string& option) {
-  constexpr double highest = 9e3;  // [m], of mountains
+  constexpr double highest = 9e3;  // height above all mountains [m]
   if (const double away = world.head<2>().norm(); !reference.is_projected() && away > farthest_from_anchor)
     fail(ErrorKind::argument, option, ": the world has (", std::llround(world.x()), ", ", std::llround(world.y()),
          "), ", std::llround(away / 1000),

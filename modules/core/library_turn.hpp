@@ -5,7 +5,7 @@
 namespace insonify {
 
 /// The turn of a thread in a library that only one thread at a time may use; `Library` is its name. A thread that has
-/// the turn may take it again, and so may the child process that it starts, in which no other thread would give it back.
+/// the turn may take it again. So may a child process that it starts, where no other thread could give it back.
 template <typename Library>
 class LibraryTurn {
  public:
@@ -15,11 +15,11 @@ class LibraryTurn {
   LibraryTurn(const LibraryTurn&) = delete;
   LibraryTurn& operator=(const LibraryTurn&) = delete;
 
-  /// Waits in the same way, without an object: for a handler of fork().
+  /// Waits like the constructor, without an object: for a handler of fork().
   static void take() {
     if (taken_++ == 0) lock_.lock();
   }
-  /// Gives back what take() took.
+  /// Gives back the turn of take().
   static void give_back() {
     if (--taken_ == 0) lock_.unlock();
   }

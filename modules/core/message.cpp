@@ -8,12 +8,12 @@ namespace {
 
 constexpr std::size_t most_quoted = 200, most_in_line = 2000;   // [bytes]
 constexpr std::size_t longest_name = 255, longest_path = 4096;  // lengths in POSIX file systems [bytes]
-constexpr std::size_t punctuation = 5;                          // beside a name in a message
+constexpr std::size_t punctuation = 5;                          // characters beside a name in a message
 constexpr std::string_view left_out = " ... ";
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
-/// Returns whether all names between slashes are short enough for a file system.
+/// Returns true if all names between slashes are short enough for a file system.
 bool may_be_path(std::string_view word) {
   if (word.size() > longest_path) return false;
   while (true) {
@@ -26,8 +26,8 @@ bool may_be_path(std::string_view word) {
 
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; }
 
-/// Shortens what stands between single quotes, which messages put around texts of files and users. A quote between
-/// letters is an apostrophe.
+/// Shortens texts in single quotes, which messages put around texts of files and users. A quote between letters is an
+/// apostrophe.
 std::string with_short_quotes(const std::string& line) {
   std::string result;
   std::size_t begin = 0;

@@ -18,9 +18,9 @@ inline constexpr std::size_t most_listed = 10;
 /// character is never split.
 std::string shortened(std::string_view text);
 
-/// Returns a message as one line. A blank replaces each control character. Words, and texts in single quotes, that have
-/// more than 260 bytes and cannot be paths are shortened. Of more than 2000 bytes beside paths the words in the middle
-/// are left out. A path has at most 4096 bytes, 255 of them between slashes.
+/// Returns a message as one line. A blank replaces each control character. Words and quoted texts of more than 260
+/// bytes that cannot be paths are shortened. If more than 2000 bytes remain beside paths, words in the middle are left
+/// out. A path has at most 4096 bytes, 255 of them between slashes.
 std::string message_line(std::string_view message);
 
 /// Returns the first ten entries of a list, each shortened, with `separator` between them, and how many more there are:

@@ -31,7 +31,7 @@ class OrderedWork {
     try {
       while (threads_.size() < std::min(threads, count)) threads_.emplace_back(&OrderedWork::work, this);
     } catch (const std::system_error&) {
-      if (threads_.empty()) throw;  // the system gives no more threads: those that there are do the work
+      if (threads_.empty()) throw;  // the system gives no more threads: work with those that run
     }
   }
   /// Stops the running calls by StopScope and waits for them, about as long as one call of a parallel loop takes.
@@ -74,7 +74,7 @@ class OrderedWork {
       lock.unlock();
       std::packaged_task<Item()> task([&] { return make_(mine); });
       std::future<Item> made = task.get_future();
-      task();  // what it throws is in the future
+      task();  // exceptions go to the future
       lock.lock();
       made_.emplace(mine, std::move(made));
       changed_.notify_all();
@@ -96,7 +96,7 @@ class OrderedWork {
   const std::size_t count_, ahead_;
   const std::function<Item(std::size_t)> make_;
   std::atomic<bool> stop_{false};
-  std::mutex guard_;  // of all below
+  std::mutex guard_;  // guards all members below
   std::condition_variable changed_;
   std::size_t begun_ = 0, given_ = 0;
   std::map<std::size_t, std::future<Item>> made_;

@@ -10,11 +10,11 @@
 namespace insonify {
 namespace {
 
-/// Threads that wait for work: to begin one for each loop takes as long as a short loop.
+/// A pool of waiting threads. To begin a thread for each loop takes as long as a short loop.
 class HelperThreads {
  public:
   void share(std::size_t helpers, const std::function<void()>& work) {
-    if (getpid() != process_) return work();  // a forked child has none of them
+    if (getpid() != process_) return work();  // a forked child has no threads of the pool
     Job job{&work, helpers};
     std::unique_lock lock(guard_);
     start_up_to(helpers);
@@ -22,7 +22,7 @@ class HelperThreads {
     lock.unlock();
     for (std::size_t h = 0; h < helpers; ++h) has_job_.notify_one();
     work();
-    // No one begins now; who has begun ends.
+    // No thread begins now; wait for those that have begun.
     lock.lock();
     std::erase(jobs_, &job);
     job.ended.wait(lock, [&job] { return job.running == 0; });
@@ -31,7 +31,7 @@ class HelperThreads {
  private:
   struct Job {
     const std::function<void()>* work;
-    std::size_t wanted;  // further threads
+    std::size_t wanted;  // number of further threads
     std::size_t running = 0;
     std::condition_variable ended{};
   };
@@ -40,7 +40,7 @@ class HelperThreads {
     try {
       for (; started_ < helpers; ++started_) std::thread(&HelperThreads::serve, this).detach();
     } catch (const std::system_error&) {
-      // The system gives no more threads: those that there are do the work.
+      // The system gives no more threads: work with those that run.
     }
   }
 
@@ -64,14 +64,14 @@ class HelperThreads {
   const pid_t process_ = getpid();
   std::mutex guard_;
   std::condition_variable has_job_;
-  std::vector<Job*> jobs_;  // that run
+  std::vector<Job*> jobs_;  // running jobs
   std::size_t started_ = 0;
 };
 
 }  // namespace
 
 void run_on_pool(std::size_t helpers, const std::function<void()>& work) {
-  static HelperThreads& threads = *new HelperThreads;  // they end with the process, after all static objects
+  static HelperThreads& threads = *new HelperThreads;  // threads end with the process, after all static objects
   threads.share(helpers, work);
 }
 

@@ -19,7 +19,7 @@ struct HeadPlace {
 };
 /// Returns pose_from_yaw_pitch_roll of these parameters.
 Pose pose_of(const HeadPlace& head);
-/// Inverse of pose_of: yaw and roll in (-pi, pi], pitch in [-pi/2, pi/2]; roll is 0 for a vertical head.
+/// Inverts pose_of. Yaw and roll are in (-pi, pi], pitch in [-pi/2, pi/2]; roll is 0 for a vertical head.
 HeadPlace head_place(const Pose& pose);
 
 /// Returns the pose given in a north-east-down world (z down; yaw positive clockwise, pitch positive nose up, roll

@@ -15,7 +15,7 @@ r123::Philox4x64::key_type key_of(std::uint64_t seed, RandomStage stage) {
   return {{seed, static_cast<std::uint64_t>(stage)}};
 }
 
-// The midpoint of one of 2^52 equal intervals: never 0, never 1.
+// Returns the midpoint of one of 2^52 equal intervals: never 0, never 1.
 double uniform(std::uint64_t bits) { return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52; }
 
 }  // namespace

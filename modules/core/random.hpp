@@ -25,7 +25,7 @@ enum class RandomStage : std::uint64_t {
   randomise = 13,         ///< changes of head and water between pings of a survey, counted by (head, ping, group)
   surface_ray = 14,       ///< rays from surface to surface, counted by (surfel id, ray), or by (surfel id, 0, 1)
   double_echo = 15,       ///< amplitudes of their echoes, counted by (surfel id, ray)
-  scene_draw = 16         ///< places of strewn bodies, counted by (scatter, draw, body and try)
+  scene_draw = 16         ///< positions of randomly placed bodies, counted by (scatter, draw, body and try)
 };
 
 /// Position of a random number in the stream of its stage.

@@ -3,9 +3,8 @@
 #include <bit>
 #include <cstdint>
 
-/// Elementary functions of one double without branches, calls or tables, so that loops over them are vectorised; the
-/// same bits on every instruction set if products and sums are not contracted. They include nothing that Eigen or libm
-/// needs.
+/// Elementary functions of one double without branches, calls or tables, so that loops over them are vectorised. All
+/// instruction sets give the same bits if products and sums are not contracted. They do not depend on Eigen or libm.
 namespace insonify::vec {
 
 #define INSONIFY_ALWAYS_INLINE [[gnu::always_inline]] inline

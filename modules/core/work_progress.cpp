@@ -22,7 +22,7 @@ void throw_if_stopped() {
   if (stop_of_thread && stop_of_thread->load(std::memory_order_relaxed)) throw Stopped{};
 }
 
-/// Whether a loop counts: for a display, or since its thread may be asked to stop.
+/// Returns true if a loop is counted: for a display, or because its thread may be asked to stop.
 bool take_loop(std::size_t total) {
   throw_if_stopped();
   if (stop_of_thread) return true;

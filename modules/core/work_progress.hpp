@@ -9,7 +9,7 @@ struct WorkProgress {
   const char* stage = "";   ///< stage that began last
   std::size_t done = 0;     ///< finished calls of the outermost running parallel loop
   std::size_t total = 0;    ///< calls of this loop; 0: no loop runs
-  double loop_seconds = 0;  ///< since this loop began
+  double loop_seconds = 0;  ///< seconds since this loop began
 };
 
 /// Switches the observation of loops on or off. It is off at first, and then costs nothing.

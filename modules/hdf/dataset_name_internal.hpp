@@ -3,7 +3,7 @@
 
 namespace insonify {
 
-/// Path of a dataset in the file, its unit for the attribute "units" and what it is, signs included, for "long_name"
+/// Path of a dataset in the file, its unit for the attribute "units", and its description with signs for "long_name"
 /// ("": none).
 struct DatasetName {
   const char* path;

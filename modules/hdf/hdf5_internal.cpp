@@ -14,7 +14,7 @@ herr_t take_first_reason(unsigned n, const H5E_error2_t* error, void* reason) {
   return 0;
 }
 
-// What the system said, if HDF5 quotes it among addresses and sizes of its own, else all of one line.
+// Returns the system's error if HDF5 quotes one among addresses and sizes, otherwise the whole reason as one line.
 std::string plain_reason(const std::string& reason) {
   const std::string quote = "error message = '";
   const std::size_t begin = reason.find(quote);

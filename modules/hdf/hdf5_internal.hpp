@@ -19,9 +19,9 @@
 // Private to the modules that read and write HDF5 files.
 namespace insonify::hdf5 {
 
-/// Suppresses HDF5's error output during its lifetime; failures become Error instead. It has the turn in HDF5, whose
-/// lock a child process would otherwise find taken for ever if another thread was within HDF5: fork() waits for it. All
-/// calls of HDF5 in this process are made during the lifetime of one.
+/// Suppresses HDF5's error output during its lifetime; failures become Error instead. It also holds the turn in HDF5.
+/// All calls of HDF5 in this process are made during the lifetime of one, and fork() waits for it: a child process
+/// would find HDF5's lock taken for ever if another thread was within HDF5.
 class QuietErrors {
  public:
   QuietErrors();
@@ -35,7 +35,7 @@ class QuietErrors {
   void* data_ = nullptr;
 };
 
-/// The remedy of a file that is damaged, whether HDF5 finds that or its callers.
+/// The remedy for a damaged file, whether HDF5 or its caller found the damage.
 inline constexpr const char* copy_again = "; copy or export it again";
 
 /// The file of an operation, and the kind of its errors: file when writing, content when reading.
@@ -53,10 +53,10 @@ struct FileContext {
   }
 };
 
-/// Why a Handle of this thread could not be closed, the first one since it was cleared; empty: all could. HDF5 writes
-/// buffered data of a dataset when the dataset is closed, and does not report a failure later.
+/// First reason why a Handle of this thread could not be closed; empty: all could. HDF5 writes buffered data of a
+/// dataset when the dataset is closed, and does not report a failure later.
 inline thread_local std::string failed_to_close;
-/// Sets it to what HDF5 reports.
+/// Sets failed_to_close to the reason that HDF5 reports.
 void note_failed_close();
 
 /// Owns an HDF5 identifier and closes it.
@@ -81,8 +81,8 @@ using Extent = std::vector<hsize_t>;
 /// Creates a file without timestamps: same input, same bytes.
 Handle create_file(const FileContext& place, const std::string& name);
 
-/// Calls write(), which writes to the file of `place`. Throws Error(file) with the first failure, as of a full disk:
-/// later calls of HDF5 on the file only report what follows from it.
+/// Calls write(), which writes to the file of `place`. Throws Error(file) with the first failure, such as a full disk;
+/// later calls of HDF5 on the file only report its consequences.
 template <typename Write>
 void write_checked(const FileContext& place, Write&& write) {
   failed_to_close.clear();
@@ -110,7 +110,8 @@ void write_hdf5(const std::string& path, Body&& body) {
 /// the child. Throws Error(file) if the file is missing or a folder, Error(content) if it is not HDF5.
 Handle open_file(const FileContext& place);
 
-/// Returns what read(place, file, to) sent from a child process. Throws as open_file and read do, and as read_in_child.
+/// Returns the arrays that read(place, file, to) sent from a child process. Throws as open_file, read and read_in_child
+/// do.
 ArrayReceiver read_apart(const std::string& path,
                          const std::function<void(const FileContext&, hid_t, ArraySender&)>& read);
 
@@ -122,22 +123,22 @@ enum class Packing { none, deflate };
 Handle create_dataset(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {}, Packing packing = Packing::none);
 
-/// Creates a dataset whose values lie one after another in the file, and returns the offset of the first [bytes]; 0 for
-/// none. They are written there without HDF5, once the file is closed, and are undefined until then.
+/// Creates a dataset with contiguous values, and returns the offset of the first [bytes]; 0 for none. The values are
+/// written there without HDF5, once the file is closed, and are undefined until then.
 std::uint64_t create_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
                            const Extent& extent);
-/// Returns the same of a dataset of a file of others. Throws Error(content) unless its values are of this type and
-/// extent and lie in the file as they are.
+/// Returns this offset for a dataset of any file. Throws Error(content) unless its values have this type and extent and
+/// lie contiguous and unpacked in the file.
 std::uint64_t find_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
                          const Extent& extent);
 
 /// Creates a group that keeps the order in which its members are written.
 Handle create_ordered_group(const FileContext& place, hid_t file, const char* name);
 
-/// Names in such a group in the order of writing; none if it is absent.
+/// Returns the names in such a group in the order of writing; none if it is absent.
 std::vector<std::string> names_in(const FileContext& place, hid_t file, const char* group);
 
-/// HDF5 type of a number in the file (little-endian) or in memory.
+/// Returns the HDF5 type of a number in the file (little-endian) or in memory.
 template <typename Number>
 hid_t type_of(bool in_file) {
   if constexpr (std::is_same_v<Number, double>) return in_file ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE;
@@ -161,7 +162,7 @@ void write_numbers(const FileContext& place, hid_t file, const DatasetName& name
 /// Opens a dataset; throws Error(content) if it is missing.
 Handle open_dataset(const FileContext& place, hid_t file, const DatasetName& name);
 
-/// A selection of values of a dataset: their type in memory, their place in memory, and their place in the dataset.
+/// A selection of values of a dataset: their type, selection in memory, and selection in the dataset.
 struct Values {
   hid_t type, memory = H5S_ALL, selected = H5S_ALL;
 };
@@ -169,18 +170,18 @@ struct Values {
 /// Reads values of a dataset. Throws Error(content) that names `what`.
 void read_values(const FileContext& place, hid_t dataset, const Values& values, void* to, const std::string& what);
 
-/// UTF-8 text padded with zeros to `length` bytes, or of any length.
+/// Returns the type of UTF-8 text padded with zeros to `length` bytes, or of any length.
 Handle text_type(const FileContext& place, std::size_t length = H5T_VARIABLE);
-/// The type of complex<float> as in h5py: compound {r, i} of `real_type`.
+/// Returns the type of complex<float> as in h5py: compound {r, i} of `real_type`.
 Handle complex_type(const FileContext& place, hid_t real_type);
 
-/// The extent of a dataset; throws Error(content) unless it has `rank` dimensions.
+/// Returns the extent of a dataset. Throws Error(content) unless it has `rank` dimensions.
 Extent extent_of(const FileContext& place, hid_t dataset, const std::string& name, std::size_t rank);
 
 /// Selects index `first` of the first dimension and everything of the others.
 Handle select_row(const FileContext& place, hid_t dataset, const Extent& extent, hsize_t first);
 
-/// Write an attribute with a single value.
+/// Writes an attribute with a single value.
 void write_attribute(const FileContext& place, hid_t where, const char* name, double value);
 void write_attribute(const FileContext& place, hid_t where, const char* name, std::int64_t value);
 void write_attribute(const FileContext& place, hid_t where, const char* name, std::uint64_t value);
@@ -188,12 +189,12 @@ void write_attribute(const FileContext& place, hid_t where, const char* name, co
 /// Writes an attribute of several values.
 void write_attribute(const FileContext& place, hid_t where, const char* name, std::span<const double> values);
 
-/// Read an attribute; throw Error(content) naming it if it is missing or of another type.
+/// Reads an attribute. Throws Error(content) naming it if it is missing or of another type.
 double read_number(const FileContext& place, hid_t where, const char* name);
 std::int64_t read_integer(const FileContext& place, hid_t where, const char* name);
 std::uint64_t read_unsigned(const FileContext& place, hid_t where, const char* name);
 std::string read_text(const FileContext& place, hid_t where, const char* name);
-/// Reads an attribute of as many values as `to` holds; otherwise the same.
+/// Reads an attribute with as many values as `to` holds. Throws as read_number.
 void read_numbers(const FileContext& place, hid_t where, const char* name, std::span<double> to);
 
 /// Reads a whole dataset, which must have the expected extent.

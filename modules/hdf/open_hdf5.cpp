@@ -7,7 +7,7 @@
 #include "files/path_status.hpp"
 #include "hdf/hdf5_internal.hpp"
 
-// What is read of files that others may have made: checked before HDF5 trusts it.
+// Validates files of unknown origin before HDF5 parses them.
 namespace insonify::hdf5 {
 
 std::vector<std::string> names_in(const FileContext& place, hid_t file, const char* group) {
@@ -48,7 +48,7 @@ ArrayReceiver read_apart(const std::string& path,
 
 namespace {
 
-/// File name of a part of a virtual dataset.
+/// Returns the file name of one source of a virtual dataset.
 std::string virtual_source(hid_t properties, std::size_t part) {
   const ssize_t length = H5Pget_virtual_filename(properties, part, nullptr, 0);
   std::string source(static_cast<std::size_t>(std::max<ssize_t>(0, length)) + 1, '\0');
@@ -57,8 +57,8 @@ std::string virtual_source(hid_t properties, std::size_t part) {
   return source;
 }
 
-/// Refuses a dataset whose numbers lie in files that the user did not name: a cube from a stranger must not show others
-/// of the user's files. Blocks of a survey beside the cube are its own.
+/// Throws Error(content) for a dataset whose numbers lie in files that the user did not name, so that a stranger's cube
+/// does not show other files of the user. Blocks of a survey beside the cube are its own.
 void require_own_data(const FileContext& place, hid_t file, const DatasetName& name, hid_t dataset) {
   const auto refuse = [&](const char* what) {
     fail(place.kind, place.path, ": dataset ", name.path, " ", what,
@@ -80,8 +80,8 @@ void require_own_data(const FileContext& place, hid_t file, const DatasetName& n
   }
 }
 
-/// Bytes of the files of which a virtual dataset is put together. Refuses one of which a part is missing: HDF5 would
-/// give fill values in its place.
+/// Returns the size of the files of a virtual dataset [bytes]. Throws Error(content) if one is missing: HDF5 would give
+/// fill values in its place.
 hsize_t bytes_of_sources(const FileContext& place, const DatasetName& name, hid_t properties) {
   std::size_t sources = 0;
   place.checked(H5Pget_virtual_count(properties, &sources), name.path);
@@ -96,9 +96,9 @@ hsize_t bytes_of_sources(const FileContext& place, const DatasetName& name, hid_
   return bytes;
 }
 
-/// Refuses a dataset that announces more values than are stored: HDF5 would make up the rest.
+/// Throws Error(content) for a dataset that announces more values than are stored: HDF5 would make up the rest.
 void require_stored(const FileContext& place, const DatasetName& name, hid_t dataset) {
-  constexpr double unpacked_per_byte = 1032;  // by zlib, at most
+  constexpr double unpacked_per_byte = 1032;  // largest ratio of zlib
   const Handle properties(place.checked(H5Dget_create_plist(dataset), name.path), H5Pclose);
   const Handle type(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
   const Handle space(place.checked(H5Dget_space(dataset), name.path), H5Sclose);

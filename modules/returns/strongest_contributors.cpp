@@ -64,7 +64,7 @@ std::vector<BeamRegion> beam_regions(const BeamFan& fan) {
 /// surfels lie in one slab.
 std::size_t slab_bins(const RangeGate& gate) { return std::clamp<std::size_t>(gate.bins() / 16, 64, 512); }
 
-/// A table that tells whether a rectangle of bins and direction cosines may contain a pixel. It holds the sums over all
+/// A table that shows whether a rectangle of bins and direction cosines may contain a pixel. It holds the sums over all
 /// cells below and left of each.
 class PixelTable {
  public:

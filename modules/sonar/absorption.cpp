@@ -14,7 +14,7 @@ struct AbsorptionTerms {
   double boric = 0, boric_khz = 0, magnesium = 0, magnesium_khz = 0, water = 0;
 };
 
-/// Francois and Garrison (1982) (E3).
+/// Returns the terms of Francois and Garrison (1982) (E3).
 AbsorptionTerms francois_garrison(const Water& w) {
   const double t = w.temperature_c, s = w.salinity_psu, z = w.depth;
   const double c = 1412 + 3.21 * t + 1.19 * s + 0.0167 * z;
@@ -30,11 +30,11 @@ AbsorptionTerms francois_garrison(const Water& w) {
   return terms;
 }
 
-/// Fisher and Simmons (1977), 35 psu and pH 8 built in; the paper's Np/m and Hz as dB/km and kHz (E21).
+/// Returns the terms of Fisher and Simmons (1977), for 35 psu and pH 8, in dB/km and kHz instead of Np/m and Hz (E21).
 AbsorptionTerms fisher_simmons(const Water& w) {
   const double t = w.temperature_c, kelvin = 273.1 + t;
   const double p = 1 + gauge_pressure(w) / 101325;  // [atm]
-  const double db_per_km = 1e3 / nepers_per_db;     // of 1 Np/m
+  const double db_per_km = 1e3 / nepers_per_db;     // per Np/m
   AbsorptionTerms terms;
   terms.boric = (1.03e-8 + t * (2.36e-10 - t * 5.22e-12)) * db_per_km * 1e3;
   terms.boric_khz = 1.32 * kelvin * std::exp(-1700 / kelvin);
@@ -45,7 +45,7 @@ AbsorptionTerms fisher_simmons(const Water& w) {
   return terms;
 }
 
-/// Ainslie and McColm (1998) (E22).
+/// Returns the terms of Ainslie and McColm (1998) (E22).
 AbsorptionTerms ainslie_mccolm(const Water& w) {
   const double t = w.temperature_c, s = w.salinity_psu, z_km = 1e-3 * w.depth;
   AbsorptionTerms terms;
@@ -71,7 +71,7 @@ Taylor relaxation(double f_r, double f) {
   return {f_r * f * f / d, 2 * r3 * f / (d * d), r3 * (f_r * f_r - 3 * f * f) / (d * d * d)};
 }
 
-/// Absorption in dB/km as Taylor coefficients in kHz about `f` [kHz].
+/// Returns the Taylor coefficients of the absorption [dB/km] in kHz about `f` [kHz].
 Taylor absorption_taylor(const AbsorptionTerms& terms, double f) {
   const Taylor boric = relaxation(terms.boric_khz, f), magnesium = relaxation(terms.magnesium_khz, f);
   return {terms.boric * boric.value + terms.magnesium * magnesium.value + terms.water * f * f,

@@ -17,10 +17,10 @@ using Eigen::Vector3d;
 
 Direction direction(const BeamFan& fan, std::size_t beam) { return {fan.azimuth[beam], fan.elevation[beam]}; }
 
-// `angle` plus as many turns as bring it nearest to `reference`.
+// Returns `angle` plus the whole turns that bring it nearest to `reference`.
 double near_to(double reference, double angle) { return reference + std::remainder(angle - reference, 2 * pi); }
 
-// The cone `margin` of u farther counter-clockwise; it ends where the array's axis is.
+// Returns the cone that is `margin` of u farther counter-clockwise; it ends at the array's axis.
 double farther_round(double cone, double margin) {
   const double turned = std::remainder(cone, 2 * pi), u = std::sin(turned);
   const bool ahead = std::abs(turned) <= pi / 2;
@@ -30,7 +30,7 @@ double farther_round(double cone, double margin) {
              2 * pi);
 }
 
-// Nought at +-pi/2, where the rounded cosine would leave out the zenith itself.
+// Returns the cosine, exactly 0 at +-pi/2, where the rounded cosine would leave out the zenith itself.
 double cos_elevation(double elevation) { return std::abs(elevation) < pi / 2 ? std::cos(elevation) : 0; }
 
 }  // namespace
@@ -115,7 +115,7 @@ Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, doubl
     }
   const double centre = begin + (2 * pi - widest) / 2;
 
-  // Outermost cones, and the margin beyond them.
+  // Find the outermost cones, and extend them by the margin.
   double least = centre, most = centre;
   for (std::size_t b = 0; b < fan.beams(); ++b) {
     const double cone =
@@ -160,7 +160,7 @@ bool SectorBounds::in_elevations(const Vector3d& p, double margin) const {
 
 bool SectorBounds::in_cones(const Vector3d& p, double margin) const {
   if (whole_circle_) return true;
-  // Turned about the array's axis into the plane z = 0, ahead or astern, a cone is a line.
+  // Turn the point about the array's axis into the plane z = 0, ahead or astern, where a cone is a line.
   const double about = std::sqrt(p.x() * p.x() + p.z() * p.z());
   const auto inside = [&](double x) {
     const Eigen::Vector2d q(x, p.y());

@@ -68,17 +68,17 @@ struct Sector {
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
 /// Returns the cones of all beams, extended by the margin on either side, and the elevations of all beams, extended by
-/// the half extent. Only directions ahead (x > 0), unless a beam looks astern.
+/// the half extent. It holds only directions ahead (x > 0), unless a beam looks astern.
 ///
-/// margin   beyond the outermost beams, in u; 0: 1.5 beam widths, which hold the main lobe of a shaded array
+/// margin   in u beyond the outermost beams; 0: 1.5 beam widths, which hold the main lobe of a shaded array
 Sector insonified_sector(const BeamFan& fan, double elevation_half_extent, double margin = 0);
 
 /// Returns the interval of azimuth of all directions of a sector [rad]. It exceeds that of its cones if the sector
 /// reaches far up or down.
 std::pair<double, double> azimuths_of(const Sector& sector);
 
-/// Tests whether a sector holds a place, by signed distances and without trigonometry for each place. All code that
-/// tests sectors uses this class.
+/// Tests whether a sector holds a position, by signed distances and without trigonometry for each position. All code
+/// that tests sectors uses this class.
 class SectorBounds {
  public:
   /// Computes the edges of `sector` once.

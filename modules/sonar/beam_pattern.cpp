@@ -60,7 +60,7 @@ double locate_zero(const Pattern& pattern, double low, double high) {
   return 0.5 * (low + high);
 }
 
-/// End of the main lobe: its first zero, or its first minimum if the response rises again without one.
+/// Returns the end of the main lobe: its first zero, or its first minimum if the response rises again without one.
 std::optional<double> main_lobe_end(const Pattern& pattern, double most) {
   const double step = 0.02 * pattern.lobe();
   double before = pattern.signed_at(0);
@@ -95,7 +95,7 @@ Peak highest_peak(const Pattern& pattern, double from, double to) {
   return best;
 }
 
-/// Azimuths of the grating lobes up to endfire.
+/// Returns the azimuths of the grating lobes up to endfire.
 std::vector<double> find_grating_lobes(const Pattern& pattern, double u_beam) {
   std::vector<double> azimuths;
   if (pattern.array.elements() == 1) return azimuths;

@@ -13,7 +13,7 @@ constexpr std::size_t most_bins = 64;
 
 INSONIFY_CLONES
 void element_phases(double step, std::size_t elements, double* re, double* im) {
-  // Eight neighbouring phasors by repeated multiplication, then all eight rotated by 8 steps at a time: short
+  // Compute eight neighbouring phasors by repeated multiplication, then rotate all eight by 8 steps at a time: short
   // recurrences that vectorise, with two sines per call.
   const double first = -0.5 * (static_cast<double>(elements) - 1) * step;
   const double one_r = std::cos(step), one_i = std::sin(step);

@@ -8,7 +8,7 @@
 
 namespace insonify {
 namespace {
-/// sinc(x) = sin(pi x) / (pi x) falls to 1/sqrt(2) at this x.
+/// Argument at which sinc(x) = sin(pi x) / (pi x) falls to 1/sqrt(2).
 constexpr double sinc_half_power = 0.4429464715;
 
 double sinc(double x) {
@@ -31,7 +31,7 @@ double elevation_response(ElevationShape shape, double width, double elevation_o
 double elevation_half_extent(ElevationShape shape, double width, double floor_db) {
   if (shape == ElevationShape::sector) return std::min(width / 2, pi / 2);
   if (shape == ElevationShape::line) return pi / 2;
-  // -10 log10(2) (2x)^2 = floor
+  // Solve -10 log10(2) (2x)^2 = floor.
   return std::min(0.5 * width * std::sqrt(-floor_db / (10 * std::log10(2.0))), pi / 2);
 }
 

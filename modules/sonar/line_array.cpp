@@ -24,7 +24,7 @@ std::complex<double> array_response(const LineArray& array, double wavelength, d
   const double step = 2 * pi * array.spacing / wavelength * (u - u_beam);
   double sum = 0;
   for (std::size_t m = 0; m < n; ++m) sum += array.shading[m] * std::cos(step * element_place(m, n));
-  // Of opposite elements of a symmetric shading nothing is left.
+  // The odd parts of opposite elements cancel to the last bit if the shading is symmetric.
   double odd = 0;
   for (std::size_t m = 0; 2 * m + 1 < n; ++m)
     if (const double w = array.shading[n - 1 - m] - array.shading[m]; w != 0)
@@ -57,8 +57,8 @@ double array_beam_width(const LineArray& array, double wavelength) {
 double directivity_index_db(const LineArray& array, double wavelength, double u_beam) {
   require_valid(array, "directivity_index_db");
   const std::size_t n = array.elements();
-  // Integral of B^2 du over [-1, 1]: pairs of elements whose phase difference at endfire is x contribute 2 cos(x
-  // u_beam) sin(x) / x.
+  // Integrate B^2 du over [-1, 1]: pairs of elements whose phase difference at endfire is x contribute 2 cos(x u_beam)
+  // sin(x) / x.
   double integral = 0;
   for (std::size_t lag = 0; lag < n; ++lag) {
     double pairs = 0;

@@ -8,7 +8,7 @@ namespace insonify {
 
 /// A line of hydrophones along the port-starboard axis.
 struct LineArray {
-  double spacing = 0;           ///< between neighbouring elements [m]
+  double spacing = 0;           ///< distance between neighbouring elements [m]
   std::vector<double> shading;  ///< one real weight per element, from starboard to port, sum = number of elements
 
   /// Returns the number of elements.
@@ -26,8 +26,8 @@ inline double element_place(std::size_t m, std::size_t elements) {
 }
 
 /// Returns the amplitude response of a beam steered to u_beam to a plane wave from u (E10), 1 when u = u_beam:
-///   B(u) = (1/N) sum_m w_m exp(-2 pi i (d/lambda) (m - (N-1)/2) (u - u_beam)),
-/// real, to the last bit, of a shading that is symmetric to the last bit. Computed as a direct sum over the elements.
+///   B(u) = (1/N) sum_m w_m exp(-2 pi i (d/lambda) (m - (N-1)/2) (u - u_beam)).
+/// computed as a direct sum over the elements. Real to the last bit if the shading is symmetric to the last bit.
 std::complex<double> array_response(const LineArray& array, double wavelength, double u, double u_beam);
 
 /// Returns the offset |u - u_beam| at which the intensity response falls to one half, by bisection; `most` if it stays

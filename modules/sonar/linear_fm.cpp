@@ -14,18 +14,18 @@ namespace {
 using Complex = std::complex<double>;
 constexpr Complex i_unit{0, 1};
 
-/// Echoes weaker by more than this are silent: 80 Np are 695 dB.
+/// Loss at which echoes are silent [Np]: 80 Np are 695 dB.
 constexpr double most_nepers = 80;
 
 double sine_over(double u) { return std::abs(u) < 1e-9 ? 1 : std::sin(u) / u; }
 
-/// sinh(u) / u for small u.
+/// Returns sinh(u) / u for small u.
 Complex small_sinhc(Complex u) {
   const Complex v = u * u;
   return 1.0 + v / 6.0 * (1.0 + v / 20.0 * (1.0 + v / 42.0 * (1.0 + v / 72.0)));
 }
 
-/// Gauss-Hermite by the eigenvalues of its recurrence (Golub and Welsch 1969).
+/// Returns a Gauss-Hermite rule by the eigenvalues of its recurrence (Golub and Welsch 1969).
 HermiteRules::Rule hermite_rule(int n) {
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
   Eigen::VectorXd beside(n - 1);
@@ -40,19 +40,19 @@ HermiteRules::Rule hermite_rule(int n) {
   return rule;
 }
 
-/// Log of n!. Unlike std::lgamma, which notes the sign in a variable of the process, for several threads.
+/// Returns the log of n! and, unlike std::lgamma, writes no global variable, so that several threads may call it.
 double log_factorial(double n) {
   int sign = 0;
   return lgamma_r(n + 1, &sign);
 }
 
-/// Log of the error of n nodes for exp(2 x h): the first derivative that the rule misses.
+/// Returns the log of the error of n nodes for exp(2 x h): the first derivative that the rule misses.
 double log_hermite_error(std::size_t n, double x) {
   const auto m = static_cast<double>(n);
   return 2 * m * std::log(2 * x) + log_factorial(m) - log_factorial(2 * m) - m * std::log(2.0);
 }
 
-/// Loss at the frequency of the band [-half_band, half_band] that suffers least [Np/m].
+/// Returns the least loss of the frequencies in [-half_band, half_band] [Np/m].
 double least_absorption(const Absorption& a, double half_band) {
   double least = std::min(a.a0 - a.a1 * half_band, a.a0 + a.a1 * half_band) + a.a2 * half_band * half_band;
   const double lowest = a.a2 > 0 ? -a.a1 / (2 * a.a2) : 2 * half_band;
@@ -93,7 +93,7 @@ void LinearFmEcho::add_losses(const Pulse& pulse, const Absorption& absorption, 
     gain_ = 0;
     return;
   }
-  // An endless sweep after its way: exponents along the sweep, of orders 0, 1 and 2 (E54).
+  // Begin with an endless sweep after its way: exponents along the sweep, of orders 0, 1 and 2 (E54).
   const double b = 2 * absorption.a1 * range, c = 2 * absorption.a2 * range;
   const Complex ratio = 1.0 / (1.0 + i_unit * (c * rate_ / pi)), k = rate_ * ratio;
   const Complex log_gain = 0.5 * std::log(ratio) - 2 * absorption.a0 * range + i_unit * k * (b * b / (4 * pi));
@@ -102,7 +102,7 @@ void LinearFmEcho::add_losses(const Pulse& pulse, const Absorption& absorption, 
     exponentials_ = {{log_gain, slope, 1}};
     return;
   }
-  // The curvature, exp(-x^2 y^2) with y = 2 tau / T, as an average of exp(2 i x y h) over Gaussian h.
+  // Write the curvature exp(-x^2 y^2), y = 2 tau / T, as an average of exp(2 i x y h) over Gaussian h.
   const Complex x = std::sqrt(c * rate_ * rate_ * ratio) * (0.5 * duration_);
   const auto rule = std::find_if(rules->rules.begin(), rules->rules.end(), [&](const HermiteRules::Rule& r) {
     return log_hermite_error(r.node.size(), std::abs(x)) < std::log(1e-13);
@@ -135,7 +135,7 @@ Complex LinearFmEcho::lossless(double t) const {
   return doppler_ == 0 ? sum : sum * std::polar(1.0, -pi * doppler_ * t);
 }
 
-// The same with complex frequencies; exponentials are taken at the ends of the overlap, where they are values of the
+// As above with complex frequencies. Exponentials are taken at the ends of the overlap, where they are values of the
 // integrand, so that nothing overflows.
 Complex LinearFmEcho::lossy(double t) const {
   const double overlap = duration_ - std::abs(t), first = 0.5 * (t - overlap), last = 0.5 * (t + overlap);
@@ -161,7 +161,7 @@ Complex LinearFmEcho::lossy(double t) const {
 double linear_fm_half_width(const Pulse& pulse) {
   const LinearFmEcho echo(pulse, {}, 0, 0, nullptr);
   const auto above = [&](double t) { return std::norm(echo.at(t)) > 0.5; };
-  // The first step below half the peak, then bisection.
+  // Find the first step below half the peak, then bisect.
   const double step = 0.02 / pulse.bandwidth;
   double inside = 0, outside = step;
   while (above(outside)) inside = outside, outside += step;
@@ -175,8 +175,8 @@ double linear_fm_half_width(const Pulse& pulse) {
 double linear_fm_half_length(const Pulse& pulse, double tolerance) {
   const double duration = pulse.duration, main_lobe = 2 / pulse.bandwidth;
   const auto [level, swing] = replica_weights(pulse.window);
-  // Behind the main lobe the envelope is what the two ends of the overlap leave: the replica's end on one side, the
-  // echo's on the other, where the replica's weight is that at T/2 - t.
+  // Behind the main lobe the envelope comes from the two ends of the overlap: that of the replica on one side and that
+  // of the echo on the other, where the replica's weight is that at T/2 - t.
   const auto bound = [&](double t) {
     const double f = pulse.bandwidth * t / duration, h = 1 / duration;
     const Complex turn = std::polar(1.0, 2 * pi * t / duration);

@@ -23,8 +23,8 @@ struct HermiteRules {
 };
 
 /// One echo of a sweep behind its matched filter (E54). The absorption's slope over the band is an exponential along
-/// the sweep, its curvature a Gaussian, which is an average of exponentials (Gauss-Hermite); each leaves an integral in
-/// closed form.
+/// the sweep. Its curvature is a Gaussian, an average of exponentials (Gauss-Hermite). Each exponential gives an
+/// integral in closed form.
 class LinearFmEcho {
  public:
   LinearFmEcho(const Pulse& pulse, const Absorption& absorption, double range, double doppler,
@@ -32,7 +32,7 @@ class LinearFmEcho {
   std::complex<double> at(double t) const;
 
  private:
-  /// weight exp(log_gain + slope tau) of the sweep's amplitude.
+  /// The term weight exp(log_gain + slope tau) of the sweep's amplitude.
   struct Exponential {
     std::complex<double> log_gain, slope;
     double weight;
@@ -50,7 +50,7 @@ class LinearFmEcho {
 /// Returns the half width of a sweep's compressed intensity at half maximum [s] (E55).
 double linear_fm_half_width(const Pulse& pulse);
 
-/// See pulse_half_length.
+/// Returns pulse_half_length of a sweep.
 double linear_fm_half_length(const Pulse& pulse, double tolerance);
 
 }  // namespace insonify

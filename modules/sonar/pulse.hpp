@@ -26,11 +26,11 @@ const char* replica_window_name(ReplicaWindow window);
 /// the sonar equation.
 struct Pulse {
   double centre_frequency = 0;  ///< [Hz]
-  double bandwidth = 0;         ///< full -3 dB power width, or swept from start to end [Hz]; "range resolution" is c/2B
+  double bandwidth = 0;         ///< full -3 dB power width, or swept band [Hz]; "range resolution" is c/2B
   double source_level_db = 0;   ///< dB re 1 uPa rms at 1 m, on axis
   PulseShape shape = PulseShape::gaussian;
-  double duration = 0;                            ///< of a sweep [s]; a Gaussian's follows from its bandwidth
-  ReplicaWindow window = ReplicaWindow::hamming;  ///< of a sweep's replica
+  double duration = 0;                            ///< duration of a sweep [s]; a Gaussian's follows from its bandwidth
+  ReplicaWindow window = ReplicaWindow::hamming;  ///< window of a sweep's replica
 
   bool operator==(const Pulse&) const = default;
 };
@@ -50,16 +50,16 @@ double range_resolution(const Pulse& pulse, double sound_speed);
 /// Returns the range resolution of datasheets [m]: c / 2B.
 double nominal_range_resolution(const Pulse& pulse, double sound_speed);
 
-/// Part of the envelope's peak at which a pulse ends for paths and cells.
+/// Fraction of the envelope's peak at which a pulse ends for paths and cells.
 inline constexpr double pulse_floor = 1e-4;
 
 /// Returns the half-length [s] beyond which the envelope is below `tolerance` of its peak, without absorption (E8);
-/// tolerance in (0, 1). Of a sweep an upper bound, at most its duration, outside of which there is nothing (E54).
+/// tolerance in (0, 1). For a sweep it is an upper bound, at most its duration; the envelope is 0 beyond that (E54).
 double pulse_half_length(const Pulse& pulse, double tolerance);
 
-/// Returns the equivalent noise bandwidth of the receive filter [Hz], integral |H(f)|^2 df / |H(0)|^2: of a Gaussian
-/// pulse sqrt(pi / (4 ln 2)) B = 1.0645 B (E18); of a sweep's matched filter integral w^2 / (integral w)^2 (E55), which
-/// is 1 (uniform), 1.5 (hann) or 1.363 (hamming) / duration.
+/// Returns the equivalent noise bandwidth of the receive filter [Hz], integral |H(f)|^2 df / |H(0)|^2. Gaussian pulse:
+/// sqrt(pi / (4 ln 2)) B = 1.0645 B (E18). Matched filter of a sweep: integral w^2 / (integral w)^2 (E55), which is 1
+/// (uniform), 1.5 (hann) or 1.363 (hamming) / duration.
 double noise_bandwidth(const Pulse& pulse);
 
 /// Returns the weight of a sweep's replica at t [s] from its middle, |t| <= duration / 2.
@@ -67,7 +67,7 @@ double replica_weight(const Pulse& pulse, double t);
 
 class LinearFmEcho;
 
-/// Envelope of one echo after a way of `range` there and back, with absorption frequency by frequency.
+/// Envelope of one echo after a way of `range` out and back, with absorption frequency by frequency.
 ///
 /// Gaussian in, Gaussian out (E8):
 ///
@@ -88,18 +88,19 @@ class LinearFmEcho;
 ///
 ///   s_r(t) = sqrt(k'/k) exp(-2 a0 r + i k' b^2 / 4 pi - k' b t - i pi k' t^2),  k' = k / (1 + 2 i a2 r k / pi)
 ///
-/// It differs from the sweep so filtered only at its ends. That raises or lowers far side lobes by at most 0.06 / (B T)
+/// It differs from an exactly filtered sweep only at its ends. That raises or lowers far side lobes by at most 0.06 /
+/// (B T)
 /// of the peak per dB by which the loss differs over the band (held by a test up to 11 dB). Zero for |t| >= T. The peak
 /// of a shifted echo stands at t = -f_d / k (range-Doppler coupling). Motion also stretches the sweep itself. This is
 /// left out, an error of about B T f_d / f_c cycles at the ends. Accurate to 1e-12 of the peak.
 struct EchoEnvelope {
-  double gain = 0;                              ///< at the peak of a Gaussian, at most 1
+  double gain = 0;                              ///< gain at the peak of a Gaussian, at most 1
   double a = 0;                                 ///< [s^2]
   double b = 0;                                 ///< [s]
-  double doppler = 0;                           ///< of a Gaussian [Hz]
-  std::shared_ptr<const LinearFmEcho> sweep{};  ///< instead of all these, for a sweep
+  double doppler = 0;                           ///< Doppler shift of a Gaussian [Hz]
+  std::shared_ptr<const LinearFmEcho> sweep{};  ///< the sweep's echo, which replaces the members above
 
-  std::complex<double> at(double t) const;  ///< t [s] from the echo's delay
+  std::complex<double> at(double t) const;  ///< envelope at t [s] from the echo's delay
 };
 
 /// Returns the envelope of one echo. Throws Error if slope or curvature of the absorption would make the pulse grow on

@@ -10,7 +10,7 @@
 
 namespace insonify {
 namespace {
-/// The error of linear interpolation is at most step^2 |B''| / 8, and no cosine in B is faster than pi / lobe.
+/// Table steps per lobe. The error of linear interpolation is at most step^2 |B''| / 8; |B''| at most (pi / lobe)^2.
 constexpr double steps_per_lobe = 360;
 }  // namespace
 

@@ -21,7 +21,7 @@ class ResponseTable {
     const double b = within_period(x);
     return b * b;
   }
-  /// Returns B there; beyond half a period of B^2 the sign is that of the period's first half.
+  /// Returns B at `offset`; beyond half a period of B^2 the sign is that of the period's first half.
   double amplitude(double offset) const {
     double x = offset < 0 ? -offset : offset;
     if (x > half_period_) x = folded(x);

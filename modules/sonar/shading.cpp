@@ -12,7 +12,7 @@
 namespace insonify {
 namespace {
 
-/// Fourier coefficient m of the Taylor distribution over the aperture (E11; Taylor 1955, eq. for F_m).
+/// Returns the Fourier coefficient m of the Taylor distribution over the aperture (E11; Taylor 1955, eq. for F_m).
 double taylor_coefficient(int m, int nbar, double a2, double sigma2) {
   double up = 1, down = 1;
   for (int n = 1; n < nbar; ++n) {
@@ -22,7 +22,7 @@ double taylor_coefficient(int m, int nbar, double a2, double sigma2) {
   return (m % 2 == 1 ? 0.5 : -0.5) * up / down;
 }
 
-/// Value at x of the Chebyshev polynomial of degree n, also outside of [-1, 1].
+/// Returns the Chebyshev polynomial of degree n at x, also outside of [-1, 1].
 double chebyshev_polynomial(std::size_t n, double x) {
   const auto degree = static_cast<double>(n);
   if (std::abs(x) <= 1) return std::cos(degree * std::acos(x));
@@ -89,15 +89,15 @@ std::vector<double> chebyshev_shading(std::size_t n, double side_lobe_db) {
   require_side_lobe(side_lobe_db, "chebyshev_shading");
   if (n == 1) return {1.0};
 
-  // The pattern is T(x0 cos(psi / 2)) with psi the phase between elements; it is determined by n samples at psi = 2 pi
-  // k / n. Sample n - k equals sample k, and sample n / 2 is zero.
+  // The pattern is T(x0 cos(psi / 2)) with psi the phase between elements. n samples at psi = 2 pi k / n determine it.
+  // Sample n - k equals sample k, and sample n / 2 is zero.
   const std::size_t half = (n - 1) / 2;
   const double x0 = std::cosh(std::acosh(amplitude_from_db(-side_lobe_db)) / static_cast<double>(n - 1));
   std::vector<double> pattern(half + 1);
   for (std::size_t k = 0; k <= half; ++k)
     pattern[k] = chebyshev_polynomial(n - 1, x0 * std::cos(pi * static_cast<double>(k) / static_cast<double>(n)));
 
-  // Inverse transform to the elements. All phases are multiples of pi / n: one period of cosines serves every term.
+  // Transform the pattern to the elements. All phases are multiples of pi / n: one period of cosines serves every term.
   std::vector<double> cosine(2 * n);
   for (std::size_t j = 0; j < 2 * n; ++j) cosine[j] = std::cos(pi * static_cast<double>(j) / static_cast<double>(n));
   std::vector<double> weights(n, pattern[0]);

@@ -12,7 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t max_elements = 16384;
-constexpr std::size_t max_numbers = std::size_t{1} << 28;  // complex ones in one image, or one set of beam weights
+constexpr std::size_t max_numbers = std::size_t{1} << 28;  // complex numbers in one image or set of beam weights
 
 void require_memory(std::size_t beams, std::size_t others, const char* what, const char* remedy, const char* who) {
   if (others <= max_numbers / beams) return;
@@ -29,7 +29,7 @@ void require_valid_column(const LineArray& column, const char* who) {
   }
 }
 
-/// Sum over pairs of elements `lag` apart of w_i w_j / N^2, in both orders; lag = 0 .. N-1.
+/// Returns the sums over pairs of elements `lag` apart of w_i w_j / N^2, in both orders; lag = 0 .. N-1.
 std::vector<double> lag_products(const LineArray& array) {
   const std::size_t n = array.elements();
   std::vector<double> products(n, 0);

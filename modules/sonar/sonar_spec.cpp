@@ -11,7 +11,7 @@
 namespace insonify {
 namespace {
 
-/// Keys of a sweep require a sweep, and a sweep requires its duration.
+/// Throws Error unless keys of a sweep come with a sweep, and a sweep with its duration.
 void require_pulse(const SonarSpec& s, const char* who) {
   if (s.pulse == PulseShape::gaussian) {
     if (s.pulse_length)
@@ -43,7 +43,7 @@ void require_beam_table(const SonarSpec& s, const char* who) {
          " beams, must be at most 65536 beams in all");
 }
 
-/// The beams of the spec: listed directions, or rows of an evenly spaced fan.
+/// Returns the beams of the spec: listed directions, or rows of an evenly spaced fan.
 BeamFan fan_of(const SonarSpec& s) {
   BeamFan fan = make_fan(s.beams, s.field_of_view, s.beam_width, s.elevation_width, s.elevation);
   fan.row_width = s.column_beam_width;

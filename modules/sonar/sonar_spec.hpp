@@ -19,22 +19,22 @@ struct SonarSpec {
   double source_level_db = 220;  ///< dB re 1 uPa at 1 m
   std::size_t beams = 1;
   double field_of_view = 0;    ///< [rad]
-  double beam_width = 0;       ///< -3 dB, azimuth [rad]
-  double elevation = 0;        ///< of the fan's axis [rad], positive up
-  double elevation_width = 0;  ///< -3 dB [rad]
+  double beam_width = 0;       ///< -3 dB width in azimuth [rad]
+  double elevation = 0;        ///< elevation of the fan's axis [rad], positive up
+  double elevation_width = 0;  ///< -3 dB width in elevation [rad]
   ElevationShape elevation_shape = ElevationShape::gaussian;
-  double side_lobe_db = -30;         ///< of Taylor and Chebyshev shading; 0: uniform array
+  double side_lobe_db = -30;         ///< level of Taylor and Chebyshev side lobes; 0: uniform array
   std::optional<Shading> shading;    ///< absent: Taylor if side_lobe_db < 0, else uniform
   double min_range = 0;              ///< [m]
   double max_range = 0;              ///< [m]
   std::optional<double> bin_size;    ///< [m]; absent: 0.44 c / 2B
   std::vector<double> azimuths;      ///< [rad]; if not empty, these beams instead of an even fan
   std::vector<double> elevations{};  ///< [rad]; with azimuths: one per beam; without: one row of `beams` beams each
-  double column_beam_width = 0;      ///< -3 dB, elevation, of a planar array's beam [rad]; 0: a line array
-  double transmit_width = 0;         ///< -3 dB, azimuth, of the transmitter's intensity [rad]; 0: fills the fan evenly
+  double column_beam_width = 0;      ///< -3 dB width in elevation of a planar array's beam [rad]; 0: a line array
+  double transmit_width = 0;         ///< -3 dB width in azimuth of the transmitter [rad]; 0: fills the fan evenly
   PulseShape pulse = PulseShape::gaussian;
-  std::optional<double> pulse_length{};           ///< of a linear FM sweep [s]
-  std::optional<ReplicaWindow> replica_window{};  ///< of its matched filter; absent: Hamming
+  std::optional<double> pulse_length{};           ///< duration of a linear FM sweep [s]
+  std::optional<ReplicaWindow> replica_window{};  ///< window of its matched filter; absent: Hamming
 };
 
 /// Returns the number of beams of the head that make_head builds: rows times `beams`, or one per listed azimuth.

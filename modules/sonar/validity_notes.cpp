@@ -13,7 +13,7 @@ struct Range {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
 };
 
-/// What a formula was made for; an input whose range no source states is left unlimited.
+/// The ranges of a formula's inputs. An input whose range no source states has no limits.
 struct Limits {
   const char* formula;
   Range temperature_c, salinity_psu, depth, ph, frequency_khz;

@@ -10,9 +10,9 @@
 namespace insonify {
 namespace {
 
-/// Chen and Millero (1977) as given by Fofonoff and Millard (1983), temperature of 1990 and bar (E1).
+/// Returns the sound speed of Chen and Millero (1977) by Fofonoff and Millard (1983), with t of 1990, p in bar (E1).
 double unesco(double t90, double s, double p) {
-  const double t = 1.00024 * t90;  // the formula is in the temperature scale of 1968
+  const double t = 1.00024 * t90;  // temperature in the formula's scale of 1968
   const double c0 = 1402.388 + t * (5.03711 + t * (-5.80852e-2 + t * (3.3420e-4 + t * (-1.478e-6 + t * 3.1464e-9))));
   const double c1 = 0.153563 + t * (6.8982e-4 + t * (-8.1788e-6 + t * (1.3621e-7 - t * 6.1185e-10)));
   const double c2 = 3.1260e-5 + t * (-1.7107e-6 + t * (2.5974e-8 + t * (-2.5335e-10 + t * 1.0405e-12)));
@@ -28,13 +28,13 @@ double unesco(double t90, double s, double p) {
   return pure + s * (salt + b * std::sqrt(s) + d * s);
 }
 
-/// Mackenzie (1981) (E2).
+/// Returns the sound speed of Mackenzie (1981) (E2).
 double mackenzie(double t, double s, double z) {
   return 1448.96 + 4.591 * t - 5.304e-2 * t * t + 2.374e-4 * t * t * t + 1.340 * (s - 35) + 1.630e-2 * z +
          1.675e-7 * z * z - 1.025e-2 * t * (s - 35) - 7.139e-13 * t * z * z * z;
 }
 
-/// Leroy, Robinson and Goldsmith (2008), temperature of 1990, latitude in degrees from the equator (E23).
+/// Returns the sound speed of Leroy, Robinson and Goldsmith (2008), with t of 1990 and latitude in degrees (E23).
 double leroy(double t, double s, double z, double latitude_deg) {
   return 1402.5 + 5 * t - 5.44e-2 * t * t + 2.1e-4 * t * t * t + 1.33 * s - 1.23e-2 * s * t + 8.7e-5 * s * t * t +
          1.56e-2 * z + 2.55e-7 * z * z - 7.3e-12 * z * z * z + 1.2e-6 * z * (latitude_deg - 45) -
@@ -63,7 +63,7 @@ double gauge_pressure(const Water& water) {
   require_valid(water, "gauge_pressure");
   const double z = water.depth;
   const double s2 = std::pow(std::sin(radians(water.latitude_deg)), 2);
-  // Pressure at 45 degrees [MPa], times gravity at this latitude over gravity at 45 degrees.                (E24)
+  // Pressure at 45 degrees [MPa], times gravity at this latitude over that at 45 degrees.                   (E24)
   const double at_45 = z * (1.00818e-2 + z * (2.465e-8 + z * (-1.25e-13 + z * 2.8e-19)));
   const double gravity = 9.780318 * (1 + s2 * (5.2788e-3 - s2 * 2.36e-5));
   return 1e6 * at_45 * (gravity - 2e-5 * z) / (9.80612 - 2e-5 * z);

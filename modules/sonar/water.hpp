@@ -11,7 +11,7 @@ struct Water {
   double salinity_psu = 35;   ///< [psu]; 0: fresh water
   double depth = 0;           ///< [m], positive down
   double ph = 8;              ///< acidity on the NBS scale
-  double latitude_deg = 45;   ///< [deg], north or south alike: gravity, and so pressure, at depth
+  double latitude_deg = 45;   ///< latitude [deg], north or south alike: gravity, and so pressure, at depth
 };
 
 /// Throws Error unless -4 <= temperature_c <= 100, salinity and depth are finite and >= 0, 0 <= ph <= 14 and
