@@ -52,7 +52,7 @@ complex part_of_side(double h, double along) {
   }
   const complex whole = pi / 2 * (1.0 - 2.0 / (1.0 + imaginary) * fresnel_integral(h));
   if (along > far_off) return angle - whole;
-  // By parts from `along` to infinity.
+  // Two terms of the integration by parts from `along` to infinity.
   const double square = h * h + along * along;
   const complex per_phase = 1.0 / (imaginary * pi * along), first = h / square * per_phase,
                 second = -h * (1 / (square * along * along) + 2 / (square * square)) / (imaginary * pi) * per_phase;

@@ -102,7 +102,7 @@ struct SpeedSpan {
     slowest = speed.low;
     fastest = speed.high;
   }
-  // By Snell's law no ray that turns in it is steeper: so high it climbs at most over half of `way`.
+  // Returns the height that a ray which turns within these layers climbs at most over half of `way` (Snell's law).
   double climb(double way) const { return 0.5 * way * std::sqrt((fastest / slowest - 1) * (fastest / slowest + 1)); }
 };
 
@@ -137,7 +137,7 @@ struct RayPlane {
   Eigen::Vector3d at(double horizontal, double up) const { return horizontal * ahead + up * Eigen::Vector3d::UnitZ(); }
 };
 
-// What a bent ray makes of the cosine of incidence on a surface: the factor, 0 on its back.
+// Returns the factor from the cosine of incidence of the straight ray to that of the bent one; 0 on the back.
 double incidence_factor(const SceneCloud& scene, std::uint32_t surfel, const RayPlane& plane, double arrival) {
   constexpr double least_cosine = 1e-3;
   const Eigen::Vector3d normal = scene.normal[surfel].cast<double>();

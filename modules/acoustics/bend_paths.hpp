@@ -36,7 +36,7 @@ RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_d
 /// Options of bend_paths.
 struct BendOptions {
   const SceneCloud* scene = nullptr;  ///< whose surfels the scatterers are; none: their incidence stays
-  double absorption = 0;              ///< of amplitude [Np/m]: over the true distance, not over the apparent range
+  double absorption = 0;              ///< absorption of amplitude over the true distance, not the apparent range [Np/m]
   int threads = 0;                    ///< 0: all cores; the result does not depend on it
 };
 

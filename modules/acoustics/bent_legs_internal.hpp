@@ -31,17 +31,17 @@ struct BentPiece {
       1;  ///< factor on 1 / straight distance: tube (E167), and absorption of straight less apparent distance
 };
 
-/// Legs from a head through a profile, and through its image in a level boundary.
+/// The legs from a head through a profile, and through its image in a level boundary.
 class BentLegs {
  public:
-  /// `head_depth` [m] of the head's origin; `absorption` of amplitude [Np/m].
+  /// `head_depth`: depth of the head's origin [m]; `absorption`: of amplitude [Np/m].
   BentLegs(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, double absorption);
 
-  /// The same through water whose profile is mirrored in a level boundary at `distance` [m] from the head, which is above
-  /// the head or below it.
+  /// Returns legs through water whose profile is mirrored in a level boundary at `distance` [m] above or below the
+  /// head.
   BentLegs mirrored(double distance, bool above) const;
 
-  /// Readies a table for legs to many places; without it each ray is solved.
+  /// Builds a table for legs to many places; without it each ray is solved.
   void prepare(std::span<const Eigen::Vector3d> places, int threads);
 
   /// Returns the leg to a place; none in a shadow zone.

@@ -21,15 +21,15 @@ inline Eigen::Vector3d mirrored_in(const MirrorPlane& plane, const Eigen::Vector
 /// A reflecting plane, as a head sees it: the surface, a flat bottom or a mirror.
 struct Boundary {
   MirrorPlane plane;                       ///< world; its normal points into the water
-  Eigen::Vector3d normal;                  ///< the same in head axes
-  double head_distance = 0;                ///< of the head from the plane, into the water [m]
-  double rms_height = 0;                   ///< of its relief [m]
-  double thickness = 0;                    ///< captured points so near to it are the boundary itself [m]
+  Eigen::Vector3d normal;                  ///< the plane's normal in head axes
+  double head_distance = 0;                ///< distance of the head from the plane, into the water [m]
+  double rms_height = 0;                   ///< rms height of the relief [m]
+  double thickness = 0;                    ///< captured points nearer than this are the boundary itself [m]
   double wavenumber = 0;                   ///< [rad/m]
-  double sound_speed = 0;                  ///< of the water [m/s]
-  bool ends_water = false;                 ///< nothing beyond it counts: the surface, mirrors without edges
-  const FlatBottom* bottom = nullptr;      ///< of a flat bottom
-  const Mirror* mirror = nullptr;          ///< of a mirror; neither: the surface, which turns the sign
+  double sound_speed = 0;                  ///< sound speed of the water [m/s]
+  bool ends_water = false;                 ///< true: nothing beyond it counts (surface, mirrors without edges)
+  const FlatBottom* bottom = nullptr;      ///< flat bottom that the plane stands for, or null
+  const Mirror* mirror = nullptr;          ///< mirror, or null; neither: the surface, which turns the sign
   std::vector<Eigen::Vector3d> corners{};  ///< in head axes; empty: no edges
 
   /// Returns the distance from the plane into the water [m] of a place in head axes; negative beyond it.

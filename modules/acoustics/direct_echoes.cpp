@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t block = 1024;  // echoes, whose numbers stay in the cache
 
-/// What every echo of one ping has in common.
+/// Numbers that all echoes of one ping share.
 struct EchoBuilder {
   double source;        ///< sqrt2 p0 [Pa]
   double cycles_per_m;  ///< two-way carrier cycles per metre of range

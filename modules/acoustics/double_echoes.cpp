@@ -45,8 +45,8 @@ struct DrawnRay {
 struct Pair {
   std::uint32_t first, last;
   PathAngles here{}, there{};  ///< angles of the straight way at both patches: in from the head, out to the other patch
-  double density = 0;          ///< of surface where the ray ends (SurfaceRayEnd)
-  std::optional<PairWay> way;  ///< none: no ray has it
+  double density = 0;          ///< density of surface where the ray ends (SurfaceRayEnd)
+  std::optional<PairWay> way;  ///< absent: no ray connects the two
 };
 
 /// Surfels of an echo, and the id of their pair.
@@ -153,7 +153,8 @@ class PairBuilder {
     return ray;
   }
 
-  /// What the k-th ray of a series from surfel i meets, if both surfaces return sound to the head inside the gate.
+  /// Returns the pair of surfel i and the surfel that its k-th ray of a series meets, if both return sound to the head
+  /// inside the gate.
   std::optional<Pair> find_pair(std::uint32_t i, std::uint64_t k, std::uint64_t series) const {
     const SurfaceScattering& law = *laws_[scene_.material[i]];
     const Vector3d normal = normal_of(i, head_ - scene_.point[i].cast<double>());

@@ -19,11 +19,11 @@ namespace insonify {
 /// Echoes by way of two surfaces.
 struct DoubleEchoes {
   Echoes echoes;                     ///< both senses of a pair are neighbours
-  std::vector<std::uint32_t> first;  ///< of every echo, the surfel that sound met first, index in the scene
-  std::vector<std::uint32_t> last;   ///< and the one that it came back from
-  std::vector<std::uint64_t> id;     ///< id of the pair, that of its surfel and ray, one for both senses
-  std::size_t rays = 0;              ///< sent from surface to surface
-  std::size_t unreached = 0;         ///< echoes left out since a leg of them is in a shadow zone of the profile
+  std::vector<std::uint32_t> first;  ///< surfel that the sound of each echo met first, index in the scene
+  std::vector<std::uint32_t> last;   ///< surfel from which it came back
+  std::vector<std::uint64_t> id;     ///< id of the pair, from its surfel and ray, one for both senses
+  std::size_t rays = 0;              ///< number of rays sent from surface to surface
+  std::size_t unreached = 0;         ///< number of echoes left out because a leg lies in a shadow zone of the profile
 };
 
 /// Options of double_echoes.
@@ -71,13 +71,13 @@ struct SurfacePlace {
 /// Change that a profile makes to the echo by way of two places.
 struct BentPair {
   std::size_t first = 0, last = 0;
-  PathAngles here{}, there{};  ///< of the laws: in from the head, out to the other one
-  double longer = 0;           ///< apparent path of all three legs, over that of straight ones [m]
+  PathAngles here{}, there{};  ///< angles at both places: in from the head, out to the other place
+  double longer = 0;           ///< apparent path of all three legs, less that of straight ones [m]
   double turned = 0;           ///< change of the direction cosine u of the last place
-  double pressure = 1;         ///< of all three legs, over that of straight ones
+  double pressure = 1;         ///< pressure by all three legs, over that by straight ones
 };
 
-/// Returns it for every ordered pair of places that rays join and that face each other.
+/// Returns the change for every ordered pair of places that rays join and that face each other.
 std::vector<BentPair> bent_pairs(std::span<const SurfacePlace> places, const Environment& environment,
                                  const Pose& world_from_head, const Medium& medium);
 

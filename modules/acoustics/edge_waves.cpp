@@ -26,7 +26,7 @@ constexpr double small_spread = 0.5, wide_spread = 3;  // [rad]: of a body heard
 constexpr double most_late = 2;                        // [rad]
 constexpr double nudge = 1e-6;                         // of the size of a plate: 1e-3 rad of phase at most
 
-// Of Gauss and Legendre on [-1, 1]: positive nodes.
+// Positive nodes and weights of Gauss-Legendre quadrature on [-1, 1].
 constexpr std::array<double, 4> gauss_node = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
                                               0.9602898564975363},
                                 gauss_weight = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,

@@ -8,7 +8,7 @@
 //      section
 //      about an extremum of the reach (a caustic)
 //   3. only where there is none: rays in a duct, that turn up to eight times above and below
-// Of all candidates the fastest is kept; travel time is stationary in steepness (Fermat), so that it is good to 1e-12.
+// The fastest candidate is kept; travel time is stationary in steepness (Fermat), so that it is good to 1e-12.
 // Cost for n layers: O(n) for the direct ray; O(n^2) for step 2, n families of some tens of sums over the layers each;
 // O(n^3) for step 3.
 #include <algorithm>
@@ -23,8 +23,8 @@
 namespace insonify {
 namespace {
 
-constexpr int samples = 16;    ///< of a family's reach, between which a ray is looked for
-constexpr int most_turns = 8;  ///< above and below each, of rays that are looked for where no simple one is
+constexpr int samples = 16;    ///< samples of a family's reach, between which a ray is sought
+constexpr int most_turns = 8;  ///< turns above, and below, of rays that are sought where no simple ray is
 
 /// A ray from the upper to the lower end; slopes as tangents, positive down.
 struct Candidate {

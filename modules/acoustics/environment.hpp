@@ -13,7 +13,7 @@ namespace insonify {
 /// The sea surface: a plane in the world, with waves on it.
 struct SeaSurface {
   double height = 0;                   ///< world z [m]
-  std::optional<double> rms_height{};  ///< of the waves [m]; absent: of a fully developed sea in the wind
+  std::optional<double> rms_height{};  ///< rms height of the waves [m]; absent: fully developed sea in the wind
   /// Backscatter [dB re 1 m^2 per m^2]; absent: no reverberation from it.
   std::optional<double> scattering_strength_db{};
 };
@@ -24,7 +24,7 @@ struct FlatBottom {
   double density_ratio = 1.845;        ///< sediment to water
   double sound_speed_ratio = 1.1782;   ///< sediment to water
   double loss = 0.01624;               ///< imaginary to real part of the wavenumber in the sediment
-  double rms_height = 0;               ///< of its relief [m]
+  double rms_height = 0;               ///< rms height of its relief [m]
   std::optional<double> lambert_mu{};  ///< [1/sr]; absent: no reverberation from it
 };
 

@@ -11,10 +11,10 @@ namespace insonify {
 
 /// A body that reflects as a whole: a plate, a sphere or a cylinder. World frame [m].
 struct SmoothTarget {
-  Mirror surface{};            ///< its reflection and roughness; of a plate its corners too
-  std::uint16_t material = 0;  ///< of its surfels
-  double radius = 0;           ///< 0: a plate
-  double length = 0;           ///< of a cylinder about surface.place, along `axis`; 0: a sphere
+  Mirror surface{};            ///< reflection and roughness; for a plate its corners too
+  std::uint16_t material = 0;  ///< material of its surfels
+  double radius = 0;           ///< radius [m]; 0: a plate
+  double length = 0;           ///< length of a cylinder about surface.place, along `axis` [m]; 0: a sphere
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
 };
 

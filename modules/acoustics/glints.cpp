@@ -105,13 +105,13 @@ void add_echoes_of(const ImageWay& way, bool over_band, const Transmission& sent
   add(later, half), add(-later, -half);
 }
 
-/// What ways become in a profile.
+/// The bent counterparts, in a profile, of ways by images.
 class BentWays {
  public:
   BentWays(const Environment& environment, const View& view, const Transmission& sent)
       : direct_(*environment.profile, environment.water.depth, view.world_from_head, sent.medium.absorption.a0) {}
 
-  /// Bends a way; false if no ray has it.
+  /// Bends a way; returns false if no ray takes it.
   bool bend(ImageWay& way) const {
     constexpr double specular = 1e-6;  // part of the way: an image is twice as far as the place that reflects it
     const bool one_place = way.bounces.size() == 1;

@@ -17,14 +17,14 @@ struct ElasticSolid {
 /// A smooth plane that mirrors sound: a wall, a quay, a plate. World frame [m].
 struct Mirror {
   std::string name = "mirror";
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< a point of it
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< a point of the plane
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< towards the water, of any length
-  /// Of a convex plane with edges, counterclockwise as seen from the water; place and normal then follow from them
-  /// (with_corners). Empty: it has no edges.
+  /// Corners of a convex plane with edges, counterclockwise as seen from the water; place and normal then follow from
+  /// them (with_corners). Empty: the plane has no edges.
   std::vector<Eigen::Vector3d> corners{};
-  double reflection = 1;                ///< of pressure, within -1 (air) and 1 (rigid)
-  std::optional<ElasticSolid> solid{};  ///< reflects by E148 instead
-  double rms_height = 0;                ///< of its roughness [m]
+  double reflection = 1;                ///< reflection coefficient of pressure, within -1 (air) and 1 (rigid)
+  std::optional<ElasticSolid> solid{};  ///< solid that reflects by E148 in place of `reflection`
+  double rms_height = 0;                ///< rms height of its roughness [m]
   double thickness = 0.05;              ///< captured surfels along it that are nearer than this [m], and three times
                                         ///< its roughness, are the mirror itself
 };
@@ -38,17 +38,17 @@ Mirror with_size(Mirror mirror, double width, double height);
 /// A box of water with walls, a floor and a free surface on top, which reflects with -1.
 struct Tank {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();    ///< along x, y and z [m]
-  Eigen::Vector3d corner = Eigen::Vector3d::Zero();  ///< of least x, y and z, world [m]
-  double reflection = 1;                             ///< of walls and floor, as Mirror::reflection
-  double rms_height = 0;                             ///< of walls and floor [m]
+  Eigen::Vector3d corner = Eigen::Vector3d::Zero();  ///< corner of least x, y and z, world [m]
+  double reflection = 1;                             ///< reflection of walls and floor, as Mirror::reflection
+  double rms_height = 0;                             ///< rms height of the roughness of walls and floor [m]
 };
 
 /// Returns the six planes of a tank, floor first, surface last.
 std::vector<Mirror> mirrors_of(const Tank& tank);
 
-/// Throws Error(argument) naming the value, its unit and its rule.
+/// Throws Error(argument) naming an invalid value of a mirror, its unit and its rule.
 void require_valid(const Mirror& mirror, const char* who);
-/// The same of a tank.
+/// Throws Error(argument) naming an invalid value of a tank, its unit and its rule.
 void require_valid(const Tank& tank, const char* who);
 
 }  // namespace insonify

@@ -12,7 +12,7 @@ namespace insonify {
 
 /// The motion of a head during a ping, in world axes. Both parts are constant.
 struct Motion {
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< of the head's origin [m/s]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< velocity of the head's origin [m/s]
   Eigen::Vector3d turn_rate = Eigen::Vector3d::Zero();  ///< rotation vector per second [rad/s]
   /// Returns true if the head is at rest.
   bool none() const { return velocity.isZero(0) && turn_rate.isZero(0); }

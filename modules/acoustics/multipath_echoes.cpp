@@ -148,12 +148,12 @@ std::vector<std::uint32_t> surfels_beside(const FoundLegs& found, const std::vec
   return list;
 }
 
-/// Boundaries; echoes count of which one leg at least is by the boundary number `first` or a later one.
+/// The boundaries of a ping. An echo counts if at least one leg goes by boundary `first` or a later one.
 struct Bounces {
   const std::vector<Boundary>& boundaries;
   std::size_t first;
-  double longest;              ///< leg [m]
-  const Environment* through;  ///< of rays; none: straight legs
+  double longest;              ///< longest leg [m]
+  const Environment* through;  ///< water that bends the legs; null: straight legs
 };
 
 Multipath bounced_echoes(const SceneCloud& scene, const Scatterers& direct, const Bounces& bounces, const View& view,

@@ -30,9 +30,9 @@ struct LegPair {
 /// Echoes by the boundaries, and how many of each kind.
 struct Multipath {
   Echoes echoes;
-  std::vector<std::uint32_t> surfel{};  ///< of every echo, index in the scene
-  std::vector<LegPair> legs{};          ///< of every echo
-  std::vector<MirrorPlane> planes{};    ///< the boundaries that legs are numbered by
+  std::vector<std::uint32_t> surfel{};  ///< surfel of each echo, index in the scene
+  std::vector<LegPair> legs{};          ///< legs of each echo
+  std::vector<MirrorPlane> planes{};    ///< boundaries by which legs are numbered
   std::size_t one_bounce = 0;           ///< out direct and back by a boundary, or the other way round
   std::size_t two_bounces = 0;          ///< out and back by a boundary
   std::size_t blocked = 0;              ///< legs from surfels by a boundary that the scene hides

@@ -51,8 +51,8 @@ class SurfelTests {
   /// Ways of one body, next to each other in the list: straight to its places and back, near one line.
   struct Bundle {
     std::size_t first, end;
-    Vector3d middle = Vector3d::Zero();  ///< of the places
-    double radius = -1;  ///< of the legs about the line to the middle [m]; < 0: one way by several places
+    Vector3d middle = Vector3d::Zero();  ///< middle of the places
+    double radius = -1;  ///< radius of the legs about the line to the middle [m]; < 0: one way by several places
   };
 
   static bool of_one_body(const ImageWay& a, const ImageWay& b) {
@@ -86,7 +86,7 @@ class SurfelTests {
       if (mirror->holds(mirror->distance(p), mirror->normal.dot(n))) return false;
     const double reach_2 = footprint_ * footprint_ * scene_.area[s];
     Vector3d from = Vector3d::Zero();
-    // By one bounce the way back is the way out.
+    // A way by one bounce returns as it went out.
     const std::size_t legs = way.bounces.size() == 1 ? 1 : way.bounces.size() + 1;
     for (std::size_t k = 0; k < legs; ++k) {
       const Vector3d to = k < way.bounces.size() ? way.bounces[k] : Vector3d::Zero(), leg = to - from;

@@ -23,9 +23,9 @@ struct HeadLeg {
 /// The way from the head by two places and back.
 struct PairWay {
   HeadLeg out, back;
-  PathAngles here, there;  ///< at both: in from the head, out to the other one
-  double path = 0;         ///< of all three legs, through a profile the apparent one [m]
-  double pressure = 1;     ///< of the leg between the two, over that of a straight one; 0 behind a surface
+  PathAngles here, there;  ///< angles at both: in from the head, out to the other place
+  double path = 0;         ///< length of all three legs, apparent through a profile [m]
+  double pressure = 1;     ///< pressure by the leg between the two, over that by a straight one; 0: behind a surface
 };
 
 /// One of the two places, and the angles of the straight way there.

@@ -25,14 +25,14 @@ struct TurningInterval {
   double steepness_min = 0, steepness_max = 0;
   std::size_t crossings = 0;  ///< how many of the side lie before the turning layer
   double delta = 0;           ///< where the turning layer begins
-  double gradient = 0;        ///< absolute, of the turning layer [1/s]
-  double speed = 0;           ///< where the turning layer begins [m/s]
+  double gradient = 0;        ///< absolute gradient of the turning layer [1/s]
+  double speed = 0;           ///< sound speed where the turning layer begins [m/s]
 };
 
 /// The layers above the upper end, or below the lower one.
 struct RaySide {
-  std::vector<LayerCrossing> crossings;  ///< outwards
-  std::vector<TurningInterval> turning;  ///< by rising steepness
+  std::vector<LayerCrossing> crossings;  ///< crossed layers, outwards
+  std::vector<TurningInterval> turning;  ///< turning intervals, in order of steepness
 };
 
 /// Numbers of crossings of the water between the ends, and of turns above and below, of the rays of a family.
@@ -54,8 +54,8 @@ class RayWater {
   double horizontal(const RayFamily& family, double steepness) const {
     return horizontal(family, steepness, steepness);
   }
-  /// The same with crossings, that shrink with steepness, and turns, that grow with it, at a steepness of their own:
-  /// with the ends of an interval a bound over it.
+  /// Returns the distance with a steepness of their own for crossings, which shrink with it, and turns, which grow: the
+  /// ends of an interval give a bound over it.
   double horizontal(const RayFamily& family, double crossing_steepness, double turning_steepness) const;
   /// Returns the steepness of the ray that runs from end to end without a turn and covers `horizontal`; none if there
   /// is no such ray.

@@ -10,10 +10,11 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t columns = 32;  ///< of patches over distance, and about as many rows over depth
-/// In the middle of a patch's quarters; a quarter of what is promised, since other points may be worse.
+constexpr std::size_t columns = 32;  ///< columns of patches over distance; about as many rows over depth
+/// Errors tolerated in the middle of a patch's quarters: a quarter of what is promised, since other points may be
+/// worse.
 constexpr double tolerated_range = 0.25e-6, tolerated_angle = 2.5e-6, tolerated_gain = 1.5e-3, tolerated_arrival = 1e-3;
-/// Of entries of the profile that rows are fitted to; finer layers are smooth enough.
+/// Largest number of profile entries to which rows are fitted; finer layers are smooth enough.
 constexpr std::size_t most_fitted_entries = 150;
 /// A patch is worth quartering if so many points fall in it.
 constexpr std::size_t points_to_quarter = 100;

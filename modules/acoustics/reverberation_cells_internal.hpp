@@ -11,12 +11,12 @@ namespace insonify {
 /// Slices of range and azimuth that fill gate and sector. Slices of range are counted from the head on, so that they
 /// are the same for every gate.
 struct ReverberationCells {
-  double length = 0;       ///< of a slice [m]
+  double length = 0;       ///< length of a slice [m]
   double nearest = 0;      ///< where the first slice is cut off [m]
-  std::size_t first = 0;   ///< slice
-  std::size_t slices = 0;  ///< from the first on
+  std::size_t first = 0;   ///< number of the first slice, counted from the head
+  std::size_t slices = 0;  ///< number of slices
   double azimuths = 0;     ///< how many resolvable steps make a whole turn, before rounding up
-  Sector sector;           ///< of all elevations
+  Sector sector;           ///< sector of all elevations
 
   double begin(std::size_t slice) const;
   double end(std::size_t slice) const { return static_cast<double>(first + slice + 1) * length; }

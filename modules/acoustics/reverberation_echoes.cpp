@@ -35,7 +35,7 @@ struct ScatteringPlane {
   double height;      ///< world z [m]
   double side;        ///< 1: above the head, -1: below
   double strength;    ///< cross-section per area at all angles, which adds to that of the material
-  Material material;  ///< of lambert_mu 0 where `strength` is all
+  Material material;  ///< its lambert_mu is 0 where `strength` is the whole law
   RandomStage stage;
 };
 

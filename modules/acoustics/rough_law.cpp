@@ -40,7 +40,7 @@ class RoughSurface final : public SurfaceScattering {
   double lobe_slope() const override { return slope_; }
 
  private:
-  /// Of the power in a facet's mirror image, what its micro-roughness leaves.
+  /// Returns the share of the power in a facet's mirror image that its micro-roughness leaves.
   double kept(double cosine) const { return std::exp(-height_ * height_ * cosine * cosine); }
 
   double slope_, mu_, height_, normal_;

@@ -14,10 +14,10 @@ namespace {
 
 constexpr double least_grazing_deg = 0.001, largest_exponent = 40;
 
-/// 1 / (1 + e^x): what is left of one model where another takes over.
+/// Returns 1 / (1 + e^x), the weight of one model where another takes over.
 double fade(double x) { return 1 / (1 + std::exp(std::clamp(x, -largest_exponent, largest_exponent))); }
 
-/// Cross-section per area of a Lambert surface that returns all it receives: more is no diffuse part's.
+/// Returns the cross-section per area of a Lambert surface that returns all it receives, the limit of a diffuse part.
 double most_diffuse(double cos_in, double cos_out) { return cos_in * cos_out / pi; }
 
 class SeabedModel {
@@ -70,7 +70,7 @@ class SeabedModel {
   double slope() const { return relief_at(1).slope; }
 
  private:
-  /// What depends on the wavenumber: the structure function q and the rms slope of the relief that is coarse to it.
+  /// Relief that is coarse at one wavenumber: structure function q and rms slope.
   struct Relief {
     double q, slope;
   };
@@ -88,7 +88,7 @@ class SeabedModel {
     const double width = std::pow(cosine, 4 * al) + a_ * relief.q * relief.q * std::pow(sine, 4);
     return b_ * relief.q * normal_ / (8 * pi * std::pow(width, (1 + al) / (2 * al)));
   }
-  /// Of the lobe, where it and the composite model both hold.
+  /// Returns the share of the lobe where it and the composite model both hold.
   double kirchhoff_share(const Relief& relief, double g) const {
     const double al = bed_.alpha;
     const double c4 = share_ * std::pow(a_ * relief.q * relief.q, 1 / al);
@@ -116,7 +116,7 @@ class SeabedModel {
       sum += w * of_sine(std::sin(radians(std::clamp(g - x * degrees(s), 0.0, 90.0))));
     return sum / std::sqrt(pi);
   }
-  /// What the coarse relief leaves out of shadow.
+  /// Returns the share of the bed that the coarse relief leaves out of shadow.
   static double seen_share(double t) {
     if (t > 2) return 1;
     const double q = (std::exp(-t * t) / std::sqrt(pi) - t * std::erfc(t)) / (4 * t);
@@ -156,7 +156,7 @@ class SeabedSurface final : public SurfaceScattering {
     const HalfVector half = half_vector(path);
     return model_.lobe(half.cos_t, half.cos_d) * facets_seen(slope_, std::min(path.cos_in, path.cos_out));
   }
-  /// What energy leaves of the lobe, from grazing to normal incidence: never more towards grazing.
+  /// Returns the share of the lobe that energy allows, from grazing to normal incidence; never more towards grazing.
   std::vector<double> energy_limits() const {
     constexpr double all = 0.985;  // less the error of so few directions
     std::vector<double> limit(limits + 1, 1);

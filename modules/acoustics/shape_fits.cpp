@@ -16,7 +16,7 @@ constexpr double float_step = 0x1p-23, size_step = 2e-5;
 constexpr double median_of_chi = 0.963;  // of the mean square of 18 normal numbers
 constexpr int trims = 6;                 // fits, each without the surfels that stray from the one before
 
-/// What the quadratic through points leaves of their heights along `up`: mean square per degree of freedom.
+/// Returns the mean square residual, per degree of freedom, of the heights of points along `up` from their quadratic.
 double left_by_quadratic(const std::vector<Vector3d>& points, const Vector3d& up) {
   const Vector3d right = up.unitOrthogonal(), ahead = up.cross(right);
   double size = 0;

@@ -12,14 +12,15 @@ namespace insonify {
 inline constexpr std::size_t fewest_surfels = 12;  // of a plane
 inline constexpr double explained_share = 0.95;    // of the area of a part, at least, by a shape
 
-/// What strays from the surface of a part without being its shape.
+/// The noise of the surfels of a part about its shape.
 struct SurfelNoise {
-  double deviation = 0;  ///< standard deviation across the surface [m], of what quadratics through 24 neighbours leave
-  double rounding = 0;   ///< of coordinates as float32, and 2e-5 of the part's size [m]
+  double deviation =
+      0;  ///< standard deviation across the surface [m], from residuals of quadratics through 24 neighbours
+  double rounding = 0;  ///< rounding of coordinates as float32, and 2e-5 of the part's size [m]
 
-  /// How far a surfel of a shape may stand off it [m].
+  /// Returns the largest distance of a surfel from its shape [m].
   double reach() const { return 3.5 * std::hypot(deviation, rounding); }
-  /// Whether noise explains a mean square residual [m^2] of surfels that count as `count`: up to 1.15 times its
+  /// Returns true if noise explains a mean square residual [m^2] of `count` effective surfels: up to 1.15 times its
   /// variance and two and a half standard errors more (E161).
   bool explains(double mean_square, double count) const {
     return mean_square <= deviation * deviation * (1.15 + 2.5 * std::sqrt(5 / count)) + rounding * rounding;
@@ -28,13 +29,13 @@ struct SurfelNoise {
 /// Returns the noise of a part by at most 2000 of its neighbourhoods: the median of what their quadratics leave.
 SurfelNoise noise_of(const SurfelPart& part);
 
-/// As many surfels of equal area would count as these: (sum of areas)^2 / sum of their squares.
+/// Returns the number of surfels of equal area that weigh as these do: (sum of areas)^2 / sum of their squares.
 double effective_count(const SurfelPart& part);
 
 /// A plane by least squares: its normal on the side of those of the surfels.
 struct FittedPlane {
   Eigen::Vector3d place, normal;
-  double mean_square;  ///< of the distances, by area [m^2]
+  double mean_square;  ///< mean square distance of the surfels, by area [m^2]
 };
 FittedPlane plane_through(const SurfelPart& part);
 /// Returns the plane of nearly all surfels of a part, and these; nothing if they are too few or noise does not explain
@@ -45,9 +46,9 @@ std::optional<std::pair<FittedPlane, SurfelPart>> flat_part(const SurfelPart& pa
 struct RoundBody {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();  ///< axis: zero of a sphere
   double radius = 0;
-  double mean_square = 0;  ///< of the distances of its surfels, by area [m^2]
+  double mean_square = 0;  ///< mean square distance of its surfels, by area [m^2]
 
-  /// From the centre or axis to a place, across the axis.
+  /// Returns the vector from the centre or axis to a place, across the axis.
   Eigen::Vector3d away(const Eigen::Vector3d& place) const {
     const Eigen::Vector3d from = place - centre;
     return from - axis * axis.dot(from);

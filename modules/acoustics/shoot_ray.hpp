@@ -4,11 +4,11 @@
 
 namespace insonify {
 
-/// Where a ray gets.
+/// The end of a ray.
 struct RayEnd {
-  double horizontal = 0;  ///< [m], >= 0 ahead of its start
-  double depth = 0;       ///< [m], positive down
-  double elevation = 0;   ///< of the ray there [rad], positive up
+  double horizontal = 0;  ///< horizontal distance from its start [m], >= 0
+  double depth = 0;       ///< depth [m], positive down
+  double elevation = 0;   ///< elevation of the ray there [rad], positive up
 };
 
 /// A ray and how the narrow tube of rays around it widens.

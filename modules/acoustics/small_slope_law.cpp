@@ -23,7 +23,7 @@ double integral_at_small(double alpha, double p) {
   double sum = 0, factor = 1;
   for (int n = 1; n <= 5; ++n) {
     factor *= -p / n;
-    // By reflection, 1 / Gamma(-x) = -sin(pi x) Gamma(1 + x) / pi.
+    // Euler's reflection formula: 1 / Gamma(-x) = -sin(pi x) Gamma(1 + x) / pi.
     const double x = alpha * n, g = std::tgamma(1 + x);
     sum -= factor * std::pow(2, 2 * x + 1) * g * g * std::sin(pi * x) / pi;
   }
@@ -78,7 +78,7 @@ class IntegralTable {
   static constexpr int entries = 54;
   static constexpr double step = 0.15;
   double alpha_;
-  std::vector<double> log_;  ///< from one step before small_p to one beyond the last
+  std::vector<double> log_;  ///< logarithms of the integral, from one step before small_p to one beyond the last
 };
 
 class SmallSlopeSurface final : public SurfaceScattering {

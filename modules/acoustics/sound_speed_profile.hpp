@@ -15,17 +15,18 @@ struct SoundSpeedProfile {
 /// speeds lie within 1300 and 1700 m/s. The message names the entry.
 void require_valid(const SoundSpeedProfile& profile, const char* who);
 
-/// Sound speed at `depth` [m] (E42). The profile must be valid, the depth finite (not checked: it is called often).
+/// Returns the sound speed [m/s] at `depth` [m] (E42). The profile must be valid, the depth finite; neither is checked,
+/// since the function is called often.
 double sound_speed_at(const SoundSpeedProfile& profile, double depth);
 
-/// What refraction does to a scene, at most.
+/// The largest errors of a scene whose rays are taken as straight.
 struct RefractionBound {
-  double range = 0;      ///< error of the apparent range when rays are taken as straight [m]
-  double elevation = 0;  ///< and of the angle at the head [rad]
-  double level_db = 0;   ///< and of the level [dB], by bending_in_view alone
+  double range = 0;      ///< error of the apparent range [m]
+  double elevation = 0;  ///< error of the angle at the head [rad]
+  double level_db = 0;   ///< error of the level [dB]; only bending_in_view sets it
 };
 
-/// What bend_paths could not do by rays.
+/// Counts of scatterers that rays do not serve.
 struct BentPaths {
   std::size_t silenced = 0;  ///< scatterers in a shadow zone
   std::size_t focused = 0;   ///< scatterers near a caustic, whose level is limited

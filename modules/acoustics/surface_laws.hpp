@@ -14,7 +14,7 @@ namespace insonify {
 /// Backscattering cross-section per area of a sea bed [1/sr], in its two parts.
 struct SeabedStrength {
   double diffuse = 0;  ///< relief by the composite-roughness model, and volume
-  double lobe = 0;     ///< by facets that face the sonar (Kirchhoff, or the large-roughness fit)
+  double lobe = 0;     ///< facets that face the sonar (Kirchhoff, or the large-roughness fit)
 };
 
 /// Returns the backscatter of a sea bed at `grazing` [rad] within 0 and pi/2 by APL-UW TR 9407 (1994), E139: roughness
@@ -39,7 +39,8 @@ double small_slope_integral(double alpha, double p);
 /// kg/m^3.
 std::complex<double> rough_reflection(const RoughLaw& law, double sound_speed, double cos_incidence);
 
-/// The laws for sound of `frequency` [Hz] in water of `sound_speed` [m/s]. Throw Error for invalid laws and numbers.
+/// Return the laws for sound of `frequency` [Hz] in water of `sound_speed` [m/s]. Throw Error for invalid laws and
+/// numbers.
 std::shared_ptr<const SurfaceScattering> lambert_surface(double lambert_mu);
 /// TR 9407 with two directions (E140): diffuse part by the geometric mean of both, at most Lambert's 1/pi; lobe by the
 /// facet half way, with the wavenumber across it.

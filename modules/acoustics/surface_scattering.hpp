@@ -18,24 +18,25 @@ struct PathAngles {
   double cos_between = 1;  ///< i . o; 1: straight back
 };
 
-/// Scattering of a surface for one frequency and one water. All laws are isotropic about the normal and reciprocal: i
-/// and o may change places. Safe to use from several threads.
+/// The scattering of a surface for one frequency and one water, computed from a SurfaceLaw. All laws are isotropic about
+/// the normal and reciprocal: i and o may change places. Safe to use from several threads.
 class SurfaceScattering {
  public:
   virtual ~SurfaceScattering() = default;
   /// Returns the cross-section per area and solid angle [1/sr], mu (i . n) (o . n) by Lambert's law; 0 unless both
   /// cosines are > 0.
   virtual double cross_section(const PathAngles& path) const = 0;
-  /// Returns the same per area as seen from the direction of incidence: divided by cos_in, which is > 0.
+  /// Returns the cross-section per area as seen from the direction of incidence: divided by cos_in, which is > 0.
   virtual double per_seen_area(const PathAngles& path) const { return cross_section(path) / path.cos_in; }
-  /// Returns the same straight back, at this cosine of incidence > 0, from a table.
+  /// Returns per_seen_area straight back, at this cosine of incidence > 0, from a table.
   virtual double back(double cosine) const = 0;
   /// Returns the root mean square of the slope of the facets that make the law's lobe about the specular direction,
   /// over both axes; 0: no lobe.
   virtual double lobe_slope() const { return 0; }
 };
 
-/// The law of each material.
+/// The scattering of each material of a scene for one frequency and water: SurfaceLaw is data, SurfaceScattering the
+/// law as computed.
 using SurfaceTable = std::vector<std::shared_ptr<const SurfaceScattering>>;
 
 /// Returns the laws of `materials` for sound of `frequency` [Hz] in water of `sound_speed` [m/s], tabulated.
@@ -44,7 +45,7 @@ SurfaceTable surface_table(std::span<const Material> materials, double frequency
 /// A patch of a surface as the legs out and back of one echo meet it.
 struct InsonifiedPatch {
   double cos_out = 1;      ///< cosine between the normal and the leg out, in [0, 1]
-  double cos_back = 1;     ///< the same for the leg back
+  double cos_back = 1;     ///< cosine between the normal and the leg back
   double seen_area = 0;    ///< [m^2], as seen along the leg out: cos_out dS, or solid angle of a ray x range^2
   double cos_between = 1;  ///< cosine between the two legs; 1: they are one line
 };

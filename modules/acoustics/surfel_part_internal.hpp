@@ -56,7 +56,7 @@ struct SurfelPart {
   }
 };
 
-/// Those of `all` that are not in `taken`.
+/// Returns the members of `all` that are not in `taken`.
 inline Members without(const Members& all, const Members& taken) {
   Members rest;
   std::set_difference(all.begin(), all.end(), taken.begin(), taken.end(), std::back_inserter(rest));

@@ -34,10 +34,10 @@ class CosineTable {
   std::vector<double> value_;
 };
 
-/// Half way between the two directions of a path.
+/// The direction half way between the two directions of a path.
 struct HalfVector {
-  double cos_t;  ///< to the normal
-  double cos_d;  ///< of incidence on a facet there
+  double cos_t;  ///< cosine of its angle to the normal
+  double cos_d;  ///< cosine of incidence on a facet that faces it
 };
 inline HalfVector half_vector(const PathAngles& path) {
   const double cos_d = std::sqrt(std::clamp(0.5 * (1 + path.cos_between), 1e-12, 1.0));
@@ -50,8 +50,8 @@ inline double facets_seen(double slope, double cosine) {
   return n > 4 ? 1 : 1 / (1 + 0.5 * (std::exp(-n * n) / (n * std::sqrt(pi)) - std::erfc(n)));
 }
 
-/// Integral of a cross-section over all directions, over cos_in, by `count` of sampled_direction, even: a golden
-/// lattice.
+/// Returns the integral of a cross-section over all directions, divided by cos_in, from an even number `count` of
+/// directions of sampled_direction on a golden lattice.
 template <typename CrossSection>
 double power_share(double lobe_slope, double cos_in, int count, const CrossSection& cross_section) {
   constexpr double golden = 0.6180339887498949;
@@ -80,11 +80,11 @@ struct FluidBed {
   double rho, nu, delta, sigma2, w2, gamma;
   double alpha;  ///< gamma / 2 - 1
   double k;      ///< wavenumber in the water [1/cm]
-  double c;      ///< of the structure function, from w2 [cm]
+  double c;      ///< coefficient of the structure function, from w2 [cm]
   std::complex<double> kappa;
 };
 
-/// Throws Error unless both are finite and > 0, and the law is valid.
+/// Throws Error unless frequency [Hz] and sound speed [m/s] are finite and > 0, and the law is valid.
 void require_valid(const SurfaceLaw& law, double frequency, double sound_speed, const char* who);
 
 }  // namespace insonify

@@ -27,7 +27,7 @@ struct Transmission {
   Pulse pulse;
   Medium medium;
   EchoOptions echo_options;
-  SurfaceTable surfaces{};  ///< of the scene's materials (surface_table); empty: surfaces_of makes it
+  SurfaceTable surfaces{};  ///< laws of the scene's materials (surface_table); empty: surfaces_of makes them
 };
 
 /// Returns the surfaces of a transmission, or those of `materials` if it has none. Throws Error unless there is one for
