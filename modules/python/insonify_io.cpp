@@ -9,11 +9,12 @@
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/ping_report.hpp"
+#include "run_scenes/ping_run.hpp"
 #include "scene_io/pcl_bridge.hpp"
 #include "store/scene_file.hpp"
-#include "tool/ping/ping_report.hpp"
-#include "tool/ping/ping_run.hpp"
 #include "tool/run/scene_files.hpp"
+#include "tool/run/vtk_pictures.hpp"
 #include "view/ping_record.hpp"
 
 namespace insonify::python {
@@ -109,7 +110,7 @@ std::vector<std::string> notes(const MadePing& ping) {
   };
   add(fit_notes(whole, box, setup));
   const auto places = sampled_places(whole, ping.event.world_from_head);
-  add(tool::ping_notes(ping.made, setup, places, !ping.options.mount.empty()));
+  add(ping_notes(ping.made, setup, places, !ping.options.mount.empty()));
   return all;
 }
 
@@ -125,7 +126,7 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   const PingSimulator simulator = by.simulator->with(ping.simulation);
   const auto pinged = surfels_of(ping, simulator);
   const SceneCloud& whole = scene.moving ? pinged->scene() : scene.loaded->scene;
-  tool::PingInMemory made{ping.made, simulator, *pinged, whole, scene.loaded->report, scene.instances};
+  PingInMemory made{ping.made, simulator, *pinged, whole, scene.loaded->report, scene.instances};
   if (scene.moving) {
     const PartsScene& parts = scene.moving->parts->scene();
     if (parts.is_random() && scene.moving->seed != o.common.seed)
@@ -134,7 +135,7 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
     const auto draw = static_cast<std::uint64_t>(o.draw);
     made.box = parts.box_at(ping.event.time, draw), made.parts = parts.parts_json(ping.event.time, draw);
   }
-  tool::save_ping_run(o, {ping.event, head, ping.simulation}, made);
+  save_ping_run(o, {ping.event, head, ping.simulation}, made, tool::VtkPictures());
 }
 
 void draw(const MadePing& ping, const Path& path, int width, int height, const std::optional<std::string>& title,
@@ -143,7 +144,7 @@ void draw(const MadePing& ping, const Path& path, int width, int height, const s
   const Ping& made = ping.made.ping;
   PictureOptions options;
   options.width = width, options.height = height, options.dark = dark, options.trim = true;
-  options.title = title ? *title : tool::picture_title(ping.by->head.head.name, made);
+  options.title = title ? *title : picture_title(ping.by->head.head.name, made);
   options.colour_map = colour_map, options.min_db = min_db, options.max_db = max_db;
   show_fan(level_image(made, Tvg{40, made.absorption_db_per_m}), options, path.string());
 }

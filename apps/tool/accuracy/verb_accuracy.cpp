@@ -12,12 +12,12 @@
 #include "run/ping_setup.hpp"
 #include "run/run_checks.hpp"
 #include "run_scenes/any_scene.hpp"
+#include "run_scenes/run_files.hpp"
 #include "store/run_directory.hpp"
 #include "tool/accuracy/accuracy_files.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/run_files.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -8,6 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "run/options.hpp"
+#include "run/run_observer.hpp"
 #include "tool/command/program.hpp"
 
 namespace insonify::tool {
@@ -47,21 +48,21 @@ std::string time_text(double seconds);
 
 /// Reports progress on stderr: a bar on a terminal, plain lines with -v, nothing with -q. On a terminal it also says
 /// how far the longest loop of the present step is, and how long it will take, four times a second.
-class Progress {
+class Progress : public RunObserver {
  public:
   Progress(const CommonOptions& common, int steps);
-  ~Progress();
+  ~Progress() override;
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   /// Starts the next step.
-  void step(const std::string& what);
+  void step(const std::string& what) override;
   /// Moves the bar of a terminal to `part` (0 to 1) of the whole work; else nothing.
   void show(double part, const std::string& what);
   /// Takes the bar away for good.
   void finish();
   /// Shows a sentence unless quiet.
-  void note(const std::string& sentence);
+  void note(const std::string& sentence) override;
 
  private:
   void draw_bar();

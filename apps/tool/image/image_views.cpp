@@ -6,8 +6,8 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "run_scenes/run_files.hpp"
 #include "tool/image/image.hpp"
-#include "tool/run/run_files.hpp"
 #include "view/colour_maps_internal.hpp"
 
 namespace insonify::tool {

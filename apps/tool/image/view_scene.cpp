@@ -14,12 +14,12 @@
 #include "run/scene_reach.hpp"
 #include "run_scenes/any_scene.hpp"
 #include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/run_files.hpp"
 #include "sampling/find_holes.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/scene_file.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/image/image.hpp"
-#include "tool/run/run_files.hpp"
 #include "tool/run/run_pings.hpp"
 #include "view/show_scene.hpp"
 

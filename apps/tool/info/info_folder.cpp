@@ -11,13 +11,13 @@
 #include "returns/looks.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
+#include "run_scenes/run_files.hpp"
 #include "scene_io/projected_system.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
 #include "store/survey_run.hpp"
 #include "tool/info/info.hpp"
-#include "tool/run/run_files.hpp"
 #include "tool/run/run_pings.hpp"
 
 namespace insonify::tool {

@@ -12,6 +12,7 @@
 #include "core/text.hpp"
 #include "files/pending_file.hpp"
 #include "files/sha256.hpp"
+#include "run_scenes/run_files.hpp"
 #include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/concatenate_cube_files.hpp"
@@ -20,7 +21,6 @@
 #include "tool/command/progress.hpp"
 #include "tool/merge/survey_mosaic.hpp"
 #include "tool/merge/survey_places.hpp"
-#include "tool/run/run_files.hpp"
 
 namespace insonify::tool {
 namespace {

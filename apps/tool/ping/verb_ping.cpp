@@ -6,12 +6,13 @@
 
 #include "core/stop_watch.hpp"
 #include "run/run_settings.hpp"
+#include "run_scenes/ping_run.hpp"
+#include "run_scenes/run_files.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/ping/ping_run.hpp"
-#include "tool/run/run_files.hpp"
 #include "tool/run/scene_files.hpp"
+#include "tool/run/vtk_pictures.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -53,7 +54,8 @@ void ping(const PingCommand& command) {
   progress.step("pinging");
   ContributorWriter contributors(directory, run.scene, setup.head, run.plan.options);
   SimulatedPing result = PingSimulator(setup.head, setup.environment, run.plan.options).ping(*scene, ready.event);
-  const ordered_json manifest = write_ping_run(directory, run, std::move(result), contributors, progress);
+  const ordered_json manifest =
+      write_ping_run(directory, run, std::move(result), contributors, VtkPictures(), progress);
   progress.step("done");
   directory.commit();
   print_summary(common, manifest, summary(o.run.output, manifest));

@@ -1,16 +1,45 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "beamforming/engine.hpp"
 #include "run/ping_setup.hpp"
+#include "run_scenes/ping_report.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/ping/ping_report.hpp"
 #include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
 namespace {
+
+std::string bound_text(const PlannedStage& stage) {
+  if (std::isinf(stage.bound_relative)) return "not known";
+  if (stage.bound_relative == 0) return "0";
+  return fmt::format("{:.2g} dB", stage.bound_db);
+}
+
+std::string share_text(const PlannedStage& stage, const PingPlan& plan) {
+  return stage.by == DecidedBy::budget ? fmt::format("{:.2g} dB", plan.share_db) : decided_by_name(stage.by);
+}
+
+/// Prints the plan as a table.
+void print_plan(const PingPlan& plan) {
+  fmt::print("{:<18} {:<4} {:<10} {:<9} {}\n", "stage", "", "bound", "share", "why");
+  for (const PlannedStage& s : plan.stages)
+    fmt::print("{:<18} {:<4} {:<10} {:<9} {}\n", s.name, s.included ? "in" : "out", bound_text(s), share_text(s, plan),
+               s.why);
+  fmt::print(
+      "bound: largest error of the image without the stage; share: part of the {} dB of --accuracy-db that one stage "
+      "may take, or who decides about the stage\n",
+      plan.options.accuracy_db);
+  fmt::print("all stages left out: {:.2g} dB at most\n", plan.left_out_db);
+  fmt::print("synthesis: {}, {} precision, kernel {} on a grid of {} steps, {} samples per pulse\n",
+             engine_of(plan.options.synthesis.method).word, plan.synthesis.single_precision ? "single" : "double",
+             plan.synthesis.kernel_width, plan.synthesis.grid, plan.synthesis.pulse_samples);
+}
 
 void add_plan_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, false); }
 

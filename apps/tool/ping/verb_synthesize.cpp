@@ -13,13 +13,14 @@
 #include "run/parse_values.hpp"
 #include "run/run_checks.hpp"
 #include "run/run_settings.hpp"
+#include "run_scenes/run_files.hpp"
 #include "simulate/plan_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "store/toml_tree.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/run_files.hpp"
+#include "tool/run/vtk_pictures.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -101,7 +102,7 @@ void synthesize(const SynthesizeOptions& o) {
     manifest["notes"].push_back(note);
   }
   manifest["peak_level_db"] = std::max(silence_db, pressure_level_db(pressure.abs().maxCoeff()));
-  write_run(directory, common, o.run, setup, {std::move(ping)}, settings_of(o), manifest, progress);
+  write_run(directory, common, o.run, setup, {std::move(ping)}, settings_of(o), manifest, VtkPictures(), progress);
   manifest["seconds"] = {{"synthesis", seconds}};
   write_manifest(directory, manifest);
   directory.commit();

@@ -10,11 +10,11 @@
 #include "core/error.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/ping_report.hpp"
 #include "sampling/scene_cut.hpp"
 #include "scene_io/cloud_field.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "survey/mesh_source.hpp"
-#include "tool/ping/ping_report.hpp"
 
 namespace insonify::tool {
 

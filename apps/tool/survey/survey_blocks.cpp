@@ -10,10 +10,10 @@
 #include "files/pending_file.hpp"
 #include "returns/sounding_columns.hpp"
 #include "run/run_settings.hpp"
+#include "run_scenes/run_files.hpp"
 #include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/cube.hpp"
-#include "tool/run/run_files.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -198,7 +198,7 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   return s;
 }
 
-Bounds SurveyScene::load_parts(const SurveySetup& setup, const CommonOptions& common, Progress& progress) {
+Bounds SurveyScene::load_parts(const SurveySetup& setup, const CommonOptions& common, RunObserver& observer) {
   const MissionFile& file = setup.file;
   require_no_loading_options(options_.scene, "says itself how each part is read; give it there");
   if (file.coverage)
@@ -211,7 +211,7 @@ Bounds SurveyScene::load_parts(const SurveySetup& setup, const CommonOptions& co
   if (per_draw > 0 && parts.file().scatters.empty())
     fail(ErrorKind::content, file.path, ": [randomise] scene draws the bodies of [[scatter]] anew, but ", file.scene,
          " has none; leave it out");
-  for (const std::string& note : loading_notes(parts.report())) progress.note(note);
+  for (const std::string& note : loading_notes(parts.report())) observer.note(note);
   double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const SurveyPing& ping : setup.survey->pings())
     first = std::min(first, ping.time), last = std::max(last, ping.time);
@@ -220,7 +220,7 @@ Bounds SurveyScene::load_parts(const SurveySetup& setup, const CommonOptions& co
   return parts.box_at(first);
 }
 
-SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress)
+SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, RunObserver& observer)
     : options_(setup.heads.front().options) {
   options_.common.threads = 1;
   const SurveyHead& first = setup.heads.front();
@@ -229,15 +229,15 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
     fail(ErrorKind::content, setup.file.path, ": [randomise] scene draws bodies of a scene of parts, which ",
          setup.file.scene, " is not; leave it out");
   if (is_scene_file(setup.file.scene)) {
-    box = load_parts(setup, common, progress);
+    box = load_parts(setup, common, observer);
   } else if (is_tiles(setup.file.scene)) {
     box = tiles_.emplace(setup.file.scene).info().box;
   } else {
     loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
-    for (const std::string& note : loading_notes(loaded_.report)) progress.note(note);
+    for (const std::string& note : loading_notes(loaded_.report)) observer.note(note);
     if (loaded_.mesh && loaded_.columns.heights && setup.file.coverage) {
       loaded_.mesh.reset();
-      progress.note(setup.file.scene +
+      observer.note(setup.file.scene +
                     ": coverage counts its points, so they are pinged, and not the surface between them");
     }
     if (loaded_.mesh && setup.file.coverage)
@@ -267,7 +267,7 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
   for (std::size_t h = 0; h < setup.heads.size(); ++h)
     for (const std::string& note : {far_range_note(setup.heads[h].setup.head, farthest[h]),
                                     shallow_profile_note(setup.heads[h].setup.head, box, lowest[h]), outside[h].note()})
-      if (!note.empty()) progress.note("head " + setup.file.mission.heads[h].name + ": " + note);
+      if (!note.empty()) observer.note("head " + setup.file.mission.heads[h].name + ": " + note);
 }
 
 const std::string& SurveyScene::system() const {

@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "run/ping_setup.hpp"
+#include "run/run_observer.hpp"
 #include "run_scenes/parts_of_pings.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 #include "survey/simulate_survey.hpp"
 #include "tiles/tiled_scene.hpp"
-#include "tool/command/progress.hpp"
 
 namespace insonify::tool {
 
@@ -54,7 +54,7 @@ std::size_t image_bytes(const PingSetup& ping);
 class SurveyScene : public SceneSource {
  public:
   /// Throws as load_scene, and Error(content) for a head that is farther from the scene than it can listen.
-  SurveyScene(const SurveySetup& setup, const CommonOptions& common, Progress& progress);
+  SurveyScene(const SurveySetup& setup, const CommonOptions& common, RunObserver& observer);
   SurveyScene(const SurveyScene&) = delete;
   SurveyScene& operator=(const SurveyScene&) = delete;
 
@@ -66,7 +66,7 @@ class SurveyScene : public SceneSource {
 
  private:
   /// Loads a scene of parts; returns its box at the first ping.
-  Bounds load_parts(const SurveySetup& setup, const CommonOptions& common, Progress& progress);
+  Bounds load_parts(const SurveySetup& setup, const CommonOptions& common, RunObserver& observer);
 
   PingOptions options_;  // of a ping
   std::optional<PartsOfPings> parts_;

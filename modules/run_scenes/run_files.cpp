@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/run/run_files.hpp"
+#include "run_scenes/run_files.hpp"
 
 #include <algorithm>
 #include <future>
@@ -20,11 +20,8 @@
 #include "store/environment_file.hpp"
 #include "store/run_manifest.hpp"
 #include "store/toml_tree.hpp"
-#include "view/ping_record.hpp"
-#include "view/save_vtk.hpp"
-#include "view/show_image.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 using nlohmann::ordered_json;
@@ -79,7 +76,7 @@ ordered_json note_json(const PingNote& note, const std::string& head) {
 
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
                const HeadSetup& setup, NotedPing noted, const std::string& settings, ordered_json& manifest,
-               Progress& progress) {
+               const RunPictures& pictures, RunObserver& observer) {
   // The cube is written while the picture is drawn.
   std::vector<Ping> pings;
   pings.push_back(std::move(noted.ping));
@@ -92,13 +89,8 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
   });
   write_file(directory.file("run.toml"), run_toml(run, setup, settings));
 
-  const auto draw = [&] {
-    PictureOptions options;
-    options.title = picture_title(setup.head.name, ping);
-    options.trim = true;
-    show_fan(level_image(ping, Tvg{40, ping.absorption_db_per_m}), options, directory.file("fan.png"));
-  };
-  if (!run.no_picture) draw_if_possible("no fan.png", draw, manifest, progress);
+  const auto draw = [&] { pictures.draw_fan(ping, picture_title(setup.head.name, ping), directory.file("fan.png")); };
+  if (!run.no_picture) draw_if_possible("no fan.png", draw, manifest, observer);
 
   manifest[digests_key]["cube.h5"] = digest.get();
   if (ping.expected_level)
@@ -118,7 +110,7 @@ void write_run(const RunDirectory& directory, const CommonOptions& common, const
 }
 
 void draw_if_possible(const std::string& lacks, const std::function<void()>& draw, ordered_json& manifest,
-                      Progress& progress) {
+                      RunObserver& observer) {
   std::string reason;
   try {
     return draw();
@@ -128,7 +120,7 @@ void draw_if_possible(const std::string& lacks, const std::function<void()>& dra
   } catch (const std::bad_alloc&) {
     reason = "out of memory";
   }
-  progress.note(lacks + ": " + reason);
+  observer.note(lacks + ": " + reason);
   manifest["notes"].push_back(lacks + ": " + reason);
 }
 
@@ -148,13 +140,6 @@ ordered_json write_insonification(const RunDirectory& directory, const SceneClou
   for (const char* file : {"insonification.ply", "insonification.pcd"})
     save_insonification(directory.file(file), scene, covered);
   return {{"surfels", scene.size()}, {"insonified", covered.size()}};
-}
-
-ordered_json write_paths(const RunDirectory& directory, const SoundPaths& paths) {
-  LineSet lines{paths.points, {{"level_db", paths.level_db}, {"bounces", {}}}};
-  lines.fields[1].values.assign(paths.bounces.begin(), paths.bounces.end());
-  save_lines(directory.file("paths.vtp"), lines);
-  return {{"lines", paths.size()}};
 }
 
 }  // namespace
@@ -189,10 +174,14 @@ void ContributorWriter::finish(const PixelLabels& labels, const SceneInstances& 
 }
 
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
-                const PingSetup& setup, const SimulatedPing& ping, ordered_json& manifest) {
-  if (setup.simulation.outputs.paths > 0) manifest["paths"] = write_paths(directory, ping.outputs.paths);
+                const PingSetup& setup, const SimulatedPing& ping, const RunPictures& pictures,
+                ordered_json& manifest) {
+  if (setup.simulation.outputs.paths > 0) {
+    pictures.write_paths(ping.outputs.paths, directory.file("paths.vtp"));
+    manifest["paths"] = {{"lines", ping.outputs.paths.size()}};
+  }
   if (keeps(options, "insonification"))
     manifest["insonification"] = write_insonification(directory, scene, setup, ping);
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/ping/ping_run.hpp"
+#include "run_scenes/ping_run.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +12,12 @@
 #include "run/run_checks.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
+#include "run_scenes/ping_report.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "simulate/ping_notes.hpp"
 #include "store/element_file.hpp"
-#include "tool/ping/ping_report.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 namespace {
 
 using nlohmann::ordered_json;
@@ -63,19 +63,19 @@ ordered_json seconds_json(double load, const StageSeconds& of, double output) {
 }  // namespace
 
 ordered_json write_ping_run(RunDirectory& directory, const PingRun& run, SimulatedPing ping,
-                            ContributorWriter& contributors, Progress& progress) {
+                            ContributorWriter& contributors, const RunPictures& pictures, RunObserver& observer) {
   const PingOptions& o = run.options;
   const PingSetup& setup = run.setup;
   ordered_json manifest = {{"schema", 1},           {"insonify_version", INSONIFY_VERSION},
                            {"seed", o.common.seed}, {"scene", run.scene_json},
                            {"notes", run.notes},    {"plan", plan_json(run.plan)}};
   const auto note_to_user = [&](const std::string& note) {
-    progress.note(note);
+    observer.note(note);
     manifest["notes"].push_back(note);
   };
   for (const std::string& note : ping_notes(ping, setup, run.places, !o.mount.empty())) note_to_user(note);
 
-  progress.step("writing " + o.run.output);
+  observer.step("writing " + o.run.output);
   StopWatch watch;
   const Eigen::Vector3d origin = save_returns(directory, ping.soundings, manifest);
   if (!origin.isZero(0)) note_to_user(origin_note(origin));
@@ -83,18 +83,18 @@ ordered_json write_ping_run(RunDirectory& directory, const PingRun& run, Simulat
     write_element_file(directory.file("elements.h5"), ping.outputs.elements, setup.head.head,
                        ping.report.medium.sound_speed);
   contributors.finish(ping.ping.labels, run.instances, manifest);
-  write_kept(directory, o, run.scene, setup, ping, manifest);
+  write_kept(directory, o, run.scene, setup, ping, pictures, manifest);
   describe(ping, setup.simulation, setup.event.motion, manifest);
   PingOptions written = o;
   std::vector<PingNote> notes = notes_of(ping, setup.head.environment, setup.head.head.gate);
   write_run(directory, o.common, o.run, setup.head, {std::move(ping.ping), std::move(notes)},
-            settings_as_toml(all_settings(written)), manifest, progress);
+            settings_as_toml(all_settings(written)), manifest, pictures, observer);
   manifest["seconds"] = seconds_json(run.load_seconds, ping.report.seconds, watch.lap());
   write_manifest(directory, manifest);
   return manifest;
 }
 
-void save_ping_run(const PingOptions& o, PingSetup setup, const PingInMemory& of) {
+void save_ping_run(const PingOptions& o, PingSetup setup, const PingInMemory& of, const RunPictures& pictures) {
   RunDirectory directory(o.run.output, o.run.force, {o.scene.path, o.run.sonar});
   std::vector<std::string>& notes = setup.head.notes;
   for (std::string& note : fit_notes(of.whole, of.box ? *of.box : bounds(of.whole), setup))
@@ -107,12 +107,12 @@ void save_ping_run(const PingOptions& o, PingSetup setup, const PingInMemory& of
   run.notes = notes;
   for (std::string& note : loading_notes(of.report)) run.notes.push_back(std::move(note));
 
-  Progress progress(o.common, 1);
+  RunObserver silent;
   SimulationOptions options = setup.simulation;
   ContributorWriter contributors(directory, scene, setup.head.head, options);
   if (options.outputs.contributor_sink) contributors.take(of.ping.outputs.contributors, 0);
-  write_ping_run(directory, run, of.ping, contributors, progress);
+  write_ping_run(directory, run, of.ping, contributors, pictures, silent);
   directory.commit();
 }
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/ping/ping_report.hpp"
+#include "run_scenes/ping_report.hpp"
 
 #include <cmath>
 #include <limits>
@@ -11,7 +11,7 @@
 #include "run/scene_reach.hpp"
 #include "simulate/ping_notes.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 using nlohmann::ordered_json;
 
@@ -57,18 +57,8 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places, const Sampl
       d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup, mounted));
 }
 
-std::string bound_text(const PlannedStage& stage) {
-  if (std::isinf(stage.bound_relative)) return "not known";
-  if (stage.bound_relative == 0) return "0";
-  return fmt::format("{:.2g} dB", stage.bound_db);
-}
-
-std::string share_text(const PlannedStage& stage, const PingPlan& plan) {
-  return stage.by == DecidedBy::budget ? fmt::format("{:.2g} dB", plan.share_db) : decided_by_name(stage.by);
-}
-
 /// JSON has no infinity: null is no bound.
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
+ordered_json finite_or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr); }
 
 }  // namespace
 
@@ -139,11 +129,11 @@ ordered_json plan_json(const PingPlan& plan) {
                       {"by", decided_by_name(s.by)},
                       {"included", s.included},
                       {"why", s.why},
-                      {"bound_db", number(s.bound_db)},
-                      {"bound_relative", number(s.bound_relative)}});
+                      {"bound_db", finite_or_null(s.bound_db)},
+                      {"bound_relative", finite_or_null(s.bound_relative)}});
   return {{"accuracy_db", plan.options.accuracy_db},
           {"share_db", plan.share_db},
-          {"left_out_db", number(plan.left_out_db)},
+          {"left_out_db", finite_or_null(plan.left_out_db)},
           {"stages", stages},
           {"synthesis",
            {{"method", engine_of(plan.options.synthesis.method).word},
@@ -153,19 +143,4 @@ ordered_json plan_json(const PingPlan& plan) {
             {"pulse_samples", plan.synthesis.pulse_samples}}}};
 }
 
-void print_plan(const PingPlan& plan) {
-  fmt::print("{:<18} {:<4} {:<10} {:<9} {}\n", "stage", "", "bound", "share", "why");
-  for (const PlannedStage& s : plan.stages)
-    fmt::print("{:<18} {:<4} {:<10} {:<9} {}\n", s.name, s.included ? "in" : "out", bound_text(s), share_text(s, plan),
-               s.why);
-  fmt::print(
-      "bound: largest error of the image without the stage; share: part of the {} dB of --accuracy-db that one stage "
-      "may take, or who decides about the stage\n",
-      plan.options.accuracy_db);
-  fmt::print("all stages left out: {:.2g} dB at most\n", plan.left_out_db);
-  fmt::print("synthesis: {}, {} precision, kernel {} on a grid of {} steps, {} samples per pulse\n",
-             engine_of(plan.options.synthesis.method).word, plan.synthesis.single_precision ? "single" : "double",
-             plan.synthesis.kernel_width, plan.synthesis.grid, plan.synthesis.pulse_samples);
-}
-
-}  // namespace insonify::tool
+}  // namespace insonify

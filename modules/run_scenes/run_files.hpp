@@ -12,13 +12,14 @@
 #include "returns/ping.hpp"
 #include "run/options.hpp"
 #include "run/ping_setup.hpp"
+#include "run/run_observer.hpp"
+#include "run_scenes/run_pictures.hpp"
 #include "simulate/simulated_ping.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
 #include "store/run_directory.hpp"
-#include "tool/command/progress.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 /// A note of pings for a machine: kind, text, pings, first_ping; of a survey the name of its head, too.
 nlohmann::ordered_json note_json(const PingNote& note, const std::string& head = "");
@@ -33,12 +34,12 @@ struct NotedPing {
 /// sonar, water, peak memory and the cube's digest to `manifest`.
 void write_run(const RunDirectory& directory, const CommonOptions& common, const RunOptions& run,
                const HeadSetup& setup, NotedPing noted, const std::string& settings, nlohmann::ordered_json& manifest,
-               Progress& progress);
+               const RunPictures& pictures, RunObserver& observer);
 
 /// Draws a picture that a run may lack: where there is no OpenGL, or no memory for it, the data are written all the
 /// same, and a note that begins with `lacks` says why. An error of any other kind, such as a full disk, ends the run.
 void draw_if_possible(const std::string& lacks, const std::function<void()>& draw, nlohmann::ordered_json& manifest,
-                      Progress& progress);
+                      RunObserver& observer);
 
 /// The text of a run.toml, with `settings` as from settings_as_toml.
 std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::string& settings);
@@ -59,6 +60,7 @@ class ContributorWriter : public ContributorSink {
   ContributorWriter(const ContributorWriter&) = delete;
   ContributorWriter& operator=(const ContributorWriter&) = delete;
 
+  /// Writes a band of beams.
   void take(const Contributors& band, std::size_t first_beam) override;
 
   /// Completes the file with the label images of the ping, whose objects are the instances of the scene if it has
@@ -75,6 +77,7 @@ class ContributorWriter : public ContributorSink {
 /// Writes the other files of --keep beside the cube: insonification.ply and .pcd, paths.vtp; `manifest` gets
 /// a summary of each.
 void write_kept(const RunDirectory& directory, const PingOptions& options, const SceneCloud& scene,
-                const PingSetup& setup, const SimulatedPing& ping, nlohmann::ordered_json& manifest);
+                const PingSetup& setup, const SimulatedPing& ping, const RunPictures& pictures,
+                nlohmann::ordered_json& manifest);
 
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -11,12 +11,17 @@
 #include "simulate/plan_ping.hpp"
 
 /// The parts of a ping's manifest, its notes, and its plan.
-namespace insonify::tool {
+namespace insonify {
 
+/// Returns what was read of a scene, and what it became.
 nlohmann::ordered_json scene_json(const LoadReport& report, const SceneCloud& scene);
+/// Returns the numbers of surfels, scatterers and returns of a ping.
 nlohmann::ordered_json sampling_json(const SimulatedPing& ping);
+/// Returns the part of the view that holes of the scan leave open.
 nlohmann::ordered_json holes_json(const HoleReport& holes);
+/// Returns the echoes of each layer.
 nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);
+/// Returns a motion in m/s and degrees a second.
 nlohmann::ordered_json motion_json(const Motion& motion);
 
 /// Notes on the result: a silent ping, refraction, multipath without any echo. `places` as from sampled_places;
@@ -28,7 +33,4 @@ std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& 
 /// parameters of the synthesis.
 nlohmann::ordered_json plan_json(const PingPlan& plan);
 
-/// The plan as a table on stdout.
-void print_plan(const PingPlan& plan);
-
-}  // namespace insonify::tool
+}  // namespace insonify

@@ -8,15 +8,16 @@
 #include <nlohmann/json.hpp>
 
 #include "run/ping_setup.hpp"
+#include "run/run_observer.hpp"
+#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_pictures.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/ping_plan.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "simulate/simulated_ping.hpp"
 #include "store/run_directory.hpp"
-#include "tool/command/progress.hpp"
-#include "tool/run/run_files.hpp"
 
-namespace insonify::tool {
+namespace insonify {
 
 /// What the run folder of a ping says of how it was made.
 struct PingRun {
@@ -35,7 +36,8 @@ struct PingRun {
 /// the writer that took those of the ping. Returns the manifest. The folder is still to be committed. Throws
 /// Error(file).
 nlohmann::ordered_json write_ping_run(RunDirectory& directory, const PingRun& run, SimulatedPing ping,
-                                      ContributorWriter& contributors, Progress& progress);
+                                      ContributorWriter& contributors, const RunPictures& pictures,
+                                      RunObserver& observer);
 
 /// A ping that is made already, with what made it.
 struct PingInMemory {
@@ -49,6 +51,6 @@ struct PingInMemory {
   nlohmann::ordered_json parts{};  ///< as PartsScene::parts_json; null: none
 };
 /// Writes the whole run folder of such a ping, options.run.output. Throws Error(file).
-void save_ping_run(const PingOptions& options, PingSetup setup, const PingInMemory& of);
+void save_ping_run(const PingOptions& options, PingSetup setup, const PingInMemory& of, const RunPictures& pictures);
 
-}  // namespace insonify::tool
+}  // namespace insonify
