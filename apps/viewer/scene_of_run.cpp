@@ -7,10 +7,9 @@
 #include "files/path_status.hpp"
 #include "run/ping_setup.hpp"
 #include "run/run_settings.hpp"
-#include "run_scenes/any_scene.hpp"
-#include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "scene_io/load_scene.hpp"
-#include "store/scene_file.hpp"
+#include "survey/mesh_source.hpp"
 
 namespace insonify::viewer {
 namespace {
@@ -28,14 +27,20 @@ bool belong_together(const Contributors& list, const SceneCloud& scene) {
 }
 
 // Parts are, ping by ping, where they were when it was sent.
-void load_parts_of_run(const ViewerCommand& command, const SceneOptions& options, const std::string& run_folder,
-                       LoadedView& view) {
-  const auto parts = parts_of_run(options, run_folder, command.common.threads);
-  for (const std::string& note : loading_notes(parts->scene().report())) view.notes.push_back(note);
+void show_parts(const std::shared_ptr<const OpenScene>& scene, LoadedView& view) {
   std::vector<SceneMoment> moments;
-  for (const TrackPoint& ping : view.data.pings.places()) moments.push_back(parts->moment_of(ping.time, ping.number));
-  view.data.scene_of_ping = [parts, moments](std::size_t ping) { return parts->cloud_at(moments.at(ping)); };
-  view.data.view = view_of_run(run_folder, whole_of(*view.data.scene_of_ping(0)), command.common.threads);
+  for (const TrackPoint& ping : view.data.pings.places()) moments.push_back(scene->moment_of(ping.time, ping.number));
+  view.data.scene_of_ping = [scene, moments](std::size_t ping) { return scene->cloud_at(moments.at(ping)); };
+}
+
+/// Replaces the overview of a mesh by the surfels of the run's ping, whose contributors are named by them.
+void sample_for_run(const std::string& run_folder, LoadedScene& loaded, LoadedView& view) {
+  const PingOptions run = load_ping_settings((fs::path(run_folder) / "run.toml").string());
+  const PingSetup setup = set_up_ping(run);
+  MeshSample fine =
+      mesh_sample_for(*loaded.mesh, loaded.scene.size(), run.memory_limit, setup.simulator(), setup.event);
+  if (!fine.note.empty()) view.notes.push_back(loaded.report.path + ": " + fine.note);
+  if (fine.scene) loaded.scene = std::move(*fine.scene);
 }
 
 void load_scene_of_run(const ViewerCommand& command, const std::string& run_folder, LoadedView& view) {
@@ -51,15 +56,16 @@ void load_scene_of_run(const ViewerCommand& command, const std::string& run_fold
                              : options.path + ": the scene of the run is missing: give it with --scene");
     return;
   }
-  if (is_scene_file(options.path)) return load_parts_of_run(command, options, run_folder, view);
-  LoadedScene loaded = load_any_scene(command.common, options);
-  for (const std::string& note : loading_notes(loaded.report)) view.notes.push_back(note);
-  if (loaded.mesh && !view.data.contributors.empty()) {
-    const PingOptions run = load_ping_settings((fs::path(run_folder) / "run.toml").string());
-    sample_for_ping(run, set_up_ping(run), loaded);
+  const std::shared_ptr<OpenScene> scene = open_scene_of_run(command.common, options, run_folder);
+  for (const std::string& note : loading_notes(scene->report())) view.notes.push_back(note);
+  if (scene->parts()) {
+    show_parts(scene, view);
+  } else {
+    LoadedScene loaded = scene->take_whole({});
+    if (loaded.mesh && !view.data.contributors.empty()) sample_for_run(run_folder, loaded, view);
+    view.data.scene = std::move(loaded.scene);
   }
-  view.data.scene = std::move(loaded.scene);
-  view.data.view = view_of_run(run_folder, whole_of(view.data.scene), command.common.threads);
+  view.data.view = view_of_run(run_folder, whole_of(*scene_at(view.data, 0)), command.common.threads);
 }
 
 }  // namespace

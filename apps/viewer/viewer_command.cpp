@@ -17,7 +17,7 @@
 #include "run/run_checks.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
-#include "run_scenes/any_scene.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/contributor_file.hpp"

@@ -12,8 +12,6 @@
 #include "run_scenes/ping_report.hpp"
 #include "run_scenes/ping_run.hpp"
 #include "scene_io/pcl_bridge.hpp"
-#include "store/scene_file.hpp"
-#include "tool/run/scene_files.hpp"
 #include "tool/run/vtk_pictures.hpp"
 #include "view/ping_record.hpp"
 
@@ -23,9 +21,8 @@ namespace {
 using namespace py::literals;
 using Path = std::filesystem::path;
 
-std::shared_ptr<Scene> load_parts(const SceneOptions& how, std::uint64_t seed) {
-  require_no_loading_options(how, "says itself how each part is read; give it there");
-  const auto parts = std::make_shared<const PartsOfPings>(how.path, PartsOfPingsOptions{{seed, {}}});
+std::shared_ptr<Scene> scene_of_parts(const std::shared_ptr<const PartsOfPings>& parts, const SceneOptions& how,
+                                      std::uint64_t seed) {
   MovingScene moving{parts, [parts](const SceneMoment& moment) { return parts->whole_at(moment); },
                      parts->scene().parts()->begin(), seed};
   return std::make_shared<Scene>(std::move(moving), parts->scene().report(), how);
@@ -40,9 +37,9 @@ std::shared_ptr<Scene> load(const Path& path, const py::kwargs& keys) {
   all.keys.push_back(keys_of({seed}).front());
   set_keywords(all, keys, "load_scene");
   const py::gil_scoped_release release;
-  if (is_scene_file(how.path)) return load_parts(how, common.seed);
-  LoadedScene loaded = load_any_scene(common, how);
-  return std::make_shared<Scene>(std::move(loaded), how, tool::instances_of_scene(how.path));
+  const auto scene = open_scene(how, {{common.seed, {}}});
+  if (const PartsOfPings* parts = scene->parts()) return scene_of_parts({scene, parts}, how, common.seed);
+  return std::make_shared<Scene>(scene->take_whole({}), how, instances_of_scene(how.path));
 }
 
 /// Completes arrays as load_scene completes files.

@@ -20,7 +20,6 @@
 #include "store/materials_file.hpp"
 #include "store/nearest_word.hpp"
 #include "store/toml_tree.hpp"
-#include "survey/mesh_source.hpp"
 #include "survey/mission.hpp"
 
 namespace insonify {
@@ -278,14 +277,6 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
   if (const auto surface = surface_height(e))
     somewhere.translation().z() = *surface - (e.water.depth > 0 ? e.water.depth : 1);
   return resolve_ping(scene, setup.head, {somewhere}, e, {.threads = threads}).view;
-}
-
-void sample_for_ping(const PingOptions& o, const PingSetup& setup, LoadedScene& loaded) {
-  if (!loaded.mesh) return;
-  MeshSample sample =
-      mesh_sample_for(*loaded.mesh, loaded.scene.size(), o.memory_limit, setup.simulator(), setup.event);
-  if (!sample.note.empty()) loaded.report.notes.push_back(std::move(sample.note));
-  if (sample.scene) loaded.scene = std::move(*sample.scene);
 }
 
 }  // namespace insonify

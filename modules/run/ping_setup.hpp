@@ -82,8 +82,4 @@ std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose&
 /// the pose in another frame.
 void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path);
 
-/// Replaces the overview of a mesh by the surfels that the ping needs, within --memory-limit, with a note on what could
-/// not be kept; leaves other scenes as they are.
-void sample_for_ping(const PingOptions& options, const PingSetup& setup, LoadedScene& loaded);
-
 }  // namespace insonify

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "files/memory_limit.hpp"
 #include "run/ping_setup.hpp"
-#include "run_scenes/any_scene.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "run_scenes/parts_scene.hpp"
 #include "sampling/mesh_surfels.hpp"
 #include "scene/thin_scene.hpp"

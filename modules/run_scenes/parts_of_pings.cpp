@@ -6,9 +6,9 @@
 #include "core/error.hpp"
 #include "files/memory_limit.hpp"
 #include "files/path_status.hpp"
-#include "run/run_checks.hpp"
+#include "run/ping_setup.hpp"
 #include "run/run_settings.hpp"
-#include "run_scenes/any_scene.hpp"
+#include "run_scenes/ping_report.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 
@@ -30,7 +30,9 @@ RunDraws draws_of_run(const std::string& run) {
 
 namespace {
 
-PartsOptions loading_of(const PartsOfPingsOptions& o) {
+constexpr const char* says_itself = "says itself how each part is read; give it there";
+
+PartsOptions loading_of(const OpenSceneOptions& o) {
   return {.seed = o.draws.seed, .threads = o.threads, .drawn_anew = o.drawn_at_will || o.draws.rule.pings_per_draw > 0};
 }
 
@@ -48,9 +50,13 @@ auto with_file(const PartsScene& scene, const Body& body) {
 
 double memory_for_tiles(double limit_gib) { return limit_gib > 0 ? limit_gib * (1 << 30) : available_memory(); }
 
-PartsOfPings::PartsOfPings(const std::string& path, const PartsOfPingsOptions& options)
-    : options_(options), scene_(path, loading_of(options)) {
+PartsOfPings::PartsOfPings(const SceneOptions& how, const OpenSceneOptions& options)
+    : OpenScene(how, options), scene_((require_no_loading_options(how, says_itself), how.path), loading_of(options)) {
   if (!scene_.has_tiles()) source_.emplace(scene_.parts(), options.draws.rule, options.threads);
+}
+
+std::shared_ptr<const PreparedScene> PartsOfPings::shared() const {
+  return !scene_.has_tiles() && scene_.parts()->still() ? whole_at({}) : nullptr;
 }
 
 std::shared_ptr<const PreparedScene> PartsOfPings::scene_for(const PingSimulator& simulator,
@@ -58,7 +64,23 @@ std::shared_ptr<const PreparedScene> PartsOfPings::scene_for(const PingSimulator
   const SceneMoment moment = moment_of(event.time, event.number);
   if (source_) return with_file(scene_, [&] { return source_->scene_at(moment); });
   LoadedScene near = scene_.scene_of(simulator, event, moment.draw, memory_for_tiles(options_.memory_limit));
-  return std::make_shared<PreparedScene>(std::move(near.scene), 1);
+  return std::make_shared<PreparedScene>(std::move(near.scene), simulator.options().threads);
+}
+
+PingScene PartsOfPings::ping_scene(const PingSimulator& simulator, const PingEvent& event) const {
+  const SceneMoment moment = moment_of(event.time, event.number);
+  PingScene result{nullptr, report(), {}, {}};
+  if (scene_.has_tiles()) {
+    LoadedScene near = scene_.scene_of(simulator, event, moment.draw, memory_for_tiles(options_.memory_limit));
+    result.report = std::move(near.report);
+    result.scene = std::make_shared<const PreparedScene>(std::move(near.scene), simulator.options().threads);
+  } else {
+    result.scene = whole_at(moment);
+  }
+  result.places = sampled_places(result.scene->scene(), event.world_from_head);
+  result.json = scene_json(result.report, result.scene->scene());
+  result.json["parts"] = scene_.parts_json(moment.time, moment.draw);
+  return result;
 }
 
 std::shared_ptr<const PreparedScene> PartsOfPings::whole_at(const SceneMoment& moment) const {
@@ -74,11 +96,6 @@ std::shared_ptr<const PreparedScene> PartsOfPings::whole_at(const SceneMoment& m
 std::shared_ptr<const SceneCloud> PartsOfPings::cloud_at(const SceneMoment& moment) const {
   const std::shared_ptr<const PreparedScene> whole = whole_at(moment);
   return {whole, &whole->scene()};
-}
-
-std::shared_ptr<const PartsOfPings> parts_of_run(const SceneOptions& scene, const std::string& run, int threads) {
-  require_no_loading_options(scene, "says itself how each part is read; give it there");
-  return std::make_shared<const PartsOfPings>(scene.path, PartsOfPingsOptions{draws_of_run(run), threads});
 }
 
 }  // namespace insonify

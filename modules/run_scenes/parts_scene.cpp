@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "run/ping_setup.hpp"
-#include "run_scenes/any_scene.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "scene/posed_scene.hpp"
 #include "survey/mesh_source.hpp"
 

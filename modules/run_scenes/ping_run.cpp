@@ -7,11 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "core/error.hpp"
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "run/run_checks.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "run_scenes/ping_report.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "simulate/ping_notes.hpp"
@@ -61,6 +63,26 @@ ordered_json seconds_json(double load, const StageSeconds& of, double output) {
 }
 
 }  // namespace
+
+ReadyPing load_ping_scene(const PingOptions& o, PingSetup& setup) {
+  const RunDraws draws{o.common.seed, {0, static_cast<std::uint64_t>(o.draw)}};
+  const auto scene = open_scene(o.scene, {draws, o.common.threads, o.memory_limit});
+  const PartsOfPings* parts = scene->parts();
+  if (o.draw > 0 && (!parts || parts->scene().file().scatters.empty()))
+    fail(ErrorKind::argument, "--draw = ", o.draw, ": ", o.scene.path,
+         parts ? " has no [[scatter]] to draw" : " is no scene of parts", "; leave it out");
+  const PingEvent& event = setup.event;
+  const Bounds box = scene->box_at(scene->moment_of(event.time, event.number));
+  end_range_with_scene(setup.head, box, event.world_from_head);
+  const PingSimulator simulator = setup.simulator();
+  ReadyPing ready{scene->ping_scene(simulator, event), simulator};
+  const LoadedScene* file = scene->loaded();
+  const SceneCloud& known = file ? file->scene : ready.scene.scene->scene();
+  for (std::string& note : fit_notes(known, box, setup)) setup.head.notes.push_back(std::move(note));
+  if (file || (parts && !parts->scene().has_tiles()))
+    require_in_reach(ready.scene.places, setup.head.head.gate, o.scene.path);
+  return ready;
+}
 
 ordered_json write_ping_run(RunDirectory& directory, const PingRun& run, SimulatedPing ping,
                             ContributorWriter& contributors, const RunPictures& pictures, RunObserver& observer) {

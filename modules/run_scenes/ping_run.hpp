@@ -9,6 +9,7 @@
 
 #include "run/ping_setup.hpp"
 #include "run/run_observer.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "run_scenes/run_files.hpp"
 #include "run_scenes/run_pictures.hpp"
 #include "scene_io/load_scene.hpp"
@@ -18,6 +19,16 @@
 #include "store/run_directory.hpp"
 
 namespace insonify {
+
+/// A ping that is ready: its scene, and the simulator that plans and makes it.
+struct ReadyPing {
+  PingScene scene;
+  PingSimulator simulator;
+};
+/// Opens the scene of a ping. Ends a range that is the sonar's own where the scene ends, and adds to the notes of the
+/// head what fits the scene badly. Throws Error(content) for a scene out of reach; Error(argument) for --draw without
+/// anything to draw; Error(runtime) before reading if tiles would not fit into memory (--memory-limit).
+ReadyPing load_ping_scene(const PingOptions& options, PingSetup& setup);
 
 /// What the run folder of a ping says of how it was made.
 struct PingRun {

@@ -144,11 +144,25 @@ InsonifiedRegion PingSimulator::reach(const WholeScene& scene, const PingEvent& 
 }
 
 SimulatedPing PingSimulator::ping(const PreparedScene& scene, const PingEvent& event) const {
+  return ping(scene, event, nullptr);
+}
+
+SimulatedPing PingSimulator::ping(const PreparedScene& scene, const PingEvent& event, PingPlan& plan) const {
+  return ping(scene, event, &plan);
+}
+
+SimulatedPing PingSimulator::ping(const PreparedScene& scene, const PingEvent& event, PingPlan* plan) const {
   ResolvedPing ping = resolve(scene.whole(), event);
   ping.sent.surfaces = shared_->surfaces_of(scene.scene().materials, ping.sent);
   StopWatch watch;
   SimulatedPing result = with_detail(scene, ping, [&](const PreparedScene& pinged) {
-    decide_effects(pinged, ping);
+    if (plan) {
+      *plan = plan_of(pinged, ping);
+      ping.options = plan->options;
+      derive(pinged.whole(), ping);
+    } else {
+      decide_effects(pinged, ping);
+    }
     const double seconds = watch.lap();
     SimulatedPing made = this->ping(pinged, ping);
     made.report.seconds.sampling += seconds;

@@ -46,6 +46,8 @@ class PingSimulator {
   /// environment are skipped. The result does not depend on the number of threads. Throws Error for an invalid event, a
   /// head at or above the surface, and a profile without a surface.
   SimulatedPing ping(const PreparedScene& scene, const PingEvent& event) const;
+  /// Simulates the same ping, with the same bytes, and sets `plan` to its plan, for which the ping is resolved once.
+  SimulatedPing ping(const PreparedScene& scene, const PingEvent& event, PingPlan& plan) const;
 
   /// Returns the part of a scene that a ping needs: surfels that can return an echo or hide others. They alone give the
   /// same ping.
@@ -55,6 +57,7 @@ class PingSimulator {
   struct Shared;
   explicit PingSimulator(std::shared_ptr<Shared> shared);
   ResolvedPing resolve(const WholeScene& scene, const PingEvent& event) const;
+  SimulatedPing ping(const PreparedScene& scene, const PingEvent& event, PingPlan* plan) const;
   SimulatedPing ping(const PreparedScene& scene, const ResolvedPing& decided) const;
 
   std::shared_ptr<Shared> shared_;

@@ -11,7 +11,7 @@
 #include "run/parse_values.hpp"
 #include "run/ping_setup.hpp"
 #include "run/run_checks.hpp"
-#include "run_scenes/any_scene.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "run_scenes/run_files.hpp"
 #include "store/run_directory.hpp"
 #include "tool/accuracy/accuracy_files.hpp"
@@ -91,12 +91,12 @@ std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions&
   setup.simulation.seed = o.common.seed;
   setup.simulation.threads = o.common.threads;
   progress.step("loading " + o.scene.path);
-  LoadedScene loaded = load_any_scene(o.common, o.scene);
-  sample_for_ping({}, setup, loaded);
-  for (const std::string& note : loading_notes(loaded.report)) progress.note(note);
-  return accuracy_sweep_of(
-      task_of(loaded.scene, setup.head.head, setup.event.world_from_head, setup.head.environment, setup.simulation),
-      sweep);
+  const auto scene = open_scene(o.scene, {{o.common.seed, {}}, o.common.threads});
+  const PingScene pinged = scene->ping_scene(setup.simulator(), setup.event);
+  for (const std::string& note : loading_notes(pinged.report)) progress.note(note);
+  return accuracy_sweep_of(task_of(pinged.scene->scene(), setup.head.head, setup.event.world_from_head,
+                                   setup.head.environment, setup.simulation),
+                           sweep);
 }
 
 std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const AccuracyOptions& o,

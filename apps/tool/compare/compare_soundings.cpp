@@ -18,13 +18,11 @@
 #include "core/parallel.hpp"
 #include "files/path_status.hpp"
 #include "run/ping_setup.hpp"
-#include "run_scenes/any_scene.hpp"
 #include "run_scenes/parts_of_pings.hpp"
 #include "scene/scene_index.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/csv_tables.hpp"
 #include "store/cube.hpp"
-#include "store/scene_file.hpp"
 #include "tool/export/sounding_map.hpp"
 #include "tool/run/run_pings.hpp"
 
@@ -89,15 +87,14 @@ SceneOfSoundings scene_of_soundings(const CompareOptions& o, const SoundingTable
            heads.size() > 1 ? ": is a survey of several heads; give the folder of one"
                             : ": does not say what its scene was; give the scene");
   }
-  if (!is_scene_file(options.path)) {
-    scene.whole = std::make_shared<const SceneCloud>(load_any_scene(o.common, options).scene);
-  } else if (folder.empty()) {
-    scene.parts = std::make_shared<const PartsOfPings>(options.path, PartsOfPingsOptions{{o.common.seed, {}}});
-    scene.moment = moments_of_times(o, table, *scene.parts);
-  } else {
-    scene.parts = parts_of_run(options, folder);
-    scene.moment = moments_of_run(o, table, find_run_pings(o.b, ""), *scene.parts);
-  }
+  const auto opened = folder.empty() ? open_scene(options, {{o.common.seed, {}}, o.common.threads})
+                                     : open_scene_of_run(o.common, options, folder);
+  scene.parts = {opened, opened->parts()};
+  if (!scene.parts)
+    scene.whole = std::make_shared<const SceneCloud>(opened->take_whole({}).scene);
+  else
+    scene.moment = folder.empty() ? moments_of_times(o, table, *scene.parts)
+                                  : moments_of_run(o, table, find_run_pings(o.b, ""), *scene.parts);
   return scene;
 }
 

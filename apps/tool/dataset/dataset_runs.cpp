@@ -11,10 +11,10 @@
 #include "files/path_status.hpp"
 #include "files/sha256.hpp"
 #include "run/ping_setup.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "run_scenes/parts_of_pings.hpp"
 #include "store/survey_run.hpp"
 #include "tool/run/run_pings.hpp"
-#include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -12,12 +12,10 @@
 #include "run/parse_values.hpp"
 #include "run/ping_setup.hpp"
 #include "run/scene_reach.hpp"
-#include "run_scenes/any_scene.hpp"
-#include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "run_scenes/run_files.hpp"
 #include "sampling/find_holes.hpp"
 #include "simulate/resolve_ping.hpp"
-#include "store/scene_file.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/image/image.hpp"
 #include "tool/run/run_pings.hpp"
@@ -51,19 +49,12 @@ void add_notes(const LoadReport& report, Progress& progress) {
   for (const std::string& note : loading_notes(report)) progress.note(note);
 }
 
-std::shared_ptr<const SceneCloud> load(const CommonOptions& common, const SceneOptions& options, Progress& progress) {
-  LoadedScene loaded = load_any_scene(common, options);
-  add_notes(loaded.report, progress);
-  return std::make_shared<const SceneCloud>(std::move(loaded.scene));
-}
-
 /// The scene of a run as it was when a ping was sent.
 std::shared_ptr<const SceneCloud> load_of_ping(const ImageOptions& o, const SceneOptions& options, const Ping& ping,
                                                Progress& progress) {
-  if (!is_scene_file(options.path)) return load(o.common, options, progress);
-  const auto parts = parts_of_run(options, o.run, o.common.threads);
-  add_notes(parts->scene().report(), progress);
-  return parts->cloud_at(parts->moment_of(ping.time, ping.number));
+  const auto scene = open_scene_of_run(o.common, options, o.run);
+  add_notes(scene->report(), progress);
+  return scene->cloud_at(scene->moment_of(ping.time, ping.number));
 }
 
 /// Draws returns in the colour of their level over the grey scene, unless --colour says otherwise.
@@ -135,7 +126,9 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   if (!o.colour.empty()) drawing.look.colour = *find_named(colour_words, o.colour);
   if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
-  drawing.scene = load(o.common, options, progress);
+  LoadedScene loaded = load_any_scene(o.common, options);
+  add_notes(loaded.report, progress);
+  drawing.scene = std::make_shared<const SceneCloud>(std::move(loaded.scene));
   if (setup) {
     end_range_with_scene(*setup, bounds(*drawing.scene), drawing.look.head->world_from_head);
     drawing.look.head->gate = setup->head.gate;

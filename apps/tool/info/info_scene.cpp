@@ -11,11 +11,11 @@
 #include "run/ping_setup.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "scene_io/describe_file.hpp"
 #include "tiles/tiled_scene.hpp"
 #include "tool/info/info.hpp"
 #include "tool/info/material_list.hpp"
-#include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -122,8 +122,7 @@ std::vector<MaterialShare> shares_of(const SceneCloud& scene) {
   return material_shares(scene.materials, scene.material, scene.area);
 }
 
-ordered_json tiles_info(const std::string& path) {
-  const TiledScene tiled(path);
+ordered_json tiles_info(const std::string& path, const TiledScene& tiled) {
   const TiledSceneInfo& info = tiled.info();
   ordered_json materials = ordered_json::array();
   for (const Material& m : info.materials) materials.push_back(m.name);
@@ -150,7 +149,8 @@ ordered_json tiles_info(const std::string& path) {
 }  // namespace
 
 ordered_json info_of_scene(const std::string& path, MeaningText asked) {
-  return is_tiles(path) ? tiles_info(path) : cloud_info(path, asked);
+  const std::optional<TiledScene> tiled = find_tiles(path);
+  return tiled ? tiles_info(path, *tiled) : cloud_info(path, asked);
 }
 
 void print_scene(const ordered_json& d) {

@@ -11,7 +11,6 @@
 #include "tool/command/verb.hpp"
 #include "tool/info/info.hpp"
 #include "tool/run/record_file.hpp"
-#include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -85,7 +84,7 @@ void info(const InfoOptions& o) {
       all.push_back(info_of_toml(path));
     else
       all.push_back(is_folder(file) ? info_of_folder(path) : info_of_cube(path));
-    if (!o.common.json) (is_scene && !is_tiles(path) ? print_scene : print_facts)(all.back());
+    if (!o.common.json) (all.back().contains("fields") ? print_scene : print_facts)(all.back());
   }
   if (o.common.json) fmt::print("{}\n", (all.size() == 1 ? all[0] : all).dump(2));
 }

@@ -11,7 +11,6 @@
 #include "simulate/ping_simulator.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/scene_files.hpp"
 #include "tool/run/vtk_pictures.hpp"
 
 namespace insonify::tool {
@@ -41,19 +40,19 @@ void ping(const PingCommand& command) {
 
   progress.step("loading " + o.scene.path);
   StopWatch watch;
-  const PingScene in_reach = load_ping_scene(o, ready);
-  PingRun run{o, ready, in_reach.cloud(), in_reach.json, in_reach.places};
+  const ReadyPing sent = load_ping_scene(o, ready);
+  const PreparedScene& scene = *sent.scene.scene;
+  PingRun run{o, ready, scene.scene(), sent.scene.json, sent.scene.places};
   run.load_seconds = watch.lap();
   run.notes = setup.notes;
-  for (std::string& note : loading_notes(in_reach.loaded.report)) run.notes.push_back(std::move(note));
+  for (std::string& note : loading_notes(sent.scene.report)) run.notes.push_back(std::move(note));
   for (const std::string& note : run.notes) progress.note(note);
-  const std::shared_ptr<const PreparedScene> scene = in_reach.prepared(ready.simulation.threads);
-  run.plan = ready.simulator().plan(*scene, ready.event);
-  if (run.plan.options.outputs.contributors > 0) run.instances = instances_of_scene(o.scene.path);
+  SimulationOptions options = ready.simulation;
+  if (options.outputs.contributors > 0) run.instances = instances_of_scene(o.scene.path);
 
   progress.step("pinging");
-  ContributorWriter contributors(directory, run.scene, setup.head, run.plan.options);
-  SimulatedPing result = PingSimulator(setup.head, setup.environment, run.plan.options).ping(*scene, ready.event);
+  ContributorWriter contributors(directory, run.scene, setup.head, options);
+  SimulatedPing result = sent.simulator.with(options).ping(scene, ready.event, run.plan);
   const ordered_json manifest =
       write_ping_run(directory, run, std::move(result), contributors, VtkPictures(), progress);
   progress.step("done");

@@ -7,10 +7,10 @@
 #include "beamforming/engine.hpp"
 #include "run/ping_setup.hpp"
 #include "run_scenes/ping_report.hpp"
+#include "run_scenes/ping_run.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -48,14 +48,13 @@ void plan(const PingCommand& command) {
   Progress progress(o.common, 2);
   PingSetup ready = set_up_ping(o);
   progress.step("loading " + o.scene.path);
-  const PingScene in_reach = load_ping_scene(o, ready);
+  const ReadyPing sent = load_ping_scene(o, ready);
   for (const std::string& note : ready.head.notes) progress.note(note);
-  for (const std::string& note : loading_notes(in_reach.loaded.report)) progress.note(note);
+  for (const std::string& note : loading_notes(sent.scene.report)) progress.note(note);
   progress.step("planning");
-  const std::shared_ptr<const PreparedScene> scene = in_reach.prepared(ready.simulation.threads);
-  const PingSimulator simulator = ready.simulator();
-  const PingPlan plan = simulator.plan(*scene, ready.event);
-  const SamplingReport count = simulator.count(*scene, ready.event);
+  const PreparedScene& scene = *sent.scene.scene;
+  const PingPlan plan = sent.simulator.plan(scene, ready.event);
+  const SamplingReport count = sent.simulator.count(scene, ready.event);
   nlohmann::ordered_json json = plan_json(plan);
   json["surfels_in_view"] = count.visible, json["back_facing"] = count.back_facing;
   json["scatterers"] = count.scatterers;

@@ -9,6 +9,7 @@
 #include "core/message.hpp"
 #include "core/units.hpp"
 #include "run/parse_values.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/material_library.hpp"
@@ -18,7 +19,6 @@
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/message.hpp"
 #include "run/ping_setup.hpp"
 #include "run/run_settings.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "scene/thin_scene.hpp"
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -17,7 +18,6 @@
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -90,10 +90,11 @@ void prepare_as_tiles(const PrepareOptions& o) {
 }
 
 LoadedScene load_to_prepare(const PrepareOptions& o) {
-  if (is_scene_file(o.scene.path)) return parts_as_cloud(load_any_scene(o.common, o.scene, o.time));
-  LoadOptions loading = load_options(o.common, o.scene);
-  loading.keep_columns = !is_tiles(o.output);
-  return load_scene(o.scene.path, loading);
+  OpenSceneOptions options{{o.common.seed, {}}, o.common.threads};
+  options.keep_columns = !is_tiles(o.output);
+  const auto scene = open_scene(o.scene, options);
+  LoadedScene whole = scene->take_whole({o.time, 0});
+  return scene->parts() ? parts_as_cloud(std::move(whole)) : whole;
 }
 
 void prepare(const PrepareOptions& o) {

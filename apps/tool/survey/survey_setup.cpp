@@ -10,10 +10,9 @@
 #include "files/sha256.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "store/environment_file.hpp"
 #include "store/material_library.hpp"
-#include "survey/mesh_source.hpp"
-#include "tool/run/scene_files.hpp"
 #include "tool/run/world_place.hpp"
 
 namespace insonify::tool {
@@ -198,56 +197,34 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   return s;
 }
 
-Bounds SurveyScene::load_parts(const SurveySetup& setup, const CommonOptions& common, RunObserver& observer) {
+namespace {
+
+/// Throws Error(content) for what a mission asks of a scene of parts in vain.
+void require_parts_fit(const SurveySetup& setup, const PartsOfPings& parts, double first, double last) {
   const MissionFile& file = setup.file;
-  require_no_loading_options(options_.scene, "says itself how each part is read; give it there");
   if (file.coverage)
     fail(ErrorKind::content, file.path, ": coverage counts the pings of each surfel of one cloud, but ", file.scene,
          " is a scene of parts; leave coverage out");
-  const std::int64_t per_draw = file.randomise.scene_pings;
-  parts_.emplace(file.scene,
-                 PartsOfPingsOptions{{file.seed, {per_draw, 0}}, common.threads, options_.memory_limit, false});
-  const PartsScene& parts = parts_->scene();
-  if (per_draw > 0 && parts.file().scatters.empty())
+  if (file.randomise.scene_pings > 0 && parts.scene().file().scatters.empty())
     fail(ErrorKind::content, file.path, ": [randomise] scene draws the bodies of [[scatter]] anew, but ", file.scene,
          " has none; leave it out");
-  for (const std::string& note : loading_notes(parts.report())) observer.note(note);
-  double first = std::numeric_limits<double>::infinity(), last = -first;
-  for (const SurveyPing& ping : setup.survey->pings())
-    first = std::min(first, ping.time), last = std::max(last, ping.time);
-  at_scene_file(file.scene, [&] { parts.parts()->require_times(first, last); });
-  if (!parts.has_tiles() && parts.parts()->still()) prepared_ = parts_->whole_at({});
-  return parts.box_at(first);
+  at_scene_file(file.scene, [&] { parts.scene().parts()->require_times(first, last); });
 }
 
-SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, RunObserver& observer)
-    : options_(setup.heads.front().options) {
-  options_.common.threads = 1;
-  const SurveyHead& first = setup.heads.front();
-  Bounds box;
-  if (!is_scene_file(setup.file.scene) && setup.file.randomise.scene_pings > 0)
-    fail(ErrorKind::content, setup.file.path, ": [randomise] scene draws bodies of a scene of parts, which ",
-         setup.file.scene, " is not; leave it out");
-  if (is_scene_file(setup.file.scene)) {
-    box = load_parts(setup, common, observer);
-  } else if (is_tiles(setup.file.scene)) {
-    box = tiles_.emplace(setup.file.scene).info().box;
-  } else {
-    loaded_ = load_scene(setup.file.scene, load_options(first.options.common, first.options.scene));
-    for (const std::string& note : loading_notes(loaded_.report)) observer.note(note);
-    if (loaded_.mesh && loaded_.columns.heights && setup.file.coverage) {
-      loaded_.mesh.reset();
-      observer.note(setup.file.scene +
-                    ": coverage counts its points, so they are pinged, and not the surface between them");
-    }
-    if (loaded_.mesh && setup.file.coverage)
-      fail(ErrorKind::content, setup.file.path,
-           ": coverage counts the pings of each surfel, but a mesh has other ones in ", "every ping; make surfels of ",
-           setup.file.scene, " by insonify prepare --mesh-spacing METRES, or leave coverage out");
-    if (!loaded_.mesh) prepared_ = std::make_shared<PreparedScene>(loaded_.scene, common.threads);
-    box = bounds(loaded_.scene);
-  }
-  require_same_system(setup.file.path, setup.file.anchor, setup.file.system, system());
+/// Has each surfel counted that coverage counts. Throws Error(content) for a mesh.
+void count_surfels(const SurveySetup& setup, OpenScene& scene, RunObserver& observer) {
+  if (!setup.file.coverage) return;
+  if (scene.leave_points())
+    observer.note(setup.file.scene +
+                  ": coverage counts its points, so they are pinged, and not the surface between them");
+  if (scene.loaded() && scene.loaded()->mesh)
+    fail(ErrorKind::content, setup.file.path,
+         ": coverage counts the pings of each surfel, but a mesh has other ones in ", "every ping; make surfels of ",
+         setup.file.scene, " by insonify prepare --mesh-spacing METRES, or leave coverage out");
+}
+
+/// Throws Error(content) for a ping out of reach of the scene; notes what fits it badly.
+void require_reach(const SurveySetup& setup, const Bounds& box, RunObserver& observer) {
   std::vector<double> farthest(setup.heads.size());
   std::vector<PingsOutside> outside(setup.heads.size());
   std::vector<Eigen::Vector3d> lowest(setup.heads.size(), Eigen::Vector3d::Constant(1e300));
@@ -270,22 +247,27 @@ SurveyScene::SurveyScene(const SurveySetup& setup, const CommonOptions& common, 
       if (!note.empty()) observer.note("head " + setup.file.mission.heads[h].name + ": " + note);
 }
 
-const std::string& SurveyScene::system() const {
-  if (tiles_) return tiles_->info().system;
-  return (parts_ ? parts_->scene().report() : loaded_.report).meaning.system.value;
-}
+}  // namespace
 
-std::shared_ptr<const PreparedScene> SurveyScene::scene_for(const PingSimulator& simulator,
-                                                            const PingEvent& event) const {
-  if (prepared_) return prepared_;
-  if (parts_) return parts_->scene_for(simulator, event);
-  if (tiles_) {
-    PingScene part = load_ping_scene(options_, simulator, event, *tiles_);
-    return std::make_shared<PreparedScene>(std::move(part.loaded.scene), 1);
-  }
-  MeshSample fine = mesh_sample_for(*loaded_.mesh, loaded_.scene.size(), options_.memory_limit, simulator, event);
-  if (!fine.scene) return std::make_shared<PreparedScene>(loaded_.scene, 1);
-  return std::make_shared<PreparedScene>(std::move(*fine.scene), 1);
+std::shared_ptr<const OpenScene> open_survey_scene(const SurveySetup& setup, const CommonOptions& common,
+                                                   RunObserver& observer) {
+  const MissionFile& file = setup.file;
+  const PingOptions& pinged = setup.heads.front().options;
+  const RunDraws draws{file.seed, {file.randomise.scene_pings, 0}};
+  const auto scene = open_scene(pinged.scene, {draws, common.threads, pinged.memory_limit, false});
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const SurveyPing& ping : setup.survey->pings())
+    first = std::min(first, ping.time), last = std::max(last, ping.time);
+  if (scene->parts())
+    require_parts_fit(setup, *scene->parts(), first, last);
+  else if (file.randomise.scene_pings > 0)
+    fail(ErrorKind::content, file.path, ": [randomise] scene draws bodies of a scene of parts, which ", file.scene,
+         " is not; leave it out");
+  for (const std::string& note : loading_notes(scene->report())) observer.note(note);
+  count_surfels(setup, *scene, observer);
+  require_same_system(file.path, file.anchor, file.system, scene->report().meaning.system.value);
+  require_reach(setup, scene->box_at({first, 0}), observer);
+  return scene;
 }
 
 }  // namespace insonify::tool

@@ -14,15 +14,13 @@
 #include "run/parse_values.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
-#include "run_scenes/parts_scene.hpp"
-#include "scene_io/describe_file.hpp"
+#include "run_scenes/open_scene.hpp"
 #include "store/output_rules.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/scene_files.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -126,17 +124,6 @@ MissionShape tunnel(const Eigen::Vector3d& centre, const std::vector<double>& si
 
 /// Whether a sonar is mounted to look down: a swath, or an echo sounder of one beam.
 bool is_sounder(const SonarFile& sonar) { return sonar.mounting.x() == 0 && sonar.mounting.y() > radians(45); }
-
-/// The box of a scene; of one of parts when it begins.
-Bounds box_of_scene(const std::string& scene) {
-  if (is_tiles(scene)) return TiledScene(scene).info().box;
-  if (is_scene_file(scene)) {
-    const PartsScene parts(scene);
-    return parts.box_at(parts.parts()->begin());
-  }
-  const FileDescription cloud = describe_file(scene);
-  return {cloud.min, cloud.max};
-}
 
 /// Over the middle of a scene.
 Eigen::Vector3d centre_over(const std::optional<Bounds>& box) {

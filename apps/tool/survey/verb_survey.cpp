@@ -104,7 +104,7 @@ struct HeadTrial {
   }
 };
 
-std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene) {
+std::vector<HeadTrial> trials_of(const SurveySetup& s, const OpenScene& scene) {
   constexpr std::size_t most = 5;
   std::vector<HeadTrial> trials(s.heads.size());
   for (std::size_t h = 0; h < trials.size(); ++h) {
@@ -117,7 +117,7 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const SurveyScene& scene)
     double mean = 0;
     for (std::size_t k = 0; k < places; ++k) {
       PlannedPing planned{pings[(2 * k + 1) * pings.size() / (2 * places)]};
-      if (scene.is_shared()) {
+      if (scene.shared()) {
         const PingSimulator simulator = s.survey->simulator_of(planned.ping);
         const PingEvent event = s.survey->event_of(planned.ping);
         const SonarHead& head = simulator.head();
@@ -148,8 +148,7 @@ double stored_bytes(const Ping& ping) {
 
 /// Makes a ping of each head, then more, as long as the plan takes at most a twentieth of the survey. `begun` is the
 /// CPU time when the scene began to be loaded.
-void try_pings(const SurveySetup& s, const SurveyScene& scene, int cores, double begun,
-               std::vector<HeadTrial>& trials) {
+void try_pings(const SurveySetup& s, const OpenScene& scene, int cores, double begun, std::vector<HeadTrial>& trials) {
   constexpr double most_of_survey = 0.04;  // of a forecast that may fall when more than the first ping is known
   const auto is_cheap = [&](const HeadTrial& next) {
     double survey = 0;
@@ -199,7 +198,7 @@ void print_plan(const ordered_json& plan) {
              plan["hours"].get<double>(), plan["cores"].get<int>());
 }
 
-void plan_survey(const SurveyOptions& o, const SurveySetup& s, const SurveyScene& scene, double begun) {
+void plan_survey(const SurveyOptions& o, const SurveySetup& s, const OpenScene& scene, double begun) {
   const int cores = thread_count(o.common.threads);
   std::vector<HeadTrial> trials = trials_of(s, scene);
   try_pings(s, scene, cores, begun, trials);
@@ -297,12 +296,12 @@ ordered_json say_notes(const SurveySetup& s, const FolderStore& made, Progress& 
 
 void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard, Progress& progress) {
   // A scene that does not fit is refused before there is a folder; of a survey that is done it is not read at all.
-  std::optional<SurveyScene> scene;
+  std::shared_ptr<const OpenScene> scene;
   const auto load = [&] {
     progress.step("loading " + s.file.scene);
-    scene.emplace(s, o.common, progress);
-    if (epsg_of_system(scene->system()) > 0)
-      progress.note("the world is in " + scene->system() + ", which exports take");
+    scene = open_survey_scene(s, o.common, progress);
+    if (const std::string& system = scene->report().meaning.system.value; epsg_of_system(system) > 0)
+      progress.note("the world is in " + system + ", which exports take");
   };
   if (!is_survey_run(o.output)) load();
   open_survey_run(o.output, s.run);
@@ -317,7 +316,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
   ordered_json notes = ordered_json::array();
   if (!todo.blocks.empty()) {
     if (!scene) load();
-    record_system(o.output, scene->system());
+    record_system(o.output, scene->report().meaning.system.value);
     progress.step("pinging");
     FolderStore folder(store, status, !mirrors_of(s.heads.front().setup.head.environment).empty());
     finish_on_interrupt("finished pings are kept; the same command goes on from there");
@@ -361,9 +360,9 @@ void survey(const SurveyOptions& o) {
   if (!o.plan) return make_pings(o, s, shard, progress);
   progress.step("loading " + s.file.scene);
   const double begun = cpu_seconds();
-  const SurveyScene scene(s, o.common, progress);
+  const auto scene = open_survey_scene(s, o.common, progress);
   progress.step("planning");
-  plan_survey(o, s, scene, begun);
+  plan_survey(o, s, *scene, begun);
 }
 
 }  // namespace

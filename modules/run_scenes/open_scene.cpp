@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_scenes/open_scene.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "files/sha256.hpp"
+#include "run/ping_setup.hpp"
+#include "run/run_settings.hpp"
+#include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/ping_report.hpp"
+#include "sampling/scene_cut.hpp"
+#include "scene_io/cloud_field.hpp"
+#include "scene_io/describe_file.hpp"
+#include "simulate/resolve_ping.hpp"
+#include "store/scene_file.hpp"
+#include "survey/mesh_source.hpp"
+
+namespace insonify {
+namespace {
+
+namespace fs = std::filesystem;
+
+LoadOptions loading_of_file(const SceneOptions& how, const OpenSceneOptions& o) {
+  CommonOptions common;
+  common.seed = o.draws.seed, common.threads = o.threads;
+  LoadOptions loading = load_options(common, how);
+  loading.keep_columns = o.keep_columns;
+  return loading;
+}
+
+/// A cloud or mesh that is in memory whole.
+class SceneOfFile : public OpenScene {
+ public:
+  SceneOfFile(const SceneOptions& how, const OpenSceneOptions& options)
+      : OpenScene(how, options),
+        loaded_(std::make_shared<LoadedScene>(load_scene(how.path, loading_of_file(how, options)))) {}
+
+  const LoadReport& report() const override { return loaded_->report; }
+  Bounds box_at(const SceneMoment&) const override { return bounds(loaded_->scene); }
+  std::shared_ptr<const SceneCloud> cloud_at(const SceneMoment&) const override { return {loaded_, &loaded_->scene}; }
+  LoadedScene take_whole(const SceneMoment&) override { return std::move(*loaded_); }
+  std::shared_ptr<const PreparedScene> shared() const override { return loaded_->mesh ? nullptr : overview(); }
+  const LoadedScene* loaded() const override { return loaded_.get(); }
+  bool leave_points() override {
+    const bool is_field = loaded_->mesh && loaded_->columns.heights;
+    if (is_field) loaded_->mesh.reset();
+    return is_field;
+  }
+
+  std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator,
+                                                 const PingEvent& event) const override {
+    return loaded_->mesh ? sampled(simulator, event).first : overview();
+  }
+  PingScene ping_scene(const PingSimulator& simulator, const PingEvent& event) const override {
+    PingScene result{nullptr, loaded_->report, sampled_places(loaded_->scene, event.world_from_head), {}};
+    std::string note;
+    if (loaded_->mesh)
+      std::tie(result.scene, note) = sampled(simulator, event);
+    else
+      result.scene = overview();
+    if (!note.empty()) result.report.notes.push_back(std::move(note));
+    result.json = scene_json(result.report, result.scene->scene());
+    return result;
+  }
+
+ private:
+  /// Returns all surfels of a cloud, those of a mesh's overview; prepared when they are first asked for.
+  std::shared_ptr<const PreparedScene> overview() const {
+    const std::scoped_lock lock(guard_);
+    if (!overview_) overview_ = std::make_shared<const PreparedScene>(cloud_at({}), options_.threads);
+    return overview_;
+  }
+  /// Returns the surfels of a mesh that a ping needs, with a note on what could not be kept.
+  std::pair<std::shared_ptr<const PreparedScene>, std::string> sampled(const PingSimulator& simulator,
+                                                                       const PingEvent& event) const {
+    MeshSample fine = mesh_sample_for(*loaded_->mesh, loaded_->scene.size(), options_.memory_limit, simulator, event);
+    if (!fine.scene) return {overview(), fine.note};
+    return {std::make_shared<const PreparedScene>(std::move(*fine.scene), simulator.options().threads), fine.note};
+  }
+
+  std::shared_ptr<LoadedScene> loaded_;
+  mutable std::mutex guard_;
+  mutable std::shared_ptr<const PreparedScene> overview_;
+};
+
+/// Tiles on disk, of which each ping reads what it reaches.
+class SceneOfTiles : public OpenScene {
+ public:
+  SceneOfTiles(const SceneOptions& how, const OpenSceneOptions& options) : OpenScene(how, options), tiled_(how.path) {
+    report_.path = how.path;
+    report_.format = "insonify tiles";
+    report_.meaning.system = {tiled_.info().system, MeaningOrigin::file};
+  }
+
+  const LoadReport& report() const override { return report_; }
+  Bounds box_at(const SceneMoment&) const override { return tiled_.info().box; }
+  std::shared_ptr<const SceneCloud> cloud_at(const SceneMoment&) const override {
+    return std::make_shared<const SceneCloud>(load_scene(how_.path, loading_of_file(how_, options_)).scene);
+  }
+  LoadedScene take_whole(const SceneMoment&) override { return load_scene(how_.path, loading_of_file(how_, options_)); }
+  std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator,
+                                                 const PingEvent& event) const override {
+    LoadReport report;
+    nlohmann::ordered_json read;
+    return near(simulator, event, report, read);
+  }
+  PingScene ping_scene(const PingSimulator& simulator, const PingEvent& event) const override {
+    PingScene result{nullptr, report_, {}, {}};
+    const TiledSceneInfo& info = tiled_.info();
+    nlohmann::ordered_json read = {{"surfels", info.surfels}, {"tiles", info.tiles}, {"bytes", info.bytes}};
+    result.scene = near(simulator, event, result.report, read);
+    for (const Eigen::Vector3d& place : tiled_.places())
+      result.places.push_back(event.world_from_head.linear().transpose() *
+                              (place - event.world_from_head.translation()));
+    result.json = scene_json(result.report, result.scene->scene());
+    result.json["tiles"] = std::move(read);
+    return result;
+  }
+
+ private:
+  /// Reads what a ping reaches, or levels of detail as fine as its head resolves; says so in `report` and `read`.
+  std::shared_ptr<const PreparedScene> near(const PingSimulator& simulator, const PingEvent& event, LoadReport& report,
+                                            nlohmann::ordered_json& read) const {
+    require_no_loading_options(how_, "is prepared already; give it to insonify prepare instead");
+    const TiledSceneInfo& info = tiled_.info();
+    const double memory = memory_for_tiles(options_.memory_limit);
+    const int threads = simulator.options().threads;
+    const ResolvedPing ping =
+        resolve_ping(info.whole, simulator.head(), event, simulator.environment(), simulator.options(), "ping");
+    SceneCloud scene;
+    if (merges_surfels({}, ping.options)) {
+      const SamplingSettings& sampling = ping.options.sampling;
+      const CutOptions cutting{sampling.detail_width, sampling.detail_spacing, ping.view.sampling.range_resolution,
+                               threads};
+      TiledCut cut = tiled_.cut(ping.region, ping.view.fan, ping.view.gate, cutting, memory / bytes_to_ping);
+      scene = std::move(cut.scene);
+      report.notes.push_back(fmt::format("{} surfels and nodes of {} surfels, from {} of {} bytes", scene.size(),
+                                         info.surfels, cut.bytes, info.bytes));
+      read["bytes_read"] = cut.bytes;
+    } else {
+      const TileSelection selected = tiled_.select(ping.region);
+      require_memory(selected, bytes_to_ping, memory, how_.path);
+      scene = tiled_.load(selected, memory, threads);
+      report.notes.push_back(fmt::format("{} of {} surfels read, in {} of {} tiles", selected.surfels, info.surfels,
+                                         selected.tiles.size(), info.tiles));
+      read["tiles_read"] = selected.tiles.size();
+    }
+    report.points_read = scene.size();
+    read["surfels_read"] = scene.size();
+    return std::make_shared<const PreparedScene>(std::move(scene), threads);
+  }
+
+  const TiledScene tiled_;
+  LoadReport report_;
+};
+
+}  // namespace
+
+std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options) {
+  if (is_scene_file(scene.path)) return std::make_shared<PartsOfPings>(scene, options);
+  if (is_tiles(scene.path)) return std::make_shared<SceneOfTiles>(scene, options);
+  return std::make_shared<SceneOfFile>(scene, options);
+}
+
+std::shared_ptr<OpenScene> open_scene_of_run(const CommonOptions& common, const SceneOptions& scene,
+                                             const std::string& run) {
+  const RunDraws draws = is_scene_file(scene.path) ? draws_of_run(run) : RunDraws{common.seed, {}};
+  return open_scene(scene, {draws, common.threads});
+}
+
+LoadedScene load_any_scene(const CommonOptions& common, const SceneOptions& scene, double time) {
+  return open_scene(scene, {{common.seed, {}}, common.threads})->take_whole({time, 0});
+}
+
+std::optional<TiledScene> find_tiles(const std::string& path) {
+  return is_tiles(path) ? std::optional<TiledScene>(std::in_place, path) : std::nullopt;
+}
+
+Bounds box_of_scene(const std::string& path) {
+  if (const auto tiled = find_tiles(path)) return tiled->info().box;
+  if (is_scene_file(path)) {
+    const PartsScene parts(path);
+    return parts.box_at(parts.parts()->begin());
+  }
+  const FileDescription cloud = describe_file(path);
+  return {cloud.min, cloud.max};
+}
+
+std::string digest_of_scene(const std::string& path) {
+  if (is_scene_file(path)) {
+    Sha256 sha;
+    std::map<std::string, std::string> digests;
+    for (const std::string& file : files_of(load_scene_file(path))) {
+      std::string& digest = digests[file];
+      if (digest.empty()) digest = is_scene_file(file) ? sha256_of_file(file) : digest_of_scene(file);
+      sha.add(fs::path(file).filename().string() + ":" + digest + "\n");
+    }
+    return sha.digest();
+  }
+  const auto tiled = find_tiles(path);
+  return tiled ? sha256_of(std::to_string(tiled->info().checksum)) : sha256_of_file(path);
+}
+
+SceneInstances instances_of_scene(const std::string& path) {
+  if (is_tiles(path) || is_scene_file(path) || !has_cloud_field(path, "instance")) return {};
+  const CloudField field = load_cloud_field(path, "instance");
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> given;
+  for (std::size_t i = 0; i < field.value.size(); ++i)
+    if (const double value = field.value[i]; value >= 1 && value < 4294967295.0 && value == std::floor(value))
+      given.emplace_back(field.id[i], static_cast<std::uint32_t>(value));
+  return number_instances(given);
+}
+
+void require_no_loading_options(const SceneOptions& o, const std::string& why) {
+  SceneOptions given = o, none;
+  none.path = o.path;
+  const auto settings = scene_settings(given), defaults = scene_settings(none);
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    if (settings_as_toml({settings[i]}) != settings_as_toml({defaults[i]}))
+      fail(ErrorKind::argument, settings[i].option, ": ", o.path, " ", why);
+}
+
+bool is_tiles(const std::string& path) { return fs::path(path).extension() == ".tiles"; }
+
+}  // namespace insonify
