@@ -269,11 +269,9 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
   if (!path_exists(settings) || !load_toml(settings.string()).find("sonar")) return std::nullopt;
   RunOptions options;
   options.sonar = options.environment = settings.string();
-  HeadSetup setup = set_up_head({}, options);
+  const HeadSetup setup = set_up_head({}, options);
   Pose somewhere = Pose::Identity();
-  Environment& e = setup.environment;
-  if (e.profile && !surface_height(e))
-    e.profile = SoundSpeedProfile{{0}, {setup.medium.sound_speed}};  // of older versions
+  const Environment& e = setup.environment;
   if (const auto surface = surface_height(e))
     somewhere.translation().z() = *surface - (e.water.depth > 0 ? e.water.depth : 1);
   return resolve_ping(scene, setup.head, {somewhere}, e, {.threads = threads}).view;

@@ -40,13 +40,7 @@ namespace {
 /// Reads [scene] and [ping] of a document, of which it may have neither.
 void read_sections(const std::string& path, const TomlValue& document, const std::vector<Key>& keys) {
   for (const char* section : {"scene", "ping"}) {
-    const TomlValue* table = document.find(section);
-    if (!table) continue;
-    // Runs of before have it, nearly all with 0.
-    const TomlValue* gone = table->find("level_error_db");
-    if (gone && !(gone->is_number() && gone->number == 0))
-      fail_in_file(path, gone->line, "level_error_db is no longer a setting; set scatterers_per_cell or rays_per_beam");
-    read_keys(path, *table, keys, section, {"level_error_db"});
+    if (const TomlValue* table = document.find(section)) read_keys(path, *table, keys, section);
   }
 }
 

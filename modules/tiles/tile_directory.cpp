@@ -17,7 +17,6 @@ using namespace hdf5;
 
 constexpr std::int64_t newest_version = 3;  // 1 was not HDF5, 2 had neither noise nor coordinate systems
 constexpr const char* format_text = "insonify tiles";
-constexpr const char* old_magic = "insotile";
 constexpr DatasetName node_name{"/node", "", "levels of detail: a node stands for its children"};
 constexpr DatasetName node_noise_name{"/node_noise", "m",
                                       "of the nodes: root of the mean square of their surfels' noise"};
@@ -177,9 +176,6 @@ Found find_all(const FileContext& place, hid_t file) {
 void require_new_format(const std::string& path) {
   require_readable(path);
   const std::string head = read_beginning(path, 8);
-  if (head == old_magic)
-    fail(ErrorKind::content, path, ": has the format of .tiles before they were HDF5, which is not read any more; ",
-         "make it anew: insonify prepare SCENE -o ", path);
   if (head != "\x89HDF\r\n\x1a\n")
     fail(ErrorKind::content, path, ": not a .tiles file: expected an HDF5 file, found ", beginning_of(path),
          "; make one by: insonify prepare SCENE -o ", path);

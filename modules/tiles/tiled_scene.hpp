@@ -63,7 +63,7 @@ class TiledScene {
  public:
   /// Opens a file and reads its directory.
   /// Throws Error(file) if the file is missing or unreadable; Error(content) if it is not a .tiles file, truncated,
-  /// damaged, of a newer version, or of the format before HDF5.
+  /// damaged, or of a newer version.
   explicit TiledScene(const std::string& path);
   ~TiledScene();
   TiledScene(TiledScene&&) noexcept;
