@@ -87,7 +87,9 @@ void complete(const py::capsule& capsule) {
 HeadSetup head_of(const MadePing& ping) {
   const Simulator& by = *ping.by;
   const double z = ping.event.world_from_head.translation().z();
-  return set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
+  HeadSetup head = set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
+  if (std::string note = number_note(ping.event, ping.options); !note.empty()) head.notes.push_back(std::move(note));
+  return head;
 }
 
 /// What the tool notes on the same ping, but for what it notes on loading.

@@ -107,6 +107,15 @@ PingEvent asked_event(const PingOptions& o) {
   return event;
 }
 
+std::string number_note(const PingEvent& event, const PingOptions& o) {
+  constexpr double rounding = 1e-6;  // [ms], of times in seconds
+  if (o.ping >= 0 || std::abs(1000 * event.time - static_cast<double>(event.number)) < rounding) return {};
+  return fmt::format(
+      "the ping has number {}, its time in whole milliseconds: any other ping within this millisecond has the same "
+      "noise, waves and water; --ping gives another number",
+      event.number);
+}
+
 namespace {
 
 /// Notes on the trajectory of a ping, and on a time in one of its gaps.
@@ -130,6 +139,7 @@ PingSetup set_up(const PingOptions& o, bool at_pose) {
   setup.simulation = asked_simulation(o.common, o);
   if (!o.trajectory.empty())
     for (const std::string& note : notes_on_track(o)) setup.head.notes.push_back(note);
+  if (std::string note = number_note(event, o); !note.empty()) setup.head.notes.push_back(std::move(note));
   const auto force = [&](const char* option, const std::string& stage, bool included) {
     in_words_of(fmt::format("{} {}", option, stage),
                 [&] { force_stage(stage, included, event, setup.head.environment, setup.simulation); });

@@ -69,6 +69,10 @@ struct PingSetup {
 /// Where and when the head of the options pings, and how it moves; Error(argument) names the option.
 PingEvent asked_event(const PingOptions& options);
 
+/// A sentence if the number of a ping is its time in milliseconds and the time lies between two: other pings within the
+/// millisecond have its noise. Empty otherwise.
+std::string number_note(const PingEvent& event, const PingOptions& options);
+
 /// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
 /// read.
 PingSetup set_up_ping(const PingOptions& options);

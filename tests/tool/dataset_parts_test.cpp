@@ -227,4 +227,13 @@ TEST_F(DatasetOfParts, splits_single_pings_by_their_draws) {
   std::vector<std::string> names;
   for (const auto& part : images[0]["parts"]) names.push_back(part["part"]);
   EXPECT_EQ(names, (std::vector<std::string>{"plane", "ball-1", "ball-2", "ball-3", "pot-1", "pot-2", "pot-3"}));
+  // Without a file of the scene it is known by its own text alone, which is said once.
+  std::filesystem::rename(path("pot.ply"), path("elsewhere.ply"));
+  const nlohmann::json less = json_of("dataset " + runs + "-o less --least-pixels 4 -q");
+  EXPECT_THAT(less["notes"].dump(), testing::HasSubstr("the scene is known by scene.toml alone"));
+  EXPECT_EQ(std::ranges::count_if(less["notes"],
+                                  [](const nlohmann::json& note) {
+                                    return note.get<std::string>().find("is known by") != std::string::npos;
+                                  }),
+            1);
 }

@@ -140,6 +140,18 @@ TEST_F(EnvironmentRun, noise_is_drawn_anew_for_each_time_and_number_of_a_ping) {
   EXPECT_EQ(at_7.number, 7500);
 }
 
+// Two pings within a millisecond have one number, and with it one noise.
+TEST_F(EnvironmentRun, time_between_two_milliseconds_has_a_note) {
+  const auto notes = [&](const std::string& options) {
+    succeed("ping harbour.ply --force -o timed" + options + few_beams + level_pose);
+    return read_json("timed/manifest.json")["notes"].dump();
+  };
+  const auto shared = testing::HasSubstr("the ping has number 7500, its time in whole milliseconds");
+  EXPECT_THAT(notes(" --time 7.5004"), shared);
+  EXPECT_THAT(notes(" --time 7.5"), testing::Not(shared));
+  EXPECT_THAT(notes(" --time 7.5004 --ping 7500"), testing::Not(shared));
+}
+
 TEST_F(EnvironmentRun, trajectory_is_the_pose_and_motion_between_its_entries) {
   write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-3,0,10,0\n10,20,0,-3,40,10,0\n");
   write("straight.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,-2,0,-3,0,10,0\n2,2,0,-3,0,10,0\n");

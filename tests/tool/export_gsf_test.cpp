@@ -191,8 +191,15 @@ TEST_F(ExportGsf, single_pings_have_the_course_and_speed_of_their_trajectory) {
   EXPECT_NEAR(s.speed_knots, Ship::turn_rate * Ship::radius / 0.514444, 0.01);
   // The file is looked up beside the run, too; another trajectory by now is not taken for that of the ping.
   write("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,-1,0,0,0\n3,3,0,-1,0,0,0\n");
-  succeed("export on-way" + as_gsf + "other.gsf");
+  const ToolResult other = run("export on-way --to gsf --anchor -33.9,-71.5,40 -o other.gsf");
+  EXPECT_EQ(other.exit_code, 0);
+  EXPECT_THAT(other.err,
+              HasSubstr("way.csv: is not the trajectory of the pings of on-way/run.toml (it is elsewhere at 1.4 "
+                        "s); their way is that through their own places"));
   EXPECT_EQ(content("other.gsf").swaths.at(0).speed_knots, 0);
+  write("way.csv", "no table");
+  EXPECT_THAT(run("export on-way --to gsf --anchor -33.9,-71.5,40 -o text.gsf").err,
+              HasSubstr("way.csv: is not the trajectory of the pings"));
   succeed(ping + "--pose=0,0,-1.7,0,89,0 --velocity=0,-2,0.1 -o fast");
   succeed("export fast" + as_gsf + "fast.gsf");
   EXPECT_NEAR(content("fast.gsf").swaths.at(0).speed_knots, 2 / 0.514444, 0.0051);

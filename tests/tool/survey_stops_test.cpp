@@ -72,6 +72,21 @@ TEST_F(SurveyStops, interrupted_blocks_are_read_and_not_pinged_again) {
   EXPECT_EQ(names_in("run/fls/blocks"), names_in("whole/fls/blocks"));
 }
 
+TEST_F(SurveyStops, what_is_damaged_is_named_and_made_again) {
+  const auto whole = expected();
+  survey("run");
+  const std::string block = path("run/fls/blocks/000001");
+  fs::remove(block + ".done");
+  fs::rename(block + ".h5", block + ".partial.h5");
+  fs::rename(block + ".ply", block + ".partial.ply");
+  fs::resize_file(block + ".partial.h5", 3000);
+  const ToolResult again = run("survey m.toml -o run");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, testing::AllOf(testing::HasSubstr("000001.partial.h5"),
+                                        testing::HasSubstr(": the pings in it are made again")));
+  EXPECT_EQ(merged("run"), whole);
+}
+
 // A limit of the size of files refuses to write as a full disk does.
 TEST_F(SurveyStops, on_a_full_disk_it_ends_and_goes_on_when_there_is_space) {
   const auto whole = expected();

@@ -21,11 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The digest of a scene, or of its file alone where files that it names are gone.
-std::string digest_of_what_is_there(const std::string& scene) {
+/// The digest of a scene, or of its file alone where files that it names are gone, with a note.
+std::string digest_of_what_is_there(const std::string& scene, std::string& note) {
   try {
     return digest_of_scene(scene);
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    note = std::string(error.what()) + ": the scene is known by " + scene +
+           " alone, so scenes that differ in other files count as one when pings are split";
     return sha256_of_file(scene);
   }
 }
@@ -35,8 +37,8 @@ void find_scene(DatasetSource& source, const std::string& settings_folder) {
   source.scene = scene_of_run(settings_folder).path;
   std::error_code error;
   const bool there = !source.scene.empty() && fs::is_regular_file(source.scene, error);
-  source.scene_digest =
-      there ? digest_of_what_is_there(source.scene) : sha256_of(source.scene.empty() ? source.run : source.scene);
+  source.scene_digest = there ? digest_of_what_is_there(source.scene, source.note)
+                              : sha256_of(source.scene.empty() ? source.run : source.scene);
   if (there) source.instances = instances_of_scene(source.scene);
 }
 

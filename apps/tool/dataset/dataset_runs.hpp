@@ -29,6 +29,7 @@ struct DatasetSource {
   std::string draw_key;                        ///< of a run that is no survey: equal for pings of one draw of one scene
   std::optional<SurveyRandomisation> randomisation{};  ///< of a mission
   SceneInstances instances{};                          ///< if the scene's cloud has a field `instance`
+  std::string note{};                                  ///< on files of the scene that are gone; empty: none
 };
 
 /// The heads of runs, surveys and cubes. Throws Error(file) for one that is not there, Error(content) for a survey that

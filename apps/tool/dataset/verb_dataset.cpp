@@ -205,7 +205,9 @@ void dataset(const DatasetOptions& o) {
   progress.step("listing");
   writer.finish();
   directory.commit();
-  const std::vector<std::string> notes = writer.tally().notes(o.split_by, o.split, shares);
+  std::vector<std::string> notes = writer.tally().notes(o.split_by, o.split, shares);
+  for (const DatasetSource& source : sources)
+    if (!source.note.empty() && std::ranges::find(notes, source.note) == notes.end()) notes.push_back(source.note);
   for (const std::string& note : notes) progress.note(note);
   nlohmann::ordered_json splits;
   std::string counts;

@@ -104,6 +104,7 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   Progress progress(common, 2);
   progress.step("reading " + o.run);
   PlacedRun run = placed_run(o);
+  for (const std::string& note : run.pings.notes) progress.note(note);
   run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
   if (!o.processing_profile.empty()) run.processing_profile = load_sound_speed_profile(o.processing_profile);
   if (o.to == "png") {

@@ -171,9 +171,9 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProf
 }  // namespace
 
 SoundingCount gsf_product(const PlacedRun& run) {
-  const std::optional<Trajectory> way = way_of(run.pings);
-  std::unique_ptr<GsfFile> file;
   std::vector<std::string> notes;
+  const std::optional<Trajectory> way = way_of(run.pings, notes);
+  std::unique_ptr<GsfFile> file;
   double before = 0, speed = 0;  // time of the last ping, and at the surface in its profile
   SoundingCount count = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
     GsfPing swath = gsf_ping(run, way, cube, ping, found);

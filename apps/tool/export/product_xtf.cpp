@@ -204,9 +204,9 @@ SoundingCount xtf_product(const PlacedRun& run) {
   std::vector<HeadPings> heads;
   for (const std::size_t h : order_of(unordered)) heads.push_back(unordered[h]);
   const double full = run.options.linear ? 1 : largest_amplitude(heads);
-  const std::optional<Trajectory> way = way_of(run.pings);
-  XtfFile file(run.options.output, header_of(run, heads, full));
   SoundingCount count;
+  const std::optional<Trajectory> way = way_of(run.pings, count.notes);
+  XtfFile file(run.options.output, header_of(run, heads, full));
   double before = 0;
   for (const std::vector<std::ptrdiff_t>& together : shared_pings(heads)) {
     XtfPing ping;

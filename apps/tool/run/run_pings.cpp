@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/message.hpp"
+#include "core/text.hpp"
 #include "core/units.hpp"
 #include "files/path_status.hpp"
 #include "run/parse_values.hpp"
@@ -60,21 +61,27 @@ Pose mounting_of_ping(const std::string& settings) {
   return mount.empty() ? Pose::Identity() : parse_pose(mount, "z-up", "mount");
 }
 
-/// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their places.
+/// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their places; adds a
+/// note if it is there and does not.
 std::optional<Trajectory> named_way(const std::string& settings, const Pose& vehicle_from_head,
-                                    const Trajectory& places) {
+                                    const Trajectory& places, std::vector<std::string>& notes) {
   constexpr double same_place = 1e-3;  // [m]
   const std::string path = path_named_in(settings, ping_setting(settings, "trajectory"));
   if (!is_file(path)) return {};
+  const auto refused = [&](const std::string& why) {
+    notes.push_back(path + ": is not the trajectory of the pings of " + settings + " (" + why +
+                    "); their way is that through their own places");
+    return std::optional<Trajectory>();
+  };
   try {
     const Trajectory way = load_trajectory(path);
     for (std::size_t i = 0; i < places.time.size(); ++i)
       if (!((pose_at(way, places.time[i]) * vehicle_from_head.translation() - places.pose[i].translation()).norm() <
             same_place))
-        return {};
+        return refused(printed("it is elsewhere at %g s", places.time[i]));
     return way;
-  } catch (const Error&) {
-    return {};  // another file by now
+  } catch (const Error& error) {
+    return refused(error.what());
   }
 }
 
@@ -124,8 +131,10 @@ RunPings pings_of_directory(const std::string& run) {
   pings.system = recorded_system(survey.string());
   try {
     add_mission((survey / "mission.toml").string(), folder.filename().string(), pings);
-  } catch (const Error&) {
-    // A merged head stands alone: where files of its mission are gone, ship and place are unknown.
+  } catch (const Error& error) {
+    // A merged head stands alone.
+    pings.notes.push_back(std::string(error.what()) + ": the mission of " + run +
+                          " cannot be read, so ship, legs and place on the globe are unknown");
   }
   return pings;
 }
@@ -184,7 +193,7 @@ std::vector<Eigen::Vector3d> ends_of(const RunPings& run) {
   return ends;
 }
 
-std::optional<Trajectory> way_of(const RunPings& run) {
+std::optional<Trajectory> way_of(const RunPings& run, std::vector<std::string>& notes) {
   if (run.trajectory) return run.trajectory;
   Trajectory way;
   for (const std::string& path : run.cubes)
@@ -195,7 +204,7 @@ std::optional<Trajectory> way_of(const RunPings& run) {
     }
   if (!run.settings.empty()) {
     const Pose vehicle_from_head = run.vehicle_from_head.value_or(Pose::Identity());
-    if (auto named = named_way(run.settings, vehicle_from_head, way)) return named;
+    if (auto named = named_way(run.settings, vehicle_from_head, way, notes)) return named;
     if (auto straight = straight_way(run.settings, way)) return straight;
   }
   if (way.time.size() < 2) return {};

@@ -29,6 +29,7 @@ struct RunPings {
   MissionWater water{};                        ///< of its mission
   std::optional<double> position_deviation{};  ///< of what its mission believes of each coordinate [m]; 0: exact
   std::vector<MissionLeg> legs{};              ///< of its mission
+  std::vector<std::string> notes{};            ///< on what is unknown because files are gone
 };
 
 /// The cube of a run directory, or the path itself if it is a file. Throws Error(file) or Error(content).
@@ -64,8 +65,8 @@ std::vector<Eigen::Vector3d> ends_of(const RunPings& run);
 
 /// The way of the vehicle: that of the mission; else of the trajectory or velocity that the run.toml of a ping names,
 /// if it leads through all pings; else through the places of the pings, head by head as they are stored, in the order
-/// of time. Absent for a single ping at rest.
-std::optional<Trajectory> way_of(const RunPings& run);
+/// of time. Absent for a single ping at rest. Adds to `notes` why a trajectory that is named is not taken.
+std::optional<Trajectory> way_of(const RunPings& run, std::vector<std::string>& notes);
 
 /// Options to find the bottom in a ping of a cube: with the water at the head, and its depth in the profile.
 BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environment& environment, int per_beam);

@@ -26,15 +26,19 @@ void append(Soundings& to, const Soundings& from, std::uint32_t number) {
     if (from.ping[i] == number) append_row(to, from, i);
 }
 
-/// Drops the layers if not all pings have the same ones: what a ping needs is decided for each.
-void drop_unlike_layers(std::vector<Ping>& pings) {
+/// Drops the layers if not all pings have the same ones: what a ping needs is decided for each. Returns a note then.
+std::vector<PingNote> drop_unlike_layers(std::vector<Ping>& pings) {
   const auto same = [](const Layer& a, const Layer& b) { return a.name == b.name; };
   const auto alike = [&](const Ping& ping) {
     const auto &first = pings.front().layers, &layers = ping.layers;
     return std::equal(layers.begin(), layers.end(), first.begin(), first.end(), same);
   };
-  if (!std::all_of(pings.begin(), pings.end(), alike))
-    for (Ping& ping : pings) ping.layers.clear();
+  if (std::all_of(pings.begin(), pings.end(), alike)) return {};
+  for (Ping& ping : pings) ping.layers.clear();
+  return {{"layers left out",
+           "the plan gives pings of one block different kinds of echoes, and a cube has the same layers for all of its "
+           "pings, so theirs are left out; decide the kinds for all pings by with and without in [ping]",
+           pings.size(), pings.front().number}};
 }
 
 }  // namespace
@@ -65,7 +69,8 @@ BlockOutcomes SurveyBlocks::resume(const SurveyBlock& block) const {
       // Counts of the whole file: with its first ping they go back into the block.
       const auto first = std::find_if(outcomes.begin(), outcomes.end(), [](const auto& o) { return o.has_value(); });
       if (first != outcomes.end()) (*first)->notes = std::move(cube.notes);
-    } catch (const std::exception&) {  // cut short or damaged: made again
+    } catch (const std::exception& error) {
+      observer_.note(std::string(error.what()) + ": the pings in it are made again");
       outcomes.assign(outcomes.size(), std::nullopt);
     }
   return outcomes;
@@ -98,7 +103,10 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const
   if (!whole && setup_.file.coverage) return;  // of some pings alone it cannot go on
   if (!pings.empty()) {
     if (setup_.file.coverage) save_coverage(files.coverage, covered);
-    drop_unlike_layers(pings);
+    const std::vector<PingNote> unlike = drop_unlike_layers(pings);
+    for (const PingNote& note : unlike)
+      observer_.note("head " + setup_.file.mission.heads[block.head].name + ": " + sentence(note));
+    gather(notes, unlike);
     Cube cube = cube_of(std::move(pings), head.options.common, head.options.run, head.setup.head);
     cube.head = setup_.file.mission.heads[block.head].name;
     cube.notes = std::move(notes);

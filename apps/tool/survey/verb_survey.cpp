@@ -306,7 +306,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
   if (!is_survey_run(o.output)) load();
   open_survey_run(o.output, s.run);
   write_survey_settings(s, o.output);
-  const SurveyBlocks store(s, o.output);
+  const SurveyBlocks store(s, o.output, progress);
   const Todo todo = blocks_of(s, store, shard);
   const std::string name = shard.of == 1 ? "status.json" : fmt::format("status-{}-of-{}.json", shard.index, shard.of);
   SurveyStatus status(progress, (std::filesystem::path(o.output) / name).string(), o.shard, todo.pings, todo.done);
