@@ -8,7 +8,7 @@
 namespace insonify {
 namespace {
 
-// In font sizes: length of a tick, distance from the frame to its label and from the label to the title.
+// Lengths in font sizes: of a tick, from the frame to its label, and from the label to the title.
 constexpr double picture_tick = 0.4, to_label = 0.6, to_title = 0.25;
 
 double line_height(int font_size) { return text_size("0", font_size).height; }
@@ -19,7 +19,7 @@ double widest_label(const AxisTicks& ticks, int font_size) {
   return widest;
 }
 
-/// mantissa x 10^decade: "0.002", "50", "10000", and beyond that "2e-7".
+/// Formats mantissa x 10^decade: "0.002", "50", "10000", and beyond that "2e-7".
 std::string power_text(int mantissa, int decade) {
   if (decade > 5 || decade < -3) return std::to_string(mantissa) + "e" + std::to_string(decade);
   std::string digits = std::to_string(mantissa);

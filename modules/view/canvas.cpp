@@ -26,7 +26,7 @@ namespace {
 constexpr int samples_per_pixel = 4;
 constexpr double plate_height = -1, cells_height = 0, lines_height = 1, eye_height = 10;  // above the picture plane
 
-// An actor in its own colours, without lighting.
+// Returns an actor in its own colours, without lighting.
 vtkNew<vtkActor> flat_actor(vtkPolyData* shape) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(shape);
@@ -37,7 +37,7 @@ vtkNew<vtkActor> flat_actor(vtkPolyData* shape) {
   return actor;
 }
 
-// Quads from successive groups of four corners, relative to the origin.
+// Returns quads from successive groups of four corners, relative to the origin.
 vtkNew<vtkPolyData> quads(const std::vector<Point2>& corners, Point2 origin, double height) {
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(static_cast<vtkIdType>(corners.size()));
@@ -53,7 +53,7 @@ vtkNew<vtkPolyData> quads(const std::vector<Point2>& corners, Point2 origin, dou
   return shape;
 }
 
-// Levels as colours, one pixel per cell, bins across. VTK rotates an image of one column, so there are at least two.
+// Returns levels as colours, one pixel per cell, bins across, in two columns or more: VTK rotates a single one.
 vtkNew<vtkImageData> coloured(const Grid<float>& level_db, const ColourScale& scale) {
   const Eigen::Index columns = std::max<Eigen::Index>(2, level_db.cols());
   vtkNew<vtkImageData> image;
@@ -71,7 +71,7 @@ vtkNew<vtkImageData> coloured(const Grid<float>& level_db, const ColourScale& sc
   return image;
 }
 
-// Vector across a path at point i whose length is half the line width; corners are mitred.
+// Returns the vector across a path at point i with half the line width; corners are mitred.
 Point2 half_width_at(const Path& path, std::size_t i, double half_width) {
   const bool closed = path.front().x == path.back().x && path.front().y == path.back().y;
   const std::size_t last = path.size() - 1;
@@ -234,7 +234,7 @@ double Canvas::add_text_from(Point2 left, const std::string& text, int font_size
 }
 
 void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, double line_width) {
-  // The 256 colours form a patch of one beam whose range runs along the bar.
+  // Draw the 256 colours as a patch of one beam whose range runs along the bar.
   vtkNew<vtkImageData> colours;
   colours->SetDimensions(256, 1, 1);
   colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -244,7 +244,7 @@ void Canvas::add_colour_bar(const ColourBar& bar, const ColourScale& scale, doub
   std::vector<Path> lines = bar.ticks;
   lines.push_back(corners);
   corners.pop_back();
-  const double right = bar.lying ? 1 : 0, top = 1 - right;  // the colours at these corners
+  const double right = bar.lying ? 1 : 0, top = 1 - right;  // colours at these corners
   add_textured_strip(corners, {{0, 0.5}, {right, 0.5}, {1, 0.5}, {top, 0.5}}, colours);
   add_lines(lines, line_width, theme_.line, 1);
   for (const PlacedText& text : bar.texts) add_text(text);

@@ -32,10 +32,10 @@ constexpr double grid_opacity = 0.3;
 /// Red, green and blue of a colour, each in [0, 1].
 inline Colour shares_of(const Rgb& rgb) { return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0}; }
 
-/// A closed ring with this number of corners.
+/// Returns a closed ring with this number of corners.
 Path ring(Point2 centre, double radius, int corners);
 
-/// Maps bearing [rad] and range [m] to a place in the picture.
+/// A map from bearing [rad] and range [m] to a position in the picture.
 using PlaneProjection = std::function<Point2(double bearing, double range)>;
 
 /// An off-screen picture. Coordinates are pixels from its lower left corner, or from an origin within it, so that
@@ -49,7 +49,7 @@ class Canvas {
   /// The drawing follows when that camera moves. png() does not apply to such a canvas.
   Canvas(vtkRenderer* renderer, const PictureOptions& options, const char* who);
 
-  /// Sets the place in the picture of (0, 0) for everything added later; whole pixels.
+  /// Sets the position in the picture of (0, 0) for everything added later; whole pixels.
   void set_origin(Point2 origin);
   Point2 origin() const { return origin_; }
 
@@ -57,7 +57,7 @@ class Canvas {
   void add_cells(const CellPatch& patch, const std::vector<double>& beam_edges, const ColourScale& scale,
                  const PlaneProjection& projection, double largest_step);
   void add_lines(const std::vector<Path>& paths, double width, const Colour& colour, double opacity);
-  /// A filled rectangle behind everything else, in any order of drawing.
+  /// Draws a filled rectangle behind everything else, in any order of drawing.
   void add_plate(const Box& box, const Colour& colour, double opacity);
   void add_text(const PlacedText& text);
   /// Draws a text from a position at the middle of its height, fitted into a width [pixels]; returns its end.
@@ -67,7 +67,7 @@ class Canvas {
   vtkRenderer* renderer() { return renderer_; }
   const char* who() const { return who_; }
   const Theme& colours() const { return theme_; }
-  /// All texts added so far, in picture coordinates.
+  /// Returns all texts added so far, in picture coordinates.
   const std::vector<PlacedText>& texts() const { return texts_; }
 
   /// Renders, and returns the bytes of a PNG. Throws Error(runtime) if VTK reported an error.
@@ -95,11 +95,11 @@ void save_picture(const PictureOptions& options, const char* who, const std::str
 /// readable_text).
 void set_font(vtkTextProperty* property, int font_size);
 
-/// The actor of a text in the colours of a theme, anchored at its first letter, which stands on whole pixels to keep
-/// letters sharp; positions are in `coordinates`, VTK_DISPLAY, VTK_VIEWPORT or VTK_WORLD.
+/// Returns the actor of a text in the colours of a theme. It is anchored at its first letter, which stands on whole
+/// pixels to keep letters sharp; positions are in `coordinates`, VTK_DISPLAY, VTK_VIEWPORT or VTK_WORLD.
 vtkSmartPointer<vtkTextActor> text_actor(const PlacedText& text, const Theme& theme, int coordinates);
 
-/// The text, with µ written as u if only VTK's built-in font is available.
+/// Returns the text, with µ written as u if only VTK's built-in font is available.
 std::string readable_text(const std::string& text);
 
 }  // namespace insonify

@@ -35,9 +35,8 @@ std::vector<ColourStop> viridis_stops() {
 }
 
 // Copper and jet as MATLAB defines them. Bronze in CIELAB: lightness 0, 20, 84, 98 and hue -10, 15, 95, 102 degrees at
-// 0,
-// 0.3, 0.8 and 1, linear in between, so that most of its contrast lies where seabeds and their speckle are; amber is the screen of an analogue sonar: black, brown, orange, pale
-// yellow.
+// 0, 0.3, 0.8 and 1, linear in between, so that most of its contrast lies where sea beds and their speckle are. Amber
+// is the screen of an analogue sonar: black, brown, orange, pale yellow.
 std::vector<NamedMap> colour_maps() {
   return {{"viridis", viridis_stops()},
           {"bronze",
@@ -81,7 +80,7 @@ ColourTable expand(const std::vector<ColourStop>& stops) {
   return table;
 }
 
-// Values of the labels: round levels, at least `spacing` pixels apart.
+// Ticks of a level axis: round levels, at least `spacing` pixels apart.
 struct LevelTicks {
   double step;
   std::vector<double> at_db;
@@ -96,7 +95,7 @@ double along(const ColourScale& scale, double at_db, double from, double to) {
   return from + (to - from) * (at_db - scale.min_db) / (scale.max_db - scale.min_db);
 }
 
-/// Numbers of levels in steps of 5 dB, up to and with their upper end, and of those at the very lowest.
+/// Numbers of levels by steps of 5 dB, upper end included, and of those at the very lowest.
 struct LevelCounts {
   static constexpr int steps = 4096;
   std::vector<std::size_t> count = std::vector<std::size_t>(2 * steps + 1, 0);
@@ -200,7 +199,7 @@ ColourBar upright_colour_bar(const ColourScale& scale, const std::string& unit, 
   for (const double db : ticks.at_db)
     label_width = std::max(label_width, text_size(number_text(db, ticks.step), font_size).width);
 
-  // From the right: title, labels, ticks, bar.
+  // Place from the right: title, labels, ticks, bar.
   const double title_height = title.text.empty() ? 0 : text_size(title.text, title.font_size).height;
   const double labels_right = right - title_height - (title_height > 0 ? 0.4 * font_size : 0);
   const double bar_right = labels_right - label_width - 1.6 * tick;
@@ -223,7 +222,7 @@ ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, in
   const LevelTicks ticks = level_ticks(scale, right - left, 4.5 * font_size);
   const FittedText title = fit_text(unit, font_size, right - left);
 
-  // From below: title, labels, ticks, bar.
+  // Place from below: title, labels, ticks, bar.
   const double labels_bottom = bottom + (title.text.empty() ? 0 : 1.15 * line);
   const double bar_bottom = labels_bottom + line + 1.4 * tick;
   ColourBar placed;

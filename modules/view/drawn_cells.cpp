@@ -15,10 +15,10 @@ namespace {
 
 constexpr int least_pixels = 240,
               most_pixels = 8192;  // smaller pictures have no room for labels; larger ones exceed GL's frame buffers
-constexpr std::size_t max_rows = 8192;  // of a patch: GL guarantees no larger textures
+constexpr std::size_t max_rows = 8192;  // largest patch: GL guarantees no larger textures
 constexpr double same_bearing = 1e-9;   // [rad]
 
-// Mean power of a block of levels; NaN counts as zero power.
+// Returns the mean power of a block of levels; NaN counts as zero power.
 template <typename Block>
 float mean_power_db(const Block& level_db) {
   double power = 0;
@@ -51,7 +51,7 @@ Grid<float> combine(const Grid<float>& level_db, Eigen::Index first_column, Eige
   return combined;
 }
 
-// Number of neighbours to combine so that a group is at least half a pixel long.
+// Returns the number of neighbours to combine so that a group is at least half a pixel long.
 Eigen::Index bins_per_group(double bin_pixels) {
   return std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::ceil(0.5 / bin_pixels - 1e-9)));
 }
@@ -83,7 +83,7 @@ OrderedBearings order_bearings(const BeamFan& fan) {
   std::stable_sort(ordered.beam.begin(), ordered.beam.end(),
                    [&](std::size_t a, std::size_t b) { return bearing[a] < bearing[b]; });
 
-  // Of equal gaps take the one after the last beam, across the stern, which rotates nothing.
+  // Of equal gaps cut the one after the last beam, across the stern, which rotates nothing.
   const auto& order = ordered.beam;
   std::size_t first = 0;
   ordered.gap = bearing[order.front()] + 2 * pi - bearing[order.back()];
@@ -104,7 +104,7 @@ OrderedBearings order_bearings(const BeamFan& fan) {
   return ordered;
 }
 
-// Edges between distinct bearings; a full circle closes without overlap.
+// Returns the edges between distinct bearings; a full circle closes without overlap.
 std::vector<double> cell_edges(const std::vector<double>& bearing, double gap, double lone_width) {
   if (bearing.size() == 1) return {bearing[0] - lone_width / 2, bearing[0] + lone_width / 2};
   const std::size_t n = bearing.size();
@@ -115,8 +115,8 @@ std::vector<double> cell_edges(const std::vector<double>& bearing, double gap, d
   return edges;
 }
 
-// Largest difference of bearings within one cell. Beams of a regular grid of rows have equal bearings; with staggered
-// rows or an unordered table, each cell spans half a beam width.
+// Returns the largest difference of bearings within one cell. Beams of a regular grid of rows have equal bearings; with
+// staggered rows or an unordered table, each cell spans half a beam width.
 double cell_reach(const BeamFan& fan, const std::vector<double>& ascending_bearing) {
   std::size_t distinct = 1;
   for (std::size_t i = 1; i < ascending_bearing.size(); ++i)
@@ -149,7 +149,7 @@ BeamCells order_beams(const LevelImage& image) {
   const OrderedBearings ordered = order_bearings(image.fan);
   const double reach = cell_reach(image.fan, ordered.bearing);
   std::vector<double> low, high;
-  std::vector<std::vector<std::size_t>> beams;  // of each cell
+  std::vector<std::vector<std::size_t>> beams;  // by cell
   for (std::size_t i = 0; i < ordered.beam.size(); ++i) {
     if (low.empty() || ordered.bearing[i] - low.back() > reach) {
       low.push_back(ordered.bearing[i]);
@@ -187,9 +187,9 @@ std::string unit_text(const std::string& unit, const BeamCells& cells) {
 std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate, double pixels_per_metre) {
   const auto beams = static_cast<std::size_t>(cells.level_db.rows());
   const Eigen::Index bins = bins_per_group(gate.bin_size * pixels_per_metre);
-  const double width_per_metre = cells.mean_width() * pixels_per_metre;  // of a beam, in pixels
+  const double width_per_metre = cells.mean_width() * pixels_per_metre;  // mean width of a beam [pixels]
 
-  // From the outer arc inwards, each ring extends to the range where its groups of beams become too narrow.
+  // Go inwards from the outer arc: each ring extends to the range where its groups of beams become too narrow.
   std::vector<CellPatch> patches;
   std::size_t group = 1;
   while (beams / group > max_rows) group *= 2;

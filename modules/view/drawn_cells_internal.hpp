@@ -33,7 +33,7 @@ struct BeamCells {
 };
 BeamCells order_beams(const LevelImage& image);
 
-/// The unit for the colour bar, with a note if cells show the strongest of several elevations.
+/// Returns the unit for the colour bar, with a note if cells show the strongest of several elevations.
 std::string unit_text(const std::string& unit, const BeamCells& cells);
 
 /// A rectangle of cells in bearing and range, averaged in power until none is much smaller than a pixel.
@@ -41,15 +41,15 @@ struct CellPatch {
   Grid<float> level_db;           ///< groups of beams x groups of bins
   std::size_t beams_per_row = 1;  ///< row g holds beams [g, g+1) * beams_per_row
   double min_range = 0;           ///< [m]
-  double max_range = 0;           ///< [m], of the last bin
+  double max_range = 0;           ///< end of the last bin [m]
   double columns = 0;             ///< max_range as a column index; below level_db.cols() if the last group is partial
 };
 
-/// The cells of a fan drawn at pixels_per_metre: bins are combined where there are more than two per pixel of radius,
-/// and beams near the apex where they are narrower than half a pixel. Together the patches cover the whole fan.
+/// Returns the cells of a fan drawn at pixels_per_metre. Bins are combined where there are more than two per pixel of
+/// radius, and beams near the apex where they are narrower than half a pixel. Together the patches cover the whole fan.
 std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate, double pixels_per_metre);
 
-/// The same for a rectangle of width x height pixels.
+/// As above, for a rectangle of width x height pixels.
 CellPatch rect_patch(const BeamCells& cells, const RangeGate& gate, double width, double height);
 
 }  // namespace insonify

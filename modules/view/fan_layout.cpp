@@ -26,7 +26,7 @@ void include(Box& box, const Box& more) {
          std::max(box.top, more.top)};
 }
 
-// Bounding box of the sector, for a scale of 1.
+// Returns the bounding box of the sector, for a scale of 1.
 Box sector_box(const FanOutline& fan) {
   Box box{1e300, -1e300, 1e300, -1e300};
   const auto add = [&](double bearing) {
@@ -76,7 +76,7 @@ bool add_if_free(std::vector<PlacedText>& texts, const PlacedText& label, double
   return true;
 }
 
-// Bearing labels outside the outer arc.
+// Adds bearing labels outside the outer arc.
 void add_bearings(Trial& trial, const FanOutline& fan, double scale, int font) {
   const double arc = (fan.high - fan.low) * fan.max_range * scale;
   const double label_width = text_size("+180°", font).width;
@@ -90,7 +90,7 @@ void add_bearings(Trial& trial, const FanOutline& fan, double scale, int font) {
   }
 }
 
-// Range labels outside the starboard edge, or on the image if there is no room behind the fan.
+// Adds range labels outside the starboard edge, or on the image if there is no room behind the fan.
 void add_ranges(Trial& trial, const FanOutline& fan, double scale, int font) {
   const bool on_picture = 2 * pi - (fan.high - fan.low) < narrow_gap;
   const double spoke = trial.spokes.size() > 1 ? trial.spokes[1] - trial.spokes[0] : radians(30);
@@ -130,8 +130,8 @@ void turn_over(Trial& trial) {
   trial.extent = {trial.extent.left, trial.extent.right, -trial.extent.top, -trial.extent.bottom};
 }
 
-// Largest scale at which the fan and its labels fit into the room, by bisection. The set of labels depends on the
-// scale, so the result is a scale that was tried and fits.
+// Returns the largest scale at which the fan and its labels fit into the room, by bisection. The set of labels depends
+// on the scale, so the result is a scale that was tried and fits.
 double fitting_scale(const FanOutline& fan, const Box& room, int font) {
   const Box sector = sector_box(fan);
   double fits = 0, too_large = std::min(room.width() / sector.width(), room.height() / sector.height());

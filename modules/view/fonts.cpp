@@ -22,7 +22,7 @@ constexpr const char* font_files[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSa
                                       "/usr/share/fonts/truetype/freefont/FreeSans.ttf",
                                       "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"};
 
-// First font file that exists, or "".
+// Returns the first font file that exists, or "".
 std::string font_file() {
   std::error_code ignored;
   for (const char* file : font_files)

@@ -22,7 +22,7 @@
 namespace insonify {
 namespace {
 
-// PNG of pixels of so many channels, rows from the top, each as `put` fills it: VTK's origin is the lower left corner.
+// Returns a PNG of so many channels, rows from the top, filled by `put`. VTK's origin is the lower left corner.
 template <typename Value, typename Put>
 std::string png_of_pixels(Eigen::Index rows, Eigen::Index columns, int channels, const char* who, const Put& put) {
   if (rows * columns == 0)
@@ -54,10 +54,10 @@ Grid<std::uint16_t> values_of(vtkImageData* image) {
       .template cast<std::uint16_t>();
 }
 
-/// The head of a PNG (Portable Network Graphics 1.2, 11.2.2), of a file that ends as one does: VTK's reader draws the
-/// rest of a truncated file as black.
+/// The head of a PNG (Portable Network Graphics 1.2, 11.2.2). The end of the file is checked, too: VTK's reader draws
+/// the rest of a truncated file as black.
 struct PngHead {
-  std::size_t bytes = 0;  ///< of the file
+  std::size_t bytes = 0;  ///< size of the file
   double width = 0, height = 0;
   int bits = 0, channels = 1;
 };
@@ -74,7 +74,7 @@ PngHead png_head(const std::string& path) {
   const auto number = [&](std::size_t at) {
     return ((byte(at) * 256.0 + byte(at + 1)) * 256 + byte(at + 2)) * 256 + byte(at + 3);
   };
-  constexpr std::array channels = {1, 1, 3, 1, 2, 3, 4};  // by the type of its colours
+  constexpr std::array channels = {1, 1, 3, 1, 2, 3, 4};  // by type of colours
   return {bytes.size(), number(16), number(20), byte(24), byte(25) < channels.size() ? channels[byte(25)] : 4};
 }
 

@@ -8,8 +8,8 @@
 
 namespace insonify {
 
-/// Red, green and blue of a class in label pictures: 0 (nothing) black, 1 (shadow) dark blue, then materials in the
-/// colours of pictures of scenes, which repeat after ten.
+/// Returns red, green and blue of a class in label pictures: 0 (nothing) black, 1 (shadow) dark blue, then materials in
+/// the colours of pictures of scenes, which repeat after ten.
 std::array<std::uint8_t, 3> label_colour(std::uint8_t category);
 
 /// Returns classes, rows from the top, as the bytes of a PNG in their colours, for the file `path`. Throws

@@ -22,7 +22,7 @@
 namespace insonify {
 namespace {
 
-// Places along an axis from 0 at `low` to 1 at `high`, which single precision holds wherever the axis begins.
+// Returns positions along an axis from 0 at `low` to 1 at `high`. Single precision holds them for any axis.
 vtkNew<vtkFloatArray> column(const char* name, const std::vector<double>& values, double low, double high) {
   vtkNew<vtkFloatArray> column;
   column->SetName(name);
@@ -98,7 +98,7 @@ void add_chart(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& l
   canvas.renderer()->AddActor(actor);
 }
 
-// In font sizes: length of a legend sample, distance to its name, distance to the next sample.
+// Lengths in font sizes: of a legend sample, to its name, and to the next sample.
 constexpr double sample = 2.0, to_name = 0.5, to_next = 1.6;
 constexpr double legend_row = 1.6;
 
@@ -132,7 +132,7 @@ void add_legend_sample(Canvas& canvas, const ChartLine& line, const Colour& colo
     canvas.add_lines({stroke(0, 1)}, line_width, colour, 1);
 }
 
-// Samples and names in rows, the first centred half a row below `top`; names too long for a row are fitted.
+// Adds samples and names in rows, the first centred half a row below `top`. Names too long for a row are fitted.
 void add_legend(Canvas& canvas, const std::vector<ChartLine>& lines, bool dark, double line_width, int font,
                 const Box& frame, double top) {
   double height = top + 0.5 * legend_row * font;
@@ -148,7 +148,7 @@ void add_legend(Canvas& canvas, const std::vector<ChartLine>& lines, bool dark, 
   }
 }
 
-// Labels beside their points: to the upper right, or where there is room.
+// Adds labels beside their points: to the upper right, or where there is room.
 void add_point_labels(Canvas& canvas, const Axes& axes, const std::vector<ChartLine>& lines, int font) {
   std::vector<Box> taken;
   const double away = 0.7 * font;
@@ -173,7 +173,7 @@ void add_point_labels(Canvas& canvas, const Axes& axes, const std::vector<ChartL
     }
 }
 
-// The frame fills the space left by title and labels.
+// Lets the frame fill the space left by title and labels.
 Axes lay_out_axes(const LineChart& chart, const PictureOptions& options, double title_bottom) {
   const int font = font_size_for(options);
   const double bottom = 0.8 * font + room_below(font), top = title_bottom - font;

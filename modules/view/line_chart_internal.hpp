@@ -15,9 +15,9 @@ enum class AxisScale { linear, logarithmic };
 /// A line of a chart.
 struct ChartLine {
   std::vector<double> x, y;  ///< finite; clipped to the axes
-  std::string name;          ///< in the legend; no legend if no line has a name
+  std::string name;          ///< name in the legend; no legend if no line has a name
   LineStyle style = LineStyle::line;
-  std::vector<std::string> labels{};  ///< small, beside the points; empty, or one per point
+  std::vector<std::string> labels{};  ///< small labels beside the points; empty, or one per point
 };
 
 /// One or more lines over two axes.
@@ -27,7 +27,7 @@ struct LineChart {
   std::string title, x_title, y_title;
   /// Gives at most about `most` ticks of the x axis; round_ticks of low_x and high_x if not set.
   std::function<AxisTicks(double most)> x_ticks;
-  /// Logarithmic: values and ends of the axis are > 0, ticks as decade_ticks.
+  /// Scale of an axis. Logarithmic: values and ends of the axis are > 0, ticks as decade_ticks.
   AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::linear;
 };
 

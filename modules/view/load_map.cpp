@@ -49,7 +49,7 @@ void pass(Stream& stream, SampleField& field) {
 
 HorizontalMap load_map_image(const std::string& path) {
   require_regular_file(path);
-  const DrawingTurn turn;  // taken before the child is made, in which no other thread would give it back
+  const DrawingTurn turn;  // taken before the child is made, where no other thread could give it back
   HorizontalMap map;
   read_in_child(path, limits_of_file(size_of_file(path)), [&](ArraySender& to) {
     const HorizontalMap read = read_map_image(path);

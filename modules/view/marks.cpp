@@ -32,10 +32,10 @@ bool is_free(const Box& box, const MarkRoom& room) {
 /// A name and the end of its leader line.
 struct PlacedName {
   PlacedText text;
-  double distance;  ///< from the ring [font sizes]
+  double distance;  ///< distance from the ring [font sizes]
 };
 
-// Nearest first; at each distance to the right and left, then above and below.
+// Places the name nearest to its ring: at each distance to the right and left, then above and below.
 std::optional<PlacedName> place_name(const Mark& mark, Point2 at, const MarkRoom& room) {
   PlacedText text(mark.text, at, room.font_size);
   text.on_plate = true;
@@ -50,7 +50,7 @@ std::optional<PlacedName> place_name(const Mark& mark, Point2 at, const MarkRoom
   return {};
 }
 
-// From the ring to the nearest point of the name's box.
+// Returns the line from the ring to the nearest point of the name's box.
 Path leader(Point2 from, const Box& box, double radius) {
   const Point2 to{std::clamp(from.x, box.left, box.right), std::clamp(from.y, box.bottom, box.top)};
   const double length = std::max(std::hypot(to.x - from.x, to.y - from.y), 1e-9);
@@ -64,7 +64,7 @@ struct Maximum {
   float level_db = 0;
 };
 
-// Of equal neighbours only the first is a maximum.
+// Returns true for a local maximum. Only the first of equal neighbours is one.
 bool is_maximum(const Grid<float>& level_db, Eigen::Index row, Eigen::Index bin) {
   const float level = level_db(row, bin);
   for (Eigen::Index r = std::max<Eigen::Index>(0, row - 1); r <= std::min(row + 1, level_db.rows() - 1); ++r)
@@ -75,7 +75,7 @@ bool is_maximum(const Grid<float>& level_db, Eigen::Index row, Eigen::Index bin)
   return true;
 }
 
-// Strongest first; of equal ones the first of the image.
+// Returns the local maxima, strongest first; equal ones in the order of the image.
 std::vector<Maximum> local_maxima(const Grid<float>& level_db, double within_db) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const float level : level_db.reshaped<Eigen::RowMajor>())
@@ -116,7 +116,7 @@ std::vector<Mark> marks_within(const std::vector<Mark>& marks, double low, doubl
   std::vector<Mark> within;
   for (Mark mark : marks) {
     if (!(mark.range >= gate.min_range && mark.range <= max_range)) continue;
-    mark.bearing = low + std::remainder(mark.bearing - low - pi, 2 * pi) + pi;  // the first one from `low` on
+    mark.bearing = low + std::remainder(mark.bearing - low - pi, 2 * pi) + pi;  // first turn from `low` on
     if (mark.bearing <= high) within.push_back(mark);
   }
   return within;

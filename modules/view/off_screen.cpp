@@ -57,7 +57,7 @@ class MessageCollector : public vtkOutputWindow {
 };
 vtkStandardNewMacro(MessageCollector);
 
-// Mesa and its compiler take about as much, and do not begin with less.
+// Mesa and its compiler take about as much; drawing does not begin with less.
 constexpr std::size_t memory_of_a_picture = std::size_t{640} << 20;
 
 [[noreturn]] void too_little_memory(const char* who, std::size_t left) {
@@ -70,8 +70,8 @@ std::string drawn_in_child(const char* who, std::size_t left, const std::functio
   constexpr std::size_t most_bytes = std::size_t{32} << 20;
   ErrorKind refused = ErrorKind::runtime;
   std::string refusal, png;
-  // What the drawing itself refuses is sent as a result: every other end of the child is a lack of memory, since the
-  // child may have more than is left.
+  // Send refusals of the drawing as a result. Every other end of the child is a lack of memory, since the child may
+  // have more than is left.
   const auto draw_or_refuse = [&](ArraySender& send) {
     try {
       const std::string drawn = draw();
@@ -212,7 +212,7 @@ std::string png_of_window(vtkRenderWindow* window, const VtkMessages& messages, 
 void save_drawing(const std::string& path, const char* who,
                   const std::function<std::string(const VtkMessages&)>& draw) {
   require_png_name(path);
-  const VtkMessages messages;  // its turn is taken before a child is made, which has no other thread to wait for
+  const VtkMessages messages;  // waits for its turn before a child is made, in which no other thread could give it back
   const auto drawing = [&] { return draw(messages); };
   const std::optional<std::size_t> left = memory_left();
   write_file(path, left ? drawn_in_child(who, *left, drawing) : drawing());

@@ -15,8 +15,8 @@
 
 namespace insonify {
 
-/// The turn of a thread in VTK, with FreeType and EGL: fonts, texts, messages and contexts exist once per process.
-/// Whatever uses one of them has it, by VtkMessages or of its own.
+/// The turn of a thread in VTK, FreeType and EGL: fonts, texts, messages and contexts exist once per process. Code that
+/// uses one of them must hold the turn, through VtkMessages or its own object.
 using DrawingTurn = LibraryTurn<class Vtk>;
 
 /// A VTK render window without a screen: surfaceless EGL (Mesa), which needs neither an X server nor DISPLAY.
@@ -45,7 +45,7 @@ class EglWindow : public vtkGenericOpenGLRenderWindow {
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-/// During its lifetime, collects what VTK would print to stderr, and has the turn to draw.
+/// Collects VTK's error output during its lifetime, and holds the turn to draw.
 class VtkMessages {
  public:
   VtkMessages();
@@ -75,7 +75,7 @@ void require_png_name(const std::string& path);
 void write_png(const std::string& path, std::string_view png);
 
 /// Writes the PNG that `draw` returns, as write_png. Under a limit of address space a child process draws, since Mesa
-/// ends its process where it gets no memory: Error(memory) then.
+/// ends its process when memory is short. Throws Error(memory) in that case.
 void save_drawing(const std::string& path, const char* who, const std::function<std::string(const VtkMessages&)>& draw);
 
 }  // namespace insonify

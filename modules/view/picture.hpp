@@ -19,11 +19,11 @@ struct LevelImage {
   BeamFan fan;
   RangeGate gate;
   Grid<float> level_db;    ///< beams x bins
-  std::string unit;        ///< of the colour bar, e.g. "dB re 1 µPa" or "dB re 1 µPa, range compensated"
-  bool downwards = false;  ///< the head looks down, as for a swath: the fan is drawn with the head at the top
+  std::string unit;        ///< unit of the colour bar, e.g. "dB re 1 µPa" or "dB re 1 µPa, range compensated"
+  bool downwards = false;  ///< true: the head looks down, as for a swath; the fan is drawn with the head at the top
 };
 
-/// Returns whether a head looks down by more than 45 degrees; for a scanning head, at its scan angle zero.
+/// Returns true if a head looks down by more than 45 degrees; for a scanning head, at its scan angle zero.
 inline bool looks_down(const Pose& world_from_head, const std::optional<ScanPlace>& scan) {
   const double turn = scan ? scan->angle : 0;
   return (world_from_head.linear() * Eigen::Vector3d(std::cos(turn), -std::sin(turn), 0)).z() < -0.7072;
@@ -48,10 +48,10 @@ struct PictureOptions {
   double max_db = std::numeric_limits<double>::quiet_NaN();  ///< NaN: 99.9 % quantile of the levels above the
                                                              ///< lowest, rounded up to 5
   double window_db = 45;
-  bool dark = false;          ///< dark background
-  bool trim = false;          ///< show_fan: cuts off the width or height that fan and labels do not need
-  int font_size = 0;          ///< of ordinary text [pixels]; 0: chosen from the picture size
-  std::vector<Mark> marks{};  ///< drawn by show_fan, show_rect and show_panels; those outside the image are omitted
+  bool dark = false;          ///< true: dark background
+  bool trim = false;          ///< true: show_fan cuts off the width or height that fan and labels do not need
+  int font_size = 0;          ///< size of ordinary text [pixels]; 0: chosen from the picture size
+  std::vector<Mark> marks{};  ///< marks in show_fan, show_rect and show_panels; those outside the image are omitted
 };
 
 /// Returns the names accepted as colour_map.

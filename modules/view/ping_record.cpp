@@ -56,7 +56,7 @@ SweepImage sweep_image(const BeamRecord& record, const BeamFan& fan, std::size_t
   azimuth.clear();
   level_db.setConstant(std::ssize(record.pings), bins, static_cast<float>(silence_db));
 
-  // The bearings of this sweep, heard up to the ping; then those that the sweep before heard and this one did not.
+  // Collect the bearings of this sweep up to the ping, then those that only the sweep before has.
   const auto beam_at = [&](double angle) {
     return std::find_if(azimuth.begin(), azimuth.end(),
                         [&](double known) { return std::abs(std::remainder(known - angle, 2 * pi)) < same_bearing; }) -

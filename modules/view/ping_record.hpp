@@ -36,9 +36,9 @@ PingHistory history_of(const BeamRecord& record);
 /// without samples are silent.
 struct SweepImage {
   LevelImage image;
-  std::vector<std::size_t> ping;  ///< by beam of the image: place in the record of the ping that heard it, or will
+  std::vector<std::size_t> ping;  ///< record index of the ping that last sampled each beam, or will
 };
-/// Returns the display of the sweep that begins at place `first` of a record and ends with the record, up to place
+/// Returns the display of the sweep that begins at index `first` of a record and ends with the record, up to index
 /// `shown`. Bearings that this sweep has not reached yet show the pings before it. `fan` is that of the head.
 SweepImage sweep_image(const BeamRecord& record, const BeamFan& fan, std::size_t first, std::size_t shown);
 

@@ -14,16 +14,16 @@ struct TextSize {
 /// Returns the size of a line of text.
 TextSize text_size(const std::string& text, int font_size);
 
-/// The text at a font size <= `font_size` at which it fits into `width` [pixels]; below seven tenths of `font_size` the
+/// A text at a font size <= `font_size` at which it fits into `width` [pixels]. Below seven tenths of `font_size` the
 /// text is shortened with "..." instead.
 struct FittedText {
   std::string text;
   int font_size = 0;
 };
-/// Returns the text as it fits.
+/// Returns the text fitted into `width`.
 FittedText fit_text(const std::string& text, int font_size, double width);
 
-/// A place in a picture [pixels from its lower left corner].
+/// A position in a picture [pixels from its lower left corner].
 struct Point2 {
   double x = 0;
   double y = 0;
@@ -40,7 +40,7 @@ struct Box {
   bool overlaps(const Box& other) const {
     return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
   }
-  /// Returns true if a place lies inside, or on the left or lower edge.
+  /// Returns true if a position lies inside, or on the left or lower edge.
   bool holds(Point2 place) const { return place.x >= left && place.x < right && place.y >= bottom && place.y < top; }
   /// Returns true if `other` lies inside, edges included.
   bool contains(const Box& other) const {
@@ -57,9 +57,9 @@ struct PlacedText {
   std::string text;
   Point2 centre;
   int font_size;
-  bool turned;            ///< reads upwards
-  bool on_plate = false;  ///< on a semi-transparent plate, for legibility on the data
-  TextSize extent;        ///< before rotation
+  bool turned;            ///< true: reads upwards
+  bool on_plate = false;  ///< true: on a semi-transparent plate, for legibility on the data
+  TextSize extent;        ///< size before rotation
 
   /// Returns the box that the text fills.
   Box box() const {

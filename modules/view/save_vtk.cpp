@@ -68,7 +68,7 @@ void require_fields(const BeamFan& fan, const RangeGate& gate, const std::vector
   }
 }
 
-/// The part of an image that belongs to one row of beams.
+/// Returns the columns of an image that belong to one row of beams.
 LevelImage part_of(const BeamFan& fan, const RangeGate& gate, const Grid<float>& values, const FanRow& row) {
   LevelImage part{{{}, {}, fan.beam_width, fan.elevation_width, 0}, gate, {}, {}};
   part.level_db.resize(static_cast<Eigen::Index>(row.beams.size()), values.cols());
@@ -80,7 +80,7 @@ LevelImage part_of(const BeamFan& fan, const RangeGate& gate, const Grid<float>&
   return part;
 }
 
-/// Corners of the cells, ranges varying fastest, then bearings, then elevations.
+/// Returns the corners of the cells, ranges varying fastest, then bearings, then elevations.
 vtkSmartPointer<vtkPoints> corners(const std::vector<double>& bearing_edges, const std::vector<double>& elevations,
                                    const RangeGate& gate, const Pose& world_from_head) {
   auto points = vtkSmartPointer<vtkPoints>::New();
@@ -98,8 +98,8 @@ vtkSmartPointer<vtkPoints> corners(const std::vector<double>& bearing_edges, con
   return points;
 }
 
-/// Elevations between the cells of rows, halfway from row to row, and beyond the outermost by half a step; of one row,
-/// its own.
+/// Returns the elevations between the cells of rows: halfway from row to row, and half a step beyond the outermost. A
+/// single row has its own elevation.
 std::vector<double> elevation_edges(const std::vector<FanRow>& rows) {
   if (rows.size() == 1) return {rows.front().elevation};
   std::vector<double> edges{1.5 * rows[0].elevation - 0.5 * rows[1].elevation};
@@ -108,7 +108,7 @@ std::vector<double> elevation_edges(const std::vector<FanRow>& rows) {
   return edges;
 }
 
-/// Whether the beams of all rows have the same bearings, so that rows are the layers of a volume.
+/// Returns true if the beams of all rows have the same bearings, so that rows are the layers of a volume.
 bool rows_are_alike(const BeamFan& fan, const std::vector<FanRow>& rows) {
   const auto bearing_of = [&](const FanRow& row, std::size_t b) { return fan.azimuth[row.beams[b]]; };
   for (const FanRow& row : rows) {
@@ -119,7 +119,7 @@ bool rows_are_alike(const BeamFan& fan, const std::vector<FanRow>& rows) {
   return true;
 }
 
-/// One grid of rows of the same bearings: a surface for one row, a volume for several.
+/// Writes one grid of rows of the same bearings: a surface for one row, a volume for several.
 void save_rows(const std::string& path, const BeamFan& fan, const RangeGate& gate,
                const std::vector<SampleField>& fields, const Pose& world_from_head, const std::vector<FanRow>& rows) {
   const VtkMessages messages;

@@ -13,9 +13,9 @@ namespace insonify {
 
 /// One quantity of a ping, one value per sample.
 struct SampleField {
-  std::string name;    ///< of the array in the file, e.g. level_db
+  std::string name;    ///< name of the array in the file, e.g. level_db
   Grid<float> values;  ///< beams x bins
-  std::string unit{};  ///< in the text array `units` of the field data, "name: unit", and as UNITS_LABEL; empty: none
+  std::string unit{};  ///< unit in the text array `units` of the field data, "name: unit", and UNITS_LABEL; empty: none
 };
 
 /// Writes samples of a fan as a VTK curvilinear grid (.vts) without resampling, and returns the names of the files.
@@ -40,7 +40,7 @@ struct HorizontalMap {
   std::vector<SampleField> fields;  ///< columns x rows each
 };
 
-/// Writes all fields as cells of a VTK image (.vti) at their place in the world, z = 0. Written to a temporary name,
+/// Writes all fields as cells of a VTK image (.vti) at their position in the world, z = 0. Written to a temporary name,
 /// then renamed. Throws Error(argument) unless there is a field and all are of one size, Error(file) if it cannot
 /// write.
 void save_map_image(const std::string& path, const HorizontalMap& map);
@@ -58,7 +58,7 @@ void save_map_picture(const std::string& stem, const HorizontalMap& map, double 
 struct PointColumn {
   std::string name, unit;
   std::vector<double> values;
-  bool whole = false;  ///< whole numbers from 0
+  bool whole = false;  ///< true: whole numbers from 0
 };
 
 /// Writes soundings as VTK polydata (.vtp). Each sounding is a vertex in the world [m, double]. The columns are point
@@ -79,8 +79,8 @@ void save_series(const std::string& path, const std::vector<SeriesEntry>& entrie
 
 /// Polylines in space with scalar fields, as a structure of arrays.
 struct LineSet {
-  std::vector<std::vector<Eigen::Vector3d>> points;  ///< of each line, world [m]
-  /// Numbers of the lines.
+  std::vector<std::vector<Eigen::Vector3d>> points;  ///< points of each line, world [m]
+  /// Numbers of the lines, one each.
   struct Field {
     std::string name;
     std::vector<float> values;  ///< one per line

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> counted(std::size_t count) {
   return numbers;
 }
 
-// Points of a single colour that share arrays with another actor.
+// Returns an actor of points of a single colour that share arrays with another actor.
 vtkSmartPointer<vtkActor> plain_points(const PointCloudArrays& arrays, const Colour& colour, double min_pixels,
                                        double lift) {
   vtkSmartPointer<vtkActor> actor = point_actor(arrays, {});
@@ -39,7 +39,7 @@ vtkSmartPointer<vtkActor> plain_points(const PointCloudArrays& arrays, const Col
 }
 
 constexpr std::size_t most_normals = 4000;
-constexpr double normal_length = 0.012;  // of the diagonal; or three spacings, if longer
+constexpr double normal_length = 0.012;  // fraction of the diagonal; or three spacings, if longer
 
 Polyline normal_of(const SceneCloud& scene, std::uint32_t i, double least) {
   const Eigen::Vector3d place = scene.point[i].cast<double>();

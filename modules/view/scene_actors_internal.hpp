@@ -47,8 +47,8 @@ class SceneActors {
   /// Recolours the surfels. Throws as show_scene if the data of that colour are missing.
   void set_colour(SceneColour colour);
   void set_visibility(std::vector<Visibility> visibility);  ///< per surfel; recolours if shown
-  void set_level_range(double min_db, double max_db);       ///< of the level colours; NaN: automatic
-  void set_colour_map(const std::string& name);             ///< of the level colours
+  void set_level_range(double min_db, double max_db);       ///< range of the level colours; NaN: automatic
+  void set_colour_map(const std::string& name);             ///< colour map of the level colours
 
   void highlight(std::span<const std::uint32_t> surfels);       ///< replaces the highlighted surfels
   void show_soundings(const Soundings& soundings);              ///< replaces the soundings; empty: none
@@ -57,23 +57,23 @@ class SceneActors {
   void show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate);
 
   void set_detail(SceneDetail detail);
-  void set_point_size(double point_size);  ///< as SceneLook::point_size
+  void set_point_size(double point_size);  ///< see SceneLook::point_size
   double point_size() const { return look_.point_size; }
 
   /// Updates edges, ticks and labels of the axes, on the far side from the camera; call it after the camera has moved.
   void update_axes(vtkRenderer* renderer);
-  /// The same, but returns the labels for the caller to place.
+  /// Does the same, but returns the labels for the caller to place.
   std::vector<AxisLabel> turn_axes(vtkRenderer* renderer);
   void show_axes(bool on);
 
   /// Sets the renderer's camera, fitted to the renderer's aspect ratio, and its clipping range.
   void place_camera(vtkRenderer* renderer, ScenePreset preset) const;
 
-  /// The renderer's camera.
+  /// Returns the renderer's camera.
   static CameraView view(vtkRenderer* renderer);
 
-  /// The frontmost surfel within two pixels of a place in the window [pixels from its lower left corner], if any. Only
-  /// surfels drawn at `still` detail are found.
+  /// Returns the frontmost surfel within two pixels of a position in the window [pixels from its lower left corner], if
+  /// any. Only surfels drawn at `still` detail are found.
   std::optional<std::uint32_t> surfel_at(vtkRenderer* renderer, double x, double y) const;
 
   const SceneLook& look() const { return look_; }
@@ -89,9 +89,9 @@ class SceneActors {
   SceneKey key_;
   std::vector<Eigen::Vector3d> interest_;  // framed by the camera
 
-  // Surfels; both levels of detail share their arrays.
+  // Arrays of the surfels, shared by both levels of detail.
   PointCloudArrays surfels_;
-  std::vector<std::uint32_t> drawn_;  // at detail `still`
+  std::vector<std::uint32_t> drawn_;  // surfels drawn at detail `still`
   std::size_t moving_drawn_ = 0;
   vtkSmartPointer<vtkActor> still_, moving_, footprint_, marks_;
 
@@ -113,7 +113,7 @@ class SceneActors {
             normals_.Get(), track_.Get(),  head_axes_[0].Get(), head_axes_[1].Get(), head_axes_[2].Get()};
   }
   double thin() const { return line_width_for(font_size_for(options_)); }
-  Eigen::AlignedBox3d box() const;  // of `interest` and of the axes
+  Eigen::AlignedBox3d box() const;  // box of `interest` and of the axes
 
   void make_surfels();
   void make_lines();

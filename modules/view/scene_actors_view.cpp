@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// View-dependent part of SceneActors: camera, axes, picking.
+// Implements the view-dependent functions of SceneActors: camera, axes, picking.
 #include <algorithm>
 #include <cmath>
 

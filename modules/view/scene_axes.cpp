@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double along_view = 0.96;    // cosine above which an axis is along the line of sight
-constexpr double tick_length = 0.015;  // of the diagonal
+constexpr double tick_length = 0.015;  // fraction of the diagonal
 
 // An edge of the box that carries the values of one axis.
 struct AxisEdge {
@@ -20,7 +20,7 @@ struct AxisEdge {
   Vector3d outward;
 };
 
-// Of the two floor edges along `axis`, the one nearer to the camera.
+// Returns the one of the two floor edges along `axis` that is nearer to the camera.
 AxisEdge floor_edge(const Eigen::AlignedBox3d& box, int axis, const CameraView& view) {
   const int other = 1 - axis;
   const double looks = view.position[other] - box.center()[other] - view.forward()[other] * 1e-9;
@@ -34,7 +34,7 @@ AxisEdge floor_edge(const Eigen::AlignedBox3d& box, int axis, const CameraView& 
   return edge;
 }
 
-// Of the four vertical edges, the leftmost in the picture.
+// Returns the vertical edge that is leftmost in the picture.
 AxisEdge upright_edge(const Eigen::AlignedBox3d& box, const CameraView& view) {
   AxisEdge best;
   double leftmost = 1e300;
@@ -49,7 +49,7 @@ AxisEdge upright_edge(const Eigen::AlignedBox3d& box, const CameraView& view) {
   return best;
 }
 
-// Step of ticks: about five along the longest side, the same for x and y.
+// Returns the step of ticks: about five along the longest side, the same for x and y.
 double tick_step(double length) { return round_step(std::max(length, 1e-6) / 6); }
 
 void add_axis(SceneAxes& axes, const AxisEdge& edge, double step, double origin, double tick) {
@@ -68,7 +68,7 @@ void add_axis(SceneAxes& axes, const AxisEdge& edge, double step, double origin,
   axes.labels.push_back({std::string(1, "xyz"[axis]) + " [m]", middle + tick * edge.outward, edge.outward, true});
 }
 
-// A label that can be moved outwards from its place.
+// A label that can be moved outwards from its position.
 class OutwardText {
  public:
   OutwardText(const AxisLabel& label, const CameraView& view, const Box& frame, int font_size)
@@ -84,7 +84,7 @@ class OutwardText {
   }
   bool visible() const { return visible_; }
   const PlacedText& text() const { return text_; }
-  // Moves it to `away` pixels from its place.
+  // Moves the label to `away` pixels from its position.
   void put(double away) {
     text_.centre = {start_.x + outward_.x * (text_.extent.width / 2 + away),
                     start_.y + outward_.y * (text_.extent.height / 2 + away)};

@@ -23,8 +23,8 @@ ViewAxes view_axes(const Vector3d& forward, const Vector3d& up) {
   return {right, right.cross(forward), forward};
 }
 
-// Horizontal direction in which a track begins; else the forward direction of the head in the horizontal plane; for a
-// vertical one, the upward direction of its picture.
+// Returns the horizontal direction in which a track begins, otherwise the forward direction of the head in the
+// horizontal plane; for a vertical head, the upward direction of its picture.
 Vector3d heading(const SceneLook& look) {
   if (!look.head) return Vector3d::UnitX();
   for (const Vector3d& place : look.track) {
@@ -37,9 +37,9 @@ Vector3d heading(const SceneLook& look) {
   return Vector3d(ahead.x(), ahead.y(), 0).normalized();
 }
 
-constexpr double shallow_deg = 30, steep_deg = 60;  // of the view from behind the head
+constexpr double shallow_deg = 30, steep_deg = 60;  // slopes of the view from behind the head
 
-// View direction of a preset and the upward direction of its picture; from behind, so many degrees downwards.
+// Returns the axes of a preset; the view from behind looks down by `behind_deg`.
 ViewAxes preset_axes(const SceneLook& look, ScenePreset preset, double behind_deg) {
   const Vector3d up = Vector3d::UnitZ(), ahead = heading(look);
   const auto downwards = [&](const Vector3d& level, double angle_deg) {
@@ -52,14 +52,14 @@ ViewAxes preset_axes(const SceneLook& look, ScenePreset preset, double behind_de
   return view_axes(downwards(Vector3d(0.64, 0.77, 0).normalized(), 32), up);
 }
 
-// A position of the camera, and how far it may go up so that all points stay in the window.
+// A position of the camera, and how far it may rise with all points still in the window.
 struct FittingPosition {
   Vector3d at;
   double slack_up = 0;
 };
 
-// The nearest position from which all points lie within the window, `open_x` and `open_y` being the tangents of half
-// its view angles.
+// Returns the nearest position from which all points lie within the window. `open_x` and `open_y` are the tangents of
+// half its view angles.
 FittingPosition fitting_position(const std::vector<Vector3d>& points, const ViewAxes& axes, double open_x,
                                  double open_y) {
   // A point is inside if its offset to the right is at most its distance times open_x. This gives two bounds on the
@@ -78,7 +78,7 @@ FittingPosition fitting_position(const std::vector<Vector3d>& points, const View
           std::max(0.0, (high - low) / 2 - open_y * at)};
 }
 
-// The lowest and the highest of some points in a picture, as tangents of the angles above its middle.
+// The extent of points in a picture, as tangents of the angles above its middle.
 struct HeightSpan {
   double low = 1e300, high = -1e300;
   void add(const Vector3d& from_eye, const ViewAxes& axes) {
@@ -92,7 +92,7 @@ HeightSpan height_span(const std::vector<Vector3d>& points, const ViewAxes& axes
   return span;
 }
 
-// True if the scene goes on above the points of interest.
+// Returns true if the scene goes on above the points of interest.
 bool goes_on_above(const SceneCloud& scene, const ViewAxes& axes, const Vector3d& position, double high) {
   HeightSpan span;
   for (std::size_t i = 0; i < scene.size(); i += 1 + scene.size() / most_points)
@@ -100,7 +100,7 @@ bool goes_on_above(const SceneCloud& scene, const ViewAxes& axes, const Vector3d
   return span.high > high + 0.02;
 }
 
-// Points that stand for the way of the head: at most so many of them.
+// Returns positions along the track of the head, at most `most` of them.
 std::vector<Vector3d> way_of(const SceneCloud& scene, const SceneLook& look) {
   constexpr std::size_t most = 64;
   const std::size_t step = 1 + look.track.size() / most;
@@ -115,7 +115,7 @@ std::vector<Vector3d> way_of(const SceneCloud& scene, const SceneLook& look) {
 std::vector<Vector3d> points_of_interest(const SceneCloud& scene, const SceneLook& look) {
   std::vector<Vector3d> points, all;
   const std::size_t step = 1 + scene.size() / most_points;
-  // Of a head that moves, wherever it goes, so that a playing picture keeps its frame.
+  // Include the whole track of a head that moves, so that a playing picture keeps its frame.
   std::vector<Vector3d> heads;
   if (look.head) heads = way_of(scene, look);
   if (look.head && heads.size() < 2) heads = {look.head->world_from_head.translation() - scene.origin};
@@ -127,7 +127,7 @@ std::vector<Vector3d> points_of_interest(const SceneCloud& scene, const SceneLoo
     all.push_back(scene.point[i].cast<double>());
     if (is_heard(all.back())) points.push_back(all.back());
   }
-  // A scene that is not much larger is shown whole.
+  // Show a scene whole if it is not much larger.
   if (10 * points.size() > 3 * all.size() || points.empty()) points = std::move(all);
   points.insert(points.end(), heads.begin(), heads.end());
   return points;
@@ -147,8 +147,8 @@ CameraView place_view(const SceneCloud& scene, const SceneLook& look, ScenePrese
   };
   ViewAxes axes = look_down(shallow_deg);
   if (preset == ScenePreset::automatic && look.head) {
-    // A picture that is as tall as wide stays half empty above a flat scene: look down more steeply until it is filled,
-    // and show more of what goes on behind.
+    // A picture as tall as wide stays half empty above a flat scene: look down more steeply until it is filled, and
+    // show more of the scene behind.
     const auto filled = [&] {
       const HeightSpan span = height_span(points, axes, fit.at);
       return (span.high - span.low) / (2 * open_y);

@@ -18,17 +18,17 @@ struct CameraView {
   Eigen::Vector3d forward() const { return (focal_point - position).normalized(); }
 };
 
-/// The points that a picture of a scene should show: up to 20 000 of the surfels, relative to scene.origin. With a
-/// head, those within its range gate, or all if there are none.
+/// Returns the points that a picture of a scene should show: up to 20 000 of the surfels, relative to scene.origin.
+/// With a head they are within its range gate, unless there are none.
 std::vector<Eigen::Vector3d> points_of_interest(const SceneCloud& scene, const SceneLook& look);
 
-/// The camera of a preset, as near as possible with all `points` (not empty) inside the window of width x height
-/// pixels, leaving `margin` pixels on every side.
+/// Returns the camera of a preset, as near as possible with all `points` (not empty) inside the window of width x
+/// height pixels, leaving `margin` pixels on every side.
 CameraView place_view(const SceneCloud& scene, const SceneLook& look, ScenePreset preset,
                       const std::vector<Eigen::Vector3d>& points, double width, double height, double margin);
 
-/// The image of a point in a window [pixels from its lower left corner] and its distance along the camera's axis [m];
-/// behind the camera distance <= 0 and `at` is undefined.
+/// The image of a point in a window [pixels from its lower left corner] and its distance along the camera's axis [m].
+/// Behind the camera distance <= 0 and `at` is undefined.
 struct ShownPoint {
   Point2 at;
   double distance = 0;

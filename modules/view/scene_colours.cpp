@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t colours_at_once = 1 << 16;
 
-constexpr std::size_t most_entries = 10;  // of a legend
+constexpr std::size_t most_entries = 10;  // largest number in a legend
 
 struct VisibilityColour {
   Visibility visibility;
@@ -25,11 +25,11 @@ constexpr VisibilityColour visibility_colours[] = {{Visibility::seen, "seen", {2
                                                    {Visibility::outside, "outside the fan or gate", {172, 174, 178}},
                                                    {Visibility::not_asked, "not evaluated", {205, 207, 210}}};
 
-// Light from behind, starboard and above for a head along x: faces differ in brightness and ripples become visible.
+// Light from behind, starboard and above for a head along x, so that faces differ in brightness and ripples show.
 const Eigen::Vector3f to_light = Eigen::Vector3f(-0.45F, -0.42F, 0.79F).normalized();
 
-// Brightness of a surface, from 0.4 at grazing light to 1.1 at full light. Back faces are darker, but a room seen from
-// outside is not black.
+// Returns the brightness of a surface, from 0.4 at grazing light to 1.1 at full light. Back faces are darker, but a
+// room seen from outside is not black.
 float light_on(const SceneCloud& scene, std::size_t i) {
   const float cosine = scene.normal[i].dot(to_light);
   if (!scene.normals_oriented) return 0.4F + 0.7F * std::abs(cosine);
@@ -52,7 +52,7 @@ std::vector<Rgb> per_surfel(const SceneCloud& scene, ColourOf&& colour_of) {
   return colour;
 }
 
-// Heights from low to high without a thousandth at either end, which may be stray points.
+// Returns a scale of heights from low to high without a thousandth at either end, which may be stray points.
 ColourScale height_scale(const SceneCloud& scene) {
   const std::size_t step = 1 + scene.size() / 200000;
   std::vector<float> z;
@@ -75,7 +75,7 @@ SceneColours by_height(const SceneCloud& scene) {
           {scale, "Height z [m]", {}}};
 }
 
-/// One colour for each of the names that surfels have; number_of(i) is the name's number of surfel i.
+/// Returns one colour for each name of surfels; number_of(i) is the number of surfel i's name.
 template <typename Number>
 SceneColours by_name(const SceneCloud& scene, const std::vector<std::string>& names, const Number& number_of) {
   std::vector<std::uint8_t> used(names.size());
@@ -110,7 +110,7 @@ SceneColours by_part(const SceneCloud& scene) {
   return by_name(scene, names, [&](std::size_t i) -> std::size_t { return scene.part[i]; });
 }
 
-// Colours with reduced shading, since those of shadows are dark already.
+// Colours by visibility. Shading is reduced, since the colours of shadows are dark already.
 SceneColours by_visibility(const SceneCloud& scene, const SceneLook& look, const char* who) {
   if (look.visibility.empty())
     fail(ErrorKind::argument, who, ": look.visibility is empty, but colour is visibility; fill it by find_visibility");
@@ -140,7 +140,7 @@ SceneColours by_level(const SceneCloud& scene, const SceneLook& look, const Pict
           {scale, look.level_unit, {}}};
 }
 
-// Angle between ray and normal, or its complement; back-facing surfels are grey.
+// Colours by the angle between ray and normal, or its complement. Back-facing surfels are grey.
 SceneColours by_angle(const SceneCloud& scene, const SceneLook& look, bool grazing, const char* who) {
   if (!look.head)
     fail(ErrorKind::argument, who, ": look.head is absent, but colour is ", grazing ? "grazing" : "incidence",

@@ -34,11 +34,11 @@ struct SceneColours {
   SceneKey key;
 };
 
-/// Colours of the surfels by look.colour. Throws Error(argument) as show_scene.
+/// Returns the colours of the surfels by look.colour. Throws Error(argument) as show_scene.
 SceneColours colour_surfels(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
                             const char* who);
 
-/// Common level scale of the surfels and soundings of `look`.
+/// Returns the common level scale of the surfels and soundings of `look`.
 ColourScale level_scale(const SceneLook& look, const PictureOptions& options, const char* who);
 
 /// Colour of surfels without data.

@@ -41,7 +41,7 @@ constexpr double largest_step = 0.035;  // [rad] between points of an arc
 constexpr std::size_t most_rows = 5;
 constexpr int ring_corners = 20;
 
-// Angles from low to high, close enough for a smooth arc.
+// Returns angles from low to high, close enough for a smooth arc.
 std::vector<double> steps_between(double low, double high) {
   const int steps = std::max(1, static_cast<int>(std::ceil((high - low) / largest_step)));
   std::vector<double> angles;
@@ -80,7 +80,7 @@ class Placer {
   Eigen::Vector3d at_;
 };
 
-// The angle plus whole turns, within half a turn of `middle`.
+// Returns the angle plus whole turns, within half a turn of `middle`.
 double unwrapped(double angle, double middle) { return middle + std::remainder(angle - middle, 2 * pi); }
 
 }  // namespace
@@ -140,7 +140,7 @@ void set_body(vtkActor* actor, const std::array<Polyline, 2>& rings) {
 }
 
 FanSector fan_sector(const BeamFan& fan) {
-  // Beam order of a fan picture; bearings have the opposite sign of azimuths.
+  // Order the beams as in a fan picture; bearings have the opposite sign of azimuths.
   const BeamCells cells =
       order_beams({fan, {1, 2, 1}, Grid<float>::Zero(static_cast<Eigen::Index>(fan.beams()), 1), ""});
   FanSector sector;
@@ -181,7 +181,7 @@ HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin,
       for (const double elevation : {sector.low_elevation, sector.high_elevation})
         lines.outline.push_back(at.ray(azimuth, elevation, head.gate));
 
-  // Arcs in the plane of the fan; with several rows only the last arc of each.
+  // Draw arcs in the plane of the fan; with several rows only the last arc of each.
   const double step = round_step(head.gate.max_range / 4);
   for (const double elevation : sector.rows) {
     lines.arcs.push_back(at.across(sector, elevation, head.gate.max_range));
@@ -209,7 +209,7 @@ std::vector<std::uint32_t> footprint_outline(const SceneCloud& scene, const Scen
   const double half_azimuth = (sector.high_azimuth - sector.low_azimuth) / 2;
   const Eigen::Isometry3d head_from_world = head.world_from_head.inverse();
 
-  // Distance of a surfel inside each pair of walls [m]; on the outline it is close to one wall and not outside any.
+  // Measure the distance of a surfel inside each pair of walls [m]. On the outline it is small for one pair.
   const auto on_outline = [&](std::size_t i) {
     const Eigen::Vector3d normal = scene.normal[i].cast<double>();
     const Eigen::Vector3d place = head_from_world * (scene.origin + scene.point[i].cast<double>());

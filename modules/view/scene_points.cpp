@@ -30,7 +30,7 @@ namespace {
 constexpr const char* side_name = "surfel_side";
 constexpr std::size_t points_at_once = 1 << 16;
 
-// Bounds in VTK's order: min and max of x, y, z; inverted if there are no points.
+// Returns the bounds in VTK's order: min and max of x, y, z; inverted if there are no points.
 std::array<double, 6> bounds_of(vtkDataArray* position, std::span<const std::uint32_t> drawn) {
   const float* coordinates = static_cast<vtkFloatArray*>(position)->GetPointer(0);
   std::array<float, 6> box = {1, -1, 1, -1, 1, -1};
@@ -51,7 +51,7 @@ vtkStandardNewMacro(SquareMapper);
 
 void SquareMapper::ComputeBounds() { std::copy(bounds.begin(), bounds.end(), Bounds); }
 
-// The vertex shader sizes each point; VTK supports only one size in pixels for all.
+// Sizes each point in the vertex shader; VTK supports only one size in pixels for all.
 void SquareMapper::ReplaceShaderPositionVC(std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* renderer,
                                            vtkActor* actor) {
   std::string source = shaders[vtkShader::Vertex]->GetSource();

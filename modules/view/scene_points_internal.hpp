@@ -24,7 +24,7 @@ class SquareMapper : public vtkOpenGLPolyDataMapper {
 
   double growth = 1;                       ///< factor on the points' own side
   double min_pixels = 2, max_pixels = 64;  ///< limits of a side
-  std::array<double, 6> bounds{};          ///< of the points drawn; saves VTK a search in every frame
+  std::array<double, 6> bounds{};          ///< bounds of the points drawn; saves VTK a search in every frame
   double lift = 0;  ///< draws points nearer to the eye by this fraction of the distance; 1: in front of everything
 
   void RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) override;
@@ -49,14 +49,14 @@ std::span<const float> sides_of(const PointCloudArrays& arrays);
 /// Overwrites the colours, one per point, and marks them as changed.
 void set_colours(vtkUnsignedCharArray* to, std::span<const Rgb> colour);
 
-/// An actor that draws the points listed in `drawn`. Actors may share arrays: the points are then stored, and uploaded
-/// to GL, only once.
+/// Returns an actor that draws the points listed in `drawn`. Actors may share arrays: the points are then stored, and
+/// uploaded to GL, only once.
 vtkSmartPointer<vtkActor> point_actor(const PointCloudArrays& arrays, std::span<const std::uint32_t> drawn);
 
 /// Makes an actor of point_actor draw other points, of the same or other arrays.
 void set_points(vtkActor* actor, const PointCloudArrays& arrays, std::span<const std::uint32_t> drawn);
 
-/// The mapper of an actor made by point_actor.
+/// Returns the mapper of an actor made by point_actor.
 SquareMapper* mapper_of(vtkActor* actor);
 
 }  // namespace insonify

@@ -12,7 +12,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t surfels_at_once = 1 << 15;
-constexpr float largest = 2.5F;      // side, in medians
+constexpr float largest = 2.5F;      // longest side, in medians
 constexpr double picking_reach = 2;  // [pixels]
 
 // Hashes ids, which come in runs, evenly over all 32-bit numbers (the finalizer of MurmurHash3).

@@ -12,26 +12,26 @@
 
 namespace insonify {
 
-/// Side of each surfel's square [m]: sqrt(area), at most 2.5 times the median of all; the median where the area is 0.
+/// Returns the side of each surfel's square [m]: sqrt(area), at most 2.5 medians; the median where the area is 0.
 std::vector<float> surfel_sides(const SceneCloud& scene);
 
-/// About `most` of the surfels, or all if there are fewer, ascending: chosen by their ids alone, evenly over the scene.
+/// Returns about `most` of the surfels, or all of fewer, ascending: chosen by id alone, evenly over the scene.
 std::vector<std::uint32_t> drawn_surfels(const SceneCloud& scene, std::size_t most);
 
-/// Window and place for picking surfels.
+/// Window and position for picking surfels.
 struct PickingWindow {
-  Eigen::Matrix4d clip_from_scene;  ///< clip coordinates of a place relative to scene.origin
-  Point2 at;                        ///< [pixels] from its lower left corner
+  Eigen::Matrix4d clip_from_scene;  ///< clip coordinates of a position relative to scene.origin
+  Point2 at;                        ///< position [pixels] from its lower left corner
   double width = 0, height = 0;
   double focal_length = 1;  ///< 1 / tan(view angle / 2), times the growth of surfels
 };
 
-/// The surfel whose square is frontmost at the place, or, if there is none, among those within two pixels; the first of
+/// Returns the surfel whose square is frontmost at the position, otherwise among those within two pixels; the first of
 /// equal ones. Does not depend on the number of threads.
 std::optional<std::uint32_t> front_surfel(const SceneCloud& scene, std::span<const std::uint32_t> drawn,
                                           std::span<const float> side, const PickingWindow& window);
 
-/// Check the arguments of show_scene; each throws Error.
+/// Checks the arguments of show_scene. Throws Error.
 void require_drawable(const SceneCloud& scene, const SceneLook& look, const char* who);
 void require_valid(const SceneHead& head, const char* who);
 void require_valid(const Soundings& soundings, const char* who);

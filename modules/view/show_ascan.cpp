@@ -12,7 +12,7 @@
 namespace insonify {
 namespace {
 
-// Limits of the level axis; the automatic upper limit is above the highest level of the beam.
+// Returns the limits of the level axis. The automatic upper limit is above the highest level of the beam.
 ColourScale level_limits(const Grid<float>& level_db, PictureOptions options, const char* who) {
   double highest = -std::numeric_limits<double>::infinity();
   for (const float level : level_db.reshaped())
@@ -24,7 +24,7 @@ ColourScale level_limits(const Grid<float>& level_db, PictureOptions options, co
   return colour_scale(level_db, options, who);
 }
 
-// Beam and bearing come first, because long titles are truncated at the end.
+// Returns the title with beam and bearing first, because long titles are truncated at the end.
 std::string chart_title(const LevelImage& image, std::size_t beam, const std::string& title) {
   std::string text = "Beam ";
   text += std::to_string(beam);

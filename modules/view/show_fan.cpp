@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-// Points along the circle of radius `range`, from one edge of the fan to the other.
+// Returns points along the circle of radius `range`, from one edge of the fan to the other.
 Path arc(const FanLayout& layout, double range, double step) {
   const int steps = std::max(1, static_cast<int>(std::ceil((layout.high - layout.low) / step)));
   Path path;
@@ -26,7 +26,7 @@ void draw_grid(Canvas& canvas, const FanLayout& layout, double step) {
     grid.push_back({layout.at(spoke, layout.min_range), layout.at(spoke, layout.max_range)});
   canvas.add_lines(grid, thin, grid_colour, grid_opacity);
 
-  // Outline, and a tick at every bearing label.
+  // Draw the outline, and a tick at every bearing label.
   const Path outer = arc(layout, layout.max_range, step), inner = arc(layout, layout.min_range, step);
   std::vector<Path> lines{outer, inner};
   if (layout.high - layout.low < 6.28) {
@@ -39,7 +39,7 @@ void draw_grid(Canvas& canvas, const FanLayout& layout, double step) {
   canvas.add_lines(lines, thin, canvas.colours().line, 1);
 }
 
-// The whole picture except its texts and the colour bar.
+// Returns the whole picture except its texts and the colour bar.
 MarkRoom room_for_marks(const FanLayout& layout, const PictureOptions& options) {
   MarkRoom room;
   room.box = {0, static_cast<double>(options.width), 0, static_cast<double>(options.height)};

@@ -12,7 +12,7 @@
 namespace insonify {
 namespace {
 
-// Sixteen bits with the high byte first.
+// Writes sixteen bits with the high byte first.
 template <typename Grey>
 void write_pgm(const Grid<Grey>& picture, const std::string& path) {
   std::string bytes = "P5\n" + std::to_string(picture.cols()) + " " + std::to_string(picture.rows()) + "\n" +

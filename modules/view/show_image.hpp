@@ -35,7 +35,7 @@ void show_rect(const LevelImage& image, const PictureOptions& options, const std
 /// the values selects 8 or 16 bits. Throws Error(argument) for another extension, an empty picture, or a number of
 /// beams that is not the fan's; Error(file) if it cannot write.
 void show_grey(const Grid<std::uint8_t>& grey, const BeamFan& fan, const std::string& path);
-/// Writes grey values of 16 bits in the same way.
+/// As above, for grey values of 16 bits.
 void show_grey(const Grid<std::uint16_t>& grey, const BeamFan& fan, const std::string& path);
 
 /// Draws the level of one beam against range as a chart with units; the title begins with beam and bearing.
@@ -58,7 +58,7 @@ struct Fact {
 /// The contents of a summary picture of one ping.
 struct Panels {
   LevelImage image;
-  std::size_t beam = 0;                     ///< of the A-scan
+  std::size_t beam = 0;                     ///< beam of the A-scan
   std::vector<double> azimuth, pattern_db;  ///< beam pattern, as for show_pattern; empty: unknown
   std::string pattern_title;
   std::vector<Fact> facts;
@@ -73,7 +73,7 @@ void show_panels(const Panels& panels, const PictureOptions& options, const std:
 struct SpectrumLine {
   std::vector<double> frequency;  ///< [Hz], ascending
   std::vector<double> density;    ///< [Pa^2/Hz]
-  std::string name;               ///< in the legend
+  std::string name;               ///< name in the legend
 };
 
 /// Draws densities [dB re 1 µPa²/Hz] against frequency [kHz] as a chart with a legend, the first one as a solid line
@@ -85,11 +85,11 @@ void show_spectrum(const std::vector<SpectrumLine>& lines, const PictureOptions&
 
 /// Levels along one beam, ping after ping.
 struct PingHistory {
-  std::vector<std::int64_t> number;  ///< of the pings, oldest first
-  std::vector<double> time;          ///< of their transmission [s]
-  RangeGate gate;                    ///< of two sides: from -max_range, far to port, to max_range, far to starboard
+  std::vector<std::int64_t> number;  ///< numbers of the pings, oldest first
+  std::vector<double> time;          ///< times of their transmission [s]
+  RangeGate gate;                    ///< two sides: from -max_range, far to port, to max_range, far to starboard
   Grid<float> level_db;              ///< pings x bins
-  std::string unit;                  ///< of the colour bar, as LevelImage::unit
+  std::string unit;                  ///< unit of the colour bar, see LevelImage::unit
   std::string range_title = "Range [m]";
 };
 

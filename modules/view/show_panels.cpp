@@ -13,10 +13,10 @@ namespace insonify {
 namespace {
 
 constexpr int min_width = 640, min_height = 480;
-constexpr double left_share = 0.56, lower_share = 0.42;  // of the picture
+constexpr double left_share = 0.56, lower_share = 0.42;  // fractions of the picture
 constexpr double smaller_font = 0.85;                    // relative to a picture of a single drawing
 
-// Options of a drawing that fills a box.
+// Returns the options of a drawing that fills a box.
 PictureOptions options_for(const Box& box, const PictureOptions& options, int font_size) {
   PictureOptions smaller = options;
   smaller.width = static_cast<int>(box.width());
@@ -26,7 +26,7 @@ PictureOptions options_for(const Box& box, const PictureOptions& options, int fo
   return smaller;
 }
 
-// Names in one column, values in the next, from the top; the rows share the available height.
+// Draws names in one column, values in the next, from the top; the rows share the available height.
 void draw_facts(Canvas& canvas, const std::vector<Fact>& facts, const PictureOptions& options) {
   const int font = options.font_size;
   const double row =

@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-// Bearings in radians with their labels in degrees.
+// Returns bearings in radians with their labels in degrees.
 AxisTicks bearing_axis(const BeamCells& cells, double width, int font) {
   const double most = std::clamp(width / (1.8 * text_size("+180°", font).width), 1.0, 12.0);
   AxisTicks ticks = bearing_labels(degrees(cells.low()), degrees(cells.high()), most);

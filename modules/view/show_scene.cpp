@@ -23,7 +23,7 @@ struct SceneFrame {
   std::vector<std::pair<PlacedText, Rgb>> legend;
 };
 
-// A legend in centred rows at the bottom of the picture; returns its top.
+// Adds a legend in centred rows at the bottom of the picture. Returns its top.
 double lay_out_legend(SceneFrame& frame, const std::vector<LegendEntry>& entries, double width, int font) {
   const double patch = 1.5 * font, gap = 1.5 * font, room = width - 2.0 * font;
   std::vector<std::vector<std::pair<PlacedText, Rgb>>> rows(1);
@@ -51,7 +51,7 @@ double lay_out_legend(SceneFrame& frame, const std::vector<LegendEntry>& entries
   return top;
 }
 
-// A colour bar at the right, that of the soundings below if the right is taken; a legend below.
+// Returns a frame with a colour bar at the right, a second one for the soundings below it, and a legend below.
 SceneFrame lay_out_frame(const SceneKey& key, const std::optional<SceneKey>& soundings, const PictureOptions& options) {
   const int font = font_size_for(options);
   const double margin = font;
@@ -98,7 +98,7 @@ std::string scene_png(const SceneCloud& scene, const SceneLook& look, const Pict
   const int font = font_size_for(options);
   const SceneFrame frame = lay_out_frame(actors.key(), actors.soundings_key(), options);
 
-  // Layers from the top: the canvas with its texts, the scene in its own box, an empty background.
+  // Stack the layers from the top: the canvas with its texts, the scene in its own box, an empty background.
   Canvas canvas(options, show_scene_name);
   vtkRenderWindow* window = canvas.renderer()->GetRenderWindow();
   window->SetNumberOfLayers(2);

@@ -21,7 +21,7 @@ namespace insonify {
 enum class SceneColour {
   height,      ///< world z [m]
   material,    ///< one colour per material, with a legend
-  part,        ///< one colour per part of a scene of parts, with a legend; other scenes: as material
+  part,        ///< one colour per part of a scene of parts, with a legend; other scenes: see material
   visibility,  ///< visible, hidden, turned away or outside the fan
   level,       ///< [dB]
   grazing,     ///< angle between the surface and the ray from the head [deg]
@@ -48,18 +48,18 @@ enum class ScenePreset {
 struct SceneLook {
   SceneColour colour = SceneColour::height;
   std::vector<float> level_db;             ///< per surfel; NaN: unknown, drawn grey
-  std::string level_unit = "dB re 1 µPa";  ///< of level_db and of the soundings
+  std::string level_unit = "dB re 1 µPa";  ///< unit of level_db and of the soundings
   std::vector<Visibility> visibility;      ///< per surfel, see find_visibility
   std::optional<SceneHead> head;           ///< body, axes, edges and arcs of its fan, and footprint on the scene;
   ///< drawn with the elevation width, which is narrower than the region of find_visibility
-  std::vector<Eigen::Vector3d> track;      ///< way of the head [m, world]; a line
+  std::vector<Eigen::Vector3d> track;      ///< track of the head [m, world]; a line
   Soundings soundings;                     ///< points coloured by level
   std::vector<std::uint32_t> highlighted;  ///< marked surfels, drawn in front of everything
   std::vector<Eigen::Vector3d> holes;      ///< holes of the scan [m, world], see find_holes; red points
-  bool normals = false;                    ///< normals of some 4000 surfels as lines; on both sides if not oriented
+  bool normals = false;                    ///< true: normals of some 4000 surfels, on both sides if not oriented
   ScenePreset camera = ScenePreset::automatic;
   double point_size = 1.4;               ///< side of a drawn surfel in units of its spacing sqrt(area)
-  bool axes = true;                      ///< box and floor grid, labelled in world metres
+  bool axes = true;                      ///< true: box and floor grid, labelled in world metres
   std::size_t most_surfels = 2'000'000;  ///< larger scenes are thinned evenly; 0: draw all
 };
 

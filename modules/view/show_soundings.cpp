@@ -16,7 +16,7 @@ void show_soundings(const Ping& ping, const BottomSoundings& found, const Pictur
   const Eigen::Vector3d head = ping.world_from_head.translation(), port = ping.world_from_head.linear().col(1);
   const Eigen::Vector2d starboard = -port.head<2>().normalized();
 
-  // Three kinds of points.
+  // Make one line for each kind of points.
   LineChart chart;
   chart.lines = {{{}, {}, "by phase", LineStyle::points},
                  {{}, {}, "by amplitude", LineStyle::points},

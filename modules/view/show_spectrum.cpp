@@ -36,7 +36,7 @@ ChartLine in_decibels(const SpectrumLine& line) {
   return chart;
 }
 
-// Multiples of 5 dB around all levels, at most `window_db` apart.
+// Returns multiples of 5 dB around all levels, at most `window_db` apart.
 std::pair<double, double> limits_of(const std::vector<ChartLine>& lines, double window_db) {
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const ChartLine& line : lines) {

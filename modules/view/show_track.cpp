@@ -18,7 +18,7 @@ constexpr float no_level = -200;
 constexpr std::array<Colour, 6> way_colours = {
     {{0.1, 0.75, 0.95}, {1, 0.35, 0.3}, {0.45, 0.9, 0.35}, {1, 0.8, 0.2}, {0.8, 0.5, 1}, {1, 0.6, 0.8}}};
 
-/// What must be seen: ways with some room, and the levels.
+/// Returns the box of the map: tracks with a margin, and the levels.
 Eigen::AlignedBox2d extent_of(const TrackMap& map) {
   Eigen::AlignedBox2d box;
   for (const TrackMap::Way& way : map.ways)
@@ -33,7 +33,7 @@ Eigen::AlignedBox2d extent_of(const TrackMap& map) {
   return {box.min().array() - room, box.max().array() + room};
 }
 
-/// Widens one side of the box until it has this ratio of width to height.
+/// Returns the box widened on one side until it has this ratio of width to height.
 Eigen::AlignedBox2d widened(const Eigen::AlignedBox2d& box, double ratio) {
   Eigen::Vector2d size = box.sizes();
   if (size.x() < ratio * size.y())
@@ -80,7 +80,7 @@ void draw_way(Canvas& canvas, const TrackMap::Way& way, const Axes& axes, const 
   canvas.add_lines(strokes, 1.5 * thin, colour, 0.8);
 }
 
-/// Names beside the beginnings of the ways, one below the other where they would meet.
+/// Draws names beside the beginnings of the tracks, one below the other where they would meet.
 void draw_names(Canvas& canvas, const TrackMap& map, const Axes& axes, int font) {
   std::vector<Box> taken;
   for (const TrackMap::Way& way : map.ways) {

@@ -15,13 +15,13 @@ struct TrackMap {
   /// The track of a head.
   struct Way {
     std::string name;
-    std::vector<Eigen::Vector2d> places;  ///< x, y of each ping [m]
-    std::vector<Eigen::Vector2d> ahead;   ///< horizontal part of its unit vector ahead, of length 1 when level
+    std::vector<Eigen::Vector2d> places;  ///< positions of the pings, x, y [m]
+    std::vector<Eigen::Vector2d> ahead;   ///< horizontal part of the head's unit vector ahead, of length 1 when level
   };
   std::vector<Way> ways;
   double x = 0, y = 0, cell = 1;  ///< corner of cell (0, 0) of the levels, and size of the cells [m]
   Grid<float> level_db;           ///< columns along x, rows along y; NaN or -inf: nothing; empty: none
-  std::string unit;               ///< of the colour bar
+  std::string unit;               ///< unit of the colour bar
 };
 
 /// Draws levels and tracks to one scale, x to the right and y up, into a PNG without an X server. Each track is a line

@@ -10,7 +10,7 @@ namespace insonify {
 namespace {
 
 void require_history(const PingHistory& history, const PictureOptions& options) {
-  RangeGate far_side = history.gate;  // of two sides, and on the ground, the near end is no range
+  RangeGate far_side = history.gate;  // for two sides, and on the ground, the near end is no range
   far_side.min_range = far_side.max_range / 2;
   require_valid(far_side, "show_waterfall");
   const auto pings = static_cast<std::size_t>(history.level_db.rows());
@@ -23,7 +23,7 @@ void require_history(const PingHistory& history, const PictureOptions& options) 
   require_picture_size(options, "show_waterfall");
 }
 
-// Ping numbers at the centres of their rows: round ones if numbers are consecutive, else at regular intervals.
+// Returns ping numbers at the centres of their rows: round ones if consecutive, otherwise at regular intervals.
 AxisTicks ping_ticks(const PingHistory& history, double most) {
   const auto& number = history.number;
   const auto rows = static_cast<double>(number.size());
@@ -38,7 +38,7 @@ AxisTicks ping_ticks(const PingHistory& history, double most) {
   return ticks;
 }
 
-// Round ranges; those to port count from the middle, too.
+// Returns round ranges; those to port count from the middle, too.
 AxisTicks range_ticks(double low, double high, double most) {
   AxisTicks ticks = round_ticks(low, high, most);
   for (std::size_t t = 0; t < ticks.at.size(); ++t)

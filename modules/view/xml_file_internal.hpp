@@ -18,8 +18,8 @@ class vtkXMLWriter;
 
 namespace insonify {
 
-/// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed. `messages` have been
-/// collected since before `data` was made.
+/// Writes a data set as a compressed VTK XML file, to a temporary name that is then renamed. `messages` must exist
+/// since before `data` was made.
 void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const VtkMessages& messages,
                const char* who);
 

@@ -15,9 +15,9 @@ namespace insonify {
 /// Reads pings by their index in a reel.
 struct PingSource {
   std::function<Ping(std::size_t ping)> ping;
-  /// Pressure of one beam in `count` pings from the `first` on, pings x bins [Pa].
+  /// Returns the pressure of one beam in `count` pings from the `first` on, pings x bins [Pa].
   std::function<ComplexGridF(std::size_t first, std::size_t count, std::size_t beam)> beam;
-  std::function<Soundings(std::size_t ping)> returns;  ///< of one ping; or empty: there are none
+  std::function<Soundings(std::size_t ping)> returns;  ///< returns of one ping; empty: there are none
 };
 
 /// The pings that a viewer plays. The positions of all pings are known; images are read one at a time, so that memory
@@ -30,23 +30,23 @@ class LazyPings {
 
   /// Returns the number of pings.
   std::size_t size() const { return places_.size(); }
-  /// Returns whether there is no ping.
+  /// Returns true if there is no ping.
   bool empty() const { return places_.empty(); }
   /// Returns time and pose of ping `i`.
   const TrackPoint& place(std::size_t i) const { return places_[i]; }
   /// Returns time and pose of all pings.
   const std::vector<TrackPoint>& places() const { return places_; }
 
-  /// Fan of every ping; read with the first one.
+  /// Returns the fan of every ping, read with the first one.
   const BeamFan& fan() const { return frame().fan; }
-  /// Range gate of every ping; read with the first one.
+  /// Returns the range gate of every ping, read with the first one.
   const RangeGate& gate() const { return frame().gate; }
   /// Returns a ping; the last one stays in memory. Throws Error(content) for a ping that is invalid or differs from the
   /// first in fan or gate. Errors of the source propagate.
   std::shared_ptr<const Ping> ping(std::size_t i) const;
-  /// Pressure of one beam in some pings, pings x bins [Pa].
+  /// Returns the pressure of one beam in some pings, pings x bins [Pa].
   ComplexGridF beam(std::size_t first, std::size_t count, std::size_t beam) const;
-  /// Returns whether the source gives returns.
+  /// Returns true if the source gives returns.
   bool has_returns() const { return static_cast<bool>(source_.returns); }
   /// Returns the returns of one ping; none if has_returns is false.
   Soundings returns(std::size_t i) const;

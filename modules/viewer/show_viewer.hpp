@@ -12,14 +12,14 @@ namespace insonify {
 
 /// Initial state of the viewer.
 struct ViewerOptions {
-  int width = 1600, height = 1000;  ///< of the window [pixels]
+  int width = 1600, height = 1000;  ///< size of the window [pixels]
   ViewerState start;
-  std::vector<ViewerEvent> events;  ///< played before user input is accepted
+  std::vector<ViewerEvent> events;  ///< events that are played before user input is accepted
   /// Receives messages: explanations of samples, poses, names of screenshots. Empty: messages are dropped.
   std::function<void(const std::string&)> say;
 };
 
-/// Returns whether a window can be opened: the X server that DISPLAY names answers.
+/// Returns true if a window can be opened: the X server that DISPLAY names answers.
 bool has_display();
 
 /// Opens the viewer on the desktop and returns when the user or an event closes it. Panels of a run: the fan in true
@@ -30,8 +30,7 @@ bool has_display();
 /// extent.
 void show_viewer(const ViewerData& data, const ViewerOptions& options);
 
-/// Draws the same window off-screen, without a display, plays the events, and writes the final state as PNG. File
-/// errors as show_fan.
+/// As above, off-screen without a display: plays the events and writes the final state as PNG. File errors as show_fan.
 void draw_viewer(const ViewerData& data, const ViewerOptions& options, const std::string& png_path);
 
 }  // namespace insonify

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double row_letters = 1.6;  // height of a row in sizes of its letters
 
-// A plate with its label; returns where it ends.
+// Draws a plate with its label. Returns its end.
 double add_button(Canvas& canvas, const ViewerButton& button, Point2 left_middle, int font,
                   std::vector<PlacedButton>& placed) {
   const std::string label = key_label(button.key);

@@ -11,11 +11,11 @@ namespace insonify {
 /// A button as it was drawn.
 struct PlacedButton {
   Box box;
-  std::string key;  ///< that a click on it presses
+  std::string key;  ///< key that a click on it presses
 };
 
-/// Draws rows of the table of keys from the top of a box, each with a button for every key, and returns the buttons in
-/// coordinates of the box's picture. Rows that do not fit are left out; those about the mouse too unless `mouse`.
+/// Draws rows of the table of keys from the top of a box, each with a button for every key. Returns the buttons in
+/// coordinates of the box's picture. Rows that do not fit are left out, as are those about the mouse unless `mouse`.
 std::vector<PlacedButton> draw_key_rows(Canvas& canvas, const std::vector<ViewerKey>& keys, const Box& box,
                                         int font_size, bool mouse);
 

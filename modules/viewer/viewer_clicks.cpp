@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a click in a ViewerWindow does.
+// Implements the clicks of a ViewerWindow.
 #include <vtkCamera.h>
 
 #include "viewer/viewer_window_internal.hpp"
@@ -11,7 +11,7 @@ Point2 ViewerWindow::on_panel(ViewerPanelName name, Point2 place) const {
   return {place.x - box.left, place.y - box.bottom};
 }
 
-// Converts a place in the window to the fan's plane, since its camera may have moved.
+// Converts a position in the window to the fan's plane, since its camera may have moved.
 Point2 ViewerWindow::on_fan(Point2 place) const {
   const Point2 own = on_panel(ViewerPanelName::fan, place);
   vtkCamera* camera = panel(ViewerPanelName::fan).content->GetActiveCamera();

@@ -16,7 +16,7 @@
 namespace insonify {
 namespace {
 
-constexpr double still_a_click = 3;  // [pixels] between press and release
+constexpr double still_a_click = 3;  // between press and release [pixels]
 
 vtkSliderRepresentation2D* shape_of(vtkSliderWidget* slider) {
   return vtkSliderRepresentation2D::SafeDownCast(slider->GetRepresentation());
@@ -135,7 +135,7 @@ ViewerSliders::ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor*
   if (pings > 1) slider_.push_back(make_slider("", "%.0f", 0, static_cast<double>(pings - 1)));
   renderer_->SetLayer(1);
   renderer_->InteractiveOff();
-  renderer_->GetActiveCamera();  // creates it; window coordinates are computed through it
+  renderer_->GetActiveCamera();  // creates the camera, through which window coordinates are computed
   window->AddRenderer(renderer_);
   for (const auto& slider : slider_) {
     slider->SetInteractor(interactor);
@@ -144,7 +144,7 @@ ViewerSliders::ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor*
     slider->EnabledOn();
     slider->AddObserver(vtkCommand::InteractionEvent, this, &ViewerSliders::notify);
   }
-  if (pings > 1) shape_of(slider_[2])->ShowSliderLabelOff();  // the status line says it
+  if (pings > 1) shape_of(slider_[2])->ShowSliderLabelOff();  // the status line shows it
 }
 
 void ViewerSliders::place(const Box& room, const Box& timeline, const int window_size[2], int font_size) {

@@ -53,10 +53,10 @@ class ViewerStyle : public vtkInteractorStyleTrackballCamera {
   bool moving_ = false;
 };
 
-/// The name of a key press for apply_key.
+/// Returns the name of a key press for apply_key.
 std::string key_name(const std::string& symbol, bool shift);
 
-/// Sliders over everything else: gain and window of the levels, and of several pings their number.
+/// Sliders over everything else: gain and window of the levels, and the number of the ping if there are several.
 class ViewerSliders {
  public:
   /// `moved` is called with gain and window [dB] and the ping (from 0) when the user moves a slider.

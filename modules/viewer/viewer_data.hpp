@@ -20,21 +20,21 @@ namespace insonify {
 /// Name of the public call in errors of the viewer.
 inline constexpr const char* viewer_caller = "show_viewer";
 
-/// Data of the viewer. Of a run: pings, and the other members as far as available. To inspect: scene, fan and gate.
+/// Data of the viewer. For a run: pings, and the other members as far as available. To inspect: scene, fan and gate.
 struct ViewerData {
   std::string title;
-  std::string recorded_unit{};              ///< of levels of a recording, "dB re full scale"; empty: those of sound
-  LazyPings pings;                          ///< all with the same fan and gate
-  std::vector<Contributors> contributors;   ///< one per ping, empty if unknown; or no elements
+  std::string recorded_unit{};              ///< unit of levels of a recording, "dB re full scale"; empty: that of sound
+  LazyPings pings;                          ///< pings with one fan and gate
+  std::vector<Contributors> contributors;   ///< contributors of each ping, empty if unknown; or no elements
   std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
-  Soundings returns;                        ///< of all pings; unused if `pings` has returns of its own
-  SceneCloud scene;                         ///< of all pings; may be empty
+  Soundings returns;                        ///< returns of all pings; unused if `pings` has returns of its own
+  SceneCloud scene;                         ///< scene of all pings; may be empty
   /// For a scene whose parts differ from ping to ping: returns the scene of a ping, in place of `scene`. Equal scenes
   /// are the same object. Surfels are numbered within the scene of the ping. Otherwise empty.
   std::function<std::shared_ptr<const SceneCloud>(std::size_t ping)> scene_of_ping{};
   Pose vehicle_from_head = Pose::Identity();  ///< mounting of the head to inspect
-  BeamFan fan;                                ///< to inspect
-  RangeGate gate;                             ///< to inspect
+  BeamFan fan;                                ///< fan to inspect
+  RangeGate gate;                             ///< gate to inspect
   std::optional<View> view;  ///< sampling of the scene by a ping (resolve_ping), at any pose of the head;
                              ///< empty: sampling by fan and gate alone
 };
@@ -48,7 +48,7 @@ enum class ViewerPicture {
 /// Returns the picture that suits the head of a run.
 ViewerPicture picture_of(const ViewerData& data);
 
-/// Returns whether there is a scene.
+/// Returns true if there is a scene.
 bool has_scene(const ViewerData& data);
 /// Returns the scene at the time of a ping. A scene that is common to all pings is not copied and must outlive the
 /// result.
@@ -61,7 +61,7 @@ void require_viewable(const ViewerData& data, ViewerMode mode);
 /// Returns the view of the scene for a head at `pose` with this fan and gate.
 View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate);
 
-/// Returns the place of the vehicle of a head to inspect: the pose that `ping` takes, which mounts the head.
+/// Returns the pose of the vehicle of a head to inspect: the one that `ping` takes, which mounts the head.
 HeadPlace vehicle_place(const ViewerData& data, const HeadPlace& head);
 
 /// Returns the unit of levels, with or without range compensation.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Drawing of a ViewerWindow's state, restricted to what has changed.
+// Draws a ViewerWindow's state, restricted to what has changed.
 
 #include <algorithm>
 
@@ -31,7 +31,8 @@ PictureOptions ViewerWindow::options_for(const Box& box) const {
   return options;
 }
 
-// The sample whose beam and range the charts show: the selected one, else the strongest of the middle beam.
+// Returns the sample whose beam and range the charts show: the selected one, otherwise the strongest of the middle
+// beam.
 PixelPlace ViewerWindow::shown_place() const {
   if (state_.selected) return *state_.selected;
   PixelPlace place{middle_beam(image_->fan), 0};
@@ -86,12 +87,12 @@ void ViewerWindow::draw() {
   window_->Render();
 }
 
-// True if the panels show the levels of this ping in these colours already.
+// Returns true if the panels show the levels of this ping in these colours already.
 bool ViewerWindow::levels_stay() const {
   return drawn_ && drawn_->ping == state_.ping && same_colours(*drawn_, state_);
 }
 
-// The first panel: fan or sweep of the ping, or the waterfall that it is in.
+// Draws the first panel: fan or sweep of the ping, or the page of the waterfall that shows it.
 void ViewerWindow::draw_picture(ViewerPanel& panel, const PictureOptions& asked) {
   PictureOptions options = asked;
   options.title = data_.title;
@@ -124,19 +125,19 @@ void ViewerWindow::mark_picture(ViewerPanel& panel, const PictureOptions& option
   mark_fan(panel, fan_layout_, marks, options);
 }
 
-// The levels of a beam.
+// Draws the levels of a beam.
 void ViewerWindow::draw_beam(ViewerPanel& panel, const PictureOptions& options) {
   const PixelPlace place = shown_place();
   if (!levels_stay() || drawn_->selected != state_.selected) {
     PictureOptions own = options;
-    own.min_db = own.max_db = std::numeric_limits<double>::quiet_NaN();  // automatic limits of this beam
+    own.min_db = own.max_db = std::numeric_limits<double>::quiet_NaN();  // automatic limits for this beam
     Canvas canvas = fresh_canvas(panel.content, own, false);
     ascan_axes_ = draw_ascan(canvas, *image_, place.beam, own);
   }
   mark_ascan(panel, *image_, ascan_axes_, place, options);
 }
 
-// One beam ping after ping with the row of the ping; of a single ping the levels across its beams.
+// Draws one beam ping after ping with the row of the ping, or, for a single ping, the levels across its beams.
 void ViewerWindow::draw_history(ViewerPanel& panel, const PictureOptions& asked) {
   PictureOptions options = asked;
   const PixelPlace place = shown_place();
@@ -196,12 +197,12 @@ void ViewerWindow::draw_status(ViewerPanel& panel, const PictureOptions& options
                  options.font_size);
 }
 
-// An empty ground for the slider.
+// Draws an empty background for the slider.
 void ViewerWindow::draw_timeline(ViewerPanel& panel, const PictureOptions& options) {
   fresh_canvas(panel.content, options, false);
 }
 
-// On top of everything: help, or the borders of the panels.
+// Draws help, or the borders of the panels, on top of everything.
 void ViewerWindow::draw_over() {
   const Box whole{0, layout_.facts.right, 0, layout_.facts.top};
   Canvas canvas = fresh_canvas(over_.content, panel_options(whole, layout_.font_size), false);
@@ -215,7 +216,7 @@ void ViewerWindow::draw_over() {
                        canvas.colours().line, 0.35);
 }
 
-// The explanation, and below it a button for every key as far as there is room.
+// Draws the explanation, and below it a button for every key as far as there is room.
 void ViewerWindow::draw_facts(ViewerPanel& panel, const PictureOptions& options) {
   const int font = layout_.font_size, small = std::max(9, (9 * font) / 10);
   Canvas facts = fresh_canvas(panel.content, options, false);

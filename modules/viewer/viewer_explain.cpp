@@ -15,12 +15,12 @@
 namespace insonify {
 namespace {
 
-// Absolute angle between two azimuths.
+// Returns the absolute angle between two azimuths.
 double azimuth_gap(double a, double b) { return std::abs(std::remainder(a - b, 2 * pi)); }
 
-// A beam's share of the fan: halfway to its neighbours in azimuth, and its width in elevation.
+// Extent of a beam's cell in the fan: halfway to its neighbours in azimuth, and its width in elevation.
 struct BeamReach {
-  double left, right;  // of its azimuth, positive [rad]
+  double left, right;  // distances from its azimuth, positive [rad]
   double up;           // [rad]
 };
 BeamReach reach_of(const BeamFan& fan, std::size_t beam) {
@@ -30,14 +30,14 @@ BeamReach reach_of(const BeamFan& fan, std::size_t beam) {
     if (gap > 1e-9) left = std::min(left, gap);
     if (gap < -1e-9) right = std::min(right, -gap);
   }
-  // The outermost beams extend outwards as far as inwards; a single one by its width.
+  // Extend the outermost beams outwards as far as inwards, a single one by its width.
   if (std::isinf(left)) left = right;
   if (std::isinf(right)) right = left;
   if (std::isinf(left)) left = right = fan.beam_width;
   return {left / 2, right / 2, fan.row_width > 0 ? fan.row_width / 2 : fan.elevation_width};
 }
 
-// Surfels whose centre lies in the beam's share of the fan and in the bin.
+// Returns the surfels whose centre lies in the beam's cell and in the bin.
 std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping, PixelPlace place) {
   const HeadFrame head(scene, ping.world_from_head);
   const double elevation = ping.fan.elevation[place.beam];
@@ -59,7 +59,7 @@ std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping,
   return found;
 }
 
-// The nearest surfel of the scene that helps to hide one of `hidden`, by the hit rule.
+// Finds the nearest surfel of the scene that helps to hide one of `hidden`, by the hit rule.
 void find_occluder(const SceneCloud& scene, const View& view, PixelVisibility& visibility) {
   const SamplingOptions& sampling = view.sampling;
   const GatedSurfels gated =
@@ -88,13 +88,13 @@ std::string material_name(const ViewerData& data, const SceneCloud& scene, std::
   return "material " + std::to_string(material);
 }
 
-/// The part that a surfel is of; empty for a scene that is one part.
+/// Returns the name of the part of a surfel; empty for a scene that is one part.
 std::string part_name(const SceneCloud& scene, std::uint32_t surfel) {
   const ScenePart* part = surfel < scene.size() ? scene.part_of_surfel(surfel) : nullptr;
   return part ? part->name : "";
 }
 
-/// The commonest of the numbers of surfels below `count`; number_of(i) is that of surfel i.
+/// Returns the commonest of the numbers of surfels below `count`; number_of(i) is that of surfel i.
 template <typename Number>
 std::size_t commonest(const std::vector<std::uint32_t>& surfels, std::size_t count, const Number& number_of) {
   std::vector<std::size_t> times(count, 0);
@@ -110,7 +110,7 @@ std::string most_common_material(const ViewerData& data, const SceneCloud& scene
   return material_name(data, scene, static_cast<std::uint16_t>(most));
 }
 
-/// The part that a sample shows: as the ping has labelled it, else that of most surfels seen here; empty: none.
+/// Returns the part that a sample shows: the ping's label, otherwise that of most surfels seen here; empty: none.
 std::string part_at(const Ping& ping, PixelPlace place, const SceneCloud& scene,
                     const std::vector<std::uint32_t>& seen) {
   if (const Grid<std::uint16_t> parts = part_image(ping.labels); parts.size() > 0) {

@@ -16,11 +16,11 @@ namespace insonify {
 struct Contribution {
   std::uint32_t surfel = 0;  ///< index in the scene of the ping
   std::uint32_t id = 0;
-  std::string material;  ///< its name, or its number if the scene is missing
-  double share = 0;      ///< of the energies of all contributors
-  double elevation = 0;  ///< [rad], head axes
+  std::string material;  ///< name of the material, or its number if the scene is missing
+  double share = 0;      ///< fraction of the energy of all contributors
+  double elevation = 0;  ///< elevation in head axes [rad]
   PathKind path = PathKind::direct;
-  std::string part{};  ///< of a scene of parts: its name
+  std::string part{};  ///< name of the part in a scene of parts
 };
 
 /// Visibility from the head of the surfels at a sample's position: those within the beam's cell of the fan, and within
@@ -29,7 +29,7 @@ struct PixelVisibility {
   std::vector<std::uint32_t> seen, hidden;  ///< surfels, by index in the scene
   std::size_t turned_away = 0;
   std::optional<double> occluder_range;          ///< range of the nearest surfel that hides one of `hidden` [m]
-  std::optional<std::uint32_t> occluder_surfel;  ///< its index
+  std::optional<std::uint32_t> occluder_surfel;  ///< index of this surfel
 };
 /// Returns the visibility at a sample of a ping. `scene` is the scene of the ping; empty for an empty scene.
 PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, const Ping& ping, PixelPlace place);
@@ -38,17 +38,17 @@ PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, c
 struct PixelFacts {
   PixelPlace place;
   std::int64_t ping_number = 0;
-  double range = 0;                         ///< of the bin's centre [m]
-  double azimuth = 0;                       ///< of the beam [rad], positive to port
-  std::optional<double> scan_angle;         ///< of a scanning head [rad], positive to port
-  double elevation = 0;                     ///< of the beam [rad]
-  double level_db = 0;                      ///< in `unit`
-  std::string unit = "dB re 1 µPa";         ///< or that of a recording
+  double range = 0;                         ///< range of the bin's centre [m]
+  double azimuth = 0;                       ///< azimuth of the beam [rad], positive to port
+  std::optional<double> scan_angle;         ///< scan angle of a scanning head [rad], positive to port
+  double elevation = 0;                     ///< elevation of the beam [rad]
+  double level_db = 0;                      ///< level in `unit`
+  std::string unit = "dB re 1 µPa";         ///< unit of sound, or that of a recording
   double compensated_level_db = 0;          ///< dB re 1 uPa at 1 m, range compensated (E20)
   std::vector<Contribution> contributions;  ///< strongest first; empty: none, or unknown
   bool contributions_known = false;
-  bool unknown = false;                       ///< hole of the scan: surface may be missing here
-  std::optional<PixelVisibility> visibility;  ///< if there is a scene
+  bool unknown = false;                       ///< true: hole of the scan, surface may be missing here
+  std::optional<PixelVisibility> visibility;  ///< empty: there is no scene
   std::string part;                           ///< in a scene of parts: the part of the pixel; empty: none
   std::string seen_material;                  ///< most frequent material of the visible surfels; empty: none visible
 };
@@ -74,7 +74,7 @@ struct HeadView {
   std::size_t rays = 0, rays_open = 0;  ///< 16 per beam; rays_open: hit neither a surface nor a hole
   std::vector<Eigen::Vector3d> holes;   ///< holes of the scan found by the rays, world [m]
 };
-/// Returns the visibility of a scene from a head, by the sampling of `view`.
+/// Returns the visibility of a scene from a head, with the sampling of `view`.
 HeadView look_from(const SceneCloud& scene, const View& view);
 
 /// Returns the view in sentences, one per line, with the corresponding option --pose.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr Colour mark_colour = {0.25, 0.95, 0.95}, measure_colour = {0.55, 1.0, 0.45};
 constexpr int ring_sides = 24;
-constexpr std::size_t sampled_pings = 16;  // for the common scale
+constexpr std::size_t sampled_pings = 16;  // number of pings for the common scale
 
 Path arc_of(const FanLayout& layout, double range) {
   constexpr int steps = 256;
@@ -36,7 +36,7 @@ void mark_measure(Canvas& canvas, const FanLayout& layout, const Measure& measur
   canvas.add_text(length);
 }
 
-// The strongest of the beams drawn in the cell at a bearing, which share a cell with the nearest beam.
+// Returns the strongest of the beams drawn in the cell at a bearing, which share a cell with the nearest beam.
 std::optional<std::size_t> strongest_at(const LevelImage& image, double bearing, Eigen::Index bin) {
   const BeamCells cells = order_beams(image);
   const auto turned = [&](double angle) {  // wraps an angle into the fan's interval

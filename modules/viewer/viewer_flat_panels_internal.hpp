@@ -17,20 +17,20 @@
 
 namespace insonify {
 
-/// Levels of one ping, range compensated if `tvg`; bearings of a scanning head include its turn.
+/// Returns the levels of one ping, range compensated if `tvg`. Bearings of a scanning head include its turn.
 LevelImage levels_of(const ViewerData& data, std::size_t ping, bool tvg);
 
-/// Highest level of the automatic colour scale, raw and range compensated, common to all pings of a run so that playing
-/// does not flicker; by at most 16 of them.
+/// Returns the highest level of the automatic colour scale, raw and range compensated. It is common to all pings of a
+/// run so that playing does not flicker, and estimated from at most 16 of them.
 std::array<double, 2> common_max_db(const ViewerData& data);
 
-/// Levels of the beams at the range of a sample, by bearing; of a head with rows of beams, those of its row.
+/// Returns a chart of the levels at the range of a sample, by bearing; for a head with rows of beams, those of its row.
 LineChart bearing_chart(const LevelImage& image, PixelPlace place, const PictureOptions& options);
 
-/// What is marked on a fan.
+/// Marks on a fan.
 struct FanMarks {
-  std::optional<double> bearing, range;  ///< [rad] to starboard, [m]: a line; with both also an arc, and a ring
-  Measure measure;                       ///< the measured distance with its length
+  std::optional<double> bearing, range;  ///< [rad] to starboard, [m]: marked by a line; both: also an arc, and a ring
+  Measure measure;                       ///< measured distance with its length
 };
 void mark_fan(ViewerPanel& panel, const FanLayout& layout, const FanMarks& marks, const PictureOptions& options);
 /// Marks the row of a ping, and on it the sample at a range [m].
@@ -44,19 +44,19 @@ void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, s
 struct FanPlace {
   double bearing = 0, range = 0;
 };
-/// Inverse of FanLayout::at; bearings in (-pi, pi].
+/// Inverts FanLayout::at; bearings in (-pi, pi].
 FanPlace fan_place(const FanLayout& layout, Point2 place);
-/// The same place in metres to starboard and forward of the head.
+/// Returns the position in metres to starboard and forward of the head.
 Eigen::Vector2d metres_on_fan(FanPlace place);
 
-/// The sample drawn at a place: the nearest beam in azimuth and the bin; of beams that share a cell the strongest,
-/// which is the one drawn. None outside the fan.
+/// Returns the sample drawn at a position: the nearest beam in azimuth and the bin; of beams that share a cell the
+/// strongest, which is the one drawn. Returns nothing outside the fan.
 std::optional<PixelPlace> pixel_at(const LevelImage& image, FanPlace place);
 
-/// The row at a place on a waterfall; none outside its frame.
+/// Returns the row at a position on a waterfall; nothing outside its frame.
 std::optional<std::size_t> row_at(const Axes& axes, Point2 place);
 
-/// The bin at a place on a chart of levels against range; none outside its frame.
+/// Returns the bin at a position on a chart of levels against range; nothing outside its frame.
 std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 place);
 
 }  // namespace insonify

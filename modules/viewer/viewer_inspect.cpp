@@ -15,7 +15,7 @@ namespace {
 
 constexpr int rays_per_beam = 16;
 
-/// By Visibility.
+/// Words for visibilities, in the order of Visibility.
 constexpr const char* visibility_texts[] = {"not known", "outside the fan or the range", "facing away",
                                             "hidden by a nearer surface", "seen"};
 

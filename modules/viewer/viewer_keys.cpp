@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of keys: what it lists as help, the buttons that it gives, and what each key does.
+// The table of keys: its help, its buttons, and the effect of each key.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -61,7 +61,7 @@ void turn_head(S& state, double yaw, double pitch, double roll) {
 }
 
 using Request = ViewerRequest;
-const auto stay = [](S&, E&) {};  // of a key that asks the window for something
+const auto stay = [](S&, E&) {};  // for a key that only asks the window
 
 const std::vector<ViewerKey> keys_of_runs = {
     {"select a sample: fan, 3-D, A-scan or waterfall", {}, "click"},

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int min_width = 800, min_height = 600, largest = 8192;
 constexpr double facts_share = 0.19, lower_share = 0.36;
-constexpr double key_letters = 12;  // width of the scene's key in sizes of its letters
+constexpr double key_letters = 12;  // width of the scene's key in letter sizes
 
 }  // namespace
 
@@ -31,7 +31,7 @@ ViewerPanel add_panel(vtkRenderWindow* window) {
 
 void place_panel(ViewerPanel& panel, const Box& box, const int window_size[2]) {
   const bool shown = box.width() > 0 && box.height() > 0;
-  panel.content->SetInteractive(shown && panel.content->GetLayer() == 0);  // a hidden one still covers the window
+  panel.content->SetInteractive(shown && panel.content->GetLayer() == 0);  // a hidden panel still covers the window
   for (vtkRenderer* renderer : {panel.content.Get(), panel.marks.Get()}) {
     renderer->SetDraw(shown);
     if (shown)
@@ -90,7 +90,7 @@ ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const Viewer
   }
   const double bottom = parts.timeline ? std::round(status + 2.2 * layout.font_size) : status;
   layout.timeline = {0, facts, status, bottom};
-  // Without a history the A-scan takes its room.
+  // Without a history the A-scan takes its space.
   const double half = std::round(facts / 2), lower = std::round(bottom + lower_share * (top - bottom));
   layout.ascan = {0, parts.history ? half : facts, bottom, lower};
   layout.history = {layout.ascan.right, facts, bottom, lower};

@@ -19,14 +19,14 @@ struct ViewerLayout {
   Box timeline;  ///< slider of the pings
   Box status;    ///< one line
 
-  Box scene_view;  ///< the part of `scene` that the scene itself fills
+  Box scene_view;  ///< box within `scene` that the scene itself fills
 };
 
 /// The panels of a window.
 enum class ViewerPanelName { fan, scene, ascan, history, facts, timeline, status };
 /// A row of the table of panels.
 struct ViewerPanelPlace {
-  const char* name;  ///< in scripts
+  const char* name;  ///< name in scripts
   ViewerPanelName value;
   Box ViewerLayout::*box;
 };
@@ -45,7 +45,7 @@ inline const Box& box_of(const ViewerLayout& layout, ViewerPanelName name) {
 /// Optional panels of a window, in addition to the panels that its mode always has.
 struct ViewerParts {
   bool scene = true, history = true, timeline = false;
-  bool scene_key = true;  ///< colour bars and legend beside the scene
+  bool scene_key = true;  ///< true: colour bars and legend beside the scene
 };
 
 /// Returns the layout of a window of width x height pixels. Throws Error(argument) for a window

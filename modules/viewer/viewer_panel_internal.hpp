@@ -8,21 +8,21 @@
 
 namespace insonify {
 
-/// A part of the window: its content, and marks above it that change without redrawing the content.
+/// A panel of the window: its content, and marks above it that change without redrawing the content.
 struct ViewerPanel {
   vtkSmartPointer<vtkRenderer> content, marks;
 };
 
-/// Two renderers in the window's lower and upper layer.
+/// Returns a panel of two renderers, in the window's lower and upper layer.
 ViewerPanel add_panel(vtkRenderWindow* window);
 
 /// Places a panel in its box; an empty box hides it.
 void place_panel(ViewerPanel& panel, const Box& box, const int window_size[2]);
 
-/// Options of a drawing that fills a box of a dark window.
+/// Returns the options of a drawing that fills a box of a dark window.
 PictureOptions panel_options(const Box& box, int font_size);
 
-/// An emptied renderer to draw on. keep_camera keeps the user's camera.
+/// Returns a canvas on an emptied renderer. `keep_camera` keeps the user's camera.
 Canvas fresh_canvas(vtkRenderer* renderer, const PictureOptions& options, bool keep_camera);
 
 /// Adds lines of text from the top of a box, truncated to its width; lines below its bottom are omitted.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the viewer shows of several pings: pages of a waterfall, and sweeps of a scanning head.
+// Selects the pings that the viewer shows together: pages of a waterfall, and sweeps of a scanning head.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t pings_of_a_page = 600;
 constexpr std::size_t longest_sweep = 4000;
 
-// The pings of the sweep that `ping` is of.
+// Returns the pings of the sweep that contains `ping`.
 PageOfPings sweep_of(const LazyPings& pings, std::size_t ping) {
   const auto in_sweep = [&](std::size_t i) {
     return pings.place(i).scan && pings.place(i).scan->sweep == pings.place(ping).scan->sweep;

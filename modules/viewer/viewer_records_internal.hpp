@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// One beam in some consecutive pings; kept until others are asked for.
+/// One beam in some consecutive pings, kept until others are requested.
 struct BeamPage {
   std::size_t first = 0, count = 0, beam = 0;
   ComplexGridF pressure;  ///< pings x bins [Pa]
@@ -16,19 +16,19 @@ struct BeamPage {
   std::size_t end() const { return first + count; }
 };
 
-/// Makes `page` that of these pings, reading them if they are others than those it holds.
+/// Sets `page` to these pings. Reads them unless it holds them already.
 void turn_page(BeamPage& page, const LazyPings& pings, std::size_t first, std::size_t count, std::size_t beam);
 
-/// The first and number of the pings of the waterfall in which a ping is shown: at most 600 of them.
+/// First index and number of the pings of the waterfall that shows a ping: at most 600 of them.
 struct PageOfPings {
   std::size_t first = 0, count = 0;
 };
 PageOfPings page_of(const LazyPings& pings, std::size_t ping);
 
-/// The levels of a page, range compensated if `tvg`.
+/// Returns the levels of a page, range compensated if `tvg`.
 BeamRecord record_of(const ViewerData& data, const BeamPage& page, bool tvg);
 
-/// What the display of a scanning head of one beam shows at a ping, with places of pings in the reel.
+/// Returns the display of a scanning head of one beam at a ping, with indices of pings in the reel.
 SweepImage sweep_at(const ViewerData& data, std::size_t ping, bool tvg, BeamPage& page);
 
 }  // namespace insonify

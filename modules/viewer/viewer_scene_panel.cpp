@@ -13,7 +13,7 @@
 namespace insonify {
 namespace {
 
-// The returns as a scene, for runs whose scene is missing.
+// Returns the returns as a scene, for runs whose scene is missing.
 SceneCloud scene_of_returns(const Soundings& returns) {
   SceneCloud scene;
   scene.origin = returns.position.front().array().round();
@@ -22,7 +22,7 @@ SceneCloud scene_of_returns(const Soundings& returns) {
   return scene;
 }
 
-// The returns of one ping, range compensated (E20). Pings are matched by number, or, if none matches, by their index.
+// Selects the returns of one ping, range compensated (E20). Pings are matched by number, or, if none matches, by index.
 Soundings returns_of(const ViewerData& data, std::size_t ping) {
   const Soundings all = data.pings.has_returns() ? data.pings.returns(ping) : data.returns;
   const TrackPoint& place = data.pings.place(ping);
@@ -31,12 +31,12 @@ Soundings returns_of(const ViewerData& data, std::size_t ping) {
                            Tvg{40, place.absorption_db_per_m});
 }
 
-// By SceneColour.
+// Words for colours, in the order of SceneColour.
 constexpr const char* colour_texts[] = {"height",        "material",          "part", "visibility", "level",
                                         "grazing angle", "angle of incidence"};
 static_assert(std::size(colour_texts) == static_cast<std::size_t>(SceneColour::incidence) + 1);
 
-// Draws a square of each colour and its name from the top left corner downwards; returns where they end.
+// Draws a square of each colour and its name from the top left corner downwards. Returns their end.
 double draw_legend(Canvas& canvas, const std::vector<LegendEntry>& legend, double left, double right, double top,
                    int font) {
   const double row = 1.5 * font;
@@ -71,7 +71,7 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
   reset_camera();
 }
 
-// Draws the scene of another ping, if its parts stand elsewhere, in the same look and from the same place.
+// Draws the scene of another ping, if its parts stand elsewhere, in the same look and from the same viewpoint.
 void ViewerScene::change_scene(const ViewerState& state) {
   std::shared_ptr<const SceneCloud> next = scene_at(data_, state.ping);
   if (own_ || next == scene_) return;
@@ -102,7 +102,7 @@ SceneHead ViewerScene::head_of(const ViewerState& state) const {
   return {data_.pings.place(state.ping).world_from_head, data_.pings.fan(), data_.pings.gate()};
 }
 
-// Moves the camera as the head has moved.
+// Moves the camera along with the head.
 void ViewerScene::follow_head(const ViewerState& state) {
   move_camera(head_of(state).world_from_head.translation() - head_of(drawn_).world_from_head.translation());
 }
@@ -155,7 +155,7 @@ void ViewerScene::draw_key(const PictureOptions& options, double scene_width, co
   if (title) canvas.add_text(*title);
   if (!state.show_colour_bars) return;
 
-  // From the top: the legend with what is drawn besides the surfels, then the colour bars.
+  // Draw from the top: the legend with everything besides the surfels, then the colour bars.
   const SceneKey& key = actors_->key();
   std::vector<LegendEntry> legend = key.legend;
   for (const LegendEntry& entry : actors_->line_key()) legend.push_back(entry);

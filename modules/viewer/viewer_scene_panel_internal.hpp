@@ -14,12 +14,11 @@ namespace insonify {
 /// The 3-D panel: the scene, or, without one, the returns; the head, the returns of the ping, and the selection.
 class ViewerScene {
  public:
-  /// `data` and `panel` must outlive it.
+  /// Keeps references: `data` and `panel` must outlive it.
   ViewerScene(const ViewerData& data, ViewerPanel& panel, const ViewerState& state, const PictureOptions& options);
 
-  /// Updates the panel to a state. `view` is the visibility from the head, or null; `max_db` the brightest
-  /// range-compensated level of the returns, which are always range compensated so that near and far ones are
-  /// comparable.
+  /// Updates the panel to a state. `view` is the visibility from the head, or null. `max_db` is the brightest level of
+  /// the returns, which are always range compensated so that near and far ones are comparable.
   void update(const ViewerState& state, const HeadView* view, double max_db);
   void highlight(const std::vector<std::uint32_t>& surfels);
   /// Draws title, legend and colour bars on an emptied upper layer; legend and bars beside the scene, which fills the
@@ -28,11 +27,11 @@ class ViewerScene {
   void reset_camera();
   void set_moving(bool moving);
   void follow_camera();  ///< call before drawing if the camera has moved
-  /// The surfel of the scene of the ping, or the world position, at a place in the window.
+  /// Returns the surfel of the scene of the ping, or the world position, at a position in the window.
   std::optional<std::uint32_t> surfel_at(Point2 place) const;
   std::optional<Eigen::Vector3d> world_at(Point2 place) const;
 
-  /// Place in the window where a point of the world is drawn [pixels].
+  /// Returns the position in the window where a point of the world is drawn [pixels].
   Point2 pixel_of(const Eigen::Vector3d& world) const;
 
   static bool has_content(const ViewerData& data) { return has_scene(data) || data.returns.size() > 0; }
@@ -46,8 +45,8 @@ class ViewerScene {
 
   const ViewerData& data_;
   ViewerPanel& panel_;
-  bool own_ = false;                         ///< what is shown is made from the returns
-  std::shared_ptr<const SceneCloud> scene_;  ///< that is shown; the actors refer to it
+  bool own_ = false;                         ///< true: the scene shown is made from the returns
+  std::shared_ptr<const SceneCloud> scene_;  ///< scene shown; the actors refer to it
   std::unique_ptr<SceneActors> actors_;
   PictureOptions options_;
   ViewerState drawn_;

@@ -12,10 +12,10 @@ struct ViewerEvent {
   /// Kind of the action.
   enum class Kind { click, drag, key, select, wait, screenshot, quit };
   Kind kind = Kind::quit;
-  ViewerPanelName panel = ViewerPanelName::fan;  ///< of click and drag
-  Point2 from, by;     ///< [pixels] from the panel's lower left corner; `by`: displacement of drag
-  PixelPlace place;    ///< of select
-  double seconds = 0;  ///< of wait
+  ViewerPanelName panel = ViewerPanelName::fan;  ///< panel of click and drag
+  Point2 from, by;     ///< click, or begin and displacement of a drag [pixels], from the panel's lower left corner
+  PixelPlace place;    ///< sample of select
+  double seconds = 0;  ///< duration of wait
   std::string text;    ///< name of the key, or file of the screenshot
 };
 

@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-// A number without trailing zeros, never "-0".
+// Formats a number without trailing zeros, never as "-0".
 std::string short_number(double value) {
   std::string number = printed("%.3f", std::abs(value) < 5e-4 ? 0.0 : value);
   while (number.back() == '0') number.pop_back();

@@ -27,7 +27,7 @@ struct ViewerExtent {
   std::size_t pings = 0, beams = 0, bins = 0;
 };
 
-/// "--pose=x,y,z,yaw,pitch,roll" in metres and degrees, rounded to a millimetre and a thousandth of a degree.
+/// Returns "--pose=x,y,z,yaw,pitch,roll" in metres and degrees, rounded to a millimetre and a thousandth of a degree.
 std::string pose_option(const HeadPlace& head);
 
 /// A distance measured on the fan by two clicks.
@@ -45,9 +45,9 @@ struct ViewerState {
   std::optional<PixelPlace> selected;
   std::optional<std::uint32_t> surfel;  ///< to inspect: the clicked surfel, by index in the scene
 
-  double gain_db = 0;     ///< brightens: subtracted from the automatic top of the colour scale
-  double window_db = 45;  ///< from darkest to brightest
-  bool tvg = true;        ///< range compensated levels
+  double gain_db = 0;     ///< brightness: subtracted from the automatic top of the colour scale
+  double window_db = 45;  ///< range of levels from darkest to brightest
+  bool tvg = true;        ///< true: range compensated levels
   std::string colour_map = default_colour_map;
 
   bool playing = false;
@@ -57,10 +57,10 @@ struct ViewerState {
   SceneColour scene_colour = SceneColour::height;
   double point_size = 1;                                              ///< side of a surfel in units of its spacing
   bool show_help = false, show_colour_bars = true, show_grid = true;  ///< the grid: axes of the scene
-  bool show_normals = false;                                          ///< of the scene
-  bool follow = false;                                                ///< the camera of the scene goes with the head
+  bool show_normals = false;                                          ///< true: draws the normals of the scene
+  bool follow = false;                                                ///< true: the scene's camera follows the head
 
-  HeadPlace head;       ///< to inspect
+  HeadPlace head;       ///< pose of the head to inspect
   double stride = 0.5;  ///< step of the head per key [m]; turns are 10 degrees per metre of it
 };
 
@@ -99,12 +99,12 @@ std::string viewer_help(ViewerMode mode);
 KeyAnswer apply_key(ViewerState state, const std::string& key, const ViewerExtent& extent);
 
 /// Returns the state after a click on a sample. The click selects the sample, or adds a point to an active measurement.
-/// The second point ends the measurement; its length stays until the next measurement or Escape. Places outside
+/// The second point ends the measurement; its length stays until the next measurement or Escape. Samples outside
 /// `extent` change nothing. `at` is the same position on the fan [m], starboard and forward.
 ViewerState select_pixel(ViewerState state, PixelPlace place, const Eigen::Vector2d& at, const ViewerExtent& extent);
 
-/// Goes to a ping and selects its sample, as a click on a waterfall or a sweep does; playing stops. Places outside
-/// `extent` change nothing.
+/// Returns the state after a click on a waterfall or a sweep: goes to a ping and selects its sample; playing stops.
+/// Samples outside `extent` change nothing.
 ViewerState select_ping(ViewerState state, std::size_t ping, PixelPlace place, const ViewerExtent& extent);
 
 /// Returns the state after `seconds` of playing, with the ping that is due; the first ping follows the last.

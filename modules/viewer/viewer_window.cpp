@@ -36,7 +36,7 @@ void require_start(const ViewerState& start, const ViewerExtent& extent) {
          ", the number of bins");
 }
 
-// An unused file name.
+// Returns an unused file name.
 std::string free_screenshot_name() {
   for (int i = 1;; ++i) {
     const std::string name = "insonify-view-" + std::to_string(i) + ".png";

@@ -27,7 +27,7 @@ enum class ViewerScreen { desktop, off_screen };
 /// The viewer's window: draws a ViewerState with VTK and applies user actions to it.
 class ViewerWindow {
  public:
-  /// `data` must outlive it. Throws as show_viewer.
+  /// Keeps a reference: `data` must outlive it. Throws as show_viewer.
   ViewerWindow(const ViewerData& data, const ViewerOptions& options, ViewerScreen screen);
   ~ViewerWindow();
   ViewerWindow(const ViewerWindow&) = delete;
@@ -36,15 +36,15 @@ class ViewerWindow {
   const ViewerState& state() const { return state_; }
   const ViewerLayout& layout() const { return layout_; }
   const std::string& explanation() const { return explanation_; }
-  /// Centre of a sample's cell on the fan, in pixels of the window.
+  /// Returns the centre of a sample's cell on the fan, in pixels of the window.
   Point2 pixel_of(PixelPlace place) const;
-  /// Centre of the button of a key; none if it is not shown.
+  /// Returns the centre of the button of a key; nothing if it is not shown.
   std::optional<Point2> pixel_of_button(const std::string& key) const;
-  /// Place in the window of a point of the world [m]; none without a 3-D panel.
+  /// Returns the position in the window of a point of the world [m]; nothing without a 3-D panel.
   std::optional<Point2> pixel_of_point(const Eigen::Vector3d& world) const;
   bool finished() const { return finished_; }
 
-  /// User actions; each draws the new state.
+  /// Apply user actions; each draws the new state.
   void press_key(const std::string& key);
   void click(Point2 place);
   void play(const ViewerEvent& event);
@@ -67,7 +67,7 @@ class ViewerWindow {
   void guarded(const std::function<void()>& work);
   void say(const std::string& text) const;
 
-  /// What a panel draws of the state, and what a click in it does; null: nothing.
+  /// The functions of a panel: it draws from the state, and handles a click; null: nothing.
   struct Panel {
     void (ViewerWindow::*draw)(ViewerPanel& panel, const PictureOptions& options);
     void (ViewerWindow::*click)(Point2 place) = nullptr;
@@ -117,10 +117,10 @@ class ViewerWindow {
   std::optional<LevelImage> image_;
   std::optional<PixelFacts> facts_;
   std::optional<HeadView> head_view_;
-  std::array<double, 2> max_db_ = {0, 0};  ///< of the colour scale: raw, range compensated
+  std::array<double, 2> max_db_ = {0, 0};  ///< top of the colour scale: raw, range compensated
   ViewerPicture picture_ = ViewerPicture::fan;
-  SweepImage sweep_;                      ///< of the first panel
-  BeamPage picture_page_, history_page_;  ///< of the first panel; of the waterfall below
+  SweepImage sweep_;                      ///< sweep in the first panel
+  BeamPage picture_page_, history_page_;  ///< pages of the first panel, and of the waterfall below
   FanLayout fan_layout_;
   Axes ascan_axes_, picture_axes_, history_axes_;
   std::vector<PlacedButton> buttons_;  ///< in pixels of the window
