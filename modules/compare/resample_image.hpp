@@ -27,8 +27,8 @@ struct ComparedImage {
 /// Throws Error(argument) if `image` has no geometry, Error(content) if nothing overlaps.
 Grid<float> resampled(const ComparedImage& image, const BeamFan& fan, const RangeGate& gate);
 
-/// As `resampled`, for range alone, row by row, for waterfalls of pings x bins. Throws Error(argument) if the image
-/// has no ranges, Error(content) if nothing overlaps.
+/// Resamples in range alone, row by row, for waterfalls of pings x bins. Throws Error(argument) if the image has no
+/// ranges, Error(content) if nothing overlaps.
 Grid<float> resampled_in_range(const ComparedImage& image, const RangeGate& gate);
 
 /// Returns the beam whose direction is nearest to that of `p` (head axes): for a line array by the azimuth of its cone,

@@ -49,7 +49,7 @@ class BottomPing {
   const Ping& ping_;
   const BottomOptions& options_;
   Grid<double> intensity_;
-  Eigen::Array<double, 1, Eigen::Dynamic> all_, floor_, gain_;  ///< by bin
+  Eigen::Array<double, 1, Eigen::Dynamic> all_, floor_, gain_;  ///< one per bin
   std::vector<double> noise_, threshold_, cosine_, down_;
   double pulse_deviation_ = 0;
 };

@@ -59,11 +59,11 @@ double background_factor(double false_alarm_rate, int cells);
 /// depend on options.threads. Throws Error for a rate outside (0, 1], or a resolution or reach that is not >= 0.
 Soundings detect_soundings(const Ping& ping, const EchoStream& stream, const DetectionOptions& options = {});
 
-/// As above, with double echoes (`doubles`, at apparent_places) beside the direct ones; sets true_order.
+/// Also takes double echoes (`doubles`, at apparent_places) beside the direct ones, and sets true_order.
 Soundings detect_soundings(const Ping& ping, const EchoStream& direct, const EchoStream& doubles,
                            const DetectionOptions& options);
 
-/// As above, for stored scatterers and echoes, matched by index. Throws Error if their numbers differ.
+/// Takes stored scatterers and echoes, matched by index, in place of a stream. Throws Error if their numbers differ.
 Soundings detect_soundings(const Ping& ping, const Scatterers& scatterers, const Echoes& echoes,
                            const DetectionOptions& options = {});
 

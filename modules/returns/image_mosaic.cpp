@@ -92,7 +92,7 @@ class PingOnBed {
  private:
   struct Row {
     double turn = 0;
-    std::vector<MosaicBeam> beams;  ///< by ascending cone
+    std::vector<MosaicBeam> beams;  ///< sorted by cone
   };
 
   Received samples_from(const Vector3d& p) const {

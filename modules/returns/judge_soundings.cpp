@@ -66,8 +66,8 @@ class Judge {
   const BottomSoundings& soundings_;
   std::vector<std::ptrdiff_t> first_;       ///< first sounding of each beam; -1: none
   std::vector<float> own_;                  ///< deviations predicted from the echoes [m]
-  std::vector<double> sine_, angle_;        ///< of the beams in the plane of the fan
-  std::vector<std::optional<Bend>> bends_;  ///< by beam
+  std::vector<double> sine_, angle_;        ///< direction cosine and angle of each beam in the plane of the fan
+  std::vector<std::optional<Bend>> bends_;  ///< one per beam
   std::vector<double> loudness_db_;         ///< level of each sounding, compensated for its range
   std::ptrdiff_t lag_ = 1;                  ///< number of beams in a beam's width
   std::ptrdiff_t relief_lag_ = 1;           ///< beams in the longer side of a footprint, at most a sixteenth of all

@@ -36,10 +36,9 @@ struct Ping {
   RangeGate gate;
   ComplexGridF pressure;        ///< beams x bins [Pa], analytic baseband, linear
   std::vector<Layer> layers{};  ///< parts that add up to `pressure`; empty unless requested
-  bool expected_level = false;  ///< true: `pressure` is the root of an expected intensity (E65), without phase; squares
-                                ///< of layers add up
-  bool display_cells = false;   ///< true: bins are cells of a display, and `pressure` is the root of the mean intensity
-                                ///< over the area of each, without phase
+  bool expected_level = false;  ///< true: root of an expected intensity (E65), without phase; squares of layers add up
+  bool display_cells = false;   ///< true: bins are display cells: root of the mean intensity over each area, without
+                                ///< phase
   Grid<float> intensity{};  ///< mean of |pressure|^2 over the looks of a display, beams x bins [Pa^2] (E71); or empty
   Grid<std::uint8_t> unknown{};  ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
   Grid<float>
@@ -78,7 +77,7 @@ struct TrackPoint {
   std::int64_t number = 0;
   double time = 0;  ///< [s]
   Pose world_from_head = Pose::Identity();
-  std::optional<ScanPlace> scan{};  ///< of a scanning head
+  std::optional<ScanPlace> scan{};  ///< sweep and angle of a scanning head
   double sound_speed = 0;           ///< see Ping::sound_speed
   double absorption_db_per_m = 0;   ///< see Ping::absorption_db_per_m
   Motion motion{};                  ///< see Ping::motion

@@ -47,8 +47,8 @@ struct PixelLabels {
   Grid<float> share;               ///< fraction of the pixel's energy from that material in the main lobe; else 0
   std::vector<std::string> names;  ///< names of materials; in a scene of parts, labels of parts replace their materials
   Grid<std::uint16_t> part{};      ///< part of that surfel, index into `part_names`; no_part: none. Empty: no parts
-  std::vector<std::string> part_names{}, part_labels{};  ///< of all parts of the scene (ScenePart)
-  std::vector<PartView> views{};                         ///< by part
+  std::vector<std::string> part_names{}, part_labels{};  ///< names and labels of all parts of the scene (ScenePart)
+  std::vector<PartView> views{};                         ///< one per part
 
   /// Returns true if there are no labels.
   bool empty() const { return material.size() == 0; }

@@ -62,7 +62,7 @@ void Ground::add(const PlacedPart& part) {
 }
 
 std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
-  // Of equally high sheets the first one counts.
+  // If several sheets are equally high, the first one counts.
   std::optional<GroundPlace> top;
   std::size_t topmost = 0;
   for (const int level : levels_) {

@@ -23,7 +23,7 @@ double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 
 /// Plane of a polygon in space, and the distance of the corners from it.
 struct PolygonPlane {
-  Vector3d normal = Vector3d::Zero();  ///< of length twice the area; loops of opposite sense cancel
+  Vector3d normal = Vector3d::Zero();  ///< length: twice the area; loops of opposite sense cancel
   double widest = 0;                   ///< twice the largest area of a triangle with the first corner
   double off = 0;                      ///< greatest distance from the plane through the middle, in diagonals of the box
   Vector3d low, high;                  ///< box of the corners

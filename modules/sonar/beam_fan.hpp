@@ -64,7 +64,7 @@ std::pair<double, double> turns_between(double cone, double min_elevation, doubl
 
 /// The insonified sector: directions in which beams have their main lobes.
 struct Sector {
-  double min_azimuth = 0, max_azimuth = 0;      ///< of cones [rad], see cone_azimuth
+  double min_azimuth = 0, max_azimuth = 0;      ///< limits of the cones [rad], see cone_azimuth
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
 /// Returns the cones of all beams, extended by the margin on either side, and the elevations of all beams, extended by

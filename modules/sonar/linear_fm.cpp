@@ -135,7 +135,7 @@ Complex LinearFmEcho::lossless(double t) const {
   return doppler_ == 0 ? sum : sum * std::polar(1.0, -pi * doppler_ * t);
 }
 
-// As above with complex frequencies. Exponentials are taken at the ends of the overlap, where they are values of the
+// Integrates with complex frequencies. Exponentials are taken at the ends of the overlap, where they are values of the
 // integrand, so that nothing overflows.
 Complex LinearFmEcho::lossy(double t) const {
   const double overlap = duration_ - std::abs(t), first = 0.5 * (t - overlap), last = 0.5 * (t + overlap);

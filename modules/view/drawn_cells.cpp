@@ -83,7 +83,7 @@ OrderedBearings order_bearings(const BeamFan& fan) {
   std::stable_sort(ordered.beam.begin(), ordered.beam.end(),
                    [&](std::size_t a, std::size_t b) { return bearing[a] < bearing[b]; });
 
-  // Of equal gaps cut the one after the last beam, across the stern, which rotates nothing.
+  // Among equal gaps cut the one after the last beam, across the stern, which rotates nothing.
   const auto& order = ordered.beam;
   std::size_t first = 0;
   ordered.gap = bearing[order.front()] + 2 * pi - bearing[order.back()];

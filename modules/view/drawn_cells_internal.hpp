@@ -49,7 +49,7 @@ struct CellPatch {
 /// radius, and beams near the apex where they are narrower than half a pixel. Together the patches cover the whole fan.
 std::vector<CellPatch> fan_patches(const BeamCells& cells, const RangeGate& gate, double pixels_per_metre);
 
-/// As above, for a rectangle of width x height pixels.
+/// Returns the cells of a rectangle of width x height pixels, combined in the same way.
 CellPatch rect_patch(const BeamCells& cells, const RangeGate& gate, double width, double height);
 
 }  // namespace insonify

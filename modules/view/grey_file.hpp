@@ -20,10 +20,10 @@ GreyPicture load_grey_png(const std::string& path);
 /// Writes grey values as a PNG, rows from the top; 8 or 16 bits by their type. Written to a temporary name, then
 /// renamed. Throws Error(argument) for an empty picture, Error(file) if it cannot write.
 void save_grey_png(const std::string& path, const Grid<std::uint8_t>& grey);
-/// As above, for grey values of 16 bits.
+/// Writes grey values of 16 bits in the same way.
 void save_grey_png(const std::string& path, const Grid<std::uint16_t>& grey);
 
-/// As above, for colours: red x 65536 + green x 256 + blue, each from 0 to 255.
+/// Writes colours in the same way: red x 65536 + green x 256 + blue, each from 0 to 255.
 void save_rgb_png(const std::string& path, const Grid<std::uint32_t>& rgb);
 
 }  // namespace insonify

@@ -35,7 +35,7 @@ void show_rect(const LevelImage& image, const PictureOptions& options, const std
 /// the values selects 8 or 16 bits. Throws Error(argument) for another extension, an empty picture, or a number of
 /// beams that is not the fan's; Error(file) if it cannot write.
 void show_grey(const Grid<std::uint8_t>& grey, const BeamFan& fan, const std::string& path);
-/// As above, for grey values of 16 bits.
+/// Writes grey values of 16 bits in the same way.
 void show_grey(const Grid<std::uint16_t>& grey, const BeamFan& fan, const std::string& path);
 
 /// Draws the level of one beam against range as a chart with units; the title begins with beam and bearing.

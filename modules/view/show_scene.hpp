@@ -39,9 +39,9 @@ struct SceneHead {
 enum class ScenePreset {
   automatic,  ///< with a head `behind`, looking down more steeply if that fills the picture better; else `iso`
   behind,     ///< behind the head and above it, along its heading; port is on the left
-  top,        ///< from above, world x to the right and y up
-  side,       ///< from starboard of the head, forward to the right; without a head along world y, x to the right
-  iso         ///< from above a corner, between -x and -y
+  top,        ///< seen from above, world x to the right and y up
+  side,       ///< seen from starboard of the head, forward to the right; without a head along world y, x to the right
+  iso         ///< seen from above a corner, between -x and -y
 };
 
 /// The contents and style of a picture of a scene. Empty members are not drawn.

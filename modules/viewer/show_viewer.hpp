@@ -30,7 +30,8 @@ bool has_display();
 /// extent.
 void show_viewer(const ViewerData& data, const ViewerOptions& options);
 
-/// As above, off-screen without a display: plays the events and writes the final state as PNG. File errors as show_fan.
+/// Draws the window off-screen, without a display: plays the events and writes the final state as PNG. File errors as
+/// show_fan.
 void draw_viewer(const ViewerData& data, const ViewerOptions& options, const std::string& png_path);
 
 }  // namespace insonify

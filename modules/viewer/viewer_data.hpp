@@ -26,7 +26,7 @@ struct ViewerData {
   std::string recorded_unit{};              ///< unit of levels of a recording, "dB re full scale"; empty: that of sound
   LazyPings pings;                          ///< pings with one fan and gate
   std::vector<Contributors> contributors;   ///< contributors of each ping, empty if unknown; or no elements
-  std::vector<std::string> material_names;  ///< by index, for contributors if the scene is missing
+  std::vector<std::string> material_names;  ///< names by index, for contributors if the scene is missing
   Soundings returns;                        ///< returns of all pings; unused if `pings` has returns of its own
   SceneCloud scene;                         ///< scene of all pings; may be empty
   /// For a scene whose parts differ from ping to ping: returns the scene of a ping, in place of `scene`. Equal scenes

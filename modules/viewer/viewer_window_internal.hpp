@@ -128,7 +128,7 @@ class ViewerWindow {
   vtkSmartPointer<vtkRenderWindow> window_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
   vtkSmartPointer<ViewerStyle> style_;
-  std::array<ViewerPanel, std::size(viewer_panels)> shown_;  ///< by ViewerPanelName
+  std::array<ViewerPanel, std::size(viewer_panels)> shown_;  ///< one per ViewerPanelName
   ViewerPanel over_;                                         ///< help, or borders, on top of all panels
   std::unique_ptr<ViewerScene> scene_;
   std::unique_ptr<ViewerSliders> sliders_;

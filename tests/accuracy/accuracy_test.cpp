@@ -16,8 +16,8 @@ ComplexGrid direct(const AccuracyTask& task) { return synthesize_direct(task.ech
 
 }  // namespace
 
-// Two programs of one equation, one of them in 64 bits of mantissa: they differ by the rounding of double, which reduces
-// phases of up to 2 pi 25 cycles.
+// Two programs of one equation, one of them in 64 bits of mantissa: they differ by the rounding of double, which
+// reduces phases of up to 2 pi 25 cycles.
 TEST(Accuracy, direct_sum_in_double_agrees_with_extended_precision) {
   for (const int order : {0, 1, 2}) {
     TaskSpec spec = small;

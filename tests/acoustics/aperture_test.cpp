@@ -13,7 +13,7 @@ complex edges(double v1, double v2) { return (fresnel_integral(v2) - fresnel_int
 
 }  // namespace
 
-// Abramowitz and Stegun, table 7.7.
+// Reference: Abramowitz and Stegun, table 7.7.
 TEST(Fresnel, integrals_are_the_tabulated_ones) {
   const double table[][3] = {{0.5, 0.4923442, 0.0647324},
                              {1.0, 0.7798934, 0.4382591},
@@ -35,7 +35,7 @@ TEST(Aperture, of_a_rectangle_is_the_product_of_its_edges) {
         << x0 << " " << x1 << " " << y0 << " " << y1;
 }
 
-// Turned, its factor is the same; cut by a diagonal, that of both parts is that of the whole.
+// A turned aperture has the same factor. The factors of two parts cut by a diagonal add up to that of the whole.
 TEST(Aperture, adds_up_and_does_not_depend_on_axes) {
   const ConvexPolygon whole = rectangle(-3, 1, -0.5, 2.2);
   const complex factor = aperture_factor(whole);

@@ -26,7 +26,7 @@ TEST(BendPaths, leaves_scatterers_alone_where_sound_speed_is_the_same) {
   EXPECT_EQ(s.azimuth, before.azimuth);
   EXPECT_EQ(s.elevation, before.elevation);
   EXPECT_EQ(refraction_bound({{0, 100}, {1500, 1500}}, 10, Pose::Identity(), s).range, 0);
-  // Far below, beyond all rays, sound speed may change.
+  // Sound speed may change below all rays.
   EXPECT_EQ(refraction_bound({{0, 5000, 6000}, {1500, 1500, 1550}}, 10, Pose::Identity(), s).elevation, 0);
 }
 
@@ -54,7 +54,7 @@ TEST(BendPaths, keeps_a_scatterer_right_above_on_its_vertical) {
 
 namespace {
 
-/// A wall of one surfel at each place, whose normals look about to the head.
+/// Returns a wall of one surfel at each place, with normals roughly towards the head.
 SceneCloud surfels_at(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& head,
                       std::mt19937_64& random) {
   std::normal_distribution<double> normal;
@@ -78,7 +78,7 @@ const SoundSpeedProfile refereed[] = {{{0, 6, 10, 30}, {1530, 1530, 1477, 1477}}
 
 }  // namespace
 
-// Place, bearing, level and incidence of scatterers by rays that are traced over distance, with a tube of two rays.
+// Compares place, bearing, level and incidence of scatterers with rays traced over distance and tubes of two rays.
 TEST(BendPaths, has_the_levels_of_traced_ray_tubes) {
   std::mt19937_64 random(20);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -150,7 +150,7 @@ TEST(BendPaths, silences_and_counts_the_shadow) {
   EXPECT_EQ(s.projected_area[2], 0);
 }
 
-// Interpolated among many, solved one by one when alone.
+// Scatterers are interpolated among many, and solved one by one when alone.
 TEST(BendPaths, keeps_its_accuracy_when_it_interpolates) {
   std::mt19937_64 random(7);
   for (const auto& [profile, head_depth] :

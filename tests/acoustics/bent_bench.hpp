@@ -12,7 +12,7 @@ namespace insonify::bent_bounces {
 inline const SoundSpeedProfile thermoclines[] = {{{0, 6, 10, 30}, {1530, 1530, 1477, 1477}},
                                                  {{0, 5, 9, 30}, {1500, 1500, 1490, 1490}}};
 
-/// A head in a profile, and the rays from it.
+/// A head in a profile, with the rays from it.
 struct Bench {
   Environment environment;
   View view;
@@ -33,7 +33,7 @@ struct Bench {
   }
   Eigen::Vector3d head() const { return view.world_from_head.translation(); }
   traced::Water water() const { return {environment.profile->depth, environment.profile->sound_speed}; }
-  /// The water and, above the surface at depth 0, its image.
+  /// Returns the water with its image above the surface at depth 0.
   traced::Water with_surface() const {
     traced::Water both = water();
     for (std::size_t k = 1; k < environment.profile->depth.size(); ++k) {
@@ -46,7 +46,7 @@ struct Bench {
     const Eigen::Vector3d way = place - head();
     return traced::fastest_arrival(in, head_depth, head_depth - way.z(), std::hypot(way.x(), way.y())).value();
   }
-  /// Direction cosines at the head of a ray that leaves in the vertical plane of a place.
+  /// Returns the direction cosines at the head of a ray that leaves in the vertical plane of a place.
   Eigen::Vector3d heard(const Eigen::Vector3d& place, double launch) const {
     const Eigen::Vector3d way = place - head();
     const double out = std::hypot(way.x(), way.y());

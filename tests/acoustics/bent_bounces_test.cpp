@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Echoes by boundaries, mirrors and targets in a profile, against rays that are integrated over distance.
+// Compares echoes by boundaries, mirrors and targets in a profile with rays that are integrated over distance.
 #include "acoustics/bent_bench.hpp"
 #include "core/text.hpp"
 #include "support/bounced_ray.hpp"
@@ -17,7 +17,7 @@ SceneCloud patch_at(const Vector3d& place, const Vector3d& normal) {
   return scene;
 }
 
-/// Demands the echo that went out directly and came back by an image, as rays have it.
+/// Expects the echo that went out directly and came back by an image to agree with the rays.
 void expect_mixed(const Bench& b, const Multipath& found, const SceneCloud& scene, const traced::Water& to_image,
                   const Vector3d& image, const Vector3d& image_normal, const std::string& what) {
   const Vector3d place = scene.origin;
@@ -57,7 +57,7 @@ TEST(BentBounces, ghosts_in_a_wall_and_echoes_by_the_surface_are_where_rays_put_
       const std::string what = printed("head %.3g m deep, place %.3g m deep and %.3g m off", b.head_depth, depth, out);
       const Vector3d normal = scene.normal[0].cast<double>();
 
-      // A wall to one side, upright but turned.
+      // A wall to one side stands upright but turned.
       const Vector3d side(-std::sin(to + 0.2), std::cos(to + 0.2), 0);
       Mirror wall;
       wall.place = b.head() - 5 * side, wall.normal = side;

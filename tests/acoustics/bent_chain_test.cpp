@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Legs and glints by tilted mirrors in a profile, against rays that are shot in three dimensions and reflected.
+// Compares legs and glints by tilted mirrors in a profile with rays shot in three dimensions and reflected.
 #include <numeric>
 
 #include "acoustics/bent_bench.hpp"
@@ -13,7 +13,7 @@ using bent_bounces::Bench;
 using bent_bounces::thermoclines;
 using Eigen::Vector3d;
 
-/// A wall that leans by 5 to 40 degrees, some metres beside a line of sight.
+/// Returns a wall that leans by 5 to 40 degrees, some metres beside a line of sight.
 Mirror leaning_wall(const Vector3d& near, const Vector3d& side, double lean, double distance) {
   Mirror wall;
   wall.normal = std::cos(lean) * side + std::sin(lean) * Vector3d::UnitZ();
@@ -26,7 +26,7 @@ traced::Plane plane_from(const Vector3d& head, const Mirror& mirror) {
   return {normal, normal.dot(mirror.place - head)};
 }
 
-/// Demands delay, direction and level of an echo as rays have them, both ways one ray.
+/// Expects delay, direction and level of an echo to agree with a ray that goes both ways.
 void expect_glint(const Bench& b, const Echoes& glint, const traced::BouncedArrival& ray, const std::string& what) {
   ASSERT_EQ(glint.size(), 1u) << what;
   EXPECT_NEAR(glint.delay[0] * b.speed, ray.time * b.speed, 1e-3) << what;

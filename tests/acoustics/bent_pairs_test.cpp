@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Echoes by way of two surfaces in a profile: what bending changes of each, against rays that are integrated.
+// Compares the effect of bending on echoes by two surfaces with rays that are integrated.
 #include "acoustics/bent_bench.hpp"
 #include "acoustics/double_echoes.hpp"
 #include "core/random.hpp"
@@ -12,7 +12,7 @@ using bent_bounces::Bench;
 using bent_bounces::thermoclines;
 using Eigen::Vector3d;
 
-/// A square of 6 m of `cells` x `cells` surfels.
+/// Adds a square of 6 m of `cells` x `cells` surfels.
 void add_plate(SceneCloud& scene, const Vector3d& middle, const Vector3d& normal, int cells) {
   const Vector3d along = normal.unitOrthogonal(), across = normal.cross(along);
   for (int i = 0; i < cells * cells; ++i)
@@ -21,7 +21,7 @@ void add_plate(SceneCloud& scene, const Vector3d& middle, const Vector3d& normal
                normal, 36.0 / (cells * cells));
 }
 
-/// Of a ray between two places [m from the head]: time, unit vectors along it at both ends, and intensity.
+/// A ray between two places [m from the head]: time, unit vectors along it at both ends, and intensity.
 struct TracedLeg {
   double time, intensity;
   Vector3d leaves, arrives;
@@ -37,7 +37,7 @@ struct TracedLeg {
   }
 };
 
-/// Two plates that face each other and the head, about places far apart.
+/// Returns two plates that face each other and the head, about places far apart.
 SceneCloud facing_plates(const Vector3d& head, const Vector3d& first, const Vector3d& last) {
   SceneCloud scene;
   scene.origin = head;
@@ -84,7 +84,7 @@ TEST(BentPairs, of_surfaces_on_both_sides_of_a_thermocline_have_the_delays_direc
         const TracedLeg out(b, Vector3d::Zero(), first), between(b, first, last), back(b, last, Vector3d::Zero());
         const double longer =
             b.speed * (out.time + between.time + back.time) - (first.norm() + (last - first).norm() + last.norm());
-        // Of surfels of 10 cm; half the path is what the image shows.
+        // Surfels are 10 cm wide, and an image shows half of the path.
         EXPECT_NEAR(0.5 * b.speed * (bent.echoes.delay[e] - straight.echoes.delay[e]), 0.5 * longer, 0.01) << what;
         const Vector3d turned = b.view.world_from_head.linear().transpose() * (-back.arrives - last.normalized());
         EXPECT_NEAR(bent.echoes.u[e] - straight.echoes.u[e], turned.y(), radians(0.1)) << what;
@@ -108,7 +108,7 @@ TEST(BentPairs, of_surfaces_on_both_sides_of_a_thermocline_have_the_delays_direc
   EXPECT_GT(loudest, 2);
 }
 
-// Sound speed falls with depth: rays that set out downwards leave a shadow below the surface.
+// Where sound speed falls with depth, rays that set out downwards leave a shadow below the surface.
 TEST(BentPairs, that_no_ray_has_are_left_out_and_counted) {
   if (!SurfaceRays::available()) GTEST_SKIP() << "built without Embree";
   const Bench b({{0, 40}, {1540, 1420}}, 0.5, 0.4, 0, 0);

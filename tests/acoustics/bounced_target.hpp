@@ -39,14 +39,14 @@ inline Setting one_target(const Vector3d& place = target, const Vector3d& normal
   return s;
 }
 
-/// A plate of 2 m that faces the head, from z = low to high.
+/// Adds a plate of 2 m that faces the head, from z = low to high.
 inline void add_plate(SceneCloud& scene, double x, double low, double high) {
   for (int j = -20; j <= 20; ++j)
     for (int k = 0; k <= std::lround((high - low) / 0.05); ++k)
       add_surfel(scene, {x, 0.05 * j, low + 0.05 * k}, {-1, 0, 0}, 0.0025);
 }
 
-/// Sum of the echoes within half a millimetre of an apparent range.
+/// Returns the sum of the echoes within half a millimetre of an apparent range.
 inline std::complex<double> sum_at(const Echoes& e, double range) {
   std::complex<double> sum = 0;
   for (std::size_t i = 0; i < e.size(); ++i)

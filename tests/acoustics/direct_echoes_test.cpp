@@ -98,7 +98,7 @@ TEST(DirectEchoes, binds_speckle_to_the_scatterer_id_and_seed) {
   EchoOptions reseeded;
   reseeded.seed = 2;
   EXPECT_NE(a, echo_of(one_scatterer(7, 0, 0, 5), reseeded));
-  // The same patch seen from elsewhere keeps its own amplitude: only geometry differs.
+  // Seen from elsewhere the patch keeps its own amplitude: only geometry differs.
   const auto b = echo_of(one_scatterer(14, 0.2, 0.1, 5), speckle) / echo_of(one_scatterer(14, 0.2, 0.1, 5), coherent);
   EXPECT_LT(std::abs(b - a / echo_of(one_scatterer(7), coherent)), 1e-12);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Echoes by way of two surfaces against form factors and closed forms.
+// Compares echoes by two surfaces with form factors and closed forms.
 #include "acoustics/double_echoes.hpp"
 
 #include "core/random.hpp"
@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Surfels of a square of 1 m with one corner at the origin, jittered within their cells.
+/// Adds the surfels of a square of 1 m with one corner at the origin, jittered within their cells.
 void add_unit_square(SceneCloud& scene, const Vector3d& along, const Vector3d& across, int per_side,
                      const Vector3d& corner = Vector3d::Zero()) {
   for (int i = 0; i < per_side * per_side; ++i) {
@@ -21,7 +21,7 @@ void add_unit_square(SceneCloud& scene, const Vector3d& along, const Vector3d& a
   }
 }
 
-/// A bed and a wall of 1 m that meet along y, both turned to +x +z.
+/// Returns a bed and a wall of 1 m that meet along y, both turned to +x +z.
 SceneCloud corner_of(double lambert_mu, int per_side) {
   SceneCloud scene;
   scene.materials = {{"m", lambert_mu}};
@@ -34,11 +34,11 @@ struct Room {
   PreparedScene scene;
   View view{Pose::Identity(), make_fan(3, radians(90), radians(1), radians(90)), {0.1, 1000, 0.1}, {}};
   Transmission sent{pulse_900k, {1500, {0, 0, 0}}, {.amplitude = SurfaceAmplitude::mean_power}};
-  double rays = 1;  ///< so many in all, some
+  double rays = 1;  ///< about this number in all
 
   Room(SceneCloud&& cloud, const Vector3d& head, double rays_in_all) : scene(std::move(cloud)) {
     view.world_from_head.translation() = head;
-    double cells = 0;  // of one ray each
+    double cells = 0;  // cells of one ray each
     for (std::size_t i = 0; i < scene.scene().size(); ++i)
       cells += scene.scene().area[i] / (scene.scene().point[i].cast<double>() - head).norm();
     rays = rays_in_all / (cells / (view.fan.beam_width * range_resolution(sent.pulse, 1500)));
@@ -50,7 +50,7 @@ struct Room {
     std::iota(all.begin(), all.end(), 0);
     return double_echoes(scene, all, view, seeded, {rays});
   }
-  /// Expected power of the direct echoes.
+  /// Returns the expected power of the direct echoes.
   double direct_power() const {
     const SceneCloud& s = scene.scene();
     double sum = 0;
@@ -63,7 +63,7 @@ struct Room {
   }
 };
 
-/// Expected power where one beam holds both senses of each pair, which add coherently.
+/// Returns the expected power where one beam holds both senses of each pair, which add coherently.
 double power_in_one_beam(const Echoes& e) {
   double sum = 0;
   for (std::size_t i = 0; i + 1 < e.size(); i += 2) sum += std::norm(e.amplitude[i] + e.amplitude[i + 1]);
@@ -272,8 +272,8 @@ TEST_F(DoubleEchoesTest, of_a_plane_and_of_surfels_in_one_place_are_none) {
   for (const std::complex<double>& a : beside.doubles().echoes.amplitude) EXPECT_TRUE(std::isfinite(std::abs(a)));
 }
 
-// Speckle stands still: as the head moves by a millimetre, nearly all pairs keep their surfels, and their amplitudes turn
-// by the phase of the longer path alone.
+// Speckle stands still: as the head moves by a millimetre, nearly all pairs keep their surfels, and their amplitudes
+// turn by the phase of the longer path alone.
 TEST_F(DoubleEchoesTest, of_one_pair_stay_as_the_head_moves) {
   Room room(corner_of(0.1, 40), Vector3d(20, 0.5, 20), 20000);
   room.sent.echo_options.amplitude = SurfaceAmplitude::complex_normal;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Plates and cylinders off their broadside against Kirchhoff's integral over their surface, at one frequency and in
-// time: levels, and the places of edges and corners.
+// Compares plates and cylinders off their broadside with Kirchhoff's integral over their surface, at one frequency and
+// in time: levels, and the places of edges and corners.
 #include <random>
 
 #include "acoustics/glints.hpp"
@@ -18,10 +18,10 @@ using Eigen::Vector3d;
 using complex = std::complex<double>;
 
 constexpr double edge_frequency = 150e3, edge_wavenumber = 2 * pi * edge_frequency / 1500;
-/// Of range [m], of pulses with bandwidths of 5 and 15 kHz, 3.3 and 10 % of their frequency.
+/// Length in range [m] of pulses with bandwidths of 5 and 15 kHz, 3.3 and 10 % of their frequency.
 constexpr double edge_pulse = 0.5 * 1500 * 0.3748 / 5e3, short_edge_pulse = edge_pulse / 3;
 
-/// Random numbers, places and turns.
+/// A source of random numbers, places and turns.
 struct Draws {
   std::mt19937 engine{20240};
   double within(double low, double high) {
@@ -37,7 +37,7 @@ struct Draws {
 
 Matrix3d turned(double angle, const Vector3d& axis) { return Eigen::AngleAxisd(angle, axis).toRotationMatrix(); }
 
-/// A head in a place and attitude of its own, and what it hears of smooth shapes that are given in its axes.
+/// A head at a random place and attitude, and its echoes of smooth shapes that are given in its axes.
 struct EdgeBench {
   Pose head = Pose::Identity();
   SceneCloud scene;
@@ -47,7 +47,7 @@ struct EdgeBench {
   explicit EdgeBench(Draws& draw) {
     head.translation() = 20 * draw.direction();
     head.linear() = turned(draw.within(-3, 3), draw.direction());
-    // Of a size that covers all of a body.
+    // This surfel is large enough to cover all of a body.
     scene.materials = {Material{"steel"}};
     add_surfel(scene, head * Vector3d(10, 0, 0), Vector3d(0, 0, 1), 1e4);
   }
@@ -65,7 +65,7 @@ struct EdgeBench {
     target.length = length, target.radius = radius;
     shapes.targets.push_back(target);
   }
-  /// Echoes of a source of 1 Pa at 1 m.
+  /// Returns the echoes of a source of 1 Pa at 1 m.
   Echoes echoes(double frequency = edge_frequency) const {
     View view{head, make_fan(181, radians(360), radians(2), radians(180)), {0.1, 200, 1}, {}};
     view.sampling.occlusion = false;
@@ -113,7 +113,7 @@ struct Worst {
   }
 };
 
-/// A quadrilateral about `middle`, of a width and height, with its normal towards the head.
+/// Returns a quadrilateral about `middle`, of a width and height, with its normal towards the head.
 std::vector<Vector3d> plate_corners(const Vector3d& middle, const Vector3d& normal, double width, double height,
                                     double spin, double skew) {
   const Vector3d first = turned(spin, normal) * normal.unitOrthogonal(), second = normal.cross(first);
@@ -121,8 +121,8 @@ std::vector<Vector3d> plate_corners(const Vector3d& middle, const Vector3d& norm
   return {middle - a - b, middle + a - b, middle + (1 - skew) * a + b, middle - (1 - 2 * skew) * a + b};
 }
 
-/// A plate `size` wide at `range`, turned off the line of sight by `turn` degrees about the vertical, 20 degrees to port
-/// and 10 up.
+/// Returns a plate `size` wide at `range`, turned off the line of sight by `turn` degrees about the vertical, 20
+/// degrees to port and 10 up.
 std::vector<Vector3d> upright_plate(double size, double range, double turn) {
   const Vector3d sight = unit_vector({radians(20), radians(10)}), up = Vector3d::UnitZ().cross(sight).cross(-sight);
   const Vector3d normal = -(turned(radians(turn), up.normalized()) * sight);
@@ -135,8 +135,8 @@ std::vector<Vector3d> upright_plate(double size, double range, double turn) {
 
 }  // namespace
 
-// Closed forms: area / wavelength of a plate far off with the pattern of its width, and radius x length^2 / 2 wavelength
-// of a cylinder.
+// Closed forms: area / wavelength of a plate far off with the pattern of its width, and radius x length^2 / 2
+// wavelength of a cylinder.
 TEST(Kirchhoff, has_the_far_field_of_plate_and_cylinder) {
   const double range = 4000, side = 0.2, k = edge_wavenumber;
   const double area_db = db_from_amplitude(side * side * k / (2 * pi) / (range * range));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays from one depth to another through a profile, against closed forms and a march.
+// Compares rays from one depth to another through a profile with closed forms and a march.
 #include "acoustics/profiles.hpp"
 
 namespace insonify::bent {
 
-// Time and first slope of the arc between two points of water with c = c1 + g (z - z1), from its closed form.
+// Returns the time of the arc between two points of water with c = c1 + g (z - z1), from its closed form.
 double one_gradient_time(double c1, double c2, double g, double dx, double dz) {
   const long double gl = g, y = gl * gl * (static_cast<long double>(dx) * dx + static_cast<long double>(dz) * dz) /
                                 (2.0L * c1 * c2);
@@ -70,7 +70,7 @@ TEST(FindEigenray, follows_the_closed_form_of_one_gradient) {
   }
 }
 
-// The same water cut into layers: arcs of one circle, crossed partly, turning above or below either end.
+// Layers of one gradient leave arcs of one circle: crossed partly, turning above or below either end.
 TEST(FindEigenray, does_not_depend_on_the_layers_that_one_gradient_is_cut_into) {
   SoundSpeedProfile cut;
   for (int i = 0; i <= 400; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes of scanned bodies by chance: the right one, where and as large as it is, or a refusal.
+// Fits random scanned bodies: the result is the right shape with its place and size, or a refusal.
 #include "acoustics/fit_shapes.hpp"
 
 #include "acoustics/sampled_bodies.hpp"
@@ -19,7 +19,7 @@ double polygon_area(const std::vector<Vector3d>& corners) {
   return 0.5 * sum.norm();
 }
 
-/// A number by chance between two, by their ratio.
+/// Returns a random number between two limits, uniform in its logarithm.
 double between(std::mt19937& random, double low, double high) {
   return low * std::pow(high / low, std::uniform_real_distribution<double>()(random));
 }

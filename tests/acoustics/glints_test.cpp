@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A head's own image in mirrors, one and several, with edges and without, and in calibrated targets.
+// Tests a head's own image in one and several mirrors, with edges and without, and in calibrated targets.
 #include "acoustics/glints.hpp"
 
 #include "acoustics/reflection.hpp"
@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using complex = std::complex<double>;
 
-/// A head that hears alike from everywhere, at `head`, in water of 1500 m/s.
+/// A head with equal response in all directions, at `head`, in water of 1500 m/s.
 struct Bench {
   SceneCloud scene;
   SmoothShapes shapes;
@@ -25,7 +25,7 @@ struct Bench {
 
   explicit Bench(const Vector3d& head = Vector3d::Zero()) { view.world_from_head.translation() = head; }
   Echoes echoes() const { return glint_echoes(scene, shapes, environment, with_levels, view, sent, options); }
-  /// Sum of the echoes at an apparent range, re those of a point 1 m away that returns all: amplitude times 1 m.
+  /// Returns the sum of the echoes at an apparent range re a point 1 m away that returns all: amplitude times 1 m.
   complex at(double range) const {
     complex sum = 0;
     const Echoes e = echoes();
@@ -36,7 +36,7 @@ struct Bench {
     return sum;
   }
   double target_strength(double range) const { return db_from_amplitude(std::abs(at(range)) * range * range); }
-  /// Of all echoes as one: of one plate with its edges.
+  /// Returns the strength of all echoes together, as of one plate with its edges.
   double joint_strength(double range) const {
     complex sum = 0;
     for (const complex& amplitude : echoes().amplitude) sum += amplitude / source_pressure(sent.pulse);
@@ -44,7 +44,7 @@ struct Bench {
   }
 };
 
-/// A mirror with these corners that faces `inside`.
+/// Returns a mirror with these corners that faces `inside`.
 Mirror facing(std::vector<Vector3d> corners, const Vector3d& inside) {
   const Mirror mirror = with_corners({}, corners);
   if (mirror.normal.dot(inside - mirror.place) > 0) return mirror;
@@ -56,7 +56,7 @@ Mirror plate_before(double distance, double width, double height) {
   return with_size({"plate", {distance, 0, 0}, {-1, 0, 0}}, width, height);
 }
 
-/// Two plates of a x b that open towards the head at `range` before their edge, by 90 degrees and `more`.
+/// Returns two plates of a x b that open towards the head at `range` before their edge, by 90 degrees and `more`.
 Bench dihedral(double a, double b, double range, double frequency, double more = 0) {
   Bench bench({-range, 0, 0});
   bench.sent.pulse.centre_frequency = frequency;
@@ -68,7 +68,7 @@ Bench dihedral(double a, double b, double range, double frequency, double more =
   return bench;
 }
 
-/// Three faces of edge a, triangles or squares, seen along their axis.
+/// Returns three faces of edge a, triangles or squares, seen along their axis.
 Bench trihedral(double a, bool square, double range, double frequency) {
   const Vector3d head = range * Vector3d(1, 1, 1).normalized();
   Bench bench(head);
@@ -97,7 +97,8 @@ TEST(Glints, of_a_wall_is_the_heads_own_image) {
   EXPECT_LT(std::abs(b.at(4) + coherent_reflection_loss(2 * pi * 600, 1e-4, pi / 2) / 8), 1e-12);
 }
 
-// Target strengths of a square plate of 10 cm at 900 kHz from 1 m to the far field, 20 log10(area / wavelength) = 15.56.
+// Target strengths of a square plate of 10 cm at 900 kHz from 1 m to the far field, 20 log10(area / wavelength) =
+// 15.56.
 TEST(Glints, of_a_plate_are_those_of_its_edges) {
   const double rows[][2] = {{1, -3.70}, {2, -2.60}, {5, 12.76}, {10, 14.87}, {50, 15.54}};
   for (const auto& [range, db] : rows) {
@@ -126,8 +127,8 @@ TEST(Glints, of_a_dihedral_of_half_a_metre_grow_with_range) {
     EXPECT_NEAR(dihedral(0.5, 0.5, range, 400e3).target_strength(range), db, 0.01) << range;
 }
 
-// Of each of two wide plates: d / (2 pi h) sqrt(wavelength / 2 D) of the corner's image, d and h from the plate and along
-// it, D from the edge.
+// Each of two wide plates gives d / (2 pi h) sqrt(wavelength / 2 D) of the corner's image, with d and h from the plate
+// and along it, D from the edge.
 TEST(Glints, of_the_edge_between_two_plates_are_weak_beside_the_corner) {
   Bench b = dihedral(4, 4, 3, 900e3);
   const double image = std::abs(b.at(3));
@@ -151,7 +152,7 @@ TEST(Glints, of_a_dihedral_fade_off_the_right_angle) {
       if (std::abs(750 * e.delay[k] - range) < 1) sum += e.amplitude[k];
     return db_from_amplitude(std::abs(sum) / source_pressure(b.sent.pulse) * range * range);
   };
-  // Of a slit of a / sqrt(2) that sends 2 `more` beside the head.
+  // The reference is a slit of a / sqrt(2) that sends 2 `more` beside the head.
   for (const double more : {off, 2 * off, -off}) {
     const double x = pi * std::sqrt(2.0) * 0.5 * std::abs(more) * 400e3 / 1500;
     EXPECT_NEAR(strength(more) - strength(0), db_from_amplitude(std::sin(x) / x), 0.15) << more;
@@ -217,8 +218,8 @@ TEST(Glints, of_a_box_are_the_lattice_of_its_images) {
   }
 }
 
-// A closed room about a head that turns, pitches and rolls: every image of the lattice that is ahead, within the fan and
-// 1.5 beam widths beyond it, has the level of the head's pattern; the others, behind the head too, are absent.
+// A closed room about a head that turns, pitches and rolls: every image of the lattice that is ahead, within the fan
+// and 1.5 beam widths beyond it, has the level of the head's pattern; the others, behind the head too, are absent.
 TEST(Glints, of_a_room_follow_the_heads_pattern_and_are_absent_behind_it) {
   const Vector3d size(6, 4, 3), head(2.1, 1.7, 1.3);
   const double lobe = radians(50), shot = radians(70), half_fan = radians(60), beam = radians(2);

@@ -37,7 +37,7 @@ Complex correlation(const Pulse& pulse, Received received, double t) {
   return sum / (level * pulse.duration);
 }
 
-/// Times of all kinds: all over the pulse, and close to its peak.
+/// Returns times all over the pulse, and close to its peak.
 std::vector<double> some_times(const Pulse& pulse) {
   std::vector<double> times;
   for (int n = -30; n <= 30; ++n) {
@@ -49,7 +49,7 @@ std::vector<double> some_times(const Pulse& pulse) {
 
 double level_db(const EchoEnvelope& e, double t) { return db_from_amplitude(std::abs(e.at(t))); }
 
-/// Highest level beyond `from` [dB re peak].
+/// Returns the highest level beyond `from` [dB re peak].
 double highest_beyond(const Pulse& pulse, double from, double to) {
   const EchoEnvelope e = echo_envelope(pulse, {}, 0);
   double highest = -400;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ghosts: echoes of surfels by way of mirrors.
+// Tests ghosts: echoes of surfels by way of mirrors.
 #include "acoustics/aperture.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "acoustics/reflection.hpp"
@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector3d;
 using complex = std::complex<double>;
 
-/// A head that hears alike from everywhere, and a patch so small and so turned that cosines do not matter: each leg's
-/// is taken off again.
+/// A head with equal response in all directions, and a small patch. The cosine of each leg at the patch is divided out,
+/// so that its turn does not matter.
 struct GhostBench {
   SceneCloud scene;
   Environment environment;
@@ -34,14 +34,15 @@ struct GhostBench {
     return find_scatterers(scene, view.world_from_head, view.fan, view.gate, view.sampling).scatterers;
   }
   Multipath compute() const { return mirror_echoes(scene, direct(), environment, mirrors, with_levels, view, sent); }
-  /// Cosine at the patch of a leg to the image of the head in `mirror`, or of the direct leg.
+  /// Returns the cosine at the patch of a leg to the image of the head in `mirror`, or of the direct leg.
   double cosine(const Mirror* mirror) const {
     Vector3d from = view.world_from_head.translation();
     if (mirror) from -= 2 * mirror->normal.dot(from - mirror->place) * mirror->normal;
     const Vector3d p = scene.origin + scene.point[0].cast<double>();
     return std::abs((from - p).normalized().dot(scene.normal[0].cast<double>()));
   }
-  /// Sum of the echoes with these legs (0: direct, k: by mirror k, either sense) re the direct echo, without cosines.
+  /// Returns the sum of the echoes with these legs (0: direct, k: by mirror k, either sense) re the direct echo,
+  /// without cosines.
   complex relative(const Multipath& m, std::size_t a, std::size_t b) const {
     const Echoes d = direct_echoes(direct(), scene.materials, sent.pulse, sent.medium, sent.echo_options);
     const auto at = [&](std::size_t k) { return cosine(k ? &mirrors[k - 1] : nullptr); };
@@ -63,7 +64,8 @@ struct GhostBench {
 
 }  // namespace
 
-// A wall beside the line of sight: one ghost at its place behind the wall, two halfway, one in the direction of each leg.
+// A wall beside the line of sight: one ghost at its place behind the wall, two halfway, one in the direction of each
+// leg.
 TEST(MirrorEchoes, of_a_wall_are_three_ghosts) {
   GhostBench b({0, 0, 0}, {10, 1, 0}, {-1, 0.3, 0});
   b.mirrors = {{"wall", {0, 3, 0}, {0, -1, 0}}};
@@ -82,8 +84,8 @@ TEST(MirrorEchoes, of_a_wall_are_three_ghosts) {
   EXPECT_LT(std::abs(std::arg(b.relative(m, 0, 1))), 1e-5);
 }
 
-// Of a boxed tank with the head at (1.1, 1.7, 1.3) and a target at (4.2, 2.6, 0.9), walls of 0.7 and a free surface:
-// apparent ranges and amplitudes re the direct echo, of an independent evaluation.
+// Apparent ranges and amplitudes re the direct echo come from an independent evaluation of a boxed tank: head at (1.1,
+// 1.7, 1.3), target at (4.2, 2.6, 0.9), walls of 0.7 and a free surface.
 TEST(MirrorEchoes, of_a_tank_are_the_tabulated_ones) {
   GhostBench b({1.1, 1.7, 1.3}, {4.2, 2.6, 0.9}, {-1, 0.17, 0.23});
   b.mirrors = mirrors_of(Tank{{6, 4, 3}, {0, 0, 0}, 0.7});
@@ -117,7 +119,8 @@ TEST(MirrorEchoes, add_their_energies_where_phases_are_random) {
   EXPECT_NEAR(db_from_power(6), 7.78, 0.005);
 }
 
-// A plate as wide as half a zone of Fresnel, and one whose edge stands where sound would bounce: both from the integral.
+// A plate as wide as half a zone of Fresnel, and one whose edge stands where sound would bounce: both from the
+// integral.
 TEST(MirrorEchoes, of_a_small_plate_are_those_of_its_edges) {
   GhostBench b({0, 0, 0}, {10, 0, 0}, {-1, 0.2, 0});
   const Mirror wall{"plate", {5, 3, 0}, {0, -1, 0}};

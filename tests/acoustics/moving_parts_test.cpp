@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moving parts against closed forms and against a referee that solves the two ways of sound by iteration, in long
+// Compares moving parts with closed forms and with a referee that solves the two ways of sound by iteration, in long
 // double, from positions alone.
 #include "acoustics/moving_parts.hpp"
 
@@ -25,7 +25,7 @@ const Transmission sent{pulse_900k, clear_water(), {.amplitude = SurfaceAmplitud
 struct Ways {
   LongVector head_speed, scatterer, scatterer_speed;
 
-  /// When sound that is sent at `time` meets the scatterer, and when it is back.
+  /// Returns the time at which sound sent at `time` meets the scatterer, and the time of its return.
   std::pair<long double, long double> times(long double time) const {
     const LongVector from = head_speed * time;
     long double met = time, back = time;
@@ -34,14 +34,14 @@ struct Ways {
     for (int i = 0; i < 60; ++i) back = met + (there - head_speed * back).norm() / c0;
     return {met, back};
   }
-  /// Shift of the carrier: of the rate at which times of reception follow those of transmission.
+  /// Returns the shift of the carrier by the rate at which times of reception follow those of transmission.
   double doppler() const {
     const long double step = 1e-4L, rate = (times(step).second - times(-step).second) / (2 * step);
     return static_cast<double>(frequency * (1 / rate - 1));
   }
 };
 
-/// A sphere of 5 cm about `at`.
+/// Returns a sphere of 5 cm about `at`.
 PlacedPart sphere_at(const Vector3d& at, const Vector3d& velocity, const Vector3d& turn_rate = Vector3d::Zero()) {
   static const auto cloud = [] {
     SceneCloud ball;
@@ -54,7 +54,7 @@ PlacedPart sphere_at(const Vector3d& at, const Vector3d& velocity, const Vector3
   return part;
 }
 
-/// All surfels of a scene as scatterers of a head.
+/// Returns all surfels of a scene as scatterers of a head.
 Scatterers patches_of(const SceneCloud& scene, const Pose& pose) {
   std::vector<Vector3d> places;
   for (std::size_t i = 0; i < scene.size(); ++i) {

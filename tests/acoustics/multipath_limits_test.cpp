@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where bounced echoes end: at boundaries, in rough water, at the gate; and what is refused.
+// Tests the limits of bounced echoes: boundaries, rough water, the gate; and refusals.
 #include "acoustics/bounced_target.hpp"
 #include "acoustics/reflection.hpp"
 #include "scene/built_in_scenes.hpp"

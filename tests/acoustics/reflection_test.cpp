@@ -39,8 +39,8 @@ TEST(BottomReflection, is_total_below_the_critical_angle_without_loss) {
   EXPECT_LT(std::abs(bottom_reflection(b, 1.01 * critical)), 0.9);
 }
 
-// What enters it then fades with depth: with exp(-i omega t), q of E45 is positive imaginary, and the reflection lags.
-// Loss must be of that sign too: a little of it changes little, and a growing wave would turn the phase round.
+// Sound that enters then fades with depth: with exp(-i omega t), q of E45 is positive imaginary, and the reflection
+// lags. Loss must have the same sign: a little of it changes little, and a growing wave would turn the phase round.
 TEST(BottomReflection, lags_below_the_critical_angle) {
   FlatBottom b;
   const double grazing = 0.5 * std::acos(1 / b.sound_speed_ratio), n = 1 / b.sound_speed_ratio;

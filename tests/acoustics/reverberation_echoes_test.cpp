@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mean levels of the reverberation of water, surface and bottom against closed forms.
+// Compares mean levels of the reverberation of water, surface and bottom with closed forms.
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/reverberation_bench.hpp"
 #include "acoustics/reverberation_cells_internal.hpp"
@@ -8,7 +8,7 @@
 
 namespace insonify::reverberation_tests {
 
-/// What the beam of a uniform line steered ahead receives from `range`: the plain sum, the whole pulse_900k.
+/// Returns the sample at `range` of a uniform line steered ahead: the plain sum, with the whole pulse_900k.
 std::complex<double> beam_ahead(const Echoes& e, double range) {
   std::complex<double> sum = 0;
   for (std::size_t i = 0; i < e.size(); ++i) {
@@ -33,7 +33,8 @@ struct Looks {
   double contrast() const { return square * count / (power * power); }  // 2: exponential intensity, Rayleigh amplitude
 };
 
-/// Collects `looks` independent pings at ranges within half a metre of `range`, 4 cm apart, more than the pulse_900k length.
+/// Collects `looks` independent pings at ranges within half a metre of `range`, 4 cm apart, more than the pulse_900k
+/// length.
 template <typename Hear>
 Looks listen(Hear&& receive, double range, int pings) {
   Looks looks;

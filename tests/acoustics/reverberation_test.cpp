@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where and when reverberation comes from, whatever its kind, and what is refused.
+// Tests places and times of reverberation of every kind, and refusals.
 #include "acoustics/reverberation_bench.hpp"
 
 namespace insonify::reverberation_tests {

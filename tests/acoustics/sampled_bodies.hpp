@@ -11,8 +11,8 @@
 #include "scene/estimate/surfel_area.hpp"
 #include "scene/scene_cloud.hpp"
 
-// Scans of bodies by chance: surfaces over the unit square, sampled on a lattice or at random, turned and moved, with noise
-// across the surface.
+// Random scans of bodies: surfaces over the unit square, sampled on a lattice or at random, turned and moved, with
+// noise across the surface.
 namespace insonify::sampled {
 
 using Eigen::Vector3d;
@@ -41,7 +41,7 @@ inline Patch disc(double radius, double z) {
     return Vector3d(r * std::cos(turn), r * std::sin(turn), z);
   };
 }
-/// A surface of revolution: radius and height over v within 0 and 1, turned by `angle` [rad].
+/// Returns a surface of revolution: radius and height over v within 0 and 1, turned by `angle` [rad].
 inline Patch revolved(std::function<double(double)> radius, std::function<double(double)> height,
                       double angle = 2 * pi) {
   return [=](double u, double v) {
@@ -52,14 +52,14 @@ inline std::vector<Patch> cylinder(double radius, double length, double angle = 
   return {revolved([=](double) { return radius; }, [=](double v) { return length * (v - 0.5); }, angle),
           disc(radius, 0.5 * length), disc(radius, -0.5 * length)};
 }
-/// A sphere down to `least` of its height, from -1.
+/// Returns a sphere down to `least` of its height, from -1.
 inline Patch sphere(double radius, double least = -1) {
   const auto z = [=](double v) { return least + (1 - least) * v; };
   return revolved([=](double v) { return radius * std::sqrt(std::max(0.0, 1 - z(v) * z(v))); },
                   [=](double v) { return radius * z(v); });
 }
 
-/// A surface as a mesh has it: `count` flat facets over u.
+/// Returns a surface with the `count` flat facets of a mesh over u.
 inline Patch faceted(const Patch& patch, int count) {
   return [=](double u, double v) -> Vector3d {
     const double k = std::clamp(std::floor(u * count), 0.0, count - 1.0), part = u * count - k;
@@ -67,15 +67,15 @@ inline Patch faceted(const Patch& patch, int count) {
   };
 }
 
-/// How a body is scanned.
+/// Parameters of a scan.
 struct Scan {
   int points = 3000;
-  double jitter = 0;    ///< of the places on the lattice, in cells, to either side; 0.5: at random within their cells
-  bool lattice = true;  ///< else at random
-  double noise = 0;     ///< [m], standard deviation across the surface
-  double range = 10;    ///< [m] of its middle from the origin
-  bool estimated = false;  ///< normals and areas are those that a file without them gets
-  bool rounded = true;     ///< coordinates are float32 of the world, else of a local origin
+  double jitter = 0;       ///< jitter on the lattice, in cells to either side; 0.5: at random within their cells
+  bool lattice = true;     ///< false: at random
+  double noise = 0;        ///< standard deviation across the surface [m]
+  double range = 10;       ///< range of its middle from the origin [m]
+  bool estimated = false;  ///< true: normals and areas are estimated, as for a file without them
+  bool rounded = true;     ///< true: coordinates are float32 of the world; false: of a local origin
 };
 
 /// The scan, with the rotation and the place of the body by `seed`.

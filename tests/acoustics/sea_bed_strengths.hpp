@@ -2,8 +2,8 @@
 #pragma once
 #include "scene/surface_law.hpp"
 
-// Backscattering strength [dB] of sea beds, computed from the equations of APL-UW TR 9407 (1994) by another program, which
-// reproduces the report's Table 3 within 0.10 dB. Sound speed 1528 m/s; rows: 30, 100, 400 kHz.
+// Backscattering strength [dB] of sea beds, computed from the equations of APL-UW TR 9407 (1994) by another program,
+// which reproduces the report's Table 3 within 0.10 dB. Sound speed 1528 m/s; rows: 30, 100, 400 kHz.
 namespace insonify {
 
 inline constexpr double bed_grazing_deg[] = {5, 10, 20, 30, 45, 60, 75, 90}, bed_frequency[] = {30e3, 100e3, 400e3};

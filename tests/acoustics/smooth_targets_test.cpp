@@ -17,7 +17,7 @@ Material coherent_material() {
   return m;
 }
 
-/// A closed cylinder about the z axis.
+/// Adds a closed cylinder about the z axis.
 void add_cylinder(SceneCloud& scene, const Vector3d& centre, double radius, double length, double spacing) {
   const auto around = std::lround(2 * pi * radius / spacing), along = std::lround(length / spacing);
   for (long j = 0; j < around; ++j)
@@ -42,7 +42,7 @@ SceneCloud sphere_scene(double radius, int count = 4000) {
   return scene;
 }
 
-/// The echoes of what is fitted to a scene, by a head `range` m from the origin along -x.
+/// The echoes of shapes fitted to a scene, for a head `range` m from the origin along -x.
 struct TargetBench {
   SceneCloud scene;
   double frequency = 400e3, range = 20;
@@ -64,7 +64,8 @@ struct TargetBench {
   }
 };
 
-/// Exact target strength of a rigid sphere [dB] (Anderson 1950): partial waves with the slope zero at the surface.
+/// Returns the target strength of a rigid sphere [dB] (Anderson 1950): partial waves with the slope zero at the
+/// surface.
 double rigid_sphere(double radius, double wavenumber) {
   const double x = wavenumber * radius;
   complex sum = 0;
@@ -163,7 +164,7 @@ TEST(SmoothTargets, sphere_is_within_0_6_dB_of_the_exact_series_from_ka_10_on) {
   EXPECT_LT(worst_50, 0.2);
 }
 
-// Of the same source: rigid cylinder of 10 mm radius and 70 mm length, broadside.
+// Jech et al. 2015: rigid cylinder of 10 mm radius and 70 mm length, broadside.
 TEST(SmoothTargets, cylinder_is_the_benchmark_to_a_quarter_of_a_decibel) {
   SceneCloud scene;
   scene.materials = {coherent_material()};

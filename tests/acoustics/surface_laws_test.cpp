@@ -15,13 +15,13 @@ const Sediment medium_sand{};
 
 double db(double sigma) { return db_from_power(sigma); }
 
-/// Angles of a path from grazing angles at both ends and phi, 180 degrees: back.
+/// Returns the angles of a path from grazing angles at both ends and phi; 180 degrees: back.
 PathAngles grazing_path(double in_deg, double out_deg, double phi_deg) {
   const double i = radians(in_deg), o = radians(out_deg), s = std::sin(i), t = std::sin(o);
   return {s, t, s * t - std::cos(i) * std::cos(o) * std::cos(radians(phi_deg))};
 }
 
-/// The law with numbers by chance, where it may be.
+/// Returns the law with random valid numbers.
 SurfaceLaw random_law(std::uint64_t k) {
   const auto u = random_uniform(7, RandomStage::scene_points, {k, 0, 0});
   const auto v = random_uniform(7, RandomStage::scene_points, {k, 1, 0});
@@ -53,7 +53,7 @@ TEST(SeabedLaw, has_the_strengths_of_tr_9407) {
         const auto [diffuse, lobe] = seabed_strength(bed.sediment, bed_frequency[f], water, grazing);
         EXPECT_NEAR(db(diffuse + lobe), bed.strength_db[f][g], 0.02)
             << bed.name << ", " << bed_frequency[f] << " Hz, " << bed_grazing_deg[g] << " deg";
-        // As a surface: the same where the diffuse part keeps to the limit; shadow and energy take a little of the lobe.
+        // The surface is equal where the diffuse part keeps to the limit; shadow and energy take a little of the lobe.
         const double sine = std::sin(grazing), capped = std::min(diffuse, sine * sine / pi) + lobe;
         const auto surface = surface_of(SeabedLaw{bed.sediment}, bed_frequency[f], water);
         const double allowed = bed.sediment.speed_ratio > 1.2 ? 0.15 : 0.06;
@@ -62,7 +62,8 @@ TEST(SeabedLaw, has_the_strengths_of_tr_9407) {
       }
 }
 
-// Straight back a bed is the report's strength less the cut that docs/surfaces.md lists, over all that imaging sonars use.
+// Straight back a bed is the report's strength less the cut that docs/surfaces.md lists, over all that imaging sonars
+// use.
 TEST(SeabedLaw, is_below_tr_9407_by_the_cut_that_it_states) {
   for (const BedRow& bed : bed_rows)
     for (int f = 0; f < 3; ++f) {
@@ -207,7 +208,7 @@ TEST(SurfaceLaws, are_reciprocal_finite_and_dark_from_below) {
   }
 }
 
-// Of what arrives no more leaves. Without its limits rock sends back 1.6 times as much at 81 degrees and 100 kHz.
+// No surface returns more than it receives. Without its limits rock returns 1.6 times as much at 81 degrees, 100 kHz.
 TEST(SurfaceLaws, send_back_no_more_than_they_get) {
   for (const BedRow& bed : bed_rows)
     for (const double frequency : {10e3, 100e3, 400e3, 1e6})

@@ -28,7 +28,7 @@ double mean_square(const ComplexGridF& series) {
   return power / 2 / static_cast<double>(series.size());
 }
 
-// A line exp(-i 2 pi f t).
+// Returns a line exp(-i 2 pi f t).
 ComplexGridF tone(double f, Eigen::Index samples) {
   ComplexGridF series(1, samples);
   for (Eigen::Index n = 0; n < samples; ++n)
@@ -36,7 +36,7 @@ ComplexGridF tone(double f, Eigen::Index samples) {
   return series;
 }
 
-// Spectrum of a Gaussian with aliasing, relative to its peak.
+// Returns the spectrum of a Gaussian with aliasing, relative to its peak.
 double folded_gaussian(double f) {
   double sum = 0;
   for (int fold = -4; fold <= 4; ++fold) {

@@ -13,7 +13,7 @@ constexpr double speed_of_sound = 1500;
 struct Case {
   std::size_t echoes = 200, beams = 32, bins = 256;
   double bandwidth = 30e3;
-  double dynamic_range_db = 40;  ///< from the first bin to the last
+  double dynamic_range_db = 40;  ///< fall from the first bin to the last
   double field_of_view = radians(60);
   double beam_width = radians(2);
   double bin_part = 0.44;  ///< bins by the length of the pulse, c / 2 B
@@ -32,7 +32,7 @@ SonarHead head_of(const Case& c) {
   return make_head(s, speed_of_sound);
 }
 
-/// Absorption that lowers the last bin by the dynamic range against the first.
+/// Returns the absorption that lowers the last bin by the dynamic range against the first.
 Medium medium_of(const Case& c, const SonarHead& head) {
   Medium m;
   m.sound_speed = speed_of_sound;
@@ -42,7 +42,7 @@ Medium medium_of(const Case& c, const SonarHead& head) {
   return m;
 }
 
-/// Complex-normal echoes in and a little beyond fan and gate.
+/// Returns complex-normal echoes in and a little beyond fan and gate.
 Echoes echoes_of(const Case& c, const SonarHead& head) {
   Echoes e;
   const double length = head.gate.max_range - head.gate.min_range;
@@ -55,7 +55,7 @@ Echoes echoes_of(const Case& c, const SonarHead& head) {
   return e;
 }
 
-/// Largest relative error of the eighths of the range axis, each measured by its own level.
+/// Returns the largest relative error of the eighths of the range axis, each by its own level.
 double local_error(const ComplexGrid& a, const ComplexGrid& b) {
   double worst = 0;
   const Eigen::Index part = b.cols() / 8;
@@ -218,7 +218,7 @@ TEST(GriddedEngine, keeps_its_tolerance_for_few_echoes_that_cancel) {
   }
 }
 
-// From an element or two to a thousand.
+// Arrays have an element or two to a thousand.
 TEST(GriddedEngine, keeps_its_tolerance_for_any_array) {
   for (const double beam_width : {radians(0.11), radians(0.3), radians(60)}) {
     const Case c{.echoes = 70, .beams = 21, .bins = 300, .beam_width = beam_width};

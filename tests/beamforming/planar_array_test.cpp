@@ -15,7 +15,7 @@ const Medium planar_medium{c0, {0.02, 0, 0}};
 LineArray taylor(std::size_t elements) { return {wavelength_750k / 2, taylor_shading(elements, -30)}; }
 LineArray uniform(std::size_t elements) { return {wavelength_750k / 2, uniform_shading(elements)}; }
 
-/// beams x rows over 40 x 30 degrees.
+/// Returns a head of beams x rows over 40 x 30 degrees.
 SonarHead stacked_head(std::size_t beams, std::size_t rows, double elevation_width = radians(60)) {
   SonarHead head;
   head.pulse = {750e3, 60e3, 220};
@@ -49,7 +49,7 @@ Echoes planar_echoes(std::size_t n, double most_v = 0.4) {
   return e;
 }
 
-/// One echo at the centre of bin 100, amplitude 1.
+/// Returns one echo at the centre of bin 100, amplitude 1.
 Echoes one_echo(const SonarHead& head, double u, double v) { return {{2 * head.gate.centre(100) / c0}, {u}, {1}, {v}}; }
 
 const SynthesisMethod methods[] = {SynthesisMethod::gridded, SynthesisMethod::direct, SynthesisMethod::spectrum};

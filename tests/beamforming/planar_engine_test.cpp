@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A planar array gridded in time, u and v at once, against the sum over echoes.
+// Compares a planar array, gridded in time, u and v at once, with the sum over echoes.
 #include "beamforming/gridded/gridded_engine.hpp"
 #include "core/random.hpp"
 #include "sonar/shading.hpp"
@@ -14,7 +14,7 @@ constexpr double planar_c = 1500, planar_wavelength = planar_c / 750e3;
 struct PlanarCase {
   std::size_t elements = 24, column = 17, beams = 9, rows = 7;
   double row_field = 30;     ///< [deg]
-  double row_spacing = 0.5;  ///< of the column [wavelengths]
+  double row_spacing = 0.5;  ///< spacing of the column [wavelengths]
   bool slope = false, moving = false;
   double low_v = -0.9, high_v = 0.9;
   std::size_t echoes = 1500;
@@ -76,7 +76,7 @@ TEST(PlanarEngine, keeps_its_tolerance_where_each_echo_has_its_own_pulse) {
   expect_promise_of({.slope = true, .moving = true, .echoes = 4000});
 }
 
-// Received by side lobes only: detected from the image, which is repeated more accurately.
+// Only side lobes receive the echoes. The image shows that, and is repeated more accurately.
 TEST(PlanarEngine, keeps_its_tolerance_above_all_rows) { expect_promise_of({.low_v = 0.6, .high_v = 0.8}); }
 
 // More rows than are formed at a time, and a grid of several blocks of columns.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy that all beams receive of a direction, from tables, against the sum over beams of their responses.
+// Compares the energy that all beams receive from a direction, by tables, with the sum of their responses.
 #include "beamforming/received_energy.hpp"
 
 #include "sonar/line_array.hpp"
@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Nine beams in three rows.
+/// Returns nine beams in three rows.
 SonarHead head_of_rows() {
   SonarHead head = line_head({.beams = 9, .elements = 24, .min_range = 2, .max_range = 4});
   head.fan.azimuth = {-0.2, 0, 0.2, -0.2, 0, 0.2, -0.2, 0, 0.2};

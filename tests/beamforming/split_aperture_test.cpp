@@ -11,17 +11,17 @@ namespace {
 
 const Medium split_water{1490, {0.01, 0, 0}};
 
-/// One echo in the middle of the gate.
+/// Returns one echo in the middle of the gate.
 Echoes one_echo(double u) { return {{2 * 2.0 / 1490}, {u}, {{0.3, -0.4}}}; }
 
 SonarHead half_of(const SonarHead& head, ApertureSide side) { return half_aperture(head, side, "test"); }
 
-/// From the middle of the whole array to that of a half [m].
+/// Returns the distance from the middle of the whole array to that of a half [m].
 double half_baseline(const SonarHead& head) {
   return 0.5 * head.array.spacing * static_cast<double>((head.array.elements() + 1) / 2);
 }
 
-/// Peak of a beam's envelope about the echo.
+/// Returns the peak of a beam's envelope about the echo.
 std::complex<double> at_echo(const ComplexGrid& image, const SonarHead& head, std::size_t beam) {
   const auto bin = static_cast<Eigen::Index>((2.0 - head.gate.min_range) / head.gate.bin_size);
   return image(static_cast<Eigen::Index>(beam), bin);

@@ -9,7 +9,7 @@ namespace insonify::synthesis_limits {
 using Synthesis = ComplexGrid (*)(const Echoes&, const SonarHead&, const Medium&, const SynthesisOptions&);
 const std::vector<Synthesis> methods = {synthesize_direct, synthesize_gridded, synthesize_spectrum};
 
-/// Echoes spread over ranges 1.5 to 11.5 m and directions of the fan, with random amplitudes.
+/// Returns echoes spread over ranges 1.5 to 11.5 m and directions of the fan, with random amplitudes.
 Echoes spread_echoes(std::size_t count, double reach = 0.5) {
   Echoes e;
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Display cells without samples (E180 to E184): expected intensities against sums from the definition, statistics
+// Tests display cells without samples (E180 to E184): expected intensities against sums from the definition, statistics
 // against closed forms and against averaged samples of element_exact.
 #include "beamforming/synthesize_cells.hpp"
 
@@ -25,7 +25,7 @@ SonarHead cells_head(SonarHead head, int cells) {
   return head;
 }
 
-/// Echoes evenly over range 1.9 to 3.1 m and all u, of unit mean power [Pa^2].
+/// Returns echoes evenly over range 1.9 to 3.1 m and all u, of unit mean power [Pa^2].
 SurfaceEchoes even_ground(std::size_t count, std::uint64_t seed = 1) {
   SurfaceEchoes s;
   for (std::size_t i = 0; i < count; ++i) {
@@ -49,7 +49,7 @@ Echoes drawn(const SurfaceEchoes& s, std::uint64_t seed) {
   return echoes;
 }
 
-/// The definition: sum over echoes, over frequencies of the pulse and over ranges in fine steps.
+/// Returns the cells by their definition: sums over echoes, frequencies of the pulse and ranges in fine steps.
 Grid<double> cells_by_definition(const SurfaceEchoes& s, const SonarHead& head, const Medium& water) {
   const double c = water.sound_speed, wavelength = c / head.pulse.centre_frequency;
   const EchoShapes shapes(head.pulse, water);
@@ -85,7 +85,7 @@ Grid<double> cells_by_definition(const SurfaceEchoes& s, const SonarHead& head, 
   return sum;
 }
 
-/// M = T^2 / integral of the squared correlation over the cell, 2^(-2 (x / L)^2) of a Gaussian pulse.
+/// Returns M = T^2 / integral of the squared correlation over the cell, 2^(-2 (x / L)^2) for a Gaussian pulse.
 double looks_of_even_ground(const SonarHead& head) {
   const double length = head.gate.bin_size, l = 0.4413 * c0_cold / (2 * bandwidth);
   double overlap = 0;
@@ -206,7 +206,7 @@ TEST(DisplayCells, an_echo_alone_is_exponential) {
   EXPECT_NEAR(square / seeds, 2, 0.5);
 }
 
-/// Even ground with two facets in each of five cells, which hold 45 and 25 % of what the middle beam hears there.
+/// Returns even ground with two facets in each of five cells, with 45 and 25 % of the middle beam's energy there.
 SurfaceEchoes ground_with_facets(const SonarHead& head) {
   SurfaceEchoes s = even_ground(4000);
   const Grid<double> ground = synthesize_cells(s, {}, head, lossless, {.speckle = false});

@@ -34,13 +34,13 @@ SonarHead sweep() {
   return head;
 }
 
-/// Absorption of 40 dB over the gate, with slope and curvature of a like size over the band.
+/// Returns an absorption of 40 dB over the gate, with slope and curvature of a like size over the band.
 Medium water_of_order(int order) {
   const double a0 = 20 * nepers_per_db;
   return {c0, {a0, order < 1 ? 0 : 2 * a0 / 600e3, order < 2 ? 0 : 2 * a0 / (600e3 * 30e3)}};
 }
 
-/// Echoes in and around fan and gate with complex normal amplitudes.
+/// Returns echoes in and around fan and gate with complex normal amplitudes.
 Echoes intensity_echoes(const SonarHead& head, std::size_t count, bool moving = false) {
   Echoes e;
   const double length = head.gate.max_range - head.gate.min_range;
@@ -55,7 +55,7 @@ Echoes intensity_echoes(const SonarHead& head, std::size_t count, bool moving = 
   return e;
 }
 
-/// The definition, term by term: the sum of (|A|^2 |B|^2 |G|^2)^power.
+/// Returns the sum of (|A|^2 |B|^2 |G|^2)^power, term by term.
 Grid<double> by_definition(const Echoes& e, const SonarHead& head, const Medium& medium, int power = 1) {
   Grid<double> sum = Grid<double>::Zero(head.fan.beams(), head.gate.bins());
   const double wavelength = c0 / head.pulse.centre_frequency;

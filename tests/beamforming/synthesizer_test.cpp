@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is kept from image to image changes nothing but the time that an image takes.
+// Tests that tables kept from image to image change only the time of an image.
 #include "beamforming/synthesizer.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ const Medium synthesizer_medium{1490, {0.02, 0, 0}};
 
 SonarHead synthesizer_head() { return line_head({.beams = 9, .elements = 32, .min_range = 2, .max_range = 4}); }
 
-/// Echoes in the gate with |u| up to `widest`.
+/// Returns echoes in the gate with |u| up to `widest`.
 Echoes spread_echoes(std::size_t count, double widest, std::uint64_t seed) {
   Echoes echoes;
   for (std::size_t i = 0; i < count; ++i) {
@@ -39,7 +39,7 @@ TEST(Synthesizers, give_the_bytes_of_fresh_ones_in_any_order_and_from_several_th
                                      {synthesizer_head(), SynthesisMethod::true_delays},
                                      {synthesizer_head(), SynthesisMethod::element_exact},
                                      {planar, SynthesisMethod::gridded}}) {
-    // Within the fan, and from all directions, for which true delays have other tables.
+    // Take echoes within the fan, then from all directions, for which true delays have other tables.
     std::vector<Echoes> pings;
     std::vector<ComplexGrid> fresh, images(8);
     for (std::size_t k = 0; k < images.size(); ++k) {
@@ -57,7 +57,7 @@ TEST(Synthesizers, give_the_bytes_of_fresh_ones_in_any_order_and_from_several_th
 TEST(Synthesizers, that_cannot_be_made_are_refused) {
   EXPECT_THROW(Synthesizer(synthesizer_head(), {-1, {}}), Error);
   EXPECT_THROW(Synthesizer(synthesizer_head(), synthesizer_medium, SynthesisMethod::gridded, {.tolerance = 0}), Error);
-  // What a method alone refuses is refused in every image.
+  // Refusals of one method occur in every image.
   const Synthesizer too_fine(synthesizer_head(), synthesizer_medium, SynthesisMethod::gridded, {.tolerance = 1e-15});
   for (int k = 0; k < 2; ++k) EXPECT_THROW(too_fine.pressure(spread_echoes(3, 0.5, 1)), Error) << k;
 }

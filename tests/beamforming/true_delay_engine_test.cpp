@@ -65,7 +65,7 @@ TEST_P(TrueDelayPromise, true_delays_of_every_element_to_the_tolerance) {
   const ComplexGrid referee = exact(e, head);
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5})
     EXPECT_LE(relative_l2(synthesize_true_delays(e, head, near_water(), {tolerance}), referee), tolerance) << tolerance;
-  // What it is for: the narrow band is wrong by more than that.
+  // The narrow band is wrong by more than that, which is why true delays exist.
   EXPECT_GT(relative_l2(synthesize_gridded(e, head, near_water()), referee), 1e-2);
 }
 

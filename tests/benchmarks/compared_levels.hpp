@@ -9,8 +9,8 @@
 
 namespace insonify {
 
-/// Root mean square of the differences [dB] of what lies within 40 dB of the strongest, none counted as more than 30;
-/// and the share of those of more than 10 dB.
+/// Returns the root mean square of the differences [dB] of cells within 40 dB of the strongest, each limited to 30, and
+/// the fraction of differences above 10 dB.
 inline std::pair<double, double> difference(const Grid<double>& level, const Grid<double>& exact) {
   const double least = 1e-4 * exact.maxCoeff();
   double squares = 0, cells = 0, far = 0;
@@ -22,7 +22,7 @@ inline std::pair<double, double> difference(const Grid<double>& level, const Gri
   return {std::sqrt(squares / cells), far / cells};
 }
 
-/// The largest difference of a tenth of the ranges that holds a thousandth of the energy or more [dB].
+/// Returns the largest difference of a tenth of the ranges that holds a thousandth of the energy or more [dB].
 inline double worst_band(const Grid<double>& level, const Grid<double>& exact) {
   double worst = 0;
   for (Eigen::Index k = 0; k < 10; ++k) {

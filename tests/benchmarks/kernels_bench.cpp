@@ -32,7 +32,7 @@ struct Pulses {
   }
 };
 
-/// One echo after another onto one tile: argument 0 is the number of digits of the kernel.
+/// Grids one echo after another onto one tile: argument 0 is the number of digits of the kernel.
 template <typename Real>
 void grid_tile(benchmark::State& state) {
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
@@ -55,7 +55,7 @@ void grid_tile(benchmark::State& state) {
 BENCHMARK(grid_tile<float>)->Arg(2)->Arg(4)->Arg(6);
 BENCHMARK(grid_tile<double>)->Arg(4)->Arg(8)->Arg(12);
 
-/// 512 beams out of one tile of 64 bins: argument 0 is the width of the kernel.
+/// Interpolates 512 beams out of one tile of 64 bins: argument 0 is the width of the kernel.
 template <typename Real>
 void interpolate(benchmark::State& state) {
   constexpr std::size_t beams = 512, bins = 64;
@@ -74,7 +74,7 @@ void interpolate(benchmark::State& state) {
 BENCHMARK(interpolate<float>)->Arg(5)->Arg(8);
 BENCHMARK(interpolate<double>)->Arg(8)->Arg(14);
 
-/// One tile's transform: argument 0 is its length, 64 series side by side.
+/// Transforms one tile: argument 0 is its length, 64 series side by side.
 template <typename Real>
 void fft_along_rows(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));

@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// The head of the benchmarks: 512 beams over 130 x 20 degrees at 750 kHz, from 0.5 m on.
+/// Returns the head of the benchmarks: 512 beams over 130 x 20 degrees at 750 kHz, from 0.5 m on.
 inline SonarHead wide_head(double bandwidth, double max_range) {
   SonarSpec spec;
   spec.name = "wide";
@@ -18,10 +18,10 @@ inline SonarHead wide_head(double bandwidth, double max_range) {
   return make_head(spec, sound_speed(Water{}));
 }
 
-/// Where it looks at the harbour from.
+/// Returns its pose in the harbour.
 inline Pose harbour_pose() { return pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0); }
 
-/// Means over blocks of so many beams and bins.
+/// Returns means over blocks of so many beams and bins.
 inline Grid<double> mean_of(const Grid<double>& level, Eigen::Index beams, Eigen::Index bins) {
   Grid<double> mean(level.rows() / beams, level.cols() / bins);
   for (Eigen::Index b = 0; b < mean.rows(); ++b)

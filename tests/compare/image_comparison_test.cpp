@@ -31,8 +31,8 @@ TEST(ImageComparison, of_two_seeds_is_their_floor) {
   EXPECT_EQ(c.shift.beams, 0);
 }
 
-// A scene of steps and a dark, silent part, by speckle as wide as that of a head whose beams overlap: what two seeds reach
-// is printed as their floor, from one of them alone.
+// A scene of steps and a dark, silent part, by speckle as wide as that of a head whose beams overlap: what two seeds
+// reach is printed as their floor, from one of them alone.
 TEST(ImageComparison, floor_keeps_edges_and_silence) {
   Grid<float> scene(120, 360);
   for (Eigen::Index i = 0; i < 120; ++i)

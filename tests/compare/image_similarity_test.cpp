@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Two deterministic images of 64 x 80 levels.
+/// Returns a deterministic image of 64 x 80 levels.
 Grid<float> ripples(double mean, double phase, int row_factor, int column_factor, int modulus) {
   Grid<float> image(64, 80);
   for (int i = 0; i < 64; ++i)

@@ -9,7 +9,7 @@
 
 namespace insonify {
 
-/// Levels of a smooth scene [dB]: hills and valleys of +-10 dB, 40 dB on average.
+/// Returns the levels of a smooth scene [dB]: hills and valleys of +-10 dB, 40 dB on average.
 inline Grid<float> smooth_scene(Eigen::Index beams, Eigen::Index bins) {
   Grid<float> level(beams, bins);
   for (Eigen::Index i = 0; i < beams; ++i)
@@ -19,7 +19,7 @@ inline Grid<float> smooth_scene(Eigen::Index beams, Eigen::Index bins) {
   return level;
 }
 
-/// The levels with independent speckle of so many looks.
+/// Returns the levels with independent speckle of so many looks.
 inline Grid<float> with_speckle(Grid<float> level, std::uint64_t seed, int looks = 1) {
   for (Eigen::Index i = 0; i < level.size(); ++i) {
     double power = 0;

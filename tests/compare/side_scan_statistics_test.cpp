@@ -11,7 +11,7 @@ namespace {
 constexpr RangeGate side_gate{0.01, 30.01, 0.03};
 constexpr double side_altitude = 4, mast_height = 1, mast_range = 12;
 
-/// One look of speckle on a bed that falls off by 30 log r; an object hides it in pings `first` to `last`.
+/// Returns one look of speckle on a bed that falls off by 30 log r; an object hides it in pings `first` to `last`.
 Grid<float> bed_with_shadow(unsigned seed, Eigen::Index first = 20, Eigen::Index last = 29) {
   std::mt19937 random(seed);
   std::exponential_distribution<double> intensity(1);
@@ -49,7 +49,7 @@ TEST(SideScanStatistics, shadow_along_all_pings_is_one) {
   const SideScanStatistics s = side_scan_statistics(bed_with_shadow(4, 0, 59), side_gate);
   EXPECT_NEAR(s.longest_shadow, 4, 0.3);
   EXPECT_NEAR(s.shadow_share, 4 / 26.0, 0.01);
-  // Of r^-3 the mean from 4 to 12 and 16 to 30 m over that from 12 to 16 m.
+  // Compare the mean of r^-3 from 4 to 12 and 16 to 30 m with that from 12 to 16 m.
   const auto integral = [](double from, double to) { return (1 / (from * from) - 1 / (to * to)) / 2; };
   EXPECT_NEAR(s.shadow_depth_db, 25 + db_from_power((integral(4, 12) + integral(16, 30)) / 22 / (integral(12, 16) / 4)),
               0.5);

@@ -7,7 +7,8 @@
 
 namespace {
 
-/// Levels of K noise: speckle of one look with a mean intensity that has a gamma distribution of this shape.
+/// Returns the levels of K noise: speckle of one look with a mean intensity that has a gamma distribution of this
+/// shape.
 Grid<float> k_noise(double shape, unsigned seed) {
   std::mt19937_64 random(seed);
   std::gamma_distribution<double> texture(shape, 1 / shape);

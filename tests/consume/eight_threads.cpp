@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A program that is not ours: eight threads ping while it plans Fourier transforms of its own, by the same FFTW.
+// A program of a user: eight threads ping while it plans Fourier transforms of its own, by the same FFTW.
 #include <future>
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user of PCL writes: a cloud in memory, pings from several threads, soundings back as a PCL cloud; a scene source
-// of one's own, and echoes of one's own.
+// A program of a user of PCL: a cloud in memory, pings from several threads, soundings back as a PCL cloud; a scene
+// source of its own, and echoes of its own.
 #include <future>
 #include <iostream>
 #include <memory>
@@ -18,7 +18,7 @@
 
 using namespace insonify;
 
-// Of a scene too large to be sorted whole: what the ping can reach.
+// The reachable part of a scene that is too large to be sorted whole.
 class NearPart : public SceneSource {
  public:
   explicit NearPart(const SceneCloud& all) : all_(all), whole_(whole_of(all)) {}
@@ -38,7 +38,7 @@ class NearPart : public SceneSource {
   WholeScene whole_;
 };
 
-// Peak of an echo of 1 Pa from 5 m straight ahead, received by an array of one's own [Pa].
+// Returns the peak of an echo of 1 Pa from 5 m straight ahead, received by the user's own array [Pa].
 double peak_of_an_echo(SonarSpec spec) {
   SonarHead head = make_head(spec, 1500);
   head.array.spacing = 1500 / spec.centre_frequency / 2;

@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 namespace {
 
-/// Length of the meridian from the equator [m], by Simpson's rule over its radius of curvature.
+/// Returns the length of the meridian from the equator [m], by Simpson's rule over its radius of curvature.
 double meridian_arc(double latitude) {
   constexpr int steps = 2000;
   constexpr double e2 = wgs84_flattening * (2 - wgs84_flattening);

@@ -55,7 +55,7 @@ TEST(OrderedWork, a_look_that_throws_stops_loops_that_run) {
   {
     OrderedWork<int> work(4, 2, endless);
     EXPECT_THROW(work.next([] { throw 1; }), int);
-    const OrderedWork<int> left_alone(4, 2, endless);  // its end stops it, too
+    const OrderedWork<int> left_alone(4, 2, endless);  // its destructor stops the work, too
   }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
 }

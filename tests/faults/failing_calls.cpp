@@ -22,7 +22,7 @@ using insonify::Failure;
 
 namespace {
 
-// Shared with the processes that are forked.
+// State shared with forked processes.
 struct Plan {
   std::atomic<long> calls{0}, bytes{0}, chosen{0};
   std::atomic<bool> failed{false};
@@ -45,7 +45,7 @@ bool is_watched(int file) {
 
 enum CallKind { is_write = 1, is_sync = 2, is_name = 4 };  // what the call does; is_name: open, rename, mkdir
 
-// 0, or the error that this call is to report; -1: it shall write less.
+// Returns 0, or the error that this call is to report; -1: it shall write less.
 int error_of_call(CallKind kind) {
   ++plan->calls;
   if (plan->failure == Failure::full_disk || plan->calls != plan->chosen) return 0;
@@ -82,7 +82,7 @@ Function* next(Function*, const char* name) {
 
 bool writes(int flags) { return (flags & (O_WRONLY | O_RDWR | O_CREAT)) != 0; }
 
-// Fails with `errno`, or calls on.
+// Fails with `errno`, or makes the call.
 template <typename Result, typename Call>
 Result failing(bool watched, CallKind kind, Result failed, const Call& call) {
   const int error = watched ? error_of_call(kind) : 0;
@@ -91,7 +91,7 @@ Result failing(bool watched, CallKind kind, Result failed, const Call& call) {
   return failed;
 }
 
-// How many of `count` bytes the disk still holds.
+// Returns how many of `count` bytes fit on the disk.
 std::size_t bytes_on_disk(std::size_t count) {
   const long before = plan->bytes.fetch_add(static_cast<long>(count));
   if (plan->failure != Failure::full_disk) return count;
@@ -100,7 +100,7 @@ std::size_t bytes_on_disk(std::size_t count) {
   return std::min(room, count);
 }
 
-// The same of a write, which may become shorter.
+// Fails with `errno`, or writes, perhaps less than `count` bytes.
 template <typename Write>
 ssize_t writing(int file, std::size_t count, const Write& write) {
   if (!is_watched(file)) return write(count);
@@ -206,7 +206,7 @@ int mkdir(const char* path, mode_t mode) noexcept {
   return failing(is_watched(path), is_name, -1, [&] { return on(path, mode); });
 }
 
-// Both names of a function that opens.
+// Defines both names of a function that opens.
 #define OPENING(open)                                                                                      \
   int open(const char* path, int flags, ...) {                                                             \
     NEXT(open);                                                                                            \

@@ -12,7 +12,8 @@ const std::string mission = "make-mission lawnmower --scene poles.ply --sonar p9
 const std::string accuracy = "accuracy --scene poles.ply " + of_four_beams + "--methods gridded --repeats 1 ";
 const std::string synthesize = "synthesize echoes.csv --sonar p900-45 --set sonar.beams=4 ";
 
-/// A case whose new output is made from `run`, the old one from `short`, or from a variant of each that is named here.
+/// Returns a case whose new output is made from `run`, the old one from `short`, or from a variant of each that is
+/// named here.
 FaultCase of_runs(const std::string& verb, const std::string& output, const std::string& how = "",
                   const std::string& variant = "") {
   const std::string rest = variant + " " + how + " -o " + output;

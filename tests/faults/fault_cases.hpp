@@ -5,21 +5,21 @@
 
 namespace insonify {
 
-/// A command that replaces `output`, and the one that wrote what it replaces.
+/// A command that replaces `output`, and the command that wrote the old output.
 struct FaultCase {
   std::string verb, output, before, command;
   enum class Kind {
-    whole,    ///< the old output or the new one, and the same bytes in every run
-    resumes,  ///< keeps what is done, and completes it when it is run again
-    pair,     ///< two files, between whose names a kill may fall
+    whole,    ///< leaves the old output or the new one, with the same bytes in every run
+    resumes,  ///< keeps finished work, and completes it when it is run again
+    pair,     ///< writes two files, between whose renames a kill may fall
     timed     ///< holds times of the run: the bytes differ
   } kind = Kind::whole;
 };
 
-/// The cases, at least one for each verb that has --output.
+/// Returns the cases, at least one for each verb that has --output.
 std::vector<FaultCase> fault_cases();
 
-/// The commands that make what the cases start from.
+/// Returns the commands that make the inputs of the cases.
 std::vector<std::string> commands_for_inputs();
 
 }  // namespace insonify

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Makes every call by which a verb writes fail, one at a time and in every way, or kills the verb there or at a random time,
-// or runs it on a disk that is full after some bytes.
-// An error must be one line and exit code 4, the old output as it was, and no other file there; success in spite of it, as
-// after a short write, must give the bytes of an undisturbed run. After a kill the old or the new output must be whole, and
-// the next run must leave nothing else.
+// Makes every call by which a verb writes fail, one at a time and in every way, or kills the verb there or at a random
+// time, or runs it on a disk that is full after some bytes. An error must be one line and exit code 4, the old output
+// as it was, and no other file there; success in spite of it, as after a short write, must give the bytes of an
+// undisturbed run. After a kill the old or the new output must be whole, and the next run must leave nothing else.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -31,7 +30,7 @@ using namespace insonify;
 
 namespace {
 
-// Runs `insonify COMMAND -q` in this folder, in a process of its own.
+// Result of `insonify COMMAND -q` in this folder, in a process of its own.
 struct Ended {
   int status;
   std::string said, printed;
@@ -82,7 +81,7 @@ class Sweep {
     restore();
   }
 
-  // True if the answer to the failure of call `number` is good, or to a disk that is full after so many bytes.
+  // Returns true if the answer to the failure of call `number`, or to a disk that is full after so many bytes, is good.
   bool holds(long number, Failure failure, const char* name) {
     fail_call(work_.string(), number, failure);
     const Ended ended = run_apart(case_.command);
@@ -97,7 +96,7 @@ class Sweep {
     return false;
   }
 
-  // The same of a kill after a time.
+  // Returns true if the answer to a kill after a time is good.
   bool survives_kill(double seconds) {
     run_apart(case_.command, seconds);
     const std::string problem = after_kill();
@@ -110,7 +109,7 @@ class Sweep {
   }
 
   long calls = 0, bytes = 0, tried = 0;
-  bool begins_well = true;  // whether the commands succeed undisturbed
+  bool begins_well = true;  // true: the commands succeed undisturbed
 
  private:
   using Kind = FaultCase::Kind;
@@ -132,7 +131,7 @@ class Sweep {
       for (const std::string& part : {std::string("No space left on device"), fs::path(case_.output).stem().string()})
         if (ended.said.find(part) == std::string::npos) return "does not say " + part;
     if (case_.kind == Kind::resumes) return completed();
-    // The last step: the name is there, but the disk does not confirm it.
+    // In the last step the name exists, but the disk does not confirm it.
     if (ended.said.find("is complete, but") != std::string::npos && is_new(found)) return "";
     return same(found, before_, case_.kind) ? "" : "other files:" + difference(found, before_);
   }
@@ -147,7 +146,7 @@ class Sweep {
     return whole ? completed() : "neither old nor new:" + difference(found, before_);
   }
 
-  // What the next run leaves.
+  // Completes the work by another run, and returns the files that it leaves.
   std::string completed() {
     const Ended again = run_apart(case_.command);
     if (again.code() != 0) return "the next run ends with " + std::to_string(again.code()) + ": " + again.said;
@@ -172,7 +171,7 @@ class Sweep {
   Files before_, after_;
 };
 
-// What the cases start from.
+// Makes the inputs of the cases.
 void make_inputs() {
   std::ofstream("echoes.csv") << "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n3.5,0,0,0.01,0.6,-0.3\n";
   for (const std::string& command : commands_for_inputs())
@@ -180,7 +179,7 @@ void make_inputs() {
       std::printf("%s fails: %s\n", command.c_str(), made.said.c_str());
 }
 
-// The number of verbs that have --output and no case.
+// Returns the number of verbs that have --output and no case.
 long verbs_without_case(const std::vector<FaultCase>& cases) {
   long without = 0;
   for (const std::string& verb : verbs_in(run_apart("--help").printed)) {
@@ -197,7 +196,7 @@ constexpr std::pair<Failure, const char*> failures[] = {
     {Failure::interrupted, "EINTR"}, {Failure::short_write, "short"}, {Failure::kill, "kill"}};
 constexpr long disk_sizes = 30;
 
-// What is done to each case; the functions return how many answers were wrong.
+// A way to disturb each case. The functions return the number of wrong answers.
 struct Sweeping {
   std::string mode;
   long number;  // every such failure or size of all cases; of kills the count of each case

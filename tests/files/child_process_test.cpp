@@ -104,7 +104,7 @@ TEST(ChildProcess, judges_what_a_file_announces) {
       [] {
         expect_from_file("a.png", 100, {1e8, "pixels", 1, "crop it"});
       });
-  // What is true to its size may take memory and time for it.
+  // Reading a file as large as it states may take memory and time in proportion.
   std::size_t count = 0;
   read_in_child("a.png", {.memory = 1 << 20}, [](ArraySender& to) {
     expect_from_file("a.png", 1 << 20, {3e8, "pixels", 1});

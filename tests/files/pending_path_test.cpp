@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Number of a process that has ended.
+// Returns the number of a process that has ended.
 pid_t ended_process() {
   const pid_t process = fork();
   if (process == 0) _exit(0);
@@ -24,7 +24,7 @@ pid_t ended_process() {
   return process;
 }
 
-// The temporary name of another process.
+// Returns the temporary name of another process.
 std::string name_of(const std::string& target, const char* kind, pid_t process) {
   std::string name = sibling_name(target, kind);
   const std::string own = "-" + std::to_string(getpid()) + "@";

@@ -13,7 +13,8 @@ TEST(Utc, goes_on_over_days_and_years) {
     EXPECT_THAT(error_of([&] { utc_after(bad, 0); }), HasSubstr(bad));
 }
 
-// Known pairs: GPS week 2416, day 5 begins 18 s before 2026-05-01 in UTC; the second that ended 2016 was the eighteenth.
+// Known pairs: GPS week 2416, day 5 begins 18 s before 2026-05-01 in UTC; the second that ended 2016 was the
+// eighteenth.
 TEST(Utc, gives_gps_time_with_leap_seconds) {
   EXPECT_EQ(gps_time_of_utc(315964800), 0);
   EXPECT_EQ(gps_time_of_utc(1777593600 - 18), (2416 * 7 + 5) * 86400.0);

@@ -6,7 +6,7 @@
 
 namespace {
 
-/// A recording of `frames` frames of 48 beams x 6 samples; the sample of (frame, beam, sample) is their sum.
+/// Returns a recording of `frames` frames of 48 beams x 6 samples; the sample of (frame, beam, sample) is their sum.
 std::string made_recording(int frames) {
   const auto put = [](std::string& bytes, std::size_t at, auto number) {
     std::memcpy(bytes.data() + at, &number, sizeof number);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
-/// 2 rows x 3 columns; row 0 is the south.
+/// Returns 2 rows x 3 columns; row 0 is the south.
 std::vector<GeoBand> two_bands() {
   Grid<float> height = Grid<float>::Zero(2, 3), count = height;
   height << -20, -21, no_value, -18, -17.5F, -16;

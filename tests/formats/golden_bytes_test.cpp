@@ -16,8 +16,8 @@
 
 namespace {
 
-/// The bytes that are due under this name. They are made anew by deleting the file and running this test twice, after the
-/// decoders and another program have read what it writes.
+/// The bytes that are due under this name. They are made anew by deleting the file and running this test twice, after
+/// the decoders and another program have read what it writes.
 void expect_golden(const std::string& written, const std::string& name) {
   const std::string golden = std::string(INSONIFY_GOLDEN_PRODUCTS) + "/" + name, bytes = file_bytes(written);
   if (!std::filesystem::exists(golden)) {
@@ -29,7 +29,7 @@ void expect_golden(const std::string& written, const std::string& name) {
   EXPECT_TRUE(bytes == expected) << name << " differs from byte " << differ - bytes.begin() << " on";
 }
 
-/// A ball to port, ahead of the head and above the bed: two beams, and one that hears nothing.
+/// Returns a ball to port, ahead of the head and above the bed: two beams, and one without an echo.
 GsfPing golden_swath(double time) {
   GsfPing ping;
   ping.time = time, ping.place = {radians(54.1), radians(7.9), 0};

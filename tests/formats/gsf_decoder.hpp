@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A decoder of the Generic Sensor Format 3.11, from its specification: every record that it has a name for, and of a ping
-// every array and the sensors 114, 149 and 152. Anything else, and a byte too many or too few, is an error.
+// A decoder of the Generic Sensor Format 3.11, from its specification: every record that it has a name for, and of a
+// ping every array and the sensors 114, 149 and 152. Anything else, and a byte too many or too few, is an error.
 #include <map>
 #include <optional>
 #include <vector>
@@ -16,12 +16,12 @@ struct GsfSwath {
   double tide, depth_corrector;
   double heading_deg, pitch_deg, roll_deg, heave, course_deg, speed_knots;
   double height, separation, gps_tide;
-  std::map<int, std::vector<double>> arrays;  ///< by subrecord id, scaled
+  std::map<int, std::vector<double>> arrays;  ///< scaled, by subrecord id
   std::vector<int> flags;
   int sensor;
   std::map<std::string, double> of_sensor;
-  std::string sensor_model;                        ///< of 152
-  std::vector<std::pair<double, double>> profile;  ///< that holds for it
+  std::string sensor_model;                        ///< model of sensor 152
+  std::vector<std::pair<double, double>> profile;  ///< profile that holds for it
 };
 
 struct GsfHistory {
@@ -48,13 +48,13 @@ struct GsfContent {
   std::string version;
   std::vector<int> records;  ///< ids in the order of the file
   std::vector<std::string> parameters;
-  std::map<std::string, std::string> parameter;  ///< by key
+  std::map<std::string, std::string> parameter;  ///< value of each key
   double profile_time, profile_longitude_deg, profile_latitude_deg;
-  std::vector<std::pair<double, double>> profile;  ///< the last
+  std::vector<std::pair<double, double>> profile;  ///< last profile
   std::vector<std::string> comments;
   std::vector<GsfHistory> histories;
   std::vector<GsfPositionError> position_errors;
-  std::vector<std::vector<GsfAttitudeEntry>> attitudes;  ///< by records
+  std::vector<std::vector<GsfAttitudeEntry>> attitudes;  ///< one list per record
   std::optional<GsfSummaryContent> summary;
   std::vector<GsfSwath> swaths;
 };

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// A beam to port and one to starboard, each unlike the other in everything, and one without a sounding.
+/// Returns a beam to port and one to starboard, each unlike the other in everything, and one without a sounding.
 GsfPing two_sided_ping() {
   GsfPing ping;
   ping.time = 1777624200.25, ping.place = {radians(54.1234567), radians(-7.7654321), 3.0625};
@@ -133,7 +133,7 @@ TEST(GsfFile, names_profile_comment_and_history) {
   EXPECT_EQ(read.histories[0].comment, "soundings found");
 }
 
-// What gsfGetMBParams reads of them: words, and numbers as +DD.DD.
+// gsfGetMBParams reads words, and numbers as +DD.DD.
 TEST(GsfFile, has_the_parameters_of_processing) {
   GsfSurvey survey = two_point_survey();
   const auto unknown = written({two_sided_ping()}, survey).parameter;

@@ -6,7 +6,7 @@
 
 namespace {
 
-// Two categories in four objects.
+// Returns two categories in four objects.
 LabelMap four_objects() {
   LabelMap map{Grid<std::uint8_t>(4, 5), Grid<std::uint16_t>(4, 5)};
   map.category << 0, 2, 2, 0, 3, 0, 2, 0, 3, 0, 0, 0, 0, 0, 0, 2, 2, 0, 0, 2;
@@ -70,7 +70,7 @@ TEST(LabelMap, outlines_follow_the_sides_of_pixels) {
   map.setConstant(1);
   map.block(1, 1, 2, 3).setZero();  // a hole, which is left out
   EXPECT_EQ(outlines_of(map, 1), (std::vector<std::vector<int>>{{0, 0, 6, 0, 6, 4, 0, 4}}));
-  // Of any picture without holes: the area within is that of the pixels.
+  // In any picture without holes the area within equals that of the pixels.
   for (int seed = 0; seed < 20; ++seed) {
     Grid<std::uint16_t> bars = Grid<std::uint16_t>::Zero(12, 17);
     int area = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A decoder of LAS 1.4, point format 6, and LAS 1.2, point format 1, with the extra bytes level_db, deviation, ping and beam,
-// from ASPRS LAS 1.4 R15 and LAS 1.2.
+// A decoder of LAS 1.4, point format 6, and LAS 1.2, point format 1, with the extra bytes level_db, deviation, ping and
+// beam, from ASPRS LAS 1.4 R15 and LAS 1.2.
 #include <array>
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace insonify::decode {
 
 struct LasRow {
   std::array<double, 3> place;
-  double time;  ///< UTC, seconds since 1970; of files of 2017 or later, with 18 leap seconds
+  double time;  ///< UTC, seconds since 1970; for files of 2017 or later, with 18 leap seconds
   unsigned intensity, classification, return_number, returns, source;
   bool withheld;
   double scan_angle_deg;

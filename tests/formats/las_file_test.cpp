@@ -132,7 +132,7 @@ TEST(LasFile, refuses_points_that_it_cannot_hold) {
               HasSubstr("must be finite"));
 }
 
-// By the offsets of ASPRS LAS 1.2, tables 3 and 5 to 8: for readers that know no 1.4.
+// Offsets are those of ASPRS LAS 1.2, tables 3 and 5 to 8: for readers that know no 1.4.
 TEST(LasFile, of_version_2_holds_the_same_points) {
   const std::string path = own_path("old.las");
   LasFile file(path, las_zone, las_points[0].position, {2, 1777624200});

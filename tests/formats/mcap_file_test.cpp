@@ -15,7 +15,7 @@
 
 namespace {
 
-/// Three beams: to starboard, ahead, to port; a bright sample in bin 4 of the port beam.
+/// Returns three beams: to starboard, ahead, to port; a bright sample in bin 4 of the port beam.
 Ping log_ping() {
   Ping ping;
   ping.fan = make_fan(3, radians(90), radians(20), radians(15));
@@ -208,7 +208,7 @@ TEST(McapFile, indexes_many_messages_in_chunks) {
 
 namespace {
 
-/// Bytes of a chunk by the library of its compression.
+/// Unpacks a chunk by the library of its compression.
 std::string unpacked(const std::string& compression, const std::string& bytes, std::uint64_t size) {
   std::string plain(size, '\0');
 #ifdef INSONIFY_TEST_LZ4
@@ -233,7 +233,7 @@ std::string unpacked(const std::string& compression, const std::string& bytes, s
   throw std::runtime_error("compression '" + compression + "'");
 }
 
-/// 40 messages of 50 kB each.
+/// Writes 40 messages of 50 kB each.
 std::string forty_messages(McapCompression compression) {
   const std::string path = own_path("packed.mcap");
   McapFile file(path, compression);

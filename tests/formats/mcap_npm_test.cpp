@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// MCAP files as the npm packages @mcap/core and @foxglove/rosmsg2-serialization read them: every message, number by number as
-// the decoder of these tests.
+// MCAP files as the npm packages @mcap/core and @foxglove/rosmsg2-serialization read them: every message, number by
+// number as the decoder of these tests.
 #include <cstdlib>
 
 #include <nlohmann/json.hpp>
@@ -31,7 +31,7 @@ void flatten(const json& value, const std::string& name, decode::RosMessage& mes
   }
 }
 
-/// The file as the packages read it, or why they cannot.
+/// Returns the file as the packages read it, or their error.
 json read_by_packages(const std::string& path) {
   const std::string out = own_path("messages.json"), folder = INSONIFY_NPM_READER;
   const std::string command =

@@ -6,7 +6,7 @@
 
 namespace {
 
-/// A .npy file of format 1, as numpy.save writes it.
+/// Returns a .npy file of format 1, as numpy.save writes it.
 template <typename Number>
 std::string made_npy(const std::string& type, const std::string& shape, bool fortran,
                      const std::vector<Number>& numbers) {

@@ -8,15 +8,16 @@
 
 namespace {
 
-/// How a message is made.
+/// Parameters of a made message.
 struct MadeMessage {
-  int version = 1, code = 0;  ///< code: of the size of samples
+  int version = 1, code = 0;  ///< code: size of samples
   std::uint8_t gamma = 255;
   bool gain = false;
   int ranges = 4;
 };
 
-/// A ping of 3 beams at -10, 1 and 10 degrees; the sample of (beam, range) is 10 beam + range, of 16 bits 1000 more.
+/// Returns a ping of 3 beams at -10, 1 and 10 degrees. The sample of (beam, range) is 10 beam + range, for 16 bits 1000
+/// more.
 std::string made_message(const MadeMessage& how, std::uint32_t number) {
   const bool second = how.version == 2;
   const std::size_t begin = second ? 202 : 122, image = begin + 3 * 2 + 10;
@@ -61,7 +62,7 @@ std::string made_message(const MadeMessage& how, std::uint32_t number) {
   return m;
 }
 
-/// A message of another kind: a status.
+/// Returns a message of another kind: a status.
 std::string other_message() {
   std::string m(40, '\0');
   put_at(m, 0, std::uint16_t{0x4f53});
@@ -70,7 +71,7 @@ std::string other_message() {
   return m;
 }
 
-/// An item of a log of the maker's viewer.
+/// Returns an item of a log of the maker's viewer.
 std::string log_item(const std::string& payload, std::uint16_t type = 10, std::uint16_t compression = 0) {
   std::string item(40, '\0');
   put_at(item, 0, std::uint32_t{0xaabbccdd});
@@ -150,7 +151,7 @@ TEST(OculusFile, reads_logs_of_the_makers_viewer) {
   std::string spoilt = log;
   spoilt[48] = 'x';
   EXPECT_THAT(oculus_refusal(spoilt), HasSubstr("the item at byte 48 does not begin as one"));
-  // Cut between two items it is whole, if a ping came before.
+  // A file cut between two items is whole, if a ping came before.
   const std::size_t first = log_header().size() + log_item("settings", 1).size() + log_item(made_message({}, 1)).size();
   const std::set<std::size_t> whole{first, first + log_item(made_message({2}, 2)).size()};
   for (std::size_t size = 0; size < log.size(); ++size)

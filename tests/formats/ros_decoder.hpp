@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// A decoder of MCAP and of ROS 2 messages in CDR, from their specifications: messages are read by the definitions that the
-// file itself holds.
+// A decoder of MCAP and of ROS 2 messages in CDR, from their specifications: messages are read by the definitions that
+// the file itself holds.
 #include <algorithm>
 #include <any>
 #include <functional>
@@ -24,8 +24,8 @@ inline std::uint32_t reference_crc(const std::string& bytes) {  // bit by bit
   return ~crc;
 }
 
-/// All numbers and texts of a message by name, as "image.data" or "transforms[1].header.frame_id"; numbers of a sequence
-/// in one list.
+/// All numbers and texts of a message by name, as "image.data" or "transforms[1].header.frame_id"; numbers of a
+/// sequence in one list.
 struct RosMessage {
   std::map<std::string, std::vector<double>> numbers;
   std::map<std::string, std::string> texts;
@@ -35,11 +35,11 @@ struct RosMessage {
 struct RosField {
   std::string type, name;
   bool many;
-  std::size_t fixed;  ///< of an array of so many; else 0
+  std::size_t fixed;  ///< length of a fixed array; else 0
 };
 using RosTypes = std::map<std::string, std::vector<RosField>>;
 
-/// The types of a definition: the first is of the message, the others stand behind lines of '='.
+/// Returns the types of a definition: first that of the message, others behind lines of '='.
 inline RosTypes ros_types(const std::string& name, const std::string& text) {
   RosTypes types;
   std::string current = name.substr(0, name.find('/')) + name.substr(name.rfind('/'));
@@ -138,14 +138,14 @@ struct McapMessage {
 };
 
 struct McapContent {
-  std::map<std::string, std::map<std::string, std::string>> metadata;  ///< of topics
+  std::map<std::string, std::map<std::string, std::string>> metadata;  ///< one map per topic
   std::vector<McapMessage> messages;                                   ///< found by the indexes of the summary
   std::uint64_t chunks = 0;
   std::map<std::string, std::map<std::string, std::string>> records;  ///< metadata of the file, by names
-  std::set<std::string> compressions;                                 ///< of chunks
+  std::set<std::string> compressions;                                 ///< compressions of the chunks
 };
 
-/// The bytes of a compressed chunk: its compression, its bytes and how many they become.
+/// Unpacks a compressed chunk from its compression, its bytes and their unpacked number.
 using Unpack = std::function<std::string(const std::string&, const std::string&, std::uint64_t)>;
 
 inline std::string mcap_text(Cursor& c) { return c.text(static_cast<std::size_t>(c.unsigned_little(4))); }
@@ -260,7 +260,7 @@ inline McapContent read_mcap(const std::string& bytes, const Unpack& unpack = {}
   return content;
 }
 
-/// Soundings at places with levels, of beams from 0.
+/// Returns soundings at places with levels, of beams from 0.
 inline BottomSoundings soundings_at(const std::vector<Eigen::Vector3d>& places, const std::vector<float>& level_db) {
   BottomSoundings found;
   for (std::size_t i = 0; i < places.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace insonify::decode {
 
-/// Numbers of every tag.
+/// Returns the numbers of every tag.
 inline std::map<int, std::vector<double>> tiff_tags(const std::string& bytes) {
   Cursor head(bytes);
   if (head.text(4) != std::string("II*\0", 4)) throw std::runtime_error("no TIFF");
@@ -30,7 +30,7 @@ inline std::map<int, std::vector<double>> tiff_tags(const std::string& bytes) {
   return tags;
 }
 
-/// Bands of 32-bit floats, row by row from the north, and where their north-west corner is.
+/// Bands of 32-bit floats, row by row from the north, and the position of their north-west corner.
 struct GeotiffContent {
   std::size_t columns, rows;
   double west, north, cell;

@@ -18,7 +18,7 @@ struct XtfChannelInfo {
 struct XtfChannelOfPing {
   int channel = 0, flags = 0, frequency = 0, weight = 0;
   double slant_range = 0, ground_range = 0, delay = 0, duration = 0, period = 0;
-  std::vector<double> samples;  ///< as they stand in the file
+  std::vector<double> samples;  ///< samples as stored
 };
 
 struct XtfSonarPacket {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Side-scans as XTF: what is written is read by a decoder made from the specification, and by the reader, which also reads
-// bytes put together here and a public record.
+// Side-scans as XTF: what is written is read by a decoder made from the specification, and by the reader, which also
+// reads bytes put together here and a public record.
 #include "formats/xtf_file.hpp"
 
 #include "formats/put_bytes.hpp"
@@ -20,7 +20,7 @@ XtfHeader two_sided_header(XtfSamples samples) {
   return header;
 }
 
-/// Samples of channel c are 100 c + n and a half more of odd pings.
+/// Returns a ping whose samples of channel c are 100 c + n, and a half more in odd pings.
 XtfPing two_sided_ping(std::uint32_t number, std::size_t samples = 5) {
   XtfPing p;
   p.number = number, p.time = 1777624200.25 + 0.13 * number, p.sound_speed = speed_1487, p.period = 0.13;
@@ -47,7 +47,7 @@ std::string xtf_refusal(const std::string& bytes) {
   return error_of_file([](const std::string& path) { read_xtf(path); }, "r.xtf", bytes);
 }
 
-/// A recording of another program with one starboard channel: one ping of `samples`.
+/// Returns a recording of another program with one starboard channel: one ping of `samples`.
 std::string foreign_recording(int format, int bytes_each, const std::string& samples) {
   std::string file(1024, '\0');
   file[0] = 123;

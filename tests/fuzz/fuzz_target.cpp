@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One target for libFuzzer; the name of the program, fuzz_pcd, says which reader it tries. An Error is the answer that is
-// wanted; any other exception ends the program, as a crash does.
+// One target for libFuzzer; the name of the program, fuzz_pcd, says which reader it tries. An Error is the answer that
+// is wanted; any other exception ends the program, as a crash does.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>

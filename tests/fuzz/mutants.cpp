@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damages small valid files at random and reads each in a process of its own, as the tool does: it must end with 0, 2, 3, 4
-// or 5, by no signal, within 5 s of processor and 1 GB, and say at most one line. Files that were found so once are read first, whole.
+// Damages small valid files at random and reads each in a process of its own, as the tool does: it must end with 0, 2,
+// 3, 4 or 5, by no signal, within 5 s of processor and 1 GB, and say at most one line. Files that were found so once
+// are read first, whole.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -27,7 +28,7 @@ namespace {
 
 constexpr double most_seconds = 5, most_mib = 1024;
 
-/// How many times as long as its processor time a process may take beside others.
+/// Returns how many times its CPU time a process may take on a loaded machine.
 double beside_others() {
   double load = 0;
   getloadavg(&load, 1);
@@ -43,7 +44,7 @@ class Mutator {
     return end ? std::uniform_int_distribution<std::size_t>(0, end - 1)(random_) : 0;
   }
 
-  /// Mostly with the damage of the reader, if it has one.
+  /// Returns a damaged seed, mostly with the reader's own damage, if it has one.
   std::string mutant(const FuzzedReader& reader, const std::vector<std::string>& seeds) {
     std::string bytes = seeds[below(seeds.size())];
     if (reader.damage && below(8) > 0)
@@ -90,7 +91,7 @@ class Mutator {
     }
   }
 
-  // An integer that is a count too large, or negative, of 1 to 8 bytes in either order.
+  // Writes an integer that is a count too large, or negative, of 1 to 8 bytes in either order.
   void put_integer(std::string& bytes, std::size_t at) {
     static constexpr std::uint64_t values[] = {0,
                                                1,
@@ -110,7 +111,7 @@ class Mutator {
     for (std::size_t i = 0; i < size; ++i) bytes[at + (swapped ? size - 1 - i : i)] = static_cast<char>(value >> 8 * i);
   }
 
-  // Another text in the place of the next number.
+  // Replaces the next number by another text.
   void replace_number(std::string& bytes, std::size_t at) {
     static const char* const texts[] = {"0",
                                         "-1",
@@ -186,7 +187,7 @@ Outcome read_apart(const FuzzedReader& reader, const fs::path& path) {
           static_cast<double>(used.ru_maxrss) / 1024, bytes_of(said)};
 }
 
-// What a reader made of all its files.
+// Results of a reader for all its files.
 struct Tally {
   std::size_t read = 0, refused = 0, bad = 0;
   double slowest = 0, largest = 0;
@@ -231,7 +232,7 @@ Tally try_reader(const FuzzedReader& reader, const fs::path& seed_folder, const 
     ++tally.bad;
     return tally;
   }
-  // Files that those of the reader name.
+  // Copy the files that those of the reader name.
   if (const fs::path beside = seed_folder / (reader.name + ".beside"); fs::exists(beside)) fs::copy(beside, work);
   for (const std::string& bytes : seeds) try_bytes(bytes, "seed");
   for (const std::string& bytes : files_in(regressions / reader.name)) try_bytes(bytes, "regression");
@@ -251,7 +252,7 @@ int main(int argc, char** argv) {
   char* after = nullptr;
   const std::size_t mutants = std::strtoull(argv[4], &after, 10), seed = std::strtoull(argv[5], nullptr, 10);
   const std::size_t with_damage = *after == ',' ? std::strtoull(after + 1, nullptr, 10) : mutants;
-  // In memory, if there is such a folder: each run of a mutant waits for the disk otherwise.
+  // Work in memory if there is such a folder; otherwise each run of a mutant waits for the disk.
   std::string work = std::string(fs::is_directory("/dev/shm") ? "/dev/shm" : "/tmp") + "/insonify-mutants-XXXXXX";
   if (!mkdtemp(work.data())) return 2;
   std::size_t bad = 0, tried = 0;

@@ -43,7 +43,7 @@ void read_scene(const std::string& path) {
   load_scene(path, options);
 }
 
-// As `info` does.
+// Describes a file, as `info` does.
 void read_description(const std::string& path) { describe_file(path); }
 
 void read_tiles(const std::string& path) {
@@ -53,7 +53,7 @@ void read_tiles(const std::string& path) {
 }
 
 #ifdef INSONIFY_FUZZ_TOOL
-/// Runs a verb, whose words have no blanks; ends this process with its exit code unless that is 0.
+/// Runs a verb, whose words have no blanks. Ends this process with its exit code unless that is 0.
 void run_verb(const std::string& line) {
   std::istringstream in("insonify " + line + " -q");
   std::vector<std::string> words(std::istream_iterator<std::string>(in), {});
@@ -65,7 +65,7 @@ void run_verb(const std::string& line) {
   if (code != 0) _exit(code);
 }
 
-/// `info`, then a ping of four beams: of all rows or of levels, as the file's bytes choose.
+/// Runs `info`, then a ping of four beams: of all rows or of levels, as the file's bytes choose.
 void ping_tiles(const std::string& path) {
   const std::string run = path + ".run";
   const bool levels = std::hash<std::string>{}(read_text_file(path)) % 2 == 0;
@@ -77,7 +77,7 @@ void ping_tiles(const std::string& path) {
   std::filesystem::remove_all(run);
 }
 
-/// A verb that reads the folder of a survey, which the file's size chooses, and then its survey, of four beams, and merge.
+/// Runs a verb that reads the folder of a survey, chosen by the file's size, then its survey, of four beams, and merge.
 void go_on_with_survey(const std::string& path) {
   const std::string bytes = read_text_file(path), folder = path + ".folder", run = folder + "/run";
   std::filesystem::remove_all(folder);
@@ -89,7 +89,7 @@ void go_on_with_survey(const std::string& path) {
   std::filesystem::remove_all(folder);
 }
 
-/// Pings a scene as it is at time 0 with four beams, 5 m ahead of them; who contributes to a pixel only if surfels are few.
+/// Pings a scene at time 0 with four beams, 5 m ahead of them. Lists contributors of pixels only if surfels are few.
 void ping_with_four_beams(const SceneCloud& scene, const Environment& environment = {}) {
   SonarSpec spec = find_sonar("p900-45").spec;
   spec.beams = 4, spec.min_range = 1, spec.max_range = 10;
@@ -100,7 +100,7 @@ void ping_with_four_beams(const SceneCloud& scene, const Environment& environmen
   simulate_ping(scene, make_head(spec, slowest_sound(environment)), pose, environment, options);
 }
 
-/// A wall of 30 x 30 surfels across the beams, with these materials in columns.
+/// Returns a wall of 30 x 30 surfels across the beams, with these materials in columns.
 SceneCloud wall_of(const std::vector<Material>& materials) {
   SceneCloud wall;
   wall.materials = materials;
@@ -117,7 +117,8 @@ void ping_materials(const std::string& path) {
 
 void ping_mirrors(const std::string& path) { ping_with_four_beams(wall_of({Material{}}), load_environment(path)); }
 
-/// Scenes with more surfels than a ping takes in a few seconds, as of a box of 1 m sampled each 3 mm, are only read.
+/// Pings a scene of parts. One with more surfels than a ping takes in a few seconds (a box of 1 m sampled each 3 mm) is
+/// only read.
 void ping_parts(const std::string& path) {
   const PartsScene scene(path, {.threads = 1});
   std::size_t surfels = 0;

@@ -10,14 +10,14 @@ namespace insonify {
 
 /// A reader of files that strangers may have made.
 struct FuzzedReader {
-  std::string name;       ///< also of its folders of seeds and regressions
-  std::string extension;  ///< of its files, with the dot
+  std::string name;       ///< name, also of its folders of seeds and regressions
+  std::string extension;  ///< extension of its files, with the dot
   std::function<void(const std::string& path)> read;
   /// Damage that the format's own checks do not find; empty: bytes are damaged anywhere.
   std::function<std::string(const std::string& bytes, const DamageSource& source)> damage{};
 };
 
-/// All of them.
+/// Returns all readers.
 const std::vector<FuzzedReader>& fuzzed_readers();
 
 }  // namespace insonify

@@ -74,7 +74,7 @@ void poke(std::span<char> bytes, const DamageSource& source) {
   std::memcpy(at, &value, sizeof value);
 }
 
-/// A child becomes another row or node, or a node takes the children of another one.
+/// Replaces a child by another row or node, or gives a node the children of another one.
 void relink(TileParts& parts, const DamageSource& source) {
   if (parts.node.empty() || parts.child.empty()) return;
   TileNode& node = parts.node[source.below(parts.node.size())];
@@ -162,7 +162,7 @@ std::string in_one(const Files& files) {
   return bytes;
 }
 
-/// Puts the digests of blocks as they are into their marks.
+/// Writes the present digests of blocks into their marks.
 void renew_marks(Files& files) {
   const auto content_of = [&](const std::string& name) -> std::string* {
     for (auto& [other, content] : files)

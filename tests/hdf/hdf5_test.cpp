@@ -10,7 +10,7 @@ namespace {
 using namespace insonify::hdf5;
 constexpr DatasetName numbers_name{"/numbers", "m", "some numbers"};
 
-/// A file of four numbers that are written without HDF5.
+/// Writes a file of four numbers without HDF5.
 std::string plain_file() {
   const std::string path = own_path("plain.h5");
   std::uint64_t offset = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a bathymetric echo sounder finds of beds whose truth is known, and whether its predicted errors are its errors.
+// Tests the soundings of a bathymetric echo sounder on known beds, and its predicted errors against its errors.
 #include "returns/bottom_detection.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/sonar_file.hpp"
@@ -8,14 +8,14 @@
 
 namespace {
 
-/// A preset, straight down from the origin.
+/// Returns a preset, straight down from the origin.
 SonarHead swath_head(const std::string& name, double min_range, double max_range) {
   SonarSpec spec = find_sonar(name).spec;
   spec.min_range = min_range, spec.max_range = max_range;
   return make_head(spec, sound_speed(Water{}));
 }
 
-/// Surfels of 0.25 m along y from `begin` to `end`, on the line z = height(y) across the x axis.
+/// Adds surfels of 0.25 m along y from `begin` to `end`, on the line z = height(y) across the x axis.
 void add_bed(SceneCloud& scene, double begin, double end, const Eigen::Vector3d& along, const Eigen::Vector3d& start) {
   const double s = 0.25;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitX().cross(along);
@@ -44,7 +44,7 @@ BottomSoundings soundings_of(const SimulatedPing& result, const SonarHead& head,
                                      .phase = phase});
 }
 
-/// Root mean square, over beams from `begin` on, of the deviations about the mean of each beam to the predicted ones.
+/// Returns the root mean square, over beams from `begin` on, of the ratio of deviations to predicted ones.
 double ratio_of(const std::vector<BottomSoundings>& pings, std::size_t begin, std::size_t end) {
   const auto count = static_cast<double>(pings.size());
   double sum = 0;
@@ -64,10 +64,10 @@ double ratio_of(const std::vector<BottomSoundings>& pings, std::size_t begin, st
 /// Errors of a flat bed 20 m below, in equal parts of the fan.
 struct FlatBed {
   std::vector<double> bias;       // mean error of depth [m]
-  std::vector<double> ratio;      // of deviations to the predicted ones
-  std::vector<double> by_phase;   // share of the soundings
-  double by_phase_below = 0;      // the same within a degree of straight down
-  double ratio_of_amplitude = 0;  // of soundings without a phase, in the middle part
+  std::vector<double> ratio;      // ratio of deviations to predicted ones
+  std::vector<double> by_phase;   // fraction of the soundings
+  double by_phase_below = 0;      // fraction within a degree of straight down
+  double ratio_of_amplitude = 0;  // the same for soundings without a phase, in the middle part
 };
 
 FlatBed measure_flat_bed(const std::string& sonar, double max_range) {
@@ -171,8 +171,8 @@ TEST(BathymetryLaws, slope_of_45_degrees) {
   beside.expect_small(60);
 }
 
-// A vertical step of 1 m at y = 8 m, 20 m below on the near side: both levels and the face between them are found, and no
-// sounding stands off them by more than a beam.
+// A vertical step of 1 m at y = 8 m, 20 m below on the near side: both levels and the face between them are found, and
+// no sounding stands off them by more than a beam.
 TEST(BathymetryLaws, step_of_one_metre) {
   const SonarHead head = swath_head("r2sonic-2024", 17, 40);
   SceneCloud scene;

@@ -13,7 +13,7 @@ namespace {
 constexpr double height = 3, bandwidth = 29.5e3;
 const Medium sea{speed, {0.2994626 * nepers_per_db, 0, 0}};  // Francois and Garrison, 900 kHz, 10 deg C, 35 psu
 
-/// Exactly one degree wide at broadside: L = 0.442946 lambda / sin(0.5 deg) = 50.76 wavelengths.
+/// Returns an array exactly one degree wide at broadside: L = 0.442946 lambda / sin(0.5 deg) = 50.76 wavelengths.
 LineArray array_of_one_degree() {
   const std::size_t n = 101;
   return {0.442946 * wavelength / std::sin(radians(0.5)) / n, std::vector<double>(n, 1.0)};
@@ -27,7 +27,7 @@ double closed_form_db(double r) {
   return 220 - 40 * std::log10(r) - 2 * 0.2994626 * r - 27 + 20 * std::log10(height / r) + db_from_power(cell);
 }
 
-/// A strip of the bottom 0.12 m long about slant range r, as wide as the array's first forty side lobes.
+/// Returns a strip of the bottom 0.12 m long about slant range r, as wide as the array's first forty side lobes.
 SceneCloud strip(double r) {
   SceneCloud scene;
   const double x = std::sqrt(r * r - height * height), length = 0.12, half_width = std::min(x, 0.4 * r);
@@ -44,7 +44,7 @@ SceneCloud strip(double r) {
   return scene;
 }
 
-/// Sum of the patches' powers in the sample at range r of the beam ahead, each with beam and pulse [dB re 1 uPa].
+/// Returns the sum of the patches' powers at range r of the beam ahead, each with beam and pulse [dB re 1 uPa].
 double incoherent_level_db(double r) {
   SonarHead head = head_with(array_of_one_degree(), {0}, bandwidth, {r - 0.1, r + 0.1, 0.01});
   head.fan.beam_width = radians(80);  // the margin that is sampled beside the beam

@@ -14,7 +14,7 @@ namespace {
 constexpr double element_level_db = 60;
 constexpr std::size_t elements = 32, beams = 16, bins = 20000;
 
-/// 16 of the 32 orthogonal beams of a uniform array, 20 000 independent bins.
+/// Returns 16 of the 32 orthogonal beams of a uniform array, 20 000 independent bins.
 SonarHead independent_head() {
   std::vector<double> azimuths;
   for (std::size_t b = 0; b < beams; ++b)
@@ -39,12 +39,12 @@ Ping noise_ping(const SonarHead& head, const ComplexGrid& signal, std::int64_t n
 
 const SonarHead detecting_head = independent_head();
 
-/// No scene: the ping alone decides.
+/// Detects without a scene: the ping alone decides.
 Soundings detections_of(const Ping& ping, const DetectionOptions& options) {
   return detect_soundings(ping, Scatterers{}, Echoes{}, options);
 }
 
-/// Detections of one kind in `pings` pings of pure noise.
+/// Returns the detections of one kind in `pings` pings of pure noise.
 double false_alarms(int pings, DetectionOptions options) {
   double count = 0;
   for (int ping = 0; ping < pings; ++ping)

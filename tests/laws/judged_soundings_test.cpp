@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which soundings are rejected, and whether the deviations of the others are their errors, over beds whose surface is known:
-// the built-in river with its edges and gaps, reef and plane, and single targets on sand.
+// Tests which soundings are rejected, and the deviations of the others against their errors, over beds with a known
+// surface: the built-in river with its edges and gaps, reef and plane, and single targets on sand.
 #include "returns/bottom_detection.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/scene_index.hpp"
@@ -39,8 +39,8 @@ class Surface {
  public:
   explicit Surface(const SceneCloud& scene) : scene_(scene), index_(scene.point) {}
   double distance(const Eigen::Vector3d& place) const { return (place - nearest(place).first).norm(); }
-  /// How far along a beam from `head` a place lies off the surface: off the plane of the nearest surfel; where that is
-  /// farther than surfels stand apart, off the surfel.
+  /// Returns the distance along a beam from `head` by which a place lies off the surface: off the plane of the nearest
+  /// surfel, or off the surfel if that is farther away than surfels stand apart.
   double range_error(const Eigen::Vector3d& place, const Eigen::Vector3d& head) const {
     const auto [point, normal] = nearest(place);
     const double away = (place - point).norm();
@@ -64,14 +64,14 @@ class Surface {
 /// Counts of soundings, and their errors over their deviations.
 struct Judged {
   double found = 0, rejected = 0, wrong = 0, wrong_kept = 0, right = 0, right_rejected = 0;
-  double right_sure = 0, wrong_sure = 0;  ///< of those kept, of deviations up to 0.25 m
-  double right_in_lobes = 0;              ///< of those rejected
+  double right_sure = 0, wrong_sure = 0;  ///< kept soundings with deviations up to 0.25 m
+  double right_in_lobes = 0;              ///< rejected soundings
   std::vector<double> normalised;
   double share_within(double deviations) const {
     const auto within = std::count_if(normalised.begin(), normalised.end(), [&](double e) { return e < deviations; });
     return static_cast<double>(within) / static_cast<double>(normalised.size());
   }
-  /// Root mean square; errors beyond five deviations, which edges have, count as five.
+  /// Returns the root mean square; errors beyond five deviations, which edges have, count as five.
   double ratio() const {
     double sum = 0;
     for (const double e : normalised) sum += std::pow(std::min(e, 5.0), 2);
@@ -79,7 +79,7 @@ struct Judged {
   }
 };
 
-/// Pings along the x axis from `start` on, `step` apart.
+/// Judges pings along the x axis from `start` on, `step` apart.
 Judged judged(const SceneCloud& scene, const Surface& surface, const SonarHead& head, const Eigen::Vector3d& start,
               double step, int pings) {
   Judged all;
@@ -139,8 +139,8 @@ TEST(JudgedSoundings, of_a_river_bed_with_gaps_by_an_em2040) {
 TEST(JudgedSoundings, of_a_river_bed_with_gaps_by_an_r2sonic_2024) {
   expect_trusted(judged(river(), head_below("r2sonic-2024", 14), {6, 0, -0.5}, 3.7, 6));
 }
-// Its beams are 20 degrees long along the way: a boulder ahead is heard before the bed below, which no ping can part from one
-// below the head. What is wrong says so itself.
+// Its beams are 20 degrees long along the way: a boulder ahead is heard before the bed below, which no ping can part
+// from one below the head. What is wrong says so itself.
 TEST(JudgedSoundings, of_a_river_bed_by_an_oculus_m750d_that_looks_down) {
   SonarSpec spec = find_sonar("oculus-m750d").spec;
   spec.beams = 256, spec.max_range = 11;
@@ -156,9 +156,9 @@ TEST(JudgedSoundings, of_a_reef) {
   const SceneCloud reef = make_built_in_scene("reef", {.points = 200000});
   expect_trusted(judged(reef, head_below("em2040", 9), {3, 0, -0.5}, 1.3, 5));
 }
-// A quay stands to port, 18 m beside the head and beyond the fan: half a wavelength apart, elements hear it in beams of the
-// other side, in frequencies beside the pulse's. There it is louder than the bed, which is found nevertheless; where the two
-// are one, the place is right and the echo is not.
+// A quay stands to port, 18 m beside the head and beyond the fan: half a wavelength apart, elements hear it in beams of
+// the other side, in frequencies beside the pulse's. There it is louder than the bed, which is found nevertheless;
+// where the two are one, the place is right and the echo is not.
 TEST(JudgedSoundings, of_a_harbour_with_a_quay_beside_the_fan) {
   const SceneCloud harbour = make_built_in_scene("harbour", {.points = 200000});
   const SceneCloud dense = make_built_in_scene("harbour", {.points = 1000000});
@@ -177,8 +177,8 @@ TEST(JudgedSoundings, of_a_plane) {
     expect_trusted(judged(plane, head_below(sonar, 20), {4, 0, 6}, 1.1, 3));
 }
 
-// A steel rod of 10 cm that stands 1 m high, and a mine of 50 cm, on sand 6 m below the head: each is found, and all that
-// is found of it is kept.
+// A steel rod of 10 cm that stands 1 m high, and a mine of 50 cm, on sand 6 m below the head: each is found, and all
+// that is found of it is kept.
 TEST(JudgedSoundings, keep_single_targets_on_sand) {
   SceneCloud sand = make_built_in_scene("plane", {.points = 150000, .size = {6, 30}});
   sand.materials = {{"sand", power_from_db(-22)}, {"steel", power_from_db(-10)}};
@@ -204,7 +204,7 @@ TEST(JudgedSoundings, keep_single_targets_on_sand) {
       const BottomSoundings found = soundings_below(sand, head, start, p);
       for (std::size_t i = 0; i < found.size(); ++i) {
         const Eigen::Vector3d& at = found.position[i];
-        // Whose beams' axes meet the target: those beside it hear it through their skirts.
+        // Consider beams whose axes meet the target; those beside it receive it through their skirts.
         const Eigen::Vector3d sight = (at - start).normalized(), middle(3, -2, 0.25);
         const bool rod = std::abs(at.y() - 3) <= 0.05 && at.z() > 0.1;
         const bool mine = sight.cross(middle - start).norm() < 0.25 && (at - middle).norm() < 0.3 && at.z() > 0.1;

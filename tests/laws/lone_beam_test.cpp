@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the deviations of the soundings of echo sounders, whose only beam has no neighbours, are their errors.
+// Tests the deviations of soundings of echo sounders, whose only beam has no neighbours, against their errors.
 #include <optional>
 
 #include "acoustics/noise.hpp"
@@ -17,8 +17,8 @@ constexpr int soundings_of_a_bed = 250;
 struct SounderBed {
   double slope_deg = 0;
   double relief = 0;     ///< root mean square altitude [m]
-  double reach = 0;      ///< half its side [m]
-  double spacing = 0.1;  ///< of surfels [m]
+  double reach = 0;      ///< half the side [m]
+  double spacing = 0.1;  ///< spacing of surfels [m]
 };
 
 struct ReliefWave {
@@ -54,10 +54,10 @@ SceneCloud scene_of(const SounderBed& bed) {
   return scene;
 }
 
-/// Errors of an echo sounder at a altitude above the plane of a bed, rolled and pitched by up to five degrees.
+/// Errors of an echo sounder at an altitude above the plane of a bed, rolled and pitched by up to five degrees.
 struct SounderErrors {
   double bias = 0, observed = 0, predicted = 0, normalised = 0;
-  double altitude = 0;  ///< of the head [m]
+  double altitude = 0;  ///< altitude of the head [m]
   int found = 0;
 };
 
@@ -65,7 +65,7 @@ struct SoundingError {
   double error, deviation;  // [m]
 };
 
-/// None if the ping has no sounding that is kept.
+/// Returns the error of a ping; nothing if no sounding is kept.
 std::optional<SoundingError> error_of_ping(const PingSimulator& sounder, const PreparedScene& scene,
                                            const SounderBed& bed, double altitude, std::size_t number) {
   std::mt19937 draw(static_cast<unsigned>(number) + 7);

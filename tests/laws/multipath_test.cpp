@@ -9,7 +9,7 @@ using namespace insonify::laws;
 
 namespace {
 
-/// One patch 20 m away and 3 m deep, received at 2 m depth in water 10 m deep at 1500 m/s.
+/// Pings one patch 20 m away and 3 m deep, received at 2 m depth in water 10 m deep at 1500 m/s.
 SimulatedPing ping_of_one_patch(const Environment& environment) {
   SceneCloud scene;
   scene.materials = {{"patch", 0.1}};

@@ -13,11 +13,11 @@ using Complex = std::complex<double>;
 
 constexpr double frequency = 900e3, speed = 1500, wavelength = speed / frequency;
 
-/// A uniform half-wavelength array of 101 elements, 50.5 wavelengths long: 1 degree wide at broadside.
+/// Returns a uniform half-wavelength array of 101 elements, 50.5 wavelengths long: 1 degree wide at broadside.
 inline LineArray one_degree_array() { return {wavelength / 2, std::vector<double>(101, 1.0)}; }
 
-/// A head with `array` and beams at these azimuths [rad]; patches up to 6 degrees beside them are insonified, beyond
-/// which a uniform beam has less than 2 % of its energy.
+/// Returns a head with `array` and beams at these azimuths [rad]. Patches up to 6 degrees beside them are insonified;
+/// beyond, a uniform beam has less than 2 % of its energy.
 inline SonarHead head_with(const LineArray& array, const std::vector<double>& azimuths, double bandwidth,
                            const RangeGate& gate) {
   SonarHead head;
@@ -31,7 +31,7 @@ inline SonarHead head_with(const LineArray& array, const std::vector<double>& az
   return head;
 }
 
-/// A single hydrophone and bins as long as the pulse.
+/// Returns a single hydrophone and bins as long as the pulse.
 inline SonarHead single_hydrophone(double max_range) {
   const double bandwidth = 100e3;
   const double bin = 0.44 * speed / (2 * bandwidth);
@@ -42,11 +42,12 @@ inline SonarHead single_hydrophone(double max_range) {
 struct Groups {
   SonarHead head;
   Scatterers scatterers;
-  std::vector<Eigen::Index> bin;    ///< of each group
+  std::vector<Eigen::Index> bin;    ///< bin of each group
   std::vector<double> patch_power;  ///< mean intensity of one patch in that bin [Pa^2]
 };
 
-/// number[g] patches in group g, all alike and at one place. `first_id` distinguishes the groups of several calls.
+/// Returns number[g] patches in group g, all alike and at one place. `first_id` distinguishes the groups of several
+/// calls.
 inline Groups make_groups(const std::vector<int>& number, std::uint64_t first_id = 0) {
   constexpr int bins_apart = 8;  // 8 pulse lengths: the envelope is below 1e-70
   Groups groups;
@@ -72,7 +73,7 @@ inline Groups make_groups(const std::vector<int>& number, std::uint64_t first_id
   return groups;
 }
 
-/// Complex pressure of every group in units of one patch's rms.
+/// Returns the complex pressure of every group in units of one patch's rms.
 inline std::vector<Complex> pressure_of_groups(const Groups& groups, const EchoOptions& options,
                                                double coherent_fraction = 0) {
   const std::vector<Material> materials{{"patch", 1.0, coherent_fraction, 0}};
@@ -102,11 +103,12 @@ struct Moments {
     level_square += db * db;
     field += p;
   }
-  /// <I^2> / <I>^2
+  /// Returns <I^2> / <I>^2.
   double square_ratio() const { return n * square / (intensity * intensity); }
 };
 
-/// A flat Lambert bottom 3 m below the head, 6.7 to 9 m away: random surfels, ten and more to a resolution cell.
+/// Returns a flat Lambert bottom 3 m below the head, 6.7 to 9 m away: random surfels, ten and more to a resolution
+/// cell.
 inline SceneCloud flat_bottom() {
   SceneCloud scene;
   const double length = 2.4, width = 5, density = 9000;

@@ -8,11 +8,11 @@ using namespace insonify::laws;
 
 namespace {
 
-constexpr double array_length = 50.5;  // of 101 elements at half a wavelength [wavelengths]
+constexpr double array_length = 50.5;  // 101 elements at half a wavelength [wavelengths]
 
 double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
 
-/// Uniform reverberation: rings of patches evenly spread in the direction cosine u, each ring at its own range.
+/// Returns uniform reverberation: rings of patches evenly spread in the direction cosine u, each ring at its own range.
 Scatterers rings(std::size_t count, std::size_t per_ring, const RangeGate& gate, std::size_t bins_apart) {
   Scatterers s;
   for (std::size_t ring = 0; ring < count; ++ring)

@@ -11,7 +11,7 @@ using namespace insonify::laws;
 
 namespace {
 
-/// Beams one null width apart and bins four pulse lengths apart receive different parts of the bottom.
+/// Returns beams one null width apart and bins four pulse lengths apart, which receive different parts of the bottom.
 SonarHead bottom_head() {
   std::vector<double> azimuths;
   for (int b = -3; b <= 3; ++b) azimuths.push_back(std::asin(b * 2.0 / 101));
@@ -20,7 +20,7 @@ SonarHead bottom_head() {
 }
 constexpr Eigen::Index bins_between = 4;
 
-/// Mean intensity of one pixel in closed form: the sum of the patches' powers, each with beam and pulse.
+/// Returns the mean intensity of one pixel in closed form: the sum of the patches' powers, each with beam and pulse.
 double mean_intensity(const Echoes& coherent, const SonarHead& head, std::size_t beam, std::size_t bin) {
   const EchoEnvelope envelope = echo_envelope(head.pulse, {}, 1);
   const double u_beam = std::sin(head.fan.azimuth[beam]), now = 2 * head.gate.centre(bin) / speed;
@@ -34,7 +34,7 @@ double mean_intensity(const Echoes& coherent, const SonarHead& head, std::size_t
   return sum;
 }
 
-/// Intensities of independent pixels over their own mean: `seeds` looks at a flat Lambert bottom.
+/// Returns intensities of independent pixels over their own mean: `seeds` looks at a flat Lambert bottom.
 const std::vector<double>& bottom_intensities() {
   static const std::vector<double> intensities = [] {
     const SceneCloud scene = flat_bottom();
@@ -61,7 +61,7 @@ const std::vector<double>& bottom_intensities() {
   return intensities;
 }
 
-/// Largest distance between the sample's distribution and 1 - exp(-x), which is that of Rayleigh amplitudes squared.
+/// Returns the largest distance between the sample's distribution and 1 - exp(-x), that of squared Rayleigh amplitudes.
 double distance_from_exponential(std::vector<double> sample) {
   std::sort(sample.begin(), sample.end());
   const auto n = static_cast<double>(sample.size());
@@ -156,9 +156,9 @@ TEST(SpeckleLaws, poisson_numbers_of_patches_have_2_times_1_plus_1_over_their_me
   }
 }
 
-// Of sqrt(g) + sqrt(1 - g) z: mean field sqrt(g), mean power 1, <I^2> = 2 - g^2 = 1 + (1 + 2 K) / (1 + K)^2 with the K
-// factor g / (1 - g). Errors over 20 000 patches: field sqrt((1 - g) / n), power sqrt((1 - g^2) / n), square at most
-// sqrt(20 / n).
+// sqrt(g) + sqrt(1 - g) z has the mean field sqrt(g), the mean power 1, and <I^2> = 2 - g^2 = 1 + (1 + 2 K) / (1 + K)^2
+// with the K factor g / (1 - g). Errors over 20 000 patches: field sqrt((1 - g) / n), power sqrt((1 - g^2) / n), square
+// at most sqrt(20 / n).
 TEST(SpeckleLaws, rician_fraction_sets_mean_field_and_square_at_constant_power) {
   for (const double g : {0.0, 0.2, 0.5, 0.9, 1.0}) {
     Moments m;

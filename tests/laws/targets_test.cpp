@@ -123,7 +123,7 @@ TEST(TargetLaws, flat_plate_of_calibrated_facets_is_kirchhoffs_integral_from_nea
   EXPECT_NEAR(db_from_amplitude(0.01 / wavelength), 15.56, 0.005);  // 20 log(A / lambda)
 }
 
-// The same through the whole signal path: the coherent law with mu = dS / lambda^2 is Kirchhoff's too.
+// Through the whole signal path, too, the coherent law with mu = dS / lambda^2 is Kirchhoff's.
 TEST(TargetLaws, flat_plate_of_coherent_facets_goes_from_its_image_to_its_area_over_wavelength) {
   for (const PlateCase& c : plate_cases) {
     SimulationOptions options;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double thesis_wavelength = speed_of_sound / 900e3;
 
-/// Targets of 1 m^2 straight ahead, or at these azimuths.
+/// Returns targets of 1 m^2 straight ahead, or at these azimuths.
 Echoes targets(const std::vector<double>& range, std::vector<double> azimuth = {}) {
   azimuth.resize(range.size(), 0);
   Scatterers s;
@@ -30,7 +30,7 @@ Eigen::Index bin_of(const RangeGate& gate, double range) {
   return static_cast<Eigen::Index>((range - gate.min_range) / gate.bin_size);
 }
 
-/// Amplitude in all beams at one range.
+/// Returns the amplitude in all beams at one range.
 std::vector<double> slice(const Echoes& echoes, const SonarHead& head, double range) {
   const ComplexGrid pressure = synthesize_direct(echoes, head, medium());
   const Eigen::ArrayXd column = pressure.col(bin_of(head.gate, range)).abs();
@@ -39,7 +39,7 @@ std::vector<double> slice(const Echoes& echoes, const SonarHead& head, double ra
 
 double level_db(double amplitude, double reference) { return db_from_amplitude(amplitude / reference); }
 
-/// Azimuths of columns 26, 77, 128, 179 and 230 of 256, which have their scatterers at one range.
+/// Returns the azimuths of columns 26, 77, 128, 179 and 230 of 256, which have their scatterers at one range.
 std::vector<double> repeated_azimuths() {
   const Scatterers object = make_object({256});
   std::vector<double> azimuth;
@@ -76,7 +76,8 @@ TEST(Thesis, second_cosine_of_equation_20_loses_3_db_at_60_degrees) {
 }
 
 // Eq. 21: the phase is that of the way there and back. A target at 5 m appears at 5 m; moved away by an eighth of a
-// thesis_wavelength its phase turns by a quarter of a cycle. Eq. 27: time runs forwards; in a window of 13 m it is not at 8 m.
+// thesis_wavelength its phase turns by a quarter of a cycle. Eq. 27: time runs forwards; in a window of 13 m it is not
+// at 8 m.
 TEST(Thesis, a_target_at_5_m_appears_at_5_m) {
   SonarHead head = make_sonar(51);
   head.gate = {1, 13, 2e-3};
@@ -170,7 +171,7 @@ TEST(Thesis, lobes_of_figure_21_go_with_the_repeated_scatterers) {
   const auto one = slice(targets({range}, {azimuth[2]}), head, range);
   const double peak = one[127];
   for (const std::size_t beam : {25, 76, 127, 178, 229}) {
-    double sum = 0;  // of the five patterns; the neighbours' side lobes take up to a third off
+    double sum = 0;  // sum over the five patterns; the neighbours' side lobes take up to a third off
     for (const double a : azimuth)
       sum += array_response(head.array, thesis_wavelength, std::sin(a), std::sin(head.fan.azimuth[beam])).real();
     EXPECT_NEAR(all[beam] / peak, sum, 1e-9) << "beam " << beam + 1;
@@ -183,7 +184,8 @@ TEST(Thesis, lobes_of_figure_21_go_with_the_repeated_scatterers) {
   }
 }
 
-// True grating lobes need elements more than half a thesis_wavelength apart: full copies at sin g = sin s + n lambda / d.
+// True grating lobes need elements more than half a thesis_wavelength apart: full copies at sin g = sin s + n lambda /
+// d.
 TEST(Thesis, true_grating_lobes_stand_at_the_closed_form) {
   for (const double pitch : {1.5, 2.0, 3.0}) {
     const double target = radians(-10);

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 namespace {
 
-/// A ping of `beams` beams that look straight down, silent.
+/// Returns a silent ping of `beams` beams that look straight down.
 Ping silent_swath(std::size_t beams, double fov_deg = 60, double max_range = 12, double bin = 0.01) {
   Ping ping;
   ping.fan = make_fan(beams, radians(fov_deg), radians(1), radians(1));
@@ -44,7 +44,8 @@ TEST(DetectBottom, finds_a_short_echo_between_bins) {
   for (std::size_t b = 0; b < 3; ++b) add_echo(ping, b, 7.0034, 0.5, 0.03);
   const BottomSoundings found = detect_bottom(ping, {.range_resolution = 0.03});
   ASSERT_EQ(found.size(), 3U);
-  // Of a level bottom, over beams of 1 x 1 degrees: half the range times the variances of their patterns. (E132)
+  // The range to a level bottom grows over beams of 1 x 1 degrees by half the range times the variances of their
+  // patterns. (E132)
   const double lengthening = 0.5 * 7 * 2 * std::pow(radians(1) / 2.3548, 2);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(found.beam[i], i);
@@ -113,8 +114,8 @@ TEST(DetectBottom, gives_an_echo_once) {
   EXPECT_GE(several, 64U) << "two echoes of each beam";
 }
 
-// The phase of the echo of a plane that is seen at 7 degrees, whose strongest part is nearer than the beam's axis: a line
-// fitted to it would cross zero 4 to 8 mm beyond, as the ranges bend. The echo is 1 degree long along the way.
+// The phase of the echo of a plane that is seen at 7 degrees, whose strongest part is nearer than the beam's axis: a
+// line fitted to it would cross zero 4 to 8 mm beyond, as the ranges bend. The echo is 1 degree long along the way.
 TEST(DetectBottom, takes_the_zero_of_the_phase_where_the_echo_is_long) {
   Ping ping = silent_swath(7, 7, 20);
   ping.world_from_head = pose_from_yaw_pitch_roll({0, 0, 0}, 0, radians(30), 0);
@@ -149,8 +150,8 @@ TEST(DetectBottom, takes_the_zero_of_the_phase_where_the_echo_is_long) {
 
 namespace {
 
-/// Beams of 1 degree on a bottom of slope dr/du = 6 m: speckle of 2 cm in footprints of 10 cm, so that an echo has
-/// five independent samples at most. The phase turns by `turn` per direction cosine.
+/// Returns beams of 1 degree on a bottom of slope dr/du = 6 m: speckle of 2 cm in footprints of 10 cm, so that an echo
+/// has five independent samples at most. The phase turns by `turn` per direction cosine.
 Ping short_echoes(double turn, std::uint64_t number) {
   constexpr Eigen::Index beams = 21;
   constexpr double slope = 6, pulse = 0.02 / 2.3548, footprint = slope * 0.01745 / 2.3548;
@@ -181,7 +182,7 @@ Ping short_echoes(double turn, std::uint64_t number) {
 
 }  // namespace
 
-// Of too few samples to show the slope of their phase: the other beams say it, of either sign.
+// The echo has too few samples to show the slope of its phase: the other beams give it, of either sign.
 TEST(DetectBottom, takes_the_zero_of_the_phase_of_short_echoes) {
   for (const double turn : {180.0, -180.0}) {
     double by_phase = 0, by_amplitude = 0, predicted = 0, count = 0;
@@ -224,8 +225,8 @@ TEST(DetectBottom, unbends_the_ray_of_a_profile) {
   }
 }
 
-// Beams beside the bed hold what a synthesis leaves where nothing is: any echo is far above it, and none is heard by a
-// receiver. With the floor of its noise they have no sounding, and those of the bed stay.
+// Beams beside the bed hold the errors of the synthesis: any echo is far above them, but below the noise of a receiver.
+// With the floor of that noise they have no sounding, and those of the bed stay.
 TEST(DetectBottom, takes_nothing_below_the_noise_of_the_receiver_for_the_bed) {
   constexpr std::size_t beams = 24, of_bed = 8;
   const Pulse pulse{4e5, 2.5e4, 200};
@@ -255,7 +256,7 @@ TEST(DetectBottom, measures_noise_where_it_is_simulated) {
   EXPECT_EQ(measured.deviation, below.deviation);
 }
 
-// What a bin of the synthesis may be wrong by is no echo in it.
+// A level within the tolerance of the synthesis is no echo.
 TEST(DetectBottom, takes_nothing_below_the_tolerance_of_the_synthesis_for_the_bed) {
   Ping ping = silent_swath(32);
   for (std::size_t b = 0; b < 32; ++b) add_echo(ping, b, 7, b < 16 ? 1 : 0.1, 0.03);

@@ -30,7 +30,7 @@ struct Scene {
     echoes.delay.push_back(2 * range / 1500), echoes.u.push_back(std::cos(elevation) * std::sin(azimuth)),
         echoes.amplitude.emplace_back(1, 0);
   }
-  /// A pulse of three bins with its peak at `level` dB.
+  /// Adds a pulse of three bins with its peak at `level` dB.
   void mark(int beam, int bin, double level) {
     const auto peak = static_cast<float>(std::sqrt(2) * 1e-6 * amplitude_from_db(level));
     ping.pressure(beam, bin) = peak;
@@ -218,8 +218,8 @@ TEST(DetectSoundings, bound_the_peak_beside_a_null) {
   EXPECT_NEAR(s.level_db[0], 103.01, 0.01);
 }
 
-// A pulse on a smooth background of 20 dB: found where it stands out by the factor, whatever its own flanks and those of
-// a neighbour two cells away.
+// A pulse on a smooth background of 20 dB: found where it stands out by the factor, whatever its own flanks and those
+// of a neighbour two cells away.
 TEST(DetectSoundings, stand_out_of_their_surroundings) {
   const double factor_db = db_from_power(background_factor(1e-3, 32));
   for (const double above : {-0.1, 0.1}) {

@@ -9,15 +9,15 @@ namespace {
 
 constexpr double water = 1480;
 
-/// A ping of a head that moves and turns, and a scatterer that it hears.
+/// A ping of a head that moves and turns, and a scatterer that it receives.
 struct Heard {
   Ping ping;
-  Eigen::Vector3d to_scatterer;  // from the head at transmission, world [m]
+  Eigen::Vector3d to_scatterer;  // vector from the head at transmission, world [m]
   double range = 0;              // c T / 2
   Eigen::Vector3d direction;     // head axes at reception
 };
 
-/// By the definition of a delay: sound leaves the head, and meets it again where it is then. Found by bisection.
+/// Solves the definition of a delay by bisection: sound leaves the head, and meets it again where it is then.
 Heard heard(const Eigen::Vector3d& to_scatterer, const Motion& motion) {
   Heard h;
   h.ping.world_from_head = pose_from_yaw_pitch_roll({530000, -20, -7}, 2.1, 0.7, -0.3);

@@ -10,7 +10,7 @@ namespace insonify::find_contributors_tests {
 
 const Medium medium{1500, {0.02, 0, 0}};
 
-/// 600 kHz, 11 beams over 40 degrees, bins of 1 cm from 2 m to 4 m.
+/// Returns a head at 600 kHz, 11 beams over 40 degrees, bins of 1 cm from 2 m to 4 m.
 SonarHead contributor_head() {
   SonarHead head;
   head.pulse = {600e3, 30e3, 200};
@@ -27,7 +27,7 @@ struct SurfelSet {
   std::vector<std::uint32_t> surfel;
   std::vector<LegPair> legs;
 
-  /// A surfel named 100, 101 ..., of material 0, 1, 2, 0 ...
+  /// Adds a surfel named 100, 101 ..., of material 0, 1, 2, 0 ...
   std::uint32_t add_surfel() {
     const auto i = static_cast<std::uint32_t>(scene.size());
     scene.point.emplace_back(0, 0, 0), scene.normal.emplace_back(1, 0, 0), scene.area.push_back(1);
@@ -47,7 +47,8 @@ struct SurfelSet {
   }
 };
 
-/// Surfels of several parts over the fan and a little beyond, some with bounced paths, in random order; `size` [rad].
+/// Returns surfels of several parts over the fan and a little beyond, some with bounced paths, in random order; `size`
+/// [rad].
 SurfelSet random_echoes(unsigned seed, bool doppler = false, int surfels = 60, int parts = 5, double size = 0.02) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> even(-1, 1);
@@ -70,7 +71,7 @@ SurfelSet random_echoes(unsigned seed, bool doppler = false, int surfels = 60, i
 
 using Key = std::tuple<std::uint32_t, std::uint8_t, std::uint8_t>;
 
-/// Reference: every echo in every pixel, with the whole pulse and the array summed element by element (E63).
+/// Returns the energy of every echo in every pixel, with the whole pulse and the array summed element by element (E63).
 std::map<Key, double> energies_at(const SurfelSet& h, const SonarHead& head, std::size_t beam, std::size_t bin) {
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
   const double u_beam = std::cos(head.fan.elevation[beam]) * std::sin(head.fan.azimuth[beam]);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr RangeGate bed_gate{0.01, 30.01, 0.03};
 
-/// One look of speckle: water of -40 dB, and a bed of 0 dB from `bed` [m] on.
+/// Returns one look of speckle: water of -40 dB, and a bed of 0 dB from `bed` [m] on.
 Grid<float> speckled_row(double bed, unsigned seed) {
   std::mt19937 random(seed);
   std::exponential_distribution<double> intensity(1);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double head_altitude = 4, bin_length = 0.05;
 
-/// A ping from 4 m above the origin whose samples all have one intensity [Pa^2], or that of `of_bin`.
+/// Returns a ping from 4 m above the origin with the given intensity [Pa^2] over range.
 Ping even_ping(const Pose& head, const BeamFan& fan, const std::function<double(double range)>& intensity) {
   Ping ping;
   ping.world_from_head = head;
@@ -21,13 +21,13 @@ Ping even_ping(const Pose& head, const BeamFan& fan, const std::function<double(
   return ping;
 }
 
-/// Looks to port, tilted by 30 degrees, on a way along x.
+/// Returns a head that looks to port, tilted by 30 degrees, on a track along x.
 Pose mosaic_head(double x = 0) { return pose_from_yaw_pitch_roll({x, 0, head_altitude}, pi / 2, radians(30), 0); }
 BeamFan side_beam() { return make_fan(1, 0, radians(2), radians(60)); }
 
 const MosaicSource side_scan_source{200, 0.1, bin_length};
 
-/// Value of the cell at a place; NaN where the map does not reach.
+/// Returns the value of the cell at a place; NaN where the map does not reach.
 double strength_at(const MosaicMap& map, double x, double y) {
   const auto i = static_cast<Eigen::Index>(std::floor((x - map.x) / map.cell));
   const auto j = static_cast<Eigen::Index>(std::floor((y - map.y) / map.cell));
@@ -54,7 +54,7 @@ TEST(ImageMosaic, a_sample_lies_where_the_bed_has_its_range) {
 }
 
 TEST(ImageMosaic, gives_the_strength_of_the_bed_per_area_of_the_resolution_cell) {
-  // By the sonar equation with a strength of -20 dB per square metre, everywhere.
+  // The sonar equation gives the intensity of a strength of -20 dB per square metre, everywhere.
   constexpr double strength_db = -20, equivalent = 1.0644670194312262;
   const double width = equivalent * radians(2), dr = equivalent * bin_length;
   const auto intensity = [&](double r) {
@@ -69,7 +69,7 @@ TEST(ImageMosaic, gives_the_strength_of_the_bed_per_area_of_the_resolution_cell)
   for (const double y : {2.05, 4.05, 8.05, 11.05}) EXPECT_NEAR(strength_at(map, 0, y), strength_db, 0.1) << y;
 }
 
-// The same bed heard through a pattern gives the same strength; where the pattern is below -20 dB nothing is heard.
+// Received through a pattern the bed has the same strength; where the pattern is below -20 dB it has none.
 TEST(ImageMosaic, takes_the_elevation_pattern_out_of_the_levels) {
   constexpr double tilt = radians(30), width = radians(40);
   const auto mosaic_of = [&](ElevationShape shape, double compensated_width) {

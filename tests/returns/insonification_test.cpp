@@ -12,7 +12,7 @@ constexpr double alpha_db = 0.3;  ///< [dB/m]
 const Medium medium{1500, {alpha_db * nepers_per_db, 0, 0}};
 constexpr double mu = 0.05, area = 1e-4;
 
-/// 600 kHz, 21 beams over 40 degrees, 1 m to 30 m.
+/// Returns a head at 600 kHz, 21 beams over 40 degrees, 1 m to 30 m.
 SonarHead insonifying_head() {
   SonarHead head;
   head.pulse = {600e3, 30e3, 210};
@@ -28,7 +28,7 @@ SceneCloud empty_scene() {
   return scene;
 }
 
-/// One surfel facing a head at the origin.
+/// Returns one surfel facing a head at the origin.
 SceneCloud target_at(double range, double azimuth = 0, double elevation = 0) {
   SceneCloud scene = empty_scene();
   const Eigen::Vector3d direction = unit_vector({azimuth, elevation});
@@ -49,7 +49,7 @@ std::vector<CoveredSurfel> map_of(const SceneCloud& scene, const SonarHead& head
   return coverage_of(scene, seen(scene, head, pose, per_cell), head, medium);
 }
 
-/// SL - 2 TL + TS of `target_at`.
+/// Returns SL - 2 TL + TS of `target_at`.
 double sonar_equation(double range) {
   return 210 - 2 * (20 * std::log10(range) + alpha_db * range) + 10 * std::log10(mu * area);
 }
@@ -190,8 +190,8 @@ TEST(Insonification, of_another_scene_is_refused) {
 
 namespace {
 
-/// Coverage of a strip of level bed at z = -4 by a head that looks to port, tilted by 30 degrees, from `pings` places
-/// `spacing` apart along x, the middle one at the origin.
+/// Returns the coverage of a strip of level bed at z = -4 by a head that looks to port, tilted by 30 degrees, from
+/// `pings` places `spacing` apart along x, the middle one at the origin.
 std::vector<CoveredSurfel> line_over_bed(int pings, double spacing, SceneCloud& bed) {
   bed = empty_scene();
   for (double y = 1.5; y < 12; y += 0.5) add_surfel(bed, {0, y, -4}, Eigen::Vector3d::UnitZ(), area);
@@ -205,7 +205,7 @@ std::vector<CoveredSurfel> line_over_bed(int pings, double spacing, SceneCloud& 
   return covered;
 }
 
-/// Direction cosine at which a beam's intensity is down by 20 dB.
+/// Returns the direction cosine at which a beam's intensity is down by 20 dB.
 double edge_of_beam() {
   const SonarHead head = insonifying_head();
   const ResponseTable table(head.array, 1500 / head.pulse.centre_frequency);

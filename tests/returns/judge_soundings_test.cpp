@@ -8,7 +8,7 @@ namespace {
 
 constexpr double echo_width = 0.02, echo_deviation = echo_width / 2.3548;  // of the pulse's intensity [m]
 
-/// A ping that looks straight down, silent but for faint noise.
+/// Returns a ping that looks straight down, silent but for faint noise.
 Ping quiet_ping(std::size_t beams, double field_deg, double along_deg, double max_range) {
   Ping ping;
   ping.fan = make_fan(beams, radians(field_deg), radians(1), radians(along_deg));
@@ -40,7 +40,7 @@ void add_speckle(Ping& ping, std::size_t beam, std::uint64_t number, const Range
   }
 }
 
-/// The level bottom 7 m below, in all beams.
+/// Adds the level bottom 7 m below, in all beams.
 void add_level_bottom(Ping& ping, std::uint64_t number) {
   for (std::size_t b = 0; b < ping.fan.beams(); ++b) {
     const double angle = ping.fan.azimuth[b], slope = 7 * std::tan(angle) / std::cos(angle);
@@ -50,7 +50,7 @@ void add_level_bottom(Ping& ping, std::uint64_t number) {
   }
 }
 
-/// An echo at 14 m in place of, or beside, what a beam hears: longer than a pulse, turned by so much in a bin [rad].
+/// Adds an echo at 14 m in place of, or beside, a beam's own: longer than a pulse, turned by so much in a bin [rad].
 void add_lobe(Ping& ping, std::size_t beam, double turn, bool beside) {
   for (std::size_t n = 0; n < ping.gate.bins(); ++n) {
     const double x = (ping.gate.centre(n) - 14) / 0.1;
@@ -62,8 +62,9 @@ void add_lobe(Ping& ping, std::size_t beam, double turn, bool beside) {
 
 }  // namespace
 
-// Sound from beyond the fan fills the outer beams at one range, where nothing else is heard, a bandwidth beside the pulse's frequency: it lasts longer
-// than a pulse and turns. The same without the turn is an echo of the fan's own, and stays.
+// Sound from beyond the fan fills the outer beams at one range, where nothing else is heard, a bandwidth beside the
+// pulse's frequency: it lasts longer than a pulse and turns. The same without the turn is an echo of the fan's own, and
+// stays.
 TEST(JudgeSoundings, rejects_what_a_grating_lobe_brings_in) {
   for (const double turn : {1.4, -1.4, 0.0}) {  // [rad] in a bin
     Ping ping = quiet_ping(101, 140, 1, 24);
@@ -110,7 +111,7 @@ TEST(JudgeSoundings, finds_the_bottom_beside_a_grating_lobe) {
   }
 }
 
-// Of so many beams over level bottoms hardly one is taken for a grating lobe's.
+// Among so many beams over level bottoms hardly one echo is taken for a grating lobe's.
 TEST(JudgeSoundings, takes_speckle_for_an_echo_of_the_fan) {
   std::size_t found = 0, rejected = 0;
   for (std::uint64_t number = 0; number < 12; ++number) {
@@ -124,8 +125,8 @@ TEST(JudgeSoundings, takes_speckle_for_an_echo_of_the_fan) {
   EXPECT_LE(rejected, 1U);
 }
 
-// Beams of 20 degrees along the way over beds that bend along it: the mean range of a plane is taken off, that of a trough
-// or a crest is another, and the deviation says so.
+// Beams of 20 degrees along the way over beds that bend along it: the mean range of a plane is taken off, that of a
+// trough or a crest is another, and the deviation says so.
 TEST(JudgeSoundings, states_what_a_bend_along_the_way_may_cost) {
   const double along = radians(20) / 2.3548;
   const auto normalised = [&](double bend) {  // bend: of range over angle, 1 of a plane

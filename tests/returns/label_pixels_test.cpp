@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What surface a pixel shows, and what is shadow (E125).
+// Tests the surface that a pixel shows, and shadow (E125).
 #include "returns/label_pixels.hpp"
 
 #include "sonar/pulse.hpp"
@@ -36,7 +36,7 @@ class PixelLabelling : public testing::Test {
     others.push_back(Visibility::not_asked);
     return static_cast<std::uint32_t>(scene.size() - 1);
   }
-  /// An echo of power 1 from `metres` behind the middle of bin `n`.
+  /// Adds an echo of power 1 from `metres` behind the middle of bin `n`.
   void hear(Eigen::Index n, double metres, double u, std::uint16_t material, double power = 1, double area = 1e-6) {
     const double range = range_of(n) + metres;
     surfel.push_back(place(range, u, material, area)), legs.push_back({});
@@ -68,7 +68,8 @@ TEST_F(PixelLabelling, is_by_the_material_with_most_energy_in_the_cell) {
   EXPECT_THAT(l.names, testing::ElementsAre("sand", "steel"));
 }
 
-// A cell is as wide as beam and pulse are at half their power: what is louder beside it is in the share, not in the label.
+// A cell is as wide as beam and pulse are at half their power: what is louder beside it is in the share, not in the
+// label.
 TEST_F(PixelLabelling, a_cell_is_as_wide_as_beam_and_pulse) {
   const double half_beam = radians(1.5), half_pulse = 0.5 * range_resolution(head.pulse, medium.sound_speed);
   hear(bin, 0, 0.9 * half_beam, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the deviations of soundings of a beam without neighbours are its errors: over planes and rough beds, from pings
-// made by hand of echoes in known directions.
+// Tests the deviations of soundings of a beam without neighbours against its errors, over planes and rough beds, from
+// pings made by hand of echoes in known directions.
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "returns/bottom_detection.hpp"
@@ -9,15 +9,15 @@
 namespace {
 
 constexpr std::size_t lone_pings = 2000;
-constexpr double lone_noise = 1e-3;  // of the echo's amplitude
+constexpr double lone_noise = 1e-3;  // relative to the echo's amplitude
 
 /// An echo sounder, and the bed below it.
 struct LoneBed {
-  double width_deg = 0, pulse = 0;  ///< of the beam, and of the pulse's intensity [m]
+  double width_deg = 0, pulse = 0;  ///< width of the beam, and of the pulse's intensity [m]
   double depth = 0;                 ///< [m] on the axis
-  double tilt_deg = 0;              ///< of the head over a level bed
-  double slope_deg = 0;             ///< of the bed, across the tilt
-  double relief = 0;                ///< standard deviation of what lies within the footprint [m]
+  double tilt_deg = 0;              ///< tilt of the head over a level bed
+  double slope_deg = 0;             ///< slope of the bed, across the tilt
+  double relief = 0;                ///< standard deviation of the relief within the footprint [m]
   std::uint64_t echoes = 300;       ///< many in each pulse's length
 };
 
@@ -45,7 +45,7 @@ Ping lone_ping(const LoneBed& bed, std::uint64_t number) {
     const double cosine = in_head.dot(direction_in(away.real(), away.imag())) / in_head.x();
     if (std::abs(cosine) < 0.1) continue;
     const double range = bed.depth / cosine + bed.relief * std::sqrt(2.0) * normal(i, 3).real();
-    // Of a Lambert bed: cos^2 dS / r^4 over directions.
+    // A Lambert bed has the energy cos^2 dS / r^4 over directions.
     const double loss = std::pow(bed.depth / range, 2) * std::sqrt(range / bed.depth / static_cast<double>(bed.echoes));
     const auto first =
         static_cast<std::size_t>(std::max(0.0, (range - 5 * echo - ping.gate.centre(0)) / ping.gate.bin_size));
@@ -97,7 +97,8 @@ void expect_honest_lone(const LoneBed& bed) {
 
 }  // namespace
 
-// Of an es200-7c, and of a ping2: tilted a little over a level bed, over slopes that the head cannot know, and over relief.
+// Takes an es200-7c and a ping2: tilted a little over a level bed, over slopes that the head cannot know, and over
+// relief.
 TEST(LoneBeam, deviations_are_errors_of_seven_degrees) {
   for (const double depth : {5.0, 20.0, 60.0}) {
     const std::uint64_t echoes = depth > 50 ? 600 : 300;

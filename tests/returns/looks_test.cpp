@@ -14,7 +14,7 @@ using namespace insonify;
 
 namespace {
 
-/// Independent complex normal samples of mean power 1.
+/// Returns independent complex normal samples of mean power 1.
 Grid<double> speckle(Eigen::Index beams, Eigen::Index bins) {
   Grid<double> intensity(beams, bins);
   for (Eigen::Index b = 0; b < beams; ++b)

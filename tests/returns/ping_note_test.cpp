@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the notes of many pings become one of each kind.
+// Tests the gathering of the notes of many pings by kind.
 #include "returns/ping_note.hpp"
 
 #include "support/test.hpp"

@@ -26,7 +26,8 @@ TEST(Quantise, is_linear_in_decibels_and_clamps) {
   for (int n = 0; n < 13; ++n) EXPECT_EQ(grey(0, n), expected[n]) << n;
 }
 
-// A reader of the picture who takes black + value / 255 (white - black) is off by half a step at most, and not on average.
+// A reader of the picture who takes black + value / 255 (white - black) is off by half a step at most, and not on
+// average.
 TEST(Quantise, is_the_nearest_value_without_a_bias) {
   Grid<float> levels(1, 10200);  // none halfway
   for (Eigen::Index n = 0; n < levels.cols(); ++n) levels(0, n) = -154.9875F + 0.025F * static_cast<float>(n);

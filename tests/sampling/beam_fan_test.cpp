@@ -50,7 +50,7 @@ TEST(Sector, of_a_fan_that_looks_astern_crosses_pi) {
   EXPECT_NEAR(s.max_azimuth, pi + std::asin(std::sin(3.0) + 0.075), 1e-12);
 }
 
-// Against the rule itself: u within the beams' and a margin, ahead or astern, and an elevation.
+// Compares with the rule itself: u within the beams' and a margin, ahead or astern, and an elevation.
 TEST(Sector, holds_what_its_beams_receive) {
   const BeamFan ahead = make_fan(64, radians(130), radians(1), radians(20)),
                 round = make_fan(64, radians(200), 0.02, 0.3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfels that stand for triangles: what these hide, and what rays meet.
+// Tests surfels that stand for triangles: what they hide, and what rays meet.
 #include <random>
 
 #include <Eigen/Geometry>
@@ -24,13 +24,13 @@ void add_triangle(SceneMesh& mesh, const Eigen::Vector3d& a, const Eigen::Vector
   }
   mesh.triangle.push_back({first, first + 1, first + 2});
 }
-// A rectangle across x, seen from the head at the origin.
+// Adds a rectangle across x, seen from the head at the origin.
 void add_plate(SceneMesh& mesh, double x, double y0, double y1, double z0, double z1) {
   add_triangle(mesh, {x, y0, z0}, {x, y0, z1}, {x, y1, z1});
   add_triangle(mesh, {x, y0, z0}, {x, y1, z1}, {x, y1, z0});
 }
 
-// A surfel is hidden if the line to it passes through a triangle.
+// Returns 0 for surfels whose line of sight passes through a triangle, otherwise 1.
 std::vector<std::uint8_t> seen_by_definition(const SceneCloud& scene, const SceneMesh& mesh) {
   std::vector<std::uint8_t> seen(scene.size(), 1);
   for (std::size_t i = 0; i < scene.size(); ++i)
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> seen_by_definition(const SceneCloud& scene, const Scen
   return seen;
 }
 
-// Plates of all sizes at random before a wall; an overhang; two sheets 2 cm apart.
+// Returns random plates of all sizes before a wall; an overhang; two sheets 2 cm apart.
 SceneMesh plates() {
   SceneMesh mesh;
   std::mt19937 random(3);

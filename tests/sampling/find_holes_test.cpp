@@ -8,7 +8,7 @@ namespace {
 
 constexpr double wall = 5, spacing = 0.05;
 
-/// A wall at `x` without the surfels nearer than `radius` to the point at `y`, z = 0.
+/// Adds a wall at `x` without the surfels nearer than `radius` to the point at `y`, z = 0.
 void add_pierced_wall(SceneCloud& scene, double x, double y, double radius) {
   SceneCloud whole;
   add_wall(whole, x, 3, 1.5, spacing);

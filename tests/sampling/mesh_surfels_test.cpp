@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfels that a ping takes from a mesh (E70): areas, places, ids, and how fine they are.
+// Tests the surfels that a ping takes from a mesh (E70): areas, positions, ids and spacing.
 #include "sampling/mesh_surfels.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using namespace insonify;
 
 namespace {
 
-/// A level square of two triangles, `side` long, normals up, and a sliver 8 m x 1 mm 1 m above its middle.
+/// Returns a level square of two triangles, `side` long, normals up, and a sliver 8 m x 1 mm 1 m above its middle.
 SceneMesh square(double side, bool sliver = false) {
   const auto half = static_cast<float>(side / 2);
   SceneMesh mesh;
@@ -32,7 +32,7 @@ SceneMesh square(double side, bool sliver = false) {
   return mesh;
 }
 
-/// 20 degrees each way, looking down from `height` metres above (x, 0).
+/// A head with 20 degrees each way, looking down from `height` metres above (x, 0).
 struct Look {
   BeamFan fan = make_fan(40, radians(40), radians(1), radians(20));
   InsonifiedRegion region;
@@ -48,7 +48,7 @@ struct Look {
   }
 };
 
-/// Place and area by id.
+/// Returns position and area by id.
 std::map<std::uint32_t, std::pair<Eigen::Vector3d, float>> by_id(const SceneCloud& scene) {
   std::map<std::uint32_t, std::pair<Eigen::Vector3d, float>> all;
   for (std::size_t i = 0; i < scene.size(); ++i) all[scene.id[i]] = {world(scene, i), scene.area[i]};

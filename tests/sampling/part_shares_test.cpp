@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfels that give little of what is heard from their range are split less (E127).
+// Tests that surfels which give little of the energy at their range are split less (E127).
 #include "sampling/visible_surfels.hpp"
 #include "sampling_scenes.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 const BeamFan one_beam = make_fan(1, 0, radians(1), radians(60));
 const RangeGate fine_gate{0.1, 50, 0.01};
 
-/// Surfels of 0.1 m^2 that face the head, side by side in the middle of a cell of range, and one farther off.
+/// Returns surfels of 0.1 m^2 that face the head, side by side in the middle of a cell of range, and one farther off.
 SceneCloud facing_surfels(int beside, double step) {
   SceneCloud scene;
   for (int k = 0; k < beside; ++k) {
@@ -22,7 +22,7 @@ SceneCloud facing_surfels(int beside, double step) {
 
 using Energy = std::shared_ptr<const SurfelEnergy>;
 
-/// Energy by position alone.
+/// Returns an energy that depends on position alone.
 Energy energy_by(std::function<double(const Eigen::Vector3d&)> of_position) {
   struct ByPosition final : SurfelEnergy {
     std::function<double(const Eigen::Vector3d&)> of_position;
@@ -36,7 +36,7 @@ Energy even_energy() {
   return energy_by([](const Eigen::Vector3d&) { return 1.0; });
 }
 
-/// Parts of each surfel.
+/// Returns the number of parts of each surfel.
 std::vector<int> parts_of(const SceneCloud& scene, const Energy& energy, double per_cell = 1000) {
   const SamplingOptions options{
       .scatterers_per_cell = per_cell, .occlusion = false, .azimuth_margin = pi, .energy = energy};
@@ -46,7 +46,7 @@ std::vector<int> parts_of(const SceneCloud& scene, const Energy& energy, double 
   return parts;
 }
 
-/// Energies by the side: `left` for u > 0.1, 1 elsewhere.
+/// Returns energies by side: `left` for u > 0.1, 1 elsewhere.
 Energy louder_by(double left) {
   return energy_by([left](const Eigen::Vector3d& p) { return p.y() > 0.1 * p.norm() ? left : 1; });
 }
@@ -61,7 +61,7 @@ TEST(PartShares, give_each_surfel_eight_times_its_share_of_what_its_range_gives)
   EXPECT_EQ(by_shares[0], by_cells[0]);
   EXPECT_EQ(by_shares[1], 80);
   EXPECT_EQ(by_shares[2], by_cells[2]) << "alone at its range";
-  // As many as the cells ask for if that is less; one at least.
+  // There are as many as the cells need if that is less, and at least one.
   EXPECT_EQ(parts_of(scene, louder_by(1)), by_cells);
   EXPECT_EQ(parts_of(scene, louder_by(1e-9))[1], 1);
   EXPECT_EQ(parts_of(scene, louder_by(0))[1], 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// KD-trees, raster and prepared scenes against brute force: the same bytes at different cost.
+// Compares KD-trees, raster and prepared scenes with brute force: the same bytes at different cost.
 #include "sampling_scenes.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/thin_scene.hpp"
@@ -93,7 +93,7 @@ SamplingOptions options_for(SamplingKind kind, Projection projection) {
   return options;
 }
 
-/// Lambert cross-section without mu of a bed with a sphere and a wall [dB].
+/// Returns the Lambert cross-section without mu of a bed with a sphere and a wall [dB].
 double cross_section_db(const SceneCloud& scene, const SamplingOptions& options) {
   const BeamFan fan = make_fan(64, radians(50), radians(1), radians(15));
   const Scatterers s = find_scatterers(scene, at(0, 0, 0, 0, 10), fan, {0.1, 13, 0.05}, options).scatterers;
@@ -233,7 +233,7 @@ TEST(Level, does_not_depend_on_density_of_points_or_rays) {
   }
 }
 
-// The same for a cloud thinned to a quarter and a sixteenth of its surfels.
+// The cloud is thinned to a quarter and a sixteenth of its surfels.
 TEST(Level, is_kept_by_thinning) {
   const SceneCloud scene = bed_with_sphere_and_wall(0.03);
   const double dense = cross_section_db(scene, unsplit());

@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Hits along the x axis of a plane below, at these ranges; rays in this order.
+/// Returns hits along the x axis of a plane below, at these ranges; rays in this order.
 std::vector<SurfaceHit> on_a_plane(const std::vector<double>& ranges) {
   std::vector<SurfaceHit> hits;
   for (const double r : ranges)

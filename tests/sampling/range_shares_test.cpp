@@ -9,13 +9,13 @@ namespace {
 
 const BeamFan beam = make_fan(1, 0, radians(10), radians(60));
 
-/// Part of a unit disc within distances a to b of a line through its middle: closed form.
+/// Returns the fraction of a unit disc within distances a to b of a line through its middle, in closed form.
 double strip(double a, double b) {
   const auto before = [](double x) { return 0.5 + (x * std::sqrt(1 - x * x) + std::asin(x)) / pi; };
   return before(b) - before(a);
 }
 
-/// Places in a disc, by random numbers of their own.
+/// Returns random places in a disc.
 std::vector<float> random_places(std::size_t n) {
   std::vector<float> along;
   for (std::uint32_t k = 0; k < n; ++k) {
@@ -25,7 +25,7 @@ std::vector<float> random_places(std::size_t n) {
   return along;
 }
 
-/// The parts of a level surfel of 1 m^2, 10 m ahead and 4 m below.
+/// Returns the parts of a level surfel of 1 m^2, 10 m ahead and 4 m below.
 Scatterers level_parts(double range_resolution, double per_cell) {
   SceneCloud scene;
   add_surfel(scene, {10, 0, -4}, {0, 0, 1}, 1);
@@ -33,7 +33,7 @@ Scatterers level_parts(double range_resolution, double per_cell) {
   return find_scatterers(scene, Pose::Identity(), beam, {0.1, 50, 0.01}, options).scatterers;
 }
 
-/// Surface of a part [m^2].
+/// Returns the surface of a part [m^2].
 double surface(const Scatterers& s, std::size_t part) { return s.projected_area[part] / s.cos_incidence[part]; }
 
 }  // namespace
@@ -76,7 +76,8 @@ TEST(RangeShares, do_not_depend_on_the_order_of_places) {
   for (std::size_t k = 0; k < along.size(); ++k) ASSERT_EQ(found[k], backwards[along.size() - 1 - k]);
 }
 
-// Strips of a twentieth of the disc: parts with equal shares are off by as many as there are too few or too many of them.
+// Strips of a twentieth of the disc: parts with equal shares are off by as many as there are too few or too many of
+// them.
 TEST(RangeShares, give_each_range_the_surface_that_it_has) {
   const Scatterers s = level_parts(0.05, 50);
   const double radius = 1 / std::sqrt(pi);

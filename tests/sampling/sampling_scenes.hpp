@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// A wall at x that faces the head at the origin.
+/// Adds a wall at x that faces the head at the origin.
 inline void add_wall(SceneCloud& scene, double x, double half_width, double half_height, double spacing,
                      double jitter = 0) {
   add_rectangle(scene, {x, -half_width, -half_height}, {0, 2 * half_width, 0}, {0, 0, 2 * half_height}, {-1, 0, 0},
@@ -17,7 +17,7 @@ inline void add_wall(SceneCloud& scene, double x, double half_width, double half
 inline BeamFan wide_fan() { return make_fan(91, radians(90), radians(1), radians(60)); }
 inline RangeGate long_gate() { return {0.1, 100, 0.05}; }
 
-/// Options for visibility alone: every visible surfel is one scatterer at its centre.
+/// Returns options for visibility alone: every visible surfel is one scatterer at its centre.
 inline SamplingOptions unsplit() { return {.scatterers_per_cell = 0}; }
 
 inline Pose at(double x, double y, double z, double yaw_deg = 0, double pitch_deg = 0) {

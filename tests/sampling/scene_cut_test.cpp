@@ -10,7 +10,7 @@ namespace {
 
 const Pose over_the_scene = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
 
-/// What a head of 64 beams of two degrees reaches, out to 20 m.
+/// The region that a head of 64 beams of two degrees reaches, out to 20 m.
 struct Reach {
   BeamFan fan = small_head({}).fan;
   RangeGate gate{0.5, 20, 0.05};
@@ -36,7 +36,7 @@ void expect_same(const SceneCloud& a, const SceneCloud& b) {
               a.unevenness == b.unevenness && a.material == b.material);
 }
 
-/// Sum of the areas times cos^2 of incidence within fan and gate.
+/// Returns the sum of the areas times cos^2 of incidence within fan and gate.
 double lambert_sum(const SceneCloud& s, const Reach& reach) {
   const SectorBounds sector(reach.region.sector);
   const Pose head_from_world = reach.region.world_from_head.inverse();
@@ -217,7 +217,7 @@ TEST(SceneCut, of_one_spacing_has_the_same_nodes_from_everywhere) {
     std::map<std::uint32_t, Eigen::Vector3f> nodes;
     for (std::size_t i = 0; i < cut.stands_for.size(); ++i) {
       const Eigen::Vector3f& p = cut.scene.scene().point[i];
-      // What both heads reach at a distance from the ends of fan and gate.
+      // Both heads reach this box at a distance from the ends of fan and gate.
       const bool common = p.x() > 12 && p.x() < 17 && std::abs(p.y()) < 5;
       if (common && p != scene.point[cut.stands_for[i]]) nodes[cut.stands_for[i]] = p;
     }
@@ -250,14 +250,14 @@ struct PlateBeforeAWall {
     add_rectangle(scene, {8, -4, -1.5}, {0, 8, 0}, {0, 0, 3}, {-1, 0, 0}, 0.01);
     add_rectangle(scene, corner, along, up, normal, 0.01);
   }
-  /// Distance from the plate's outline of the direction to a place, in the plane of the plate [m].
+  /// Returns the distance from the plate's outline of the direction to a place, in the plane of the plate [m].
   double from_outline(const Eigen::Vector3d& place) const {
     const Eigen::Vector3d meets = place * corner.dot(normal) / place.dot(normal) - corner;
     const Eigen::Array2d at(meets.dot(along) / side, meets.dot(up) / side);
     const Eigen::Array2d beyond = (at - side / 2).abs() - side / 2;
     return beyond.maxCoeff() < 0 ? -beyond.maxCoeff() : beyond.max(0.0).matrix().norm();
   }
-  /// Numbers of the nodes of a cut across which the outline runs, of other nodes, and of surfels at the outline.
+  /// Returns the numbers of a cut's nodes across the outline, of other nodes, and of surfels at the outline.
   std::array<std::size_t, 3> counted(const SceneCloud& of) const {
     const SceneCut cut = cut_of(of, Reach(Pose::Identity()));
     const SceneCloud& s = cut.scene.scene();

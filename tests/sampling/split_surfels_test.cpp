@@ -76,7 +76,7 @@ TEST(Splitting, takes_cells_half_as_wide_as_they_are_off_the_nearest_main_lobe) 
   EXPECT_NEAR(cells.widths(at_u(0.29), 0).beam, 0.09, 1e-12);  // nearer to the other
   EXPECT_NEAR(cells.widths(at_u(-1), 0).beam, 0.485, 1e-12);
   EXPECT_NEAR(cells.widths(at_u(0.73), 0).beam, 0.1, 1e-12);
-  // What reaches into a lobe is cut as inside; of the rest, the nearest part counts.
+  // Surfels that reach into a lobe are cut as inside; for others, the nearest part counts.
   EXPECT_EQ(cells.widths(at_u(0.23), 1.7).beam, 0.02);
   EXPECT_NEAR(cells.widths(at_u(0.23), 1).beam, 0.05, 1e-12);
   // The fewer parts of a surfel, the wider its cell: here 0.1 less half of what it reaches towards the lobe.

@@ -9,7 +9,7 @@ namespace {
 
 const BeamFan tilt_fan = make_fan(64, radians(60), radians(1), radians(40));
 
-/// A plate with micro-relief whose normal is `incidence` [rad] off the direction to a distant head.
+/// Returns a plate with micro-relief whose normal is `incidence` [rad] off the direction to a distant head.
 SceneCloud rough_plate(double incidence, double relief_slope, bool oriented = true) {
   SceneCloud scene;
   scene.materials = {{"smooth"}, {"rough", 0.01, 0, relief_slope}};
@@ -31,8 +31,8 @@ double cross_section(const Scatterers& s) {
   return sum;
 }
 
-/// Mean of max(0, cosine)^2 over facets whose slopes are normal with variance slope^2 / 2 along each direction:
-/// midpoint rule over +-6 standard deviations.
+/// Returns the mean of max(0, cosine)^2 over facets whose slopes are normal with variance slope^2 / 2 along each
+/// direction, by the midpoint rule over +-6 standard deviations.
 double mean_square_cosine(double incidence, double slope) {
   const double sd = slope / std::sqrt(2.0);
   const int n = 200;

@@ -11,7 +11,7 @@ DetailLevels levels_of(const SceneCloud& scene, int threads = 0) {
   return detail_levels(scene, whole_of(scene).mean_spacing, threads);
 }
 
-/// The surfels below a root, node or child.
+/// Returns the surfels below a root, node or child.
 std::vector<std::uint32_t> surfels_below(const DetailLevels& levels, std::uint32_t index) {
   if (index < levels.surfels) return {index};
   std::vector<std::uint32_t> all;
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> surfels_below(const DetailLevels& levels, std::uint32
   return all;
 }
 
-/// A square grid of surfels, `spacing` apart, in the plane through `at` that is spanned by two unit vectors.
+/// Adds a square grid of surfels, `spacing` apart, in the plane through `at` that is spanned by two unit vectors.
 void add_grid(SceneCloud& scene, const Eigen::Vector3d& at, const Eigen::Vector3d& right, const Eigen::Vector3d& up,
               int across, int along, double spacing, std::uint16_t material = 0) {
   for (int i = 0; i < across; ++i)
@@ -35,7 +35,7 @@ const Eigen::Vector3d ahead = Eigen::Vector3d::UnitX(), aside = Eigen::Vector3d:
 
 std::size_t nodes_of(const SceneCloud& scene) { return levels_of(scene).node.size(); }
 
-/// Its area [m^2].
+/// Returns the area of the largest node [m^2].
 double largest_node(const SceneCloud& scene) {
   double largest = 0;
   for (const DetailNode& node : levels_of(scene).node) largest = std::max<double>(largest, node.area);
@@ -63,7 +63,8 @@ TEST(DetailLevels, hold_every_surfel_once_within_blocks_and_nodes) {
   EXPECT_LT(levels.root.size(), scene.size() / 4);
 }
 
-// In a view from one place noise is raised where lines of sight pass an edge: nodes do not spread it, and do not lose it.
+// In a view from one place noise is raised where lines of sight pass an edge: nodes do not spread it, and do not lose
+// it.
 TEST(DetailLevels, keep_surfels_of_uneven_noise_apart) {
   SceneCloud scene;
   add_grid(scene, {0, 0, 0}, ahead, aside, 64, 64, 0.01);
@@ -110,7 +111,7 @@ TEST(DetailLevels, nodes_are_the_means_of_their_surfels) {
     for (const std::uint32_t i : surfels)
       along += scene.area[i] * std::pow(scene.normal[i].cast<double>().dot(direction), 2) / area;
     EXPECT_NEAR(quadratic_form(node.normals, direction), along, 1e-6);
-    // Of a node of nodes it is the nearest of the children's.
+    // For a node of nodes it is the nearest of the children's.
     EXPECT_LE((scene.point[node.nearest] - node.point).norm(), node.extent);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Heights of the ground and parts that rest on it, against closed forms.
+// Compares heights of the ground, and parts that rest on it, with closed forms.
 #include "scene/ground.hpp"
 
 #include <cmath>
@@ -34,7 +34,7 @@ SceneCloud ball_of(double radius) {
   return cloud;
 }
 
-/// A plane z = x tan(slope) over 10 m x 10 m about the origin; points off it by `noise`, standard deviation.
+/// Returns a plane z = x tan(slope) over 10 m x 10 m about the origin; points off it by `noise`, standard deviation.
 SceneCloud sloped_bed(double slope, double spacing, double noise = 0) {
   SceneCloud cloud;
   std::mt19937 generator(3);
@@ -51,7 +51,7 @@ SceneCloud sloped_bed(double slope, double spacing, double noise = 0) {
 
 Vector3d surfel_at(const PlacedPart& part, std::size_t i) { return part.world_from_part * world(*part.cloud, i); }
 
-/// Points of a field with normals by differences.
+/// Returns points of a field with normals by differences.
 SceneCloud bed_of(const HeightField& field, double spacing, double noise) {
   SceneCloud cloud;
   for (const Vector3d& p : draw_points(field, {.spacing = spacing, .jitter = 0.3, .noise = noise})) {
@@ -123,7 +123,7 @@ TEST(Ground, of_a_rough_bed_is_true_to_its_spacing) {
   std::uniform_real_distribution<double> along(-1.3, 1.3);
   for (int k = 0; k < 2000; ++k) {
     const Vector2d p(along(generator), along(generator));
-    // Where the bed is a step, any height of it within reach will do.
+    // At a step of the bed, any of its heights within reach is right.
     double low = field.at(p), high = low;
     for (double x = -1.5; x <= 1.5; x += 0.25)
       for (double y = -1.5; y <= 1.5; y += 0.25) {
@@ -205,7 +205,7 @@ TEST(PlaceOnGround, leaves_out_what_is_buried) {
   const PlacedPart ball =
       place_on_ground(body_at(ball_of(radius), pose_above(0.03, 0.07)), ground, PartRest::ground, bury).value();
   EXPECT_NEAR(ball.world_from_part.translation().z(), radius - bury, 1e-3);
-  // By Archimedes, the part of a sphere's area below a level is that of its height.
+  // Archimedes: the fraction of a sphere's area below a level is that of its height.
   EXPECT_NEAR(static_cast<double>(ball.surfels.size()) / 4000, 1 - bury / (2 * radius), 0.002);
   for (const std::uint32_t i : ball.surfels) EXPECT_GE(surfel_at(ball, i).z(), -1e-5);
   EXPECT_FALSE(place_on_ground(body_at(ball_of(radius), pose_above(0, 0)), ground, PartRest::ground, 0.5))

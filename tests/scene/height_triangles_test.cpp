@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces between the points of height fields.
+// Tests the surfaces between the points of height fields.
 #include "scene/estimate/height_triangles.hpp"
 
 #include <random>
@@ -14,7 +14,7 @@ using Eigen::Vector3f;
 
 namespace {
 
-// n x n points over 1 m2, off their grid by up to `off` spacings.
+// Returns n x n points over 1 m^2, off their grid by up to `off` spacings.
 std::vector<Vector3f> scattered(int n, float off) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> uniform(-off, off);
@@ -109,8 +109,8 @@ TEST(SmoothedHeights, lie_near_the_surface_that_noise_hides) {
   EXPECT_LT(after, 0.15 * before);
 }
 
-// How wide the neighbourhoods are follows the surface: a plane is as even as the widest leave it, and the waves that noise of a
-// spacing does not hide keep their slopes.
+// How wide the neighbourhoods are follows the surface: a plane is as even as the widest leave it, and the waves that
+// noise of a spacing does not hide keep their slopes.
 TEST(SmoothedHeights, keep_the_waves_that_rise_out_of_noise_and_no_others) {
   constexpr int n = 128;
   constexpr float spacing = 1.0f / n;
@@ -150,8 +150,8 @@ TEST(SmoothedHeights, of_a_few_points_are_theirs_if_no_cubic_goes_through_them) 
   EXPECT_EQ(smoothed_heights(points, std::vector<float>(4, 9)), (std::vector<float>{1, 2, 3, 4}));
 }
 
-// A pole, a quay and a low wall across the grid, of which a cubic would make hills: points move by noise alone, and noise goes as
-// close to the pole and the wall as there are enough neighbours on one side.
+// A pole, a quay and a low wall across the grid, of which a cubic would make hills: points move by noise alone, and
+// noise goes as close to the pole and the wall as there are enough neighbours on one side.
 TEST(SmoothedHeights, leave_steps_and_objects_where_they_are) {
   constexpr int n = 64;
   constexpr float sigma = 0.02f;

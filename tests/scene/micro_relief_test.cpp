@@ -7,7 +7,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Mean of tan^2 of the tilt over `count` random positions on a plane 1000 wavelengths wide.
+/// Returns the mean of tan^2 of the tilt over `count` random positions on a plane 1000 wavelengths wide.
 double mean_square_slope(const ReliefField& field, double rms_slope, const Vector3d& normal, int count) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> along(-25, 25);

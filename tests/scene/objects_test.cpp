@@ -32,7 +32,7 @@ std::string refusal_of(const std::string& name, const ObjectSettings& settings) 
   return error_of([&] { make_object(name, settings); });
 }
 
-/// Points in every triangle, its corners, middle and edges among them.
+/// Checks points in every triangle, its corners, middle and edges among them.
 template <typename Check>
 void at_points(const SceneMesh& mesh, Check check) {
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
@@ -42,7 +42,7 @@ void at_points(const SceneMesh& mesh, Check check) {
   }
 }
 
-/// The largest distance from a surface whose signed distance `off` gives.
+/// Returns the largest distance from a surface whose signed distance is `off`.
 template <typename Off>
 double farthest(const SceneMesh& mesh, Off off) {
   double most = 0;
@@ -188,7 +188,7 @@ TEST(Objects, of_flat_faces_are_exact) {
   EXPECT_NEAR(volume_of(wedge), 0.3 / 3 * (0.8 + 0.2 + 0.4), 1e-6);
 }
 
-// By Pappus: areas that turn about the axis at their centroids.
+// Pappus: areas turn about the axis at their centroids.
 TEST(Objects, of_revolution_have_the_volume_of_their_sections) {
   const double w = 0.02, t = 0.08, a = 0.03, outer = 0.32, rim = 0.2, mid = 0.26, h = 0.06;
   const SceneMesh tyre = make_object("tyre", {{"diameter_m", 2 * outer},

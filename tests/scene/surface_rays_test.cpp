@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rays from surface to surface: against a search over all discs, areas at edges, backs and noise.
+// Tests rays from surface to surface: against a search over all discs, areas at edges, backs and noise.
 #include "scene/surface_rays.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double footprint = 1.2;
 
-/// Surfels of a square of 1 m about `middle`, jittered within their cells.
+/// Adds the surfels of a square of 1 m about `middle`, jittered within their cells.
 void add_square(SceneCloud& scene, const Vector3d& middle, const Vector3d& normal, int per_side) {
   const Vector3d along = normal.unitOrthogonal(), across = normal.cross(along);
   for (int i = 0; i < per_side * per_side; ++i) {
@@ -35,7 +35,7 @@ SurfaceRay ray_from(const Vector3d& from, const Vector3d& direction, std::uint32
   return {surfel, from.cast<float>(), direction.normalized().cast<float>()};
 }
 
-/// The nearest disc in front of a ray, found among all.
+/// Returns the nearest disc in front of a ray, found among all.
 SurfaceRayEnd nearest_of_all(const SceneCloud& scene, const SurfaceRay& ray) {
   SurfaceRayEnd hit{SurfaceRayEnd::none, std::numeric_limits<float>::infinity(), 0};
   for (std::uint32_t j = 0; j < scene.size(); ++j) {

@@ -21,8 +21,7 @@ namespace {
 
 double sum_of(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-// A plate of 3 m x 2 m with one point per cell of `spacing`, moved from its centre by up to `jitter`
-// spacings.
+// Returns a plate of 3 m x 2 m with one point per cell of `spacing`, off its centre by up to `jitter` spacings.
 std::vector<Vector3f> plate(float spacing, float jitter) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> shift(-jitter, jitter);
@@ -131,7 +130,7 @@ TEST(SurfelArea, refuses_bad_arguments) {
 
 namespace {
 
-// Plane normals of 32 neighbours, as load_scene gives them.
+// Returns plane normals of 32 neighbours, as load_scene gives them.
 std::vector<Vector3f> base_normals(const std::vector<Vector3f>& points) {
   const SceneIndex index(points);
   std::vector<Neighbour> nearest;
@@ -158,7 +157,7 @@ struct FieldCase {
   double tolerance_plan, tolerance_area;
 };
 
-// Waves from eight directions, 8 to 12 spacings of 2 cm long, with slopes to 70 degrees.
+// Returns waves from eight directions, 8 to 12 spacings of 2 cm long, with slopes to 70 degrees.
 double stones(double x, double y) {
   double height = 0;
   for (int k = 0; k < 8; ++k) {

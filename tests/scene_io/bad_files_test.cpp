@@ -12,7 +12,7 @@
 
 namespace {
 
-/// load_scene and describe_file must refuse a file with the same message.
+/// Expects load_scene and describe_file to refuse a file with the same message.
 void expect_refused(const std::string& path, ErrorKind kind, std::vector<std::string> parts) {
   parts.push_back(path);
   expect_error(kind, parts, [&] { load_scene(path); });
@@ -260,7 +260,7 @@ TEST(BadOption, values_that_no_file_can_satisfy_are_argument_errors) {
   expect_error(ErrorKind::argument, {"material = 3", "number of materials, 1"}, [&] { load_scene(path, options); });
 }
 
-/// Small valid files of all formats parsed by insonify or PCL.
+/// Returns small valid files of all formats parsed by insonify or PCL.
 std::vector<std::pair<std::string, std::string>> good_files() {
   const std::string saved = own_path("good.ply"), saved_pcd = own_path("good.pcd");
   save_scene(saved, small_scene());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What a reader that shares no code with insonify (bounds_of_file.py) finds in a file.
+// The content of a file by a reader that shares no code with insonify (bounds_of_file.py).
 #include "scene_io/describe_file.hpp"
 #include "scene_io/test_files.hpp"
 
@@ -11,7 +11,7 @@ struct FoundInFile {
   double area = 0;  ///< sum over the polygons [m^2]
 };
 
-/// Nothing without Python, or without h5py for a file of HDF5.
+/// Returns nothing without Python, or without h5py for a file of HDF5.
 inline std::optional<FoundInFile> found_in_file(const std::string& path) {
   const std::string said = own_path("bounds.txt");
   const std::string command = "/usr/bin/python3 " INSONIFY_BOUNDS_OF_FILE " " + path + " >" + said + " 2>&1";
@@ -25,8 +25,8 @@ inline std::optional<FoundInFile> found_in_file(const std::string& path) {
   return found;
 }
 
-/// The box of a file as it is described and as it is loaded, and the area of its triangles, are those that the other
-/// reader finds. Returns false if that cannot read the file here.
+/// Expects box and triangles' area of a file, as described and as loaded, to agree with the other reader. Returns false
+/// if that cannot read the file here.
 inline bool has_bounds_of_other_reader(const std::string& path) {
   const std::optional<FoundInFile> found = found_in_file(path);
   if (!found) return false;

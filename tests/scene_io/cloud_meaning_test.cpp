@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the numbers of clouds say of themselves, in all formats, read whole and in batches.
+// Tests the meaning of the numbers of clouds, in all formats, read whole and in batches.
 #include "scene_io/describe_file.hpp"
 #include "scene_io/las_file.hpp"
 #include "scene_io/prepare_tiles.hpp"
@@ -7,7 +7,7 @@
 
 namespace {
 
-/// A cloud with upright normals.
+/// Positions of a cloud with upright normals.
 using Places = std::vector<Eigen::Vector3d>;
 
 Places level_bed(double x, double y, double step, double z, int side = 32) {
@@ -34,7 +34,7 @@ std::string rows_as_binary(const Places& places) {
   return rows;
 }
 
-/// The cloud in each format that can be read in batches, and as text.
+/// Writes the cloud in each format that can be read in batches, and as text. Returns the paths.
 std::vector<std::string> files_of(const Places& places) {
   const std::string count = std::to_string(places.size());
   std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " + count + "\n";
@@ -53,7 +53,7 @@ std::vector<std::string> files_of(const Places& places) {
           own_file("a.las", las.bytes(places))};
 }
 
-/// Checks what load_scene, prepare_tiles in batches and describe_file say of each of these files.
+/// Checks the reports of load_scene, prepare_tiles in batches and describe_file for each of these files.
 void expect_of_all(const Places& places, const AskedMeaning& asked,
                    const std::function<void(const LoadReport&, const Bounds&, std::size_t points)>& check) {
   for (const std::string& path : files_of(places)) {

@@ -12,7 +12,8 @@
 
 namespace {
 
-/// Names of blanks, brackets, quotes, nothing, UTF-8, newlines, 300 letters, and words that mean something in headers.
+/// Returns a name of blanks, brackets, quotes, nothing, UTF-8, newlines, 300 letters, and words with a meaning in
+/// headers.
 std::string hostile_name(std::mt19937& random) {
   static const std::vector<std::string> pieces = [] {
     std::istringstream words(
@@ -42,7 +43,7 @@ SceneCloud eight_surfels() {
   return scene;
 }
 
-/// Columns of random names, where one in four is that of an earlier one, with newlines as they are.
+/// Returns columns of random names, with newlines. One in four names is that of an earlier column.
 SceneColumns hostile_columns(std::mt19937& random, std::size_t rows) {
   SceneColumns columns;
   if (random() % 2 == 0) columns.material = hostile_name(random) + "m";

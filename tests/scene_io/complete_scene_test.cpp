@@ -5,7 +5,7 @@
 
 namespace {
 
-/// Points on a sphere of radius 2 about (10, 0, 0), evenly spaced by the golden angle.
+/// Returns points on a sphere of radius 2 about (10, 0, 0), evenly spaced by the golden angle.
 std::string sphere_text(int count) {
   std::ostringstream text;
   for (int i = 0; i < count; ++i) {
@@ -153,7 +153,7 @@ TEST(CompleteScene, unusable_areas_are_estimated) {
 
 namespace {
 
-// A grid of 10 x 10 points, 1 m apart, with areas of 0.5 m^2 but for `areas`.
+// Returns a grid of 10 x 10 points, 1 m apart, with areas of 0.5 m^2 but for `areas`.
 std::string grid_with_areas(const std::string& all, int changed = -1, const std::string& other = "") {
   std::string text = "x y z nx ny nz area\n";
   for (int i = 0; i < 100; ++i)

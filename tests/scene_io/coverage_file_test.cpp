@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Coverage and bed of a survey, as files.
+// Tests coverage and bed of a survey as files.
 #include "scene_io/coverage_file.hpp"
 
 #include "scene_io/bed_of_returns.hpp"
@@ -12,7 +12,7 @@ CoveredSurfel covered_surfel(std::uint32_t id, double intensity) {
   return {id, 1, {0.1 * id, 5e6 + id, -3}, 0.5F + 0.01F * static_cast<float>(id % 7), 4, intensity};
 }
 
-/// Every `step`th of 5000 surfels.
+/// Returns every `step`th of 5000 surfels.
 std::vector<CoveredSurfel> every(std::uint32_t step, double intensity) {
   std::vector<CoveredSurfel> covered;
   for (std::uint32_t id = step; id < 5000; id += step) covered.push_back(covered_surfel(id, intensity));
@@ -32,7 +32,7 @@ TEST(CoverageFile, of_several_parts_is_that_of_their_sum) {
   add(sum, c);
   save_coverage(own_path("sum.ply"), sum);
   EXPECT_EQ(file_bytes(own_path("all.ply")), file_bytes(own_path("sum.ply")));
-  // Surfel 4992 is of a and b, 30 of all three.
+  // Surfel 4992 belongs to a and b, 30 to all three.
   const std::string bytes = file_bytes(own_path("all.ply"));
   EXPECT_THAT(bytes.substr(0, 300), HasSubstr("property int scalar_pings"));
   const auto row = std::find_if(sum.begin(), sum.end(), [](const auto& s) { return s.id == 30; }) - sum.begin();

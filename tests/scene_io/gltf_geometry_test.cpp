@@ -4,7 +4,8 @@
 
 namespace {
 
-/// A flat strip of a width of 1 m along x: 2, 3, 4 ... corners at y = 0 and -1 in turn, whose triangles look up.
+/// Returns a flat strip of a width of 1 m along x: 2, 3, 4 ... corners at y = 0 and -1 in turn, whose triangles look
+/// up.
 std::vector<float> strip_corners(int corners) {
   std::vector<float> numbers;
   for (int i = 0; i < corners; ++i) {
@@ -14,7 +15,7 @@ std::vector<float> strip_corners(int corners) {
   return numbers;
 }
 
-/// Whether all triangles of a mesh look up.
+/// Returns true if all triangles of a mesh look up.
 bool looks_up(const LoadedScene& loaded) {
   for (std::size_t t = 0; t < loaded.mesh->triangle.size(); ++t) {
     const auto [a, b, c] = corners_of(*loaded.mesh, t);

@@ -8,7 +8,7 @@ namespace insonify {
 
 using nlohmann::json;
 
-/// Bytes in base64.
+/// Returns bytes in base64.
 inline std::string base64_of(const std::string& bytes) {
   const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string base64;
@@ -31,7 +31,7 @@ struct GltfMaker {
 
   json& primitive() { return root["meshes"][0]["primitives"][0]; }
 
-  /// Adds numbers, and returns the index of their buffer view.
+  /// Adds numbers. Returns the index of their buffer view.
   template <typename Number>
   std::size_t add_view(const std::vector<Number>& numbers) {
     const std::size_t begin = bytes.size();
@@ -40,7 +40,7 @@ struct GltfMaker {
     bytes.resize((bytes.size() + 3) / 4 * 4);
     return root["bufferViews"].size() - 1;
   }
-  /// Adds an accessor, and returns its index.
+  /// Adds an accessor. Returns its index.
   template <typename Number>
   std::size_t add(const std::vector<Number>& numbers, const std::string& type = "VEC3") {
     const int code =
@@ -60,7 +60,7 @@ struct GltfMaker {
   LoadedScene load() { return load_scene(own_file("a.gltf", text())); }
 };
 
-/// Two triangles on a square of 1 m that looks up.
+/// Returns two triangles on a square of 1 m that looks up.
 inline GltfMaker square_document() {
   GltfMaker maker;
   maker.primitive()["attributes"]["POSITION"] = maker.add(std::vector<float>{0, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0});

@@ -6,13 +6,13 @@ namespace {
 
 const std::string meshes = INSONIFY_TEST_MESHES;
 
-/// A copy of tests/data/meshes/wedge.* in the folder of the test.
+/// Copies tests/data/meshes/wedge.* to the folder of the test.
 std::string wedge_copy(const std::string& name) {
   own_file("wedge_0.bin", file_bytes(meshes + "/wedge_0.bin"));
   return own_file(name, file_bytes(meshes + "/" + name));
 }
 
-/// One triangle of 1 m, under nodes that move by (10, 0, 0) and turn by 90 degrees about y.
+/// Returns one triangle of 1 m, under nodes that move by (10, 0, 0) and turn by 90 degrees about y.
 json turned_triangle() {
   GltfMaker maker;
   maker.primitive()["attributes"]["POSITION"] = maker.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});

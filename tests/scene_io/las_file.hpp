@@ -5,7 +5,7 @@
 
 namespace insonify {
 
-/// A variable-length record with its head, of 54 bytes, or of 60 if it is an extended one.
+/// Returns a variable-length record with its head, of 54 bytes, or of 60 if it is an extended one.
 inline std::string las_record(const std::string& user, int number, const std::string& body, bool extended = false) {
   std::string head(extended ? 60 : 54, '\0');
   head.replace(2, user.size(), user);
@@ -21,16 +21,15 @@ struct LasFile {
   int minor = 2, format = 0;
   double scale = 0.001;
   Eigen::Vector3d offset = {500000, 5400000, -20};
-  bool extra =
-      false;       ///< an 'area' of uint16 in units of 1 cm2, after two bytes without a meaning, and an 'id' of uint32
-  int points = 0;  ///< announced beyond those there are
-  std::size_t withheld = 0;               ///< of each so many points the first is withheld; 0: none
-  bool normals = false;                   ///< upright ones, after the others
-  std::string normal_name = "n%";         ///< with the axis in place of %
-  std::vector<std::string> records = {};  ///< further ones, with their heads
+  bool extra = false;  ///< true: an 'area' of uint16 in cm2, after two bytes without a meaning, and an 'id' of uint32
+  int points = 0;      ///< announced points beyond those there are
+  std::size_t withheld = 0;               ///< the first of so many points is withheld; 0: none
+  bool normals = false;                   ///< true: upright normals after the others
+  std::string normal_name = "n%";         ///< name with the axis in place of %
+  std::vector<std::string> records = {};  ///< further records, with their heads
   std::function<int(std::size_t)> class_of = [](std::size_t i) { return i % 2 ? 2 : 0; };
   std::string extended = "";  ///< a record behind the points, with its head
-  int pair_type = 0;          ///< of extra bytes 'pair', before the normals; 0: none
+  int pair_type = 0;          ///< type of the extra bytes 'pair', before the normals; 0: none
 
   std::size_t pair_bytes() const {
     constexpr std::array<std::size_t, 10> sizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
@@ -97,7 +96,7 @@ struct LasFile {
                     bytes_of(static_cast<std::int32_t>(std::lround((places[i] - offset)[axis] / scale))));
       // Up to format 5 the upper bits of the class are flags.
       row[format < 6 ? 15 : 16] = static_cast<char>(class_of(i) | (format < 6 ? 0x20 : 0));
-      // A synthetic one, as above, is none that is withheld.
+      // A synthetic point, as above, is not withheld.
       if (format >= 6) row[15] = 1;
       if (withheld > 0 && i % withheld == 0) row[15] = static_cast<char>(row[15] | (format < 6 ? 0x80 : 4));
       if (extra) {

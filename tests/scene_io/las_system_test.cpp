@@ -33,7 +33,7 @@ std::string compound_wkt(const std::string& plane, const std::string& height, co
 const std::string metre = R"(UNIT["metre",1])", us_ft = R"(UNIT["US survey foot",0.304800609601219])",
                   ft = R"(UNIT["foot",0.3048])", km = R"(UNIT["kilometre",1000])";
 
-/// Keys of a GeoTIFF, each with one number.
+/// Returns the keys of a GeoTIFF, each with one number.
 std::vector<std::string> geo_keys(const std::vector<std::pair<int, int>>& keys) {
   const auto word = [](int value) { return bytes_of(static_cast<std::uint16_t>(value)); };
   std::string body = word(1) + word(1) + word(0) + word(static_cast<int>(keys.size()));
@@ -155,7 +155,7 @@ TEST(LasSystem, degrees_are_refused_in_any_record_with_the_zone_to_project_to) {
   }
 }
 
-// What the message proposes, on the places as text.
+// Run the command that the message proposes, on the places as text.
 TEST(LasSystem, degrees_are_projected_by_the_proposed_command) {
   if (std::system("command -v gdaltransform >/dev/null") != 0) GTEST_SKIP() << "gdal-bin is not installed";
   const std::vector<Eigen::Vector3d> degrees = {{7.9, 54.1, -20}, {7.9001, 54.1, -20}, {7.9, 54.1001, -21}};

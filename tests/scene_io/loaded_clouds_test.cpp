@@ -5,7 +5,7 @@
 
 namespace insonify::loaded_clouds {
 
-/// Rows "x y z nx ny nz" of a plate at x = 5 + east that faces the head, 2 m square.
+/// Returns rows "x y z nx ny nz" of a plate at x = 5 + east that faces the head, 2 m square.
 std::string plate_rows(int n, double east = 0, double north = 0) {
   std::ostringstream text;
   text.precision(12);

@@ -180,7 +180,7 @@ TEST(MeshReaders, elements_of_a_ply_may_stand_in_any_order) {
   }
 }
 
-/// The corners of the triangles, from the lowest to the highest.
+/// Returns the box of the triangles.
 Bounds bounds_of_mesh(const LoadedScene& loaded) {
   Bounds box{Eigen::Vector3d::Constant(1e9), Eigen::Vector3d::Constant(-1e9)};
   for (std::size_t t = 0; t < loaded.mesh->triangle.size(); ++t)

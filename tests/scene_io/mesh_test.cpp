@@ -13,7 +13,8 @@
 
 namespace {
 
-/// A box of 0.5 x 1 x 1 m, 8 vertices and 12 triangles, wound outwards; `flip` reverses triangle 0, `inside` all.
+/// Returns a box of 0.5 x 1 x 1 m, 8 vertices and 12 triangles, wound outwards; `flip` reverses triangle 0, `inside`
+/// all.
 std::string cube_obj(bool flip = false, bool inside = false) {
   std::string text;
   for (int i = 0; i < 8; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What smoothing makes of rasters and clouds with objects on them: it takes noise away, and leaves all else where the file has it.
+// Smooths rasters and clouds with objects on them: noise goes, and all else stays where the file has it.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,19 +20,19 @@ namespace {
 struct Drawing {
   double noise = 0;    // standard deviation of the heights [m]
   double cell = 0.25;  // [m]
-  double off = 0;      // of the points off their grid, in cells to either side
+  double off = 0;      // largest distance of points from their grid, in cells to either side
   Eigen::Vector2d slope = {0, 0};
   double level = -10;  // [m]
   int side = 70;       // cells
   unsigned seed = 1;
 };
 
-// Height over the sloping bed [m] of a place [cells].
+// Height over the sloping bed [m] at a place [cells].
 using Shape = std::function<double(const Eigen::Vector2d&)>;
 
 struct Heights {
-  std::vector<Eigen::Vector3d> file;  // what the file says, noise and all
-  std::vector<double> truth, over;    // without noise; over the bed
+  std::vector<Eigen::Vector3d> file;  // heights in the file, with noise
+  std::vector<double> truth, over;    // heights without noise; over the bed
 };
 
 Heights draw_heights(const Drawing& d, const Shape& shape) {
@@ -50,7 +50,7 @@ Heights draw_heights(const Drawing& d, const Shape& shape) {
   return heights;
 }
 
-// Boxes, turned or not, and pits: 1 to 16 cells wide, 0.2 to 8 m high or deep.
+// Returns boxes, turned or not, and pits: 1 to 16 cells wide, 0.2 to 8 m high or deep.
 Shape objects(int count, const Drawing& d, double lowest = 0.2, double highest = 8) {
   struct Box {
     Eigen::Vector2d middle, half;
@@ -76,7 +76,7 @@ Shape objects(int count, const Drawing& d, double lowest = 0.2, double highest =
   };
 }
 
-// How far the surface is from each height of the file [m].
+// Returns the distance of the surface from each height of the file [m].
 std::vector<double> moved(const LoadedScene& loaded, const Heights& heights, double unit = 1) {
   const std::vector<Eigen::Vector3f>& points = loaded.mesh ? loaded.mesh->point : loaded.scene.point;
   EXPECT_EQ(points.size(), heights.file.size());
@@ -92,7 +92,7 @@ double farthest(const std::vector<double>& moved) {
   return most;
 }
 
-// Root mean square of what is off the true heights over that in the file, where the bed is bare for five cells around.
+// Returns the rms error of the heights over that in the file, where the bed is bare for five cells around.
 double left_of_noise(const std::vector<double>& moved, const Heights& heights, const Drawing& d) {
   double before = 0, after = 0;
   for (int j = 5; j < d.side - 5; ++j)
@@ -119,7 +119,7 @@ LoadedScene load_heights(const Heights& heights, const LoadOptions& options = {}
   return load_scene(own_file("heights.xyz", text_of(heights.file)), options);
 }
 
-// No height is moved by more than noise may have moved it.
+// Expects that no height is moved by more than noise may have moved it.
 void expect_kept(const Drawing& d, const Shape& shape) {
   const Heights heights = draw_heights(d, shape);
   EXPECT_LE(farthest(moved(load_heights(heights), heights)), 3 * d.noise + 0.001);

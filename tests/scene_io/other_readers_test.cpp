@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds of clouds and meshes, and areas of meshes, against a reader of each format in Python.
+// Compares bounds of clouds and meshes, and areas of meshes, with a reader of each format in Python.
 #include "scene_io/bounds_of_file.hpp"
 #include "scene_io/gltf_maker.hpp"
 #include "scene_io/las_file.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Flat polygons with corners of their own, on slopes of their own; every third one of five corners or more is concave.
+/// Returns flat polygons with corners and slopes of their own; every third one of five corners or more is concave.
 std::vector<std::vector<Vector3d>> polygons_of(std::size_t most_corners, const Vector3d& origin = {300, 200, -20}) {
   std::vector<std::vector<Vector3d>> polygons;
   for (std::size_t p = 0; p < 40; ++p) {
@@ -29,10 +29,10 @@ std::vector<std::vector<Vector3d>> polygons_of(std::size_t most_corners, const V
 
 struct Text {
   std::ostringstream points{}, faces{};
-  std::size_t count = 0, numbers = 0;  ///< of points, and of the numbers of faces
+  std::size_t count = 0, numbers = 0;  ///< numbers of points, and of the indices of faces
 };
 
-/// Points and faces as lines; `before` stands before each, corners count from `first`.
+/// Returns points and faces as lines with a word before each; corners count from `first`.
 Text lines_of(const std::vector<std::vector<Vector3d>>& polygons, const char* before_point, const char* before_face,
               std::size_t first) {
   Text text;
@@ -49,7 +49,7 @@ Text lines_of(const std::vector<std::vector<Vector3d>>& polygons, const char* be
   return text;
 }
 
-/// A few hundred points of a bed, single precision.
+/// Returns a few hundred points of a bed, single precision.
 std::vector<Eigen::Vector3f> cloud_points() {
   std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 400; ++i)

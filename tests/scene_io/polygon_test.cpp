@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Polygons of meshes: their triangles cover them once, whatever their shape and the format of the file.
+// Tests polygons of meshes: their triangles cover them once, whatever their shape and the format of the file.
 #include <numeric>
 #include <random>
 
@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Polygon = std::vector<Vector2d>;
 
-/// The area by Gauss's formula, which counts what lies to the left of the edges as positive.
+/// Returns the area by Gauss's formula, which counts areas to the left of the edges as positive.
 double area_within(const Polygon& polygon) {
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -21,7 +21,7 @@ double area_within(const Polygon& polygon) {
   return std::abs(twice) / 2;
 }
 
-/// Whether a ray from the point crosses the edges an odd number of times.
+/// Returns true if a ray from the point crosses the edges an odd number of times.
 bool is_inside(const Vector2d& p, const Polygon& polygon) {
   bool inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -32,7 +32,7 @@ bool is_inside(const Vector2d& p, const Polygon& polygon) {
   return inside;
 }
 
-/// Corners of polygons, one after another, in a plane of some slope.
+/// Returns the corners of polygons, one after another, in a plane of some slope.
 std::vector<Vector3d> corners_in_space(const std::vector<Polygon>& polygons, double slope = 0.25) {
   std::vector<Vector3d> corners;
   for (const Polygon& polygon : polygons)
@@ -40,7 +40,7 @@ std::vector<Vector3d> corners_in_space(const std::vector<Polygon>& polygons, dou
   return corners;
 }
 
-/// A mesh of these polygons in a format.
+/// Returns a mesh of these polygons in a format.
 std::string mesh_text(const std::string& extension, const std::vector<Polygon>& polygons, double slope = 0.25) {
   std::ostringstream points, faces;
   points.precision(17);
@@ -70,7 +70,7 @@ LoadedScene load_polygons(const std::vector<Polygon>& polygons, const std::strin
   return load_scene(own_file("a" + extension, mesh_text(extension, polygons, slope)));
 }
 
-/// The mesh has the area of the polygons; with `each`, no triangle lies outside them.
+/// Expects the mesh to have the area of the polygons; with `each`, no triangle lies outside them.
 void expect_covered(const std::vector<Polygon>& polygons, const LoadedScene& loaded, double slope = 0.25,
                     bool each = true) {
   ASSERT_TRUE(loaded.mesh);
@@ -87,7 +87,7 @@ void expect_covered(const std::vector<Polygon>& polygons, const LoadedScene& loa
   }
 }
 
-/// A tower of teeth, each of four corners.
+/// Returns a tower of teeth, each of four corners.
 Polygon comb(int teeth) {
   Polygon corners = {{0.0, -1.0}, {1.0 * teeth, -1.0}};
   for (int i = teeth - 1; i >= 0; --i)
@@ -95,7 +95,7 @@ Polygon comb(int teeth) {
   return corners;
 }
 
-/// A star of rays of random length about the origin.
+/// Returns a star of rays of random length about the origin.
 Polygon star(int rays, std::mt19937& random) {
   Polygon corners;
   std::uniform_real_distribution<double> length(1, 2);
@@ -111,7 +111,7 @@ bool cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector
   return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }
 
-/// Random points in a random order, in which crossing edges are turned round until none is left.
+/// Returns random points in a random order, in which crossing edges are reversed until none is left.
 Polygon tangle_free(int n, std::mt19937& random) {
   std::uniform_real_distribution<double> place(0, 10);
   Polygon p;

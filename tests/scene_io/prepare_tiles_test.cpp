@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Options that read even small clouds in batches.
+/// Returns options that read even small clouds in batches.
 PrepareTilesOptions in_batches() {
   PrepareTilesOptions options;
   options.whole_points = 0;
@@ -24,7 +24,7 @@ SceneCloud load_all(const std::string& path) {
   return tiled.load(tiled.select_all());
 }
 
-/// Prepares `cloud` in batches: what stands in the tiles is what load_scene makes of the file.
+/// Prepares `cloud` in batches. Expects in the tiles what load_scene makes of the file.
 PreparedTiles expect_as_loaded(const std::string& cloud, PrepareTilesOptions options = in_batches()) {
   const PreparedTiles prepared = prepare_tiles(cloud, own_path("out.tiles"), options);
   EXPECT_TRUE(prepared.streamed);
@@ -81,7 +81,7 @@ TEST(PrepareTiles, a_prepared_ply_or_pcd_comes_back_bit_by_bit) {
   EXPECT_EQ(prepared.tiles.surfels, scene.size());
 }
 
-// Whether a column changes a ping is found out, not assumed.
+// Every column that changes a ping is found by pinging.
 TEST(PrepareTiles, a_ping_of_the_tiles_has_the_bytes_of_that_of_the_cloud_for_every_column) {
   const SonarHead head = small_head({.max_range = 40});
   const auto samples = [&](const SceneCloud& scene) {

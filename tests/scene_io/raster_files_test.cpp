@@ -14,7 +14,7 @@ namespace {
 constexpr int raster_columns = 30, raster_rows = 20;
 constexpr double west = 565000, north = 5995000, raster_cell = 0.5;
 
-/// z = -20 + 0.5 x - 0.25 y, x to the east and y to the north of the south-west corner.
+/// Returns z = -20 + 0.5 x - 0.25 y, x to the east and y to the north of the south-west corner.
 double raster_height(int column, int row) {
   return -20 + 0.5 * raster_cell * (column + 0.5) - 0.25 * raster_cell * (raster_rows - row - 0.5);
 }
@@ -24,12 +24,12 @@ struct RasterKind {
   const char* file;
   int epsg = 32632;
   double no_value = -9999;
-  bool hole = true;  ///< cell (column 4, row 3) has no height
+  bool hole = true;  ///< true: cell (column 4, row 3) has no height
   bool nothing = false;
   int columns = raster_columns, rows = raster_rows;
 };
 
-/// Writes the plane with one of GDAL's own writers; empty if this GDAL lacks it.
+/// Writes the plane with one of GDAL's own writers. Returns "" if this GDAL lacks it.
 std::string raster_file(const RasterKind& kind) {
   GDALAllRegister();
   const GDALDriverH driver = GDALGetDriverByName(kind.driver), memory = GDALGetDriverByName("MEM");
@@ -130,11 +130,11 @@ TEST(RasterFiles, in_degrees_or_without_heights_are_refused) {
 
 namespace {
 
-/// All numbers of the scene's points.
+/// Returns all points of the scene.
 std::vector<Eigen::Vector3f> points_of_raster(const std::string& path) { return load_scene(path).scene.point; }
 
-/// Every beginning of a file, in steps, is refused in one line that names it, or has lost nothing but padding.
-/// False if this GDAL cannot write such a file.
+/// Expects every beginning of a file, in steps, to be refused in one line that names it, or to lack only padding.
+/// Returns false if this GDAL cannot write such a file.
 bool expect_no_part_passes(const RasterKind& kind, std::size_t step) {
   const std::string path = raster_file(kind);
   if (path.empty()) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What rasters say about holes, units, signs and bands. Files are written by GDAL; right values follow from bed_height.
+// Tests holes, units, signs and bands of rasters. Files are written by GDAL; right values follow from bed_height.
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 constexpr int wide = 24, deep = 16;
 constexpr double west_edge = 600000, north_edge = 6000000, cell_size = 0.5;
 
-/// Height of a cell, as numbers of the file.
+/// Returns the height of a cell, in numbers of the file.
 double bed_height(int column, int row) { return -20 + 0.1 * column + 0.05 * row; }
 
 bool in_hole(int column, int row) { return column >= 5 && column < 9 && row >= 3 && row < 7; }
@@ -30,7 +30,7 @@ constexpr std::size_t cells_with_height = wide * deep - 16;
 struct Band {
   std::string name{}, unit{};
   double factor = 1, mark = 0;  ///< the height is `factor` times bed_height; `mark` if not 0 stands in the hole
-  bool once = false;            ///< the mark stands in a single cell
+  bool once = false;            ///< true: the mark stands in a single cell
 };
 
 struct RasterFile {
@@ -38,10 +38,10 @@ struct RasterFile {
   std::vector<Band> bands{Band{}};
   std::string system{};  ///< such as "EPSG:32632"
   bool masked = false;
-  std::vector<std::string> options{};  ///< of the driver
+  std::vector<std::string> options{};  ///< options of the driver
 };
 
-/// Writes a raster by CreateCopy of one in memory.
+/// Writes a raster by CreateCopy from one in memory.
 std::string write_raster(const RasterFile& file) {
   GDALAllRegister();
   const GDALDatasetH memory =
@@ -155,7 +155,7 @@ LoadedScene load_as(const std::string& path, const AskedMeaning& asked = {}) {
   return insonify::load_scene(path, options);
 }
 
-/// The points with a height, all at `z_of(height of the bed)`.
+/// Expects so many points with a height, between the given limits.
 void expect_heights(const LoadedScene& loaded, std::size_t points, double from, double to) {
   const insonify::Bounds box = insonify::bounds(loaded.scene);
   EXPECT_EQ(loaded.scene.size(), points) << loaded.report.path;
@@ -332,7 +332,7 @@ TEST(RasterMeaning, is_told_by_info) {
   EXPECT_THAT(all, HasSubstr("system=EPSG:2227"));
 }
 
-/// The item of the meaning that says which numbers are valid.
+/// Returns the item of the meaning that lists valid numbers.
 std::string valid_numbers(const std::string& path) {
   for (const insonify::MeaningItem& item : insonify::describe_file(path).meaning)
     if (item.name == "valid") return item.value + " " + item.origin + " " + item.sentence;

@@ -22,7 +22,7 @@ LoadedScene loaded_from(const std::string& points, const LoadOptions& options = 
 }
 std::string raster() { return points_of(height_field({5, -3}, half_side, spacing, wave)); }
 
-// The points of `text`, of which `keep(row, column)` says which, moved by `change`.
+// Returns the points of `text` that `keep(row, column)` selects, moved by `change`.
 template <typename Keep, typename Change>
 std::string changed(const std::string& text, Keep&& keep, Change&& change) {
   std::istringstream in(text);

@@ -21,7 +21,7 @@ struct RefinedNode {
   float depth, uncertainty;
 };
 
-/// A plane by the distance from the south-west corner of the grid [m].
+/// Returns a plane by the distance from the south-west corner of the grid [m].
 double bag_height(double x, double y) { return -15 + 0.1 * x - 0.05 * y; }
 
 void add_number(hid_t object, const char* name, hid_t type, const void* value) {
@@ -73,7 +73,7 @@ void refine(const std::string& path) {
   H5Tclose(cell), H5Tclose(node), H5Fclose(file);
 }
 
-/// A coarse grid of GDAL's own writer; empty if this GDAL has none.
+/// Writes a coarse grid by GDAL's own writer. Returns "" if this GDAL has none.
 std::string coarse_bag() {
   GDALAllRegister();
   const GDALDriverH driver = GDALGetDriverByName("BAG");

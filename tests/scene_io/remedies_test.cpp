@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What messages about meshes propose is done here as they say, and works.
+// Does what messages about meshes propose, and expects it to work.
 #include <filesystem>
 #include <regex>
 
@@ -30,7 +30,7 @@ std::string message_of(const std::string& path) {
   return "read";
 }
 
-/// A box of 1 x 2 x 3 m as one cell.
+/// Returns a box of 1 x 2 x 3 m as one cell.
 vtkNew<vtkUnstructuredGrid> box_grid() {
   vtkNew<vtkPoints> points;
   for (int i = 0; i < 8; ++i)
@@ -51,7 +51,7 @@ std::string written(vtkDataObject* data, const std::string& name) {
   return own_path(name);
 }
 
-/// Runs the command at the end of a message in the folder of the test; false if Debian's Python has no VTK.
+/// Runs the command at the end of a message in the folder of the test. Returns false if Debian's Python has no VTK.
 bool ran(const std::string& message) {
   const std::size_t begin = message.find("/usr/bin/python3 ");
   EXPECT_NE(begin, message.npos) << message;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rough ground at grazing angles: pings of clouds drawn from generated beds against their triangles, facet by facet with an
-// exact walk of every line of sight. tests/benchmarks/accuracy/exact_height_field.cpp prints the same for larger ones.
+// Rough ground at grazing angles: pings of clouds drawn from generated beds against their triangles, facet by facet
+// with an exact walk of every line of sight. tests/benchmarks/accuracy/exact_height_field.cpp prints the same for
+// larger ones.
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -28,7 +29,7 @@ const SonarHead& head() {
   static const SonarHead made = small_head({.beams = 96, .min_range = 0.6, .max_range = 3.1});
   return made;
 }
-// 0.5 m above the bed; about 10 degrees of grazing at the far end.
+// Returns a pose 0.5 m above the bed, with about 10 degrees of grazing at the far end.
 Pose pose() { return pose_from_yaw_pitch_roll({-1.6, 0, 0.75}, 0, radians(12), 0); }
 
 const HeightField& bed() {
@@ -74,7 +75,8 @@ void expect_levels(const Grid<double>& found, const Grid<double>& wanted, double
   }
 }
 
-// Energy of surfels wrongly hidden less that of those wrongly shown, by bands, as shares of what is to be seen.
+// Returns the energy of surfels wrongly hidden less that of those wrongly shown, by band, as fractions of the visible
+// energy.
 Grid<double> net_hidden(const LoadedScene& loaded) {
   SimulationOptions options;
   options.sampling.scatterers_per_cell = 0;
@@ -108,7 +110,7 @@ std::string note_of(const LoadReport& report) {
   return all;
 }
 
-// The triangles of the bed as a file, which is no raster.
+// Writes the triangles of the bed as a file, which is no raster.
 std::string mesh_file(const HeightField& field) {
   std::ostringstream text;
   text.precision(9);
@@ -148,7 +150,8 @@ TEST(RoughGround, with_noise_is_heard_as_the_surface_behind_it) {
   expect_levels(energy(drawn({.jitter = 0.35, .noise = 0.25})), truth_of_bed(), 0.1, 0.3);
 }
 
-// The surface of noisy points is that of smoothed heights, which lose as much slope of what is finer than the noise as noise adds.
+// The surface of noisy points is that of smoothed heights, which lose as much slope of what is finer than the noise as
+// noise adds.
 TEST(RoughGround, with_noise_of_a_spacing_is_as_rough_as_it_is) {
   for (const DrawOptions& draw : {DrawOptions{.noise = 1}, DrawOptions{.jitter = 0.35, .noise = 1}})
     expect_levels(energy(drawn(draw)), truth_of_bed(), 0.1, 0.3);
@@ -196,7 +199,7 @@ TEST(RoughGround, sampled_evenly_is_heard_as_it_is) {
   expect_levels(energy(loaded), truth_of_bed(), 0.05, 0.15);
 }
 
-// What prepare writes is pinged as the file that it read, to the last bit.
+// A prepared file is pinged like the file that prepare read, to the last bit.
 TEST(RoughGround, is_the_same_after_it_was_prepared) {
   const std::pair<DrawOptions, std::string> cases[] = {
       {{}, "raster.ply"}, {{}, "raster.pcd"}, {{.jitter = 0.35}, "points.ply"}, {{.noise = 0.25}, "noisy.ply"}};
@@ -223,7 +226,8 @@ TEST(RoughGround, is_the_same_after_it_was_prepared) {
   EXPECT_FALSE(load_scene(own_path("mesh.pcd")).mesh);
 }
 
-// A prepared PLY says which points are neighbours, so that nothing is joined again; one without faces is joined as ever.
+// A prepared PLY says which points are neighbours, so that nothing is joined again; one without faces is joined as
+// ever.
 TEST(RoughGround, that_was_prepared_keeps_its_triangles_in_the_file) {
   const LoadedScene loaded = drawn({.jitter = 0.35});
   save_scene(own_path("bed.ply"), loaded);
@@ -242,9 +246,9 @@ TEST(RoughGround, that_was_prepared_keeps_its_triangles_in_the_file) {
   EXPECT_EQ(load_scene(own_path("points.ply")).mesh.value().triangle, loaded.mesh->triangle);
 }
 
-// Normals of a file that are smoother than the facets between its points, here those across two spacings, hold nothing that the
-// points do not: its triangles scatter with their own. Normals of what is finer than the spacing say how the surface scatters,
-// while where it stands and what it hides is that of its triangles.
+// Normals of a file that are smoother than the facets between its points, here those across two spacings, hold nothing
+// that the points do not: its triangles scatter with their own. Normals of what is finer than the spacing say how the
+// surface scatters, while where it stands and what it hides is that of its triangles.
 TEST(RoughGround, with_normals_of_its_own_has_them_unless_they_are_smoother_than_its_facets) {
   const std::string head = "x y z nx ny nz\n";
   std::string smooth = head, rippled = head, fallen = head;

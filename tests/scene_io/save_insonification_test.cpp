@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Three surfels; the middle one was never insonified.
+/// Returns three surfels; the middle one was never insonified.
 SceneCloud three_surfels(const Eigen::Vector3d& origin) {
   SceneCloud scene;
   scene.origin = origin;

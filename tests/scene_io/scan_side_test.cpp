@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From which side a cloud was seen, where nobody says so: rasters of heights look up, organised scans that fan out from the
-// origin of their coordinates were seen from there.
+// From which side a cloud was seen, where nobody says so: rasters of heights look up, organised scans that fan out from
+// the origin of their coordinates were seen from there.
 #include <cmath>
 
 #include "core/units.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Range of a wavy floor 2 m below the origin, to a wall 9 m ahead; NaN where nothing is.
+/// Returns the range of a wavy floor 2 m below the origin, to a wall 9 m ahead; NaN without a surface.
 double range_along(const Vector3d& d) {
   const auto below = [&](double r) {
     return r * d.z() < -2 + 0.25 * std::sin(2 * r * d.x()) * std::cos(1.7 * r * d.y());
@@ -25,7 +25,7 @@ double range_along(const Vector3d& d) {
   return std::nan("");
 }
 
-/// Text of an organised PCD of so many columns and rows; `viewpoint` is a line of the header, or empty.
+/// Returns the text of an organised PCD of so many columns and rows; `viewpoint` is a line of the header, or empty.
 template <typename Place>
 std::string organised(int columns, int rows, const std::string& viewpoint, Place&& place) {
   std::ostringstream text;
@@ -41,7 +41,8 @@ std::string organised(int columns, int rows, const std::string& viewpoint, Place
   return text.str();
 }
 
-/// A sonar at the origin that turns, with steps of 0.6 degrees, and a camera that looks 20 degrees down.
+/// Returns a direction of a turning sonar at the origin, with steps of 0.6 degrees, and of a camera that looks 20
+/// degrees down.
 Vector3d turning(int column, int row) {
   const Vector3d d = unit_vector({radians(0.6 * (column - 50)), radians(0.6 * (row - 60))});
   return range_along(d) * d;
@@ -147,7 +148,7 @@ TEST(ScanSide, of_a_raster_of_heights_is_the_upper_one) {
     const auto [a, b, c] = corners_of(*loaded.mesh, t);
     ASSERT_GT((b - a).cross(c - a).z(), 0);
   }
-  // As points, too; from below if the capture stood there.
+  // Sampled as points it is seen from above, too, or from below if the capture stood there.
   LoadOptions options;
   options.mesh_spacing = 0.04;
   EXPECT_TRUE(load_scene(path, options).scene.normals_oriented);

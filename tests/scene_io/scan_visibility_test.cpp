@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All of a scan was seen from where the scanner stood: pinged from there, it is seen whole.
+// Tests that a scan, seen whole by its scanner, is seen whole when pinged from there.
 #include <cmath>
 #include <random>
 
@@ -15,7 +15,7 @@ using namespace insonify;
 
 namespace {
 
-// A head looking along +x, 2 m above a floor: a wall, a sphere before it and a post.
+// Returns ranges of a wall, a sphere before it and a post, for a head that looks along +x, 2 m above a floor.
 double true_range(const Eigen::Vector3d& d) {
   double range = d.z() < 0 ? -2 / d.z() : 1e9;
   range = std::min(range, 9 / d.x());
@@ -33,7 +33,7 @@ struct Scan {
   std::size_t points = 0;
 };
 
-// 0.5 degrees apart; quantum: steps of the range [m].
+// Returns a scan with steps of 0.5 degrees; quantum: steps of the range [m].
 Scan scan(double noise, double quantum = 0) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;

@@ -68,7 +68,7 @@ TEST(Materials, an_unknown_field_is_refused_with_the_fields_there_are) {
   EXPECT_EQ(load_scene(path, options).scene.size(), 3u);
 }
 
-/// Below 80 mud, from 80 up to 200 weed.
+/// Returns intervals: mud below 80, weed from 80 up to 200.
 LoadOptions two_intervals() {
   LoadOptions options;
   options.materials = {{"rock", 0.1}, {"mud", 0.01}, {"weed", 0.02}};

@@ -6,7 +6,7 @@
 
 namespace insonify {
 
-/// Bytes of a number, most significant first if `big`.
+/// Returns the bytes of a number, most significant first if `big`.
 template <typename T>
 std::string bytes_of(T value, bool big = false) {
   std::string bytes(sizeof(T), '\0');
@@ -15,7 +15,7 @@ std::string bytes_of(T value, bool big = false) {
   return bytes;
 }
 
-/// Text of a square plate of `side` x `side` points in z = `height`, `spacing` apart, from (x0, y0).
+/// Returns the text of a square plate of `side` x `side` points in z = `height`, `spacing` apart, from (x0, y0).
 inline std::string plate_text(int side, double spacing, double x0 = 0, double y0 = 0, double height = 0) {
   std::ostringstream text;
   text.precision(17);
@@ -25,14 +25,14 @@ inline std::string plate_text(int side, double spacing, double x0 = 0, double y0
   return text.str();
 }
 
-/// Sum of the areas of the triangles of a mesh [m^2].
+/// Returns the sum of the areas of the triangles of a mesh [m^2].
 inline double area_of_mesh(const LoadedScene& loaded) {
   double sum = 0;
   for (std::size_t t = 0; t < loaded.mesh->triangle.size(); ++t) sum += area_of(corners_of(*loaded.mesh, t));
   return sum;
 }
 
-/// What a caller says of one item of a file's meaning.
+/// Returns a caller's statement about one item of a file's meaning.
 inline AskedMeaning asked_meaning(std::string MeaningText::*item, const std::string& text) {
   MeaningText said;
   said.*item = text;

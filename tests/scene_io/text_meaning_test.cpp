@@ -8,7 +8,7 @@
 
 namespace {
 
-/// Places of a bed at -12 m and below [m], exact in six decimals.
+/// Returns places of a bed at -12 m and below [m], exact in six decimals.
 std::vector<Eigen::Vector3d> survey_bed() {
   std::vector<Eigen::Vector3d> all;
   for (int i = 0; i < 64; ++i)
@@ -16,11 +16,11 @@ std::vector<Eigen::Vector3d> survey_bed() {
   return all;
 }
 
-/// How a program writes the bed.
+/// A program's way to write the bed.
 struct Spelling {
   std::string heading, delimiter = ",";
   Eigen::Vector3d factor = {1, 1, 1};   ///< units of the file per metre; below 0 for depths
-  std::array<int, 3> axis = {0, 1, 2};  ///< of each column
+  std::array<int, 3> axis = {0, 1, 2};  ///< axis of each column
   char decimal = '.';
   std::string behind = "", quote = "", sign = "";
 };

@@ -17,7 +17,7 @@ using namespace insonify;
 
 namespace {
 
-// Waves from 0.16 to 1.6 m in all directions, slopes of 25 degrees in the mean.
+// Returns waves from 0.16 to 1.6 m in all directions, slopes of 25 degrees in the mean.
 HeightField rough_bed() {
   struct Wave {
     double kx, ky, phase, height;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which surfels made a pixel, through the whole signal path.
+// Tests the surfels that made a pixel, through the whole signal path.
 #include <set>
 
 #include "returns/coverage.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 const SonarHead contributing_head = small_head({.beams = 32, .field_of_view_deg = 50, .max_range = 18});
 
-/// A level plane 3 m below the contributing_head, one material to port (y > 0), another to starboard.
+/// Returns a level plane 3 m below the contributing_head, one material to port (y > 0), another to starboard.
 SceneCloud two_materials() {
   SceneCloud scene = make_built_in_scene("plane", {.points = 40000, .size = {30, 30}});
   scene.materials = {{"mud", 0.01}, {"rock", 0.01}};

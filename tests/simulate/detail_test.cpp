@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pings of scenes whose surfels are merged as far as the detail_head resolves them (E137), against those of all surfels.
+// Compares pings of scenes whose surfels are merged up to the detail_head's resolution (E137) with those of all
+// surfels.
 #include <numeric>
 #include <random>
 
@@ -75,8 +76,8 @@ TEST(Detail, keeps_shadows_dark_and_their_edges_in_place) {
   EXPECT_LT(50 * differ, both);
 }
 
-// Nodes are four cells of range wide there, and a node is seen whole or not at all. If nodes hid as widely as surfels do,
-// shadows would be 1.1 cells longer.
+// Nodes are four cells of range wide there, and a node is seen whole or not at all. If nodes hid as widely as surfels
+// do, shadows would be 1.1 cells longer.
 TEST(Detail, leaves_edges_of_shadows_where_they_are) {
   const std::vector<double> off = shadow_edge_errors({.detail_width = usual_detail_width}, true);
   ASSERT_GT(off.size(), 100U);
@@ -113,7 +114,7 @@ TEST(Detail, keeps_the_levels_behind_a_fence) {
   const Grid<double> exact = levels(scene, false), sharp = levels(scene, true);
   EXPECT_LT(difference(sharp, exact).second, 0.001);
   EXPECT_LT(std::abs(worst_band(sharp, exact)), 0.1);
-  // Of a large scene without noise, silhouettes stay coarse.
+  // In a large scene without noise, silhouettes stay coarse.
   scene.part_of = whole_of(scene);
   scene.part_of->surfels = 1 << 20;
   EXPECT_GT(difference(levels(scene, true), exact).second, 0.004);

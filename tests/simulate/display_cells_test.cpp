@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Display cells of a ping (E180): drawn ones against means of samples, and what becomes of the plan and the options.
+// Tests display cells of a ping (E180): drawn ones against means of samples, and their effect on plan and options.
 #include "returns/looks.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "simulate/plan_ping.hpp"
@@ -23,7 +23,7 @@ const SceneCloud& seabed() {
   return scene;
 }
 
-/// Tilted in all three angles, above a plane at z = 0.
+/// Returns a pose tilted in all three angles, above a plane at z = 0.
 Pose tilted(double aside = 0) { return pose_from_yaw_pitch_roll({-5, aside, 3}, 0.1, 0.35, -0.12); }
 
 SimulationOptions display(bool phases, std::uint64_t seed = 1) {
@@ -66,7 +66,7 @@ const Moments& averaged() {
   return m;
 }
 
-/// Correlation of two images relative to what is usual, over cells of the bed.
+/// Returns the correlation of two images relative to `usual`, over cells of the bed.
 double correlation(const Grid<double>& a, const Grid<double>& b, const Grid<double>& usual) {
   double ab = 0, aa = 0, bb = 0;
   for (Eigen::Index i = 0; i < a.size(); ++i) {
@@ -183,7 +183,7 @@ TEST(DisplayPing, of_few_samples_is_formed_as_well_as_a_display_shows) {
   };
   EXPECT_EQ(decided(display(false)).sampling.scatterers_per_cell, 3);
   EXPECT_EQ(decided(display(false)).synthesis.tolerance, 1e-3);
-  // What is asked for stands.
+  // Settings of the caller stay.
   EXPECT_EQ(decided(display(true)).sampling.scatterers_per_cell, SamplingOptions{}.scatterers_per_cell);
   EXPECT_EQ(decided(display(true)).synthesis.tolerance, SynthesisSettings{}.tolerance);
   SimulationOptions asked = display(false);

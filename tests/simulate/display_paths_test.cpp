@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Display cells of echoes by way of other surfaces (E190) and their layers, against means of samples.
+// Compares display cells of echoes by way of other surfaces (E190), and their layers, with means of samples.
 #include "core/random.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene/surface_rays.hpp"
@@ -31,7 +31,7 @@ struct Place {
     o.seed = seed, o.synthesis.phases = phases;
     return simulate_event(scene, head, {.world_from_head = pose}, environment, o);
   }
-  /// Mean intensity of a layer over `seeds`.
+  /// Returns the mean intensity of a layer over `seeds`.
   Grid<double> layer(const std::string& name, bool phases, int seeds) const {
     Grid<double> mean = Grid<double>::Zero(24, cells);
     for (int seed = 1; seed <= seeds; ++seed) {
@@ -44,7 +44,7 @@ struct Place {
   }
 };
 
-/// A free surface a metre above the head: paths by it are nearly as loud as direct ones.
+/// Returns a free surface a metre above the head: paths by it are nearly as loud as direct ones.
 Place below_a_surface() {
   Place place;
   place.environment.surface = SeaSurface{4, 1e-4};

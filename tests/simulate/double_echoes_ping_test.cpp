@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Echoes by way of two surfaces in a ping: layer, plan, contributors, returns.
+// Tests echoes by way of two surfaces in a ping: layer, plan, contributors, returns.
 #include "core/random.hpp"
 #include "scene/surface_rays.hpp"
 #include "simulate/plan_ping.hpp"
@@ -13,7 +13,7 @@ namespace {
 const SmallSonar corner_sonar{
     .beams = 32, .field_of_view_deg = 40, .elevation_width_deg = 40, .max_range = 9, .source_level_db = 200};
 
-/// A bed of 3 m, and a wall that stands on its far end, 6 m ahead of a head 1 m above the bed.
+/// Returns a bed of 3 m, and a wall that stands on its far end, 6 m ahead of a head 1 m above the bed.
 SceneCloud bed_and_wall(double mu) {
   constexpr int per_side = 60;
   SceneCloud scene;
@@ -115,7 +115,7 @@ TEST_F(DoubleEchoesInAPing, are_named_by_contributors_and_returns) {
 
 namespace {
 
-/// Sound that is slower below the head, by so much over the 1.5 m down to the bed.
+/// Returns water whose sound is slower below the head, by so much over the 1.5 m down to the bed.
 Environment slower_below(double by) {
   Environment water;
   water.water_level = 5;

@@ -36,7 +36,7 @@ Transmission sent_by(const SonarHead& head) {
   return {head.pulse, medium, with_patterns(options, head)};
 }
 
-// Energy in a beam [Pa^2].
+// Returns the energy in a beam [Pa^2].
 double energy(const Echoes& echoes, const SonarHead& head, std::size_t beam) {
   const ResponseTable response(head.array, 1500 / head.pulse.centre_frequency);
   const double u = std::sin(head.fan.azimuth[beam]);
@@ -51,7 +51,7 @@ void expect_alike(const Echoes& echoes, const Echoes& all, const SonarHead& head
     EXPECT_NEAR(db_from_power(energy(echoes, head, beam) / energy(all, head, beam)), 0, 0.2) << "beam " << beam;
 }
 
-// Beams that fill the half-circle, of the same widths.
+// Returns beams that fill the half-circle, of the same widths.
 BeamFan half_circle(const SonarHead& head) { return make_fan(180, pi, head.fan.beam_width, head.fan.elevation_width); }
 
 }  // namespace
@@ -85,8 +85,8 @@ TEST(EdgeBeams, receive_the_reverberation_of_all_directions) {
   }
 }
 
-// Over the upper half of a band of a quarter of the carrier, elements of half a wavelength have further main lobes for beams
-// at the edge: what the water adds there, against the integral over directions and band, of the same speckle.
+// Over the upper half of a band of a quarter of the carrier, elements of half a wavelength have further main lobes for
+// beams at the edge: what the water adds there, against the integral over directions and band, of the same speckle.
 TEST(EdgeBeams, of_a_wide_band_hear_all_the_water_that_further_lobes_do) {
   SonarSpec spec;
   spec.centre_frequency = 750e3, spec.bandwidth = 187.5e3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expected levels without speckle, how well finitely many points give them, and where the scan has holes.
+// Tests expected levels without speckle, their error with finitely many points, and holes of the scan.
 #include "scene/built_in_scenes.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
@@ -15,7 +15,7 @@ const SonarHead head = small_head({.beams = 12,
                                    .max_range = 8,
                                    .source_level_db = 200});
 
-/// Between surface and bottom, in water that scatters.
+/// Returns water that scatters, between surface and bottom.
 Environment loud_sea() {
   Environment e;
   e.surface = SeaSurface{3, 1e-4, -35};
@@ -90,7 +90,7 @@ TEST(HoleMask, of_a_ping_marks_what_the_scan_left_out) {
   const SceneCloud whole = make_built_in_scene("plane", {.points = 60000, .size = {14, 10}});
   const double gap = 4.5 * std::sqrt(14.0 * 10 / 60000);
   scene.materials = whole.materials;
-  constexpr double middle = 0.8;  // of the hole, on the axis of the fan
+  constexpr double middle = 0.8;  // fraction of the hole, on the axis of the fan
   for (std::size_t i = 0; i < whole.size(); ++i)
     if (std::hypot(whole.point[i].x() - middle, whole.point[i].y()) > gap)
       add_surfel(scene, whole.point[i].cast<double>(), whole.normal[i].cast<double>(), whole.area[i]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The water at the head's own depth: sound speed, absorption and rays of each ping follow from where its head is.
+// Tests the water at the head's own depth: sound speed, absorption and rays of each ping follow from the head's
+// position.
 #include "core/units.hpp"
 #include "simulate/plan_ping.hpp"
 #include "simulate/simulate_ping.hpp"
@@ -8,7 +9,7 @@
 
 namespace {
 
-/// A warm layer over cold water, under a surface at `height`.
+/// Returns a warm layer over cold water, under a surface at `height`.
 Environment layered_sea(double height = 0) {
   Environment sea;
   sea.water.latitude_deg = -33;
@@ -17,7 +18,8 @@ Environment layered_sea(double height = 0) {
   return sea;
 }
 
-/// Horizontal way and travel time of a ray of Snell's invariant p [s/m] down through a layer: Simpson's rule over depth.
+/// Returns horizontal way and travel time of a ray of Snell's invariant p [s/m] down a layer: Simpson's rule over
+/// depth.
 Eigen::Vector2d through_layer(const SoundSpeedProfile& profile, double from, double to, double p) {
   constexpr int steps = 2000;
   const double step = (to - from) / steps;
@@ -29,7 +31,7 @@ Eigen::Vector2d through_layer(const SoundSpeedProfile& profile, double from, dou
   return sum * step / 3;
 }
 
-/// One-way travel time of the ray down between two depths so far apart, its invariant found by bisection.
+/// Returns the one-way travel time of the ray between two depths so far apart; its invariant is found by bisection.
 double traced_time(const SoundSpeedProfile& profile, double from, double to, double horizontal) {
   std::vector<double> edges{from, to};
   for (const double depth : profile.depth)
@@ -49,7 +51,7 @@ double traced_time(const SoundSpeedProfile& profile, double from, double to, dou
   return found[1];
 }
 
-/// One small patch 12 m ahead of the head, down its axis.
+/// Returns one small patch 12 m ahead of the head, down its axis.
 SceneCloud patch_ahead(const Pose& head) {
   SceneCloud scene;
   scene.materials = {Material{}};
@@ -58,13 +60,13 @@ SceneCloud patch_ahead(const Pose& head) {
   return scene;
 }
 
-/// No echoes by way of the surface, and a patch is one scatterer.
+/// Options without echoes by way of the surface, where a patch is one scatterer.
 const SimulationOptions one_by_one{.amplitude = SurfaceAmplitude::coherent,
                                    .sampling = {.scatterers_per_cell = 0},
                                    .effects = {.multipath = Choice::never, .refraction = Choice::always},
                                    .outputs = {.scatterers = true}};
 
-/// Tilted heads of a dive; the last one is close below the surface.
+/// Returns tilted heads of a dive; the last one is close below the surface.
 std::vector<Pose> dive(double surface) {
   const auto at = [&](double depth, double yaw, double pitch, double roll) {
     return pose_from_yaw_pitch_roll({300 + depth, -40, surface - depth}, radians(yaw), radians(pitch), radians(roll));
@@ -106,7 +108,7 @@ TEST(HeadWater, is_that_of_its_own_depth_in_every_ping_of_a_dive) {
       result.ping.pressure.abs().maxCoeff(&beam, &bin);
       EXPECT_NEAR(head.gate.centre(static_cast<std::size_t>(bin)), range, 0.51 * head.gate.bin_size);
 
-      // What forms beams is kept from ping to ping, and changes no byte.
+      // The tables for beams are kept from ping to ping, and change no byte.
       EXPECT_TRUE((result.ping.pressure == simulate_ping(scene, head, pose, sea, one_by_one).ping.pressure).all());
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Objects that are kept by key: made once, side by side, and dropped in the order of their use.
+// Tests objects that are kept by key: made once, side by side, and dropped in the order of their use.
 #include <latch>
 #include <thread>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kinds of echo that make up a ping: they add up to it, and none depends on another.
+// Tests the kinds of echo that make up a ping: they add up to it, and none depends on another.
 #include "acoustics/sound_speed_profile.hpp"
 #include "returns/compare.hpp"
 #include "scene/built_in_scenes.hpp"
@@ -15,7 +15,7 @@ const std::vector<std::string> all_layers = {"direct", "multipath", "volume", "s
 const SmallSonar sonar{
     .beams = 16, .field_of_view_deg = 30, .elevation_width_deg = 40, .max_range = 12, .source_level_db = 200};
 
-/// Everything there is to hear: a wall 5 m ahead between surface and bottom, water that scatters, wind, self noise.
+/// Returns all sources of sound: a wall 5 m ahead between surface and bottom, water that scatters, wind, self noise.
 Environment full_environment() {
   Environment e;
   e.surface = SeaSurface{3, 1e-4, -35};
@@ -62,7 +62,7 @@ bool same(const ComplexGridF& a, const ComplexGridF& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && (a == b).all();
 }
 
-/// Every layer of `changed` is that of the reference times its factor, by default 1 to the last bit.
+/// Expects every layer of `changed` to be the reference's times its factor, by default 1 to the last bit.
 void expect_scaled(const Case& changed, const std::map<std::string, double>& factors, const char* what) {
   const Layers layers = layers_of(changed.ping());
   ASSERT_EQ(layers.size(), all_layers.size()) << what;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mean levels against closed forms. Random amplitudes make single levels scatter; every tolerance states how much.
+// Compares mean levels with closed forms. Random amplitudes make single levels scatter; every tolerance states how
+// much.
 #include "acoustics/direct_echoes.hpp"
 #include "acoustics/surface_scattering.hpp"
 #include "scene/built_in_scenes.hpp"
@@ -10,7 +11,7 @@
 
 namespace {
 
-/// A head without an elevation pattern worth speaking of (sector over the whole half space) and a uniform array.
+/// Returns a head with a negligible elevation pattern (a sector over the whole half space) and a uniform array.
 SonarHead bottom_sonar(double min_range, double max_range) {
   SonarSpec s;
   s.name = "bottom";
@@ -42,7 +43,7 @@ SimulatedPing ping_plane(const SonarHead& head, double h, std::size_t points, co
   return simulate_ping(scene, head, pose_from_yaw_pitch_roll({0, 0, h}, 0, 0, 0), {}, options);
 }
 
-/// Mean level less the closed form over a strip of range around r [dB], all beams.
+/// Returns the mean level less the closed form over a strip of range around r [dB], all beams.
 double bottom_excess_db(const SimulatedPing& p, const SonarHead& head, double r, double h) {
   double excess = 0, samples = 0;
   for (std::size_t b = 0; b < head.fan.beams(); ++b) {
@@ -88,8 +89,8 @@ TEST(LevelLaws, level_does_not_depend_on_the_number_of_rays) {
   }
 }
 
-// Spreading, absorption and Lambert's law stand in the closed form above; what it cannot tell apart is changed here. The
-// elevation pattern falls steeply over the strip of ranges: 1 dB.
+// Spreading, absorption and Lambert's law stand in the closed form above; what it cannot tell apart is changed here.
+// The elevation pattern falls steeply over the strip of ranges: 1 dB.
 TEST(LevelLaws, source_level_and_elevation_pattern_move_the_level) {
   SonarHead head = bottom_sonar(4, 8);
   const SimulatedPing p = ping_plane(head, 3, 100000, {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one stage of the plan adds is compared with the same ping without it: no stage changes how the surfels of others are
+// Compares a ping with one stage of the plan with the ping without it: no stage changes how the surfels of others are
 // split, and with that their speckle.
 #include <map>
 
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// A fan, and a head of one beam, which hears all sides.
+/// Returns a fan, or a head of one beam, which receives from all sides.
 SonarHead head_of(std::size_t beams) {
   return small_head({.beams = beams, .field_of_view_deg = 40, .beam_width_deg = 2, .max_range = 14});
 }
@@ -30,7 +30,7 @@ const SceneCloud& small_harbour() {
   return scene;
 }
 
-/// All stages out that the budget decides.
+/// Returns options with all stages out that the budget decides.
 SimulationOptions bare() {
   SimulationOptions o;
   Environment e = sea();
@@ -91,7 +91,7 @@ TEST(LikeWithLike, direct_echoes_are_the_same_with_and_without_multipath) {
   }
 }
 
-// What bounces is split as in main lobes everywhere, since it may be heard there.
+// Bounced echoes are split as in main lobes everywhere, since main lobes may receive them.
 TEST(LikeWithLike, multipath_has_as_many_scatterers_as_main_lobes_ask_for) {
   const auto echoes = [](double per_cell) {
     SimulationOptions o = bare();

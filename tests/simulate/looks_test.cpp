@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The intensity of a display that averages (E71), against the laws of speckle; and what the pressure keeps.
+// Compares the intensity of a display that averages (E71) with the laws of speckle; and tests the pressure.
 #include <cmath>
 #include <complex>
 
@@ -60,7 +60,7 @@ Speckle speckle_of(int range, int pings) {
           std::sqrt(square / n - mean * mean) / mean};
 }
 
-/// Of the Gamma law of L looks: deviation of the level, 10 / ln 10 sqrt(trigamma(L)), and std / mean of the amplitude.
+/// Returns the level's deviation by the Gamma law of L looks, 10 / ln 10 sqrt(trigamma(L)).
 double gamma_deviation_db(double looks) {
   double trigamma = 0;
   for (int k = 0; k < 100000; ++k) trigamma += 1 / ((looks + k) * (looks + k));
@@ -89,8 +89,8 @@ TEST(Looks, of_four_pulses_halve_the_contrast_of_intensity) {
   EXPECT_NEAR(four.amplitude_contrast, gamma_contrast(4), 0.01);
 }
 
-// Amplitudes in bins as long as the pulse are correlated by 1/2: the intensity of two is 3/4 E1 + 1/4 E2, exponential and
-// independent. A recorded frame of an ARIS, 4.0 dB and 0.45, is between one look and these.
+// Amplitudes in bins as long as the pulse are correlated by 1/2: the intensity of two is 3/4 E1 + 1/4 E2, exponential
+// and independent. A recorded frame of an ARIS, 4.0 dB and 0.45, is between one look and these.
 TEST(Looks, of_two_bins_are_fewer_than_two) {
   ASSERT_NEAR(head.gate.bin_size, 0.44 * sound_speed(Water{}) / (2 * head.pulse.bandwidth), 1e-3);
   const Speckle two = speckle_of(2, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels of a big mesh under a narrow swath, sampled for the ping, against a fine cloud and a closed form.
+// Compares levels of a big mesh under a narrow swath, sampled for the ping, with a fine cloud and a closed form.
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ const SceneMesh& bed() {
   return mesh;
 }
 
-/// In the sector alone: what is open would be sampled, too.
+/// Samples the sector alone; stages left open would widen it.
 MeshSurfels surfels_for(SimulationOptions options = {}) {
   options.sampling.outer_elevations = options.sampling.outer_azimuths = Choice::never;
   const ResolvedPing resolved = resolve_ping(bed().whole, head, {pose}, {}, options);
@@ -50,7 +50,7 @@ SimulatedPing swath_ping(const SceneCloud& scene, SimulationOptions options = {}
   return simulate_ping(scene, head, pose, {}, options);
 }
 
-/// Energy of each beam over all bins [dB].
+/// Returns the energy of each beam over all bins [dB].
 Eigen::ArrayXd beam_levels_db(const Ping& p) {
   return 10 * p.pressure.cast<std::complex<double>>().abs2().rowwise().sum().log10();
 }
@@ -76,7 +76,7 @@ TEST(MeshPing, has_the_level_of_a_fine_cloud_in_every_beam) {
   EXPECT_LT(std::abs(mean.mean()), 0.02);
 }
 
-// What sampling the whole mesh evenly gives: too few surfels in every beam, and a note.
+// An even sampling of the whole mesh gives too few surfels in every beam, and a note.
 TEST(MeshPing, of_an_even_sampling_is_noted) {
   SceneCloud scene = make_built_in_scene("plane", {.points = 200000, .size = {400, 400}});
   scene.origin.x() -= 200;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mirrors through the whole signal path: ghosts and glints in a ping, in its plan, layers and outputs.
+// Tests mirrors through the whole signal path: ghosts and glints in a ping, in its plan, layers and outputs.
 #include "simulate/plan_ping.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "support/errors.hpp"

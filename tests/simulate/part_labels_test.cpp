@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What pixels show of a scene of parts, and how the head sees each part.
+// Tests the labels of pixels in a scene of parts, and the view of each part.
 #include <cmath>
 
 #include "core/units.hpp"
@@ -28,7 +28,7 @@ SceneCloud ball(double radius) {
   return cloud;
 }
 
-/// An upright plate that faces the head, its middle at the origin.
+/// Returns an upright plate that faces the head, its middle at the origin.
 SceneCloud board(double width, double height) {
   SceneCloud cloud;
   cloud.materials = {{.name = "wood", .lambert_mu = 0.05}};
@@ -61,7 +61,7 @@ TEST(PartLabels, name_class_and_part_of_every_pixel) {
                  placed("a", "", ball(0.2), {4, 0, 0})});
   EXPECT_EQ(labels.part_names, (std::vector<std::string>{"a", "bed", "pot-1", "pot-2"}));
   EXPECT_EQ(labels.part_labels, (std::vector<std::string>{"", "", "pot", "pot"}));
-  std::map<std::string, std::map<std::string, int>> classes;  // of each part
+  std::map<std::string, std::map<std::string, int>> classes;  // by part
   const auto material = material_image(labels);
   const auto part = part_image(labels);
   for (Eigen::Index i = 0; i < material.size(); ++i)
@@ -94,7 +94,7 @@ TEST(PartLabels, have_the_extents_of_a_sphere_and_all_of_its_share) {
   EXPECT_TRUE(labels.views.at(index_of(labels, "bed")).size.hasNaN());
 }
 
-// Of a sphere beside the axis of the head neither side is where its extents in azimuth and range meet.
+// Beside the axis of the head, the sides of a sphere are not where its extents in azimuth and range meet.
 TEST(PartLabels, have_the_places_where_a_fan_draws_a_sphere) {
   const Vector3d middle(6, 2.5, -1.6);  // far below: a line array hears it in a beam nearer to its axis
   const PixelLabels labels = labels_of({bed(), placed("ball", "ball", ball(0.3), middle)});
@@ -104,7 +104,7 @@ TEST(PartLabels, have_the_places_where_a_fan_draws_a_sphere) {
     const double z = 1 - (i + 0.5) / 100000, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
     const Vector3d normal(r * std::cos(turn), r * std::sin(turn), z), place = middle + 0.3 * normal;
     if (normal.dot(place) > 0) continue;
-    // As far from the head as the sphere is, as far to port as it is: the cone of the beam.
+    // The picture draws the cone of the beam: at the range of the sphere, and as far to port.
     const Eigen::Vector2d drawn(std::sqrt(place.squaredNorm() - place.y() * place.y()), place.y());
     ahead = {std::min(ahead.least, drawn.x()), std::max(ahead.most, drawn.x())};
     port = {std::min(port.least, drawn.y()), std::max(port.most, drawn.y())};
@@ -118,7 +118,7 @@ TEST(PartLabels, have_the_places_where_a_fan_draws_a_sphere) {
   EXPECT_LT(view.heard.most, view.azimuth.most - 0.005);
 }
 
-/// A body between two corners, as a mesh and surfels 5 cm apart.
+/// Returns a body between two corners, as a mesh and surfels 5 cm apart.
 SceneCloud chest(const Vector3d& low, const Vector3d& high) {
   SceneMesh mesh;
   for (int i = 0; i < 8; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pings of scenes that are made of parts.
+// Tests pings of scenes that are made of parts.
 #include <cmath>
 #include <cstring>
 
@@ -24,7 +24,7 @@ std::shared_ptr<const SceneCloud> ball(double radius, int count, double relief =
   return shared(cloud);
 }
 
-/// A box without bottom, 0.6 x 0.4 x 0.3 m, of surfels of 1 cm.
+/// Returns a box without bottom, 0.6 x 0.4 x 0.3 m, of surfels of 1 cm.
 std::shared_ptr<const SceneCloud> box() {
   SceneCloud cloud;
   cloud.materials = {{.name = "concrete", .lambert_mu = 0.01, .relief_slope = 0.2}};
@@ -118,7 +118,7 @@ TEST(PingOfParts, has_the_same_bytes_in_any_order_and_with_one_more_part_out_of_
   EXPECT_TRUE(same_bytes(one, simulator.ping(*posed.pose(std::vector{beyond, c, b}), from_above)));
 }
 
-/// What a rigid motion of part and head together changes, relative to all.
+/// Returns the relative change of a ping by a rigid motion of part and head together.
 double change_by_moving_all(const Pose& motion, const PlacedPart& part) {
   const PingEvent at{pose_from_yaw_pitch_roll({0.2, 0.1, 0.4}, 0.1, radians(5), 0.1), {{0.5, -0.2, 0}, {0, 0, 0.1}}};
   PingEvent moved = at;

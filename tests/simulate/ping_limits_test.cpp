@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces, points and directions at the limits of what a ping can see.
+// Tests surfaces, points and directions at the limits of what a ping can see.
 #include "acoustics/surface_scattering.hpp"
 #include "support/checked_ping.hpp"
 #include "support/point_targets.hpp"

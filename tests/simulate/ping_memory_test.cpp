@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Memory of a ping: it grows with the points in view, and those out of view cost none.
+// Tests the memory of a ping: it grows with the points in view, and those out of view cost none.
 #include <malloc.h>
 
 #include "support/checked_ping.hpp"
@@ -7,7 +7,7 @@
 
 namespace insonify::ping_memory {
 
-/// A line of Linux' account of this process [bytes]; 0 where there is none.
+/// Returns a line of Linux' account of this process [bytes]; 0 without one.
 double memory_line(const std::string& name) {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -15,7 +15,7 @@ double memory_line(const std::string& name) {
   return 0;
 }
 
-/// Largest resident set since the last call of forget_peak [bytes].
+/// Returns the largest resident set since the last call of forget_peak [bytes].
 double peak_memory() { return memory_line("VmHWM:"); }
 
 bool forget_peak() {
@@ -25,7 +25,7 @@ bool forget_peak() {
   return file.good() && peak_memory() > 0 && peak_memory() < 1.1 * memory_line("VmRSS:");
 }
 
-/// A wall of side x side surfels, 6 m square and 8 m ahead.
+/// Returns a wall of side x side surfels, 6 m square and 8 m ahead.
 SceneCloud wall(int side, double x = 8) {
   SceneCloud scene;
   const auto n = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
@@ -43,7 +43,7 @@ SceneCloud wall(int side, double x = 8) {
   return scene;
 }
 
-/// What a ping of `scene` takes beyond the scene itself [bytes].
+/// Returns the memory of a ping of `scene` beyond the scene itself [bytes].
 double memory_of_ping(const SceneCloud& scene) {
   forget_peak();
   const double before = peak_memory();

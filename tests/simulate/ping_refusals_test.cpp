@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Levels at the limits of numbers, values in other units than SI, and what a ping refuses rather than computes.
+// Tests levels at the limits of numbers, values in units other than SI, and refusals of a ping.
 #include "acoustics/sound_speed_profile.hpp"
 #include "support/checked_ping.hpp"
 #include "support/point_targets.hpp"
@@ -12,7 +12,7 @@ SonarSpec loud_sonar(double source_level_db) {
   return s;
 }
 
-// What the scene, its materials and the water refuse is refused by a ping of them, too.
+// A ping refuses whatever its scene, its materials or its water refuse.
 TEST(PingRefusals, of_scenes_and_water_that_cannot_be) {
   const auto refused = [](auto&& damage, const std::vector<std::string>& parts) {
     SceneCloud scene = plate(5, 2, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The plan's promise: what a ping leaves out costs less than the plan says.
+// Tests the plan's promise: the stages that a ping leaves out cost less than the plan states.
 #include "simulate/plan_ping.hpp"
 
 #include <cmath>
@@ -26,7 +26,7 @@ struct Situation {
   SimulationOptions options;
 };
 
-/// Leaves out all that the budget decides.
+/// Sets all stages out that the budget decides.
 void close(SimulationOptions& o) {
   o.sampling.outer_elevations = o.sampling.outer_azimuths = Choice::never;
   o.effects.refraction = o.effects.moving = o.effects.multipath = Choice::never;
@@ -34,7 +34,7 @@ void close(SimulationOptions& o) {
   o.synthesis.true_delays = Choice::never;
 }
 
-/// A random head above a random bottom with a wall, in random water; nothing special.
+/// Returns a random head above a random bottom with a wall, in random water; nothing special.
 Situation situation(std::uint64_t number) {
   const auto a = random_uniform(number, RandomStage::scene_points, {1, 0, 0});
   const auto b = random_uniform(number, RandomStage::scene_points, {2, 0, 0});
@@ -77,7 +77,7 @@ const PlannedStage& stage(const PingPlan& plan, const std::string& name) {
   throw std::runtime_error("no stage " + name);
 }
 
-/// Relative L2 change of the image `without` of a situation when `name` is forced in.
+/// Returns the relative L2 change of the image `without` of a situation when `name` is forced in.
 double effect_of(const Situation& s, const std::string& name, const ComplexGrid& without) {
   Situation forced = s;
   force_stage(name, true, forced.event, forced.environment, forced.options);

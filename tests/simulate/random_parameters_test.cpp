@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parameters drawn at random from far wider ranges than any sonar has: whatever comes out is a number, or an Error
-// that says what is wrong. A failure prints the case's number, which draws it again.
+// Draws random parameters from far wider ranges than any sonar has. The result is finite, or an Error that names the
+// fault. A failure prints the case's number, which draws it again.
 #include "beamforming/synthesize.hpp"
 #include "core/random.hpp"
 #include "support/checked_ping.hpp"
@@ -47,7 +47,7 @@ Eigen::Vector3d any_direction(Draw& draw) {
   return {across * std::cos(turn), across * std::sin(turn), z};
 }
 
-/// Surfels around the gate's ranges in every direction, of any size, most of them before the head.
+/// Returns surfels around the gate's ranges in every direction, of any size, most of them before the head.
 SceneCloud any_scene(Draw& draw, const RangeGate& gate, double most) {
   SceneCloud scene;
   scene.materials = {{"a", draw.log_uniform(1e-9, 1)}, {"silent", 0}};
@@ -64,7 +64,7 @@ SceneCloud any_scene(Draw& draw, const RangeGate& gate, double most) {
   return scene;
 }
 
-/// A window of at most 200 bins somewhere in the gate, so that every case is small.
+/// Reduces the gate to a window of at most 200 bins, so that every case is small.
 void shorten(RangeGate& gate, Draw& draw) {
   const double most = 200 * gate.bin_size;
   if (gate.max_range - gate.min_range <= most) return;

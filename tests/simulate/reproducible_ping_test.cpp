@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads, seeds and velocity: what changes the bits of a ping, and what does not.
+// Tests what changes the bits of a ping: seeds and velocity do, threads do not.
 #include "acoustics/sound_speed_profile.hpp"
 #include "support/checked_ping.hpp"
 #include "support/point_targets.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shadows on a level bed against closed forms, in labels and in levels (E16, E125).
+// Compares shadows on a level bed with closed forms, in labels and in levels (E16, E125).
 #include "simulate/simulate_ping.hpp"
 #include "support/heads.hpp"
 #include "support/scenes.hpp"
@@ -36,7 +36,7 @@ class ShadowOnABed : public testing::Test {
     options.sampling.scatterers_per_cell = 10;  // parts narrower than the edges of what is counted
     return simulate_ping(scene, head, pose, {}, options);
   }
-  /// Where the cone of a beam meets the bed at a range.
+  /// Returns the point where the cone of a beam meets the bed at a range.
   static std::optional<Eigen::Vector3d> on_bed(double range, double u) {
     const double y = range * u, x2 = range * range - head_height * head_height - y * y;
     if (x2 <= 0) return {};
@@ -44,7 +44,7 @@ class ShadowOnABed : public testing::Test {
   }
   double u_of(std::size_t beam) const { return std::sin(head.fan.azimuth[beam]); }
 
-  /// Counts of pixels, and of those that are not what the closed form says although all within a cell of theirs is.
+  /// Counts of pixels, and of those that differ from the closed form although all within a cell of theirs agrees.
   struct Counted {
     std::size_t shadow = 0, shadow_amiss = 0, lit = 0, lit_amiss = 0;
   };
@@ -65,7 +65,7 @@ class ShadowOnABed : public testing::Test {
       }
     return c;
   }
-  /// Mean level of the shadow less that of the lit bed at the same ranges [dB].
+  /// Returns the mean level of the shadow less that of the lit bed at the same ranges [dB].
   double shadow_level(const SimulatedPing& ping, const std::function<bool(const Eigen::Vector3d&)>& hidden, double from,
                       double to) const {
     double dark = 0, bright = 0, darks = 0, brights = 0;

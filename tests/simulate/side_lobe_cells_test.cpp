@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What side lobes alone receive is sampled by wider cells (E17): its level and its speckle stay what they are.
+// Tests the wider cells of surfaces that only side lobes receive (E17): level and speckle stay.
 #include "scene/built_in_scenes.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "simulate/simulate_ping.hpp"
@@ -12,7 +12,7 @@ const SonarHead one_beam = small_head({.beams = 1, .field_of_view_deg = 2, .elev
 const Pose pose = pose_from_yaw_pitch_roll({-6, 0, 3}, 0, radians(15), 0);
 constexpr int seeds = 40;
 
-/// A plane without what the main lobe would hear of it: nothing within `off` of u = 0.
+/// Returns a plane without its main lobe: nothing within `off` of u = 0.
 SceneCloud shadowed_plane(double off) {
   const SceneCloud whole = make_built_in_scene("plane", {.points = 5000, .size = {24, 24}});
   const Pose to_head = pose.inverse();
@@ -24,7 +24,7 @@ SceneCloud shadowed_plane(double off) {
   return subset(whole, beside);
 }
 
-/// Intensities of a ping, one beam; bins where the plane is.
+/// Returns the intensities of a ping, one beam, in bins of the plane.
 Eigen::ArrayXd intensities(const SceneCloud& scene, std::uint64_t seed, double per_cell, SynthesisMethod method,
                            std::size_t* scatterers = nullptr) {
   SimulationOptions options{
@@ -70,8 +70,8 @@ TEST(SideLobeCells, have_the_speckle_of_many_scatterers) {
   EXPECT_NEAR(squares / (mean * mean), 2, 0.2);  // <I^2> of an exponential distribution
 }
 
-// Bent rays come from other directions, a turning head receives elsewhere, a sparse array has further lobes: whether the
-// stages that say so are in or out. Bounces have scatterers of their own.
+// Bent rays come from other directions, a turning head receives elsewhere, a sparse array has further lobes: whether
+// the stages that say so are in or out. Bounces have scatterers of their own.
 TEST(SideLobeCells, are_those_of_main_lobes_where_echoes_may_be_as_loud) {
   const auto margin_of = [](const SonarHead& head, const SimulationOptions& options, const Environment& environment,
                             const Motion& motion = {}) {

@@ -19,7 +19,7 @@ SimulatedPing ping_harbour(const SimulationOptions& options, const Eigen::Vector
                        {water}, options);
 }
 
-/// A flat bottom 3 m below a head at y, looking 15 degrees down.
+/// Pings a flat bottom 3 m below a head at y, looking 15 degrees down.
 SimulatedPing ping_plane(double y, const SimulationOptions& options) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 100000, .size = {30, 30}});
   const Water water;
@@ -81,8 +81,8 @@ TEST(SimulatePing, adds_noise_of_the_right_level_on_request) {
   EXPECT_EQ(p.soundings.size(), 0U);
 }
 
-// Cells of open water that exceed the noise floor by -ln(rate): nobody knows that there is nothing. The floor is that of the
-// mean beam, within some tenths of a decibel, which at 10^-4 change the rate by a fifth.
+// Cells of open water that exceed the noise floor by -ln(rate): nobody knows that there is nothing. The floor is that
+// of the mean beam, within some tenths of a decibel, which at 10^-4 change the rate by a fifth.
 TEST(SimulatePing, of_open_water_gives_false_alarms_at_the_stated_rate) {
   const SceneCloud scene = make_built_in_scene("plane", {.points = 1000, .size = {5, 5}});
   const auto ping = [&](std::int64_t number, double above_db) {

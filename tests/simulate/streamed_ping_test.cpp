@@ -88,7 +88,7 @@ TEST(StreamedPing, is_the_stored_one_of_a_head_that_moves_and_turns) {
   }
 }
 
-// What forms beams is made at the first ping and kept: pings that follow have the bytes of single ones.
+// Tables for beams are made at the first ping and kept; pings that follow have the bytes of single ones.
 TEST(StreamedPing, of_many_pings_that_share_what_forms_their_beams_are_single_pings) {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 20000});
   const PreparedScene prepared(scene);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is heard of a surfel (E127), against the energy of pings of single surfels, and the error of parts by its share.
+// Compares the energy of a surfel (E127) with pings of single surfels, and the error of parts by its fraction.
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/synthesize_intensity.hpp"
 #include "simulate/simulate_ping.hpp"

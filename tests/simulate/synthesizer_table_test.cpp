@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What forms beams is made once for each medium, method and tolerance, and the last few stay.
+// Tests that tables for beams are made once for each medium, method and tolerance, and that the last few stay.
 #include "simulate/synthesizer_table_internal.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"

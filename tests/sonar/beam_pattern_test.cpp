@@ -160,7 +160,7 @@ TEST(BeamPattern, finds_a_null_that_does_not_cross_zero) {
   EXPECT_NEAR(*measure(array).first_null, std::asin(2.0 / 3), 1e-6);
 }
 
-// By quadrature of B^2 over u; at half a wavelength it does not depend on steering: 10 log10 N.
+// The referee integrates B^2 over u. At half a wavelength it does not depend on steering: 10 log10 N.
 TEST(DirectivityIndex, of_a_steered_beam_is_the_integral) {
   EXPECT_NEAR(measure(uniform_line(40, 0.5), 50).directivity_index_db, 10 * std::log10(40), 1e-9);
   const LineArray array{0.7 * wavelength_900k, taylor_shading(24, -30)};

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Highest |B| in dB for u in [from, to].
+/// Returns the highest |B| in dB for u in [from, to].
 double highest_db(const LineArray& array, double from, double to) {
   double best = 0;
   for (int i = 0; i <= 20000; ++i)

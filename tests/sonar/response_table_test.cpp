@@ -9,7 +9,7 @@ namespace {
 
 constexpr double table_wavelength = 0.002;
 
-/// Shaded arrays of even and odd numbers of elements, half a table_wavelength apart, and wider.
+/// Returns shaded arrays of even and odd numbers of elements, half a table_wavelength apart, and wider.
 std::vector<LineArray> arrays() {
   std::vector<LineArray> all = {{0.001, {1}}, {0.001, {1, 1}}, {0.0031, {0.5, 2, 0.5}}};
   for (const double width : {8.0, 1.0})

@@ -9,8 +9,8 @@ namespace {
 
 LineArray half_wavelength(const std::vector<double>& weights) { return {wavelength_900k / 2, weights}; }
 
-/// Levels [dB] of all maxima of |B| for u in (from, 1) under half-wavelength pitch, by a fine scan whose maxima are
-/// completed by the parabola through three points.
+/// Returns the levels [dB] of all maxima of |B| for u in (from, 1) under half-wavelength pitch, by a fine scan with
+/// parabolas through three points.
 std::vector<double> side_lobes_db(const std::vector<double>& weights, double from) {
   const LineArray array = half_wavelength(weights);
   const auto steps = 400 * weights.size();
@@ -58,8 +58,8 @@ TEST(HammingShading, is_three_uniform_arrays) {
   }
 }
 
-// The same for a long array: sinc(v) (0.54 - 0.08 v^2) / (0.54 (1 - v^2)), v = L u / wavelength_900k. It vanishes at v = 2 (the
-// zero of the sinc at 1 is lifted) and at v = sqrt(0.54 / 0.08) = 2.598; the highest of its maxima is the side lobe.
+// A long array tends to sinc(v) (0.54 - 0.08 v^2) / (0.54 (1 - v^2)), v = L u / wavelength_900k. It vanishes at v = 2
+// (the zero of the sinc at 1 is lifted) and at v = sqrt(0.54 / 0.08) = 2.598; the highest maximum is the side lobe.
 TEST(HammingShading, has_its_highest_side_lobe_42_7_db_down) {
   double highest = 0;
   for (double v = 2; v < 60; v += 1e-4)

@@ -8,7 +8,7 @@
 
 namespace {
 
-/// 5 beams x 7 bins x 3; the last pixel is empty.
+/// Returns 5 beams x 7 bins x 3; the last pixel is empty.
 NamedContributors make_contributors() {
   NamedContributors named;
   named.materials = {"fine sand", "", "Fels, grün"};
@@ -26,7 +26,7 @@ NamedContributors make_contributors() {
   return named;
 }
 
-// Connected parts of the material of the strongest contributors.
+// Returns the connected parts of the material of the strongest contributors.
 Grid<std::uint32_t> objects_of(const Contributors& c) {
   return connected_parts(material_image(c).unaryExpr([](std::uint16_t material) {
     return material == Contributors::no_material ? 0 : std::uint32_t{material} + 1;

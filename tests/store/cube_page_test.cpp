@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a cube says of itself, as another program finds it, and the page that describes it: docs/formats.md.
+// Tests the description in a cube, as another program finds it, and the page that describes it: docs/formats.md.
 #include <hdf5_hl.h>
 
 #include "store/cube.hpp"
@@ -20,7 +20,7 @@ std::string text_attribute(hid_t object, const char* name) {
   return copy;
 }
 
-/// A cube with every dataset and attribute that there can be.
+/// Returns a cube with every dataset and attribute that there can be.
 Cube full_cube() {
   Cube cube = random_cube();
   cube.keep_bits = 20;
@@ -65,7 +65,7 @@ Found everything_in(hid_t file) {
   return found;
 }
 
-/// The row of a table of the page whose first cell holds `name`, by cells.
+/// Returns the cells of a row of a table of the page whose first cell holds `name`.
 std::vector<std::string> row_of_page(const std::string& name) {
   std::istringstream lines(file_bytes(INSONIFY_FORMATS_PAGE));
   for (std::string line; std::getline(lines, line);) {
@@ -124,7 +124,7 @@ TEST(CubePage, has_every_dataset_with_its_unit_and_every_attribute) {
   EXPECT_EQ(back.anchor->heading_deg, 30);
 }
 
-// By the law in the attribute: a sine of 1 Pa amplitude has 0.7071 Pa rms, 116.99 dB.
+// The attribute states the law: a sine of 1 Pa amplitude has 0.7071 Pa rms, 116.99 dB.
 TEST(CubePage, says_how_a_level_follows_from_a_pressure) {
   Cube cube = random_cube(1);
   cube.pings[0].pressure(0, 0) = {0.6F, -0.8F};

@@ -9,7 +9,7 @@
 
 namespace insonify::cube_parts_tests {
 
-/// Labels of a scene of three parts, one of which is not in view.
+/// Returns labels of a scene of three parts, one of which is not in view.
 PixelLabels labels_like(const Ping& ping) {
   const Eigen::Index beams = ping.pressure.rows(), bins = ping.pressure.cols();
   PixelLabels labels{Grid<std::uint16_t>::Zero(beams, bins),
@@ -70,7 +70,7 @@ TEST(CubeOfParts, is_joined_with_the_next_one) {
   }
 }
 
-/// A cube as earlier versions wrote it: its views end after the third extent.
+/// Writes a cube as earlier versions did: its views end after the third extent.
 std::string earlier_cube(const std::string& name) {
   const std::string path = write(cube_of_parts(), name);
   const RawFile file(path);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cubes of which one byte is wrong, where HDF5 trusts it.
+// Tests cubes with one wrong byte, where HDF5 trusts it.
 #include "store/concatenate_cube_files.hpp"
 #include "store/random_cube.hpp"
 
 namespace {
 
-/// Reads a cube of which one byte is `value`; returns its error, or "".
+/// Reads a cube in which one byte is `value`. Returns its error, or "".
 std::string error_with_byte(const std::string& whole, std::size_t at, int value) {
   std::string bytes = whole;
   bytes[at] = static_cast<char>(value);
@@ -51,7 +51,7 @@ TEST(DamagedCube, is_not_joined) {
 
 namespace {
 
-/// A cube whose pixels show materials 0 and 1, parts 0 to 2, shadow and nothing.
+/// Returns a cube whose pixels show materials 0 and 1, parts 0 to 2, shadow and nothing.
 Cube labelled_cube() {
   Cube cube = random_cube(2, 4);
   for (Ping& ping : cube.pings) {

@@ -12,12 +12,12 @@
 
 namespace key_tables {
 
-/// A link of a help text, as a page of docs/reference has it: one folder up.
+/// Returns the links of a help text as a page of docs/reference has them: one folder up.
 std::string links_from_reference(const std::string& help) {
   return std::regex_replace(help, std::regex(R"(\]\(([a-z-]+\.md))"), "](../$1");
 }
 
-/// The keys as a section of a page: a heading and the rows key, unit, default, rule, help.
+/// Returns the keys as a section of a page: a heading and the rows key, unit, default, rule, help.
 std::string section(const std::string& heading, const std::vector<Key>& keys) {
   std::string rows = "\n## " + heading + "\n\n| key | unit | default | must be | what |\n|---|---|---|---|---|\n";
   for (const Key& key : keys) {

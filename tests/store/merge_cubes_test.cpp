@@ -6,7 +6,7 @@ using testing::ElementsAre;
 
 namespace {
 
-// A cube of one ping whose samples are all `value`, which identifies it.
+// Returns a cube of one ping whose samples are all `value`, which identifies it.
 NamedCube run_of(const std::string& name, double time, float value, std::int64_t number = 0) {
   Ping ping;
   ping.number = number;

@@ -42,7 +42,7 @@ every_m = 0.5
 noise = true
 )";
 
-/// What is said of the file with its first `from` replaced.
+/// Returns the error for the file with its first `from` replaced.
 std::string refusal(const std::string& from, const std::string& to) {
   return error_of_file(load_mission, "m.toml", replaced(whole, from, to));
 }

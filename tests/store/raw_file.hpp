@@ -23,14 +23,14 @@ class RawFile {
 
 std::vector<hsize_t> raw_extent(hid_t file, const char* dataset);
 
-/// The numbers of a dataset, of whatever type; and others in their places.
+/// Return the numbers of a dataset of any type, and overwrite them.
 std::vector<double> raw_values(hid_t file, const char* dataset);
 void raw_overwrite(hid_t file, const char* dataset, const std::vector<double>& values);
 
-/// The text of an attribute of variable length.
+/// Returns the text of an attribute of variable length.
 std::string raw_text(hid_t file, const char* object, const char* name);
 
-/// The number of an attribute of the file; and another in its place.
+/// Return the number of an attribute of the file, and overwrite it.
 double raw_number(hid_t file, const char* name);
 void raw_set(hid_t file, const char* name, double value);
 

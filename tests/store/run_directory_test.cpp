@@ -13,7 +13,7 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// The manifest of a run that says `word`.
+/// Returns the manifest of a run with `word`.
 std::string manifest_with(const std::string& word) {
   return "{\"insonify_version\": \"1\", \"word\": \"" + word + "\"}";
 }

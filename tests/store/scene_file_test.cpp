@@ -43,14 +43,14 @@ scale = [0.9, 1.1]
 spacing_m = 0.01
 )";
 
-/// A scene file with this text beside the files that it names.
+/// Writes a scene file with this text beside the files that it names.
 std::string scene_of(const std::string& text) {
   for (const char* name : {"reef.ply", "wheel.obj", "diver.ply", "pot.obj"}) own_file(name, "");
   own_file("diver.csv", poses);
   return own_file("scene.toml", text);
 }
 
-/// What is said of the file with its first `from` replaced.
+/// Returns the error for the file with its first `from` replaced.
 std::string refusal_of_scene(const std::string& from, const std::string& to) {
   const std::string path = scene_of(replaced(of_parts, from, to));
   const std::string said = error_with_kind([&] { load_scene_file(path); });

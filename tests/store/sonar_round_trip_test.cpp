@@ -61,7 +61,7 @@ TEST(SonarFile, is_written_without_the_keys_that_it_does_not_need) {
     EXPECT_EQ(sonar_as_toml(load_sonar(plain).spec).find(key), std::string::npos) << key;
 }
 
-// What --set gives a key is what a file would.
+// --set gives a key the same value as a file.
 TEST(SetSonarValue, sets_every_key_as_a_file_does) {
   const std::pair<const char*, const char*> numbers[] = {{"centre_frequency_hz", "700e3"},
                                                          {"range_resolution_m", "0.01"},

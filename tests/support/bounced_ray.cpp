@@ -19,12 +19,12 @@ struct Shot {
   double time = 0;
 };
 
-/// Sound speed in one layer, beyond it as inside.
+/// Sound speed in one layer; beyond it the gradient continues.
 struct LayerSpeed {
   double speed, gradient, at;
 };
 
-/// One stride of Runge and Kutta over the length of the ray, in one layer.
+/// Takes one stride of Runge and Kutta over the length of the ray, in one layer.
 Shot moved_on(const LayerSpeed& layer, double depth, const Shot& s, double stride) {
   struct Rate {
     Vector3d at, along;
@@ -32,7 +32,7 @@ Shot moved_on(const LayerSpeed& layer, double depth, const Shot& s, double strid
   };
   const auto rate = [&](const Vector3d& at, const Vector3d& along) -> Rate {
     const double c = layer.speed + layer.gradient * (depth - at.z() - layer.at);
-    const Vector3d rise(0, 0, -layer.gradient);  // of sound speed
+    const Vector3d rise(0, 0, -layer.gradient);  // gradient of sound speed
     return {along, -(rise - along * along.dot(rise)) / c, 1 / c};
   };
   const Rate a = rate(s.at, s.along), b = rate(s.at + stride / 2 * a.at, s.along + stride / 2 * a.along),
@@ -43,7 +43,7 @@ Shot moved_on(const LayerSpeed& layer, double depth, const Shot& s, double strid
           s.time + stride / 6 * (a.time + 2 * b.time + 2 * c.time + d.time)};
 }
 
-/// Goes on until `before` is false, and to where that happens; steps end where the gradient changes.
+/// Continues until `before` is false, and to the point where that happens. Steps end where the gradient changes.
 template <typename Before>
 std::optional<Shot> shot_while(const Water& water, double depth, Shot s, const Before& before) {
   const auto layers_above = [&](double z) {

@@ -18,7 +18,7 @@ inline SimulatedPing ping_of(const SceneCloud& scene, const SimulationOptions& o
 
 inline ComplexGrid image(const SimulatedPing& p) { return p.ping.pressure.cast<std::complex<double>>(); }
 
-/// Everything a ping hands out is a number.
+/// Returns true if all results of a ping are finite numbers.
 inline bool all_finite(const SimulatedPing& p) {
   bool finite = p.ping.pressure.isFinite().all() && level_db(p.ping).isFinite().all();
   finite = finite && std::isfinite(p.report.noise_floor_db) && std::isfinite(p.report.medium.sound_speed);

@@ -8,17 +8,17 @@
 
 namespace insonify {
 
-/// The text of the Error that `call` throws, which must be of `kind`; "no error" if it throws none.
+/// Returns the text of the Error that `call` throws, which must be of `kind`; "no error" if it throws none.
 std::string error_of(const std::function<void()>& call, ErrorKind kind = ErrorKind::argument);
 
-/// The same of any kind, as "kind: text", kind being runtime, argument, content or file.
+/// Returns the Error of any kind as "kind: text", kind being runtime, argument, content or file.
 std::string error_with_kind(const std::function<void()>& call);
 
-/// What `load` says of a file of these bytes, as error_with_kind does, with `name` in place of its path.
+/// Returns the error of `load` for a file of these bytes, as error_with_kind does, with `name` in place of its path.
 std::string error_of_file(const std::function<void(const std::string& path)>& load, const std::string& name,
                           const std::string& bytes);
 
-/// `call` must throw an Error of `kind` whose text is one line with all `parts`.
+/// Expects an Error of `kind` from `call`, whose text is one line with all `parts`.
 void expect_error(ErrorKind kind, const std::vector<std::string>& parts, const std::function<void()>& call);
 
 }  // namespace insonify

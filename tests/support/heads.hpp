@@ -12,7 +12,7 @@ inline constexpr double c0 = 1500, c0_cold = 1490;
 inline const Pulse pulse_900k{900e3, 29.5e3, 220};
 inline constexpr double wavelength_900k = c0 / 900e3;
 
-/// Uniform line of n elements.
+/// Returns a uniform line of n elements.
 inline LineArray uniform_line(std::size_t n, double pitch_in_wavelengths) {
   return {pitch_in_wavelengths * wavelength_900k, uniform_shading(n)};
 }
@@ -25,10 +25,10 @@ struct SmallSonar {
   double source_level_db = 220;
 };
 SonarSpec small_sonar(const SmallSonar& sonar);
-/// Its head, for water of `sound_speed` or, with 0, for Water{}.
+/// Returns its head, for water of `sound_speed` or, with 0, for Water{}.
 SonarHead small_head(const SmallSonar& sonar, double sound_speed = 0);
 
-/// Nine beams over 40 degrees, ranges 1 to 12 m, some 700 bins; its head is for water of 1500 m/s.
+/// Returns nine beams over 40 degrees, ranges 1 to 12 m, some 700 bins; its head is for water of 1500 m/s.
 SonarSpec nine_beams();
 SonarHead nine_beam_head();
 
@@ -43,13 +43,13 @@ struct LineHead {
 };
 SonarHead line_head(const LineHead& line);
 
-/// Relative L2 difference of two grids.
+/// Returns the relative L2 difference of two grids.
 template <typename A, typename B>
 double relative_l2(const A& a, const B& b) {
   return std::sqrt((a - b).abs2().sum() / b.abs2().sum());
 }
 
-/// The same numbers in grids of one shape.
+/// Returns true if two grids have one shape and equal numbers.
 template <typename A, typename B>
 bool same(const A& a, const B& b) {
   return a.rows() == b.rows() && a.cols() == b.cols() && (a == b).all();

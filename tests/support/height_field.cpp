@@ -13,7 +13,7 @@ namespace insonify {
 
 namespace {
 
-// Power of the beam steered to u_beam for a wave from u, summed over the elements.
+// Returns the power of the beam steered to u_beam for a wave from u, summed over the elements.
 double beam_power(const LineArray& array, double wavelength, double du) {
   double sum = 0;
   for (std::size_t m = 0; m < array.elements(); ++m)
@@ -21,7 +21,7 @@ double beam_power(const LineArray& array, double wavelength, double du) {
   return std::pow(sum / static_cast<double>(array.elements()), 2);
 }
 
-// Power of all beams of each group for waves from u = -1 .. 1, in steps a twentieth of a beam or less.
+// Returns the power of all beams of each group for waves from u = -1 .. 1, in steps a twentieth of a beam or less.
 Grid<double> group_powers(const SonarHead& head, double wavelength, Eigen::Index groups, Eigen::Index steps) {
   std::vector<double> table(static_cast<std::size_t>(2 * steps + 1));
   for (std::size_t i = 0; i < table.size(); ++i)
@@ -48,7 +48,7 @@ struct Cell {
       : a(f.z(row, column)), b(f.z(row, column + 1)), c(f.z(row + 1, column + 1)), d(f.z(row + 1, column)) {
     falling = std::isnan(a) || std::isnan(c) || std::abs(b - d) < std::abs(a - c);
   }
-  // At x, y in 0 .. 1; NaN in a hole.
+  // Returns the height at x, y in 0 .. 1; NaN in a hole.
   double at(double x, double y) const {
     if (falling) return x + y <= 1 ? a + x * (b - a) + y * (d - a) : c + (1 - x) * (d - c) + (1 - y) * (b - c);
     return x >= y ? a + x * (b - a) + y * (c - b) : a + y * (d - a) + x * (c - d);

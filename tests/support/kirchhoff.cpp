@@ -18,7 +18,7 @@ constexpr double node[] = {-0.9602898564975363, -0.7966664774136267, -0.52553240
 constexpr double weight[] = {0.1012285362903763, 0.2223810344533745, 0.3137066458778873, 0.3626837833783620,
                              0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
 
-/// Calls body(x, weight of x) for nodes on [from, to], in as many panels as `phase` asks for.
+/// Calls body(x, weight of x) for nodes on [from, to], in as many panels as `phase` needs.
 template <typename Body>
 void on_nodes(double from, double to, double phase, Body&& body) {
   const int panels = 1 + static_cast<int>(std::abs(phase) / phase_per_panel);

@@ -8,7 +8,7 @@ namespace insonify {
 /// that says so. With INSONIFY_WRITE_PAGES in the environment, as docs/make_reference.sh sets it, writes the page.
 void expect_reference_page(const std::string& name, const std::string& text);
 
-/// A cell of a table in Markdown, with the blank before it and the bar behind it.
+/// Returns a cell of a table in Markdown, with the blank before it and the bar behind it.
 std::string table_cell(std::string text);
 
 }  // namespace insonify

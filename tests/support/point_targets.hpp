@@ -10,10 +10,10 @@ namespace insonify {
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Water without absorption at 1500 m/s.
+/// Returns water without absorption at 1500 m/s.
 inline Medium clear_water() { return {c0, {}}; }
 
-/// One head-on beam of one element over a gate whose bin centres fall on every multiple of 2 mm.
+/// Returns one head-on beam of one element over a gate whose bin centres fall on every multiple of 2 mm.
 inline SonarHead single_beam(const Pulse& pulse, double min_range, double max_range) {
   SonarHead head;
   head.name = "single";
@@ -32,7 +32,7 @@ inline Scatterers targets_at(const std::vector<double>& range, double azimuth = 
   return s;
 }
 
-/// The same at places in the axes of the head, each seen head on with this area [m^2].
+/// Returns scatterers at places in the axes of the head, each seen head on with this area [m^2].
 inline Scatterers scatterers_at(const std::vector<Eigen::Vector3d>& places, float area = 1) {
   Scatterers s;
   for (const Eigen::Vector3d& place : places) {
@@ -45,7 +45,7 @@ inline Scatterers scatterers_at(const std::vector<Eigen::Vector3d>& places, floa
   return s;
 }
 
-/// Echoes of targets of cross-section sigma [m^2] and amplitude 1.
+/// Returns echoes of targets of cross-section sigma [m^2] and amplitude 1.
 inline Echoes echoes_of(const Scatterers& targets, const Pulse& pulse, const Medium& medium, double sigma = 1) {
   const std::vector<double> sigmas(targets.size(), sigma);
   const std::vector<std::complex<double>> xi(targets.size(), 1);

@@ -33,7 +33,8 @@ State stepped(const Layer& layer, const State& s, double h) {
           s.time + h / 6 * (a.time + 2 * b.time + 2 * c.time + d.time)};
 }
 
-/// The ray that leaves at `angle`, at `horizontal`; none if it turns steeper than can be integrated over distance.
+/// Returns the ray that leaves at `angle`, at `horizontal`; nothing if it turns steeper than can be integrated over
+/// distance.
 std::optional<State> traced_to(const Water& water, double depth, double angle, double horizontal) {
   State s{depth, angle, 0};
   const auto layers_below = [&](double z) {

@@ -30,13 +30,13 @@ std::vector<Wave> waves(double shortest) {
   return all;
 }
 
-// A step of `height` about x = 0 with a slope of 70 degrees.
+// Returns a step of `height` about x = 0 with a slope of 70 degrees.
 double step(double x, double height) {
   const double half = 0.5 * height / std::tan(radians(70));
   return height * std::clamp(0.5 * (x / half + 1), 0.0, 1.0);
 }
 
-// Caps of spheres of which 70 degrees stand out, one in each square of `side`, anywhere in it.
+// Random caps of spheres of which 70 degrees stand out, one in each square of `side`.
 class Boulders {
  public:
   explicit Boulders(double side) : side_(side) {}

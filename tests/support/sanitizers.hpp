@@ -3,8 +3,8 @@
 
 namespace insonify {
 
-/// Whether this build checks itself (tests/sanitize.sh): several times slower, with shadow memory that no limit and no
-/// measurement of memory knows of.
+/// True in builds with sanitizers (tests/sanitize.sh). They are several times slower, and their shadow memory is in no
+/// limit and no measurement of memory.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool sanitized = true;
 #else

@@ -6,7 +6,7 @@
 
 namespace insonify {
 
-/// What a ping in default water sees of a loaded scene: its surfels, or those of its mesh.
+/// Returns the surfels of a loaded scene, or of its mesh, for a ping in default water.
 inline SceneCloud scene_for_ping(const LoadedScene& loaded, const SonarHead& head, const Pose& pose,
                                  const SimulationOptions& options) {
   if (!loaded.mesh) return loaded.scene;

@@ -14,7 +14,7 @@ void add_rectangle(SceneCloud& scene, const Eigen::Vector3d& corner, const Eigen
 /// Adds a level square of side x side surfels, normals up, whose first corner is at `corner`.
 void add_floor(SceneCloud& scene, const Eigen::Vector3d& corner, int side, double spacing);
 
-/// A square plate of n x n surfels about (x, 0, 0), across the x axis whatever the normal.
+/// Returns a square plate of n x n surfels about (x, 0, 0), across the x axis whatever the normal.
 SceneCloud plate(double x, double size, int n, const Eigen::Vector3d& normal = {-1, 0, 0});
 
 SceneCloud harbour(std::size_t points = 60000);
@@ -22,7 +22,7 @@ SceneCloud harbour(std::size_t points = 60000);
 double total_area(const SceneCloud& scene);
 Eigen::Vector3d world(const SceneCloud& scene, std::size_t i);
 
-/// All but the points themselves must be equal to the bit.
+/// Expects all arrays but the points to be equal to the bit.
 void expect_same_attributes(const SceneCloud& a, const SceneCloud& b);
 void expect_same_surfels(const SceneCloud& a, const SceneCloud& b);
 

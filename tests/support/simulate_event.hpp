@@ -4,7 +4,7 @@
 
 namespace insonify {
 
-/// A ping of a scene that is prepared for it alone.
+/// Pings a scene that is prepared for this ping alone.
 inline SimulatedPing simulate_event(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                                     const Environment& environment, const SimulationOptions& options = {}) {
   return PingSimulator(head, environment, options).ping(PreparedScene(scene, options.threads), event);

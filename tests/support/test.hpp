@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// What nearly every test includes, precompiled (tests/CMakeLists.txt).
+// The headers that nearly every test includes, precompiled (tests/CMakeLists.txt).
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -26,5 +26,5 @@
 #include "support/errors.hpp"
 #include "support/files.hpp"
 
-using namespace insonify;  // in tests alone, each of which would say so
+using namespace insonify;  // only in tests, each of which would have this line
 using testing::HasSubstr;

@@ -7,13 +7,13 @@
 
 namespace insonify {
 
-/// All that a .tiles file holds, to be changed and written again with checksums that are right.
+/// The content of a .tiles file, to be changed and written again with right checksums.
 struct TileParts {
   TileDirectory directory;
-  SceneCloud rows;  ///< as they lie in the file
+  SceneCloud rows;  ///< in the order of the file
   std::vector<TileNode> node;
   std::vector<std::uint32_t> child;
-  std::vector<float> noise;  ///< of the nodes; empty: none
+  std::vector<float> noise;  ///< noise of the nodes; empty: none
 };
 
 inline TileParts load_tile_parts(const std::string& path) {

@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// What a reader of VTK makes of a file.
+/// Returns the data of a file by a reader of VTK.
 template <typename Reader>
 auto read_vtk(const std::string& path) {
   const auto reader = vtkSmartPointer<Reader>::New();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What differs from ping to ping of a survey (E126).
+// Tests the differences between pings of a survey (E126).
 #include "survey/randomise.hpp"
 
 #include "support/test.hpp"

@@ -25,7 +25,7 @@ SceneBody ball_named(const std::string& name, double radius) {
   return body_of(name, std::move(cloud));
 }
 
-/// A rough bed over [-3, 3]^2 of surfels 5 cm apart.
+/// Returns a rough bed over [-3, 3]^2 of surfels 5 cm apart.
 PartDefinition rough_bed() {
   SceneCloud cloud;
   const HeightField field = rough_field({.half = 3, .spacing = 0.05, .shortest = 0.4});
@@ -58,7 +58,7 @@ PartPlacement placed_where(const Vector3d& position, PartRest rest = PartRest::n
   return p;
 }
 
-/// The parts that are there.
+/// Returns the parts that are present.
 std::vector<PlacedPart> present(std::vector<PlacedPart> parts) {
   std::erase_if(parts, [](const PlacedPart& part) { return part.absent; });
   return parts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The engine of a survey: what is made, kept, left and resumed, with pings that cost nothing.
+// Tests the engine of a survey: pings made, kept, left and resumed, with pings that cost nothing.
 #include "survey/simulate_survey.hpp"
 
 #include <atomic>
@@ -16,14 +16,14 @@ using testing::UnorderedElementsAre;
 
 namespace {
 
-/// 10 pings in blocks of four, and what became of them.
+/// Ten pings in blocks of four, and their fates.
 struct Pings : SurveyStore {
   std::vector<SurveyPing> pings = std::vector<SurveyPing>(10);
   std::vector<SurveyBlock> blocks;
   std::mutex guard;
-  std::vector<std::int64_t> made;                         ///< numbers of pings
-  std::map<std::int64_t, std::vector<std::string>> kept;  ///< of each block: a word for each ping
-  std::map<std::int64_t, BlockOutcomes> left;             ///< to resume
+  std::vector<std::int64_t> made;                         ///< numbers of the pings made
+  std::map<std::int64_t, std::vector<std::string>> kept;  ///< a word for each ping of a block
+  std::map<std::int64_t, BlockOutcomes> left;             ///< outcomes of blocks to resume
   std::atomic<int> before_stop = 1000;
   bool disk_is_full = false;
 
@@ -57,7 +57,7 @@ struct Pings : SurveyStore {
   }
 };
 
-/// A vehicle at 2 m/s for 2 s with two heads, one of which scans, above a plane.
+/// Returns a vehicle at 2 m/s for 2 s with two heads, one of which scans, above a plane.
 Mission two_heads() {
   Mission mission;
   mission.trajectory = waypoint_trajectory({.points = {{0, 0, -3}, {4, 0, -3}}, .speed = 2});

@@ -10,7 +10,7 @@ using testing::ElementsAre;
 
 namespace {
 
-/// Along x at 2 m/s for 10 s, three metres down, with one head that pings once a second.
+/// Returns a track along x at 2 m/s for 10 s, three metres down, with one head that pings once a second.
 Mission straight() {
   Mission m;
   m.trajectory = waypoint_trajectory({.points = {{0, 0, -3}, {20, 0, -3}}, .speed = 2});

@@ -15,7 +15,7 @@ namespace {
 
 const Pose nose_down = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
 
-/// What a head of 64 beams of two degrees reaches.
+/// The region that a head of 64 beams of two degrees reaches.
 struct FanReach {
   BeamFan fan = small_head({}).fan;
   RangeGate gate{0.5, 20, 0.05};
@@ -37,7 +37,8 @@ SceneCloud within(const SceneCloud& scene, const FanReach& reach, float largest_
   return subset(scene, near);
 }
 
-/// Cuts the whole scene and its tiles, and expects the same within reach; returns the share of the file that was read.
+/// Cuts the whole scene and its tiles, and expects the same within reach. Returns the fraction of the file that was
+/// read.
 double expect_same_cut(const SceneCloud& scene, const FanReach& reach, const TileWriterOptions& writing = {}) {
   save_tiles(own_path("levels.tiles"), scene, writing);
   const TiledScene tiled(own_path("levels.tiles"));
@@ -53,18 +54,18 @@ double expect_same_cut(const SceneCloud& scene, const FanReach& reach, const Til
   return static_cast<double>(part.bytes) / static_cast<double>(tiled.info().bytes);
 }
 
-/// All nodes and rows of a file.
+/// Returns all nodes and rows of a file.
 SceneCloud finest_cut(const std::string& path) {
   return TiledScene(path).cut(region_around({0, 0, 0}, 1e6), {}, {0.1, 1e6, 1}, {1e-9, 0, 1, 1}).scene;
 }
 
-/// A plane of one forest, whose roots are nodes.
+/// Returns a plane of one forest, whose roots are nodes.
 TileParts plane_in_parts() {
   save_tiles(own_path("plane.tiles"), make_built_in_scene("plane", {.points = 2000, .size = {4, 4}}));
   return load_tile_parts(own_path("plane.tiles"));
 }
 
-/// A forest of one node in each group, which is `times` a child of the one before; the last node has one row.
+/// Returns a forest of one node in each group, `times` a child of the one before. The last node has one row.
 TileParts chain_of_nodes(std::uint32_t times) {
   TileParts parts = plane_in_parts();
   const auto rows = static_cast<std::uint32_t>(parts.rows.size());

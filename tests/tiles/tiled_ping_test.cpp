@@ -15,7 +15,7 @@ const Pose& harbour_pose() {
   return pose;
 }
 
-/// Small tiles, so that small scenes have many.
+/// Returns options for small tiles, so that small scenes have many.
 TileWriterOptions few_tiles() { return {.tile_surfels = 200}; }
 
 /// Pings the whole scene and the part loaded from a .tiles file, and expects identical bits.

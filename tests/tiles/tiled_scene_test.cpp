@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Small tiles, so that small scenes have many.
+/// Returns options for small tiles, so that small scenes have many.
 TileWriterOptions small_tiles() { return {.tile_surfels = 200}; }
 
 std::size_t files_in_folder() {

@@ -56,7 +56,7 @@ TEST(ColourMaps, all_but_jet_grow_brighter_with_the_level) {
   }
 }
 
-// CIELAB of sRGB, IEC 61966-2-1 and ISO 11664-4, white D65.
+// Returns CIELAB of sRGB, IEC 61966-2-1 and ISO 11664-4, white D65.
 Eigen::Vector3d lab_of(const Rgb& colour) {
   const auto linear = [](std::uint8_t value) {
     const double u = value / 255.0;
@@ -70,7 +70,8 @@ Eigen::Vector3d lab_of(const Rgb& colour) {
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
-// Length of the way through CIELAB over the middle half of the levels, in steps beside which a byte's rounding is small.
+// Length of the way through CIELAB over the middle half of the levels, in steps beside which a byte's rounding is
+// small.
 double contrast_of_mid_tones(const std::string& name) {
   const ColourTable table = colour_table(name, "test");
   double way = 0;

@@ -6,7 +6,7 @@
 
 namespace {
 
-// An image whose beam b, in the order given, has the level b everywhere.
+// Returns an image whose beam b, in the order given, has the level b everywhere.
 LevelImage image_at(const std::vector<double>& azimuth_deg, std::size_t bins = 3) {
   LevelImage image = flat_image(azimuth_deg.size(), 90, bins, 0);
   for (std::size_t b = 0; b < azimuth_deg.size(); ++b) {

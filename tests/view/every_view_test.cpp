@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Properties of every view: room for all texts at all sizes, both themes, Greek letters.
+// Tests properties of every view: room for all texts at all sizes, both themes, Greek letters.
 #include "support/test.hpp"
 #include "view/drawing_internal.hpp"
 #include "view/show_image.hpp"
@@ -7,7 +7,7 @@
 
 namespace {
 
-// Levels over the whole window, for a typical sonar.
+// Returns levels over the whole window, for a typical sonar.
 LevelImage busy_image() {
   LevelImage image = flat_image(64, 120, 78, 0);
   image.unit = "dB re 1 µPa at 1 m, range compensated";
@@ -83,7 +83,7 @@ const std::map<std::string, Draw>& views() {
   return all;
 }
 
-// Texts neither leave the picture nor overlap.
+// Expects texts that neither leave the picture nor overlap.
 void expect_readable(const std::vector<PlacedText>& texts, const PictureOptions& options) {
   const Box picture{0, static_cast<double>(options.width), 0, static_cast<double>(options.height)};
   for (std::size_t i = 0; i < texts.size(); ++i) {

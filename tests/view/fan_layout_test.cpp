@@ -4,7 +4,7 @@
 
 namespace {
 
-// The layout of a fan picture and all its texts.
+// The layout of a fan picture with all its texts.
 struct LaidOut {
   FanOutline fan;
   PictureOptions options;

@@ -7,7 +7,7 @@
 
 namespace {
 
-// 91 beams 1 degree apart, 100 bins of 0.5 m from 1 m, dark.
+// Returns 91 beams 1 degree apart, 100 bins of 0.5 m from 1 m, dark.
 LevelImage dark_image() { return flat_image(91, 91, 100, -200); }
 
 // Adds a peak with a skirt of weaker neighbours at a bearing [deg, positive to starboard] and a bin.

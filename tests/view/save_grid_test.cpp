@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const RangeGate gate{1, 3, 0.25};
 
-/// Value of beam b, bin n: 100 b + n.
+/// Returns a field with the value 100 b + n in beam b, bin n.
 SampleField counted(const BeamFan& fan) {
   SampleField field{"level_db", Grid<float>(fan.beams(), gate.bins())};
   for (Eigen::Index b = 0; b < field.values.rows(); ++b)
@@ -28,7 +28,7 @@ SampleField counted(const BeamFan& fan) {
   return field;
 }
 
-/// Middle of a cell's corners.
+/// Returns the middle of a cell's corners.
 Eigen::Vector3d middle_of(vtkDataSet* data, vtkIdType cell) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   vtkPoints* points = data->GetCell(cell)->GetPoints();
@@ -56,7 +56,7 @@ TEST(SavedForVtk, every_cell_of_a_fan_stands_where_its_sample_does_in_the_world_
   }
 }
 
-/// Three beams at 10 degrees above and `beams` as far below.
+/// Returns three beams at 10 degrees above and `beams` as far below.
 BeamFan two_rows(std::size_t beams) {
   BeamFan fan = make_fan(3, radians(30), radians(10), radians(20), radians(10));
   const BeamFan low = make_fan(beams, radians(30), radians(10), radians(20), radians(-10));

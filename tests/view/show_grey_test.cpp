@@ -10,7 +10,7 @@
 
 namespace {
 
-// All values differ.
+// Returns values that all differ.
 template <typename Grey>
 Grid<Grey> values(Eigen::Index beams, Eigen::Index bins, unsigned step) {
   Grid<Grey> grey(beams, bins);

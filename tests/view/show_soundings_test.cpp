@@ -8,7 +8,7 @@ namespace {
 
 class ShowSoundings : public PictureTest {
  protected:
-  /// A bed 2 m deep below the head that rises by 0.6 m, in 40 soundings, `by` away from the world's origin.
+  /// Draws a bed 2 m deep below the head that rises by 0.6 m, in 40 soundings, `by` away from the world's origin.
   ReadPicture drawn(const Eigen::Vector3d& by) {
     Ping ping;
     ping.world_from_head.translation() = by;
@@ -22,7 +22,7 @@ class ShowSoundings : public PictureTest {
     show_soundings(ping, found, options, path);
     return read_png(path);
   }
-  /// Pixels of both kinds of points, below the legend.
+  /// Counts the pixels of both kinds of points, below the legend.
   static std::array<int, 2> points_in(const ReadPicture& picture) {
     const auto count = [&](const Rgb& colour) {
       return find_colour(picture, colour, 0, picture.width, 0, 0.85 * picture.height).pixels;

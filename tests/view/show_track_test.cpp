@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A survey from above: ways and levels to one scale, x to the right and y up.
+// Tests a survey from above: tracks and levels to one scale, x to the right and y up.
 #include "view/show_track.hpp"
 
 #include "support/test.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 class ShowTrack : public PictureTest {
  protected:
-  /// A way of 20 m along x, 5 m above the middle of a square of 20 m of levels, whose right half is loud.
+  /// Sets a track of 20 m along x, 5 m above the middle of a square of 20 m of levels, whose right half is loud.
   ShowTrack() {
     map.ways = {{"fls", {{0, 5}, {20, 5}}, {}}};
     map.x = 0, map.y = -10, map.cell = 1;
@@ -45,7 +45,8 @@ TEST_F(ShowTrack, draws_the_way_to_the_scale_of_the_levels) {
   const ReadPicture picture = read_png(path);
   const ColouredPixels way = near_colour(picture, {26, 191, 242});
   ASSERT_GT(way.count, 100);
-  // The way of 20 m is as long as the square is wide: its loud half is half as long, and lies under the right half of it.
+  // The way of 20 m is as long as the square is wide: its loud half is half as long, and lies under the right half of
+  // it.
   const int length = way.right - way.left, middle = (way.left + way.right) / 2,
             below = (way.low + way.high) / 2 - length / 8;
   EXPECT_LT(colour_difference(picture.at(middle + length / 4, below), {255, 255, 255}), 20);

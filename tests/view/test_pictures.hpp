@@ -6,8 +6,7 @@
 
 namespace insonify {
 
-/// An image of `beams` beams spread over `field_of_view_deg`, port first or starboard first, all at
-/// `level_db`.
+/// Returns an image of `beams` beams spread over `field_of_view_deg`, port or starboard first, all at `level_db`.
 LevelImage flat_image(std::size_t beams, double field_of_view_deg, std::size_t bins, float level_db,
                       bool port_first = false);
 
@@ -23,7 +22,7 @@ class PictureTest : public testing::Test {
   std::string path = own_path("picture.png");
 };
 
-/// The same in colours over 0 to 100 dB.
+/// Draws in colours over 0 to 100 dB.
 class JetPictureTest : public PictureTest {
  protected:
   JetPictureTest() { options.colour_map = "jet", options.min_db = 0, options.max_db = 100; }
@@ -34,11 +33,11 @@ struct ReadPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> bytes;
 
-  Rgb at(double x, double y) const;  ///< of the pixel that holds (x, y), in pixels
+  Rgb at(double x, double y) const;  ///< colour of the pixel that holds (x, y), in pixels
 };
 ReadPicture read_png(const std::string& path);
 
-/// Largest difference of two colours over their channels.
+/// Returns the largest difference of two colours over their channels.
 int colour_difference(const Rgb& a, const Rgb& b);
 
 /// Centroid and number of the pixels of a colour within [left, right) x [bottom, top).
@@ -48,7 +47,7 @@ struct Blob {
 };
 Blob find_colour(const ReadPicture& picture, const Rgb& colour, double left, double right, double bottom, double top);
 
-/// Mean height of the blue line between two fractions of the width of a chart, in pixels; -1 if there is none.
+/// Returns the mean height of the blue line between two fractions of a chart's width, in pixels; -1 without a line.
 double line_height(const ReadPicture& picture, double from, double to);
 
 }  // namespace insonify

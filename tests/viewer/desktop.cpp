@@ -17,7 +17,7 @@
 namespace insonify {
 namespace {
 
-// Polls until the condition holds or the time has elapsed.
+// Polls until the condition holds. Returns false if the time has elapsed.
 template <typename Condition>
 bool comes_true(double seconds, Condition&& condition) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
@@ -42,7 +42,7 @@ pid_t start(const std::vector<std::string>& command, const std::string& display,
   _exit(127);
 }
 
-// The window of that title below `parent`, or 0.
+// Returns the window of that title below `parent`, or 0.
 Window find_window(Display* display, Window parent, const std::string& title) {
   char* name = nullptr;
   if (XFetchName(display, parent, &name) && name) {

@@ -31,14 +31,14 @@ class DesktopProgram {
   DesktopProgram(const DesktopProgram&) = delete;
   DesktopProgram& operator=(const DesktopProgram&) = delete;
 
-  /// Waits for a window of this title; false after 60 s.
+  /// Waits for a window of this title. Returns false after 60 s.
   bool has_window(const std::string& title);
   void click(int x, int y) const;  ///< [pixels] from the window's upper left corner
   void type(const std::string& key_symbol) const;
-  void close_window() const;  ///< like the close button
-  /// The output once it contains `part`, or after `seconds`.
+  void close_window() const;  ///< presses the close button
+  /// Returns the output once it contains `part`, or after `seconds`.
   std::string output_with(const std::string& part, double seconds = 30) const;
-  int wait_for_end();  ///< exit code; -1 if it had to be killed after 30 s
+  int wait_for_end();  ///< returns the exit code; -1 if it had to be killed after 30 s
 
  private:
   void* display_ = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program: a real window on a virtual display, pictures without one, and bad input.
+// Tests the program: a real window on a virtual display, pictures without one, and bad input.
 #include <hdf5.h>
 
 #include "scene_io/load_scene.hpp"
@@ -189,7 +189,7 @@ TEST_F(InsonifyView, refuses_options_that_make_no_sense) {
 TEST_F(InsonifyView, opens_a_window_that_answers_clicks_and_keys) {
   const VirtualDisplay display;
   if (display.name().empty()) GTEST_SKIP() << "Xvfb is not installed: apps/install_packages.sh --tests";
-  // The same window drawn off-screen shows where the targets are.
+  // Drawn off-screen, the window shows where the targets are.
   ViewerOptions options;
   options.width = 1000, options.height = 700;
   Point2 at[2];

@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t beams = 41, bins = 120;
 constexpr float loud = 10, soft = 0.01F;  // [Pa], 60 dB apart
 
-// A plate of 5 x 5 surfels, 2 cm apart, facing the head.
+// Adds a plate of 5 x 5 surfels, 2 cm apart, facing the head.
 void add_plate(SceneCloud& scene, const Pose& pose, const Eigen::Vector3d& middle, std::uint16_t material) {
   const Eigen::Vector3d towards = (pose.translation() - middle).normalized();
   const Eigen::Vector3d across = towards.cross(Eigen::Vector3d::UnitZ()).normalized(), up = across.cross(towards);

@@ -8,7 +8,7 @@ namespace insonify {
 /// (10, 20, -3) with 30 degrees of yaw; all bins except those of the targets are 60 dB weaker.
 struct Target {
   const char* name;          ///< name of its material
-  double azimuth, range;     ///< of its centre [rad, m]; azimuth positive to port
+  double azimuth, range;     ///< azimuth and range of its centre [rad, m]; positive to port
   PixelPlace place;          ///< sample of its echo
   Eigen::Vector3d position;  ///< world [m]
 };
@@ -17,10 +17,10 @@ struct TargetData {
   std::vector<Ping> pings;  ///< those of `data`
   Target port, starboard, far;
 };
-/// A reel of pings that are in memory.
+/// Returns a reel of pings that are in memory.
 LazyPings reel_in_memory(std::vector<Ping> pings);
 
-/// `pings` identical pings with numbers 7, 8, ...
+/// Returns `pings` identical pings with numbers 7, 8, ...
 TargetData three_targets(std::size_t pings = 1, bool with_contributors = false);
 
 }  // namespace insonify

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t pings_per_sweep = 12;
 
-// Ping i of a head of one beam; what it hears at bin b is louder by a decibel for each ping, and by 20 at bin i.
+// Returns ping i of a head of one beam. Its level at bin b grows by a decibel for each ping, and by 20 at bin i.
 Ping one_beam_ping(std::size_t i, bool scans) {
   Ping ping;
   ping.number = static_cast<std::int64_t>(i);
@@ -30,7 +30,7 @@ Ping one_beam_ping(std::size_t i, bool scans) {
   return ping;
 }
 
-// A reel that counts what is read of it, and how many of its pings are held at once.
+// A reel that counts its reads, and the pings held at once.
 struct CountedReel {
   std::shared_ptr<int> read = std::make_shared<int>(0), beams_read = std::make_shared<int>(0);
 
@@ -196,7 +196,7 @@ TEST_F(SurveyWindow, buttons_press_their_keys) {
   press("space");
   EXPECT_TRUE(window_->state().playing);
   press("space");
-  // Those without room are in the help.
+  // Buttons without room are in the help.
   window_->press_key("h");
   press("m");
   EXPECT_NE(window_->state().colour_map, ViewerState{}.colour_map);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole window, drawn off-screen: clicks and keys change the state, and the drawing follows it.
+// Tests the whole window, drawn off-screen: clicks and keys change the state, and the drawing follows it.
 #include "support/test.hpp"
 #include "view/test_pictures.hpp"
 #include "viewer/three_targets.hpp"
@@ -40,7 +40,7 @@ class WindowFixture : public testing::Test {
     ReadPicture read = read_png(path);
     return read;
   }
-  // Pixels that differ between two pictures within a box.
+  // Counts the pixels that differ between two pictures within a box.
   static int differences(const ReadPicture& a, const ReadPicture& b, const Box& box) {
     int count = 0;
     for (double x = box.left + 0.5; x < box.right; ++x)
@@ -254,7 +254,7 @@ TEST_F(WindowFixture, refuses_what_cannot_be_shown) {
   EXPECT_THAT(refuses(uneven, {}, ErrorKind::content), HasSubstr("3 x 3 samples"));
 }
 
-// Of a scene whose parts stand elsewhere at each ping: drawn, clicked, explained and coloured as of the ping.
+// A scene whose parts move from ping to ping is drawn, clicked, explained and coloured at the time of the ping.
 TEST_F(WindowFixture, a_scene_that_moves_is_that_of_the_ping) {
   made_ = three_targets(3);
   SceneCloud& scene = made_.data.scene;

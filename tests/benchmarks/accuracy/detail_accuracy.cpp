@@ -29,10 +29,10 @@ using namespace insonify;
 
 constexpr double widths[] = {0, 0.125, 0.25, 0.5, 1, 2};  // [beam widths]
 
-/// Resolves 12 cm, up to 30 m.
+/// Returns a head that resolves 12 cm, up to 30 m.
 SonarHead head_of_12_cm() { return wide_head(6250, 30); }
 
-/// A scene, and where the head looks at it from.
+/// A scene with the pose of a head.
 struct View {
   std::string scene;
   Pose pose = scene == "reef" ? pose_from_yaw_pitch_roll({-8, 0, 0}, 0, radians(10), 0) : harbour_pose();
@@ -45,7 +45,7 @@ SimulatedPing expected_level(const PreparedScene& scene, const Pose& pose, const
   return PingSimulator(head, {}, options).ping(scene, {pose});
 }
 
-/// Median wall and CPU time [ms] of seven warm pings.
+/// Returns the median wall and CPU time [ms] of seven warm pings.
 std::pair<double, double> time_of(const PreparedScene& scene, const Pose& pose, const SonarHead& head,
                                   const SamplingSettings& sampling) {
   const PingSimulator simulator(head, {}, {.sampling = sampling});
@@ -62,7 +62,7 @@ std::pair<double, double> time_of(const PreparedScene& scene, const Pose& pose, 
   return {wall[3], cpu[3]};
 }
 
-/// One row for each width; returns error [dB] against run time [ms].
+/// Prints one row for each width. Returns error [dB] against run time [ms].
 ChartLine print_rows(const View& view, std::size_t surfels, const Grid<double>& exact) {
   const PreparedScene scene = view.of(surfels);
   const SonarHead head = head_of_12_cm();

@@ -17,13 +17,13 @@ namespace {
 
 using namespace insonify;
 
-/// A file, and where a head of a p900-45 with 512 beams is in it; ranges in metres, angles in degrees.
+/// A file with the pose of a head of a p900-45 with 512 beams in it; ranges in metres, angles in degrees.
 struct CapturedView {
   const char *what, *file;
   Eigen::Vector3d place, angles;
   double min_range, max_range;
-  double mesh_spacing = 0;  ///< of a mesh that is taken as a cloud [m]
-  bool from_head = false;   ///< the file has no viewpoint: it was captured from about where the head is
+  double mesh_spacing = 0;  ///< spacing of a mesh that is taken as a cloud [m]
+  bool from_head = false;   ///< true: the file has no viewpoint, it was captured from about the head's position
 };
 
 const CapturedView views[] = {

@@ -21,7 +21,7 @@ namespace {
 
 using namespace insonify;
 
-/// A scene, and where a head looks at it from.
+/// A scene with the pose of a head.
 struct View {
   std::string scene;
   double x, z, pitch_deg;
@@ -39,7 +39,7 @@ SonarHead head_of(const std::string& preset, double min_range, double max_range)
   return make_head(spec, sound_speed(Water{}));
 }
 
-/// A scene, a head and a number of cells, which are pinged in both ways.
+/// A scene, a head and a number of cells, pinged in both ways.
 struct Rig {
   PreparedScene scene;
   SonarHead head;
@@ -88,7 +88,7 @@ Moments moments_of(const Rig& rig, bool phases, const Pose& pose, int seeds) {
 /// Differences of two images, over cells within 40 dB of the strongest.
 struct Difference {
   double total = 0, band = 0, rms = 0, off = 0, contrast[2] = {0, 0};
-  double middle[2] = {0, 0};  ///< contrast of the middle half of the beams, which hear no grating lobes
+  double middle[2] = {0, 0};  ///< contrast of the middle half of the beams, which receive no grating lobes
 };
 Difference difference(const Moments& a, const Moments& b, int seeds) {
   Difference d;
@@ -121,7 +121,7 @@ Difference difference(const Moments& a, const Moments& b, int seeds) {
   return d;
 }
 
-/// Correlation of two images, each relative to its mean, `beams` and `cells` apart.
+/// Returns the correlation of two images, each relative to its mean, `beams` and `cells` apart.
 double correlation(const Grid<double>& a, const Grid<double>& b, const Grid<double>& mean, Eigen::Index beams = 0,
                    Eigen::Index cells = 0) {
   double ab = 0, aa = 0, bb = 0;
@@ -200,7 +200,7 @@ void print_motion() {
   }
 }
 
-/// A row of print_paths; index: of a scene in `views`.
+/// Prints a row of print_paths; `index` is that of a scene in `views`.
 void print_paths_of(const char* name, std::size_t index, const Environment& environment, const EffectSettings& effects,
                     int seeds) {
   const View& view = views[index];

@@ -25,7 +25,7 @@ using namespace insonify;
 constexpr double rays_per_cell[] = {0.0625, 0.25, 1, 4, 16};
 constexpr double reference_rays = 64;
 
-/// Resolves 12 cm, up to 30 m.
+/// Returns a head that resolves 12 cm, up to 30 m.
 SonarHead head_of_12_cm() { return wide_head(6250, 30); }
 
 const Pose pose = harbour_pose();
@@ -50,8 +50,8 @@ Levels levels_of(const PreparedScene& scene, SimulationOptions options) {
   return {level(0), level(1)};
 }
 
-/// Root mean square [dB] of how far the whole image is off, in cells where the double echoes are above the direct ones
-/// less 20 dB.
+/// Returns the root mean square error of the whole image [dB], in cells where the double echoes are above the direct
+/// ones less 20 dB.
 double image_error(const Grid<double>& level, const Grid<double>& exact, const Grid<double>& direct) {
   double squares = 0, cells = 0;
   for (Eigen::Index i = 0; i < exact.size(); ++i) {

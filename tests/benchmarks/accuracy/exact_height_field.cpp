@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expected levels and visibility of whole pings of rough ground against its triangles: facet by facet, every line of sight
-// walked over the triangles without a step.
+// Expected levels and visibility of whole pings of rough ground against its triangles: facet by facet, every line of
+// sight walked over the triangles without a step.
 //
 //   exact_height_field                                  generated beds, clouds drawn from them in several ways
 //   exact_height_field CLOUD SONAR X Y Z YAW PITCH ROLL MIN_RANGE MAX_RANGE
 //                                                       a captured raster (metres, degrees), SONAR a file or preset
 //
-// A row each: error of the total, of the worst of nine bands of range, and of cells of two beams by 0.2 m within 20 dB of the
-// strongest [dB]; energy of surfels hidden and shown wrongly by the true line of sight to their centres, and the worst
-// difference of both in a band [% of what is to be seen].
+// A row each: error of the total, of the worst of nine bands of range, and of cells of two beams by 0.2 m within 20 dB
+// of the strongest [dB]; energy of surfels hidden and shown wrongly by the true line of sight to their centres, and the
+// worst difference of both in a band [% of what is to be seen].
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -75,7 +75,7 @@ Grid<double> by_band(const Grid<double>& energy) {
 
 double error_db(double a, double b) { return b > 0 ? db_from_power(a / b) : 0; }
 
-// Surfels wrongly hidden and shown, of each band: shares of what is to be seen.
+// Surfels wrongly hidden and shown, by band, as fractions of the visible energy.
 struct Wrong {
   Grid<double> hidden = Grid<double>::Zero(1, bands), shown = hidden, seen = hidden;
 };

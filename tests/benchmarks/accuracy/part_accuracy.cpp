@@ -3,8 +3,9 @@
 // (E127) and of the surface of a range (E128): part_accuracy [SURFELS] [PRESET[@MIN:MAX] ...], a table in Markdown
 // (docs/results/sampling.md).
 //
-// Harbour of 300 000 surfels, each preset at its range, at most 30 m, or from MIN to MAX [m]; three seeds, against 100 parts
-// per cell as wide as in a main lobe. Bins of side lobes: those of which the directions of main lobes give less than a tenth.
+// Harbour of 300 000 surfels, each preset at its range, at most 30 m, or from MIN to MAX [m]; three seeds, against 100
+// parts per cell as wide as in a main lobe. Bins of side lobes: those of which the directions of main lobes give less
+// than a tenth.
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -45,14 +46,14 @@ class Bench {
                          {pose_from_yaw_pitch_roll({5, 0, -3}, tilt.x(), tilt.y(), tilt.z())}, water, options);
   }
 
-  /// How surfels are split.
+  /// A rule for the splitting of surfels.
   struct Rule {
     const char* name;
     double per_cell, lobe_margin;
-    bool by_shares = true, alike = false;  ///< E127; all parts of a surfel with the same surface, without E128
+    bool by_shares = true, alike = false;  ///< E127; true: all parts of a surfel have the same surface, without E128
   };
 
-  /// Expected intensities, beams x bins.
+  /// Returns expected intensities, beams x bins.
   Grid<double> levels(std::uint64_t seed, const Rule& rule, double azimuth_margin) {
     SamplingOptions o = ping_.view.sampling;
     o.seed = seed, o.scatterers_per_cell = rule.per_cell, o.lobe_margin = rule.lobe_margin;
@@ -66,7 +67,7 @@ class Bench {
     return synthesize_intensity(direct_echoes(s, scene_.scene().materials, sent.pulse, sent.medium, sent.echo_options),
                                 ping_.head, sent.medium);
   }
-  std::size_t scatterers = 0;  ///< of the last call
+  std::size_t scatterers = 0;  ///< number in the last call
 
  private:
   void share_alike(Scatterers& s) const {

@@ -11,14 +11,14 @@
 namespace insonify {
 namespace {
 
-/// What of a preset a case takes.
+/// The part of a preset's head that a case uses.
 struct HeadPart {
   const char* sonar;
   double min_range, max_range;
-  std::size_t beams, rows = 1;  ///< at most, evenly taken
+  std::size_t beams, rows = 1;  ///< largest numbers, evenly taken
 };
 
-/// Every so many-th beam of every so many-th row.
+/// Keeps every so many-th beam of every so many-th row.
 void thin(BeamFan& fan, std::size_t beams, std::size_t rows) {
   const std::vector<FanRow> all = fan_rows(fan);
   const std::size_t row_step = std::max<std::size_t>(1, all.size() / rows);
@@ -43,7 +43,7 @@ SonarHead head_of(const HeadPart& part, const Environment& environment) {
   return head;
 }
 
-/// A height field of hills and ripples: x from 0 to `length`, y from -width/2 to width/2.
+/// Returns a height field of hills and ripples: x from 0 to `length`, y from -width/2 to width/2.
 SceneCloud rough_field(double length, double width, double cell) {
   SceneCloud scene;
   for (int i = 0; i < length / cell; ++i)
@@ -80,7 +80,7 @@ Environment with_surface(double height, double depth) {
   return e;
 }
 
-/// Under a sea so rough that it reflects nothing.
+/// Returns water with a profile under a sea so rough that it reflects nothing.
 Environment with_profile() {
   Environment e = with_surface(8, 5);
   e.surface->rms_height = 1;

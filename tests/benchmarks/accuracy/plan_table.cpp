@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints the tables of docs/results/plan.md: what the plan promises of each stage and what forcing the stage in does, or,
-// called with `left-out`, what default pings lack.
+// Prints the tables of docs/results/plan.md: what the plan promises of each stage and what forcing the stage in does,
+// or, called with `left-out`, what default pings lack.
 #include <algorithm>
 #include <cstdio>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sampling of point clouds against the true surfaces they were scanned from: sampling_accuracy [SPACING_MM ...].
 //
-// Three tables: range errors of rays, the same apart near silhouettes and elsewhere, and surfels hidden or shown wrongly.
-// Holes: rays that should have met a surface and met nothing.
+// Three tables: range errors of rays, the same apart near silhouettes and elsewhere, and surfels hidden or shown
+// wrongly. Holes: rays that should have met a surface and met nothing.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,7 +20,7 @@ namespace {
 
 using namespace insonify;
 
-constexpr double far_off = 0.3;  // [m]: an error of another object, not of a surface
+constexpr double far_off = 0.3;  // error [m] beyond which a ray met another object
 
 struct View {
   std::string name;
@@ -38,7 +38,7 @@ std::vector<View> views() {
           {"normal", pose_from_yaw_pitch_roll({19, 0, -1}, 0, radians(90), 0), high, {0.5, 30, 0.01}}};
 }
 
-// Absolute errors, and what a table says of them.
+// Absolute errors with their statistics for a table.
 struct Errors {
   std::vector<double> size;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// True delays (E68) against element by element: true_delays_accuracy [HEAD] prints the table of docs/results/accuracy.md, one
-// row for each head, direction and range, and one for each head above a rough height field. Never asserted.
+// True delays (E68) against element by element: true_delays_accuracy [HEAD] prints the table of
+// docs/results/accuracy.md, one row for each head, direction and range, and one for each head above a rough height
+// field. Never asserted.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -25,7 +26,7 @@ constexpr double c = 1500;
 constexpr std::size_t checked_beams = 24, few = 100, some_of_field = 3000, many = 200000;
 constexpr int repeats = 7;
 
-/// Echoes within ten degrees of `azimuth`, all over the gate.
+/// Returns echoes within ten degrees of `azimuth`, all over the gate.
 Echoes patch(const SonarHead& head, double azimuth, std::size_t count) {
   Echoes echoes;
   for (std::size_t i = 0; i < count; ++i) {
@@ -37,7 +38,7 @@ Echoes patch(const SonarHead& head, double azimuth, std::size_t count) {
   return echoes;
 }
 
-/// Relative L2 error of the beams picked, against each element summed.
+/// Relative L2 error of selected beams against the sum over each element.
 struct Referee {
   std::vector<std::size_t> beams;
   ComplexGrid image;
@@ -62,7 +63,7 @@ double median(std::vector<double> values) {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Processor time of an image by both methods, one after the other, on one thread.
+/// Prints the CPU time of an image by both methods, one after the other, on one thread.
 void print_times(const Echoes& echoes, const SonarHead& head, const Medium& medium) {
   const GriddedEngine narrow(head, medium, {1e-3, 1});
   for (const double tolerance : {1e-3, 1e-4}) {
@@ -104,7 +105,7 @@ void print_head(const std::string& name, double azimuth_in, double range) {
   print_times(patch(head, azimuth, many), head, medium);
 }
 
-/// Hills, ripples, and roughness at its own spacing of 2 cm, like a scanned reef: 10 m by 10 m.
+/// Returns 10 m by 10 m of hills, ripples, and roughness at its own spacing of 2 cm, like a scanned reef.
 SceneCloud rough_bed() {
   constexpr double cell = 0.02, rough = 0.015;
   constexpr int nodes = 500;
@@ -122,7 +123,7 @@ SceneCloud rough_bed() {
   return scene;
 }
 
-/// All surfels that the head sees of the field from 2 m above it, each one echo.
+/// Compares all surfels that the head sees of the field from 2 m above it, each as one echo.
 void print_field(const std::string& name, const SceneCloud& field) {
   SonarHead head = make_head(find_sonar(name).spec, c);
   head.gate.min_range = 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sea bed of facets, spheres, and boxes of six faces: what a ray truly meets, in closed form, and surfels scanned from it.
+// A sea bed of facets, spheres, and boxes of six faces, with the true hits of rays in closed form, and surfels scanned
+// from it.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@ struct Triangle {
 };
 inline constexpr double none = 1e9;
 
-// Range at which a ray meets a triangle (Moeller and Trumbore 1997).
+// Returns the range at which a ray meets a triangle (Moeller and Trumbore 1997).
 inline double meet(const Triangle& t, const Vector3d& from, const Vector3d& along) {
   const Vector3d p = along.cross(t.v), s = from - t.a, q = s.cross(t.u);
   const double determinant = t.u.dot(p);
@@ -52,7 +53,7 @@ class SeaBed {
       }
   }
 
-  // The two facets of cell (i, j).
+  // Returns the two facets of cell (i, j).
   std::array<Triangle, 2> facets(int i, int j) const {
     const auto at = [&](int di, int dj) {
       return Vector3d((i + di) * cell, (j + dj) * cell - half_width,
@@ -62,7 +63,7 @@ class SeaBed {
     return {Triangle{a, at(1, 0) - a, d}, Triangle{a, d, at(0, 1) - a}};
   }
 
-  // Nearest facet that a ray meets: cell by cell along its track.
+  // Returns the range of the nearest facet that a ray meets, cell by cell along its track.
   double range(const Vector3d& from, const Vector3d& along) const {
     const double steepest = std::hypot(along.x(), along.y());
     double nearest = none;
@@ -118,7 +119,7 @@ class World {
     add_box({11, -3, -6.5}, {0.05, 0.05, 1.5});
   }
 
-  // Range along a unit direction; nothing: the ray meets no surface.
+  // Returns the range along a unit direction; nothing if the ray meets no surface.
   std::optional<double> truth(const Vector3d& from, const Vector3d& along) const {
     double nearest = bed_.range(from, along);
     for (const Triangle& t : triangles_) nearest = std::min(nearest, meet(t, from, along));
@@ -131,7 +132,7 @@ class World {
     return nearest < none ? std::optional(nearest) : std::nullopt;
   }
 
-  // Surfels at random on all surfaces, thinned to about `spacing` like a scanner's.
+  // Returns random surfels on all surfaces, thinned to about `spacing` like a scanner's.
   SceneCloud scan(double spacing) const {
     SceneCloud scene;
     std::mt19937_64 random(7);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What moving parts cost: part_speed [SURFELS] [PINGS]. Pings of a harbour alone and of the same harbour with ten parts
+// Cost of moving parts: part_speed [SURFELS] [PINGS]. Pings of a harbour alone and of the same harbour with ten parts
 // of 5000 surfels that stand elsewhere in every ping, by turns; medians, and the peak of memory of each in a child
 // process.
 #include <algorithm>
@@ -25,7 +25,7 @@ using namespace insonify;
 
 constexpr int moving_parts = 10, surfels_of_part = 5000;
 
-/// A sphere of 0.4 m, on a Fibonacci spiral.
+/// Returns a sphere of 0.4 m, on a Fibonacci spiral.
 std::shared_ptr<const SceneCloud> sphere() {
   SceneCloud cloud;
   const double radius = 0.4, golden = pi * (3 - std::sqrt(5.0));
@@ -37,7 +37,7 @@ std::shared_ptr<const SceneCloud> sphere() {
   return std::make_shared<const SceneCloud>(std::move(cloud));
 }
 
-/// Where the parts are in ping number `ping`: they go round in front of the head.
+/// Returns the parts at ping number `ping`: they go round in front of the head.
 std::vector<PlacedPart> parts_in(int ping, const std::shared_ptr<const SceneCloud>& cloud) {
   std::vector<PlacedPart> parts;
   for (int k = 0; k < moving_parts; ++k) {
@@ -56,12 +56,12 @@ struct Bench {
   std::shared_ptr<const SceneCloud> cloud = sphere();
   explicit Bench(std::size_t surfels) : harbour(make_built_in_scene("harbour", {.points = surfels})) {}
 
-  /// Pings of the bed as it is.
+  /// Returns a function that pings the bed alone.
   std::function<void(int)> alone() {
     auto scene = std::make_shared<PreparedScene>(std::move(harbour));
     return [this, scene](int ping) { simulator.ping(*scene, {.world_from_head = harbour_pose(), .number = ping}); };
   }
-  /// Pings of the bed with moving parts.
+  /// Returns a function that pings the bed with moving parts.
   std::function<void(int)> with_parts() {
     std::vector<PlacedPart> bed{
         {.name = "harbour", .cloud = std::make_shared<const SceneCloud>(std::move(harbour)), .captured = true}};
@@ -77,7 +77,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Runs in a child and prints its peak of memory.
+/// Runs `run` in a child process and prints its peak of memory.
 void report_memory(const char* what, const std::function<void()>& run) {
   std::fflush(stdout);
   const pid_t child = fork();

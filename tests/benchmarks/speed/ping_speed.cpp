@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long warm pings of prepared scenes take, as tables in Markdown (docs/results/speed.md):
+// Times of warm pings of prepared scenes, as tables in Markdown (docs/results/speed.md):
 //   ping_speed work [NAME]     some pings of the harbour of a million surfels: medians of five, or of eleven short ones
-//   ping_speed presets [NAME]  every preset on harbour and plane: medians of three, of eleven short ones, or one if the first
-//                              takes more than a second
+//   ping_speed presets [NAME]  every preset on harbour and plane: medians of three, of eleven short ones, or one if
+//                              the first takes more than a second
 //   ping_speed display [NAME [CELLS]]  every preset as display images of 600 cells with noise, on the harbour: the same
 // NAME: only those whose names contain it.
 #include <algorithm>
@@ -28,7 +28,7 @@ using namespace insonify;
 
 const Environment fresh_water{};
 
-/// Wall and CPU time of a ping [s], pages that it fetched from the system, and what it was made of.
+/// Wall and CPU time of a ping [s], pages that it fetched from the system, and its sizes.
 struct PingTime {
   double wall = 0, cpu = 0;
   long pages = 0;
@@ -36,7 +36,7 @@ struct PingTime {
   std::size_t scatterers = 0, samples = 0;
 };
 
-/// Minor page faults of this process so far.
+/// Returns the minor page faults of this process so far.
 long page_faults() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -57,8 +57,8 @@ PingTime time_ping(const PingSimulator& simulator, const PreparedScene& scene, c
   return time;
 }
 
-/// Median by wall time, after one ping that is not counted: of eleven if that takes less than 200 ms, of one if it takes
-/// more than a second.
+/// Returns the median by wall time, after one ping that is not counted: of eleven if that takes less than 200 ms, of
+/// one if it takes more than a second.
 PingTime median_ping(int repeats, const PreparedScene& scene, const SonarHead& head, const Pose& pose,
                      const SimulationOptions& options = {}) {
   const PingSimulator simulator(head, fresh_water, options);
@@ -116,7 +116,7 @@ void time_work(const std::string& part) {
   time("waterlinked-3d15, 0.3:15 m", preset("waterlinked-3d15", 0.3, 15));
 }
 
-/// Where a preset stands in the harbour, as it is mounted.
+/// Returns the pose of a preset in the harbour, as it is mounted.
 Pose pose_of(const SonarFile& file) {
   const Eigen::Vector3d tilt = file.mounting.isZero(0) ? Eigen::Vector3d(0, radians(10), 0) : file.mounting;
   return pose_from_yaw_pitch_roll({5, 0, -3}, tilt.x(), tilt.y(), tilt.z());
@@ -156,7 +156,7 @@ void time_presets(const std::string& part) {
   std::printf("\n%d of %d presets keep their own rate on the harbour.\n", in_real_time, all);
 }
 
-/// Display images of every preset on the harbour, by the rate of the sonar.
+/// Times display images of every preset on the harbour, by the rate of the sonar.
 void time_display(const std::string& part, int cells) {
   const PreparedScene harbour(make_built_in_scene("harbour", {.points = 300000}));
   std::printf(

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long one ping of a prepared harbour takes, as a table in Markdown: sampling_speed [REPEATS [MOST_POINTS]].
+// Time of one ping of a prepared harbour, as a table in Markdown: sampling_speed [REPEATS [MOST_POINTS]].
 //
-// Medians and quartiles of wall times and medians of CPU times, warm. Gates are chosen so that each row holds the scatterers it names.
+// Medians and quartiles of wall times and medians of CPU times, warm. Gates are chosen so that each row holds the
+// scatterers it names.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -58,7 +59,7 @@ std::size_t count(const PreparedScene& scene, double max_range, double per_cell)
   return find_scatterers(scene, pose, head.fan, head.gate, options_for(head, per_cell, 0)).scatterers.size();
 }
 
-// Where f, which grows with x, reaches `wanted`, within 3 %.
+// Returns the x at which f, which grows with x, reaches `wanted`, within 3 %.
 double solve(double low, double high, double wanted, const std::function<std::size_t(double)>& f) {
   for (int step = 0; step < 24; ++step) {
     const double middle = (low + high) / 2, found = static_cast<double>(f(middle));
@@ -106,7 +107,7 @@ void print_row(const char* name, const PreparedScene& scene, double max_range, d
   const EchoOptions echo_options = with_patterns({}, head);
   Times one_core, sampling, sound, ping;
   SamplingReport report;
-  for (int r = -1; r < repeats; ++r) {  // the first, cold, is forgotten
+  for (int r = -1; r < repeats; ++r) {  // the first, cold one does not count
     if (r == 0)
       for (Times* t : {&one_core, &sampling, &sound, &ping}) t->forget();
     one_core.measure([&] { return find_scatterers(scene, pose, head.fan, head.gate, options_for(head, per_cell, 1)); });
@@ -127,7 +128,7 @@ void print_row(const char* name, const PreparedScene& scene, double max_range, d
   std::fflush(stdout);
 }
 
-// The harbour, and `copies` more of it far out of reach.
+// Returns the harbour, and `copies` more of it far out of reach.
 SceneCloud with_far_copies(const SceneCloud& harbour, int copies) {
   SceneCloud scene = harbour;
   for (int c = 1; c <= copies; ++c)
