@@ -21,7 +21,8 @@ struct Contradiction {
 
 }  // namespace
 
-void trust_lines_of_sight(const Eigen::Vector3d& viewpoint, int threads, SceneCloud& scene) {
+void trust_lines_of_sight(const Eigen::Vector3d& viewpoint, int threads, SceneCloud& scene,
+                          std::span<const std::uint16_t> stations, std::uint16_t station) {
   scene.noise.resize(scene.size(), 0.0f);
   const InsonifiedRegion all = region_around(viewpoint, std::numeric_limits<float>::max());
   const auto surfels =
@@ -34,6 +35,7 @@ void trust_lines_of_sight(const Eigen::Vector3d& viewpoint, int threads, SceneCl
     std::vector<Neighbour> scratch;
     std::vector<Contradiction> covering;
     for (std::size_t i = begin; i < end; ++i) {
+      if (!stations.empty() && stations[surfels[i].surfel] != station) continue;
       const LineOfSight line(surfels[i]);
       Cover covers = 0;
       covering.clear();

@@ -32,19 +32,19 @@ void repair(RawCloud& raw, const std::vector<std::uint32_t>& bad, const LoadOpti
       if (usable_normal(raw.normal[n.index])) sum += raw.normal[n.index].normalized();
     }
     if (sum.dot(estimates[b]) < 0) repaired[b] = -estimates[b];
-    if (sum.isZero() && raw.viewpoint) {
-      repaired[b] = facing(estimates[b], raw.point[bad[b]], *raw.viewpoint - raw.origin);
-    }
+    const auto viewpoint = raw.seen_from(bad[b]);
+    if (sum.isZero() && viewpoint) repaired[b] = facing(estimates[b], raw.point[bad[b]], *viewpoint - raw.origin);
   });
   for (std::size_t b = 0; b < bad.size(); ++b) raw.normal[bad[b]] = repaired[b];
 }
 
-/// Orients all normals towards the viewpoint.
+/// Returns true if the place is known from which each point was seen.
+bool seen_from_somewhere(const RawCloud& raw) { return raw.viewpoint || !raw.stations.empty(); }
+
+/// Orients all normals towards where their points were seen from.
 void face_viewpoint(RawCloud& raw, LoadedScene& result) {
-  const Eigen::Vector3d viewpoint = *raw.viewpoint - raw.origin;
-  for (std::size_t i = 0; i < raw.point.size(); ++i) {
-    raw.normal[i] = facing(raw.normal[i], raw.point[i], viewpoint);
-  }
+  for (std::size_t i = 0; i < raw.point.size(); ++i)
+    raw.normal[i] = facing(raw.normal[i], raw.point[i], *raw.seen_from(i) - raw.origin);
   result.report.viewpoint = raw.viewpoint;
   result.scene.normals_oriented = true;
 }
@@ -57,7 +57,7 @@ void estimate_all(RawCloud& raw, const LoadOptions& options, LoadedScene& result
   result.report.normals_estimated = true;
   result.scene.normals_oriented = false;
   raw.raster = raster_triangles(raw.point);
-  if (raw.viewpoint) return face_viewpoint(raw, result);
+  if (seen_from_somewhere(raw)) return face_viewpoint(raw, result);
   if (looks_up(raw)) {
     turn_up(raw.normal);
     raw.heights = true;
@@ -74,11 +74,10 @@ void estimate_all(RawCloud& raw, const LoadOptions& options, LoadedScene& result
 
 /// Notes if most normals of the file face away from the viewpoint, which suggests inward or unoriented normals.
 void compare_with_viewpoint(const RawCloud& raw, LoadedScene& result) {
-  if (!raw.viewpoint) return;
+  if (!seen_from_somewhere(raw)) return;
   std::size_t away = 0;
-  for (std::size_t i = 0; i < raw.point.size(); ++i) {
-    away += facing(raw.normal[i], raw.point[i], *raw.viewpoint - raw.origin) != raw.normal[i];
-  }
+  for (std::size_t i = 0; i < raw.point.size(); ++i)
+    away += facing(raw.normal[i], raw.point[i], *raw.seen_from(i) - raw.origin) != raw.normal[i];
   if (4 * away > raw.point.size()) {
     result.report.notes.push_back(share(away, raw.point.size(), "normals") +
                                   " of the file look away from the viewpoint: check that they point outwards");
@@ -120,7 +119,7 @@ void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& re
     if (off > 0)
       result.report.notes.push_back(share(off, raw.normal.size(), "normals") + " were not unit vectors: scaled");
     result.scene.normals_oriented = raw.tags.oriented;
-    if (!raw.tags.oriented && raw.viewpoint)
+    if (!raw.tags.oriented && seen_from_somewhere(raw))
       face_viewpoint(raw, result);
     else if (!raw.tags.prepared)
       compare_with_viewpoint(raw, result);

@@ -169,6 +169,7 @@ void keep_points(RawCloud& raw, const std::vector<std::uint32_t>& keep) {
   keep_only(raw.noise, keep);
   keep_only(raw.label, keep);
   keep_only(raw.id, keep);
+  keep_only(raw.station, keep);
   for (SceneColumn& column : raw.columns) keep_rows(column, keep);
   if (!raw.raster.empty()) raw.raster = raster_triangles(raw.point);
   raw.surface.clear();

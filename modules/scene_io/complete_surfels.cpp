@@ -78,8 +78,9 @@ void take_areas(SurfelShapes& shapes, const LoadOptions& options, RawCloud& raw,
 void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   SurfelShapes shapes = shapes_of(raw, options);
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
-    const bool seen = !raw.viewpoint || shapes.normal[i].cast<double>().dot(*raw.viewpoint - raw.origin -
-                                                                            raw.point[i].cast<double>()) > 0;
+    const auto viewpoint = raw.seen_from(i);
+    const bool seen =
+        !viewpoint || shapes.normal[i].cast<double>().dot(*viewpoint - raw.origin - raw.point[i].cast<double>()) > 0;
     if (seen) raw.normal[i] = shapes.normal[i];
   }
   if (raw.heights && !raw.viewpoint) turn_up(raw.normal);
@@ -159,6 +160,8 @@ void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene
   scene.noise = estimate_surfel_noise(scene.point, {.threads = options.threads});
   result.report.noise_estimated = true;
   if (seen_at_once(raw)) trust_lines_of_sight(*raw.viewpoint, options.threads, scene);
+  for (std::size_t k = 0; k < raw.stations.size(); ++k)
+    trust_lines_of_sight(raw.stations[k], options.threads, scene, raw.station, static_cast<std::uint16_t>(k));
 }
 
 }  // namespace insonify

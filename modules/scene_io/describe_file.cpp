@@ -76,8 +76,9 @@ void add_problems(const RawCloud& raw, bool fans_out, FileDescription& file) {
                        " have corners that do not exist: will be dropped");
   if (fans_out) problems.push_back(fans_out_note);
   if (!file.has_normals && raw.triangle.empty())
-    problems.push_back(fans_out        ? "no normals: will be estimated, towards that place"
-                       : raw.viewpoint ? "no normals: will be estimated, towards the viewpoint in the file"
+    problems.push_back(fans_out                ? "no normals: will be estimated, towards that place"
+                       : raw.viewpoint         ? "no normals: will be estimated, towards the viewpoint in the file"
+                       : !raw.stations.empty() ? "no normals: will be estimated, towards the scanner of each point"
                        : looks_up(raw)
                            ? looks_up_note
                            : "no normals and no viewpoint: estimated normals will not be oriented; give a viewpoint");
@@ -107,13 +108,14 @@ FileDescription describe_file(const std::string& path, const AskedMeaning& asked
   file.has_materials = !raw.label.empty() || !raw.tags.materials.empty();
   const std::optional<Eigen::Vector3d> seen_from = viewpoint_by_rows(raw);
   file.viewpoint = raw.viewpoint ? raw.viewpoint : seen_from;
+  file.stations = raw.stations;
   // Surfels have the materials of the points that are kept, those of a mesh the ones of all corners.
   const bool mesh = !raw.triangle.empty();
   std::string bad_labels = mesh ? add_materials(raw, file) : "";
   file.duplicates = drop_unusable(raw);
   if (!mesh) bad_labels = add_materials(raw, file);
   file.median_spacing = median_spacing(raw.point);
-  if (!file.has_normals && !file.viewpoint && !mesh) raw.raster = raster_triangles(raw.point);
+  if (!file.has_normals && !file.viewpoint && file.stations.empty() && !mesh) raw.raster = raster_triangles(raw.point);
   add_problems(raw, seen_from.has_value(), file);
   if (!bad_labels.empty()) file.problems.push_back(std::move(bad_labels));
   return file;

@@ -24,7 +24,8 @@ struct FileDescription {
   Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< of usable points, world [m]
   double median_spacing = 0;                                                     ///< of nearest neighbours [m]
   bool has_normals = false, has_area = false, has_materials = false;
-  std::optional<Eigen::Vector3d> viewpoint;
+  std::optional<Eigen::Vector3d> viewpoint;  ///< place from which all points were seen [m]
+  std::vector<Eigen::Vector3d> stations;     ///< places of the scanners of a cloud of several scans [m]
   /// Shares of the materials among the points that load_scene keeps, or among the corners of a mesh. The shares follow
   /// from the file's labels and areas; no areas are estimated. Empty without materials.
   std::vector<MaterialShare> materials;

@@ -80,14 +80,21 @@ struct RawCloud {
   std::size_t too_far = 0;                               ///< beyond farthest_coordinate
   std::size_t holes = 0;                                 ///< points whose height marks a hole
   bool float_coordinates = false;                        ///< stored as float32
-  std::optional<Eigen::Vector3d> viewpoint;              ///< [m]
+  std::optional<Eigen::Vector3d> viewpoint;              ///< place from which all points were seen [m]
+  std::vector<Eigen::Vector3d> stations;                 ///< places of the scanners of a cloud of several scans [m]
+  std::vector<std::uint16_t> station;                    ///< index into `stations` of each point
   bool heights = false;  ///< points of a raster: seen from above unless a viewpoint is known
   SceneTags tags;
   std::vector<std::string> notes;
 
+  /// Returns the place from which point i was seen [m], if it is known.
+  std::optional<Eigen::Vector3d> seen_from(std::size_t i) const {
+    return stations.empty() ? viewpoint : std::optional(stations[station[i]]);
+  }
   std::size_t unused() const { return withheld + other_classes + not_finite + holes; }  ///< points
 };
 constexpr std::uint16_t no_label = 65535;
+constexpr std::size_t most_stations = 65535;
 constexpr double farthest_coordinate = 1e9;  ///< [m]; larger coordinates mean "no data"
 
 /// What rows say of their use: a bit that withholds them, and their class. In a file without these, bits are 0.
@@ -179,6 +186,7 @@ RawCloud read_pcd(const std::string& path, const ReadOptions& options);
 RawCloud read_ply(const std::string& path, const ReadOptions& options);
 RawCloud read_obj(const std::string& path, const ReadOptions& options);
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
+RawCloud read_ptx(const std::string& path, const ReadOptions& options);
 RawCloud read_gltf(const std::string& path, const ReadOptions& options);
 RawCloud read_las(const std::string& path, const ReadOptions& options);
 RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< of heights, by GDAL

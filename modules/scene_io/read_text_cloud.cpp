@@ -187,6 +187,22 @@ bool has_unit_vectors(const TextRows& rows) {
   return true;
 }
 
+/// Names the columns of a file without a heading: x y z, then a normal if it is one; in points of a scanner (.pts)
+/// intensity and colour. Other columns are not guessed.
+void name_columns(const std::string& path, TextRows& rows, RawCloud& raw) {
+  rows.names = {"x", "y", "z"};
+  const bool scanner = extension_of(path) == ".pts";
+  if (scanner && (rows.columns == 4 || rows.columns == 7)) rows.names.push_back("intensity");
+  if (scanner && (rows.columns == 6 || rows.columns == 7))
+    rows.names.insert(rows.names.end(), {"red", "green", "blue"});
+  else if (has_unit_vectors(rows))
+    rows.names.insert(rows.names.end(), {"nx", "ny", "nz"});
+  if (rows.names.size() < rows.columns)
+    raw.notes.push_back("columns after " + rows.names.back() +
+                        " were ignored: name them in a first line, e.g. 'x y z nx ny nz area label'");
+  rows.names.resize(rows.columns, "ignored");
+}
+
 }  // namespace
 
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options) {
@@ -204,15 +220,7 @@ RawCloud read_text_cloud(const std::string& path, const ReadOptions& options) {
   if (rows.announced > found)
     fail(ErrorKind::content, path, ": cut off: the first line announces ", rows.announced, " points, found ", found,
          "; copy or export the file again");
-  // Without names: x y z, then a normal if it is one; what else there may be is not guessed.
-  if (rows.headings.empty()) {
-    rows.names = {"x", "y", "z"};
-    if (has_unit_vectors(rows)) rows.names.insert(rows.names.end(), {"nx", "ny", "nz"});
-    if (rows.names.size() < rows.columns)
-      raw.notes.push_back("columns after " + rows.names.back() +
-                          " were ignored: name them in a first line, e.g. 'x y z nx ny nz area label'");
-    rows.names.resize(rows.columns, "ignored");
-  }
+  if (rows.headings.empty()) name_columns(path, rows, raw);
   if (rows.comma) raw.notes.push_back("commas within numbers were taken as decimal points");
   for (const std::string& name : rows.names) raw.fields.push_back({name, "text"});
   raw.width = found;

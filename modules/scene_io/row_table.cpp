@@ -205,6 +205,7 @@ void fill_cloud(RawCloud& raw, const RowTable& in_file, const ReadOptions& optio
   decide_meaning(raw, table, found, options);
   const Places places{table, found, raw.meaning};
   if (raw.viewpoint) raw.viewpoint = places.axes.place(*raw.viewpoint);
+  for (Eigen::Vector3d& place : raw.stations) place = places.axes.place(place);
 
   // Coordinates become relative to the origin in double, then float.
   raw.point.resize(table.rows);

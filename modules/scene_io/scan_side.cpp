@@ -7,6 +7,7 @@
 #include <iterator>
 #include <vector>
 
+#include "core/text.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 
 namespace insonify {
@@ -73,13 +74,18 @@ bool is_raster(const RawCloud& raw) {
 }  // namespace
 
 std::optional<Eigen::Vector3d> viewpoint_by_rows(const RawCloud& raw) {
-  const bool known = raw.viewpoint || raw.tags.prepared || !raw.triangle.empty();
+  const bool known = raw.viewpoint || !raw.stations.empty() || raw.tags.prepared || !raw.triangle.empty();
   if (known || !fans_out_from_origin(raw)) return std::nullopt;
   return Eigen::Vector3d::Zero();
 }
 
 void find_viewpoint(RawCloud& raw, const LoadOptions& options, std::vector<std::string>& notes) {
-  if (options.viewpoint) raw.viewpoint = options.viewpoint;
+  if (options.viewpoint) {
+    raw.viewpoint = options.viewpoint;
+    raw.stations.clear(), raw.station.clear();
+  }
+  if (!raw.stations.empty())
+    notes.push_back(printed("%zu scans: each point was seen from the scanner of its own", raw.stations.size()));
   const auto seen_from = viewpoint_by_rows(raw);
   if (!seen_from) return;
   raw.viewpoint = seen_from;

@@ -34,6 +34,8 @@ const std::vector<SceneReader>& scene_readers() {
       {{".glb"}, {"glTF"}, "a binary glTF file", "", read_gltf},
       {{".gltf"}, {}, "a glTF document", "", read_gltf},
       {{".xyz", ".txt", ".csv"}, {}, "text", "", read_asc},
+      {{".pts"}, {}, "points of a scanner as text", "", read_text_cloud},
+      {{".ptx"}, {}, "scans of a scanner as text", "", read_ptx},
       {{".asc"}, {"ncols", "NCOLS"}, "text, or an ESRI ASCII grid", "", read_asc},
       {{".tif", ".tiff"}, {std::string("II*\0", 4), std::string("MM\0*", 4)}, "a TIFF file", "", read_raster},
       {{".bag"}, {}, "a BAG file", "", read_raster},

@@ -8,7 +8,7 @@ set -euo pipefail
 [[ $# == 2 ]] || { sed -n '6s/^# *//p' "$0" >&2; exit 2; }
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
-mkdir pcd ply obj stl vtk vtp gltf glb xyz csv asc las tiff tiles sonar environment mission materials mirrors scene \
+mkdir pcd ply obj stl vtk vtp gltf glb xyz pts ptx csv asc las tiff tiles sonar environment mission materials mirrors scene \
   scene.beside profile trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run levels survey work
 
 # Formats that the tool writes.
@@ -46,6 +46,10 @@ printf "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n
 printf "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n${square}TRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nMETADATA\nx y\n\nPOINT_DATA 4\nCOLOR_SCALARS c 2\n0 0 1 1 0 0 1 1\n" >vtk/strip.vtk
 printf '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n<Piece NumberOfPoints="4" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="1">\n<PointData><DataArray type="Int32" Name="label" NumberOfComponents="1" format="ascii">1 2 3 4</DataArray></PointData>\n<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 1 1 0 0 1 0</DataArray></Points>\n<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray><DataArray type="Int64" Name="offsets" format="ascii">4</DataArray></Polys>\n</Piece></PolyData></VTKFile>\n' >vtp/text.vtp
 printf "4\n$square" >xyz/count.xyz
+printf "2\n0 0 0 -3 1 2 3\n1 0 0 -3 1 2 3\n2\n0 1 0 4 1 2 3\n1 1 0 4 1 2 3\n" >pts/scans.pts
+scan='2\n2\n1 0 5\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 0 5 1\n0 0 -5 .5\n1 0 -5 .5\n0 0 0 .5\n1 1 -5 .5\n'
+printf "$scan" >ptx/one.ptx
+printf "$scan$scan" >ptx/two.ptx
 printf "x y z nx ny nz area label\n0 0 0 0 0 1 .1 1\n1 0 0 0 0 1 .1 1\n1 1 0 0 0 1 .1 2\n0 1 0 0 0 1 .1 2\n" >xyz/named.xyz
 printf '"x";"y";"z"\n0;0;0\n1;0;0\n1;1;0\n' >csv/quoted.csv
 printf "x,y,z\n0,0,0\n1,0,0\n1,1,0\n" >csv/plain.csv

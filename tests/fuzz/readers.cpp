@@ -140,6 +140,8 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"gltf", ".gltf", read_scene},
       {"glb", ".glb", read_scene},
       {"xyz", ".xyz", read_description},
+      {"pts", ".pts", read_scene},
+      {"ptx", ".ptx", read_scene},
       {"csv", ".csv", read_scene},
       {"asc", ".asc", read_scene},
       {"las", ".las", read_description},

@@ -5,7 +5,7 @@
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
-using namespace insonify::tool;
+using namespace insonify;
 
 namespace {
 

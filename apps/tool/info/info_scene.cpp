@@ -75,7 +75,7 @@ std::vector<std::string> next_of_cloud(const FileDescription& d, MeaningText& as
   for (const RunSetting& setting : meaning_settings(asked))
     if (const std::string& value = *std::get<std::string*>(setting.value); !value.empty())
       options += fmt::format(" {} {}", setting.option, shell_word(value));
-  const bool sided = d.has_normals || d.triangles > 0 || d.viewpoint;
+  const bool sided = d.has_normals || d.triangles > 0 || d.viewpoint || !d.stations.empty();
   const bool prepares = !sided || !options.empty();
   const std::string prepared = prepares ? "prepared.ply" : d.path;
   std::vector<std::string> next =
@@ -114,6 +114,7 @@ ordered_json cloud_info(const std::string& path, MeaningText& asked) {
                        {"material_shares", shares_json(d.materials)},
                        {"problems", d.problems}};
   if (d.viewpoint) json["viewpoint"] = point(*d.viewpoint);
+  for (const Eigen::Vector3d& place : d.stations) json["stations"].push_back(point(place));
   json["next"] = next_of_cloud(d, asked);
   return json;
 }
