@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -98,7 +99,8 @@ struct Simulator {
 struct MadePing {
   By by;
   Of scene;
-  PingOptions options;  ///< of the simulator, with pose, seed and what to keep
+  PingOptions options;           ///< of the simulator, with seed and what to keep
+  std::array<double, 6> pose{};  ///< x, y, z [m], yaw, pitch, roll [deg] of the vehicle
   PingEvent event{};
   SimulationOptions simulation{};  ///< that was asked for
   SimulatedPing made{};

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // insonify._insonify_io: what needs PCL, VTK and the files of runs.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -119,6 +121,7 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   const Scene& scene = *ping.scene;
   PingOptions o = ping.options;
   o.common.quiet = true;
+  o.pose = fmt::format("{}", fmt::join(ping.pose, ","));
   o.scene = scene.options;
   o.run.output = path.string(), o.run.force = force, o.run.no_picture = !picture;
   const HeadSetup head = head_of(ping);

@@ -8,6 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/pose.hpp"
+#include "core/units.hpp"
 #include "python/binding_internal.hpp"
 #include "returns/sounding_columns.hpp"
 #include "simulate/plan_ping.hpp"
@@ -58,14 +60,10 @@ MadePing asked(const By& by, const Of& scene, const py::kwargs& keys, const char
   return ping;
 }
 
-/// Six numbers as --pose takes them.
-std::string pose_text(const double* pose) { return fmt::format("{}", fmt::join(pose, pose + 6, ",")); }
-
 MadePing asked_at(MadePing ping, const py::object& position, double yaw, double pitch, double roll) {
   const Numbers at = numbers_of(position, "ping: position", 0, 3);
   const Numbers turn = numbers_of(py::make_tuple(yaw, pitch, roll), "ping: yaw, pitch, roll", 0, 3);
-  const double pose[] = {at.at(0), at.at(1), at.at(2), turn.at(0), turn.at(1), turn.at(2)};
-  ping.options.pose = pose_text(pose);
+  ping.pose = {at.at(0), at.at(1), at.at(2), turn.at(0), turn.at(1), turn.at(2)};
   return ping;
 }
 
@@ -82,7 +80,9 @@ py::object for_each_pose(const py::dict& keys, const char* name) {
 
 /// Settles event and options of a ping; returns its simulator.
 PingSimulator settle(MadePing& ping, int threads) {
-  ping.event = asked_event(ping.options);
+  const auto& p = ping.pose;
+  ping.event = asked_event(ping.options,
+                           pose_from_yaw_pitch_roll({p[0], p[1], p[2]}, radians(p[3]), radians(p[4]), radians(p[5])));
   ping.simulation = ping.by->simulation;
   ping.simulation.seed = ping.options.common.seed;
   ping.simulation.threads = threads;
@@ -217,7 +217,7 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
   const MadePing each = asked(by, scene, keys, "pings");
   return std::make_unique<Pings>(pose.size() / 6, thread_count(threads), [each, pose, time, draw](std::size_t i) {
     MadePing ping = each;
-    ping.options.pose = pose_text(&pose[6 * i]);
+    std::copy_n(&pose[6 * i], 6, ping.pose.begin());
     ping.options.ping = static_cast<int>(i);
     if (!time.empty()) ping.options.time = time[i];
     if (!draw.empty()) ping.options.draw = draw[i];

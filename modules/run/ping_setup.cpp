@@ -16,9 +16,6 @@
 #include "simulate/resolve_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
-#include "store/material_library.hpp"
-#include "store/materials_file.hpp"
-#include "store/nearest_word.hpp"
 #include "store/toml_tree.hpp"
 #include "survey/mission.hpp"
 
@@ -31,38 +28,11 @@ struct Track {
   Motion motion;
 };
 
-Track track_of(const PingOptions& o) {
-  if (!std::isfinite(o.time)) fail(ErrorKind::argument, "--time = ", o.time, " s, must be finite");
-  if (o.pose.empty() == o.trajectory.empty())
-    fail(ErrorKind::argument, "give either --pose or --trajectory, e.g. --pose=0,0,-3,0,10,0");
-  if (o.trajectory.empty()) return {parse_pose(o.pose, o.world), {}};
-  if (o.world != "z-up") fail(ErrorKind::argument, "--world ", o.world, ": trajectories are z-up; leave --world out");
-  if (!o.velocity.empty() || !o.turn_rate.empty())
-    fail(ErrorKind::argument, "--velocity and --turn-rate follow from --trajectory; leave them out");
-  const Trajectory trajectory = load_trajectory(o.trajectory);
-  return {pose_at(trajectory, o.time), motion_at(trajectory, o.time)};
-}
-
 /// Refuses multipath without any boundary.
 void require_boundaries(const PingOptions& o, const Environment& environment) {
   if (o.multipath && !environment.surface && !environment.bottom)
     fail(ErrorKind::argument, "--multipath: the environment has neither surface nor bottom; give their heights, e.g. ",
          "--set surface.height_m=0");
-}
-
-/// Index of the material called `name`, which is added if insonify knows it; Error(argument) with the nearest name.
-std::uint16_t material_index(std::vector<Material>& materials, const std::string& name) {
-  std::vector<std::string> names;
-  for (const Material& m : materials) names.push_back(m.name);
-  const auto at = std::find(names.begin(), names.end(), name);
-  if (at != names.end()) return static_cast<std::uint16_t>(at - names.begin());
-  const std::vector<std::string> built_in = material_names();
-  names.insert(names.end(), built_in.begin(), built_in.end());
-  if (std::find(built_in.begin(), built_in.end(), name) == built_in.end())
-    fail(ErrorKind::argument, "--material = '", name, "' is unknown", did_you_mean(name, names),
-         "; see insonify materials");
-  materials.push_back(find_material(name));
-  return static_cast<std::uint16_t>(materials.size() - 1);
 }
 
 /// A sentence with the remedy if the range ends beyond that of the sonar's file.
@@ -75,12 +45,29 @@ std::string beyond_sonar_note(const SonarSpec& spec, const SonarFile& device) {
       spec.max_range, device.spec.name, most, spec.min_range, most);
 }
 
+/// Refuses a time that is no number.
+void require_time(const PingOptions& o) {
+  if (!std::isfinite(o.time)) fail(ErrorKind::argument, "--time = ", o.time, " s, must be finite");
+}
+
 /// The motion that --velocity and --turn-rate ask for.
 Motion asked_motion(const PingOptions& o) {
   Motion motion;
   if (!o.velocity.empty()) motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
   if (!o.turn_rate.empty()) motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
   return motion;
+}
+
+Track track_of(const PingOptions& o) {
+  require_time(o);
+  if (o.pose.empty() == o.trajectory.empty())
+    fail(ErrorKind::argument, "give either --pose or --trajectory, e.g. --pose=0,0,-3,0,10,0");
+  if (o.trajectory.empty()) return {parse_pose(o.pose, o.world), asked_motion(o)};
+  if (o.world != "z-up") fail(ErrorKind::argument, "--world ", o.world, ": trajectories are z-up; leave --world out");
+  if (!o.velocity.empty() || !o.turn_rate.empty())
+    fail(ErrorKind::argument, "--velocity and --turn-rate follow from --trajectory; leave them out");
+  const Trajectory trajectory = load_trajectory(o.trajectory);
+  return {pose_at(trajectory, o.time), motion_at(trajectory, o.time)};
 }
 
 /// Refuses velocities for which the echoes of a moving head are not computed.
@@ -92,19 +79,30 @@ void require_slow(const PingOptions& o, const Motion& motion, double sound_speed
 
 }  // namespace
 
-PingEvent asked_event(const PingOptions& o) {
-  const Track track = track_of(o);
+namespace {
+
+/// Where and when the head of a vehicle on its track pings.
+PingEvent event_on(const Track& track, const PingOptions& o) {
   const bool mounted = !o.mount.empty();
   const Pose mount = mounted ? parse_pose(o.mount, "z-up", "--mount") : Pose::Identity();
   PingEvent event;
   event.world_from_head = mounted ? track.pose * mount : track.pose;
   Motion& motion = event.motion;
-  motion = o.trajectory.empty() ? asked_motion(o) : track.motion;
+  motion = track.motion;
   // A head away from the vehicle's centre moves as the vehicle turns.
   if (mounted) motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
   event.time = o.time;
   event.number = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
   return event;
+}
+
+}  // namespace
+
+PingEvent asked_event(const PingOptions& o) { return event_on(track_of(o), o); }
+
+PingEvent asked_event(const PingOptions& o, const Pose& vehicle) {
+  require_time(o);
+  return event_on({vehicle, asked_motion(o)}, o);
 }
 
 std::string number_note(const PingEvent& event, const PingOptions& o) {
@@ -129,13 +127,9 @@ std::vector<std::string> notes_on_track(const PingOptions& o) {
   return notes;
 }
 
-/// The setup of a ping at the pose of the options, or of one that has another.
-PingSetup set_up(const PingOptions& o, bool at_pose) {
-  PingSetup setup;
-  PingEvent& event = setup.event;
-  event = asked_event(o);
-  const double z = event.world_from_head.translation().z();
-  setup.head = set_up_head(o.common, o.run, at_pose ? std::optional(z) : std::nullopt);
+/// Checks head and options of a ping at an event.
+PingSetup set_up(const PingOptions& o, const PingEvent& event, HeadSetup head) {
+  PingSetup setup{event, std::move(head), {}};
   setup.simulation = asked_simulation(o.common, o);
   if (!o.trajectory.empty())
     for (const std::string& note : notes_on_track(o)) setup.head.notes.push_back(note);
@@ -162,9 +156,14 @@ std::string mounting_text(const SonarFile& sonar) {
   return fmt::format("0,0,0,{:.10g},{:.10g},{:.10g}", angles.x(), angles.y(), angles.z());
 }
 
-PingSetup set_up_ping(const PingOptions& o) { return set_up(o, true); }
+PingSetup set_up_ping(const PingOptions& o) {
+  const PingEvent event = asked_event(o);
+  return set_up(o, event, set_up_head(o.common, o.run, event.world_from_head.translation().z()));
+}
 
-PingSetup set_up_any_ping(const PingOptions& o) { return set_up(o, false); }
+PingSetup set_up_any_ping(const PingOptions& o, std::optional<double> water_level) {
+  return set_up(o, {}, set_up_head(o.common, o.run, std::nullopt, water_level));
+}
 
 std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose) {
   std::vector<Eigen::Vector3d> places;
@@ -189,7 +188,8 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
          " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
 }
 
-HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::optional<double> head_height) {
+HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::optional<double> head_height,
+                      std::optional<double> water_level) {
   const SonarFile file = find_sonar(run.sonar);
   SonarSpec spec = file.spec;
   Environment environment;
@@ -204,6 +204,7 @@ HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::o
     else
       set_environment_value(environment, setting.section, setting.key, setting.value);
   }
+  if (water_level) environment.water_level = water_level;
   if (!run.range.empty()) std::tie(spec.min_range, spec.max_range) = parse_range(run.range);
   HeadSetup setup = set_up_head(file, spec, std::move(environment), head_height);
   setup.range_is_own = run.range.empty() && !sets_range && !file.of_run;
@@ -228,45 +229,6 @@ HeadSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment 
   setup.medium = medium_of(setup.environment, setup.spec.centre_frequency);
   setup.head = make_head(setup.spec, slowest_sound(setup.environment));
   return setup;
-}
-
-LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene) {
-  LoadOptions options;
-  options.seed = common.seed;
-  options.threads = common.threads;
-  options.meaning = parse_meaning(scene.meaning);
-  options.mesh_spacing = scene.mesh_spacing;
-  if (!scene.scan_noise.empty()) options.scan_noise = parse_numbers("--scan-noise", scene.scan_noise, 1, "metres")[0];
-  for (const auto& [option, value] :
-       {std::pair("--mesh-spacing", options.mesh_spacing), std::pair("--scan-noise", options.scan_noise.value_or(0))})
-    if (!(value >= 0 && std::isfinite(value)))
-      fail(ErrorKind::argument, option, " = ", value, " m, must be 0 or more, and finite");
-  options.keep_strays = scene.keep_strays;
-  if (!scene.viewpoint.empty()) options.viewpoint = parse_vector("--viewpoint", scene.viewpoint, "x,y,z in metres");
-  if (!scene.materials_file.empty() || !scene.material.empty()) {
-    const MaterialTable table = load_materials(path_of_materials(scene.materials_file));
-    options.materials = materials_by_label(table);
-    options.material_field = table.field;
-  }
-  if (!scene.material_field.empty()) options.material_field.name = scene.material_field;
-  if (!scene.material.empty()) options.material = material_index(options.materials, scene.material);
-  return options;
-}
-
-std::vector<std::string> loading_notes(const LoadReport& r) {
-  std::vector<std::string> notes;
-  const auto count = [&](std::size_t n, const char* what) {
-    if (n > 0) notes.push_back(fmt::format("{}: {} {}", r.path, n, what));
-  };
-  count(r.dropped_not_finite, "points dropped, whose coordinates are NaN, infinite or beyond 1e9 m");
-  count(r.dropped_withheld, "points dropped, which the file marks as withheld");
-  count(r.dropped_classes, "points dropped, whose class is not read");
-  count(r.dropped_duplicates, "duplicate points dropped");
-  count(r.dropped_degenerate, "degenerate triangles dropped");
-  count(r.repaired_normals, "zero or NaN normals replaced by estimates");
-  count(r.dropped_without_normal, "points dropped, which have too few neighbours for a normal");
-  for (const std::string& note : r.notes) notes.push_back(r.path + ": " + note);
-  return notes;
 }
 
 SceneOptions scene_of_run(const std::string& run) {

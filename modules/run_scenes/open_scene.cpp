@@ -15,6 +15,7 @@
 #include "run/run_settings.hpp"
 #include "run_scenes/parts_of_pings.hpp"
 #include "run_scenes/ping_report.hpp"
+#include "run_scenes/scene_source_of.hpp"
 #include "sampling/scene_cut.hpp"
 #include "scene_io/cloud_field.hpp"
 #include "scene_io/describe_file.hpp"
@@ -177,6 +178,19 @@ std::shared_ptr<OpenScene> open_scene_of_run(const CommonOptions& common, const 
 
 LoadedScene load_any_scene(const CommonOptions& common, const SceneOptions& scene, double time) {
   return open_scene(scene, {{common.seed, {}}, common.threads})->take_whole({time, 0});
+}
+
+std::shared_ptr<const SceneSource> scene_source_of(const std::string& path, std::uint64_t seed, int threads) {
+  SceneOptions scene;
+  scene.path = path;
+  return open_scene(scene, {{seed, {}}, threads});
+}
+
+std::shared_ptr<const SceneSource> scene_source_of(const MissionFile& file, int threads) {
+  PingOptions pinged = load_mission_settings(file.path);
+  pinged.scene.path = file.scene;
+  const RunDraws draws{file.seed, {file.randomise.scene_pings, 0}};
+  return open_scene(pinged.scene, {draws, threads, pinged.memory_limit, false});
 }
 
 std::optional<TiledScene> find_tiles(const std::string& path) {

@@ -57,10 +57,8 @@ std::string run_toml(const RunOptions& run, const HeadSetup& setup, const std::s
 }
 
 Cube cube_of(std::vector<Ping> pings, const CommonOptions& common, const RunOptions& run, const HeadSetup& setup) {
-  SimulationOptions options;
-  options.seed = common.seed;
-  options.synthesis.tolerance = run.tolerance;
-  Cube cube = make_cube(setup.head, setup.medium, options);
+  Cube cube = make_cube(setup.head, setup.medium);
+  cube.seed = common.seed, cube.tolerance = run.tolerance;
   cube.pings = std::move(pings);
   const Ping& first = cube.pings.front();
   cube.sound_speed = first.sound_speed, cube.absorption_db_per_m = first.absorption_db_per_m;

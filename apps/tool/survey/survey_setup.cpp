@@ -21,29 +21,6 @@ namespace {
 constexpr std::size_t most_block_bytes = std::size_t{32} << 20, most_block_pings = 64;
 constexpr std::size_t most_covering_pings = 16;  // each lists every surfel that it insonifies
 
-/// Drops the contributors of pings: surveys keep the labels that follow from them.
-struct DroppedContributors : ContributorSink {
-  void take(const Contributors&, std::size_t) override {}
-};
-
-SurveyHead set_up_survey_head(const SurveyOptions& o, const MissionFile& file, std::size_t h) {
-  PingOptions options = load_mission_settings(file.path);
-  options.common = o.common;
-  options.common.seed = file.seed;
-  options.common.settings = file.sonars[h].settings;
-  if (file.water.level) options.common.settings.push_back(fmt::format("water.level_m={}", *file.water.level));
-  options.scene.path = file.scene;
-  options.run.sonar = file.sonars[h].sonar;
-  options.run.range = file.sonars[h].range;
-  options.run.environment = file.environment;
-  options.run.profile = file.profile;
-  options.pose = "0,0,0,0,0,0";  // every ping has its own
-  SurveyHead head{options, set_up_any_ping(options)};
-  static DroppedContributors labels_alone;
-  head.setup.simulation.outputs.contributor_sink = &labels_alone;
-  return head;
-}
-
 /// Pings of a block: as asked for, as a survey that was begun has them, or as many as fill the bytes of a block.
 std::size_t block_size(const SurveyOptions& o, const SurveyRun& begun, const std::string& head, std::size_t ping_bytes,
                        bool coverage) {
@@ -166,7 +143,7 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   const SurveyRun begun = is_survey_run(o.output) ? load_survey_run(o.output) : SurveyRun{};
   std::vector<std::size_t> per_block;
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
-    s.heads.push_back(set_up_survey_head(o, s.file, h));
+    s.heads.push_back(set_up_survey_head(o.common, s.file, h));
     const HeadSetup& head = s.heads.back().setup.head;
     mission.heads[h].listening_time = 2 * head.head.gate.max_range / slowest_sound(head.environment);
     per_block.push_back(

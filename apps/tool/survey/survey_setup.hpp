@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/ping_setup.hpp"
 #include "run/run_observer.hpp"
+#include "run/survey_heads.hpp"
 #include "run_scenes/open_scene.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
@@ -24,12 +24,6 @@ struct SurveyOptions {
   std::string shard = "0/1";
   int pings_per_block = 0;  ///< 0: as the folder has them, else as many as fill 32 MiB, at most 64
   bool plan = false;
-};
-
-/// A head of the mission, ready to ping at any pose.
-struct SurveyHead {
-  PingOptions options;  ///< sonar, scene and settings as for a ping
-  PingSetup setup;
 };
 
 /// A mission with its sonars: all that the survey does, but for the scene.
