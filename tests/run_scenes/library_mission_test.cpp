@@ -27,7 +27,7 @@ set = ["sonar.beams=16"]
 pitch_deg = -20
 rate_hz = 2
 [randomise]
-gain_db = 0.5
+source_level_db = 0.5
 [ping]
 noise = true
 scatterers_per_cell = 0
