@@ -56,7 +56,7 @@ struct DetailBlock {
 struct DetailLevels {
   std::size_t surfels = 0;           ///< number of surfels in the scene
   std::vector<DetailNode> node;      ///< each stands for at least two children
-  std::vector<std::uint32_t> child;  ///< by node: below `surfels`, a surfel; else `surfels` + index of a node
+  std::vector<std::uint32_t> child;  ///< per node: below `surfels`, a surfel; else `surfels` + index of a node
   std::vector<std::uint32_t> root;   ///< nodes and surfels without a parent, along a Morton curve; numbered as `child`
   std::vector<DetailBlock> block;    ///< blocks of roots
 };

@@ -56,7 +56,7 @@ struct SeabedLaw : Sediment {
 /// The scattering of a sea bed by the small-slope approximation (E141): bistatic, for sand and mud.
 struct SmallSlopeLaw : Sediment {
   static constexpr LawTraits traits{.name = "small_slope", .own_slopes = true, .merges = false};
-  LawValidity validity(double frequency) const;  ///< to 300 kHz
+  LawValidity validity(double frequency) const;  ///< valid to 300 kHz
   bool operator==(const SmallSlopeLaw&) const = default;
 };
 
@@ -91,7 +91,7 @@ struct TableLaw {
   std::vector<double> sigma_db;   ///< [dB re 1/sr] = 10 log10 of the cross-section per area, frequency by frequency
   bool half_vector = false;  ///< true: bistatic strength is that at the half vector (lobes); false: the geometric mean
   std::string problem() const;                   ///< angles ascend from 0 to 75 degrees or more
-  LawValidity validity(double frequency) const;  ///< from the first to the last frequency
+  LawValidity validity(double frequency) const;  ///< valid from the first to the last frequency
   bool operator==(const TableLaw&) const = default;
 };
 

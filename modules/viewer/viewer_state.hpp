@@ -43,7 +43,7 @@ struct ViewerState {
   ViewerMode mode = ViewerMode::run;
   std::size_t ping = 0;
   std::optional<PixelPlace> selected;
-  std::optional<std::uint32_t> surfel;  ///< to inspect: the clicked surfel, by index in the scene
+  std::optional<std::uint32_t> surfel;  ///< inspection: the clicked surfel, by index in the scene
 
   double gain_db = 0;     ///< brightness: subtracted from the automatic top of the colour scale
   double window_db = 45;  ///< range of levels from darkest to brightest

@@ -35,7 +35,7 @@ TEST(EllisCroweLaw, is_the_published_one) {
   }
 }
 
-// By hand from the published form: mu = -27 dB, nu = 0.1 / sr, sigma = tan 10 degrees.
+// Evaluated by hand from the published form: mu = -27 dB, nu = 0.1 / sr, sigma = tan 10 degrees.
 TEST(EllisCroweLaw, has_known_backscatter) {
   const auto surface = surface_of(EllisCroweLaw{.diffuse_mu = std::pow(10, -2.7)}, frequency, water_speed);
   const auto level_db = [&](double grazing_deg) {

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+extern int number_1;
+extern int number_2;
+extern int number_3;
+extern int number_4;
+extern int number_5;
+extern int number_6;
+extern int number_7;
+extern int number_8;
+extern int number_9;
+extern int number_10;
+extern int number_11;
+extern int number_12;
+extern int number_13;
+extern int number_14;
+extern int number_15;
