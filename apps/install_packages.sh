@@ -14,7 +14,7 @@ declare -A why=(
   [libtomlplusplus-dev]="sonar and run files (TOML)" [nlohmann-json3-dev]="manifests (JSON)" [libfmt-dev]="text formatting"
   [libcli11-dev]="command line" [libegl-dev]="off-screen pictures" [libegl-mesa0]="off-screen pictures"
   [libgl1-mesa-dri]="off-screen pictures in software" [libglew-dev]="VTK's headers ask for it" [fonts-dejavu-core]="letters in pictures"
-  [libx11-dev]="the viewer's window" [libembree-dev]="rays from surface to surface (Embree)" [libgdal-dev]="rasters as scenes, map projections (GDAL; libvtk9-dev needs it too)"
+  [libx11-dev]="the viewer's window" [libassimp-dev]="meshes of robots and CAD (Assimp)" [libembree-dev]="rays from surface to surface (Embree)" [libgdal-dev]="rasters as scenes, map projections (GDAL; libvtk9-dev needs it too)"
 )
 if [[ "${1:-}" == --python || "${1:-}" == --tests || "${1:-}" == --packages ]]; then
   why+=([pybind11-dev]="Python's module" [python3-dev]="Python's module" [python3-numpy]="Python's module")

@@ -26,6 +26,7 @@ if("formats" IN_LIST insonify_modules)
 endif()
 if("scene_io" IN_LIST insonify_modules)
   find_package(GDAL QUIET CONFIG)  # rasters as scenes, and map projections, if it is there
+  find_package(assimp QUIET CONFIG)  # meshes of robots and CAD, if it is there
   find_package(PCL 1.12 REQUIRED COMPONENTS common io kdtree search features)
   # Not the targets of PCL: they pass -fopenmp on since 1.14, with which Eigen threads its products, in users' sources, too.
   if(NOT TARGET insonify::pcl)

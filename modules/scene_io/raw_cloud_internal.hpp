@@ -85,6 +85,7 @@ struct RawCloud {
   std::vector<std::uint16_t> station;                    ///< index into `stations` of each point
   bool heights = false;  ///< points of a raster: seen from above unless a viewpoint is known
   SceneTags tags;
+  std::vector<std::string> material_names;  ///< names of the materials of a mesh, by label
   std::vector<std::string> notes;
 
   /// Returns the place from which point i was seen [m], if it is known.
@@ -188,6 +189,7 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options);
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
 RawCloud read_ptx(const std::string& path, const ReadOptions& options);
 RawCloud read_gltf(const std::string& path, const ReadOptions& options);
+RawCloud read_assimp(const std::string& path, const ReadOptions& options);  ///< .dae, .fbx, .off, .x3d
 RawCloud read_las(const std::string& path, const ReadOptions& options);
 RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< of heights, by GDAL
 /// Throws Error(content) for a classic netCDF file that ends before its variables do; other files pass.

@@ -18,7 +18,7 @@ void pass(Stream& stream, RowTable::Column& column) {
 template <typename Stream>
 void pass(Stream& stream, RawCloud& raw) {
   stream(raw.format, raw.fields, raw.width, raw.height, raw.triangle, raw.polygon, raw.triangles_in_file,
-         raw.bad_triangles, raw.float_coordinates, raw.notes, raw.named_depth, raw.meaning);
+         raw.bad_triangles, raw.float_coordinates, raw.material_names, raw.notes, raw.named_depth, raw.meaning);
 }
 
 SentRows rows_of_doubles(const std::vector<std::string>& names, std::size_t rows) {

@@ -33,6 +33,18 @@ const std::vector<SceneReader>& scene_readers() {
       {{".vtu", ".vts", ".vtr", ".vti"}, {"<VTKFile"}, "a VTK file that is no polydata", surface_remedy(".vtu")},
       {{".glb"}, {"glTF"}, "a binary glTF file", "", read_gltf},
       {{".gltf"}, {}, "a glTF document", "", read_gltf},
+#ifdef INSONIFY_ASSIMP
+      {{".dae"}, {}, "a Collada document", "", read_assimp},
+      {{".fbx"}, {"Kaydara FBX Binary", "; FBX "}, "an FBX file", "", read_assimp},
+      {{".off"}, {"OFF"}, "an OFF file", "", read_assimp},
+      {{".x3d"}, {}, "an X3D document", "", read_assimp},
+#else
+      {{".dae", ".fbx", ".off", ".x3d"},
+       {},
+       "a mesh that Assimp reads",
+       "export it as .glb, or build insonify with libassimp-dev"},
+#endif
+      {{".3mf", ".wrl", ".stp", ".step"}, {}, "a mesh or solid of another kind", "export it as .glb, .obj or .stl"},
       {{".xyz", ".txt", ".csv"}, {}, "text", "", read_asc},
       {{".pts"}, {}, "points of a scanner as text", "", read_text_cloud},
       {{".ptx"}, {}, "scans of a scanner as text", "", read_ptx},

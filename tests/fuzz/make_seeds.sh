@@ -8,7 +8,7 @@ set -euo pipefail
 [[ $# == 2 ]] || { sed -n '6s/^# *//p' "$0" >&2; exit 2; }
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
-mkdir pcd ply obj stl vtk vtp gltf glb xyz pts ptx csv asc las tiff tiles sonar environment mission materials mirrors scene \
+mkdir pcd ply obj stl vtk vtp gltf glb xyz pts ptx dae fbx off x3d csv asc las tiff tiles sonar environment mission materials mirrors scene \
   scene.beside profile trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run levels survey work
 
 # Formats that the tool writes.
@@ -46,6 +46,10 @@ printf "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n
 printf "# vtk DataFile Version 5.1\nt\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n${square}TRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3\nMETADATA\nx y\n\nPOINT_DATA 4\nCOLOR_SCALARS c 2\n0 0 1 1 0 0 1 1\n" >vtk/strip.vtk
 printf '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n<Piece NumberOfPoints="4" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="1">\n<PointData><DataArray type="Int32" Name="label" NumberOfComponents="1" format="ascii">1 2 3 4</DataArray></PointData>\n<Points><DataArray type="Float32" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 1 1 0 0 1 0</DataArray></Points>\n<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3</DataArray><DataArray type="Int64" Name="offsets" format="ascii">4</DataArray></Polys>\n</Piece></PolyData></VTKFile>\n' >vtp/text.vtp
 printf "4\n$square" >xyz/count.xyz
+printf '<?xml version="1.0"?>\n<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit meter="0.0254"/><up_axis>Z_UP</up_axis></asset>\n<library_geometries><geometry id="g" name="t"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 1 1 0</float_array><technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>\n<library_visual_scenes><visual_scene id="s"><node id="n"><scale>-1 1 1</scale><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>\n' >dae/mesh.dae
+printf 'OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n' >off/mesh.off
+printf '<?xml version="1.0"?>\n<X3D version="3.3"><Scene><Transform translation="0 1 0"><Shape><IndexedFaceSet coordIndex="0 1 2 -1"><Coordinate point="0 0 0 1 0 0 1 1 0"/></IndexedFaceSet></Shape></Transform></Scene></X3D>\n' >x3d/mesh.x3d
+printf '; FBX 7.3.0 project file\nFBXHeaderExtension: {\n FBXHeaderVersion: 1003\n FBXVersion: 7300\n}\nGlobalSettings: {\n Properties70: {\n  P: "UpAxis", "int", "Integer", "",2\n  P: "UnitScaleFactor", "double", "Number", "",2.54\n }\n}\nObjects: {\n Geometry: 100, "Geometry::t", "Mesh" {\n  Vertices: *9 {\n   a: 0,0,0,1,0,0,1,1,0\n  }\n  PolygonVertexIndex: *3 {\n   a: 0,1,-3\n  }\n }\n Model: 200, "Model::o", "Mesh" {\n }\n}\nConnections: {\n C: "OO",200,0\n C: "OO",100,200\n}\n' >fbx/mesh.fbx
 printf "2\n0 0 0 -3 1 2 3\n1 0 0 -3 1 2 3\n2\n0 1 0 4 1 2 3\n1 1 0 4 1 2 3\n" >pts/scans.pts
 scan='2\n2\n1 0 5\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 0 5 1\n0 0 -5 .5\n1 0 -5 .5\n0 0 0 .5\n1 1 -5 .5\n'
 printf "$scan" >ptx/one.ptx
