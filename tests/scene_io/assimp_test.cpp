@@ -122,7 +122,7 @@ TEST_F(AssimpFile, materials_are_found_by_their_names) {
   EXPECT_EQ(scene.materials.at(scene.material[0]).lambert_mu, 0.2);
 }
 
-// The same triangles as the twin in OBJ, whose numbers float holds.
+// Compares with a twin in OBJ, whose numbers are exact in float.
 TEST_F(AssimpFile, off_and_x3d_equal_their_twins_in_obj) {
   const auto obj = corners(mesh_in("twin.obj", "v 2 0 0\nv 2 3 0\nv 2 0 4\nf 1 2 3\n"));
   const auto off = corners(mesh_in("twin.off", "OFF\n3 1 0\n2 0 0\n2 3 0\n2 0 4\n3 0 1 2\n"));
