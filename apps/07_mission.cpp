@@ -10,7 +10,7 @@
 namespace {
 
 /// Keeps the pings in memory and says which is done.
-struct Told : insonify::SurveyInMemory {
+struct Counted : insonify::SurveyInMemory {
   std::size_t done = 0;
   void ping_done(const insonify::PingOutcome* made) override {
     std::cout << "ping " << ++done << ": " << (made ? made->soundings.size() : 0) << " soundings\n";
@@ -24,7 +24,7 @@ int main(int count, char** words) try {
   if (count != 2) fail(ErrorKind::argument, "usage: 07_mission MISSION.toml");
   const MissionFile file = load_mission(words[1]);
   const Survey survey(file.mission, mission_heads(file), {file.randomise, file.seed, file.coverage});
-  Told pings;
+  Counted pings;
   simulate_survey(survey, survey.blocks(), *scene_source_of(file), pings);
   std::cout << pings.of_head(0).size() << " pings of " << survey.mission().heads[0].name << '\n';
 } catch (const insonify::Error& error) {

@@ -51,7 +51,7 @@ TEST(LibraryMission, over_tiles_and_parts_is_that_over_their_cloud) {
   own_file("parts.toml", "schema = 1\n[[part]]\nfile = \"harbour.ply\"\n");
   const MissionFile in_memory = mission_over("harbour.ply");
   const std::vector<PingOutcome> expected = pings_of(in_memory, SceneInMemory(harbour));
-  ASSERT_EQ(expected.size(), 5U);
+  ASSERT_EQ(expected.size(), 4U);
   for (const char* name : {"harbour.ply", "harbour.tiles", "parts.toml"}) {
     const MissionFile file = mission_over(name);
     const std::vector<PingOutcome> pings = pings_of(file, *scene_source_of(file));
@@ -75,7 +75,7 @@ TEST(LibraryMission, heads_have_level_and_settings_of_the_file) {
   EXPECT_TRUE(head.options().effects.noise);
   const std::string wrong = own_file("wrong.toml", library_mission + "detail_width = -1\n");
   EXPECT_THAT(error_with_kind([&] { mission_heads(load_mission(wrong)); }),
-              HasSubstr("wrong.toml:23: ping.detail_width = -1, must be within 0 and 4"));
+              HasSubstr("wrong.toml:22: ping.detail_width = -1, must be within 0 and 4"));
 }
 
 TEST(LibraryMission, scene_of_a_path_needs_no_mission) {
