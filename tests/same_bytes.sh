@@ -62,6 +62,8 @@ tiles       insonify prepare harbour.ply -o harbour.tiles; insonify ping harbour
 swath       insonify ping harbour.ply --sonar em2040 --pose=10,0,-1,0,0,0 --range 1:20 -o run; insonify export run --to gsf --anchor 54.1,7.9,90 -o a.gsf; insonify export run --to las --anchor 54.1,7.9,90 -o a.las; insonify export run --to mcap -o a.mcap
 volume      insonify ping harbour.ply --sonar waterlinked-3d15 --pose=0,0,-3,20,10,0 --range 1:15 -o run
 survey      insonify survey mission.toml -o run; insonify merge run
+parts       printf 'time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,6,-3,-2,0,0,0\n6,6,3,-2,0,0,0\n' > way.csv; printf 'schema = 1\n[[part]]\nfile = "harbour.ply"\n[[part]]\nname = "box"\nfile = "boxes.obj"\ntrajectory = "way.csv"\n[[scatter]]\nfiles = ["boxes.obj"]\nnames = ["pot"]\ncount = [2, 4]\narea_m = [[4, -4], [12, -4], [12, 4], [4, 4]]\nscale = [0.1, 0.2]\n' > scene.toml; insonify ping scene.toml --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:15 --time 2 --draw 3 --keep contributors -o run; insonify image run --view scene -o scene.png
+drawn       insonify prepare harbour.ply -o harbour.tiles; sed 's/harbour.ply/harbour.tiles/' mission.toml > over.toml; printf '[randomise]\nsource_level_db = 1\ntemperature_c = 2\nposition_m = 0.1\nattitude_deg = 1\n[water]\nlevel_m = 0.37\n' >> over.toml; insonify survey over.toml -o run; insonify merge run
 accuracy    insonify accuracy --methods gridded,direct --tolerances 1e-3,1e-6 --repeats 1 --no-picture -o run
 RUNS
 }
