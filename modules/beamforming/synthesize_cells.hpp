@@ -36,6 +36,22 @@ struct CellOptions {
   int threads = 0;      ///< 0: all cores; the result does not depend on it
 };
 
+/// Labels of the surfaces that echoes are of.
+struct EchoLabels {
+  std::vector<std::uint16_t> label;            ///< of the first echoes of surfaces; those after them have none
+  std::size_t water_begin = 0, water_end = 0;  ///< echoes of water and boundaries, of which no cell has a share
+};
+
+/// The labels of display cells, beams x cells.
+struct CellLabels {
+  static constexpr std::uint16_t none = 0xffff;
+  static constexpr std::uint32_t no_echo = 0xffffffff;
+
+  Grid<std::uint16_t> label, second;  ///< `none` where no echo with a label is, or no other label
+  Grid<float> share, second_share;    ///< parts of the energy of all echoes of surfaces; 0 without a label
+  Grid<std::uint32_t> echo;           ///< the strongest echo of that label in the cell; no_echo without a label
+};
+
 /// Returns the intensity of display cells, beams x cells [Pa^2]: of each the mean of |P|^2 over the area between its
 /// ranges, without forming P (E180). head.gate holds the cells.
 ///
@@ -64,8 +80,20 @@ class CellSynthesizer {
   /// Returns what synthesize_cells returns, to the byte. Throws Error as that does.
   Grid<double> cells(const SurfaceEchoes& surface, const Echoes& fixed, const CellOptions& options = {}) const;
 
+  /// Returns the same, and sets the labels of cells from expected energies (E194, E195).
+  ///
+  /// The label of a cell is that with the most energy of echoes from directions within the half-power width of the beam
+  /// and ranges within the cell and half a pulse; at least one beam's step wide, and for several rows also high. Its
+  /// share is the energy that comes from a whole width to either side, the main lobe, over that of all echoes but those
+  /// of water and boundaries, noise excluded. The second label is the one with the most such energy among the others.
+  Grid<double> cells(const SurfaceEchoes& surface, const Echoes& fixed, const CellOptions& options,
+                     const EchoLabels& labels, CellLabels& shown) const;
+
  private:
   struct Plan;
+  Grid<double> formed(const SurfaceEchoes& surface, const Echoes& fixed, const CellOptions& options,
+                      const EchoLabels* labels, CellLabels* shown) const;
+
   std::unique_ptr<const Plan> plan_;
 };
 

@@ -43,7 +43,7 @@ struct Ping {
   Grid<std::uint8_t> unknown{};  ///< beams x bins, 1 where surface may be missing (a hole of the scan); or empty
   Grid<float>
       split_phase{};     ///< phase between the array's halves [rad], beams x bins, positive to port (E92); or empty
-  PixelLabels labels{};  ///< surface of every pixel, if contributors were kept; or empty
+  PixelLabels labels{};  ///< surface of every pixel, if contributors or labels were kept; or empty
   std::optional<ScanPlace> scan{};  ///< for a scanning head; its turn is included in world_from_head
   double sound_speed = 0;           ///< in the water at the head [m/s]; it converts delays to ranges; 0: not known
   double absorption_db_per_m = 0;   ///< absorption of the water at the head, at the centre frequency

@@ -9,6 +9,7 @@
 #include "beamforming/engine.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "returns/cell_labels.hpp"
 #include "simulate/cell_sum_internal.hpp"
 
 namespace insonify {
@@ -18,11 +19,17 @@ constexpr std::size_t patches_at_once = 4096;
 constexpr double least_cosine = 1e-3;
 constexpr double no_noise_db = -std::numeric_limits<double>::infinity();
 
+/// The intensities of cells as a ping stores them.
+ComplexGridF stored_cells(const Grid<double>& cells) {
+  return stored_pressure(cells.sqrt().cast<std::complex<double>>(), "PingSimulator");
+}
+
 }  // namespace
 
 void CellSum::add_direct(const Scatterers& patches, const Echoes& echoes) {
   const std::size_t before = all_.id.size();
   append(all_.echoes, echoes);
+  if (ping_.options.outputs.labels) surfel_ = patches.surfel;
   all_.id.insert(all_.id.end(), patches.id.begin(), patches.id.end());
   all_.power.resize(all_.id.size(), 0), all_.depth.resize(all_.id.size(), 0), all_.width.resize(all_.id.size(), 0);
   parallel_blocks(patches.size(), patches_at_once, ping_.options.threads, [&](std::size_t begin, std::size_t end) {
@@ -45,6 +52,7 @@ void CellSum::add_direct(const Scatterers& patches, const Echoes& echoes) {
 
 void CellSum::add_reverberation(const std::string& name, Echoes echoes, std::size_t number) {
   const std::size_t before = all_.id.size();
+  if (water_begin_ == 0) water_begin_ = before;
   // Numbers of their own, far from those of surfels.
   const std::uint64_t first = (0xffff0000 + number) << 32;
   for (std::size_t i = 0; i < echoes.size(); ++i)
@@ -71,14 +79,27 @@ void CellSum::note(const std::string& name, std::size_t first, std::size_t first
   report_.push_back({name, all_.id.size() - first - static_cast<std::size_t>(both) + fixed_.size() - first_fixed});
 }
 
-ComplexGridF CellSum::drawn(const SurfaceEchoes& surface, const Echoes& fixed, double noise_db) const {
+CellOptions CellSum::options_with(double noise_db) const {
   const SimulationOptions& o = ping_.options;
   CellOptions options;
   options.seed = o.seed, options.ping = ping_.event.number, options.threads = o.threads;
   options.speckle = !gives_power(o.synthesis.method);
   options.element_noise_db = noise_db;
-  const Grid<double> cells = synthesizers_.cells_of(ping_.head, ping_.sent.medium)->cells(surface, fixed, options);
-  return stored_pressure(cells.sqrt().cast<std::complex<double>>(), "PingSimulator");
+  return options;
+}
+
+ComplexGridF CellSum::drawn(const SurfaceEchoes& surface, const Echoes& fixed, double noise_db) const {
+  return stored_cells(
+      synthesizers_.cells_of(ping_.head, ping_.sent.medium)->cells(surface, fixed, options_with(noise_db)));
+}
+
+ComplexGridF CellSum::labelled(const SceneCloud& scene, double noise_db, PixelLabels& labels) const {
+  const EchoLabels of_echoes{label_numbers(scene, surfel_), water_begin_, water_begin_ > 0 ? all_.id.size() : 0};
+  CellLabels shown;
+  const auto synthesizer = synthesizers_.cells_of(ping_.head, ping_.sent.medium);
+  ComplexGridF cells = stored_cells(synthesizer->cells(all_, fixed_, options_with(noise_db), of_echoes, shown));
+  labels = labels_of_cells(scene, shown, surfel_, all_.echoes.v);
+  return cells;
 }
 
 ComplexGridF CellSum::drawn(const Span& layer) const {
@@ -96,10 +117,13 @@ ComplexGridF CellSum::drawn(const Span& layer) const {
                echoes(fixed_, first_fixed, end_fixed), no_noise_db);
 }
 
-void CellSum::finish(SimulatedPing& result) {
+void CellSum::finish(const SceneCloud& scene, SimulatedPing& result) {
   const SimulationOptions& o = ping_.options;
   const double noise_db = o.effects.noise ? ping_.element_noise_db : no_noise_db;
-  result.ping = ping_of(ping_, ping_.head.gate, drawn(all_, fixed_, noise_db));
+  PixelLabels labels;
+  result.ping = ping_of(ping_, ping_.head.gate,
+                        o.outputs.labels ? labelled(scene, noise_db, labels) : drawn(all_, fixed_, noise_db));
+  result.ping.labels = std::move(labels);
   if (o.outputs.layers) {
     for (const Span& layer : layers_) result.ping.layers.push_back({layer.name, drawn(layer)});
     if (o.effects.noise) result.ping.layers.push_back({"noise", drawn({}, {}, noise_db)});

@@ -25,8 +25,9 @@ class CellSum {
   /// Adds echoes of surfaces by way of others, and those of no random amplitude.
   void add(const std::string& name, const SurfaceEchoes& surface, const Echoes& fixed = {});
 
-  /// Draws the cells of all echoes and noise, and moves ping and report of layers into `result`.
-  void finish(SimulatedPing& result);
+  /// Draws the cells of all echoes and noise, and moves ping and report of layers into `result`; with the labels of the
+  /// cells if the options ask for them, without shadow. The scene is that of the direct echoes.
+  void finish(const SceneCloud& scene, SimulatedPing& result);
 
  private:
   /// The echoes of a layer, and those before it.
@@ -35,13 +36,18 @@ class CellSum {
     std::size_t first, end, first_fixed, end_fixed;
   };
   void note(const std::string& name, std::size_t first, std::size_t first_fixed);
+  CellOptions options_with(double noise_db) const;
   ComplexGridF drawn(const SurfaceEchoes& surface, const Echoes& fixed, double noise_db) const;
   ComplexGridF drawn(const Span& layer) const;
+  /// Draws all echoes and noise, and sets the labels of the cells.
+  ComplexGridF labelled(const SceneCloud& scene, double noise_db, PixelLabels& labels) const;
 
   const ResolvedPing& ping_;
   SynthesizerTable& synthesizers_;
   SurfaceEchoes all_;
   Echoes fixed_;
+  std::vector<std::uint32_t> surfel_;  ///< of each direct echo
+  std::size_t water_begin_ = 0;        ///< first echo of reverberation; 0: there is none
   std::vector<Span> layers_;
   std::vector<LayerReport> report_;
 };

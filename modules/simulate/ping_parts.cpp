@@ -150,7 +150,7 @@ void draw_cells(const SceneCloud& scene, const ResolvedPing& ping, const PingPar
   std::size_t number = 0;
   for (Reverberation& part : reverberation_echoes(ping))
     cells.add_reverberation(part.name, std::move(part.echoes), number++);
-  cells.finish(result);
+  cells.finish(scene, result);
 }
 
 Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoStream& direct, const PingParts& parts,

@@ -70,6 +70,20 @@ void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& sim
   ping.intensity = mean_over_bins(sum / wanted.looks_pings, wanted.looks_range);
 }
 
+/// The same ping, whose display cells are drawn for their labels alone.
+ResolvedPing drawn_for_labels(const WholeScene& scene, const ResolvedPing& ping) {
+  ResolvedPing drawn = ping;
+  SimulationOptions& o = drawn.options;
+  o.outputs = {};
+  o.outputs.display_bins = ping.options.outputs.display_bins, o.outputs.labels = true;
+  o.synthesis.method = SynthesisMethod::incoherent, o.synthesis.phases = false;
+  o.sampling.kind = SamplingKind::surfels;
+  o.effects.noise = false;
+  derive(scene, drawn);
+  drawn.detection.threshold_db = std::numeric_limits<double>::infinity();
+  return drawn;
+}
+
 /// Whether a ping merges surfels of a scene. One whose surfels have depths of their own is a cut of levels already.
 bool to_merge(const SceneCloud& scene, const SimulationOptions& options) {
   return scene.unevenness.empty() && merges_surfels(scene, options);
@@ -204,6 +218,8 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
     layers.finish(result);
   }
   average_looks(decided, result.ping, [&](const ResolvedPing& look) { return this->ping(scene, look).ping; });
+  if (ping.options.outputs.labels && !draws_cells(ping.options))
+    result.ping.labels = this->ping(scene, drawn_for_labels(scene.whole(), decided)).ping.labels;
   seconds.synthesis = watch.lap();
 
   // What an operator would mark: detections, as points in the world.

@@ -10,6 +10,7 @@
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "returns/beam_bands.hpp"
+#include "returns/cell_labels.hpp"
 #include "returns/find_contributors.hpp"
 #include "returns/label_pixels.hpp"
 #include "sampling/find_holes.hpp"
@@ -76,6 +77,17 @@ void add_contributors(const PreparedScene& prepared, const ResolvedPing& ping, c
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = others[i] == Visibility::seen;
   for (const std::uint32_t i : surfel) seen[i] = 1;
   result.ping.labels.views = part_views(scene, seen, ping);
+}
+
+/// Completes the labels of drawn cells: shadow, and how the head sees the parts of the scene.
+void complete_labels(const PreparedScene& prepared, const ResolvedPing& ping, const Scatterers& patches,
+                     PixelLabels& labels) {
+  std::vector<std::uint8_t> seen(prepared.scene().size());
+  for (const std::uint32_t i : patches.surfel) seen[i] = 1;
+  const auto& [pose, fan, gate, sampling] = ping.view;
+  mark_shadow(prepared, {pose, insonified_sector(fan, sampling), gate, sampling.footprint}, seen, ping.head,
+              ping.options.threads, labels);
+  if (!prepared.scene().parts.empty()) labels.views = part_views(prepared.scene(), seen, ping);
 }
 
 SoundPaths paths_of(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
@@ -169,6 +181,8 @@ void attach_outputs(const PreparedScene& prepared, const ResolvedPing& ping, Pin
     add_contributors(prepared, ping, parts, result);
     report.seconds.contributors = watch.lap();
   }
+  if (!result.ping.labels.empty() && draws_cells(ping.options))
+    complete_labels(prepared, ping, patches, result.ping.labels);
   if (wanted.paths > 0) result.outputs.paths = paths_of(scene, ping, parts, patches);
 
   report.notes = scene_notes(scene, ping, patches, report);

@@ -89,6 +89,7 @@ void check_display(const OutputSettings& o, std::optional<OptionProblem>& proble
   const Checker check{problem, "outputs."};
   check.require(o.display_bins >= 0 && o.display_bins <= most_display_bins, "display_bins", o.display_bins,
                 "within 0 and 65536; 0: samples");
+  check.require(o.display_bins > 0 || !o.labels, "labels", "true", "false without display_bins: labels are of cells");
   if (o.display_bins == 0) return;
   check.require(o.looks_range == 1 && o.looks_pings == 1, "display_bins", o.display_bins,
                 "0 with looks_range or looks_pings: a display cell is a mean of looks already");

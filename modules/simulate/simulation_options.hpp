@@ -20,6 +20,8 @@ enum class Choice { as_needed, always, never };
 inline constexpr double usual_detail_width = 1;
 /// Default of EffectSettings::double_echoes if they are requested without a number.
 inline constexpr double usual_double_echoes = 2;
+/// Value of OutputSettings::display_bins if display cells are requested without a number.
+inline constexpr int usual_display_bins = 600;
 
 /// Selection of the scatterers that represent the scene.
 struct SamplingSettings {
@@ -102,6 +104,9 @@ struct OutputSettings {
   /// contributor_band_mib [MiB], or two rows. Must outlive the ping; nullptr: none.
   ContributorSink* contributor_sink = nullptr;
   double contributor_band_mib = 512;
+  /// Whether every display cell gets a label with its share, elevation and second label (Ping::labels, E194), from
+  /// expected energies; needs display_bins.
+  bool labels = false;
 };
 
 /// All options of a ping of a given head, event and environment.

@@ -64,8 +64,9 @@ std::vector<std::string> images_of(const FileContext& place, hid_t file) {
   std::vector<std::string> images{image_name_of(file).path};
   for (const std::string& layer : names_in(place, file, layers_group))
     images.push_back(std::string(layers_group) + "/" + layer);
-  for (const DatasetName& map : {intensity_name, unknown_name, split_phase_name, label_material_name, label_id_name,
-                                 label_share_name, label_part_name})
+  for (const DatasetName& map :
+       {intensity_name, unknown_name, split_phase_name, label_material_name, label_id_name, label_share_name,
+        label_part_name, label_elevation_name, label_second_name, label_second_share_name})
     if (H5Lexists(file, map.path, H5P_DEFAULT) > 0) images.emplace_back(map.path);
   return images;
 }

@@ -183,6 +183,9 @@ void send_labels(const FileContext& place, hid_t file, const Extent& extent, Pin
   for (std::string name; std::getline(lines, name);) names.push_back(name);
   to(names);
   send_map(place, file, label_part_name, H5T_NATIVE_UINT16, extent, pings, to);
+  send_map(place, file, label_elevation_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map(place, file, label_second_name, H5T_NATIVE_UINT16, extent, pings, to);
+  send_map(place, file, label_second_share_name, H5T_NATIVE_FLOAT, extent, pings, to);
   const bool parts = has_parts(file);
   to(parts);
   if (parts) send_parts(place, file, extent, pings, to);
@@ -213,11 +216,19 @@ void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Pi
   for (Ping& ping : pings) ping.labels.names = names;
   receive_map(
       sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.part; });
+  receive_map(
+      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.elevation; });
+  receive_map(
+      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.second; });
+  receive_map(
+      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.second_share; });
   bool parts = false;
   sent(parts);
   if (parts) receive_parts(sent, pings);
   for (const PixelLabels& labels : pings | std::views::transform(&Ping::labels)) {
     require_names(path, label_material_name.path, labels.material, PixelLabels::shadow, label_names_attribute,
+                  labels.names.size());
+    require_names(path, label_second_name.path, labels.second, PixelLabels::nothing, label_names_attribute,
                   labels.names.size());
     require_names(path, label_part_name.path, labels.part, PixelLabels::no_part, part_names_attribute,
                   labels.part_names.size());

@@ -37,6 +37,13 @@ constexpr DatasetName label_material_name{"/label_material", "",
                                           "material, index into label_names; 65535: nothing, 65534: shadow"};
 constexpr DatasetName label_id_name{"/label_id", "", "id of the strongest surfel in the scene; 4294967295: none"};
 constexpr DatasetName label_share_name{"/label_share", "", "share of the energy that is of the material, 0 to 1"};
+/// Of display cells: where the strongest surfel is heard from, and the label that comes next.
+constexpr DatasetName label_elevation_name{"/label_elevation", "rad",
+                                           "of the strongest surfel above the x-y plane of the head; 0: none"};
+constexpr DatasetName label_second_name{"/label_second", "",
+                                        "material with the most energy among the others; 65535: none"};
+constexpr DatasetName label_second_share_name{"/label_second_share", "",
+                                              "share of the energy that is of this second material, 0 to 1"};
 /// Root attribute: names of the materials of /label_material, one a line.
 constexpr const char* label_names_attribute = "label_names";
 /// Of scenes of parts: the part of the strongest surfel, and how the head sees each part.
@@ -100,6 +107,9 @@ constexpr CubeDataset cube_datasets[] = {{pressure_name, {"ping", "beam", "bin"}
                                          {label_id_name, {"ping", "beam", "bin"}},
                                          {label_share_name, {"ping", "beam", "bin"}},
                                          {label_part_name, {"ping", "beam", "bin"}},
+                                         {label_elevation_name, {"ping", "beam", "bin"}},
+                                         {label_second_name, {"ping", "beam", "bin"}},
+                                         {label_second_share_name, {"ping", "beam", "bin"}},
                                          {part_views_name, {"ping"}},
                                          {range_name, {"bin"}},
                                          {azimuth_name, {"beam"}},

@@ -54,7 +54,8 @@ void drop_unlike_parts(std::vector<Ping>& pings) {
   };
   drop_unless(layer_names, [](Ping& ping) { ping.layers.clear(); });
   const auto drop_map = [&](auto map) {
-    drop_unless([map](const Ping& ping) { return (ping.*map).size() > 0; }, [map](Ping& ping) { ping.*map = {}; });
+    drop_unless([map](const Ping& ping) { return (ping.*map).size() > 0; },
+                [map](Ping& ping) { (ping.*map).resize(0, 0); });
   };
   drop_map(&Ping::intensity);
   drop_map(&Ping::unknown);
@@ -63,7 +64,9 @@ void drop_unlike_parts(std::vector<Ping>& pings) {
   drop_unless(
       [](const Ping& ping) {
         const PixelLabels& l = ping.labels;
-        return l.empty() ? std::vector<std::vector<std::string>>{} : std::vector{l.names, l.part_names, l.part_labels};
+        const std::vector<std::string> kind{l.second.size() > 0 ? "of cells" : "of samples"};
+        return l.empty() ? std::vector<std::vector<std::string>>{}
+                         : std::vector{l.names, l.part_names, l.part_labels, kind};
       },
       [](Ping& ping) { ping.labels = {}; });
 }

@@ -45,6 +45,9 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
   require(ping.labels.id, first.labels.material, "label ids");
   require(ping.labels.share, first.labels.material, "label shares");
   require(ping.labels.part, first.labels.part, "label parts");
+  require(ping.labels.elevation, first.labels.second, "label elevations");
+  require(ping.labels.second, first.labels.second, "second labels");
+  require(ping.labels.second_share, first.labels.second, "shares of second labels");
   require_same_parts(ping, first, path);
   if (ping.scan.has_value() != first.scan.has_value())
     fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,

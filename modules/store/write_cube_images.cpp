@@ -125,6 +125,11 @@ void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& p
   write_label(label_id_name, &PixelLabels::id);
   write_label(label_share_name, &PixelLabels::share);
   if (first.part.size() > 0) write_label(label_part_name, &PixelLabels::part);
+  if (first.second.size() > 0) {
+    write_label(label_elevation_name, &PixelLabels::elevation);
+    write_label(label_second_name, &PixelLabels::second);
+    write_label(label_second_share_name, &PixelLabels::second_share);
+  }
   write_parts(place, file, pings);
   // An empty last name is a line of its own.
   const bool ends_empty = !first.names.empty() && first.names.back().empty();

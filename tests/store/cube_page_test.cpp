@@ -34,6 +34,8 @@ Cube full_cube() {
     ping.labels.id = Grid<std::uint32_t>::Zero(rows, columns);
     ping.labels.share = Grid<float>::Ones(rows, columns);
     ping.labels.names = {"sand"};
+    ping.labels.elevation = ping.labels.second_share = Grid<float>::Zero(rows, columns);
+    ping.labels.second = Grid<std::uint16_t>::Zero(rows, columns);
     ping.labels.part = Grid<std::uint16_t>::Zero(rows, columns);
     ping.labels.part_names = {"bed"}, ping.labels.part_labels = {""}, ping.labels.views.resize(1);
     ping.scan = ScanPlace{0, 0.5};
@@ -88,7 +90,7 @@ TEST(CubePage, has_every_dataset_with_its_unit_and_every_attribute) {
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   ASSERT_GE(file, 0);
   const Found found = everything_in(file);
-  EXPECT_EQ(found.datasets.size(), 20U);
+  EXPECT_EQ(found.datasets.size(), 23U);
   for (const std::string& name : found.datasets) {
     SCOPED_TRACE(name);
     const hid_t dataset = H5Dopen2(file, name.c_str(), H5P_DEFAULT);

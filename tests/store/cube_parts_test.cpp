@@ -18,6 +18,10 @@ PixelLabels labels_like(const Ping& ping) {
                      {"sand", "tyre"}};
   labels.part = Grid<std::uint16_t>::Constant(beams, bins, PixelLabels::no_part);
   labels.part(3, 1) = static_cast<std::uint16_t>(ping.number % 3);
+  labels.elevation = labels.second_share = Grid<float>::Zero(beams, bins);
+  labels.elevation(3, 1) = -0.25F, labels.second_share(3, 1) = 0.125F;
+  labels.second = Grid<std::uint16_t>::Constant(beams, bins, PixelLabels::nothing);
+  labels.second(3, 1) = 0;
   labels.part_names = {"bed", "pot-1", "tyre"}, labels.part_labels = {"", "", "tyre"};
   labels.views.resize(3);
   PartView& tyre = labels.views[2];
@@ -38,6 +42,9 @@ void expect_parts(const Ping& ping) {
   const PixelLabels expected = labels_like(ping);
   const PixelLabels& back = ping.labels;
   EXPECT_TRUE((back.part == expected.part).all());
+  EXPECT_TRUE((back.elevation == expected.elevation).all());
+  EXPECT_TRUE((back.second == expected.second).all());
+  EXPECT_TRUE((back.second_share == expected.second_share).all());
   EXPECT_EQ(back.names, expected.names);
   EXPECT_EQ(back.part_names, expected.part_names);
   EXPECT_EQ(back.part_labels, expected.part_labels);
@@ -107,6 +114,20 @@ TEST(CubeOfParts, loses_its_labels_beside_pings_of_other_parts) {
   for (Ping& ping : other.pings) ping.labels.part_names[1] = "pot-2";
   const MergedCube merged = merge_cubes_by_time({{"a", cube_of_parts()}, {"b", other}});
   for (const Ping& ping : merged.cube.pings) EXPECT_TRUE(ping.labels.empty());
+  // So it does beside pings whose labels are of samples, without a second one.
+  Cube of_samples = cube_of_parts();
+  for (Ping& ping : of_samples.pings) {
+    ping.labels.second.resize(0, 0);
+    for (Grid<float>* map : {&ping.labels.second_share, &ping.labels.elevation}) map->resize(0, 0);
+  }
+  EXPECT_TRUE(merge_cubes_by_time({{"a", cube_of_parts()}, {"b", of_samples}}).cube.pings[0].labels.empty());
+}
+
+TEST(MergedCubes, lose_maps_that_not_all_have) {
+  Cube looks = random_cube(), plain = looks;
+  for (Ping& ping : looks.pings) ping.intensity = Grid<float>::Ones(ping.pressure.rows(), ping.pressure.cols());
+  for (const Ping& ping : merge_cubes_by_time({{"a", looks}, {"b", plain}}).cube.pings)
+    EXPECT_EQ(ping.intensity.size(), 0);
 }
 
 TEST(CubeOfParts, refuses_pings_of_other_parts) {

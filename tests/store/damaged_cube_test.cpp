@@ -81,6 +81,12 @@ TEST(DamagedCube, labels_without_names_are_refused) {
             "content: cube.h5: /label_material holds 1, but label_names has 0 names, counted from 0; the file is "
             "damaged: copy or export it again");
   EXPECT_THAT(error_of_cube(write(one_name)), HasSubstr("/label_material holds 1, but label_names has 1 names"));
+  Cube second = labelled_cube();
+  for (Ping& ping : second.pings) {
+    ping.labels.second = Grid<std::uint16_t>::Constant(ping.labels.id.rows(), ping.labels.id.cols(), 2);
+    ping.labels.second_share = ping.labels.elevation = Grid<float>::Zero(ping.labels.id.rows(), ping.labels.id.cols());
+  }
+  EXPECT_THAT(error_of_cube(write(second)), HasSubstr("/label_second holds 2, but label_names has 2 names"));
   EXPECT_THAT(error_of_cube(write(two_parts)), HasSubstr("/label_part holds 2, but part_names has 2 names"));
 }
 

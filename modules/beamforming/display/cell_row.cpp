@@ -6,6 +6,7 @@
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/cell_row_internal.hpp"
+#include "beamforming/display/label_row_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
 #include "core/units.hpp"
 
@@ -49,7 +50,10 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const Heard
     for (auto& field : side.field) field.resize(plan.period_samples + guards);
   }
   for (auto& nodes : nodes_) nodes.resize(plan.period);
+  if (row.labelled) labels_ = std::make_unique<LabelRow>(plan, lists, *row.labelled);
 }
+
+CellRow::~CellRow() = default;
 
 void CellRow::form(std::size_t cell, Grid<double>& image) {
   const std::size_t sides = std::min<std::size_t>(2, plan_.cells - cell);
@@ -60,7 +64,7 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
   }
   for (std::size_t s = 0; s < sides; ++s)
     side_[s].noise = std::max({row_.element_noise, least_noise * side_[s].energy, rounding * loudest}) * plan_.lag[0];
-  sum_means(cell, sides);
+  form_means(cell, sides);
   const auto column = static_cast<Eigen::Index>(cell);
   if (!options_.speckle) {
     for (std::size_t s = 0; s < sides; ++s)
@@ -97,13 +101,29 @@ void CellRow::list_parts(std::size_t cell, Side& side) {
   }
 }
 
-void CellRow::sum_means(std::size_t cell, std::size_t sides) {
+void CellRow::form_means(std::size_t cell, std::size_t sides) {
+  if (!labels_) return sum_means(cell, sides);
+  // Shares are of the echoes of surfaces alone.
+  const EchoLabels& echoes = row_.labelled->echoes;
+  const bool has_water = echoes.water_begin < echoes.water_end;
+  sum_means(cell, sides, false);
+  for (std::size_t s = 0; s < sides; ++s) label(cell + s, side_[s]);
+  if (has_water) sum_means(cell, sides);
+}
+
+void CellRow::label(std::size_t cell, Side& side) {
+  labels_->start(cell);
+  for (const Part& part : side.even) labels_->add(*part.echo, part.energy);
+  labels_->finish(side.mean, row_.element_noise * plan_.lag[0]);
+}
+
+void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
   // Energies of both cells over u, as real and imaginary parts. Nodes are counted from 1.
   std::fill(all_.begin(), all_.end(), Complex(0));
   for (std::size_t s = 0; s < sides; ++s)
     for (const Part& part : side_[s].even) {
       const CellEcho& echo = *part.echo;
-      if (part.energy == 0) continue;
+      if (part.energy == 0 || (!with_water && labels_->of_water(echo))) continue;
       const double half = std::max(echo.half_width, 0.5 * plan_.node_width) / plan_.node_width;
       const double place = std::clamp((echo.u + 1) / plan_.node_width, 0.0, static_cast<double>(plan_.nodes));
       const double low = std::max(place - half, -0.5),

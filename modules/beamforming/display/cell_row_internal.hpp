@@ -4,6 +4,7 @@
 #include <array>
 #include <complex>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "beamforming/display/display_plan_internal.hpp"
@@ -53,6 +54,9 @@ struct EchoesByCell {
   std::vector<EchoInCell> part;
 };
 
+struct LabelledRow;
+class LabelRow;
+
 /// The echoes that a row of beams hears: its response to each echo, 0 where it hears nothing; empty: 1. Its beams, its first
 /// element's number among those of the head, and the mean noise power at one of its elements [Pa^2].
 struct HeardByRow {
@@ -60,6 +64,7 @@ struct HeardByRow {
   std::vector<double> response;
   std::size_t first_element = 0;
   double element_noise = 0;
+  const LabelledRow* labelled = nullptr;  ///< where its cells get labels; nullptr: they get none
 };
 
 /// Forms the cells of two neighbouring ranges at once, for all beams of a line array (E180); holds the memory for that.
@@ -67,6 +72,7 @@ class CellRow {
  public:
   /// Keeps references to all arguments, which must outlive it.
   CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const HeardByRow& row, const CellOptions& options);
+  ~CellRow();
 
   /// Writes the intensities of cell `cell` and, if there is one, of the next, to these columns of `image` (beams x
   /// cells).
@@ -95,7 +101,9 @@ class CellRow {
   };
 
   void list_parts(std::size_t cell, Side& side);
-  void sum_means(std::size_t cell, std::size_t sides);
+  void sum_means(std::size_t cell, std::size_t sides, bool with_water = true);
+  void form_means(std::size_t cell, std::size_t sides);
+  void label(std::size_t cell, Side& side);
   void part_strong(Side& side);
   void sum_strong(Side& side);
   void add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const;
@@ -119,6 +127,7 @@ class CellRow {
   std::vector<float> energy_;
   std::vector<std::uint64_t> noise_id_;
   std::vector<double> noise_re_, noise_im_;
+  std::unique_ptr<LabelRow> labels_;
 };
 
 }  // namespace insonify

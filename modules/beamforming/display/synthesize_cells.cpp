@@ -7,6 +7,7 @@
 
 #include "beamforming/display/cell_echoes_internal.hpp"
 #include "beamforming/display/cell_row_internal.hpp"
+#include "beamforming/display/label_row_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "core/error.hpp"
@@ -34,6 +35,13 @@ double noise_of_element(const SonarHead& head, const CellOptions& options) {
   const std::vector<double>& w = head.column->shading;
   return noise * std::inner_product(w.begin(), w.end(), w.begin(), 0.0) /
          std::pow(static_cast<double>(head.column->elements()), 2);  // (E56)
+}
+
+CellLabels no_labels(const SonarHead& head) {
+  const auto beams = static_cast<Eigen::Index>(head.fan.beams()), cells = static_cast<Eigen::Index>(head.gate.bins());
+  return {Grid<std::uint16_t>::Constant(beams, cells, CellLabels::none),
+          Grid<std::uint16_t>::Constant(beams, cells, CellLabels::none), Grid<float>::Zero(beams, cells),
+          Grid<float>::Zero(beams, cells), Grid<std::uint32_t>::Constant(beams, cells, CellLabels::no_echo)};
 }
 
 }  // namespace
@@ -73,6 +81,19 @@ CellSynthesizer::CellSynthesizer(CellSynthesizer&&) noexcept = default;
 
 Grid<double> CellSynthesizer::cells(const SurfaceEchoes& surface, const Echoes& fixed,
                                     const CellOptions& options) const {
+  return formed(surface, fixed, options, nullptr, nullptr);
+}
+
+Grid<double> CellSynthesizer::cells(const SurfaceEchoes& surface, const Echoes& fixed, const CellOptions& options,
+                                    const EchoLabels& labels, CellLabels& shown) const {
+  if (labels.label.size() > surface.id.size())
+    fail(ErrorKind::argument, me, ": ", labels.label.size(), " labels, but ", surface.id.size(), " echoes");
+  shown = no_labels(plan_->head);
+  return formed(surface, fixed, options, &labels, &shown);
+}
+
+Grid<double> CellSynthesizer::formed(const SurfaceEchoes& surface, const Echoes& fixed, const CellOptions& options,
+                                     const EchoLabels* labels, CellLabels* shown) const {
   const SonarHead& head = plan_->head;
   require_valid(surface);
   require_finite(surface.echoes, me);
@@ -92,6 +113,14 @@ Grid<double> CellSynthesizer::cells(const SurfaceEchoes& surface, const Echoes& 
     heard.beams = plan_->beams[r];
     heard.first_element = r * head.array.elements();
     if (weights) heard.response = weights->of(plan_->rows[r]);
+    std::optional<LabelledRow> labelled;
+    if (labels)
+      labelled.emplace(LabelledRow{{plan_->display, head, plan_->rows, r, heard.beams.u_beam},
+                                   *labels,
+                                   surface.echoes.v,
+                                   plan_->rows[r].beams,
+                                   *shown});
+    heard.labelled = labelled ? &*labelled : nullptr;
     plan_->form_row(plan_->rows[r], heard, lists, options, cells);
   }
   return cells;  // (E180)
