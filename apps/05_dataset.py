@@ -21,7 +21,7 @@ class SonarPings:
         head = iy.sonar("p900-45", beams=64, min_range=1, max_range=10)
         self.scene = scene
         self.simulator = iy.PingSimulator(head, iy.Environment(temperature_c=8), accuracy_db=0.5, noise=True,
-                                          keep="contributors")
+                                          keep="labels")
         draw = np.random.default_rng(seed)
         low, high = (4, -2, -3, -180, 5, -3), (8, 2, -1.5, 180, 30, 3)  # x, y, z [m], yaw, pitch, roll [deg]
         self.poses = draw.uniform(low, high, size=(length, 6))

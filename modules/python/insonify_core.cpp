@@ -169,7 +169,8 @@ py::array angles_of(const py::object& self) {
 
 const PixelLabels& labels_of(const MadePing& ping, const char* property) {
   if (ping.made.ping.labels.empty())
-    fail(ErrorKind::argument, property, ": is there only if the ping keeps contributors, by keep=\"contributors\"");
+    fail(ErrorKind::argument, property,
+         ": is there only if the ping keeps labels, by keep=\"labels\" or keep=\"contributors\"");
   return ping.made.ping.labels;
 }
 
@@ -212,6 +213,19 @@ void add_pictures(py::class_<MadePing, std::shared_ptr<MadePing>>& type) {
       "floor_db: float [dB], of what is less");
   add(type, "material_image", "uint16 (beams, bins): class of every pixel; 65535: no surface, 65534: shadow",
       [](const MadePing& p) { return material_image(labels_of(p, "material_image")); });
+  const auto of_cells = [&type](const char* name, const char* about, auto map) {
+    add(type, name, about, [map](const py::object& p) {
+      return picture(labels_of(py::cast<const MadePing&>(p), "labels of cells").*map, p);
+    });
+  };
+  of_cells("label_share", "float32 (beams, cells), share of the class in the energy of the cell", &PixelLabels::share);
+  of_cells("label_elevation",
+           "float32 (beams, cells) [rad], from which the strongest surface of the class is heard, positive up; None\n"
+           "unless keep has labels, as second_image and second_share",
+           &PixelLabels::elevation);
+  of_cells("second_image", "uint16 (beams, cells): class with the most energy among the others; 65535: none",
+           &PixelLabels::second);
+  of_cells("second_share", "float32 (beams, cells), its share", &PixelLabels::second_share);
   add(type, "class_names", "list of str, by the numbers of material_image, as label_names of the cube",
       [](const MadePing& p) { return labels_of(p, "class_names").names; });
   add(type, "part_names", "list of str: the part whose number in instance_image is its place + 1; empty: no parts",

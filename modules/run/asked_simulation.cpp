@@ -57,7 +57,8 @@ SimulationOptions asked_simulation(const CommonOptions& common, const PingOption
   if (o.multipath) s.effects.multipath = Choice::always;
   s.effects.double_echoes = o.double_echoes;
   s.outputs.layers = o.layers;
-  s.outputs.display_bins = o.display;
+  s.outputs.labels = keeps(o, "labels");
+  s.outputs.display_bins = s.outputs.labels && o.display == 0 ? usual_display_bins : o.display;
   s.outputs.looks_range = o.looks_range;
   s.outputs.looks_pings = o.looks_pings;
   s.outputs.split_phase = o.split;

@@ -66,7 +66,7 @@ struct PingOptions {
   bool noise = false;
   bool multipath = false;
   double double_echoes = library_options.effects.double_echoes;
-  std::vector<std::string> keep;  ///< "elements", "mask", "contributors", "insonification", "paths"
+  std::vector<std::string> keep;  ///< "elements", "mask", "labels", "contributors", "insonification", "paths"
   int contributors = 4;           ///< of each pixel, if they are kept
   bool layers = false;
   bool split = false;

@@ -24,7 +24,7 @@ const OptionRules methods{.words = words_of_methods()};
 const OptionRules worlds{.words = {"z-up", "ned"}};
 const OptionRules samplings{.words = words_of(sampling_words)};
 const OptionRules amplitudes{.words = words_of(amplitude_words)};
-const OptionRules outputs{.words = {"elements", "mask", "contributors", "insonification", "paths"},
+const OptionRules outputs{.words = {"elements", "mask", "labels", "contributors", "insonification", "paths"},
                           .one_each = true,
                           .comma_separated = true};
 const OptionRules contributor_numbers{.within = std::pair(1, 255), .shown_as = "INT"};
@@ -156,7 +156,8 @@ std::vector<RunSetting> kept_settings(PingOptions& o) {
   return {
       {"ping", "keep", "--keep", &o.keep,
        "further outputs, separated by commas. elements: elements.h5, the series of every element of a line array; "
-       "mask: the holes of the scan, marked in the cube; contributors: contributors.h5, the strongest surfels of every "
+       "mask: the holes of the scan, marked in the cube; labels: what every display cell shows (--display, 600 unless "
+       "given); contributors: contributors.h5, the strongest surfels of every "
        "pixel; insonification: the scene with the received levels as .ply and .pcd; paths: paths.vtp, the paths of the "
        "strongest echoes as lines",
        outputs, false, "elements"},
@@ -251,7 +252,7 @@ std::vector<RunSetting> mission_settings(PingOptions& o) {
   for (auto& group : {scene_settings(o.scene), synthesis_settings(o.run), ping_settings(o)})
     for (RunSetting setting : group) {
       if (*setting.section == '\0') setting.section = "ping";
-      if (std::string_view(setting.key) == "keep") setting.rules.words = {"contributors", "mask"};
+      if (std::string_view(setting.key) == "keep") setting.rules.words = {"labels", "contributors", "mask"};
       if (!is_of_one_ping(setting)) all.push_back(setting);
     }
   return all;

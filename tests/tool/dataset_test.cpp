@@ -143,7 +143,7 @@ TEST_F(DatasetRun, colours_of_masks_are_those_of_the_palette_and_of_view_labels)
   EXPECT_GT(key["classes"][2]["samples"], 1000);
   succeed(
       "ping harbour.ply --sonar p900-45 --set sonar.beams=16 --pose=0,0,-3,0,10,0 --range 2:6 --no-picture -q -o bare");
-  expect_refused("image bare --view labels -o none.png", 3, {"bare", "no labels", "--keep contributors"});
+  expect_refused("image bare --view labels -o none.png", 3, {"bare", "no labels", "--keep labels"});
 }
 
 TEST_F(DatasetRun, yolo_boxes_are_those_of_coco) {
@@ -291,7 +291,7 @@ TEST_F(DatasetRun, refuses_runs_without_labels_and_wrong_options) {
   succeed(
       "ping harbour.ply --sonar p900-45 --set sonar.beams=32 --pose=0,0,-3,0,10,0 --range 2:15 --no-picture -q -o "
       "bare");
-  expect_refused("dataset bare -o set", 3, {"bare/cube.h5", "ping", "no labels", "--keep contributors"});
+  expect_refused("dataset bare -o set", 3, {"bare/cube.h5", "ping", "no labels", "--keep labels"});
   expect_refused("dataset none -o set", 4, {"none"});
   expect_refused("dataset survey -o set --share 0", 2, {"--share = 0"});
   expect_refused("dataset survey -o set --share 1.5", 2, {"--share = 1.5"});

@@ -3,6 +3,7 @@
 #include "support/test.hpp"
 #include "tool/mission_text.hpp"
 #include "tool/tool_runner.hpp"
+#include "view/grey_file.hpp"
 
 class DisplayRun : public ToolTest {
  protected:
@@ -38,6 +39,30 @@ TEST_F(DisplayRun, is_read_by_pictures_comparisons_and_exports) {
   EXPECT_GT(std::filesystem::file_size(path("cells.png")), 10000u);
 }
 
+TEST_F(DisplayRun, keeps_labels_of_cells_for_data_sets_and_pictures) {
+  have("harbour.ply", "make-scene harbour --points 30000");
+  const std::string ping = "ping harbour.ply --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:20 --no-picture -q ";
+  have("labelled", ping + "--display 150 --keep labels");
+  const Ping cells = ping_of("labelled");
+  EXPECT_EQ(cells.labels.material.cols(), 150);
+  EXPECT_EQ(cells.labels.second_share.cols(), 150);
+  EXPECT_GT((material_image(cells.labels) < PixelLabels::shadow).count(), 1000);
+  EXPECT_LT(cells.labels.elevation.minCoeff(), -0.05) << "the bed is below the head";
+  succeed("ping --run labelled/run.toml -o again --no-picture -q");
+  EXPECT_TRUE(read("again/cube.h5") == read("labelled/cube.h5"));
+  succeed("dataset labelled -o set -q --split 1:0:0");
+  EXPECT_EQ(manifest_of("set")["images"], 1);
+  EXPECT_GT(manifest_of("set")["boxes"]["fan"], 0);
+  const GreyPicture mask = load_grey_png(path("set/polar/masks/000_000000.png"));
+  EXPECT_EQ(mask.value.rows(), 150);
+  succeed("image labelled --view labels -o labels.png -q");
+  // Without a number of cells there are 600.
+  have("usual", ping + "--keep labels");
+  EXPECT_EQ(ping_of("usual").gate.bins(), 600u);
+  EXPECT_THAT(read("usual/run.toml"), HasSubstr("keep = [\"labels\"]"));
+  expect_refused(ping + "--keep labels,contributors -o no", 2, {"contributors", "listed by sample"});
+}
+
 TEST_F(DisplayRun, needs_samples_for_some_outputs) {
   expect_refused(swath + "--display 200 --split -o no", 2, {"--display = 200", "split"});
   expect_refused(swath + "--display 200 --keep elements -o no", 2, {"--display = 200", "samples of pressure"});
@@ -46,7 +71,7 @@ TEST_F(DisplayRun, needs_samples_for_some_outputs) {
   for (const char* kind : {"gsf", "las", "csv", "mcap", "geotiff"})
     expect_refused(std::string("export cells --anchor 54,8 -o no --to ") + kind, 2,
                    {"cells", "display cells", "without --display"});
-  expect_refused("dataset cells -o no", 3, {"cells", "--keep contributors", "without --display"});
+  expect_refused("dataset cells -o no", 3, {"cells", "--keep labels"});
 }
 
 TEST_F(DisplayRun, survey_of_cells_merges) {
@@ -55,7 +80,7 @@ TEST_F(DisplayRun, survey_of_cells_merges) {
                            .sonar = "oculus-m750d",
                            .range = "2:9",
                            .head = "rate_hz = 1",
-                           .more = "[ping]\ndisplay = 100\nnoise = true"}));
+                           .more = "[ping]\ndisplay = 100\nnoise = true\nkeep = [\"labels\"]"}));
   succeed("survey m.toml -o s -q");
   succeed("merge s -q");
   std::string head;
@@ -66,4 +91,6 @@ TEST_F(DisplayRun, survey_of_cells_merges) {
   ASSERT_GE(cube.pings.size(), 3u);
   EXPECT_TRUE(cube.pings[2].display_cells);
   EXPECT_EQ(cube.pings[2].gate.bins(), 100u);
+  EXPECT_EQ(cube.pings[2].labels.second.cols(), 100);
+  succeed("dataset s -o set -q");
 }

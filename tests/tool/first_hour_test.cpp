@@ -101,7 +101,9 @@ TEST_F(FirstHour, a_mission_to_begin_with_reaches_to_the_end_of_the_scene_and_ha
   succeed("make-mission lawnmower --scene plane.ply --sonar p900-45 --centre 4,0,5 --size 4,0 -q -o ahead.toml");
   EXPECT_THAT(read("ahead.toml"), Not(HasSubstr("[ping]")));
   succeed("make-mission orbit --scene plane.ply --labels -q -o labels.toml");
-  EXPECT_THAT(read("labels.toml"), HasSubstr("[ping]\nkeep = [\"contributors\"]"));
+  EXPECT_THAT(read("labels.toml"), HasSubstr("[ping]\nkeep = [\"labels\"]"));
+  succeed("make-mission lawnmower --scene plane.ply --sonar em2040 --centre 4,0,5 --size 4,0 --labels -q -o both.toml");
+  EXPECT_THAT(read("both.toml"), HasSubstr("keep = [\"contributors\"]")) << "its soundings need samples";
   EXPECT_THAT(run("make-mission lawnmower --scene later.ply -o later.toml").err, HasSubstr("does not exist yet"));
 }
 

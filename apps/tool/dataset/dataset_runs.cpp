@@ -91,8 +91,7 @@ void for_each_labelled_ping(const DatasetSource& source,
     read_cube_pings(path, [&](const Cube& cube, const Ping& ping) {
       if (ping.labels.empty())
         fail(ErrorKind::content, path, ": ping ", ping.number,
-             " has no labels: make it with --keep contributors, in a mission keep = [\"contributors\"] under [ping]",
-             ping.display_cells ? ", and without --display" : "");
+             " has no labels: make it with --keep labels, in a mission keep = [\"labels\"] under [ping]");
       body(cube, ping, place++);
     });
 }

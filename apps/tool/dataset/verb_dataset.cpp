@@ -25,7 +25,7 @@ namespace {
 
 void add_options(OptionList list, DatasetOptions& o) {
   list.add("RUN", &o.runs,
-           "runs, surveys or cubes made with --keep contributors (missions: keep = [\"contributors\"] under [ping])",
+           "runs, surveys or cubes made with --keep labels (missions: keep = [\"labels\"] under [ping])",
            {.required = true});
   list.add("-o,--output", &o.output, "folder that is made", {.required = true});
   list.add(

@@ -20,8 +20,7 @@ namespace {
 void draw_labels(const PictureRequest& job) {
   const Ping& whole = job.run.cube.pings[job.ping];
   if (whole.labels.empty())
-    fail(ErrorKind::content, job.run.path, ": ping ", job.ping,
-         " has no labels: make the run with --keep contributors");
+    fail(ErrorKind::content, job.run.path, ": ping ", job.ping, " has no labels: make the run with --keep labels");
   const std::string json = std::filesystem::path(job.path).replace_extension(".json").string();
   require_free_file(json, job.options.force, {job.run.path});
   const Ping ping = row_of(whole, rows_of(whole) / 2);
@@ -47,8 +46,7 @@ void draw_labels(const PictureRequest& job) {
 
 ViewSpec labels_view() {
   return {.name = "labels",
-          .shows =
-              "what every pixel shows by class, in the colours of a .json beside it, of a run with --keep contributors",
+          .shows = "what every pixel shows by class, in the colours of a .json beside it, of a run with --keep labels",
           .options = {{"--min-level", &ImageOptions::min_level, min_level_help}},
           .draw = draw_labels};
 }

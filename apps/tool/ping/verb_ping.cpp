@@ -48,7 +48,7 @@ void ping(const PingCommand& command) {
   for (std::string& note : loading_notes(sent.scene.report)) run.notes.push_back(std::move(note));
   for (const std::string& note : run.notes) progress.note(note);
   SimulationOptions options = ready.simulation;
-  if (options.outputs.contributors > 0) run.instances = instances_of_scene(o.scene.path);
+  if (options.outputs.contributors > 0 || options.outputs.labels) run.instances = instances_of_scene(o.scene.path);
 
   progress.step("pinging");
   ContributorWriter contributors(directory, run.scene, setup.head, options);
