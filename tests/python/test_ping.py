@@ -211,22 +211,26 @@ def test_display_cells_are_an_image_without_samples(head, scene):
 
 
 def test_labels_are_of_display_cells(head):
-    scene = iy.make_scene("harbour", points=30000)
+    x, y = np.meshgrid(np.arange(0, 8, 0.1), np.arange(-4, 4, 0.1))
+    points = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
+    scene = iy.Scene(points, normals=np.tile((0, 0, 1), (len(points), 1)), areas=np.full(len(points), 0.01),
+                     material=(points[:, 1] > 0).astype(np.uint8))
+    above = dict(position=(-2, 0, 3), pitch=30)
     simulator = iy.PingSimulator(head, display=40)
-    labelled = simulator.ping(scene, (0, 0, -3), pitch=10, keep="labels")
+    labelled = simulator.ping(scene, **above, keep="labels")
     shape = (labelled.azimuth.size, 40)
     assert labelled.display_cells and labelled.material_image.shape == labelled.instance_image.shape == shape
-    assert np.array_equal(labelled.pressure, simulator.ping(scene, (0, 0, -3), pitch=10).pressure)
+    assert np.array_equal(labelled.pressure, simulator.ping(scene, **above).pressure)
     seen = labelled.material_image < 65534
     assert seen.sum() > 200 and (labelled.label_share[seen] >= 0.5).all() and labelled.label_share.max() <= 1
     assert labelled.label_elevation[seen].min() < -0.1
     beside = labelled.second_image != 65535
     assert beside.any() and (labelled.second_share[beside] + labelled.label_share[beside] <= 1.04).all()
-    assert iy.PingSimulator(head).ping(scene, (0, 0, -3), keep="labels").material_image.shape == (shape[0], 600)
-    of_samples = iy.PingSimulator(head).ping(scene, (0, 0, -3), pitch=10, keep="contributors")
+    assert iy.PingSimulator(head).ping(scene, **above, keep="labels").material_image.shape == (shape[0], 600)
+    of_samples = iy.PingSimulator(head).ping(scene, **above, keep="contributors")
     assert of_samples.second_image is None and of_samples.label_share.shape == of_samples.pressure.shape
     with pytest.raises(iy.ArgumentError, match="keep=\"labels\""):
-        simulator.ping(scene, (0, 0, -3)).label_share
+        simulator.ping(scene, **above).label_share
 
 
 def test_notes_are_those_of_the_tool(head, scene, folder, tool, tmp_path):
