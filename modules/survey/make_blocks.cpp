@@ -13,12 +13,12 @@
 namespace insonify {
 namespace {
 
-/// Blocks that were begun: those that are not whole yet hold their outcomes.
+/// The blocks of which a ping was made. A block that is not whole holds the outcomes that it has.
 class OpenBlocks {
  public:
   explicit OpenBlocks(SurveyStore& store) : store_(store) {}
 
-  /// Whether a ping is still to be made.
+  /// Returns true if a ping is still to be made.
   bool is_left(const SurveyBlock& block, std::size_t ping) {
     const std::scoped_lock lock(guard_);
     const auto [at, is_new] = open_.try_emplace({block.head, block.number}, Open{block, {}});
@@ -31,7 +31,7 @@ class OpenBlocks {
     return !open.kept && !open.outcomes[ping - block.begin];
   }
 
-  /// Notes what a ping gave, if it was made now, and passes its block on if that is whole.
+  /// Takes the outcome of a ping, if it was made now, and passes its block on if that is whole.
   void add(const SurveyBlock& block, std::size_t ping, std::optional<PingOutcome> made) {
     BlockOutcomes whole;
     {
@@ -46,7 +46,7 @@ class OpenBlocks {
     store_.keep(block, whole);
   }
 
-  /// Passes on what is done of blocks that are not whole.
+  /// Passes on the finished pings of blocks that are not whole.
   void leave() {
     for (auto& [key, open] : open_)
       if (!open.kept && std::any_of(open.outcomes.begin(), open.outcomes.end(), is_there))
@@ -83,7 +83,7 @@ PingOutcome try_ping(const std::function<PingOutcome(const SurveyPing&)>& simula
 
 bool make_blocks(const std::vector<SurveyPing>& pings, const std::vector<SurveyBlock>& blocks, int threads,
                  const std::function<PingOutcome(const SurveyPing&)>& simulate, SurveyStore& store) {
-  std::vector<std::pair<std::size_t, std::size_t>> items;  // of block and ping
+  std::vector<std::pair<std::size_t, std::size_t>> items;  // indices of block and ping
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (std::size_t p = blocks[b].begin; p < blocks[b].end; ++p) items.emplace_back(b, p);
 

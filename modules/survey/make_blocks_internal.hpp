@@ -7,8 +7,7 @@
 namespace insonify {
 
 /// Makes the pings of some blocks by `simulate`, `threads` (0: all cores) of them at once: the engine of
-/// simulate_survey.
-/// `simulate` is called by several threads at once. True if no ping is left.
+/// simulate_survey. Several threads call `simulate` at once. Returns true if no ping is left.
 bool make_blocks(const std::vector<SurveyPing>& pings, const std::vector<SurveyBlock>& blocks, int threads,
                  const std::function<PingOutcome(const SurveyPing&)>& simulate, SurveyStore& store);
 

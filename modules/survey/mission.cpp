@@ -11,7 +11,7 @@
 namespace insonify {
 namespace {
 
-/// Refuses a name that another of the items before item `i` has.
+/// Throws Error(argument) if an item before item `i` has the same name.
 template <typename Item>
 void require_own_name(const std::vector<Item>& items, std::size_t i, const char* who, const char* what) {
   const std::string& name = items[i].name;

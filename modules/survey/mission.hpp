@@ -11,13 +11,13 @@
 
 namespace insonify {
 
-/// Motion of a scanning head at the end of a sweep: it starts again, goes back, or stops.
+/// The motion of a scanning head at the end of a sweep: it starts again, goes back, or stops.
 enum class ScanMode { continuous, sector, single };
 
 /// A head that turns about its own z axis between pings; angles in rad, positive to port. During a ping it rests.
 struct HeadScan {
-  double start = 0, stop = 0;  ///< a whole turn or more apart: start and stop are the same direction
-  double step = 0;             ///< between neighbouring directions, > 0
+  double start = 0, stop = 0;  ///< directions of the sweep; they coincide if it is a whole turn or more
+  double step = 0;             ///< angle between neighbouring directions, > 0
   ScanMode mode = ScanMode::continuous;
 };
 
@@ -25,36 +25,36 @@ struct HeadScan {
 /// scanning head may have none; it then pings as soon as the listening time of the last ping is over.
 struct MissionHead {
   std::string name;
-  Pose vehicle_from_head = Pose::Identity();  ///< at scan angle 0
-  double interval = 0;                        ///< between pings [s]; 0: not given
-  double distance = 0;                        ///< along the trajectory between pings [m]; 0: not given
-  std::vector<double> times{};                ///< of transmission [s], ascending; empty: not given
+  Pose vehicle_from_head = Pose::Identity();  ///< mounting, at scan angle 0
+  double interval = 0;                        ///< time between pings [s]; 0: not given
+  double distance = 0;                        ///< distance between pings along the trajectory [m]; 0: not given
+  std::vector<double> times{};                ///< times of transmission [s], ascending; empty: not given
   double listening_time = 0;                  ///< 2 max_range / c [s]: no two pings are closer
   std::optional<HeadScan> scan{};
 };
 
-/// A named part of the trajectory. Pings are sent at times from <= t < to, and also at the end of the trajectory if
-/// `to` is that end. A leg that is not active is a transit without pings.
+/// A named part of the trajectory. Its pings have times from <= t < to; a ping at `to` belongs to it only at the end of
+/// the trajectory. A leg that is not active is a transit without pings.
 struct MissionLeg {
   std::string name;
   double from = 0, to = 0;  ///< [s]
   bool active = true;
   std::vector<std::string> heads{};   ///< heads that ping on this leg; empty: all
-  double interval = 0, distance = 0;  ///< replace those of the heads, if not 0
+  double interval = 0, distance = 0;  ///< replace those of the heads unless 0
 };
 
 /// A vehicle with sonar heads along a trajectory.
 struct Mission {
   Trajectory trajectory;  ///< world_from_vehicle; vehicle axes as head axes: x forward, y port, z up
   std::vector<MissionHead> heads;
-  std::vector<MissionLeg> legs;   ///< in the order of time; empty: one over the whole trajectory
-  NavigationErrors navigation{};  ///< differences of the stored poses from those of the trajectory
-  /// There are no pings between entries of the trajectory that are farther apart than this [s].
+  std::vector<MissionLeg> legs;   ///< in the order of time; empty: one leg over the whole trajectory
+  NavigationErrors navigation{};  ///< differences of the stored poses from the true ones
+  /// No ping is sent between two entries of the trajectory that are farther apart than this [s].
   double max_gap = std::numeric_limits<double>::infinity();
 };
 
-/// Returns whether a head or leg, and with it a folder, may have this name: letters, digits, '-', '_' and '.', which is
-/// not the first.
+/// Returns true if a head or leg, and with it a folder, may have this name: it consists of letters, digits, '-', '_'
+/// and '.', and does not begin with '.'.
 bool is_plain_name(const std::string& name);
 
 /// Throws Error(argument) unless head `i` is valid. Its name consists of letters, digits, '-', '_' and '.' and differs
@@ -66,15 +66,16 @@ void require_valid_head(const Mission& mission, std::size_t i, const char* who);
 /// and names heads of the mission.
 void require_valid_leg(const Mission& mission, std::size_t i, const char* who);
 
-/// Returns the distance of entries from which on a recorded trajectory has a gap [s]: ten times the median distance, at
-/// least 5 s; infinity for fewer than four entries.
+/// Returns the distance of entries above which a recorded trajectory has a gap [s]: ten times the median distance, but
+/// at least 5 s; infinity for fewer than four entries.
 double gap_of(const Trajectory& trajectory);
 
-/// An interval without entries of a trajectory [s].
+/// An interval [s] in which a trajectory has no entries.
 struct TrajectoryGap {
   double from = 0, to = 0;
 };
-/// Returns the gap in which a time lies, at neither end: two entries farther apart than `max_gap` [s]; else nothing.
+/// Returns the gap that holds `time`, not at its ends: between two entries farther apart than `max_gap` [s]; nothing if
+/// there is none.
 std::optional<TrajectoryGap> gap_at(const Trajectory& trajectory, double time, double max_gap);
 
 /// Throws Error(argument) unless trajectory, heads and legs are valid and there is at least one head.

@@ -14,11 +14,11 @@ using Components = Eigen::Vector<double, 6>;
 
 constexpr double nodes_per_correlation = 10, most_nodes = 1e7;
 
-/// Six independent standard normal numbers of a node.
+/// Returns the six independent standard normal numbers of a node.
 Components normals_of(std::uint64_t seed, std::uint64_t node) {
   Components n;
   for (std::uint64_t pair = 0; pair < 3; ++pair) {
-    // Of E|z|^2 = 1, so that real and imaginary part have half of it each.
+    // E|z|^2 = 1: real and imaginary part have half of it each.
     const std::complex<double> z =
         std::sqrt(2.0) * random_complex_normal(seed, RandomStage::navigation, {node, pair, 0});
     n[static_cast<Eigen::Index>(2 * pair)] = z.real();

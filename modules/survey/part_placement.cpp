@@ -12,7 +12,7 @@
 namespace insonify {
 namespace {
 
-/// Of the area that discs about the centres take, when they are strewn one by one: 0.547 is the limit.
+/// Largest share of the area that discs about random centres may take. Discs placed one by one reach 0.547 at most.
 constexpr double most_cover = 0.45;
 
 double perimeter_of(const std::vector<Eigen::Vector2d>& corners) {

@@ -11,7 +11,7 @@ SceneMoment moment_of(const DrawRule& rule, double time, std::int64_t number) {
   if (rule.pings_per_draw < 0)
     fail(ErrorKind::argument, "moment_of: pings_per_draw = ", rule.pings_per_draw, ", must be at least 0");
   if (rule.pings_per_draw == 0) return {time, rule.draw};
-  // The number of a ping among those of its head is in the lower 40 bits.
+  // The lower 40 bits are the number of a ping among the pings of its head.
   const std::int64_t own = number & ((std::int64_t{1} << 40) - 1);
   return {time, static_cast<std::uint64_t>(own / rule.pings_per_draw)};
 }
@@ -40,7 +40,7 @@ std::unique_ptr<PosedScene> PartsSource::take() const {
   return std::make_unique<PosedScene>(resting_ ? *resting_ : parts_->resting(), parts_->materials(), threads_);
 }
 
-/// A scene that is out; it goes back to the pool with the last of its owners.
+/// A scene in use. It goes back to the pool when its last owner releases it.
 struct PartsSource::Loan {
   std::shared_ptr<Pool> pool;
   std::unique_ptr<PosedScene> posed;

@@ -16,7 +16,7 @@ namespace insonify {
 /// The values that determine the positions of the parts of a scene.
 struct SceneMoment {
   double time = 0;         ///< [s]
-  std::uint64_t draw = 0;  ///< number of the draw of its scatters
+  std::uint64_t draw = 0;  ///< number of the draw of the scattered bodies
   bool operator==(const SceneMoment&) const = default;
 };
 
@@ -32,16 +32,16 @@ SceneMoment moment_of(const DrawRule& rule, double time, std::int64_t number);
 /// Moving parts are placed by the time of the ping, drawn bodies by its draw. Several threads may ask at once.
 class PartsSource : public SceneSource {
  public:
-  /// `threads`: for preparation, 0: all cores. `prepare`: prepares the first scene in the constructor, so that errors
-  /// appear there; otherwise each scene is prepared when it is needed. `resting`: replaces parts->resting(). Throws as
-  /// PosedScene.
+  /// Keeps the parts, and prepares scenes with `threads` threads (0: all cores). With `prepare`, the constructor
+  /// prepares the first scene, so that errors appear there; otherwise each scene is prepared when it is needed.
+  /// `resting` replaces parts->resting(). Throws as PosedScene.
   explicit PartsSource(std::shared_ptr<const SceneParts> parts, const DrawRule& rule = {}, int threads = 0,
                        bool prepare = true, std::optional<std::vector<PlacedPart>> resting = {});
 
-  /// Returns the scene at the moment of the event, as scene_at.
+  /// Returns scene_at of the moment of the event.
   std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator, const PingEvent& event) const override;
-  /// Returns the scene at a moment. If a scene in use has the same poses of parts, that scene is returned. Any thread
-  /// may release it. Throws as SceneParts::others_at.
+  /// Returns the scene at a moment: one that is in use if the poses of its parts are the same. Any thread may release
+  /// it. Throws as SceneParts::others_at.
   std::shared_ptr<const PreparedScene> scene_at(const SceneMoment& moment) const;
   /// Returns the moment of a ping.
   SceneMoment moment_for(const PingEvent& event) const { return moment_of(rule_, event.time, event.number); }
@@ -59,7 +59,7 @@ class PartsSource : public SceneSource {
   std::optional<std::vector<PlacedPart>> resting_;
   DrawRule rule_;
   int threads_;
-  std::shared_ptr<Pool> pool_;  ///< shared with the scenes that are out
+  std::shared_ptr<Pool> pool_;  ///< shared with the scenes in use
 };
 
 }  // namespace insonify

@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-// Four numbers, uniform within -1 and 1.
+// Returns four numbers, uniform within -1 and 1.
 std::array<double, 4> symmetric_numbers(std::uint64_t seed, const SurveyPing& ping, std::uint64_t group) {
   std::array<double, 4> numbers =
       random_uniform(seed, RandomStage::randomise,

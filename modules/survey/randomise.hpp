@@ -14,13 +14,13 @@ namespace insonify {
 /// Random differences between the pings of a survey and its mission: half widths of uniform distributions; 0: no
 /// difference.
 struct Randomisation {
-  double source_level_db = 0;                      ///< of the sonar
-  double noise_db = 0;                             ///< of the sonar's own noise and of the ambient level
-  double temperature_c = 0, salinity_psu = 0;      ///< of the water
-  double position = 0, heading = 0, attitude = 0;  ///< of the head: each coordinate [m]; yaw; pitch and roll each [rad]
+  double source_level_db = 0;                      ///< level of the sonar
+  double noise_db = 0;                             ///< the sonar's own noise and the ambient level
+  double temperature_c = 0, salinity_psu = 0;      ///< water
+  double position = 0, heading = 0, attitude = 0;  ///< head: each coordinate [m]; yaw; pitch and roll each [rad]
   std::int64_t scene_pings = 0;                    ///< pings between draws of a scene's scattered bodies; 0: drawn once
 
-  /// Returns whether pings differ by sonar, water or pose.
+  /// Returns true if pings differ by sonar, water or pose.
   bool any() const {
     return source_level_db > 0 || noise_db > 0 || temperature_c > 0 || salinity_psu > 0 || position > 0 ||
            heading > 0 || attitude > 0;
@@ -34,10 +34,10 @@ struct RandomisedPing {
   Eigen::Vector3d angles = Eigen::Vector3d::Zero();    ///< yaw, pitch, roll about the head's own axes [rad]
 };
 
-/// Returns the differences of a ping, a function of seed, head and number of the ping alone.
+/// Returns the differences of a ping. They depend on seed, head and number of the ping alone.
 RandomisedPing randomised(const Randomisation& spread, std::uint64_t seed, const SurveyPing& ping);
 
-/// Returns the pose, moved and turned by the differences.
+/// Returns a pose that is moved and turned by the differences.
 Pose moved_by(const RandomisedPing& by, const Pose& world_from_head);
 
 /// Applies the differences of sonar and water. Salinity stays within 0 and 45 psu, temperature within 0 and 40 degrees.

@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 
-constexpr std::uint64_t most_tries = 4000;  // of places for one body
+constexpr std::uint64_t most_tries = 4000;  // positions tried for one body
 constexpr std::size_t kept_draws = 8;
 
 void require_area(const SceneBody& body) {
@@ -27,14 +27,14 @@ void require_area(const SceneBody& body) {
   if (!(area > 0)) fail(ErrorKind::content, "part '", body.name, "' has no area: its surfels hear nothing");
 }
 
-/// A body of some scale, without a pose: `cloud` is the scaled one.
+/// Returns a body of this scale, without a pose; `cloud` has that scale already.
 PlacedPart with_scale(const SceneBody& body, double scale, std::shared_ptr<const SceneCloud> cloud) {
   PlacedPart part{body.name, body.label, std::move(cloud)};
   part.file_origin = -scale * body.centre, part.scale = scale, part.size = scale * body.size;
   return part;
 }
 
-/// A body whose file's axes are these: its own axes are elsewhere, and move as the body turns.
+/// Returns a body whose file has these axes. Its own axes have their origin elsewhere, and move as the body turns.
 PlacedPart placed_at(const SceneBody& body, const MovingAxes& axes, double scale,
                      std::shared_ptr<const SceneCloud> cloud) {
   PlacedPart part = with_scale(body, scale, std::move(cloud));
@@ -45,7 +45,7 @@ PlacedPart placed_at(const SceneBody& body, const MovingAxes& axes, double scale
   return part;
 }
 
-/// The random numbers of a draw of a scatter.
+/// The random numbers of one draw of scattered bodies.
 struct Draws {
   std::uint64_t seed, scatter, draw;
 
@@ -58,25 +58,25 @@ std::size_t whole(double u, std::size_t below) { return static_cast<std::size_t>
 double between(double u, double least, double most) { return least + u * (most - least); }
 double within(double u, double half) { return (2 * u - 1) * half; }
 
-/// A place that a body has.
+/// The disc that a placed body takes.
 struct Taken {
   Vector2d centre;
   double radius;
 };
 
-/// A body that has its attitude and still no place.
+/// A body that has its attitude but no position yet.
 struct Hovering {
   PlacedPart part;
   double radius, bury;  // [m]
 };
 
-/// Where it came to rest; without a part if it is wholly below the ground.
+/// A body that has come to rest; without a part if it is wholly below the ground.
 struct Setting {
   bool found = false;
   std::optional<PlacedPart> part;
 };
 
-/// Tries places one after the other: the first one that is free and has ground. It is added to those taken.
+/// Tries positions until one is free and has ground, and adds that one to `taken`.
 Setting set_down(const Draws& draws, std::uint64_t number, const ScatterRule& rule, Hovering body, const Ground& ground,
                  std::vector<Taken>& taken) {
   Vector2d low = rule.area.front(), high = low;
@@ -94,7 +94,7 @@ Setting set_down(const Draws& draws, std::uint64_t number, const ScatterRule& ru
       taken.push_back({place, body.radius});
       return setting;
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::content) throw;  // else it is beside a hole
+      if (error.kind() != ErrorKind::content) throw;  // the body is beside a hole: try the next
     }
   }
   return {};
@@ -132,7 +132,7 @@ void SceneParts::number_classes(const std::vector<PartDefinition>& parts, const 
   const auto add = [this](const Material& material) {
     if (std::ranges::find(materials_, material) == materials_.end()) materials_.push_back(material);
   };
-  // Classes first: labels, and the materials of bodies without one.
+  // Number the classes first: labels, and the materials of bodies without a label.
   for (const SceneBody* body : bodies) {
     if (!body->label.empty()) {
       const auto real = std::ranges::find(all, body->label, &Material::name);
@@ -154,7 +154,7 @@ void SceneParts::place(const PartDefinition& part) {
     resting_.push_back(std::move(captured));
     return;
   }
-  // A trajectory says where the part is; all else stands at time 0.
+  // Take the begin of the trajectory if there is one, else time 0.
   const double begin = p.trajectory ? p.trajectory->time.front() : 0;
   PlacedPart placed = placed_at(body, axes_at(p, body.name, begin), p.scale, scaled(body.cloud, p.scale));
   std::optional<PlacedPart> rests = place_on_ground(placed, ground_, p.rest, p.bury);
@@ -213,7 +213,7 @@ std::vector<PlacedPart> SceneParts::drawn_of(std::size_t scatter, std::uint64_t 
   std::vector<PlacedPart> parts;
   std::map<std::string, int> so_far;
   for (std::uint64_t k = 1; k <= count; ++k) {
-    // What the body is and how it lies, whatever its place.
+    // Draw the body and its attitude, which do not depend on its position.
     const auto what = draws.of(k, 0), turn = draws.of(k, 1);
     const Drawable& body = bodies[whole(what[0], bodies.size())];
     const double scale = between(what[1], rule.least_scale, rule.most_scale);
@@ -259,7 +259,7 @@ std::vector<PlacedPart> SceneParts::others_at(double time, std::uint64_t draw) c
     const PartPlacement& p = part.placement;
     PlacedPart now = placed_at(part.body, axes_at(p, part.body.name, time), p.scale, at_begin.cloud);
     if (p.rest != PartRest::none) {
-      // It was tilted and lowered at time 0, and moves on from there as a rigid body about the origin of its axes.
+      // The part was tilted and lowered at time 0. It moves on as a rigid body about the origin of its axes.
       const Pose free_at_begin = placed_at(part.body, axes_at(p, part.body.name, 0), p.scale, nullptr).world_from_part;
       const Vector3d shift = at_begin.world_from_part.translation() - free_at_begin.translation();
       const Eigen::Matrix3d turn = now.world_from_part.linear() * free_at_begin.linear().transpose();

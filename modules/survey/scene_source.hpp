@@ -7,7 +7,7 @@
 
 namespace insonify {
 
-/// Source of the scenes of pings: one scene in memory, or the part of a larger scene that each ping needs.
+/// A source of the scenes of pings: one scene in memory, or the part of a larger scene that each ping needs.
 class SceneSource {
  public:
   virtual ~SceneSource() = default;
@@ -17,10 +17,10 @@ class SceneSource {
                                                          const PingEvent& event) const = 0;
 };
 
-/// Source of one scene for every ping.
+/// The source of one scene for all pings.
 class SceneInMemory : public SceneSource {
  public:
-  /// Throws Error for an invalid scene. threads: 0: all cores.
+  /// Prepares the scene with `threads` threads (0: all cores). Throws Error for an invalid scene.
   explicit SceneInMemory(SceneCloud scene, int threads = 0)
       : scene_(std::make_shared<PreparedScene>(std::move(scene), threads)) {}
   /// Returns the scene given to the constructor.

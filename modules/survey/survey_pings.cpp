@@ -10,9 +10,9 @@
 namespace insonify {
 namespace {
 
-constexpr double leg_rounding = 1e-9;  // a ping that falls on the end of a leg but for rounding belongs to the next one
+constexpr double leg_rounding = 1e-9;  // [s]; a ping at the end of a leg, up to rounding, belongs to the next leg
 
-/// Times at which the vehicle has gone each multiple of `distance` since `from`, before `to`.
+/// Returns the times before `to` at which the vehicle has gone a multiple of `distance` since `from`.
 std::vector<double> times_by_distance(const Trajectory& t, double from, double to, double distance) {
   std::vector<double> times{from};
   double gone = 0, next = distance;
@@ -32,7 +32,7 @@ std::vector<double> times_by_distance(const Trajectory& t, double from, double t
   return times;
 }
 
-/// How often a head pings on a leg; both are 0 where it has times of its own.
+/// Interval or distance between the pings of a head on a leg; both are 0 if the head has times of its own.
 struct PingSpacing {
   double interval = 0, distance = 0;  // [s], [m]
 };
@@ -57,7 +57,7 @@ double length_between(const Trajectory& t, double from, double to) {
   return length;
 }
 
-/// Refuses a mission before a list of its pings takes the memory of the machine.
+/// Throws Error(argument) for a mission with too many pings, before their list fills the memory of the machine.
 void require_countable(const Mission& mission, const std::vector<MissionLeg>& legs) {
   constexpr double most = most_survey_pings;
   double pings = 0;
@@ -93,7 +93,7 @@ std::vector<double> times_on_leg(const Mission& mission, const MissionHead& head
   return times;
 }
 
-/// Directions of a sweep, and where a scanning head looks after `k` steps since the begin of a leg.
+/// The sweep of a scanning head: its directions, and the angle after `k` steps since the begin of a leg.
 struct Sweep {
   const HeadScan& scan;
   std::int64_t directions;
@@ -102,7 +102,7 @@ struct Sweep {
     const double span = std::abs(of.stop - of.start);
     directions = static_cast<std::int64_t>(span / of.step + 1e-9) + (span < 2 * pi - 1e-9 ? 1 : 0);
   }
-  /// Steps until the next sweep begins.
+  /// Returns the number of steps from the begin of one sweep to the next.
   std::int64_t length() const {
     return scan.mode == ScanMode::sector ? std::max<std::int64_t>(1, directions - 1) : directions;
   }
@@ -142,7 +142,7 @@ void require_apart(const MissionHead& head, const std::vector<SurveyPing>& pings
            " s apart, must be at least 2 max_range / c = ", head.listening_time, " s");
 }
 
-/// The two entries about a time alone: interpolation checks the trajectory that it is given.
+/// Returns the two entries about a time, because interpolation checks all entries of its trajectory.
 Trajectory entries_about(const Trajectory& t, double time) {
   const auto after = std::upper_bound(t.time.begin(), t.time.end(), time) - t.time.begin();
   const auto i =
@@ -150,7 +150,7 @@ Trajectory entries_about(const Trajectory& t, double time) {
   return {{t.time[i - 1], t.time[i]}, {t.pose[i - 1], t.pose[i]}};
 }
 
-/// Pose of the ping's head on a vehicle.
+/// Returns the pose of the ping's head on a vehicle.
 Pose on_vehicle(const Mission& mission, const SurveyPing& ping, const Pose& vehicle) {
   return vehicle * mission.heads.at(ping.head).vehicle_from_head *
          Eigen::AngleAxisd(ping.scan_angle, Eigen::Vector3d::UnitZ());

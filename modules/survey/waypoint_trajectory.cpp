@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Positions along the way and its direction there.
+/// The route: positions, and the direction of travel at each.
 struct Way {
   std::vector<Vector3d> place, ahead;
   void add(const Vector3d& at, const Vector3d& direction) {
@@ -55,7 +55,7 @@ void require_valid(const Waypoints& w) {
       fail(ErrorKind::argument, "waypoint_trajectory: ", name, " = ", value, " ", unit, ", must be finite and > 0");
 }
 
-/// The first direction that is not upright.
+/// Returns the first direction that is not vertical.
 Vector3d first_level(const Way& way) {
   for (const Vector3d& ahead : way.ahead)
     if (std::hypot(ahead.x(), ahead.y()) > 1e-6) return ahead;
