@@ -87,7 +87,7 @@ class LoadedForest : public LoadedLevels {
     }
   }
 
-  /// Adds a node of group `g`. Nodes and rows are a forest: each has one parent, in a coarser group, unless it is a root.
+  /// Adds a node of group `g`. Every row or node has one parent, in a coarser group, unless it is a root.
   void add_node(const DetailNode& node, std::size_t g) {
     const std::size_t number = levels.node.size();
     const auto require = [&](bool good, const auto&... what) {
@@ -115,8 +115,8 @@ class LoadedForest : public LoadedLevels {
   Vector3d reference_;
   std::atomic<std::uint64_t>& bytes_;
   std::size_t group_ = 0;
-  std::vector<bool> loaded_;      // tiles
-  std::vector<bool> has_parent_;  // rows, then nodes; roots among the rows count
+  std::vector<bool> loaded_;      // per tile
+  std::vector<bool> has_parent_;  // per row, then per node; also true for a root among the rows
 };
 
 }  // namespace

@@ -14,12 +14,12 @@
 namespace insonify {
 namespace {
 
-/// A material stands in one line with its first number, and in a second one, "surface", with the others if any of them
-/// is not the default; a law other than Lambert's in a third one, "law".
+/// A material has one line with its first number. A second line, "surface", has the other numbers if any of them is not
+/// the default; a third one, "law", a law other than Lambert's.
 constexpr std::span surface_numbers = std::span(material_numbers).subspan(1);
-constexpr std::size_t first_surface_numbers = 2;  // that every such line has: those of the first version of the formats
+constexpr std::size_t first_surface_numbers = 2;  // in every such line: the numbers of the first version
 
-/// Shortest text that reads back as the same double.
+/// Returns the shortest text that reads back as the same double.
 std::string exact(double value) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -51,13 +51,13 @@ const std::string& SceneTags::name_in_file(const std::string& meant) const {
   return at == columns.end() ? meant : at->first;
 }
 
-/// Reads the numbers of a material's surface; false if they are none.
+/// Reads the numbers of a material's surface. Returns false if they are invalid.
 bool read_surface(std::string_view rest, SceneTags& tags) {
   std::size_t index = 0;
   if (!to_number(take_word(rest), index) || index >= tags.materials.size()) return false;
   std::string_view word = take_word(rest);
   for (const MaterialNumber& n : surface_numbers) {
-    if (&n > &surface_numbers.front() && word.empty()) break;  // written before there was this number
+    if (&n > &surface_numbers.front() && word.empty()) break;  // the line is older than this number
     if (!to_number(word, tags.materials[index].*n.member) || tags.materials[index].*n.member > n.most) return false;
     word = take_word(rest);
   }
@@ -131,7 +131,7 @@ std::vector<std::string> tag_lines(const SceneCloud& scene, const std::string& s
     const Material& material = scene.materials[m];
     const std::string index = std::to_string(m);
     lines.push_back("insonify material " + index + " " + exact(material.*material_numbers[0].member) + " " + name);
-    // Numbers up to the last one that is not the default.
+    // List the numbers up to the last one that is not the default.
     std::size_t said = 0;
     std::string surface = "insonify surface " + index;
     for (std::size_t k = 0; k < surface_numbers.size(); ++k)

@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 constexpr std::size_t tiles_at_once = 32;
 constexpr double halo_spacings = 10;  // the 64 nearest neighbours on a plane lie within 5
 
-// Largest distance to neighbours of a tile's surfels, from their spacing if they filled the disc of the bounding
-// sphere.
+// Returns the largest distance of a tile's surfels from their neighbours [m], by their spacing if they filled the disc
+// of the bounding sphere.
 double halo_of(const TileEntry& tile) {
   return halo_spacings * tile.radius * std::sqrt(pi / static_cast<double>(tile.count));
 }

@@ -16,7 +16,7 @@ namespace insonify {
 double fill_areas(ColumnFile& columns, std::vector<TileEntry>& tiles, const TileWriterOptions& options,
                   const std::function<void(double)>& progress);
 
-/// Total area of all surfels in the tiles [m^2].
+/// Returns the total area of all surfels in the tiles [m^2].
 double sum_of_areas(const ColumnFile& columns, const std::vector<TileEntry>& tiles);
 
 }  // namespace insonify

@@ -12,7 +12,7 @@ namespace {
 
 bool is_size(double value) { return value >= 0 && std::isfinite(value); }
 
-/// Whether the ball of a tile or forest is one.
+/// Returns true if the bounding ball of a tile or forest is finite.
 template <typename Entry>
 bool has_ball(const Entry& entry) {
   return vector_in(entry.reference).allFinite() && vector_in(entry.centre).allFinite() && is_size(entry.radius) &&
@@ -71,7 +71,7 @@ void require_values(const TileDirectory& directory, std::uint64_t number, const 
     fail(ErrorKind::content, directory.info.path, ": node ", number, ": ", name, " = ",
          values.size() > 1 ? "(" + text.str() + ")" : text.str(), ", must be ", rule, "; copy or make the file again");
   };
-  // A cut takes sums and multiples of sizes: below this all of them are finite.
+  // A cut computes sums and multiples of sizes; below this limit all of them are finite.
   constexpr float most = 1e30F;
   const auto require_size = [&](const char* name, const float& value) {
     if (!(value >= 0 && value <= most)) refuse(name, {&value, 1}, ">= 0 and at most 1e30");

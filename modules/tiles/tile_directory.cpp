@@ -15,7 +15,7 @@ namespace {
 
 using namespace hdf5;
 
-constexpr std::int64_t newest_version = 3;  // 1 was not HDF5, 2 had neither noise nor coordinate systems
+constexpr std::int64_t newest_version = 3;  // 1 was not HDF5; 2 had neither noise nor coordinate systems
 constexpr const char* format_text = "insonify tiles";
 constexpr DatasetName node_name{"/node", "", "levels of detail: a node stands for its children"};
 constexpr DatasetName node_noise_name{"/node_noise", "m",
@@ -55,7 +55,7 @@ TypeMember member(const char* name, Value Entry::*value) {
           sizeof(Value) / sizeof(Number)};
 }
 
-/// A type that is the same in the file and in memory.
+/// Returns a compound type that is the same in the file and in memory.
 template <typename Entry>
 Handle compound(const FileContext& place, std::initializer_list<TypeMember> members) {
   Handle type(place.checked(H5Tcreate(H5T_COMPOUND, sizeof(Entry)), "type"), H5Tclose);
@@ -104,7 +104,7 @@ void write_table(const FileContext& place, hid_t file, const DatasetName& name, 
 struct Facts {
   std::array<double, 3> origin, low, high;
   double total_area;
-  std::string scene;  // the lines of tag_lines
+  std::string scene;  // tag_lines, one per line
   std::uint64_t wide, checksum;
 
   std::uint64_t checksum_with(std::span<const TileEntry> tiles, std::span<const TileForest> forests) const {
@@ -123,7 +123,7 @@ void pass(Stream& stream, Facts& f) {
 
 std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// What the child process that reads the file finds.
+/// The result of the child process that reads the file.
 struct Found {
   Facts facts;
   /// A dataset in one piece.
@@ -172,7 +172,7 @@ Found find_all(const FileContext& place, hid_t file) {
   return found;
 }
 
-/// Refuses what is not HDF5.
+/// Throws Error(content) if a file is not HDF5.
 void require_new_format(const std::string& path) {
   require_readable(path);
   const std::string head = read_beginning(path, 8);

@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d, Eigen::Vector3f;
 
-constexpr std::size_t rows_at_once = 1 << 19;  // of the forests that are made at once
-constexpr int leaves_from = 6;                 // doublings of the smallest cell: below larger ones a surfel is a node
+constexpr std::size_t rows_at_once = 1 << 19;  // rows of the forests that are made at once
+constexpr int leaves_from = 6;                 // doublings of the smallest cell; below larger cells a surfel is a node
 constexpr std::size_t rows_per_leaf = 8;       // a forest with more roots that are surfels keeps them as rows
 constexpr std::uint32_t not_in_file = ~std::uint32_t{0};
 
@@ -61,11 +61,11 @@ std::vector<TileForest> plan_forests(const ColumnFile& columns, const TileDirect
   return forests;
 }
 
-/// Levels of a forest as they are written.
+/// The levels of a forest in the form of the file.
 struct PackedLevels {
   std::vector<TileNode> nodes;
   std::vector<std::uint32_t> children;
-  std::vector<float> noise;  ///< of the nodes; empty if the surfels have none
+  std::vector<float> noise;  ///< noise of the nodes; empty if the surfels have none
 };
 
 TileNode packed(const DetailNode& n, std::uint32_t id) {
@@ -82,9 +82,9 @@ TileNode packed(const DetailNode& n, std::uint32_t id) {
 /// Orders the nodes of levels of detail (E137) by groups, from coarse to fine.
 class LevelPacker {
  public:
-  /// `rows` as in the file.
+  /// Makes the levels of `rows`, which have the order of the file.
   LevelPacker(const SceneCloud& rows, double spacing) : row_(rows.size()), leaf_(rows.size(), not_in_file) {
-    // By ascending id, as in memory, so that the levels are the same.
+    // Sort by ascending id as in memory, so that the levels are the same.
     std::iota(row_.begin(), row_.end(), 0);
     std::sort(row_.begin(), row_.end(), [&](std::uint32_t a, std::uint32_t b) { return rows.id[a] < rows.id[b]; });
     surfels_ = subset(rows, row_);
@@ -98,7 +98,7 @@ class LevelPacker {
     for (std::size_t g = 0; g < level_groups; ++g)
       for (std::size_t k = 0; k < group_[g].size(); ++k)
         if (group_[g][k] >= levels_.surfels) add_children(levels_.node[group_[g][k] - levels_.surfels]);
-    // Places are known once all groups are.
+    // All groups are known now: number their nodes.
     std::uint32_t next = 0;
     for (const std::vector<std::uint32_t>& group : group_)
       for (const std::uint32_t index : group)
@@ -163,15 +163,15 @@ class LevelPacker {
     packed_.nodes.push_back(packed(node, id));
     if (!surfels_.noise.empty()) packed_.noise.push_back(node.noise);
   }
-  /// Number of a child in the file.
+  /// Returns the number of a child in the file.
   std::uint32_t number_of(std::uint32_t index) const {
     const auto rows = static_cast<std::uint32_t>(levels_.surfels);
     if (index >= rows) return rows + place_[index - rows];
     return leaf_[index] == not_in_file ? row_[index] : rows + leaf_[index];
   }
 
-  std::vector<std::uint32_t> row_;           // of each surfel by id
-  std::vector<std::uint32_t> leaf_, place_;  // node in the file of each surfel that is one, and of each node
+  std::vector<std::uint32_t> row_;           // row of each surfel, by id
+  std::vector<std::uint32_t> leaf_, place_;  // number in the file of each surfel that is a node, and of each node
   SceneCloud surfels_;
   DetailLevels levels_;
   int finest_ = 0;

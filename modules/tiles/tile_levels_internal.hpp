@@ -12,14 +12,14 @@
 // Private to tiles: levels of detail (E137) of the surfels of a .tiles file, from coarse to fine.
 namespace insonify {
 
-/// Makes the levels of all surfels in `columns`, a few forests at a time, and appends nodes and children to these files.
+/// Makes the levels of all surfels in `columns`, a few forests at a time, and appends nodes and children to `files`.
 std::vector<TileForest> make_forests(const ColumnFile& columns, const TileDirectory& directory, double spacing,
                                      LevelFiles& files, int threads, const std::function<void(double)>& progress);
 
 /// The forests of a file that may intersect a region.
 class ForestSource : public LevelSource {
  public:
-  /// most   surfels and nodes of a cut; `like` as of LevelSource
+  /// Selects the forests. `most` limits surfels and nodes of a cut; `like` is that of LevelSource.
   ForestSource(const ColumnFile& columns, const TileDirectory& directory, SceneCloud like,
                const InsonifiedRegion& region, double most);
   const SceneCloud& like() const override { return like_; }

@@ -11,9 +11,9 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t chunk = 1 << 15;        // records read or written at once
-constexpr std::uint64_t cells_per_axis = 16;  // of one subdivision, at most
+constexpr std::uint64_t cells_per_axis = 16;  // most cells of one subdivision
 constexpr std::size_t cells = cells_per_axis * cells_per_axis * cells_per_axis;
-constexpr std::size_t sorted_at_once = 1 << 14;  // records, by one thread
+constexpr std::size_t sorted_at_once = 1 << 14;  // records that one thread sorts
 
 /// Aligned cells over a box, numbered along the curve.
 class Cells {
@@ -23,7 +23,7 @@ class Cells {
       low_[axis] = std::min(low_[axis], place[axis]), high_[axis] = std::max(high_[axis], place[axis]);
   }
   bool is_one_place() const { return low_ == high_; }
-  /// To be called when all is enclosed.
+  /// Numbers the cells, after all places are enclosed.
   void number() {
     const auto wide = [&](std::size_t axis) {
       return (high_[axis] >> shift_) - (low_[axis] >> shift_) >= cells_per_axis;
@@ -68,8 +68,7 @@ void for_each_record(const RecordFile& file, Segment segment, const CurveSort& s
   }
 }
 
-/// Groups runs of cells with at most `most` records in total, or single cells with more; also returns the group of each
-/// cell.
+/// Groups runs of cells with at most `most` records in total, or single cells with more. Sets the group of each cell.
 std::vector<Segment> plan_parts(const std::array<std::uint64_t, cells>& counts, std::size_t most,
                                 std::array<std::uint32_t, cells>& part_of_cell) {
   std::vector<Segment> parts;
@@ -100,7 +99,7 @@ void distribute(const RecordFile& from, Segment segment, const Cells& grid, cons
   for (std::size_t p = 0; p < parts.size(); ++p) write_out(p);
 }
 
-/// The records of a segment that fits into memory, in order.
+/// Returns the records of a segment that fits into memory, sorted along the curve.
 std::vector<PlacedRecord> sorted(const RecordFile& file, Segment segment, const CurveSort& sort) {
   std::vector<PlacedRecord> group;
   group.reserve(segment.count);

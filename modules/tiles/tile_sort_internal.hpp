@@ -41,17 +41,17 @@ class RecordFile {
   std::vector<TileRecord> buffer_;
 };
 
-/// A place as whole numbers: cubic cells of any power of two metres, aligned with the origin, are equal leading bits.
+/// A position in whole numbers: places in one aligned cubic cell, of any power of two metres, have equal leading bits.
 using CurvePlace = std::array<std::uint64_t, 3>;
 
 /// The Morton curve through all places of a scene.
 class MortonCurve {
  public:
-  /// largest   of the coordinates, in magnitude [m]
-  /// single    places count as they are in single precision
+  /// Sets up the curve for coordinates of at most `largest` in magnitude [m]. With `single`, coordinates count as
+  /// rounded to single precision.
   MortonCurve(double largest, bool single);
   CurvePlace at(const double (&place)[3]) const;
-  /// Whether `a` lies before `b` on the curve: where the highest bit is in which they differ, z before y before x.
+  /// Returns true if `a` lies before `b` on the curve: by the highest bit in which they differ, z before y before x.
   static bool before(const CurvePlace& a, const CurvePlace& b) { return a[highest(a, b)] < b[highest(a, b)]; }
   /// Returns the axis of that bit.
   static std::size_t highest(const CurvePlace& a, const CurvePlace& b);
@@ -61,7 +61,7 @@ class MortonCurve {
   bool single_;
 };
 
-/// A record and where it is on the curve.
+/// A record and its place on the curve.
 struct PlacedRecord {
   CurvePlace at;
   TileRecord record;
@@ -75,9 +75,9 @@ struct CurveSort {
   std::function<void(std::uint64_t)> moved = [](auto) {};  ///< receives the number of records just read or written
 };
 
-/// Passes all records to `take` in the order of the curve; records of one place by their ids. Records of one place are
-/// in one group, unless there are more than `most`; then they may not be in order. Needs twice the disk space of the
-/// file.
+/// Passes all records to `take` in the order of the curve; records at one place by their ids. Records at one place are
+/// in one group; if they are more than `most`, they are in several groups and need not be in order. Needs twice the
+/// disk space of the file.
 void sort_along_curve(std::unique_ptr<RecordFile> file, const CurveSort& sort);
 
 }  // namespace insonify

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a scene of any size as tiles of neighbouring surfels, in bounded memory: an external sort along a Morton curve.
+// Writes a scene of any size as tiles of neighbouring surfels in bounded memory: an external sort along a Morton curve.
 //   1. add              records of 56 bytes are appended to a nameless file beside the output
-//   2. sort_along_curve the records' box is cut into up to 16^3 aligned cells, whose runs along the curve become parts of
-//                       a second file, and so on until a part fits into memory (tile_sort.cpp)
-//   3. write_group      a part is halved at the highest bit in which its places differ, as in building an octree, until at
-//                       most tile_surfels are in each piece; its rows go to the columns of the output
+//   2. sort_along_curve the records' box is cut into up to 16^3 aligned cells; runs of them along the curve are parts
+//                       of a second file, and so on until a part fits into memory (tile_sort.cpp)
+//   3. write_group      a part is halved at the highest bit in which its places differ, as in an octree, until at most
+//                       tile_surfels are in each piece; its rows go to the columns of the output
 //   4. fill_areas       only where areas are estimated: Voronoi areas (E15) with the neighbours in the tiles around
 //   5. make_forests     levels of detail of the tiles of each cube of the largest cells (tile_levels.cpp)
 //   6. add_directory    tiles and facts, with checksums; then the file gets its name
@@ -33,7 +33,7 @@ namespace {
 using Eigen::Vector3d, Eigen::Vector3f;
 
 constexpr double farthest_narrow = 2000;       // [m] from the origin; float32 steps are 0.12 mm there
-constexpr std::size_t bytes_per_record = 160;  // while a group is sorted and written
+constexpr std::size_t bytes_per_record = 160;  // needed while a group is sorted and written
 constexpr std::size_t least_memory = 1 << 20;  // [bytes]
 constexpr double moves_of_a_record = 5;        // approximate number of reads and writes of a record
 
@@ -41,8 +41,8 @@ constexpr double reference_step = 256;  // [m]; float32 steps are below 0.02 mm 
 
 Vector3d place_of(const PlacedRecord& r) { return Eigen::Map<const Vector3d>(r.record.place); }
 
-/// Halves consecutive records at the highest bit in which their places differ until each part holds at most `most`:
-/// dense regions get small tiles, distant clusters are separated first, and each part lies in a cell of its own.
+/// Halves consecutive records at the highest bit in which their places differ, until each part holds at most `most`.
+/// Dense regions get small tiles, distant clusters are separated first, and each part lies in a cell of its own.
 void divide(std::span<const PlacedRecord> records, std::size_t most,
             std::vector<std::span<const PlacedRecord>>& parts) {
   while (records.size() > most) {
@@ -83,7 +83,7 @@ void pack_tile(std::span<const PlacedRecord> records, bool wide, SceneCloud& row
   }
   Eigen::Map<Vector3d>(tile.reference) = reference;
   Eigen::Map<Vector3d>(tile.centre) = centre;
-  // Points may move by rounding to another origin when they are loaded.
+  // Points may move by rounding when they are loaded relative to another origin.
   tile.radius = static_cast<float>(radius * (1 + 1e-6) + (wide ? 1e-3 : 1e-6));
   tile.count = records.size();
   tile.checksum = checksum_of(rows_of(rows, first, records.size()));
@@ -96,7 +96,7 @@ struct TileWriter::State {
   TileWriterOptions options;
   std::unique_ptr<RecordFile> waiting;
   Bounds box;                                    // relative to the origin
-  bool noisy = false;                            // a batch had noise; surfels of others have 0
+  bool noisy = false;                            // true: a batch had noise; the surfels of other batches have 0
   double total_area = 0, moved = 0, wanted = 1;  // moved, wanted: for the progress
   TileDirectory directory;
   TileReport report;
@@ -185,7 +185,7 @@ void TileWriter::State::write_group(std::span<const PlacedRecord> group, ColumnF
 
 void TileWriter::State::write_columns(const std::string& name, LevelFiles& files) {
   const std::uint64_t most = waiting->size();
-  const bool shrinks = options.drop_duplicates;  // then the length of the columns is known at last
+  const bool shrinks = options.drop_duplicates;  // then the length of the columns is known only at the end
   std::optional<ColumnFile> columns;
   if (shrinks)
     columns.emplace(path, BinaryFile::Mode::nameless, packed_columns(most, noisy));

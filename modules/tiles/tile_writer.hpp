@@ -20,9 +20,9 @@ struct TileWriterOptions {
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;
   std::string system{};                    ///< coordinate system of the world, as FileMeaning::system; empty: unknown
-  bool drop_duplicates = false;            ///< keep only the first of surfels at one position
+  bool drop_duplicates = false;            ///< keep only the first of several surfels at one position
   bool estimate_areas = false;             ///< ignore given areas and estimate them from the neighbours (E15)
-  std::size_t tile_surfels = 4096;         ///< largest number in one tile
+  std::size_t tile_surfels = 4096;         ///< most surfels of one tile
   std::size_t memory = 256 << 20;          ///< memory for sorting [bytes]; at least 1 MiB is used
   int threads = 0;                         ///< 0: all cores; the file does not depend on it
   std::function<void(double)> progress{};  ///< receives the completed fraction of finish(), 0..1; may throw to cancel

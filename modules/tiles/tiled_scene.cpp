@@ -61,7 +61,7 @@ struct TiledScene::State {
     return info().origin + origin_step * ((place - info().origin) / origin_step).array().round().matrix();
   }
 
-  /// A cloud without surfels that has all else of the scene.
+  /// Returns a cloud without surfels that has all other properties of the scene.
   SceneCloud cloud_at(const Vector3d& origin) const {
     SceneCloud scene;
     scene.origin = origin;

@@ -16,7 +16,7 @@ namespace insonify {
 
 struct CutOptions;
 
-/// What a .tiles file says of its scene.
+/// Facts about the scene of a .tiles file.
 struct TiledSceneInfo {
   std::string path;
   std::uint64_t surfels = 0, bytes = 0;
@@ -28,23 +28,23 @@ struct TiledSceneInfo {
   bool normals_oriented = true;
   std::vector<Material> materials;
   std::string system;          ///< coordinate system of the world, as FileMeaning::system; empty: unknown
-  bool noisy = false;          ///< the surfels have noise
-  std::uint64_t checksum = 0;  ///< of all that the file holds
+  bool noisy = false;          ///< true: the surfels have noise
+  std::uint64_t checksum = 0;  ///< checksum of everything in the file
 };
 
 /// Tiles to be loaded, and their size.
 struct TileSelection {
   std::vector<std::uint32_t> tiles;
   std::size_t surfels = 0;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m], of the loaded cloud
-  /// Returns the memory that loading them takes [bytes].
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< origin of the loaded cloud [m]
+  /// Returns the memory that loading these tiles takes [bytes].
   double bytes_to_load() const { return 64.0 * static_cast<double>(surfels); }
 };
 
 /// A scene as fine as a head resolves it (cut_scene).
 struct TiledCut {
   SceneCloud scene;         ///< surfels and nodes by ascending id, with part_of of the whole scene
-  std::uint64_t bytes = 0;  ///< that were read
+  std::uint64_t bytes = 0;  ///< bytes that were read
 };
 
 /// A prepared scene on disk. Only the tiles near a head are read, so scenes far larger than memory can be pinged.
@@ -84,9 +84,10 @@ class TiledScene {
   ///          anything is read; Error(content) if a tile is damaged.
   SceneCloud load(const TileSelection& selection, double memory = 0, int threads = 0) const;
 
-  /// Returns what cut_scene returns of the whole scene. Of what is far, only coarse levels are read. Does not depend on
-  /// options.threads.
-  /// most_surfels   Throws Error(memory) if surfels and nodes are more; Error(content) if what is read is damaged.
+  /// Returns the result of cut_scene for the whole scene, but reads only coarse levels of distant parts. Does not
+  /// depend on options.threads.
+  /// most_surfels   limit for surfels and nodes. Throws Error(memory) if there are more; Error(content) if what is read
+  /// is damaged.
   TiledCut cut(const InsonifiedRegion& region, const BeamFan& fan, const RangeGate& gate, const CutOptions& options,
                double most_surfels = std::numeric_limits<double>::infinity()) const;
 
