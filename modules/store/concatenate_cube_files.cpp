@@ -19,16 +19,16 @@ namespace insonify {
 using namespace hdf5;
 namespace {
 
-/// Values per ping that are copied, all parts one after the other.
+/// Values per ping that are copied: those of all parts, one part after the other.
 struct Track {
   DatasetName name;
   bool whole_numbers;
   enum class Without {
-    nothing,    ///< a part without it has nothing
-    attribute,  ///< has the root attribute of its name, one value for all its pings
-    rest        ///< is of a head at rest: zeros
+    nothing,    ///< a part without it has no values
+    attribute,  ///< a part without it has one value for all pings, the root attribute of that name
+    rest        ///< a part without it is of a head at rest: zeros
   } without = Without::nothing;
-  Extent extent{};  ///< of all parts; empty: the first part has none
+  Extent extent{};  ///< extent of all parts; empty: the first part has none
   std::vector<char> bytes{};
 
   hid_t type(bool in_file) const { return whole_numbers ? type_of<std::int64_t>(in_file) : type_of<double>(in_file); }
@@ -39,10 +39,10 @@ struct Part {
   hsize_t pings;
 };
 
-/// The cube that is put together.
+/// The contents of the new cube.
 struct JoinedCube {
   std::string sonar;
-  Extent extent;  ///< of /pressure
+  Extent extent;  ///< extent of /pressure
   std::vector<Part> parts;
   std::vector<std::string> images;
   std::vector<PingNote> notes{};
@@ -78,7 +78,7 @@ Extent whole_extent(const FileContext& place, hid_t dataset, const char* name) {
   return extent;
 }
 
-/// Reads the values of a part's track; the extent is empty if it has none.
+/// Reads the values of a part's track. Returns their extent, which is empty if the part has none.
 Extent read_values_of(const FileContext& place, hid_t file, Track& track, hsize_t pings) {
   const std::size_t before = track.bytes.size();
   if (H5Lexists(file, track.name.path, H5P_DEFAULT) <= 0) {
@@ -129,13 +129,13 @@ void add_part(JoinedCube& joined, const std::string& path) {
   for (Track& track : joined.tracks) add_track(place, file, track, extent[0]);
 }
 
-/// From where attributes are copied, and to where.
+/// Files between which attributes are copied.
 struct Copy {
   const FileContext& from;
   hid_t to;
 };
 
-/// Copies an attribute of a number or text.
+/// Copies an attribute that is a number or text.
 herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to) try {
   if (names_dimensions(name) || name == std::string(notes_attribute)) return 0;
   const Copy& copy = *static_cast<const Copy*>(to);
@@ -150,7 +150,7 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to)
   }
   std::vector<char> value(H5Tget_size(type));
   return H5Aread(attribute, type, value.data()) < 0 ? -1 : H5Awrite(made, type, value.data());
-} catch (const Error&) {  // not through HDF5
+} catch (const Error&) {  // an exception must not pass through HDF5
   return -1;
 }
 
@@ -167,7 +167,7 @@ void copy_axes(const FileContext& place, const FileContext& from, hid_t first, h
   }
 }
 
-/// Whether the values are those of all pings of a cube without this track.
+/// Returns true if a cube without this track reads with the same values.
 bool goes_without(const FileContext& from, hid_t first, const Track& track) {
   if (track.without == Track::Without::nothing) return false;
   std::vector<double> values(track.bytes.size() / 8);
@@ -193,7 +193,7 @@ Handle rows(const FileContext& place, const Extent& extent, hsize_t first, hsize
   return space;
 }
 
-/// Makes `properties` refer to the parts. What is not there reads as NaN.
+/// Makes `properties` refer to the parts. Values of a part that is missing later read as NaN, levels as no_level.
 void refer_to_parts(const FileContext& place, const JoinedCube& joined, const std::string& image, hid_t type,
                     hid_t properties) {
   const std::filesystem::path folder = std::filesystem::path(place.path).parent_path();
@@ -235,10 +235,10 @@ void copy_images(const FileContext& place, const JoinedCube& joined, const std::
   }
 }
 
-/// How the parts are joined.
+/// The way in which the parts are joined.
 struct Join {
-  bool copy;           ///< images; else they are referred to
-  bool tried = false;  ///< without the numbers of images
+  bool copy;           ///< true: images are copied; false: the cube refers to them
+  bool tried = false;  ///< true: a trial without the numbers of images
 };
 
 void write_image(const FileContext& place, const JoinedCube& joined, const std::string& image, const FileContext& from,
@@ -258,7 +258,7 @@ void write_image(const FileContext& place, const JoinedCube& joined, const std::
   if (join.copy && !join.tried) copy_images(place, joined, image, type, dataset);
 }
 
-/// A file that is kept in memory, and lost; its name, which HDF5 looks for, cannot be there.
+/// Creates a file that exists in memory only. HDF5 looks for its name, so that must not be the name of a file.
 Handle create_in_memory(const FileContext& place) {
   const Handle access(place.checked(H5Pcreate(H5P_FILE_ACCESS), "file"), H5Pclose);
   place.checked(H5Pset_fapl_core(access, std::size_t{1} << 20, false), "file");
@@ -280,7 +280,7 @@ void join_parts(const std::string& path, const std::vector<std::string>& parts, 
     if (std::any_of(joined.images.begin(), joined.images.end(), is_layer))
       create_ordered_group(place, file, layers_group);
     for (const std::string& image : joined.images) write_image(place, joined, image, from, first, file, join);
-    if (!join.tried) name_dimensions(place, file);  // which looks whether the numbers are there
+    if (!join.tried) name_dimensions(place, file);  // needs the numbers of images
   };
   if (!join.tried) return write_hdf5(path, write);
   const FileContext nowhere{path, ErrorKind::file};
@@ -291,7 +291,7 @@ void join_parts(const std::string& path, const std::vector<std::string>& parts, 
 
 void concatenate_cube_files(const std::string& path, const std::vector<std::string>& parts, bool copy) {
   if (parts.empty()) fail(ErrorKind::argument, "concatenate_cube_files: ", path, ": no parts, must be at least one");
-  // A child makes every call of HDF5 on the parts first, so that none can end this process.
+  // A child process makes every call of HDF5 on the parts first, so that no damaged part ends this process.
   std::size_t bytes = 0;
   for (const std::string& part : parts) require_regular_file(part), bytes += size_of_file(part);
   try_in_child(parts.front(), limits_of_file(bytes), [&] { join_parts(path, parts, {copy, true}); });

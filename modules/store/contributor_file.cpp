@@ -66,7 +66,7 @@ void require_ours(const FileContext& place, hid_t file) {
          contributor_schema);
 }
 
-/// Chunks of beams of about 256 kB.
+/// Returns the number of beams in a chunk of about 256 kB.
 hsize_t beams_per_chunk(const Extent& lists) {
   return std::clamp<hsize_t>((hsize_t{1} << 16) / (lists[1] * lists[2]), 1, lists[0]);
 }
@@ -152,7 +152,7 @@ ContributorFile::ContributorFile(const std::string& path, std::size_t beams, std
 }
 
 ContributorFile::~ContributorFile() {
-  const QuietErrors quiet;  // of a file that could not be written
+  const QuietErrors quiet;  // silences the closing of a file that could not be written
   open_.reset();
 }
 
@@ -180,7 +180,7 @@ void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Gr
       open_->write_image(material_image_name, material_image);
       open_->write_image(instance_image_name, instance_image);
       open_->datasets.clear();
-      const Handle last = std::move(open_->file);  // a full disk shows when it is closed
+      const Handle last = std::move(open_->file);  // a full disk shows when the file is closed
     });
   }
   open_->pending.commit();

@@ -33,7 +33,7 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
 /// write_contributor_file.
 class ContributorFile {
  public:
-  /// Begins a file for beams x bins x per_pixel entries and the names of the materials. `two_surfaces`: with
+  /// Begins a file for beams x bins x per_pixel entries and the names of the materials. With `two_surfaces` it has
   /// /surfel_before, for double echoes.
   ContributorFile(const std::string& path, std::size_t beams, std::size_t bins, std::size_t per_pixel,
                   const std::vector<std::string>& materials, bool two_surfaces = false);
@@ -52,11 +52,11 @@ class ContributorFile {
   std::unique_ptr<Open> open_;
 };
 
-/// Returns the contents of a file of write_contributor_file, bit for bit. Throws Error(file) if missing, Error(content)
-/// if it is not such a file, has another schema or lacks a dataset, naming it.
+/// Returns the contents of a file of write_contributor_file, bit for bit. Throws Error(file) if it is missing,
+/// Error(content) if it is not such a file, has another schema or lacks a dataset, naming that.
 NamedContributors read_contributor_file(const std::string& path);
 
-/// Returns the memory that the contributors of a file take [bytes]; errors as read_contributor_file.
+/// Returns the memory that the contributors of a file take [bytes]. Throws as read_contributor_file.
 std::uintmax_t contributor_bytes(const std::string& path);
 
 }  // namespace insonify

@@ -19,7 +19,7 @@ struct Header {
   std::vector<std::size_t> columns;
 };
 
-// The layout that shares the most columns with `fields`.
+// Returns the layout that shares the most columns with `fields`.
 std::size_t nearest_layout(std::span<const CsvColumns> layouts, const std::vector<std::string_view>& fields) {
   const auto shared = [&](const CsvColumns& layout) {
     return std::count_if(fields.begin(), fields.end(), [&](std::string_view field) { return holds(layout, field); });
@@ -65,7 +65,7 @@ void read_lines(const std::string& path,
                 const std::function<void(std::string_view line, const FilePlace& place)>& take) {
   const std::string text = read_text_file(path);
   std::string_view rest = text;
-  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // byte-order mark of spreadsheets
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // skip the byte-order mark of spreadsheets
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = trimmed(rest.substr(0, end));

@@ -22,27 +22,26 @@ struct FilePlace {
   }
 };
 
-/// Passes on the lines of a file that are neither blank nor comments ('#'), without blanks at their ends; a byte-order
-/// mark and Windows line ends are accepted. Throws Error(file).
+/// Passes on the lines of a file that are neither blank nor comments ('#'), without blanks at their ends. Accepts a
+/// byte-order mark and Windows line ends. Throws Error(file).
 void read_lines(const std::string& path,
                 const std::function<void(std::string_view line, const FilePlace& place)>& take);
 
-/// Splits a line at its commas into `fields` (reused from line to line: a table may have millions).
+/// Splits a line at its commas into `fields`, which is reused because a table may have millions of lines.
 void cut_fields(std::string_view line, std::vector<std::string_view>& fields);
 
-/// The number in a field. Throws Error(content) with path, line and column unless it is one and finite.
+/// Returns the number in a field. Throws Error(content) with path, line and column unless it is a finite number.
 double read_number(std::string_view text, const std::string& column, const FilePlace& place);
 
-/// Names of the columns of a table, in the order in which the values of a row are passed on.
+/// The names of the columns of a table, in the order of the values that a CsvRowTaker receives.
 using CsvColumns = std::vector<std::string>;
 
 /// Receives the values of one row.
 using CsvRowTaker = std::function<void(std::span<const double> row, const FilePlace& place)>;
 
-/// Reads numbers from CSV whose header is one of the `layouts`, its columns in any order, line by line as read_lines.
-/// `take(layout)`, called once the header is known,
-/// returns the receiver of the rows, whose values are in the order of layouts[layout].
-/// Throws Error(file), or Error(content) with path, line, column and rule; numbers must be finite.
+/// Reads a table of finite numbers whose header is one of the `layouts`, with its columns in any order, line by line as
+/// read_lines. Calls `take(layout)` once the header is known; it returns the receiver of the rows, whose values have
+/// the order of layouts[layout]. Throws Error(file), or Error(content) with path, line, column and rule.
 void read_csv(const std::string& path, std::span<const CsvColumns> layouts,
               const std::function<CsvRowTaker(std::size_t layout)>& take);
 

@@ -19,7 +19,7 @@ using Row = std::span<const double>;
 const std::array<CsvColumns, 2> profile_layouts = {CsvColumns{"depth_m", "sound_speed"},
                                                    CsvColumns{"depth_m", "temperature_c", "salinity_psu"}};
 
-// Sound speed of a row with temperature and salinity.
+// Returns the sound speed of a row with temperature and salinity.
 double speed_of_water(const Row& row, const FilePlace& place) {
   const double depth = row[0], temperature_c = row[1], salinity_psu = row[2];
   if (!(depth >= 0)) place.fail_here("depth_m = ", depth, " m, must be >= 0 (it is positive down)");
@@ -65,7 +65,7 @@ Pose pose_from_angles(const Row& row, const FilePlace& place) {
   return pose_from_yaw_pitch_roll({row[1], row[2], row[3]}, radians(row[4]), radians(row[5]), radians(row[6]));
 }
 
-// Adds an entry, which must be later than the one before.
+// Adds an entry. Throws Error(content) unless it is later than the one before.
 void append(Trajectory& trajectory, double time, const Pose& pose, const FilePlace& place) {
   if (!trajectory.time.empty() && !(time > trajectory.time.back()))
     place.fail_here("time_s = ", time, " s, must be later than the previous line, ", trajectory.time.back(), " s");
@@ -97,7 +97,7 @@ void append(ScattererTable& table, const Row& row) {
   s.azimuth.push_back(row[azimuth_rad]);
   s.elevation.push_back(row[elevation_rad]);
   s.cos_incidence.push_back(1);
-  s.projected_area.push_back(0);  // sigma is given instead
+  s.projected_area.push_back(0);  // sigma replaces it
   s.material.push_back(0);
   s.id.push_back(place);
   s.surfel.push_back(static_cast<std::uint32_t>(place));

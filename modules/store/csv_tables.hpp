@@ -9,9 +9,9 @@
 #include "acoustics/sound_speed_profile.hpp"
 #include "sampling/scatterers.hpp"
 
-// Tables of other programs as CSV: a header, its columns in any order, then rows. '#' starts a comment line; blank
-// lines, a byte-order mark and Windows line ends are accepted. All throw Error(file), or Error(content) with path,
-// line, column, value and rule.
+// Tables of other programs as CSV: a header with its columns in any order, then rows. '#' starts a comment line. Blank
+// lines, a byte-order mark and Windows line ends are accepted. All functions throw Error(file), or Error(content) with
+// path, line, column, value and rule.
 namespace insonify {
 
 /// Returns a sound speed profile from a file with the header depth_m,sound_speed [m, m/s] or
@@ -26,9 +26,9 @@ SoundSpeedProfile load_sound_speed_profile(const std::string& path);
 /// ascend strictly, angles are within -360 and 360 degrees, there are at least two entries.
 Trajectory load_trajectory(const std::string& path);
 
-/// Returns notes on doubtful angles in a file of load_trajectory: an angle that changes by half a turn or more between
-/// two entries. Attitudes take the shortest turn between entries; a longer turn needs entries in between. Returns no
-/// notes for quaternions. Errors as load_trajectory.
+/// Returns notes on doubtful angles in a file of load_trajectory: on each angle that changes by half a turn or more
+/// between two entries. Attitudes take the shortest turn between entries; a longer turn needs entries in between. Files
+/// of quaternions have no notes. Throws as load_trajectory.
 std::vector<std::string> trajectory_notes(const std::string& path);
 
 /// Returns a trajectory from a file in the TUM format: lines of time, x, y, z, qx, qy, qz, qw, separated by blanks,

@@ -15,7 +15,7 @@
 
 namespace insonify {
 
-/// What cubes, manifests and pictures say of pings at their expected level.
+/// The text with which cubes, manifests and pictures mark pings at their expected level.
 inline constexpr const char* expected_level_text = "expected level, no speckle";
 
 /// The contents of cube.h5: one or more pings of one sonar.
@@ -23,8 +23,8 @@ struct Cube {
   static constexpr int all_bits = 24;  ///< significant bits of a float
 
   std::vector<Ping> pings;         ///< all with the same fan and gate
-  double sound_speed = 0;          ///< of the water at the head [m/s]; a ping in other water has its own value
-  double absorption_db_per_m = 0;  ///< of the water at the head, at the centre frequency; as sound_speed
+  double sound_speed = 0;          ///< sound speed of water at the head [m/s]; a ping in other water has its own
+  double absorption_db_per_m = 0;  ///< absorption of water at the head, at the centre frequency; as sound_speed
   double centre_frequency = 0;     ///< [Hz]
   double bandwidth = 0;            ///< [Hz]
   double source_level_db = 0;      ///< dB re 1 uPa at 1 m
@@ -33,9 +33,9 @@ struct Cube {
   int keep_bits = all_bits;  ///< significant bits of pressures that write_cube keeps, 1 to all_bits
   std::string sonar;         ///< name of the head's sonar
   std::string insonify_version;
-  std::string head{}, start_utc{};  ///< for a survey: name of the head, and date of time 0 if it is known
-  std::optional<Anchor> anchor{};   ///< for a survey: place of its world on the globe, if it is known
-  std::vector<PingNote> notes{};    ///< what limits the accuracy of the pings, by kind; of all pings of the file
+  std::string head{}, start_utc{};  ///< survey: name of the head; date of time 0 if it is known
+  std::optional<Anchor> anchor{};   ///< survey: place of its world on the globe, if it is known
+  std::vector<PingNote> notes{};    ///< limits of the accuracy of all pings of the file, by kind
 };
 
 /// Returns a cube without pings for `head` in `medium` (SimulatedPing::medium, or medium_of at the centre frequency)
@@ -47,27 +47,25 @@ Cube make_cube(const SonarHead& head, const Medium& medium, const SimulationOpti
 ///
 ///   /pressure               pings x beams x bins, compound {r, i} float32 [Pa]
 ///   /range                  bin centres [m]
-///   /azimuth, /elevation    of the beams [rad]
+///   /azimuth, /elevation    directions of the beams [rad]
 ///   /pose                   pings x 4 x 4, world_from_head, row-major
 ///   /time, /ping            time [s] and number of each ping
-///   root attributes         schema, the members of Cube, beam_width, elevation_width (of a planar array also
-///   row_width)
+///   root attributes         schema, the members of Cube, beam_width, elevation_width, row_width of a planar array
 ///                           [rad], min_range, max_range, bin_size [m]
 ///
 /// Optional parts, present if the pings have them:
 ///
 ///   /layers/NAME                      each layer, with the extent of /pressure
 ///   /intensity [Pa^2], /unknown (uint8), /split_phase [rad] (float32)
-///   /label_material (uint16), /label_id (uint32), /label_share (float32), and the attribute label_names, one name a
-///   line
+///   /label_material (uint16), /label_id (uint32), /label_share (float32)
+///                                     labels, with the attribute label_names, one name a line
 ///   expected_level                    attribute of cubes of expected levels
 ///   head, start_utc, anchor_latitude_deg, anchor_longitude_deg, anchor_heading_deg
 ///                                     attributes of a survey, as the members of Cube
 ///   notes                             attribute: a line for each kind (as_lines)
 ///   /sound_speed [m/s], /absorption_db_per_m [dB/m]
-///                                     per ping, if the water differs between pings; a ping that does not know its
-///                                     water
-///                                     has the values of the cube
+///                                     of each ping, if the water differs between pings; a ping that does not know
+///                                     its water has the values of the cube
 ///   /velocity [m/s], /turn_rate [rad/s]
 ///                                     pings x 3, world axes, for a moving head: Ping::motion
 ///   /scan_angle [rad], /sweep (pings), /beam_time [s] (pings x beams), /beam_pose (pings x beams x 4 x 4)
@@ -87,15 +85,16 @@ void write_cube(const std::string& path, const Cube& cube);
 Cube read_cube(const std::string& path, std::size_t first = 0,
                std::size_t count = std::numeric_limits<std::size_t>::max());
 
-/// Returns the pressure of one beam in `count` pings from index `first` on (in the order of the cube), pings x bins
-/// [Pa], without reading the other beams. Errors as read_cube; Error(argument) for pings or a beam that the cube lacks.
+/// Returns the pressure of one beam, pings x bins [Pa], in `count` pings from index `first` on, in the order of the
+/// cube, without reading the other beams. Throws as read_cube, and Error(argument) for pings or a beam that the cube
+/// lacks.
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam);
 
-/// Calls `use` for each ping in turn, with the ping and the cube without pings. Memory holds one ping at a time. Errors
-/// as read_cube; errors of an image are thrown when its ping is read.
+/// Calls `use` for each ping in turn, with the cube without pings and the ping. Memory holds one ping at a time. Throws
+/// as read_cube; errors of an image when its ping is read.
 void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use);
 
-/// Returns the pings of a cube without their images; errors as read_cube.
+/// Returns the pings of a cube without their images. Throws as read_cube.
 std::vector<TrackPoint> read_track(const std::string& path);
 
 }  // namespace insonify

@@ -24,7 +24,7 @@ void pass(Stream& stream, PingNote& note) {
   stream(note.kind, note.text, note.count, note.first);
 }
 
-/// Every member but the pings.
+/// Sends or receives every member but the pings.
 template <typename Stream>
 void pass(Stream& stream, Cube& cube) {
   stream(cube.sound_speed, cube.absorption_db_per_m, cube.centre_frequency, cube.bandwidth, cube.source_level_db,
@@ -34,7 +34,7 @@ void pass(Stream& stream, Cube& cube) {
 
 /// Facts about the pings of a cube without their images.
 struct CubeTable {
-  hdf5::Extent extent{};  ///< of /pressure
+  hdf5::Extent extent{};  ///< extent of /pressure
   BeamFan fan{};
   RangeGate gate{};
   bool expected_level = false, display_cells = false;
@@ -46,7 +46,7 @@ void pass(Stream& stream, CubeTable& table) {
   stream(table.extent, table.fan, table.gate, table.expected_level, table.display_cells, table.track);
 }
 
-/// Pings of a cube by their order in it.
+/// Consecutive pings of a cube, by their order in it.
 struct PingRange {
   std::size_t begin = 0, end = 0;
 };

@@ -13,7 +13,7 @@ namespace {
 
 bool is_there(hid_t file, const std::string& name) { return H5Lexists(file, name.c_str(), H5P_DEFAULT) > 0; }
 
-/// Names the dimensions of one dataset, and attaches the scales of those that are not the scale itself.
+/// Names the dimensions of one dataset, and attaches their scales unless the dataset is the scale itself.
 void name_dimensions_of(const FileContext& place, hid_t file, const std::string& path, const char* const* dimensions) {
   const Handle dataset = open_dataset(place, file, {path.c_str(), ""});
   for (unsigned d = 0; d < 4 && dimensions[d]; ++d) {

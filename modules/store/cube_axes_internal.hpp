@@ -10,7 +10,7 @@ namespace insonify::hdf5 {
 /// scales, as h5py, netCDF and xarray know them).
 void name_dimensions(const FileContext& place, hid_t file);
 
-/// True for an attribute that name_dimensions makes: it refers to other datasets of its file.
+/// Returns true for an attribute that name_dimensions makes and that refers to other datasets of its file.
 bool names_dimensions(const std::string& attribute);
 
 }  // namespace insonify::hdf5

@@ -14,7 +14,7 @@
 #include "store/cube_layout_internal.hpp"
 #include "store/cube_parts_internal.hpp"
 
-// Images of a cube, between the child that reads them and its parent.
+// Sends the images of a cube from the child process that reads them to its parent.
 namespace insonify {
 
 using namespace hdf5;
@@ -26,7 +26,7 @@ void require_complex(const FileContext& place, hid_t dataset, const std::string&
     if (at < 0) fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
     const Handle number(place.checked(H5Tget_member_type(type, static_cast<unsigned>(at)), name), H5Tclose);
     const std::size_t size = H5Tget_size(type), begin = H5Tget_member_offset(type, static_cast<unsigned>(at));
-    // HDF5 would read what stands there.
+    // HDF5 would read beyond the number.
     if (begin > size || H5Tget_size(number) > size - begin)
       fail(place.kind, place.path, ": ", name, " has a member ", member, " at byte ", begin, " of ", size,
            "; the file is damaged: copy or export it again");
@@ -35,13 +35,13 @@ void require_complex(const FileContext& place, hid_t dataset, const std::string&
 
 namespace {
 
-/// Bytes of an image in the file.
+/// A part of an image that the file holds in consecutive bytes.
 struct Piece {
   std::uint64_t begin, bytes;
 };
 
-/// Where the parts of a large image are in the file as they are in memory, one after the other; empty if it is small,
-/// packed, of another type, or not in this file.
+/// Returns the parts of a large image in the file, in the order of memory, if they have the same form there. Returns
+/// nothing for an image that is small, packed, of another type, or not in this file.
 std::vector<Piece> pieces_of(hid_t dataset, hid_t type, const Extent& extent, hsize_t ping) {
   constexpr hsize_t large = 1 << 20;
   const hsize_t row = extent[2] * H5Tget_size(type);
@@ -72,7 +72,7 @@ std::vector<Piece> pieces_of(hid_t dataset, hid_t type, const Extent& extent, hs
   return pieces;
 }
 
-// Sends one image of `type` per ping: where a large one is in the file, which the parent copies from there, else its
+// Sends one image of `type` per ping: for a large one its place in the file, from which the parent copies it, else its
 // numbers.
 void send_images(const FileContext& place, hid_t dataset, const std::string& name, hid_t type, PingRange pings,
                  ArraySender& to) {
@@ -92,7 +92,7 @@ void send_images(const FileContext& place, hid_t dataset, const std::string& nam
   }
 }
 
-/// Sets an image to what send_images sent of it.
+/// Sets an image to the data that send_images sent.
 template <typename Number>
 void receive_image(ArrayReceiver& sent, const std::string& path, Grid<Number>& image) {
   std::vector<Piece> pieces;
@@ -145,7 +145,7 @@ void send_layers(const FileContext& place, hid_t file, const Extent& extent, boo
   }
 }
 
-// Sends whether there is an optional map, and then that of each ping.
+// Sends true if there is an optional map, and then that of each ping; else false.
 void send_map(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
               PingRange pings, ArraySender& to) {
   const bool there = H5Lexists(file, name.path, H5P_DEFAULT) > 0;
@@ -175,7 +175,7 @@ void send_labels(const FileContext& place, hid_t file, const Extent& extent, Pin
   for (const auto& [name, type] :
        {std::pair(label_material_name, H5T_NATIVE_UINT16), std::pair(label_id_name, H5T_NATIVE_UINT32),
         std::pair(label_share_name, H5T_NATIVE_FLOAT)}) {
-    open_dataset(place, file, name);  // all three, or none
+    open_dataset(place, file, name);  // throws unless all three are present
     send_map(place, file, name, type, extent, pings, to);
   }
   std::istringstream lines(read_text(place, file, label_names_attribute));

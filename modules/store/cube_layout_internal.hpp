@@ -10,16 +10,16 @@ namespace insonify {
 constexpr std::int64_t cube_schema = 1;
 
 constexpr DatasetName pressure_name{"/pressure", "Pa", "sound pressure of the received signal, complex amplitude"};
-/// In cubes of display cells, in place of /pressure and as their layers: 16-bit integers in hundredths of a decibel.
+/// Cubes of display cells have this dataset in place of /pressure and for their layers: 16-bit integers, 0.01 dB each.
 constexpr DatasetName level_name{"/level", "dB re 1 uPa",
                                  "mean level over a display cell; the number times scale_factor; -32768: no sound"};
 constexpr const char* scale_factor_attribute = "scale_factor";
 constexpr double level_step = 0.01;  // [dB]
 constexpr std::int16_t no_level = -32768;
-/// Root attribute that marks such a cube.
+/// Root attribute that marks a cube of display cells.
 constexpr const char* display_cells_attribute = "display_cells";
 constexpr const char* display_cells_text = "mean intensity over the area of each cell, without phase";
-/// Attribute of pressures: what their numbers are, for levels that are right.
+/// Attribute of pressures: the relation of their numbers to levels.
 constexpr const char* convention_attribute = "convention";
 constexpr const char* pressure_convention =
     "complex amplitude of the analytic signal at baseband; rms = abs / sqrt(2); "
@@ -46,7 +46,7 @@ constexpr DatasetName label_second_share_name{"/label_second_share", "",
                                               "share of the energy that is of this second material, 0 to 1"};
 /// Root attribute: names of the materials of /label_material, one a line.
 constexpr const char* label_names_attribute = "label_names";
-/// Of scenes of parts: the part of the strongest surfel, and how the head sees each part.
+/// Datasets of scenes of parts: the part of the strongest surfel, and how the head sees each part.
 constexpr DatasetName label_part_name{"/label_part", "", "part of the scene, index into part_names; 65535: none"};
 constexpr DatasetName part_views_name{
     "/part_views", "",
@@ -70,15 +70,15 @@ constexpr DatasetName pose_name{"/pose", "1, 1, 1, m",
                                 "up) in the world, without unit, column 3 its place [m]"};
 constexpr DatasetName time_name{"/time", "s", "of transmission, from start_utc or the begin of the run"};
 constexpr DatasetName ping_name{"/ping", "", "number of the ping"};
-/// Of pings whose water differs: what the root attributes of these names say of all others.
+/// Datasets of the water of each ping, if it differs; they replace the root attributes of these names.
 constexpr DatasetName sound_speed_name{"/sound_speed", "m/s", "of the water at the head of each ping"};
 constexpr DatasetName absorption_name{"/absorption_db_per_m", "dB/m",
                                       "of the water at the head of each ping, one way, at the centre frequency"};
-/// Of heads of which one moves while it listens.
+/// Datasets of the motion of the head, if it moves during any ping.
 constexpr DatasetName velocity_name{"/velocity", "m/s", "of the head in the world while it listens, x, y, z"};
 constexpr DatasetName turn_rate_name{"/turn_rate", "rad/s",
                                      "rotation vector of the head in the world per second, x, y, z"};
-/// Of a scanning head alone: time and pose of every beam, and the head's own turn.
+/// Datasets of a scanning head: time and pose of every beam, and the head's own turn.
 constexpr DatasetName beam_time_name{"/beam_time", "s", "of transmission, of every beam"};
 constexpr DatasetName beam_pose_name{"/beam_pose", "1, 1, 1, m", "of every beam, as pose"};
 constexpr DatasetName scan_angle_name{"/scan_angle", "rad",
@@ -93,10 +93,10 @@ constexpr const char* anchor_latitude_attribute = "anchor_latitude_deg";
 constexpr const char* anchor_longitude_attribute = "anchor_longitude_deg";
 constexpr const char* anchor_heading_attribute = "anchor_heading_deg";
 
-/// All datasets that a cube can have, and what their dimensions are: "ping", "beam", "bin".
+/// All datasets that a cube can have, and the kinds of their dimensions: "ping", "beam", "bin".
 struct CubeDataset {
   DatasetName name;
-  const char* dimensions[4];  ///< null: no further one has a name
+  const char* dimensions[4];  ///< null: this and later dimensions have no name
 };
 constexpr CubeDataset cube_datasets[] = {{pressure_name, {"ping", "beam", "bin"}},
                                          {level_name, {"ping", "beam", "bin"}},
@@ -123,7 +123,7 @@ constexpr CubeDataset cube_datasets[] = {{pressure_name, {"ping", "beam", "bin"}
                                          {beam_pose_name, {"ping", "beam"}},
                                          {scan_angle_name, {"ping"}},
                                          {sweep_name, {"ping"}}};
-/// The scale of each kind of dimension.
+/// The dataset that is the scale of a kind of dimension.
 struct CubeScale {
   const char* dimension;
   DatasetName name;

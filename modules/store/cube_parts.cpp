@@ -40,7 +40,7 @@ PartView view_of(const double* numbers) {
   return view;
 }
 
-/// The numbers of so many parts of each ping, NaN in place of those that cubes of earlier versions lack.
+/// Returns the numbers of the views of `parts` parts in each ping; NaN for those that cubes of earlier versions lack.
 std::vector<double> read_views(const FileContext& place, hid_t file, std::size_t pings, std::size_t parts) {
   const Extent there = extent_of(place, open_dataset(place, file, part_views_name), part_views_name.path, 3);
   const bool before = there[2] == numbers_before;
@@ -54,7 +54,7 @@ std::vector<double> read_views(const FileContext& place, hid_t file, std::size_t
   return all;
 }
 
-/// One text a line, each with its end: the last may be empty.
+/// Returns the texts as lines. Each has an end of line, because the last text may be empty.
 std::string as_lines(const std::vector<std::string>& texts) {
   std::string lines;
   for (const std::string& text : texts) lines += text + "\n";

@@ -8,13 +8,13 @@
 // Private to store: the parts of a scene in cubes of pings with labels.
 namespace insonify {
 
-/// Throws Error(argument) for a ping of a scene of other parts than the first one of the cube at `path`.
+/// Throws Error(argument) if the parts of a ping are not those of the first ping of the cube at `path`.
 void require_same_parts(const Ping& ping, const Ping& first, const std::string& path);
 
 /// Writes names, labels and views of the parts, if the first ping has parts.
 void write_parts(const hdf5::FileContext& place, hid_t file, const std::vector<Ping>& pings);
 
-/// Whether a cube has them.
+/// Returns true if a cube has parts.
 bool has_parts(hid_t file);
 
 /// Sends names, labels and views of the parts for some pings of a cube that has them, and receives them.

@@ -41,8 +41,8 @@ std::vector<Mirror> mirrors_in(const std::string& path, const TomlValue& tables)
   return mirrors;
 }
 
-/// Tables of a run.toml, which is recognised by its version, that are none of the environment; all keys outside of
-/// tables.
+/// Returns the tables of a run.toml, which is recognised by its version, that do not belong to the environment, and all
+/// keys outside of tables.
 std::vector<std::string> others_of_run(const TomlValue& document) {
   std::vector<std::string> others;
   if (!document.find("insonify_version")) return others;

@@ -14,13 +14,13 @@ namespace insonify {
 /// with file, line and the nearest known name. Throws Error(file) or Error(content).
 Environment load_environment(const std::string& path);
 
-/// Sets one value from text: section "water", key "temperature_c", ... Only require_valid checks consistency.
-/// Throws Error(argument) naming the nearest section or key, or the value and its type.
+/// Sets one value from text: section "water", key "temperature_c", ... Only require_valid checks consistency. Throws
+/// Error(argument) naming the nearest section or key, or the value and its type.
 void set_environment_value(Environment& environment, const std::string& section, const std::string& key,
                            const std::string& value);
 
-/// Returns the parts of the environment that are present as TOML tables. They read back identically (lambert_mu_db to
-/// its last bit).
+/// Returns the parts of the environment that are present as TOML tables. They read back with the same bits, except that
+/// the last bit of lambert_mu_db may differ.
 std::string environment_as_toml(const Environment& environment);
 
 /// Returns all keys as "section.key", in the order of files.

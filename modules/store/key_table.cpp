@@ -24,7 +24,7 @@ const Key* find_key(const std::vector<Key>& keys, const std::string& name) {
   return found == keys.end() ? nullptr : &*found;
 }
 
-/// Whether a table holds keys, or tables that do.
+/// Returns true if a table holds keys, or tables that hold keys.
 bool is_section(const std::vector<Key>& keys, const std::string& name) {
   return std::any_of(keys.begin(), keys.end(), [&](const Key& key) {
     const std::string section = key.section;
@@ -32,7 +32,7 @@ bool is_section(const std::vector<Key>& keys, const std::string& name) {
   });
 }
 
-/// "unknown key ...", or of a table "unknown table ...", with the nearest name, else all of them.
+/// Returns "unknown key ..." or "unknown table ..." with the nearest name, or with all names if none is near.
 std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& name, bool is_table = false) {
   std::vector<std::string> known = names_of(keys);
   if (is_table) {
@@ -42,7 +42,7 @@ std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& 
     if (known.empty()) return refusal_of_unknown(keys, name);
   }
   std::string near = nearest_word(name, known);
-  // A key that another section has is meant more likely than one with another name.
+  // Prefer the same key of another section to a key with another name.
   for (const Key& key : keys)
     if (near.empty() && !is_table && key.name == name.substr(name.rfind('.') + 1)) near = full_name(key);
   const std::string open = is_table ? "[" : "'", close = is_table ? "]" : "'";
@@ -52,13 +52,13 @@ std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& 
                      : "; known are " + shortened_list(known));
 }
 
-/// "key = value unit, must be ..."
+/// Returns "key = value unit, must be ...".
 std::string refusal_of_value(const Key& key, const TomlValue& value) {
   const std::string unit = value.is_number() && *key.unit ? std::string(" ") + key.unit : "";
   return full_name(key) + " = " + shortened(as_toml(value)) + unit + ", must be " + key.value.rule;
 }
 
-/// The values that a text of the command line may mean, the likeliest first.
+/// Returns the values that a text of the command line may mean, the likeliest first.
 std::vector<TomlValue> values_of_text(const std::string& text) {
   std::string bare = text;
   std::ranges::replace_if(

@@ -15,25 +15,25 @@
 #include "core/units.hpp"
 #include "store/toml_tree.hpp"
 
-// The keys of TOML files as rows. The rows serve to read, check and write files, to read --set, and to test the tables of
+// The keys of TOML files as rows. Rows serve to read, check and write files, to read --set, and to test the tables of
 // the docs. Rows are bound to the object that they read and write, and must not outlive it.
 namespace insonify {
 
-/// Where a value is. Setting it makes a part that holds it present.
+/// Access to a value. Setting it creates the optional part that holds it.
 template <typename T>
 struct Member {
   std::function<std::optional<T>()> get;  ///< nothing: files omit the key
   std::function<void(const T&)> set;
 
-  /// Reads and writes by functions.
+  /// Accesses a value by functions.
   Member(std::function<std::optional<T>()> getter, std::function<void(const T&)> setter)
       : get(std::move(getter)), set(std::move(setter)) {}
-  /// An object of the type, of an optional of it, or of one that it converts to: a count is a number.
+  /// Accesses an object of type T, of an optional T, or of a type that converts to T (a count is a number).
   template <typename Object>
   requires(!std::same_as<Object, Member>) Member(Object& object)
       : get([&object] { return std::optional<T>(object); }),
         set([&object](const T& value) { object = static_cast<Object>(value); }) {}
-  /// A field of a part that may be absent.
+  /// Accesses a field of a part that may be absent.
   template <typename Part, typename Field>
   Member(std::optional<Part>& part, Field Part::*field)
       : get([&part, field] { return part ? std::optional<T>((*part).*field) : std::nullopt; }),
@@ -43,14 +43,14 @@ struct Member {
         }) {}
 };
 
-/// An object that files omit while it has its default: 0, or no text, or no entries.
+/// Returns access to an object that files omit while it has its default: 0, or no text, or no entries.
 template <typename T>
 Member<T> given(T& object) {
   const auto get = [&object] { return object == T{} ? std::nullopt : std::optional<T>(object); };
   return {get, [&object](const T& value) { object = value; }};
 }
 
-/// How files write a value.
+/// The form of a value in files.
 template <typename T>
 struct Form {
   std::string rule;                                        ///< rule for values, as text: "a number > 0"
@@ -67,7 +67,7 @@ struct KeyValue {
   std::function<std::optional<std::string>()> text;
 };
 
-/// The value at `member`, which files write in this form.
+/// Returns the value at `member`, which files write in this form.
 template <typename T>
 KeyValue value_in(const Member<T>& member, const Form<T>& form) {
   const auto set = [=](const TomlValue& value, const std::string&) {
@@ -110,16 +110,16 @@ void set_key(const std::vector<Key>& keys, const std::string& name, const std::s
 void set_key(const std::vector<Key>& keys, const std::string& name, const std::vector<TomlValue>& values,
              const std::string& who);
 
-/// The keys as TOML, each section under its title.
+/// Returns the keys as TOML, each section under its title.
 std::string keys_as_toml(const std::vector<Key>& keys);
 
-/// "section.name" of all keys.
+/// Returns "section.name" of all keys.
 std::vector<std::string> names_of(const std::vector<Key>& keys);
 
 /// The units of a number in files and in memory.
 struct Scale {
-  double (*from_file)(double);  ///< to the unit in memory
-  double (*to_file)(double);    ///< to the unit of files
+  double (*from_file)(double);  ///< converts to the unit in memory
+  double (*to_file)(double);    ///< converts to the unit of files
 };
 /// Returns the degrees with the shortest text that reads back to the same radians.
 double shortest_degrees(double angle);
@@ -139,42 +139,42 @@ inline constexpr NumberRule positive{.least = 0, .above = true}, not_negative{.l
 
 /// Rule for a list.
 struct ListRule {
-  std::size_t least = 1, most = std::numeric_limits<std::size_t>::max();  ///< of its entries
+  std::size_t least = 1, most = std::numeric_limits<std::size_t>::max();  ///< limits of its length
   bool bare = false;                                                      ///< one entry may stand by itself
   bool ascending = false;                                                 ///< the last entry is not below the first
-  const char* text = "";                                                  ///< the rule as text; "": of each entry
+  const char* text = "";                                                  ///< the rule as text; "": that of an entry
 };
 
-/// A number in the unit of files that `scale` converts.
+/// Returns a number; `scale` converts between its units in files and in memory.
 KeyValue number(const Member<double>& number, const NumberRule& rule = {}, const Scale& scale = as_it_is);
-/// An angle, in degrees in files.
+/// Returns an angle, which files state in degrees.
 KeyValue angle(const Member<double>& angle, const NumberRule& rule = {});
-/// A list of numbers, each of them obeying `each`, all together obeying `rule`.
+/// Returns a list of numbers: `each` is the rule of a number, `rule` that of the list.
 KeyValue list(const Member<std::vector<double>>& numbers, const NumberRule& each = {}, const Scale& scale = as_it_is,
               const ListRule& rule = {});
-/// Three numbers; `meaning` is the rule as text.
+/// Returns a vector of three numbers; `meaning` is the rule as text.
 KeyValue vector(const Member<Eigen::Vector3d>& vector, const char* meaning, const Scale& scale = as_it_is);
-/// Points of three coordinates each [m].
+/// Returns a list of points of three coordinates each [m].
 KeyValue points(const Member<std::vector<Eigen::Vector3d>>& points);
-/// Corners of a polygon, of two coordinates each [m].
+/// Returns the corners of a polygon, of two coordinates each [m].
 KeyValue polygon(const Member<std::vector<Eigen::Vector2d>>& corners);
-/// true or false.
+/// Returns a value that is true or false.
 KeyValue flag(const Member<bool>& flag);
-/// A whole number of 64 bits.
+/// Returns a whole number of 64 bits.
 KeyValue seed(const Member<std::uint64_t>& seed);
-/// Text for which `allowed` returns true; `rule` states the condition.
+/// Returns a text for which `allowed` is true; `rule` states that condition.
 KeyValue text(
     const Member<std::string>& text, const char* rule = "text in quotes",
     bool (*allowed)(const std::string&) = [](const std::string&) { return true; });
-/// The path of a file (path_named_in).
+/// Returns the path of a file (path_named_in).
 KeyValue path(const Member<std::string>& path);
-/// Texts, each of them one of `words` unless there are none.
+/// Returns a list of texts, each of them one of `words` unless that is empty.
 KeyValue texts(const Member<std::vector<std::string>>& texts, const std::vector<std::string>& words = {});
-/// One table [[name]] or more, which read_keys reads one by one.
+/// Returns one or more tables [[name]], which read_keys reads one by one.
 KeyValue list_of_tables();
-/// One of a list of words; any text if there are none.
+/// Returns a text that is one of `words`; any text if that is empty.
 KeyValue word(const Member<std::string>& text, const std::vector<std::string>& words);
-/// One of a table of names.
+/// Returns a value whose text is one of a table of names.
 template <typename Table, typename Value = std::remove_cvref_t<decltype(std::declval<Table&>()[0].value)>>
 KeyValue word(const std::type_identity_t<Member<Value>>& value, const Table& table) {
   const auto read = [table](const TomlValue& from) -> std::optional<Value> {
@@ -186,9 +186,9 @@ KeyValue word(const std::type_identity_t<Member<Value>>& value, const Table& tab
       value, {"one of " + joined(table, ", ", [](const auto& row) { return std::string(row.name); }), read, write});
 }
 
-/// The value; each time it is set, `action` is called.
+/// Returns the value; `action` is called each time it is set.
 KeyValue then(KeyValue value, const std::function<void()>& action);
-/// The value, which files omit while `condition` holds.
+/// Returns the value, which files omit while `condition` holds.
 KeyValue omitted_if(KeyValue value, const std::function<bool()>& condition);
 
 }  // namespace insonify

@@ -130,7 +130,7 @@ KeyValue flag(const Member<bool>& flag) {
 }
 
 KeyValue seed(const Member<std::uint64_t>& seed) {
-  // TOML has no integers from 2^63 on, and its readers no exact ones from 2^53 on: those are text.
+  // Integers above 2^63 do not exist in TOML, and many readers are inexact above 2^53: accept such numbers as text.
   const auto read = [](const TomlValue& value) -> std::optional<std::uint64_t> {
     std::uint64_t number = 0;
     if (value.kind == Kind::text && to_number(value.text, number)) return number;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr Scale in_kilohertz{[](double x) { return 1e3 * x; }, [](double x) { return 1e-3 * x; }};
 
-/// A number of a material. In decibels -inf means 0, and the limit is rounded up to 0.01 dB, as it is written in tables
-/// of materials.
+/// Returns a number of a material. In decibels -inf means 0, and the limit is rounded up to 0.01 dB, the precision of
+/// tables of materials.
 KeyValue number_of(Material& material, const MaterialNumber& n) {
   if (*n.word) {
     const bool flag = n.word == std::string("true");
@@ -29,7 +29,7 @@ KeyValue number_of(Material& material, const MaterialNumber& n) {
   return number(power, {.most = most, .infinite = true, .note = n.note}, in_decibels);
 }
 
-/// A number of a law, in the unit of files.
+/// Returns a number of a law, in the unit of files.
 KeyValue number_of(std::optional<double>& x, const LawNumber& n) {
   if (n.in_decibels) return number(x, {.most = db_from_power(n.most), .infinite = true}, in_decibels);
   const auto get = [&x, n] { return x ? std::optional(*x * n.in_file) : std::nullopt; };
@@ -37,7 +37,8 @@ KeyValue number_of(std::optional<double>& x, const LawNumber& n) {
                 {.least = n.least * n.in_file, .most = n.most * n.in_file, .above = n.above});
 }
 
-/// The law of an entry: the numbers that it gives, on those of what it is like. `line` is that of a key.
+/// Returns the law of an entry: the numbers given in the file, and else those of `like`. `line(key)` is the line of a
+/// key.
 template <typename Line>
 SurfaceLaw law_of(const std::string& path, const MaterialEntry& entry, int begin, const Line& line) {
   SurfaceLaw law = entry.law.empty() ? entry.sourced.material.law : *law_named(entry.law);

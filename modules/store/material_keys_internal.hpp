@@ -14,9 +14,9 @@ namespace insonify {
 /// A [[material]] of a file.
 struct MaterialEntry {
   SourcedMaterial sourced;
-  MaterialInterval interval{};  ///< of field values, if the file has one
-  std::string law, like;        ///< law "": Lambert's, or the law of the material `like`
-  std::array<std::optional<double>, std::size(law_numbers)> numbers{};  ///< given numbers, in the order of law_numbers
+  MaterialInterval interval{};  ///< interval of field values, if the file has one
+  std::string law, like;        ///< law: "" is Lambert's law, or that of the material `like`
+  std::array<std::optional<double>, std::size(law_numbers)> numbers{};  ///< numbers given, in order of law_numbers
   TableLaw table{};
   std::string bistatic;
 };
@@ -24,8 +24,9 @@ struct MaterialEntry {
 /// Returns the keys of a [[material]], bound to `entry`, including those of material_numbers and law_numbers.
 std::vector<Key> material_keys(MaterialEntry& entry);
 
-/// Reads a table of keys into `entry`, which starts as a copy of the material `like`, if given, as `find_like` returns
-/// it. Throws Error(content) with path and line for keys that are unknown, missing, out of range or of another law.
+/// Reads a table of keys into `entry`, which starts as a copy of the material `like` if the table names one;
+/// `find_like` returns it. Throws Error(content) with path and line for keys that are unknown, missing, out of range or
+/// of another law.
 void read_material(const std::string& path, const TomlValue& table, MaterialEntry& entry,
                    const std::function<Material(const std::string&)>& find_like,
                    const std::vector<std::string>& others = {});

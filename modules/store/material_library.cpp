@@ -21,7 +21,7 @@ std::string file_of(const std::string& stem) {
   return (fs::path(data_folder()) / "materials" / (stem + ".toml")).string();
 }
 
-/// Names without their law, sorted.
+/// Returns the names of the files without their law, sorted.
 std::vector<std::string> stems() {
   std::vector<std::string> found;
   std::error_code ignored;
@@ -31,7 +31,7 @@ std::vector<std::string> stems() {
   return found;
 }
 
-/// The material of a file by each of its laws: a sediment has two.
+/// Returns the material of a file once for each of its laws; a sediment has two.
 std::vector<MaterialFile> by_each_law(const std::string& stem) {
   std::vector<MaterialFile> all;
   const MaterialFile file = load_material_file(file_of(stem));

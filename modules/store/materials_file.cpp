@@ -33,16 +33,16 @@ void add_interval(const std::string& path, const TomlValue& entry, const Materia
   table.field.intervals.push_back(next);
 }
 
-/// The materials of one file so far.
+/// The materials of one file that were read so far.
 struct Listed {
   std::set<std::string> names;
   std::map<int, std::string> name_of_label;
-  std::map<std::string, Material> liked;  // of the library, which is read once for each
-  std::vector<Material> checked;          // one of each law
-  std::size_t frequencies = 0;            // at which laws were checked
+  std::map<std::string, Material> liked;  // materials of the library, each read once
+  std::vector<Material> checked;          // one material of each law
+  std::size_t frequencies = 0;            // number of frequencies at which laws were checked
 };
 
-/// Refuses a name or label that is already in the table.
+/// Throws Error(content) for a name or label that is already in the table.
 void require_new(const std::string& path, int line, const SourcedMaterial& next, Listed& listed) {
   const std::string& name = next.material.name;
   if (!listed.names.insert(name).second) fail_in_file(path, line, "material '", name, "' is listed twice");
@@ -50,7 +50,7 @@ void require_new(const std::string& path, int line, const SourcedMaterial& next,
     fail_in_file(path, line, "label ", next.label, " of '", name, "' belongs to '", other->second, "' already");
 }
 
-/// Refuses a law that creates energy; equal laws are checked once. The check takes up to 20 ms for each frequency.
+/// Throws Error(content) for a law that creates energy. Equal laws are checked once, in up to 20 ms for each frequency.
 void require_energy(const std::string& path, int line, const Material& material, Listed& listed) {
   constexpr std::size_t most_frequencies = 256, untabulated = 3;
   const auto* table = std::get_if<TableLaw>(&material.law);

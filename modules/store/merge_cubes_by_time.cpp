@@ -9,7 +9,8 @@
 namespace insonify {
 namespace {
 
-// Refuses cubes of different sonars, fans, gates or pulses. Their water may differ: each ping has its own.
+// Throws Error(content) for cubes of different sonars, fans, gates or pulses. Their water may differ: each ping has its
+// own.
 void require_alike(const NamedCube& one, const NamedCube& first) {
   const auto refuse = [&](const auto&... difference) {
     fail(ErrorKind::content, one.name, ": ", difference..., " in ", first.name,
@@ -46,7 +47,7 @@ void count_up_unless_unique(std::vector<Ping>& pings) {
   for (std::size_t p = 0; p < pings.size(); ++p) pings[p].number = static_cast<std::int64_t>(p);
 }
 
-/// Drops what not all pings have alike: layers, maps, labels.
+/// Drops the layers, maps and labels that not all pings have alike.
 void drop_unlike_parts(std::vector<Ping>& pings) {
   const auto drop_unless = [&](const auto& has, const auto& drop) {
     const auto like_first = [&](const Ping& ping) { return has(ping) == has(pings.front()); };
@@ -71,7 +72,7 @@ void drop_unlike_parts(std::vector<Ping>& pings) {
       [](Ping& ping) { ping.labels = {}; });
 }
 
-/// Gathers the notes of all cubes, whose first pings have the numbers that they have in the merged one.
+/// Returns the notes of all cubes, with the numbers that their first pings have in the merged cube.
 std::vector<PingNote> merged_notes(std::vector<std::vector<PingNote>> of_cubes, const MergedCube& merged) {
   std::vector<PingNote> all;
   for (std::size_t c = 0; c < of_cubes.size(); ++c) {
@@ -101,7 +102,7 @@ MergedCube merge_cubes_by_time(std::vector<NamedCube> cubes) {
   std::vector<Traced> traced;
   for (std::size_t c = 0; c < cubes.size(); ++c)
     for (Ping& ping : cubes[c].cube.pings) {
-      if (!(ping.sound_speed > 0))  // it is in the water of its cube
+      if (!(ping.sound_speed > 0))  // the ping is in the water of its cube
         ping.sound_speed = cubes[c].cube.sound_speed, ping.absorption_db_per_m = cubes[c].cube.absorption_db_per_m;
       traced.push_back({std::move(ping), {c, ping.number}});
     }

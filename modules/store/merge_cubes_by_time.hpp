@@ -28,8 +28,8 @@ struct MergedCube {
 /// Returns one cube with all pings, ordered by time of transmission; pings of equal time keep the given order. Ping
 /// numbers are kept if they are unique, else replaced by 0, 1, ... Layers, maps and labels are kept if all pings have
 /// the same ones, else dropped. Seed, tolerance, version and water are those of the first cube; each ping keeps the
-/// water of its own cube. Throws Error(argument) if there is no cube, Error(content) naming the cube and the difference
-/// if sonar, fan, gate, centre frequency or bandwidth differ from the first.
+/// water of its own cube. Throws Error(argument) if there is no cube. Throws Error(content) if sonar, fan, gate, centre
+/// frequency or bandwidth of a cube differ from those of the first, naming the cube and the difference.
 MergedCube merge_cubes_by_time(std::vector<NamedCube> cubes);
 
 }  // namespace insonify

@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 
 constexpr int mission_schema = 1;
 
-/// From north-east-down axes to z-up ones: half a turn about x, on both sides.
+/// Returns a pose in z-up axes from one in north-east-down axes: half a turn about x on both sides.
 Pose from_ned(const Pose& pose) {
   const Eigen::AngleAxisd half(pi, Vector3d::UnitX());
   Pose turned = Pose::Identity();
@@ -26,7 +26,7 @@ Pose from_ned(const Pose& pose) {
   return turned;
 }
 
-/// Adds file and line to what `body` refuses.
+/// Adds file and line to the errors that `body` throws.
 template <typename Body>
 void at_line(const std::string& path, int line, const Body& body) {
   try {
@@ -59,8 +59,8 @@ void read_trajectory(const std::string& path, const TomlValue& table, const Miss
   }
 }
 
-/// The attitude of a head on its vehicle: that of its sonar file (yaw, pitch, roll), turned by the mounting of the
-/// mission, Rz(heading) Ry(pitch) Rx(roll) in ship axes. Either alone gives its own numbers, to the last bit.
+/// Returns the pose of a head on its vehicle: the attitude of its sonar file (yaw, pitch, roll), turned by the mounting
+/// of the mission, Rz(heading) Ry(pitch) Rx(roll) in ship axes. If one of them is zero, the other keeps its bits.
 Pose vehicle_from_head(const MissionTables& t, const Vector3d& of_sonar) {
   const double mirrored = t.starboard ? -1 : 1;
   // Ship axes are half a turn about x from vehicle axes (x forward, y port, z up).
@@ -101,7 +101,7 @@ void read_leg(const std::string& path, const TomlValue& table, MissionFile& m) {
   at_line(path, table.line, [&] { require_valid_leg(m.mission, m.mission.legs.size() - 1, "mission"); });
 }
 
-/// The table with what it takes from the table [template.NAME] that its key `template` names: the keys that it lacks.
+/// Returns the table with the keys that it lacks from the table [template.NAME], where NAME is its key `template`.
 /// Throws Error(content) if there is no such template.
 TomlValue with_template(const std::string& path, const TomlValue& document, const TomlValue& table) {
   const TomlValue* name = table.find("template");
@@ -124,7 +124,7 @@ TomlValue with_template(const std::string& path, const TomlValue& document, cons
   return whole;
 }
 
-/// Reads every [[name]].
+/// Reads every table [[name]].
 template <typename Read>
 void read_each(const std::string& path, const TomlValue& document, const char* name, const Read& read) {
   const TomlValue* tables = document.find(name);
@@ -140,7 +140,7 @@ const TomlValue& required_table(const std::string& path, const TomlValue& docume
   return *table;
 }
 
-/// Reads the tables of a mission but for heads and legs, of which there may be many.
+/// Reads the tables of a mission except heads and legs, of which there may be many.
 void read_tables(const std::string& path, const TomlValue& document, MissionTables& t, MissionFile& m) {
   const TomlValue& survey = required_table(path, document, "survey");
   read_keys(path, document, mission_keys(t, m), "", {"schema", "head", "leg", "template", "scene", "ping"});

@@ -14,42 +14,42 @@ namespace insonify {
 /// The sonar of a head of the mission.
 struct MissionSonar {
   std::string sonar;                  ///< preset, or path of a sonar file
-  std::string range;                  ///< "min:max" [m], or empty: the range of the sonar
-  std::vector<std::string> settings;  ///< "sonar.beams=128", ...
+  std::string range;                  ///< "min:max" [m]; empty: the range of the sonar
+  std::vector<std::string> settings;  ///< such as "sonar.beams=128"
 };
 
-/// Water level of a mission, for soundings.
+/// The water level of a mission, for soundings.
 struct MissionWater {
   std::optional<double> level{};  ///< world z [m]; absent: that of the environment's surface, else 0
   std::string datum = "UNKNOWN";  ///< name of the vertical datum z = 0, e.g. "MSL"
 };
 
-/// A mission file. The tables [scene] and [ping] hold settings of the tool and are not interpreted here.
+/// The contents of a mission file. The tables [scene] and [ping] are settings of the tool; they are not read here.
 struct MissionFile {
   std::string path, text;            ///< text: the whole file
-  std::string scene;                 ///< path
-  std::string environment, profile;  ///< paths, or empty
+  std::string scene;                 ///< path of the scene
+  std::string environment, profile;  ///< paths; empty: none
   std::uint64_t seed = 1;
-  MissionWater water{};       ///< of the table [water]
-  Randomisation randomise{};  ///< of the table [randomise]: random differences between pings
-  bool coverage = false;      ///< the survey writes the coverage of each surfel
-  std::string start_utc;      ///< of time 0, e.g. "2026-05-01T08:30:00Z", or empty
+  MissionWater water{};       ///< table [water]
+  Randomisation randomise{};  ///< table [randomise]: random differences between pings
+  bool coverage = false;      ///< true: the survey writes the coverage of each surfel
+  std::string start_utc;      ///< date of time 0, such as "2026-05-01T08:30:00Z"; empty: unknown
   std::optional<Anchor> anchor;
-  std::string system;                ///< of the world's coordinates, "EPSG:25832", or empty
-  std::string trajectory;            ///< path, or empty: waypoints
+  std::string system;                ///< system of the world's coordinates, "EPSG:25832"; empty: unknown
+  std::string trajectory;            ///< path of the trajectory; empty: waypoints
   double position_deviation = 0;     ///< standard deviation of nav_noise in each coordinate [m]
   Mission mission;                   ///< listening times are 0: they follow from sonar and water
-  std::vector<MissionSonar> sonars;  ///< of each head
+  std::vector<MissionSonar> sonars;  ///< one for each head
 };
 
-/// Date of a survey, and its place on the globe.
+/// The date of a survey, and its place on the globe.
 struct SurveyFrame {
-  std::string start_utc;         ///< date of time 0, or empty
+  std::string start_utc;         ///< date of time 0; empty: unknown
   std::optional<Anchor> anchor;  ///< place and heading of the world's axes
-  std::string system{};          ///< projected system of the world's coordinates, or empty
+  std::string system{};          ///< projected system of the world's coordinates; empty: unknown
 };
 
-/// Returns only start_utc, anchor and system of a mission; errors as load_mission.
+/// Returns only start_utc, anchor and system of a mission. Throws as load_mission.
 SurveyFrame load_survey_frame(const std::string& path);
 
 /// Random differences between the pings of a survey.
@@ -58,7 +58,7 @@ struct SurveyRandomisation {
   std::uint64_t seed = 1;
 };
 
-/// Returns only seed and [randomise] of a mission; errors as load_mission.
+/// Returns only seed and [randomise] of a mission. Throws as load_mission.
 SurveyRandomisation load_survey_randomisation(const std::string& path);
 
 /// Returns a mission from TOML (docs/survey.md lists the keys). Paths are looked up from the current folder, then from

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* utc_rule = "a time of UTC like 2026-05-01T08:30:00Z";
 
-/// "2026-05-01T08:30:00Z", perhaps with fractions of the second.
+/// Returns true for a time such as "2026-05-01T08:30:00Z", also with fractions of the second.
 bool is_utc(const std::string& text) {
   try {
     utc_after(text, 0);
@@ -21,13 +21,13 @@ bool is_utc(const std::string& text) {
   }
 }
 
-/// Text of printable ASCII, as formats of other programs hold it.
+/// Returns true for 1 to 32 printable ASCII characters without blanks, as the formats of other programs hold.
 bool is_datum(const std::string& text) {
   const bool printable = std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c < 127; });
   return !text.empty() && text.size() <= 32 && printable;
 }
 
-/// EPSG:N.
+/// Returns true for EPSG:N.
 bool is_epsg(const std::string& text) {
   constexpr std::string_view begin = "EPSG:";
   return text.starts_with(begin) && text.size() > begin.size() && text.size() <= begin.size() + 5 &&
@@ -39,13 +39,13 @@ constexpr Named<bool> sides[] = {{"port", false}, {"starboard", true}};
 constexpr Named<ScanMode> scan_modes[] = {
     {"continuous", ScanMode::continuous}, {"sector", ScanMode::sector}, {"single", ScanMode::single}};
 
-/// A rate [Hz] of an interval [s]; 0: neither is given.
+/// Returns access to an interval [s] as its rate [Hz]; 0: neither is given.
 Member<double> rate_of(double& interval) {
   return {[&interval] { return interval > 0 ? std::optional(1 / interval) : std::nullopt; },
           [&interval](double rate) { interval = 1 / rate; }};
 }
 
-/// How many pings have the same draw of a scene's bodies; 0: all of the survey.
+/// Returns the number of pings that share one draw of a scene's bodies; 0: all of the survey.
 KeyValue pings_of_draw(std::int64_t& pings) {
   constexpr Named<std::int64_t> words[] = {{"ping", 1}, {"survey", 0}};
   const auto read = [=](const TomlValue& value) -> std::optional<std::int64_t> {
@@ -60,7 +60,7 @@ KeyValue pings_of_draw(std::int64_t& pings) {
   return value_in<std::int64_t>(pings, {"\"ping\", \"survey\" or a whole number of pings", read, write});
 }
 
-/// Rows of [survey] and [trajectory].
+/// Returns the keys of [survey] and [trajectory].
 std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
   const NumberRule latitude{.least = -90, .most = 90}, longitude{.least = -360, .most = 360};
   return {
@@ -112,7 +112,7 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
   };
 }
 
-/// Rows of a [[head]] and of a [[leg]].
+/// Returns the keys of [[head]] and [[leg]].
 std::vector<Key> head_keys(MissionTables& t) {
   MissionLeg& leg = t.leg;
   return {
@@ -160,7 +160,7 @@ std::vector<Key> head_keys(MissionTables& t) {
   };
 }
 
-/// Rows of [randomise] and [water].
+/// Returns the keys of [randomise] and [water].
 std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
   return {
       {"randomise", "source_level_db", "dB", number(r.source_level_db, not_negative),

@@ -12,7 +12,7 @@ namespace insonify {
 /// Values of a mission file that a Mission stores in another form, and the values of one head and one leg.
 struct MissionTables {
   Anchor anchor{};
-  bool ned = false;                     ///< frame of the trajectory's file
+  bool ned = false;                     ///< true: the trajectory's file has north-east-down axes
   double time_offset = 0, max_gap = 0;  ///< 0: not given
   Waypoints way{};
   NavigationNoise noise{};
@@ -20,7 +20,7 @@ struct MissionTables {
   MissionSonar sonar{};
   HeadScan scan{0, 2 * pi, radians(1)};
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
-  double roll = 0, pitch = 0, heading = 0;  ///< of the mounting, in ship axes: x forward, y starboard, z down [rad]
+  double roll = 0, pitch = 0, heading = 0;  ///< mounting in ship axes: x forward, y starboard, z down [rad]
   bool starboard = false;
   double rate = 0, dwell = 0;  ///< 0: not given
   MissionLeg leg{};

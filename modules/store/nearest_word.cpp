@@ -7,7 +7,7 @@
 namespace insonify {
 namespace {
 
-// Levenshtein distance, keeping one row of the table.
+// Returns the Levenshtein distance, with one row of the table in memory.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether two names are of one file or folder, through links and on file systems that ignore case.
+/// Returns true if two names are of one file or folder, through links and on file systems that ignore case.
 bool are_one(const fs::path& a, const fs::path& b) {
   std::error_code missing;
   return fs::equivalent(a, b, missing) && !missing;
 }
 
-/// The folder of `folders` in which `path` lies, links resolved, or which it is; null if there is none.
+/// Returns the folder of `folders` that is `path` or holds it, with links resolved; null if there is none.
 const std::string* holder_of(const std::string& path, const InputPaths& folders) {
   std::error_code missing;
   fs::path at = fs::canonical(path, missing);
@@ -34,7 +34,7 @@ const std::string* holder_of(const std::string& path, const InputPaths& folders)
   }
 }
 
-/// Whether a file below the folder of a run or survey is part of it.
+/// Returns true if a file below the folder of a run or survey is part of it.
 bool is_part_of(const std::string& folder, const fs::path& file) {
   const std::string name = real_path(file).lexically_relative(real_path(folder)).string();
   if (is_survey_run(folder)) return is_of_survey(folder, name);

@@ -5,7 +5,7 @@
 
 namespace insonify {
 
-/// Files and folders that a call reads. Names that do not exist (of presets, for instance) are ignored.
+/// Files and folders that a call reads. Names that do not exist are ignored; they may be names of presets.
 using InputPaths = std::vector<std::string>;
 
 /// Throws Error(file) unless the file `output` may be written. It may if it does not exist. With `force` it may also be
@@ -17,8 +17,8 @@ void require_free_file(const std::string& output, bool force, const InputPaths& 
 /// neither be nor contain an input, under any name.
 void require_free_folder(const std::string& output, bool force, const InputPaths& inputs);
 
-/// Throws Error(file) if `folder` holds anything that no run wrote, and names it. `called`: name of the folder in the
-/// message.
+/// Throws Error(file) if `folder` holds anything that no run wrote, naming that. `called` is the name of the folder in
+/// the message.
 void require_run_alone(const std::string& folder, const std::string& called);
 
 }  // namespace insonify

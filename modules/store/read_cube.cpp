@@ -45,7 +45,7 @@ void read_axes(const FileContext& place, hid_t file, CubeTable& table) {
   read_all<double>(place, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
 }
 
-// A number of the water at every ping: the pings' own, or that of all.
+// Returns a property of the water for each ping: the ping's own, or else the cube's.
 std::vector<double> water_of(const FileContext& place, hid_t file, const DatasetName& name, hsize_t pings) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
     return std::vector<double>(pings, read_number(place, file, name.path + 1));
@@ -56,7 +56,7 @@ std::vector<double> water_of(const FileContext& place, hid_t file, const Dataset
   return values;
 }
 
-// World vectors of every ping, zero in a cube without them.
+// Returns a world vector for each ping; zero in a cube without them.
 std::vector<Eigen::Vector3d> vectors_of(const FileContext& place, hid_t file, const DatasetName& name, hsize_t pings) {
   std::vector<Eigen::Vector3d> vectors(pings, Eigen::Vector3d::Zero());
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return vectors;
@@ -113,7 +113,7 @@ CubeTable read_table(const FileContext& place, hid_t file) {
   return table;
 }
 
-/// The pings without their images.
+/// Returns the pings without their images.
 std::vector<Ping> pings_of(const CubeTable& table, PingRange range) {
   std::vector<Ping> pings;
   for (std::size_t p = range.begin; p < range.end; ++p) {
@@ -207,7 +207,7 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
     to(read_attributes(place, file));
     to(read_table(place, file));
   })(cube, table);
-  // As many pings by one child as keep memory small, of which what is not copied from the file takes the most.
+  // One child process reads pings until the data that it sends are large; images copied from the file do not count.
   constexpr std::size_t bytes_at_once = 2 << 20;
   const std::size_t pings = table.track.size();
   bool one_by_one = false;
@@ -227,7 +227,7 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
       sent = read_some(p);
     } catch (const Error&) {
       if (one_by_one) throw;
-      one_by_one = true;  // up to the ping that is damaged
+      one_by_one = true;  // find the damaged ping
       continue;
     }
     bool another = false;

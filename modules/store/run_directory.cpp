@@ -16,14 +16,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// "out/" and "out" are the same folder.
+// Returns a path without a slash at its end: "out/" and "out" are one folder.
 std::string without_trailing_slash(const std::string& path) {
   fs::path clean = fs::path(path).lexically_normal();
   if (!clean.has_filename()) clean = clean.parent_path();
   return clean.string();
 }
 
-// `path` without a slash at its end, if a run may get this name.
+// Returns `path` without a slash at its end. Throws Error(file) if a run may not have this name.
 std::string free_name(const std::string& path, bool force, const InputPaths& inputs) {
   const std::string target = without_trailing_slash(path);
   if (target.empty() || target == "." || target == "/" || fs::path(target).filename() == "..")
@@ -33,7 +33,7 @@ std::string free_name(const std::string& path, bool force, const InputPaths& inp
   if (!parent.empty() && !fs::is_directory(parent, ignored))
     fail(ErrorKind::file, target, ": folder ", parent.string(), " does not exist; create it first");
   require_free_folder(target, force, inputs);
-  // A link to an earlier run stays what it is: the run takes the place of the folder that it leads to.
+  // Keep a link to an earlier run: the run replaces the folder to which it leads.
   const fs::path folder = fs::is_symlink(target, ignored) ? fs::canonical(target, ignored) : fs::path();
   return folder.empty() ? target : folder.string();
 }

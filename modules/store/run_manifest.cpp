@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* manifest_name = "manifest.json";
 
-/// The manifest of a folder; null if there is none.
+/// Returns the manifest of a folder; null if there is none.
 json manifest_in(const std::string& folder) {
   const std::string path = (fs::path(folder) / manifest_name).string();
   std::error_code ignored;
@@ -31,7 +31,7 @@ json manifest_in(const std::string& folder) {
   return manifest;
 }
 
-/// Whether a name in a manifest is of a file below its folder.
+/// Returns true if a name in a manifest is of a file below its folder.
 bool lies_below(const std::string& name) {
   const fs::path path = fs::path(name).lexically_normal();
   return !path.empty() && path.is_relative() && *path.begin() != "..";
@@ -47,7 +47,7 @@ std::map<std::string, std::string> digests_in(const json& manifest) {
 }
 
 bool is_unchanged(const fs::path& file, const std::string& digest) {
-  constexpr std::uintmax_t most_bytes = 16 << 20;  // some milliseconds
+  constexpr std::uintmax_t most_bytes = 16 << 20;  // takes some milliseconds
   return size_of_file(file) > most_bytes || sha256_of_file(file.string()) == digest;
 }
 

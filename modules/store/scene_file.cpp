@@ -19,22 +19,22 @@ namespace fs = std::filesystem;
 
 constexpr int scene_schema = 1;
 constexpr std::size_t most_parts = 65000;
-/// Keys that place a part: without any of them it is captured.
+/// Keys that place a part. A part without any of them is captured.
 constexpr const char* placing_keys[] = {"position_m", "rest",       "bury_m",       "yaw_deg",        "pitch_deg",
                                         "roll_deg",   "trajectory", "velocity_mps", "turn_deg_per_s", "scale"};
-/// Keys in whose place a trajectory stands.
+/// Keys that a part with a trajectory must not have.
 constexpr const char* replaced_by_trajectory[] = {"position_m", "rest", "bury_m", "velocity_mps", "turn_deg_per_s"};
 
-/// Files that are read already, by path: many parts may name one.
+/// Files that were read already, by path; many parts may name one file.
 struct KnownFiles {
   std::map<std::string, std::shared_ptr<const SceneFile>> scenes;
   std::map<std::string, Trajectory> trajectories;
 };
 
-/// A scene file that is being read, and the chain of those that hold it.
+/// A scene file that is being read, and the chain of scene files that contain it.
 struct Reader {
   std::string path;
-  std::vector<std::string> chain;  // canonical paths, this one last
+  std::vector<std::string> chain;  // canonical paths, ending with this file
   KnownFiles& known;
 
   template <typename... Parts>
@@ -98,7 +98,7 @@ const Trajectory& Reader::trajectory_of(int line, const std::string& file) const
   return trajectory->second;
 }
 
-/// Where a part stands and how it moves, of what its table says.
+/// Sets position and motion of a part by the keys of its table.
 void place(const Reader& reader, const TomlValue& table, const SceneTables& t, PartPlacement& p) {
   const auto given = [&](const char* key) { return table.find(key) != nullptr; };
   p.captured = std::ranges::none_of(placing_keys, given);

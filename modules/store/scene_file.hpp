@@ -12,7 +12,7 @@
 
 namespace insonify {
 
-/// Returns whether a path is that of a scene of parts: a .toml file.
+/// Returns true if a path is that of a scene of parts: a .toml file.
 bool is_scene_file(const std::string& path);
 
 struct SceneFile;
@@ -20,24 +20,24 @@ struct SceneFile;
 /// A file of surfels or triangles that a scene names, with the settings for reading it.
 struct PartFile {
   std::string path;
-  std::shared_ptr<const SceneFile> scene{};    ///< its contents, if the file itself is a scene of parts
+  std::shared_ptr<const SceneFile> scene{};    ///< contents if the file itself is a scene of parts
   MeaningText meaning;                         ///< units, axes and holes of the file
-  std::string material, materials;             ///< a name for every surfel; a table; or empty
-  std::string material_field;                  ///< field of the cloud whose numbers mean materials, or empty
-  std::optional<Eigen::Vector3d> viewpoint{};  ///< of the capture [m, in the axes of the file]
-  double thin = 0;                             ///< [m] between remaining surfels; 0: all remain
-  double spacing = 0;                          ///< [m] between surfels of a mesh; 0: follows from its size
-  int line = 0;                                ///< of the scene file
+  std::string material, materials;             ///< name for every surfel; path of a table; or empty
+  std::string material_field;                  ///< field of the cloud whose numbers mean materials; empty: none
+  std::optional<Eigen::Vector3d> viewpoint{};  ///< position of the capture [m, in the axes of the file]
+  double thin = 0;                             ///< distance of remaining surfels [m]; 0: all remain
+  double spacing = 0;                          ///< distance of surfels of a mesh [m]; 0: follows from its size
+  int line = 0;                                ///< line in the scene file
 };
 
-/// A [[part]].
+/// The contents of a [[part]].
 struct ScenePartEntry {
-  std::string name, label;  ///< label: as given; default: the name of a placed part, empty for a captured part
+  std::string name, label;  ///< label: as in the file; default: name of a placed part, empty for a captured part
   PartFile file;
   PartPlacement placement;
 };
 
-/// A [[scatter]].
+/// The contents of a [[scatter]].
 struct SceneScatterEntry {
   std::vector<PartFile> files;
   std::vector<std::string> names, labels;  ///< one for each file
@@ -50,7 +50,7 @@ struct SceneFile {
   std::string path, text;  ///< text: the whole file
   std::vector<ScenePartEntry> parts;
   std::vector<SceneScatterEntry> scatters;
-  std::vector<std::string> trajectories;  ///< paths of the files of trajectories
+  std::vector<std::string> trajectories;  ///< paths of the trajectories of parts
 };
 
 /// Returns a scene of parts from TOML (docs/scenes.md lists the keys), with the trajectories and the scenes of parts

@@ -11,12 +11,12 @@ namespace {
 constexpr Named<PartRest> rest_words[] = {
     {"ground", PartRest::ground}, {"bed", PartRest::bed}, {"none", PartRest::none}};
 
-/// One value or two that ascend.
+/// Returns a value of one number, or two that ascend.
 KeyValue interval(std::vector<double>& numbers, const char* rule, const NumberRule& each) {
   return list(given(numbers), each, as_it_is, {.most = 2, .bare = true, .ascending = true, .text = rule});
 }
 
-/// Rows of how a file is read.
+/// Returns the keys that say how a file is read.
 std::vector<Key> reading_keys(const char* section, PartFile& file) {
   std::vector<Key> keys;
   for (const MeaningOption& row : meaning_options)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int sonar_schema = 1;
 
-/// The keys of a file: those of the spec, and what is no property of the sonar itself.
+/// Returns the keys of a file: those of the spec, and those that are no property of the sonar itself.
 std::vector<Key> keys_of_file(SonarFile& file) {
   std::vector<Key> keys = sonar_keys(file.spec);
   keys.push_back({"", "description", "", text(file.description), "what it is"});

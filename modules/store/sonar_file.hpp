@@ -19,8 +19,8 @@ struct SonarFile {
   std::string description;
   std::string path;
   std::vector<SonarNumber> numbers;
-  bool of_run = false;                                 ///< read from a run.toml; its ranges are those of that run
-  Eigen::Vector3d mounting = Eigen::Vector3d::Zero();  ///< on a vehicle: yaw to port, pitch nose down, roll [rad]
+  bool of_run = false;                                 ///< true: read from a run.toml; its ranges are those of that run
+  Eigen::Vector3d mounting = Eigen::Vector3d::Zero();  ///< attitude on a vehicle: yaw to port, pitch down, roll [rad]
 };
 
 /// Returns a sonar from TOML, or from the table [sonar] of a run.toml. Every key is a number (or string) or a table
@@ -32,8 +32,8 @@ struct SonarFile {
 /// remedy. Throws Error(file) or Error(content).
 SonarFile load_sonar_file(const std::string& path);
 
-/// Returns a preset by name ("oculus-m750d") from the sonar folder, or the sonar in a file (a path ending in .toml).
-/// Throws Error(argument) with the nearest known names for an unknown name.
+/// Returns the preset of this name ("oculus-m750d") from the sonar folder, or the sonar in a file (a path that ends in
+/// .toml). Throws Error(argument) with the nearest known names for an unknown name.
 SonarFile find_sonar(const std::string& name_or_path);
 
 /// Returns all presets, sorted by name.
@@ -44,8 +44,8 @@ std::vector<SonarFile> list_sonars();
 /// INSONIFY_DATA does not name a data folder.
 std::string data_folder();
 
-/// Returns the spec as TOML text, the table [sonar] of run.toml. The text reads back bit for bit if its angles came
-/// from degrees (a file, set_sonar_value); an angle computed in radians may change in its last bit.
+/// Returns the spec as TOML text, the table [sonar] of run.toml. The text reads back bit for bit if the angles of the
+/// spec came from degrees (a file, set_sonar_value); an angle computed in radians may change in its last bit.
 std::string sonar_as_toml(const SonarSpec& spec);
 
 /// Sets one key ("beams", "centre_frequency_hz", ...) of a spec from text; lists as "-10, 0, 10". Keys may be set in

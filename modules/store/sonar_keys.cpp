@@ -9,7 +9,7 @@ namespace {
 constexpr Named<ElevationShape> elevation_shapes[] = {
     {"gaussian", ElevationShape::gaussian}, {"line", ElevationShape::line}, {"sector", ElevationShape::sector}};
 
-// The enumerations that have a function for their names.
+// Returns the names of enumerators, as their own function states them.
 template <typename Value>
 std::vector<Named<Value>> named(const char* (*name)(Value), std::initializer_list<Value> values) {
   std::vector<Named<Value>> table;
@@ -20,22 +20,22 @@ const auto pulses = named(pulse_shape_name, {PulseShape::gaussian, PulseShape::l
 const auto windows = named(replica_window_name, {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming});
 const auto shadings = named(shading_name, {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev});
 
-/// True if the shading follows from side_lobe_db alone.
+/// Returns true if the shading follows from side_lobe_db alone.
 bool is_default_shading(const SonarSpec& spec) {
   SonarSpec plain = spec;
   plain.shading.reset();
   return shading_of(spec) == shading_of(plain);
 }
 
-/// Returns to an evenly spaced fan: drops azimuths and the elevations that belong to them, but keeps those of rows.
+/// Restores an evenly spaced fan: drops azimuths and the elevations that belong to them, but keeps those of rows.
 void drop_table(SonarSpec& spec) {
   if (spec.azimuths.empty()) return;
   spec.azimuths.clear();
   spec.elevations.clear();
 }
 
-/// Number and field of view of beams at given azimuths: it extends half a mean spacing beyond the outermost beams, as
-/// in an evenly spaced fan, and is at least one beam width.
+/// Sets number and field of view of beams at given azimuths. The field of view extends half a mean spacing beyond the
+/// outermost beams, as in an evenly spaced fan, and is at least one beam width.
 void fit_fan(SonarSpec& spec) {
   if (spec.azimuths.empty()) return;
   spec.beams = spec.azimuths.size();
@@ -44,7 +44,7 @@ void fit_fan(SonarSpec& spec) {
   spec.field_of_view = std::clamp((*high - *low) * n / std::max(n - 1, 1.0), std::min(spec.beam_width, 2 * pi), 2 * pi);
 }
 
-/// A width that is 0 in the spec if files omit it.
+/// The rule for a width that is 0 in the spec if files omit it.
 constexpr NumberRule width_rule{.least = 0, .above = true, .note = "omit the key if there is none"};
 
 }  // namespace

@@ -22,14 +22,14 @@ bool is_data_folder(const fs::path& folder) {
   return fs::is_directory(folder / "sonars", ignored);
 }
 
-/// Folder of the program, or of the library of Python's module, that this code is part of.
+/// Returns the folder of the program, or of the library of Python's module, that this code is part of.
 fs::path folder_of_this_code() {
   Dl_info found{};
   return dladdr(reinterpret_cast<void*>(&is_data_folder), &found) ? fs::path(found.dli_fname).parent_path()
                                                                   : fs::path();
 }
 
-// Names of all presets, sorted.
+// Returns the names of all presets, sorted.
 std::vector<std::string> preset_names() {
   const fs::path folder = fs::path(data_folder()) / "sonars";
   std::vector<std::string> names;
@@ -45,7 +45,7 @@ std::string preset_path(const std::string& name) {
   return (fs::path(data_folder()) / "sonars" / (name + ".toml")).string();
 }
 
-// The names that contain the word ("oculus" matches six presets), else the nearest one by spelling.
+// Returns the names that contain the word ("oculus" matches six presets), or else the nearest one by spelling.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
   const std::string wanted = lower_case(word);
   std::vector<std::string> with_it;
@@ -63,14 +63,14 @@ std::string data_folder() {
       fail(ErrorKind::file, "INSONIFY_DATA = ", chosen, ": is not a folder with sonars/ in it");
     return chosen;
   }
-  // A wheel of Python has its data within; an installed program has ../share/insonify beside it, one in
+  // A wheel of Python contains its data. An installed program has ../share/insonify beside it, a program in
   // build/<preset>/bin the source tree.
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   for (const fs::path& folder :
        {folder_of_this_code() / "data", program / "../share/insonify", program / "../../../data",
         fs::path(INSONIFY_INSTALL_DATA), fs::path(INSONIFY_SOURCE_DATA),
-        fs::path("/usr/share/insonify")})  // of Debian's package, for users of the library
+        fs::path("/usr/share/insonify")})  // folder of Debian's package, for users of the library
     if (is_data_folder(folder)) return folder.lexically_normal().string();
   fail(ErrorKind::file, "data files (sonars/, materials.toml) found neither beside the program nor in ",
        INSONIFY_INSTALL_DATA, "; set INSONIFY_DATA to their folder");

@@ -8,7 +8,7 @@ namespace {
 constexpr Named<int> statuses[] = {{"sourced", 0}, {"recalled", 1}, {"derived", 2},
                                    {"assumed", 3}, {"unknown", 4},  {"user", 5}};
 
-/// The value of an entry, plain or a table {value, status, source} whose status and source go into `number`.
+/// Returns the value of an entry: plain, or from a table {value, status, source} whose other texts go into `number`.
 TomlValue value_of(const std::string& path, const TomlValue& entry, SourcedNumber& number) {
   if (entry.kind != TomlValue::Kind::table) return entry;
   TomlValue value;
@@ -30,7 +30,7 @@ TomlValue value_of(const std::string& path, const TomlValue& entry, SourcedNumbe
   return value;
 }
 
-/// A value as `numbers` list it: all numbers with a fraction.
+/// Returns a value as `numbers` list it: all numbers with a fraction.
 std::string listed(TomlValue value) {
   for (TomlValue& item : value.items)
     if (item.is_number()) item.kind = TomlValue::Kind::number;

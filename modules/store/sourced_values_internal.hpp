@@ -8,8 +8,8 @@
 
 namespace insonify {
 
-/// Replaces each value {value, status, source} of a table by its value, and lists the texts of all; plain ones have
-/// status "user". Throws Error(content) for an unknown key or status.
+/// Replaces each value {value, status, source} of a table by its value, and returns the sources of all values; plain
+/// values have status "user". Throws Error(content) for an unknown key or status.
 std::vector<SourcedNumber> take_sources(const std::string& path, TomlValue& table);
 
 }  // namespace insonify

@@ -58,7 +58,7 @@ SurveyRunHead head_in(const std::string& path, const TomlValue& table, const std
           static_cast<std::size_t>(count_in(path, table, "pings_per_block", 1))};
 }
 
-/// The names of what a folder holds, sorted.
+/// Returns the names of the entries of a folder, sorted.
 std::vector<std::string> names_in(const std::string& folder) {
   std::vector<std::string> names;
   look_at_paths([&] {
@@ -69,7 +69,7 @@ std::vector<std::string> names_in(const std::string& folder) {
   return names;
 }
 
-/// Refuses a folder that holds anything but what other shards of the survey, starting just now, may have put there.
+/// Throws Error(file) for a folder that is no survey. Files that another shard writes as it starts are allowed.
 void require_new(const std::string& folder) {
   if (!path_exists(folder)) return;
   if (!is_folder(folder)) fail(ErrorKind::file, folder, ": is a file, must be a folder of a survey, or a new one");
@@ -78,7 +78,7 @@ void require_new(const std::string& folder) {
       fail(ErrorKind::file, folder, ": holds ", name, " but no survey.toml, so it is no survey; choose another folder");
 }
 
-/// Refuses blocks of another size, and a survey.toml that was changed.
+/// Throws Error for blocks of another size, and for a survey.toml that was changed.
 void require_same_blocks(const std::string& folder, const SurveyRun& there, const SurveyRun& run) {
   for (std::size_t h = 0; h < std::min(there.heads.size(), run.heads.size()); ++h)
     if (const std::size_t held = there.heads[h].pings_per_block; held != run.heads[h].pings_per_block)

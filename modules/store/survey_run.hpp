@@ -16,9 +16,10 @@ struct SurveyRunHead {
   bool operator==(const SurveyRunHead&) const = default;
 };
 
-/// The folder of a survey. survey.toml identifies the mission; NAME/blocks holds the blocks of head NAME.
+/// The contents of survey.toml in the folder of a survey. It identifies the mission; NAME/blocks holds the blocks of
+/// head NAME.
 struct SurveyRun {
-  std::string mission_sha256;  ///< of the mission and all files that its result depends on
+  std::string mission_sha256;  ///< SHA-256 of the mission and all files that its result depends on
   std::vector<SurveyRunHead> heads;
 };
 
@@ -37,12 +38,12 @@ void open_survey_run(const std::string& folder, const SurveyRun& run);
 /// survey.toml is damaged.
 SurveyRun load_survey_run(const std::string& folder);
 
-/// Files of a block. `coverage` exists only in surveys that ask for it. `partial_...` hold the pings of an interrupted
-/// block.
+/// The files of a block. `coverage` exists only in surveys that ask for it. `partial_...` hold the finished pings of a
+/// block that was interrupted.
 struct BlockFiles {
   std::string folder, cube, returns, coverage, mark, partial_cube, partial_returns;
 };
-/// Returns the paths of block `block`, from 0, of a head, below the folder of the survey.
+/// Returns the paths of block `block`, from 0, of a head in the folder of a survey.
 BlockFiles block_files(const std::string& run_folder, const std::string& head, std::int64_t block);
 
 /// A ping that could not be simulated, and the reason.
@@ -63,7 +64,7 @@ struct BlockMark {
 /// remains of an interrupted run. Throws Error(file).
 void finish_block(const BlockFiles& files, const std::string& mission_sha256, const std::vector<FailedPing>& failed);
 
-/// Returns the mark of a block; nothing if the block is not done, or if its mark is not whole, as after a loss of power.
+/// Returns the mark of a block; nothing if the block is not done, or if its mark is incomplete after a loss of power.
 /// Throws Error(content) for a mark that is damaged otherwise or of another mission.
 std::optional<BlockMark> find_mark(const BlockFiles& files, const std::string& mission_sha256);
 
@@ -73,10 +74,10 @@ struct StoredBlock {
   BlockFiles files;
   BlockMark mark;
 };
-/// Returns the finished blocks of a head in the order of its pings; errors as find_mark. The cost follows from the files
-/// that there are.
+/// Returns the finished blocks of a head in the order of its pings. Throws as find_mark. The cost follows from the
+/// number of files.
 std::vector<StoredBlock> stored_blocks(const std::string& folder, const SurveyRun& run, const SurveyRunHead& head);
-/// The same; throws Error(content) too if a block is not done.
+/// Returns stored_blocks. Throws Error(content), too, if a block is not done.
 std::vector<StoredBlock> all_blocks(const std::string& folder, const SurveyRun& run, const SurveyRunHead& head);
 
 /// Removes unfinished files that a killed process left of the block.

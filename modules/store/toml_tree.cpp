@@ -56,7 +56,7 @@ const TomlValue& required(const std::string& path, const TomlValue& table, const
   return *value;
 }
 
-/// Throws Error(content) for a key of very many parts: the parser calls itself for each.
+/// Throws Error(content) for a key of very many parts, because the parser calls itself for each.
 void require_shallow_keys(const std::string& path, const std::string& text) {
   constexpr std::ptrdiff_t most = 64;
   std::istringstream lines(text);
@@ -87,7 +87,7 @@ TomlValue load_toml(const std::string& path) {
 }
 
 std::string as_toml(const std::string& text) {
-  // JSON's escapes are TOML's, but for DEL, which TOML does not take as it is.
+  // JSON has the escapes of TOML, but writes DEL as it is, which TOML refuses.
   const std::string quoted = nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return boost::replace_all_copy(quoted, "\x7f", "\\u007f");
 }

@@ -9,22 +9,22 @@ namespace insonify {
 
 /// A value of a TOML document with its line number.
 struct TomlValue {
-  /// What a value is.
+  /// The type of a value.
   enum class Kind { boolean, integer, number, text, array, table, date };
   Kind kind = Kind::table;
   int line = 1;
-  double number = 0;                ///< of boolean (0, 1), integer, number
-  std::string text{};               ///< of text
-  std::vector<TomlValue> items{};   ///< of array and table
-  std::vector<std::string> keys{};  ///< of table: keys[i] names items[i]
+  double number = 0;                ///< value of a boolean (0, 1), integer or number
+  std::string text{};               ///< value of a text
+  std::vector<TomlValue> items{};   ///< entries of an array or table
+  std::vector<std::string> keys{};  ///< keys of a table: keys[i] names items[i]
 
-  /// Returns whether it is a number, with or without a fraction.
+  /// Returns true for a number, with or without a fraction.
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
-  /// The value of `key`, or nullptr.
+  /// Returns the value of `key`, or nullptr.
   const TomlValue* find(const std::string& key) const;
 };
 
-/// Reads a TOML document. Throws Error(file) if missing, Error(content) "path:line: ..." if it is not TOML.
+/// Reads a TOML document. Throws Error(file) if it is missing, Error(content) "path:line: ..." if it is not TOML.
 TomlValue load_toml(const std::string& path);
 
 /// Throws Error(content) "path:line: ...".
@@ -37,7 +37,7 @@ template <typename... Parts>
 std::string as_toml(const std::string& text);
 /// Returns a number as TOML, with the fewest digits that read back to the same bits.
 std::string as_toml(double number);
-/// Returns a list of such numbers as TOML.
+/// Returns a list of numbers as TOML, each with the fewest digits that read back to the same bits.
 std::string as_toml(const std::vector<double>& numbers);
 /// Returns a value as TOML; a table as a list of its keys in braces, for messages.
 std::string as_toml(const TomlValue& value);
@@ -47,8 +47,8 @@ std::string toml_text(const std::string& path, const TomlValue& table, const std
 /// Returns the number of a key. Throws as toml_text.
 double toml_number(const std::string& path, const TomlValue& table, const std::string& key);
 
-/// A path named in `file`: as it is if it exists or is absolute, else beside the file or in the folder above, else as
-/// it is.
+/// Returns the path of a file that `file` names: unchanged if it exists or is absolute, else beside `file` or in the
+/// folder above if it exists there, else unchanged.
 std::string path_named_in(const std::string& file, const std::string& path);
 
 }  // namespace insonify

@@ -17,7 +17,7 @@ using namespace hdf5;
 
 namespace {
 
-// Refuses pings whose layers differ from the first ping's in name, order or extent.
+// Throws Error(argument) if the layers of a ping differ from the first ping's in name, order or extent.
 void require_same_layers(const Ping& ping, const Ping& first, const std::string& path) {
   const auto fits = [&](const Layer& layer, const Layer& like) {
     return layer.name == like.name && layer.pressure.rows() == first.pressure.rows() &&
@@ -28,7 +28,7 @@ void require_same_layers(const Ping& ping, const Ping& first, const std::string&
          first.number, "; keep the same ones in every ping");
 }
 
-// Refuses pings whose maps differ from the first ping's in presence or extent.
+// Throws Error(argument) if the maps of a ping differ from the first ping's in presence or extent.
 void require_same_maps(const Ping& ping, const Ping& first, const std::string& path) {
   const auto require = [&](const auto& map, const auto& like, const char* name) {
     const bool fits =
@@ -60,7 +60,7 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
          " is an expected level; write it to a cube of its own");
 }
 
-// Refuses pings that cannot share one set of axes.
+// Throws Error(argument) for pings that cannot share one set of axes.
 void require_writable(const Cube& cube, const std::string& path) {
   if (cube.pings.empty()) fail(ErrorKind::argument, "write_cube: ", path, ": no pings, must be at least one");
   if (cube.keep_bits < 1 || cube.keep_bits > Cube::all_bits)
@@ -113,7 +113,7 @@ void write_track(const FileContext& place, hid_t file, const std::vector<Ping>& 
   write_numbers(place, file, ping_name, {pings.size()}, number.data());
 }
 
-// The water at the head of every ping, if any has another than the cube says.
+// Writes the water at the head of every ping, if any ping has other water than the cube.
 void write_water(const FileContext& place, hid_t file, const Cube& cube) {
   std::vector<double> speed, absorption;
   bool differ = false;
@@ -128,7 +128,7 @@ void write_water(const FileContext& place, hid_t file, const Cube& cube) {
   write_numbers(place, file, absorption_name, {absorption.size()}, absorption.data());
 }
 
-// How the head moves in every ping, if it does in any.
+// Writes the motion of the head in every ping, if it moves in any.
 void write_motion(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
   if (std::all_of(pings.begin(), pings.end(), [](const Ping& ping) { return ping.motion.none(); })) return;
   std::vector<Eigen::Vector3d> velocity, turn_rate;
@@ -140,7 +140,7 @@ void write_motion(const FileContext& place, hid_t file, const std::vector<Ping>&
   write_numbers(place, file, turn_rate_name, {pings.size(), 3}, turn_rate.front().data());
 }
 
-// Of a scanning head: its own turn, and time and pose of every beam.
+// Writes the turn of a scanning head, and time and pose of every beam.
 void write_scan(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
   if (!pings.front().scan) return;
   const std::size_t beams = pings.front().fan.beams();

@@ -11,20 +11,20 @@
 #include "store/cube_layout_internal.hpp"
 #include "store/cube_parts_internal.hpp"
 
-// Images of a cube, as they are written.
+// Writes the images of a cube.
 namespace insonify {
 
 using namespace hdf5;
 
 namespace {
 
-// Chunks hold one ping, all bins and up to 64 beams, fewer if that exceeds 64 MiB.
+// Returns the number of beams in a chunk of one ping and all bins: up to 64, fewer if the chunk exceeds 64 MiB.
 hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
   const hsize_t bytes_per_beam = bins * sizeof(std::complex<float>);
   return std::clamp<hsize_t>((hsize_t{64} << 20) / bytes_per_beam, 1, std::min<hsize_t>(beams, 64));
 }
 
-// HDF5 type of an image's values in the file or in memory.
+// Returns the HDF5 type of an image's values in the file or in memory.
 template <typename Number>
 Handle image_type(const FileContext& place, bool in_file) {
   if constexpr (std::is_same_v<Number, std::complex<float>>)
@@ -105,7 +105,7 @@ void write_layers(const FileContext& place, hid_t file, const Cube& cube) {
 }
 
 void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
-  // Noise-like numbers do not become smaller; masks and labels do.
+  // Compression makes masks and labels smaller, but not numbers that look like noise.
   const auto write = [&](const DatasetName& name, auto map, Packing packing) {
     if ((pings.front().*map).size() > 0)
       write_images(
@@ -131,7 +131,7 @@ void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& p
     write_label(label_second_share_name, &PixelLabels::second_share);
   }
   write_parts(place, file, pings);
-  // An empty last name is a line of its own.
+  // If the last name is empty, it is a line of its own.
   const bool ends_empty = !first.names.empty() && first.names.back().empty();
   write_attribute(place, file, label_names_attribute, joined(first.names, "\n") + (ends_empty ? "\n" : ""));
 }
