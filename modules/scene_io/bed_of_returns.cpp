@@ -21,7 +21,7 @@ RowFile returns_file(const std::string& path) {
   return file;
 }
 
-/// Place, level and range of every row that comes from a surfel, batch after batch: false alarms lie on no bed.
+/// Passes on place, level and range of every row that comes from a surfel. False alarms do not, and lie on no bed.
 template <typename Take>
 void each_return(const RowFile& file, const Take& take) {
   constexpr std::array<const char*, 6> names = {"x", "y", "z", "scalar_level_db", "scalar_range", "scalar_true_surfel"};
@@ -34,7 +34,7 @@ void each_return(const RowFile& file, const Take& take) {
     for (std::size_t i = 0; i < rows.rows; ++i) {
       const char* row = rows.bytes + i * rows.stride;
       const auto value = [&](std::size_t k) { return columns[k]->value(row); };
-      if (value(5) == Soundings::none || value(5) == -1) continue;  // of an older version, or of this one
+      if (value(5) == Soundings::none || value(5) == -1) continue;  // no surfel, in older files and in new ones
       take(Eigen::Vector3d(value(0), value(1), value(2)), value(3), value(4));
     }
   });
@@ -67,7 +67,7 @@ ReturnsMap map_of_returns(const std::string& path, int cells) {
   each_return(file, [&](const Eigen::Vector3d& place, double level_db, double range) {
     const Eigen::Array2i at = ((place.head<2>() - box.min()) / map.cell).array().floor().cast<int>();
     float& level = map.level_db(at.x(), at.y());
-    level = std::fmax(level, static_cast<float>(level_db + 40 * std::log10(range)));  // of NaN the other
+    level = std::fmax(level, static_cast<float>(level_db + 40 * std::log10(range)));  // takes the other number for NaN
   });
   return map;
 }

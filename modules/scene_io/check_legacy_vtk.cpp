@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view vtk_blanks = " \t\r\n\v\f";
 
-/// Walks over a file as VTK's reader does, and keeps nothing.
+/// Reads a file as VTK's reader does, but keeps nothing.
 class LegacyWalk {
  public:
   LegacyWalk(const std::string& path, std::string_view text) : path_(path), text_(text) {}
@@ -80,12 +80,12 @@ class LegacyWalk {
     return found->second;
   }
 
-  /// Passes over the numbers of an array, and gives each to `use` if there is one.
+  /// Skips the numbers of an array, and passes each to `use` if that is given.
   void take_numbers(const std::string& of, const std::string& type, std::size_t rows, std::size_t columns,
                     const std::function<void(std::int64_t)>& use = {}) {
     const std::size_t bits = bits_of(type);
     if (binary_) line();
-    // Even a bit takes an eighth of a byte; so products of what passes do not overflow.
+    // A number of one bit takes an eighth of a byte; so products of numbers that pass do not overflow.
     const std::size_t held = 8 * (text_.size() - at_);
     if (columns > held || (columns > 0 && rows > held / columns))
       refuse(of, " announces ", rows, " x ", columns, " numbers, the file ends before");
@@ -109,7 +109,7 @@ class LegacyWalk {
     return bytes == 4 ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);
   }
 
-  /// Cells as VTK wrote them before version 9: a count and that many corners each.
+  /// Skips cells in the form of VTK before version 9: the number of corners of each, then its corners.
   void take_old_cells(const std::string& of, std::size_t cells, std::size_t numbers) {
     std::size_t found = 0, left = 0;
     bool good = true;
@@ -126,7 +126,7 @@ class LegacyWalk {
       refuse(of, " announces ", cells, " cells in ", numbers, " numbers, its cells have other lengths");
   }
 
-  /// Cells of version 5 of the format: where each begins, and the corners of all.
+  /// Skips cells in version 5 of the format: the offset of each, then the corners of all.
   void take_cells(const std::string& of, std::size_t offsets, std::size_t corners) {
     if (offsets == 0) return;
     if (lower_case(word()) != "offsets") refuse(of, " has no OFFSETS");
@@ -160,7 +160,7 @@ class LegacyWalk {
     }
   }
 
-  /// An attribute of the points or cells.
+  /// Skips an attribute of the points or cells. Returns false if `key` begins none.
   bool take_attribute(const std::string& key) {
     if (key == "scalars") {
       const std::string name = shown(word()), type = word();

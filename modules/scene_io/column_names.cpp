@@ -14,7 +14,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// By which names columns are known; the first that a file has counts.
+/// The names by which columns are known; the first that a file has counts.
 const struct {
   std::array<Names, 3> position = {
       {{"x", "easting", "east", "e", "x_coordinate", "xcoord", "lon", "longitude", "long", "lng"},
@@ -34,7 +34,7 @@ bool holds(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// A heading such as "Depth (m)" or "z_mm": the plain name, and its unit in lower case.
+/// The plain name of a heading such as "Depth (m)" or "z_mm", and its unit in lower case.
 struct Heading {
   std::string name, unit;
 };
@@ -50,7 +50,7 @@ Heading heading_of(const std::string& text) {
   }
   std::replace(name.begin(), name.end(), ' ', '_');
   heading.name = name;
-  // A unit behind a line counts only for coordinates.
+  // A unit after an underscore counts only for coordinates.
   const std::size_t line = name.rfind('_');
   if (line == name.npos || !heading.unit.empty() || !(unit_named(name.substr(line + 1)) || name.ends_with("_deg")))
     return heading;
@@ -60,7 +60,7 @@ Heading heading_of(const std::string& text) {
   return heading;
 }
 
-/// The first column whose plain name is among `names`, in the order of `names`; null if none.
+/// Returns the first column whose plain name is among `names`, in the order of `names`; null if there is none.
 const RowTable::Column* find_column(const RowTable& table, const Names& names) {
   for (const std::string& name : names)
     for (const RowTable::Column& column : table.columns)
@@ -125,7 +125,7 @@ void take_headings(const RowTable& table, const Columns& found, RawCloud& raw) {
   raw.named_depth = raw.named_depth || holds(known.depths, heading[2].name);
   const auto quoted = [&](std::size_t axis) { return "'" + found.position[axis]->name + "'"; };
 
-  // Degrees: the command knows the columns and the zone.
+  // Coordinates in degrees: the message has a command with the columns and the zone.
   const auto degrees = [&](const Heading& h) {
     return holds(known.degrees, h.name) || h.unit.starts_with("deg") || h.unit == "\xc2\xb0";
   };
@@ -142,7 +142,7 @@ void take_headings(const RowTable& table, const Columns& found, RawCloud& raw) {
         (raw.named_depth ? ", and give --z down" : "") + if_metres;
     return;
   }
-  // Units: heights have those of the plane unless they have their own.
+  // Heights have the unit of the plane unless they have their own.
   std::array<double, 3> unit{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (heading[axis].unit.empty()) continue;

@@ -33,8 +33,9 @@ void place_outsiders(const LoadOptions& options, const RawCloud& raw, LoadedScen
       " intervals: their Lambert coefficient is the default, -27 dB");
 }
 
-/// The table of materials: the caller's by number, unless the file names its materials and the table has one of these
-/// names; then the file's numbers stand for its names, and materials that the table lacks are those of the file.
+/// Returns the table of materials: the caller's, whose indices are the file's numbers. If the file names its materials,
+/// and the caller's table has one of these names, returns the file's table, with the caller's values for materials of
+/// the same name.
 std::vector<Material> materials_of(const RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   std::vector<Material> own = raw.tags.materials;
   if (options.materials.empty()) return own;
@@ -42,7 +43,7 @@ std::vector<Material> materials_of(const RawCloud& raw, const LoadOptions& optio
   std::vector<std::string> missing;
   bool known = false;
   for (Material& material : own) {
-    if (material.name == "unlabelled") continue;  // as tables call gaps between their labels
+    if (material.name == "unlabelled") continue;  // name of the gaps between labels
     const auto same = std::find_if(options.materials.begin(), options.materials.end(),
                                    [&](const Material& other) { return other.name == material.name; });
     if (same != options.materials.end())

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// The normal with the sign that faces the viewpoint (point and viewpoint relative to the same origin).
+/// Returns the normal with the sign that faces the viewpoint (point and viewpoint relative to the same origin).
 Vector3f facing(const Vector3f& normal, const Vector3f& point, const Eigen::Vector3d& viewpoint) {
   return normal.cast<double>().dot(viewpoint - point.cast<double>()) < 0 ? Vector3f(-normal) : normal;
 }
@@ -49,7 +49,7 @@ void face_viewpoint(RawCloud& raw, LoadedScene& result) {
   result.scene.normals_oriented = true;
 }
 
-/// Estimates all normals and orients them towards the viewpoint if there is one, of a raster of heights up.
+/// Estimates all normals. Orients them towards the viewpoint if there is one, else up for a raster of heights.
 void estimate_all(RawCloud& raw, const LoadOptions& options, LoadedScene& result) {
   std::vector<std::uint32_t> all(raw.point.size());
   std::iota(all.begin(), all.end(), 0u);
@@ -72,7 +72,7 @@ void estimate_all(RawCloud& raw, const LoadOptions& options, LoadedScene& result
       std::string(raw.height > 1 ? " (an organised cloud in camera axes was seen from 0,0,0)" : ""));
 }
 
-/// Notes if most normals of the file face away from the viewpoint, which suggests inward or unoriented normals.
+/// Adds a note if most normals of the file face away from the viewpoint: inward or unoriented normals are likely.
 void compare_with_viewpoint(const RawCloud& raw, LoadedScene& result) {
   if (!seen_from_somewhere(raw)) return;
   std::size_t away = 0;

@@ -20,13 +20,13 @@ void keep_only(std::vector<T>& column, const std::vector<std::uint32_t>& keep) {
   column.resize(keep.size());
 }
 
-/// True if no number occurs twice.
+/// Returns true if no number occurs twice.
 bool unique(std::vector<std::uint32_t> ids) {
   if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
   return std::adjacent_find(ids.begin(), ids.end()) == ids.end();
 }
 
-/// Uses the file's ids if they are unique, else its row numbers, so that dropping a point renumbers no other.
+/// Sets the ids: the file's if they are unique, else its row numbers, so that dropping a point renumbers no other.
 void complete_ids(RawCloud& raw, LoadReport& report) {
   if (!raw.id.empty() && !unique(raw.id)) {
     report.notes.push_back("the ids in the file are not unique: renumbered by row");
@@ -37,7 +37,7 @@ void complete_ids(RawCloud& raw, LoadReport& report) {
   std::iota(raw.id.begin(), raw.id.end(), 0u);
 }
 
-/// Refuses intervals that are empty, refer to no given material, or overlap.
+/// Throws Error(argument) for intervals that are empty, refer to no given material, or overlap.
 void check_intervals(const LoadOptions& options, const char* who) {
   const std::vector<MaterialInterval>& intervals = options.material_field.intervals;
   for (std::size_t i = 0; i < intervals.size(); ++i) {
@@ -60,7 +60,7 @@ void check_intervals(const LoadOptions& options, const char* who) {
   }
 }
 
-/// Typical spacing [m]: of a cloud from its surfels, of a mesh from its vertices.
+/// Returns the typical spacing [m]: of the surfels of a cloud, of the vertices of a mesh.
 double typical_spacing(const RawCloud& raw, std::vector<float> areas) {
   if (!raw.triangle.empty()) {
     const double total = static_cast<double>(areas.front()) * static_cast<double>(areas.size());
@@ -201,7 +201,7 @@ LoadedScene complete_scene(RawCloud raw, const LoadOptions& options) {
   } else {
     if (raw.meaning.axes().mirrors())
       for (auto& triangle : raw.triangle) std::swap(triangle[1], triangle[2]);
-    // The corners have materials, of which the surfels take theirs.
+    // The corners have the materials; surfels take those of their corners.
     scene.point = raw.point;
     scene.material = std::move(raw.label);
     complete_materials(raw, options, result);

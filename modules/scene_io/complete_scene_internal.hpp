@@ -13,8 +13,8 @@ namespace insonify {
 /// Throws Error(argument) for invalid options. `who` names the caller.
 void check_options(const LoadOptions& options, const char* who);
 
-/// Returns the cleaned and completed scene of a raw cloud, with counts of the changes: all that load_scene does after
-/// reading.
+/// Returns the cleaned and completed scene of a raw cloud, with counts of the changes. This is all that load_scene does
+/// after reading.
 LoadedScene complete_scene(RawCloud raw, const LoadOptions& options);
 
 /// Returns the report of a cloud before it is cleaned.
@@ -57,11 +57,11 @@ inline constexpr const char* fans_out_note =
 inline constexpr const char* looks_up_note =
     "a raster of heights: its surface looks up; give the viewpoint if it was seen from below";
 
-/// Returns whether a cloud without a viewpoint is a raster of heights, whose surface looks up. The format may say so.
+/// Returns true if a cloud without a viewpoint is a raster of heights, whose surface looks up. The format may say so.
 /// Otherwise raw.raster decides, except for an organised cloud in one plane, which may be a picture of a wall.
 bool looks_up(const RawCloud& raw);
 
-/// Returns whether the rows and columns of an organised cloud, not yet cleaned, fan out from the origin of its
+/// Returns true if the rows and columns of an organised cloud, not yet cleaned, fan out from the origin of its
 /// coordinates. They do if the directions from there to neighbouring points are even where the points themselves are
 /// not. Returns false where this cannot be decided, as on smooth surfaces.
 bool fans_out_from_origin(const RawCloud& raw);
@@ -76,7 +76,7 @@ std::string bad_noise_note(std::size_t bad, std::size_t points);
 std::size_t renormalise(std::vector<Eigen::Vector3f>& normals, bool prepared);
 /// Reverses normals that look down.
 void turn_up(std::vector<Eigen::Vector3f>& normals);
-/// True if the normal is finite and not zero.
+/// Returns true if the normal is finite and not zero.
 bool usable_normal(const Eigen::Vector3f& normal);
 
 /// Returns the reason why the labels of a cloud cannot be indices into the table of materials (without a table: "label

@@ -14,13 +14,13 @@
 namespace insonify {
 namespace {
 
-constexpr double nearly_all = 0.98;  // of the points
+constexpr double nearly_all = 0.98;  // share of the points
 
-/// An organised cloud with a viewpoint: one view, of which every line of sight is known.
+/// Returns true for an organised cloud with a viewpoint: it is one view, and all its lines of sight are known.
 bool seen_at_once(const RawCloud& raw) { return raw.height > 1 && raw.viewpoint; }
 
-/// Moves heights that show noise onto the surface among their neighbours (E160); false if none does. The noise is that
-/// of the file, else of the options, else the estimate.
+/// Moves heights that show noise onto the surface among their neighbours (E160). The noise is that of the file, else of
+/// the options, else the estimate. Returns false if no height shows noise.
 bool smooth_heights(std::vector<float> noise, const LoadOptions& options, RawCloud& raw, LoadReport& report) {
   float largest = 0, farthest = 0;
   std::size_t noisy = 0;
@@ -42,8 +42,8 @@ bool smooth_heights(std::vector<float> noise, const LoadOptions& options, RawClo
   return true;
 }
 
-/// The surface between the points of a height field: of a raster the triangles of its cells, where most points show
-/// their relief or all are noisy; else those of the plan, if nearly all are of one height field.
+/// Sets the surface between the points of a height field. For a raster in which most points show their relief or all
+/// are noisy, it has the triangles of the cells; else those of the plan, if nearly all points are of one height field.
 void join_heights(const SurfelShapes& shapes, std::vector<std::array<std::uint32_t, 3>> raster,
                   const LoadOptions& options, RawCloud& raw, LoadReport& report) {
   const bool one_sheet = static_cast<double>(shapes.heights) >= nearly_all * static_cast<double>(raw.point.size());
@@ -74,7 +74,7 @@ void take_areas(SurfelShapes& shapes, const LoadOptions& options, RawCloud& raw,
                                                 : "their areas are those of their neighbours"));
 }
 
-/// Areas and, on rough surfaces, finer normals; a normal that would turn from the viewpoint stays as it is.
+/// Sets the areas and, on rough surfaces, finer normals. A normal that would turn from the viewpoint stays as it is.
 void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   SurfelShapes shapes = shapes_of(raw, options);
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
@@ -88,15 +88,15 @@ void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& repo
   take_areas(shapes, options, raw, report);
 }
 
-/// True if nearly all normals look up, or down: those of one side of a height field.
+/// Returns true if nearly all normals look up, or nearly all down: to one side of a height field.
 bool look_one_way(const std::vector<Eigen::Vector3f>& normals) {
   std::size_t up = 0, down = 0;
   for (const Eigen::Vector3f& normal : normals) up += normal.z() > 0, down += normal.z() < 0;
   return static_cast<double>(std::max(up, down)) >= nearly_all * static_cast<double>(normals.size());
 }
 
-/// The surface of a height field with normals of its own, which are those of the surface, and areas; false for other
-/// clouds.
+/// Sets the surface and the areas of a height field with normals of its own, which become those of the surface. Returns
+/// false for other clouds.
 bool complete_heights(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   if (!raw.area.empty() || raw.tags.prepared || !look_one_way(raw.normal)) return false;
   raw.raster = raster_triangles(raw.point);
@@ -124,7 +124,7 @@ double largest_area(const RawCloud& raw) {
 void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   if (raw.area.empty() && report.normals_estimated) return complete_shapes(raw, options, report);
   if (complete_heights(raw, options, report)) return;
-  raw.raster.clear();  // points with areas of their own stand for themselves
+  raw.raster.clear();  // points with areas of their own get no surface
   const double limit = largest_area(raw);
   const auto bad = [&](float area) { return !(area >= 0 && area <= limit); };
   const std::size_t wrong = static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad));

@@ -41,14 +41,14 @@ Meant<double> unit_of(double metres, const char* name, const std::string& noun) 
 
 std::string name_of_system(OGRSpatialReferenceH reference) {
   const char* name = OSRGetName(reference);
-  const char* const part = OSRIsProjected(reference) && OSRIsCompound(reference) ? "PROJCS" : nullptr;  // of its plane
+  const char* const part = OSRIsProjected(reference) && OSRIsCompound(reference) ? "PROJCS" : nullptr;  // for the plane
   const char* const authority = OSRGetAuthorityName(reference, part);
   const char* const code = OSRGetAuthorityCode(reference, part);
   if (!authority || !code) return name ? name : "unnamed";
   return std::string(authority) + ":" + code + " (" + (name ? name : "unnamed") + ")";
 }
 
-/// A TIFF of one pixel with the records of a GeoTIFF, by which GDAL reads them.
+/// Returns a TIFF of one pixel with the records of a GeoTIFF, which GDAL can read.
 std::string tiff_with(const SystemRecords& records) {
   struct Entry {
     std::uint16_t tag, type, bytes_each;
@@ -62,7 +62,7 @@ std::string tiff_with(const SystemRecords& records) {
   if (!records.keys.empty()) entries.push_back({34735, 3, 2, records.keys});
   if (!records.numbers.empty()) entries.push_back({34736, 12, 8, records.numbers});
   if (!records.texts.empty()) entries.push_back({34737, 2, 1, records.texts});
-  constexpr std::size_t directory = 10;  // behind the head and the pixel, at 8
+  constexpr std::size_t directory = 10;  // after the head and the pixel, which is at 8
   std::string values, tiff = std::string("II*\0", 4) + number(static_cast<std::uint32_t>(directory));
   tiff.resize(directory);
   tiff += number(static_cast<std::uint16_t>(entries.size()));
@@ -81,7 +81,7 @@ struct CloseDataset {
   void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }
 };
 
-/// In the child: lets GDAL read the records.
+/// Lets GDAL read the records. Runs in the child process.
 void read_records(const SystemRecords& records, const std::string& remedy, FileMeaning& meaning) {
   const QuietGdalErrors quiet;
   if (!records.wkt.empty()) {
@@ -135,7 +135,7 @@ void take_system(const std::string& path, const SystemRecords& records, const st
   ArrayReceiver sent = read_in_child(path, limits_of_file(records.wkt.size()), [&](ArraySender& to) {
     try {
       read_records(records, remedy, meaning);
-    } catch (const Error&) {  // GDAL is not there
+    } catch (const Error&) {  // GDAL is not installed
     }
     to(meaning);
   });

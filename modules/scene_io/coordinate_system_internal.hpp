@@ -4,10 +4,10 @@
 
 #include "scene_io/file_meaning.hpp"
 
-// Private to scene_io: what the coordinate system of a file means for its numbers.
+// Private to scene_io: the meaning of a file's numbers by its coordinate system.
 namespace insonify {
 
-/// A coordinate system as files state it: as WKT, else as the three records of GeoTIFF: keys (GeoKeyDirectory), numbers
+/// A coordinate system in the form of files: WKT, else the three records of GeoTIFF: keys (GeoKeyDirectory), numbers
 /// (GeoDoubleParams) and texts (GeoAsciiParams).
 struct SystemRecords {
   std::string wkt, keys, numbers, texts;
@@ -20,11 +20,11 @@ inline constexpr const char* if_metres = "; if the numbers are metres all the sa
 std::string utm_code(double longitude, double latitude);
 
 /// Sets unit, unit of the heights and name of `meaning` to those of a coordinate system, an OGRSpatialReferenceH; null
-/// says nothing. If its coordinates are no lengths, meaning.no_lengths says so, with `remedy`. Only with GDAL.
+/// changes nothing. If its coordinates are no lengths, sets meaning.no_lengths, with `remedy`. Only with GDAL.
 void take_system(void* reference, const std::string& remedy, FileMeaning& meaning);
 
-/// Does the same for the records of a file. GDAL reads them in a child process; without GDAL, or if GDAL cannot read
-/// them, only a sentence about the unit says so. Throws as read_in_child.
+/// Sets `meaning` by the coordinate system in the records of a file. GDAL reads them in a child process. Without GDAL,
+/// or if GDAL cannot read them, only a sentence about the unit says so. Throws as read_in_child.
 void take_system(const std::string& path, const SystemRecords& records, const std::string& remedy,
                  FileMeaning& meaning);
 

@@ -18,7 +18,7 @@ namespace insonify {
 namespace {
 
 constexpr const char* no_coverage = "is not the coverage of a survey";
-constexpr std::size_t joined_bytes = 64 << 20;  // of all parts together
+constexpr std::size_t joined_bytes = 64 << 20;  // memory for all parts together
 
 const std::vector<PackedRows::Column>& coverage_columns() {
   static const std::vector<PackedRows::Column> columns = {{"x", NumberType::float64},
@@ -54,7 +54,7 @@ CoveredSurfel row_at(const char* row) {
   return s;
 }
 
-/// Surfels of a part, one after the other, read in batches.
+/// Reads the surfels of a part in batches, one after the other.
 class CoverageReader {
  public:
   CoverageReader(const std::string& path, std::size_t batch)
@@ -76,13 +76,13 @@ class CoverageReader {
   std::size_t batch_, begin_ = 0, next_ = 0;
 };
 
-/// Calls use(surfel) for every surfel of the parts by ascending id, added up over them.
+/// Calls use(surfel) for every surfel of all parts by ascending id, with its entries added up.
 template <typename Use>
 void each_joined(const std::vector<std::string>& parts, const Use& use) {
   const std::size_t batch = joined_bytes / (52 * parts.size());
   std::vector<CoverageReader> readers;
   readers.reserve(parts.size());
-  using Head = std::pair<std::uint32_t, std::size_t>;  // id, and number of the part
+  using Head = std::pair<std::uint32_t, std::size_t>;  // id, and index of the part
   std::priority_queue<Head, std::vector<Head>, std::greater<>> heads;
   std::vector<std::optional<CoveredSurfel>> first;
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -107,7 +107,7 @@ void each_joined(const std::vector<std::string>& parts, const Use& use) {
   if (sum) use(*sum);
 }
 
-/// Writes `rows` surfels that make(use) passes to use(surfel).
+/// Writes `rows` surfels. make(use) passes them to use(surfel).
 template <typename Make>
 void write_coverage(const std::string& path, std::size_t rows, const Make& make) {
   PackedRows packed;
@@ -136,7 +136,7 @@ void save_coverage(const std::string& path, const std::vector<CoveredSurfel>& co
 
 void join_coverage(const std::string& path, const std::vector<std::string>& parts) {
   if (parts.empty()) fail(ErrorKind::argument, "join_coverage: ", path, ": no parts, must be at least one");
-  std::size_t rows = 0;  // the header says how many there are
+  std::size_t rows = 0;  // the header needs their number
   each_joined(parts, [&](const CoveredSurfel&) { ++rows; });
   write_coverage(path, rows, [&](const auto& use) { each_joined(parts, use); });
 }

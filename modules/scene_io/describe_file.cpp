@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_queries = 20000;
 
-/// Median distance to the nearest neighbour of up to 20 000 points spread over the cloud.
+/// Returns the median distance to the nearest neighbour of up to 20 000 points spread over the cloud.
 double median_spacing(std::span<const Eigen::Vector3f> points) {
   if (points.size() < 2) return 0;
   const SceneIndex index(points);
@@ -32,8 +32,8 @@ double median_spacing(std::span<const Eigen::Vector3f> points) {
   return distance[queries / 2];
 }
 
-/// The areas by which materials are weighed [m^2]: those of the file if all are usable, of a mesh a third of each
-/// corner's triangles; empty if there are none.
+/// Returns the areas by which materials are weighed [m^2]: those of the file if all are usable; for a corner of a mesh
+/// a third of the area of its triangles. Empty if there are none.
 std::vector<float> areas_of_points(RawCloud& raw) {
   if (raw.triangle.empty()) {
     const bool usable =
@@ -59,7 +59,7 @@ std::string add_materials(RawCloud& raw, FileDescription& file) {
   return problem;
 }
 
-/// Lists what load_scene would drop, repair or assume.
+/// Lists everything that load_scene would drop, repair or assume.
 void add_problems(const RawCloud& raw, bool fans_out, FileDescription& file) {
   std::vector<std::string>& problems = file.problems;
   problems = raw.notes;
@@ -109,7 +109,7 @@ FileDescription describe_file(const std::string& path, const AskedMeaning& asked
   const std::optional<Eigen::Vector3d> seen_from = viewpoint_by_rows(raw);
   file.viewpoint = raw.viewpoint ? raw.viewpoint : seen_from;
   file.stations = raw.stations;
-  // Surfels have the materials of the points that are kept, those of a mesh the ones of all corners.
+  // Count the materials of the points that are kept; for a mesh those of all corners.
   const bool mesh = !raw.triangle.empty();
   std::string bad_labels = mesh ? add_materials(raw, file) : "";
   file.duplicates = drop_unusable(raw);

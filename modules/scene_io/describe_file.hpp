@@ -15,25 +15,25 @@ namespace insonify {
 struct FileDescription {
   /// A column of the file.
   struct Field {
-    std::string name, type;  ///< e.g. "x", "float32"
+    std::string name, type;  ///< such as "x", "float32"
   };
   std::string path, format;
   std::size_t points = 0, triangles = 0, not_finite = 0, withheld = 0, duplicates = 0;
   std::size_t width = 0, height = 0;  ///< height > 1: organised
   std::vector<Field> fields;
-  Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< of usable points, world [m]
-  double median_spacing = 0;                                                     ///< of nearest neighbours [m]
+  Eigen::Vector3d min = Eigen::Vector3d::Zero(), max = Eigen::Vector3d::Zero();  ///< box of usable points, world [m]
+  double median_spacing = 0;                                                     ///< median distance of neighbours [m]
   bool has_normals = false, has_area = false, has_materials = false;
   std::optional<Eigen::Vector3d> viewpoint;  ///< place from which all points were seen [m]
   std::vector<Eigen::Vector3d> stations;     ///< places of the scanners of a cloud of several scans [m]
   /// Shares of the materials among the points that load_scene keeps, or among the corners of a mesh. The shares follow
   /// from the file's labels and areas; no areas are estimated. Empty without materials.
   std::vector<MaterialShare> materials;
-  std::vector<MeaningItem> meaning;   ///< what was taken as what
+  std::vector<MeaningItem> meaning;   ///< facts about the meaning of the numbers
   std::vector<std::string> problems;  ///< defects and doubts, each with a remedy
 };
 
-/// Returns the description of a cloud or mesh file, with what the caller says of its meaning. Throws as load_scene.
+/// Returns the description of a cloud or mesh file; `asked` replaces its own meaning. Throws as load_scene.
 FileDescription describe_file(const std::string& path, const AskedMeaning& asked = {});
 
 }  // namespace insonify

@@ -8,12 +8,12 @@
 namespace insonify {
 namespace {
 
-/// The numbers that checks look at, in metres of the world unless a member says otherwise.
+/// Numbers for the checks, in metres of the world unless a member states otherwise.
 struct SceneNumbers {
   const RawCloud& raw;
-  double spacing;        ///< of neighbouring points
+  double spacing;        ///< distance of neighbouring points
   double unit;           ///< [m] of one unit of the file
-  Eigen::Vector3d size;  ///< of the box
+  Eigen::Vector3d size;  ///< size of the box
   double diagonal;
   double grid;           ///< spacing on the plan, if the points were spread evenly over the box
   HeightSpread heights;  ///< low below high
@@ -27,7 +27,7 @@ std::string sentence(const Parts&... parts) {
   return text.str();
 }
 
-/// Degrees of longitude and latitude span little, and heights in metres stand far above them.
+/// Doubts lengths: degrees of longitude and latitude span little, and heights in metres stand far above them.
 std::string degrees_doubt(const SceneNumbers& n) {
   const Eigen::Vector3d farthest = n.raw.box.max.cwiseAbs().cwiseMax(n.raw.box.min.cwiseAbs());
   const bool on_earth = farthest.x() <= 360 && farthest.y() <= 90 && n.raw.meaning.unit.origin != MeaningOrigin::option;
@@ -39,7 +39,7 @@ std::string degrees_doubt(const SceneNumbers& n) {
                   "EPSG:326ZZ for a raster in UTM zone ZZ");
 }
 
-/// Single heights that do not belong to the scene.
+/// Doubts single heights that are far from all others.
 std::string outlier_doubt(const SceneNumbers& n) {
   const double far = far_deviations * n.heights.deviation;
   const bool low = n.raw.box.min.z()<n.heights.low - far, high = n.raw.box.max.z()> n.heights.high + far;
@@ -48,7 +48,7 @@ std::string outlier_doubt(const SceneNumbers& n) {
                   n.heights.low, " and ", n.heights.high, " m: no data, or stray points? --nodata V makes holes of V");
 }
 
-/// Depths that count downwards, in a file that does not say so.
+/// Doubts heights that may be depths, which count downwards, in a file that does not say so.
 std::string depth_doubt(const SceneNumbers& n) {
   const bool heights = n.raw.heights || !n.raw.raster.empty() || !n.raw.surface_name.empty();
   if (!heights || n.raw.meaning.z_down.origin != MeaningOrigin::convention || !(n.heights.low > 0)) return "";
@@ -56,7 +56,7 @@ std::string depth_doubt(const SceneNumbers& n) {
                   " m): if they are depths, give --z down");
 }
 
-/// A mesh that lies on its side.
+/// Doubts a mesh that lies on its side.
 std::string y_up_doubt(const SceneNumbers& n) {
   const bool mesh = !n.raw.triangle.empty() || n.raw.format.starts_with("OBJ");
   if (!mesh || n.raw.meaning.y_up.value || n.raw.meaning.y_up.origin != MeaningOrigin::convention) return "";
@@ -65,9 +65,9 @@ std::string y_up_doubt(const SceneNumbers& n) {
                   " m along y: if its y axis points up, give --up y");
 }
 
-/// A scan in millimetres read as metres has a spacing of metres and the size of a city, but is not flat, whereas the
-/// height of surveys of that size is a few per cent of their width. Coarse surveys in metres get a milder note, and
-/// coordinates of a map grid, far from zero compared with the scene, are in metres.
+/// Doubts metres: a scan in millimetres read as metres has a spacing of metres and the size of a city, but is not flat,
+/// whereas the height of surveys of that size is a few per cent of their width. Coarse surveys in metres get a milder
+/// note. Coordinates of a map grid, far from zero compared with the scene, are in metres.
 std::string millimetres_doubt(const SceneNumbers& n) {
   const double nearest = n.raw.box.max.cwiseAbs().cwiseMin(n.raw.box.min.cwiseAbs()).maxCoeff();
   const bool on_map_grid = nearest > 1e5 && nearest > 10 * n.diagonal;
@@ -84,7 +84,7 @@ std::string kilometres_doubt(const SceneNumbers& n) {
                   1000 * n.unit, " for kilometres)");
 }
 
-/// Rounding error of float32, half a unit in the last place.
+/// Doubts float32 coordinates whose rounding error, half a unit in the last place, is large.
 std::string precision_doubt(const SceneNumbers& n) {
   const double farthest = std::max(n.raw.box.max.cwiseAbs().maxCoeff(), n.raw.box.min.cwiseAbs().maxCoeff());
   const double step = farthest > 0 ? std::exp2(std::floor(std::log2(farthest / n.unit)) - 23) * n.unit : 0;
@@ -102,7 +102,7 @@ std::string distance_doubt(const SceneNumbers& n) {
                   " mm: stray points? Crop the cloud to the part of interest");
 }
 
-/// The checks of every scene; each returns a sentence with a remedy, or nothing.
+/// The checks of every scene. Each returns a sentence with a remedy, or nothing.
 constexpr std::string (*checks[])(const SceneNumbers&) = {
     degrees_doubt,     outlier_doubt,    depth_doubt,     y_up_doubt,
     millimetres_doubt, kilometres_doubt, precision_doubt, distance_doubt,

@@ -33,7 +33,7 @@ std::string names_of(const PointClasses& classes) {
 }  // namespace
 
 bool FileAxes::mirrors() const {
-  const bool turned = from[1] == 2;  // a quarter turn about x, of which one factor is negative
+  const bool turned = from[1] == 2;  // true: a quarter turn about x, which has one negative factor
   return (factor.prod() < 0) != turned;
 }
 

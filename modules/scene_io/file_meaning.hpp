@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// Where a fact about a file comes from: the convention of its format, the file, its numbers, or the caller.
+/// The source of a fact about a file: the convention of its format, the file, its numbers, or the caller.
 enum class MeaningOrigin { convention, file, guessed, option };
 
 /// A fact about a file.
@@ -18,7 +18,7 @@ template <typename Value>
 struct Meant {
   Value value{};
   MeaningOrigin origin = MeaningOrigin::convention;
-  std::string sentence{};  ///< what was taken as what, for people; empty for conventions
+  std::string sentence{};  ///< the fact and its source, for people; empty for conventions
 };
 
 /// A fact about a file as text.
@@ -28,16 +28,16 @@ struct MeaningItem {
   std::string sentence;
 };
 
-/// From coordinates of a file to those of the world: axis i of the world is factor[i] times axis from[i] of the file.
+/// The transformation of coordinates to the world: axis i of the world is factor[i] times axis from[i] of the file.
 struct FileAxes {
   std::array<int, 3> from{0, 1, 2};
   Eigen::Vector3d factor{1, 1, 1};  ///< [m] per unit of the file
 
-  /// Returns whether coordinates stay as they are.
+  /// Returns true if coordinates stay unchanged.
   bool is_identity() const { return *this == FileAxes{}; }
-  /// Returns whether all numbers are equal.
+  /// Returns true if all numbers are equal.
   bool operator==(const FileAxes& other) const { return from == other.from && factor == other.factor; }
-  /// Returns whether left becomes right.
+  /// Returns true if left becomes right.
   bool mirrors() const;
   /// Returns a place in the world [m].
   Eigen::Vector3d place(const Eigen::Vector3d& in_file) const {
@@ -45,32 +45,32 @@ struct FileAxes {
   }
   /// Returns a normal of a surface in the world, as long as `in_file`.
   Eigen::Vector3d normal(const Eigen::Vector3d& in_file) const;
-  /// Returns by how much areas grow whose normal in the file is `in_file`; zero stands for an unknown normal.
+  /// Returns the factor by which areas grow whose normal in the file is `in_file`; zero stands for an unknown normal.
   double area_factor(const Eigen::Vector3d& in_file) const;
 };
 
-/// What a file says about its units, axes, signs and holes. Readers set it, fill_cloud applies it, `info` shows it.
+/// Facts about units, axes, signs and holes of a file. Readers set them, fill_cloud applies them, `info` shows them.
 struct FileMeaning {
   Meant<double> unit{1};                              ///< [m] of one unit of the coordinates
-  Meant<double> unit_z{0};                            ///< [m] of one unit of the heights; 0: as `unit`
-  Meant<bool> z_down;                                 ///< heights are depths
-  Meant<bool> y_up;                                   ///< the y axis points up
+  Meant<double> unit_z{0};                            ///< [m] of one unit of the heights; 0: that of `unit`
+  Meant<bool> z_down;                                 ///< true: heights are depths
+  Meant<bool> y_up;                                   ///< true: the y axis points up
   Meant<std::string> band;                            ///< band or variable of a raster that holds the heights
   Meant<std::vector<double>> no_data;                 ///< heights that mark holes [units of the file]
-  Meant<std::vector<double>> valid;                   ///< lowest and highest number that is no hole; empty: any
+  Meant<std::vector<double>> valid;                   ///< lowest and highest number that is no hole; empty: all
   Meant<PointClasses> classes{PointClasses().set()};  ///< classes of points that are read
   Meant<std::string> system;  ///< coordinate system: "EPSG:32632 (WGS 84 / UTM zone 32N)", or its name
-  std::string no_lengths;     ///< why the coordinates are no lengths, and what to do; empty if they are
+  std::string no_lengths;     ///< reason why the coordinates are no lengths, and remedy; empty if they are
 
-  /// Returns the axes, with all that is known.
+  /// Returns the axes that follow from all facts.
   FileAxes axes() const;
-  /// Returns whether the file marks this height [units of the file] as a hole.
+  /// Returns true if the file marks this height [units of the file] as a hole.
   bool is_hole(double height) const {
     for (const double mark : no_data.value)
       if (height == mark || static_cast<float>(height) == static_cast<float>(mark)) return true;
     return false;
   }
-  /// Replaces what the caller says otherwise.
+  /// Replaces facts by those that the caller states.
   void override_by(const AskedMeaning& asked);
   /// Returns all facts that differ from the convention of any format, and unit and sign of z.
   std::vector<MeaningItem> items() const;

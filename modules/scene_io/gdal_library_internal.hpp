@@ -11,13 +11,13 @@
 #include <ogr_srs_api.h>
 
 // Private to scene_io: GDAL by its own names, from a library that is loaded when the first of its functions is called.
-// It brings some seventy others with it; linked, they would take 0.1 s of every start of a program.
+// If GDAL were linked, it and its seventy libraries would take 0.1 s at every start of a program.
 namespace insonify {
 
-/// Returns the address of a function of GDAL. Throws Error(runtime) if the library is not there or lacks it.
+/// Returns the address of a function of GDAL. Throws Error(runtime) if the library is missing or lacks it.
 void* find_in_gdal(const char* name);
 
-/// A function of GDAL, called as the one that its header declares.
+/// A function of GDAL that is called as its header declares it.
 template <auto& function>
 struct GdalFunction {
   const char* name;
@@ -99,7 +99,7 @@ INSONIFY_GDAL_FUNCTION(VSIFileFromMemBuffer);
 INSONIFY_GDAL_FUNCTION(VSIFree);
 #undef INSONIFY_GDAL_FUNCTION
 
-/// Keeps GDAL from printing; its last message is part of ours.
+/// Keeps GDAL from printing, and keeps its last message for ours.
 struct QuietGdalErrors {
   QuietGdalErrors() { CPLPushErrorHandler(CPLQuietErrorHandler), CPLErrorReset(); }
   ~QuietGdalErrors() { CPLPopErrorHandler(); }

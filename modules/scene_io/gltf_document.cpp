@@ -54,8 +54,8 @@ GltfDocument read_document(const std::string& path) {
   return document;
 }
 
-/// Refuses an extension that the document requires, if it lies at geometry and is not read. Some add no more than a name,
-/// a light or materials.
+/// Throws Error(content) if the document requires an extension of geometry that is not read. Extensions that add only a
+/// name, a light or materials are allowed.
 void check_extensions(const GltfDocument& document) {
   static const std::regex harmless(
       "EXT_mesh_gpu_instancing|KHR_mesh_quantization|KHR_(materials|lights|xmp|node).*|FB_ngon_encoding|MSFT_lod|"
@@ -66,7 +66,7 @@ void check_extensions(const GltfDocument& document) {
     const auto has = [&](const json& object) {
       return object.is_object() && object.contains("extensions") && object["extensions"].contains(name);
     };
-    bool found = name == "CESIUM_RTC";  // moves all points
+    bool found = name == "CESIUM_RTC";  // true: the extension moves all points
     for (const char* of : {"buffers", "bufferViews", "accessors", "nodes", "meshes"})
       for (const json& object : document.list(document.root, of)) {
         const json& primitives = document.list(object, "primitives");
@@ -92,7 +92,7 @@ std::string percent_decoded(const std::string& text) {
   return decoded;
 }
 
-/// Bytes of a buffer: of the chunk, of a data address, or of a file beside the document.
+/// Returns the bytes of a buffer: the chunk, the bytes of a data address, or those of a file beside the document.
 std::string buffer_of(const GltfDocument& document, const json& buffer) {
   if (!buffer.contains("uri")) return document.chunk;
   const auto address = buffer["uri"].get<std::string>();
@@ -128,7 +128,7 @@ void read_buffers(GltfDocument& document) {
   }
 }
 
-/// `rows` rows of `columns` numbers of a type in the buffer view that `place` names; `who` is used in messages.
+/// Returns `rows` rows of `columns` numbers of a type in the buffer view that `place` names. `who` begins messages.
 std::vector<double> numbers_at(const GltfDocument& document, const json& place, std::uint64_t code, std::uint64_t rows,
                                std::uint64_t columns, const std::string& who) {
   static const std::map<std::uint64_t, NumberType> types = {{5120, NumberType::int8},   {5121, NumberType::uint8},

@@ -14,7 +14,7 @@
 namespace insonify {
 namespace {
 
-/// The columns after the coordinates, which are float or double.
+/// Returns the columns after the coordinates.
 const std::vector<PackedRows::Column>& map_columns() {
   static const std::vector<PackedRows::Column> columns = [] {
     std::vector<PackedRows::Column> all = rows_of(SceneCloud{}, std::vector<CoveredSurfel>{}, CloudFormat::ply).columns;
@@ -32,7 +32,7 @@ std::size_t offset_of(const std::string& name) {
   fail(ErrorKind::runtime, "insonification has no column ", name);
 }
 
-/// The map of one or more pings: rows of a file, in memory.
+/// The map of one or more pings: the rows of a file in memory.
 class MapRows {
  public:
   explicit MapRows(const std::string& path) {
@@ -53,7 +53,7 @@ class MapRows {
     return Eigen::Vector3f(read_as<std::array<float, 3>>(row(i)).data()).cast<double>();
   }
 
-  /// Whether `other` is of the same scene: as many surfels, at the same places.
+  /// Returns true if `other` is of the same scene: as many surfels, at the same places.
   bool same_scene(const MapRows& other) const {
     if (bytes_.size() != other.bytes_.size() || wide_ != other.wide_) return false;
     const std::size_t place = coordinates();
@@ -78,7 +78,7 @@ class MapRows {
 
  private:
   std::size_t coordinates() const { return wide_ ? 24 : 12; }
-  /// Of numbers one of which may be NaN, where no ping insonified the surfel, fmax and fmin take the other.
+  /// Joins numbers by fmax or fmin, which take the other number for NaN; NaN means that no ping insonified the surfel.
   template <typename Number, typename Rule>
   static void join(char* mine, const char* its, const Rule& rule) {
     const Number joined = rule(read_as<Number>(mine), read_as<Number>(its));
@@ -90,7 +90,7 @@ class MapRows {
   std::vector<char> bytes_;
 };
 
-/// The rows of a map as one of the two formats.
+/// Returns the rows of a map in one of the two formats.
 PackedRows rows_of(const MapRows& map, CloudFormat format) {
   PackedRows rows = rows_of(SceneCloud{}, std::vector<CoveredSurfel>{}, format);
   PackedRows places;

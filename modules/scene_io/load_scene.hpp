@@ -20,17 +20,17 @@ namespace insonify {
 /// Facts that a file does not state, and settings for its completion.
 struct LoadOptions {
   std::optional<Eigen::Vector3d> viewpoint;  ///< position of the capture [m, world]; orients normals without sides
-  int normal_neighbours = 32;                ///< for the planes of estimated normals
-  double mesh_spacing = 0;                ///< [m] between surfels of a mesh or height field; 0: see LoadedScene::mesh
+  int normal_neighbours = 32;                ///< points in the plane of an estimated normal
+  double mesh_spacing = 0;                ///< between surfels of a mesh or height field [m]; 0: see LoadedScene::mesh
   AskedMeaning meaning;                   ///< units, axes and holes that the file does not state, or states wrongly
-  std::vector<Material> materials;        ///< by label; by name where the file names a material of this list. Empty:
-                                          ///< the materials in the file, or a default one per label
+  std::vector<Material> materials;        ///< index is the label, or the name if the file has a material of this name.
+                                          ///< Empty: the materials in the file, or a default one per label
   std::optional<std::uint16_t> material;  ///< gives every surfel this index into the materials
-  std::uint64_t seed = 1;                 ///< of mesh sampling
+  std::uint64_t seed = 1;                 ///< seed of mesh sampling
   int threads = 0;                        ///< 0: all cores
-  /// Standard deviation of the scan across its surfaces [m], for all points of a cloud. A `noise` field of the file
-  /// takes precedence. Empty: the noise is estimated, unless the file is a prepared one. Meshes and tiles have no
-  /// noise. Heights of height fields that show noise are smoothed by at most 2.9 of it (E160), with a note; 0: none.
+  /// Standard deviation of the scan across its surfaces [m], for all points of a cloud; 0: none. A `noise` field of the
+  /// file takes precedence. Empty: the noise is estimated, unless the file is a prepared one. Meshes and tiles have no
+  /// noise. Heights of height fields that show noise are smoothed by at most 2.9 of it (E160), with a note.
   std::optional<double> scan_noise{};
   bool keep_strays = false;        ///< points far from all others keep their estimated areas
   bool keep_columns = false;       ///< also read the columns that a scene does not use
@@ -39,12 +39,12 @@ struct LoadOptions {
 
 /// Contents of a file and changes made to them. Counts everything that was dropped or repaired.
 struct LoadReport {
-  std::string path, format;  ///< e.g. "PCD binary_compressed", "PLY binary_big_endian mesh"
+  std::string path, format;  ///< such as "PCD binary_compressed", "PLY binary_big_endian mesh"
   std::size_t points_read = 0;
   std::size_t triangles_read = 0;
   std::size_t dropped_not_finite = 0;      ///< points with NaN, infinite or absurd (> 1e9 m) coordinates
   std::size_t dropped_withheld = 0;        ///< points that a LAS file marks as withheld
-  std::size_t dropped_classes = 0;         ///< points of classes that were not asked for, of LAS also noise
+  std::size_t dropped_classes = 0;         ///< points of classes that are not read, in LAS also noise
   std::size_t dropped_duplicates = 0;      ///< points at exactly the place of an earlier one
   std::size_t dropped_degenerate = 0;      ///< triangles without area, polygons with bad indices
   std::size_t repaired_normals = 0;        ///< zero or NaN normals replaced by estimates
@@ -54,12 +54,12 @@ struct LoadReport {
   bool noise_estimated = false;
   std::size_t strays = 0;  ///< points far from all others, whose areas were cut down unless options.keep_strays
   bool materials_found = false;
-  std::optional<Eigen::Vector3d> viewpoint;  ///< used to orient the normals
+  std::optional<Eigen::Vector3d> viewpoint;  ///< viewpoint used to orient the normals
   std::vector<std::string> notes;            ///< sentences for the user: hints, assumptions, suspicions
-  std::string material_field;                ///< as the file calls it; empty: none was read
+  std::string material_field;                ///< name in the file; empty: none was read
   std::vector<std::string> other_columns{};  ///< columns of the file that the scene does not use
   std::size_t outside_intervals = 0;         ///< surfels, or corners of a mesh, whose number lies in no interval
-  FileMeaning meaning{};                     ///< of the numbers of the file, as applied
+  FileMeaning meaning{};                     ///< meaning of the numbers of the file, as applied
 };
 
 /// Result of load_scene.
@@ -75,8 +75,8 @@ struct LoadedScene {
   /// it has normals, they must look up, or all down; they become the normals of the mesh.
   std::optional<SceneMesh> mesh{};
   SceneColumns
-      columns{};  ///< of the surfels, with options.keep_columns; of a sampled mesh those of the nearest corners
-  SceneColumns corner_columns{};  ///< the same of the corners of a file's mesh
+      columns{};  ///< with options.keep_columns: columns of the surfels, for a sampled mesh of the nearest corners
+  SceneColumns corner_columns{};  ///< columns of the corners of a file's mesh
 };
 
 /// Returns the extensions that load_scene reads, separated by spaces, for messages and help: ".pcd .ply .obj ...".
@@ -109,14 +109,14 @@ LoadedScene load_scene(const std::string& path, const LoadOptions& options = {})
 /// column, naming it.
 Soundings load_soundings(const std::string& path);
 
-/// Soundings of a survey with the time of transmission [s] and the index of the mission's head, from 0. Both are empty
-/// for a single run.
+/// Soundings of a survey with the time of transmission [s] and the index of the mission's head, from 0. Both lists are
+/// empty for a single run.
 struct SurveyReturns {
   Soundings soundings;
   std::vector<double> time{};
   std::vector<std::uint32_t> head{};
 };
-/// Returns the soundings of several files, one after the other, with the columns that save_survey_returns adds. Errors
+/// Returns the soundings of several files, one after the other, with the columns that save_survey_returns adds. Throws
 /// as load_soundings.
 SurveyReturns load_survey_returns(const std::vector<std::string>& paths);
 

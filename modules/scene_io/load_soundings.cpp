@@ -7,7 +7,7 @@
 namespace insonify {
 namespace {
 
-/// A float as it is; of a whole number its 32 bits, since -1 stands for 4294967295.
+/// Returns a float unchanged; for a whole number its 32 bits, since -1 stands for 4294967295.
 template <typename Value>
 Value from_file(double value) {
   if constexpr (std::is_integral_v<Value>)
@@ -16,7 +16,7 @@ Value from_file(double value) {
     return static_cast<Value>(value);
 }
 
-/// The rows of a PLY of points, by columns.
+/// The columns of a PLY of points.
 class ReturnsTable {
  public:
   explicit ReturnsTable(const std::string& path) : path_(path) {

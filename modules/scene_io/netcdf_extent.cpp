@@ -7,8 +7,8 @@
 #include "files/input_file.hpp"
 #include "scene_io/raw_cloud_internal.hpp"
 
-// The classic netCDF formats (CDF-1, -2 and -5; NetCDF User's Guide, appendix B) do not say how long a file is, and its
-// library reads zeros behind the end: the header gives where each variable begins and how much it holds.
+// Checks the length of a file. The classic netCDF formats (CDF-1, -2 and -5; NetCDF User's Guide, appendix B) do not
+// state it, and their library reads zeros beyond the end. The header has begin and size of each variable.
 namespace insonify {
 namespace {
 
@@ -25,7 +25,7 @@ class NetcdfHeader {
   }
   std::uint64_t count() { return number(bytes_[3] == 5 ? 8 : 4); }
   std::uint64_t place() { return number(bytes_[3] == 1 ? 4 : 8); }
-  /// The bytes of a number of the type that follows.
+  /// Reads a type and returns the bytes of one of its numbers.
   std::uint64_t bytes_of_type() {
     constexpr std::uint64_t bytes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
     const std::uint64_t type = number();
@@ -44,7 +44,7 @@ class NetcdfHeader {
   }
 
  private:
-  /// Passes over bytes that are filled up to a multiple of four.
+  /// Skips `size` bytes, which are padded to a multiple of four.
   void skip(std::uint64_t size) {
     need(size);
     at_ += (size + 3) / 4 * 4;
@@ -72,11 +72,11 @@ void check_netcdf(const std::string& path) {
   std::vector<std::uint64_t> dimensions;
   for (std::uint64_t n = header.count(); n > 0; --n) {
     header.skip_name();
-    dimensions.push_back(header.count());  // 0: the records
+    dimensions.push_back(header.count());  // 0: dimension of the records
   }
   header.skip_attributes();
 
-  // The end of each variable; those of records stand one record after the other.
+  // Find the end of each variable. Variables of records stand one record after the other.
   header.number();
   std::uint64_t end = 0, record_bytes = 0, record_end = 0;
   for (std::uint64_t n = header.count(); n > 0; --n) {
@@ -94,7 +94,7 @@ void check_netcdf(const std::string& path) {
     }
     header.skip_attributes();
     const std::uint64_t size = values * header.bytes_of_type();
-    header.count();  // the same, padded
+    header.count();  // skips the padded size
     const std::uint64_t begin = header.place();
     if (of_records)
       record_bytes += (size + 3) / 4 * 4, record_end = std::max(record_end, begin + size);

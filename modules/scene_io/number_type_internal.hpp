@@ -44,7 +44,7 @@ constexpr std::array<const char*, 10> number_types = {"int8",   "uint8", "int16"
 
 constexpr const char* name_of(NumberType type) { return number_types[static_cast<std::size_t>(type)]; }
 
-/// The type of a name.
+/// Returns the type of this name.
 inline std::optional<NumberType> type_named(std::string_view name) {
   for (std::size_t k = 0; k < number_types.size(); ++k)
     if (name == number_types[k]) return static_cast<NumberType>(k);
@@ -58,12 +58,12 @@ T read_as(const char* bytes) {
   return value;
 }
 
-/// The number at `bytes`, in this machine's byte order.
+/// Returns the number at `bytes`, in this machine's byte order.
 inline double read_number(const char* bytes, NumberType type) {
   return with_type(type, [&](auto zero) { return static_cast<double>(read_as<decltype(zero)>(bytes)); });
 }
 
-/// Appends a number that a variable of that type can hold, in this machine's byte order.
+/// Appends a number that a variable of `type` can hold, in this machine's byte order.
 inline void append_number(std::string& bytes, NumberType type, double value) {
   with_type(type, [&](auto zero) {
     zero = static_cast<decltype(zero)>(value);
@@ -71,7 +71,7 @@ inline void append_number(std::string& bytes, NumberType type, double value) {
   });
 }
 
-/// True if a variable of that type can hold the value.
+/// Returns true if a variable of `type` can hold the value.
 inline bool fits(double value, NumberType type) {
   return with_type(type, [&](auto zero) {
     using Limits = std::numeric_limits<decltype(zero)>;

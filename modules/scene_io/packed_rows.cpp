@@ -20,7 +20,7 @@ void add_normals(PackedRows& rows, const std::string& prefix, const std::vector<
     rows.add(prefix + "xyz"[axis], [&normals, axis](std::size_t i) { return normals[i][axis]; });
 }
 
-/// The columns x y z of a scene or a mesh: double in a PLY, unless the origin is zero.
+/// Adds the columns x y z of a scene or mesh: double in a PLY, unless the origin is zero.
 template <typename Scene>
 void add_points(PackedRows& rows, const Scene& scene, CloudFormat format) {
   rows.rows = scene.point.size();
@@ -29,13 +29,13 @@ void add_points(PackedRows& rows, const Scene& scene, CloudFormat format) {
   });
 }
 
-/// The column of the materials of a scene or a mesh.
+/// Adds the column of the materials of a scene or mesh.
 template <typename Scene>
 void add_material(PackedRows& rows, const std::string& name, const Scene& scene) {
   rows.add(name, [&scene](std::size_t i) { return std::uint32_t{scene.material[i]}; });
 }
 
-/// What a PLY calls a type. Open3D skips columns of uint and ushort: uint32 is "int", whose bits are the same.
+/// Returns PLY's name of a type. Open3D skips columns of uint and ushort: uint32 is "int", whose bits are the same.
 const char* ply_type(NumberType type) {
   constexpr std::array<const char*, 10> names = {"char", "uchar",  "short",  "ushort", "int",
                                                  "int",  "double", "double", "float",  "double"};
@@ -101,7 +101,7 @@ PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColum
   add_normals(rows, ply ? "n" : "normal_", scene.normal);
   rows.add("area", [&scene](std::size_t i) { return scene.area[i]; });
   add_material(rows, "", scene);  // named below
-  // An int ends at 2^31 - 1; a double holds every id.
+  // The largest int is 2^31 - 1; a double holds every id.
   if (ply && std::any_of(scene.id.begin(), scene.id.end(), [](auto id) { return id > 2147483647; }))
     rows.add("id", [&scene](std::size_t i) { return static_cast<double>(scene.id[i]); });
   else

@@ -29,8 +29,8 @@ struct PackedRows {
   std::vector<Column> columns;
   std::size_t rows = 0;
   std::vector<std::string> comments;
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();           ///< of a PCD, that its VIEWPOINT gives [m]
-  std::span<const std::array<std::uint32_t, 3>> triangles{};  ///< of rows, in a PLY
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();           ///< origin of a PCD [m], which becomes its VIEWPOINT
+  std::span<const std::array<std::uint32_t, 3>> triangles{};  ///< rows that are corners of triangles, in a PLY
 
   /// Adds a column of the numbers value(row), of their type.
   template <typename Value>
@@ -58,8 +58,8 @@ struct PackedRows {
   }
 };
 
-/// Returns whether columns have the same names and their numbers the same bits. A PLY calls a uint32 int; older files call
-/// it uint.
+/// Returns true if columns have the same names and their numbers the same bits. A PLY calls a uint32 int; older files
+/// call it uint.
 template <typename Columns, typename Others>
 bool same_columns(const Columns& columns, const Others& others) {
   const auto bits = [](NumberType type) { return type == NumberType::int32 ? NumberType::uint32 : type; };
@@ -86,35 +86,35 @@ void add_places(PackedRows& rows, bool wide, const Place& place) {
   }
 }
 
-/// x y z less an origin (double if `wide`) level_db range azimuth elevation (float32) ping beam bin (uint32)
-/// true_elevation (float32) true_surfel true_material (uint32, -1 in a PLY for none); all but the coordinates named
-/// `prefix` + name, which a PLY has. Throws Error(argument) unless all columns have one length.
+/// Returns the columns x y z less an origin (double if `wide`), level_db range azimuth elevation (float32), ping beam
+/// bin (uint32), true_elevation (float32), true_surfel true_material (uint32; -1 in a PLY for none). All names but x y
+/// z begin with `prefix`, which a PLY has. Throws Error(argument) unless all columns have one length.
 PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& prefix, const char* who,
                    const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// The same for a PCD, of float32 less an origin, with intensity (level_db, float32) and label (true_material, uint32),
-/// the names by which PCL's own point types know them.
+/// Returns the rows of soundings for a PCD: float32 less an origin, with intensity (level_db, float32) and label
+/// (true_material, uint32), the names of PCL's own point types.
 PackedRows pcd_rows_of(const Soundings& soundings, const Eigen::Vector3d& origin, const char* who);
 
-/// x y z (double if `wide`), normal, area (float32), material, id (uint32; in PLY float64 if one is above 2147483647),
-/// noise (float32) if the scene has it, then the other columns.
 enum class CloudFormat { ply, pcd };
+/// Returns x y z (in PLY double unless the origin is zero), normal, area (float32), material, id (uint32; in PLY
+/// float64 if one is above 2147483647), noise (float32) if the scene has it, then the other columns.
 PackedRows rows_of(const SceneCloud& scene, CloudFormat format, const SceneColumns& columns = {});
-/// The corners of a mesh for a PLY: x y z (double if its origin is not zero), normal (float32) if it has normals,
-/// material, then the other columns, one number a corner; and its triangles. Keeps references to both arguments.
+/// Returns triangles and corners of a mesh for a PLY: x y z (double unless the origin is zero), normal (float32) if it
+/// has normals, material, then the other columns, one number a corner. Keeps references to both arguments.
 PackedRows rows_of(const SceneMesh& mesh, const SceneColumns& columns);
-/// Its x y z alone.
+/// Returns only the columns x y z of a scene.
 PackedRows bare_rows_of(const SceneCloud& scene, CloudFormat format);
 
-/// x y z (double in PLY unless the origin is zero), normal, level_db, grazing_deg, range (float32, NaN where never
-/// insonified), hits, material, id (uint32); from level_db on named scalar_ + name in PLY. `covered`: by
-/// ascending id.
+/// Returns the columns x y z (double in PLY unless the origin is zero), normal, level_db, grazing_deg, range (float32;
+/// NaN where no ping insonified), hits, material, id (uint32). From level_db on, names in PLY are scalar_ + name.
+/// `covered` has ascending ids.
 PackedRows rows_of(const SceneCloud& scene, const std::vector<CoveredSurfel>& covered, CloudFormat format);
 
-/// Header of a binary little-endian PLY of points or triangles: columns of uint32 are "int", which every reader takes.
+/// Returns the header of a binary little-endian PLY. Columns of uint32 are "int", which every reader takes.
 std::string ply_header(const PackedRows& rows);
 
-/// Header of a binary PCD, including its DATA line (written by PCL); comments become "# " lines.
+/// Returns the header of a binary PCD with its DATA line (written by PCL). Comments become "# " lines.
 std::string pcd_header(const PackedRows& rows);
 
 /// Writes header and rows to a temporary file, then renames it to `path`; leaves nothing behind on failure.

@@ -24,7 +24,7 @@ std::uint8_t pcl_type(NumberType type) {
   return type == NumberType::uint16 ? pcl::PCLPointField::UINT16 : pcl::PCLPointField::UINT32;
 }
 
-/// An unorganised PCL cloud with the rows' fields and no data yet.
+/// Returns an unorganised PCL cloud with the rows' fields and no data yet.
 pcl::PCLPointCloud2 empty_cloud(const PackedRows& rows) {
   pcl::PCLPointCloud2 cloud;
   cloud.height = 1;
@@ -55,10 +55,10 @@ class QuietPcl {
   pcl::console::VERBOSITY_LEVEL before_;
 };
 
-/// The rows of a PCL cloud, which must outlive the table; sets fields, width and height of `raw`. Throws Error(content)
-/// naming raw.path if the cloud's sizes are inconsistent.
+/// Returns the rows of a PCL cloud, which must outlive the table, and sets fields, width and height of `raw`. Throws
+/// Error(content) naming raw.path if the cloud's sizes are inconsistent.
 RowTable table_of(const pcl::PCLPointCloud2& cloud, RawCloud& raw) {
-  // In the order of PCLPointField's datatypes from 1 on.
+  // The types have the order of PCLPointField's datatypes, from 1 on.
   static const std::array types = {NumberType::int8,  NumberType::uint8,  NumberType::int16,   NumberType::uint16,
                                    NumberType::int32, NumberType::uint32, NumberType::float32, NumberType::float64,
                                    NumberType::int64, NumberType::uint64};

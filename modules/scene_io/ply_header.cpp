@@ -75,7 +75,7 @@ PlyHeader read_ply_header(const std::string& path) {
        header.lines, " lines; copy or export the file again");
 }
 
-/// Compares the announced size with the file's; each list holds at least its count.
+/// Throws Error(content) if the file is smaller than announced. A list holds at least its count.
 void check_binary(const PlyHeader& header) {
   std::size_t left = file_size_of(header.path) - header.end;
   for (const PlyElement& element : header.elements) {

@@ -14,7 +14,7 @@ struct PlyProperty {
   std::string name;
   NumberType type = NumberType::float32;
   bool is_list = false;
-  NumberType count_type = NumberType::uint8;  ///< of a list
+  NumberType count_type = NumberType::uint8;  ///< type of the count of a list
 };
 
 struct PlyElement {
@@ -38,8 +38,8 @@ struct PlyHeader {
   const PlyElement& vertex() const;
 };
 
-/// Reads the header, and checks the size of a binary file against it. Throws Error(content) if the file is not a PLY, is
-/// truncated, or has no vertices or unknown types.
+/// Reads the header, and checks the size of a binary file against it. Throws Error(content) if the file is not a PLY,
+/// is truncated, or has no vertices or unknown types.
 PlyHeader probe_ply(const std::string& path);
 
 }  // namespace insonify

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double most_off_plane = 0.01;  // of the size of a polygon
+constexpr double most_off_plane = 0.01;  // share of the size of a polygon
 
 /// Polygons with one defect.
 struct DefectivePolygons {
@@ -59,7 +59,7 @@ void add_strip(RawCloud& raw, const std::vector<std::int64_t>& corners, std::siz
 }
 
 void cut_polygons(RawCloud& raw) {
-  std::size_t tests_left = (std::size_t{1} << 28) + 100 * raw.triangle.size();  // a second and what most polygons take
+  std::size_t tests_left = (std::size_t{1} << 28) + 100 * raw.triangle.size();  // one second, and most polygons
   DefectivePolygons bent, crossed;
   std::vector<std::uint32_t> ids;
   std::vector<Vector3d> corners;

@@ -17,11 +17,11 @@ using Eigen::Vector3d, Eigen::Vector3f;
 constexpr std::size_t batch_rows = 1 << 18;
 constexpr double first_pass = 0.15, both_passes = 0.35;  // completed fractions
 
-/// Data of the file shared by both passes.
+/// Facts about the file that both passes share.
 struct Survey {
   RowFile file;
   ReadOptions reading;
-  RawCloud whole;  // tags, box, counts; no points
+  RawCloud whole;  // tags, box and counts; no points
   bool normals = false, areas = false, ids_ascend = true;
   std::size_t bad_areas = 0, bad_noise = 0;
   float largest_area = 0;
@@ -29,7 +29,7 @@ struct Survey {
   bool labels = false;
 };
 
-/// A batch of rows as in the file.
+/// A batch of rows.
 struct Batch {
   RawCloud raw;
   std::vector<Vector3d> places;
@@ -110,7 +110,7 @@ std::vector<std::uint16_t> plan_materials(const Survey& survey, const LoadOption
   return index;
 }
 
-/// The usable surfels of a batch; counts the dropped ones.
+/// Returns the usable surfels of a batch, and counts the dropped ones.
 SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, const std::vector<std::uint16_t>& material,
                       std::vector<Vector3d>& places, LoadedScene& result) {
   RawCloud& raw = batch.raw;

@@ -22,7 +22,7 @@ struct PreparedTiles {
   LoadReport report;
   TileReport tiles;
   bool normals_oriented = true;
-  bool streamed = false;  ///< read in batches
+  bool streamed = false;  ///< true: read in batches
 };
 
 /// Writes a cloud or mesh as a .tiles file and returns a report of all changes. Meshes, text and compressed files of

@@ -31,7 +31,7 @@ GeoPlace ProjectedSystem::geo_place_of(const Eigen::Vector3d&) const { return {}
 
 namespace {
 
-constexpr double beside_area_deg = 0.5;  // of a survey at the border of a system's area
+constexpr double beside_area_deg = 0.5;  // margin for surveys at the border of a system's area
 constexpr int wgs84_degrees = 4326;
 
 struct FreeTransformation {
@@ -47,7 +47,7 @@ GdalReference reference_of(int epsg, const std::string& named) {
   return reference;
 }
 
-/// A transformation without a guess where data for a datum are missing.
+/// Returns a transformation. It does not guess where data for a datum are missing.
 void* transformation_between(void* from, void* to) {
   const auto options = OCTNewCoordinateTransformationOptions();
   OCTCoordinateTransformationOptionsSetBallparkAllowed(options, 0);
@@ -64,14 +64,14 @@ struct ProjectedSystem::Parts {
   GdalReference reference;
   double unit = 1;
   bool bounded = false;
-  double west = -180, south = -90, east = 180, north = 90;  ///< of its area of use [deg]
+  double west = -180, south = -90, east = 180, north = 90;  ///< area of use [deg]
   std::string area;
-  std::unique_ptr<void, FreeTransformation> transformation, back;  ///< from longitude and latitude [deg], and to them
+  std::unique_ptr<void, FreeTransformation> transformation, back;  ///< longitude, latitude [deg] to plane, and back
 
   bool holds(double longitude, double latitude) const {
     if (!bounded) return true;
     if (latitude < south - beside_area_deg || latitude > north + beside_area_deg) return false;
-    double width = east - west;  // less than 0 across the 180th meridian
+    double width = east - west;  // negative across the 180th meridian
     if (width < 0) width += 360;
     const double away = std::remainder(longitude - (west + width / 2), 360);
     return std::abs(away) <= width / 2 + beside_area_deg;
@@ -147,7 +147,7 @@ GeoPlace ProjectedSystem::geo_place_of(const Eigen::Vector3d& place) const {
 #endif
 
 int epsg_of_system(const std::string& system) {
-  constexpr std::size_t digits = 5;  // behind "EPSG:"
+  constexpr std::size_t digits = 5;  // their offset, after "EPSG:"
   int code = 0;
   if (system.size() <= digits || (system.compare(0, digits, "EPSG:") != 0 && system.compare(0, digits, "epsg:") != 0))
     return 0;

@@ -25,8 +25,8 @@ class ProjectedSystem {
   /// most accurate for which this machine has the data. Throws Error(argument) more than half a degree outside the
   /// system's area of use, and Error(content) where PROJ finds no transformation.
   Eigen::Vector2d place_of(const GeoPlace& place) const;
-  /// Returns the place on WGS 84 of easting and northing in metres, at height z: the inverse of place_of, and errors as
-  /// there.
+  /// Returns the place on WGS 84 of easting and northing in metres, at height z: the inverse of place_of. Throws as
+  /// place_of.
   GeoPlace geo_place_of(const Eigen::Vector3d& place) const;
 
  private:
@@ -34,12 +34,12 @@ class ProjectedSystem {
   std::shared_ptr<const Parts> parts_;
 };
 
-/// Returns the code of a system as FileMeaning has it, "EPSG:32632 (WGS 84 / UTM zone 32N)", or as "EPSG:32632"; 0 for
-/// a system without a code of EPSG.
+/// Returns the EPSG code in a system of FileMeaning, "EPSG:32632 (WGS 84 / UTM zone 32N)", or in "EPSG:32632"; 0 for a
+/// system without a code of EPSG.
 int epsg_of_system(const std::string& system);
 
 /// Returns the reference of a world in a projected system: a zone on WGS 84, for which GDAL is not needed, or another.
-/// Errors as ProjectedSystem, also more than half a degree outside the area of use when the reference is used.
+/// Throws as ProjectedSystem; the reference throws, too, more than half a degree outside the area of use.
 Georeference georeference_in(int epsg, const char* option);
 
 }  // namespace insonify

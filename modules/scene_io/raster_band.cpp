@@ -28,14 +28,14 @@ using Group = std::unique_ptr<std::remove_pointer_t<GDALGroupH>, Release<GDALGro
 using Variable = std::unique_ptr<std::remove_pointer_t<GDALMDArrayH>, Release<GDALMDArrayRelease>>;
 using Attribute = std::unique_ptr<std::remove_pointer_t<GDALAttributeH>, Release<GDALAttributeRelease>>;
 
-/// An attribute of a netCDF variable in lower case; empty if it has none of this name.
+/// Returns an attribute of a netCDF variable in lower case; empty if it has none of this name.
 std::string attribute_of(const Variable& variable, const char* name) {
   const Attribute attribute(GDALMDArrayGetAttribute(variable.get(), name));
   const char* const text = attribute ? GDALAttributeReadAsString(attribute.get()) : nullptr;
   return lower_case(text ? text : "");
 }
 
-/// The numbers of an attribute; none if there is no such attribute.
+/// Returns the numbers of an attribute; empty if there is no such attribute.
 std::vector<double> numbers_of(const Variable& variable, const char* name) {
   const Attribute attribute(GDALMDArrayGetAttribute(variable.get(), name));
   std::size_t count = 0;
@@ -45,7 +45,7 @@ std::vector<double> numbers_of(const Variable& variable, const char* name) {
   return all;
 }
 
-/// The lowest and the highest number that a variable calls valid, as stored; none if it does not say so.
+/// Returns the lowest and the highest valid number of a variable, as stored; empty if it states none.
 std::vector<double> valid_range_of(const Variable& variable) {
   std::vector<double> range = numbers_of(variable, "valid_range");
   if (range.size() != 2) {
@@ -56,7 +56,7 @@ std::vector<double> valid_range_of(const Variable& variable) {
   return range[0] <= range[1] ? range : std::vector<double>();
 }
 
-/// How well a name fits heights: 2 if it says so, 0 if it says otherwise, else 1.
+/// Returns 2 if a name means heights, 0 if it means something else, else 1.
 int rank_as_heights(const std::string& name) {
   const auto says = [name = lower_case(name)](std::initializer_list<const char*> words) {
     return std::any_of(words.begin(), words.end(), [&](const char* w) { return name.find(w) != name.npos; });
@@ -67,8 +67,8 @@ int rank_as_heights(const std::string& name) {
   return lower_case(name) == "z" || says({"elev", "height", "depth", "bathy", "topo", "altitude"}) ? 2 : 1;
 }
 
-/// The index of the band that is asked for by number or name, else of the first that fits best. Names it in `raw`, and
-/// the others in its notes.
+/// Returns the index of the band with the requested number or name, else of the first that fits best. Names it in
+/// `raw`, and the others in its notes.
 std::size_t choose(RawCloud& raw, const AskedMeaning& asked, const std::vector<std::string>& names) {
   std::size_t chosen = 0;
   for (std::size_t i = 1; i < names.size(); ++i)
@@ -94,7 +94,7 @@ std::size_t choose(RawCloud& raw, const AskedMeaning& asked, const std::vector<s
   return chosen;
 }
 
-/// Facts about the variable of a netCDF grid and its axes, by CF conventions.
+/// Reads facts about the variable of a netCDF grid and its axes, by CF conventions.
 void take_attributes(RawCloud& raw, const Variable& variable, const Variable (&axes)[2]) {
   FileMeaning& meaning = raw.meaning;
   if (attribute_of(variable, "positive") == "down")
@@ -113,15 +113,15 @@ void take_attributes(RawCloud& raw, const Variable& variable, const Variable (&a
   }
 }
 
-/// The plane of the variable of heights of a netCDF file; nothing for other files, and for those of which GDAL finds
-/// none with two axes.
+/// Opens the plane of a netCDF file's variable of heights. Returns nothing for other files, and for those in which GDAL
+/// finds none with two axes.
 GdalFile open_netcdf(RawCloud& raw, const AskedMeaning& asked) {
   const GdalFile file(
       GDALOpenEx(raw.path.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY, netcdf_drivers, nullptr, nullptr));
   const Group group(file ? GDALDatasetGetRootGroup(file.get()) : nullptr);
   if (!group) return nullptr;
 
-  // Variables of two axes; a time of one step and the like may stand before them.
+  // List variables of two axes, and of more if the others, such as time, have one step.
   std::vector<std::string> names;
   char** const all = GDALGroupGetMDArrayNames(group.get(), nullptr);
   for (char** name = all; name && *name; ++name) {
@@ -153,7 +153,7 @@ GdalFile open_netcdf(RawCloud& raw, const AskedMeaning& asked) {
   return GdalFile(GDALMDArrayAsClassicDataset(plane ? plane.get() : variable.get(), 1, 0));
 }
 
-/// Any raster as GDAL presents it. Refinements of a BAG are resampled to one grid.
+/// Opens any raster as GDAL presents it. Refinements of a BAG are resampled to one grid.
 GdalFile open_bands(RawCloud& raw) {
   const auto open = [&](const char* const* options) {
     return GdalFile(GDALOpenEx(raw.path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, raster_drivers, options, nullptr));
@@ -166,7 +166,7 @@ GdalFile open_bands(RawCloud& raw) {
   return open(options);
 }
 
-/// Refuses a file that GDAL does not read, and one with too many cells.
+/// Throws Error(content) for a file that GDAL does not read, and for one with too many cells.
 void check_raster(const std::string& path, GDALDatasetH file) {
   const std::string reason = CPLGetLastErrorMsg();
   if (!file)
@@ -188,8 +188,8 @@ void check_raster(const std::string& path, GDALDatasetH file) {
 
 HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
   GDALAllRegister();
-  CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");  // else the vertical system of a GeoTIFF 1.0 is hidden
-  GDALSetCacheMax64(256 << 20);  // else a twentieth of the machine's memory, which is beyond the limits of a child
+  CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");  // shows the vertical system of a GeoTIFF 1.0
+  GDALSetCacheMax64(256 << 20);  // GDAL would use a twentieth of the machine's memory, beyond the limits of a child
   HeightBand heights{open_netcdf(raw, asked), nullptr, {0, 1, 0, 0, 0, 1}};
   const bool netcdf = heights.file != nullptr;
   if (!netcdf) heights.file = open_bands(raw);
@@ -210,7 +210,7 @@ HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
          ": does not say how large its cells are; give it corners: gdal_translate -a_ullr WEST ",
          "NORTH EAST SOUTH in.tif out.tif");
 
-  // Units: of the plane by the axes, else by the coordinate system; of the heights by the band.
+  // The unit of the plane is that of the axes, else of the coordinate system; the unit of the heights that of the band.
   FileMeaning& meaning = raw.meaning;
   const std::array<double, 6>& at = heights.transform;
   const std::string zone =

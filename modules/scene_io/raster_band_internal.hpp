@@ -20,12 +20,12 @@ using GdalFile = std::unique_ptr<void, CloseGdal>;
 struct HeightBand {
   GdalFile file;
   GDALRasterBandH band;
-  std::array<double, 6> transform;  ///< from column and row to the plane (GDALGetGeoTransform) [units of the file]
+  std::array<double, 6> transform;  ///< column and row to the plane (GDALGetGeoTransform) [units of the file]
 };
 
-/// Opens a raster, while GDAL is kept from printing, and chooses the band or netCDF variable of its heights: the one asked for, else one that is named as
-/// heights, else the first. Sets the format, field, meaning and notes of `raw`. Throws Error(content) for files that
-/// GDAL does not read, cells of unknown size, and bands that do not exist.
+/// Opens a raster, while GDAL is kept from printing, and chooses the band or netCDF variable of its heights: the one
+/// that `asked` names, else one whose name means heights, else the first. Sets the format, field, meaning and notes of
+/// `raw`. Throws Error(content) for files that GDAL does not read, cells of unknown size, and bands that do not exist.
 HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked);
 
 }  // namespace insonify

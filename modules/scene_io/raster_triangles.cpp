@@ -22,7 +22,7 @@ struct GridAxis {
   std::size_t node(float value) const { return static_cast<std::size_t>(std::lround((value - first) / step)); }
 };
 
-/// The coordinates along an axis of every step-th point, ascending.
+/// Returns the coordinates along an axis of every step-th point, ascending.
 std::vector<float> sorted_values(std::span<const Vector3f> points, int axis, std::size_t step = 1) {
   std::vector<float> values;
   values.reserve(points.size() / step + 1);
@@ -31,7 +31,7 @@ std::vector<float> sorted_values(std::span<const Vector3f> points, int axis, std
   return values;
 }
 
-/// A quantile of the gaps between sorted values, of those that are more than rounding; 0 if there are none.
+/// Returns a quantile of the gaps between sorted values, without gaps from rounding; 0 if there are none.
 double gap_between(const std::vector<float>& values, double quantile) {
   const double least = (values.back() - values.front()) / (2 * static_cast<double>(values.size()));
   std::vector<double> gaps;
@@ -43,8 +43,8 @@ double gap_between(const std::vector<float>& values, double quantile) {
   return *at;
 }
 
-/// False if a few of the points already lie so close along x and y that a grid through them has more than twenty nodes
-/// a point, which no raster has.
+/// Returns false if a few of the points are already so close along x and y that a grid through them has more than
+/// twenty nodes per point, which no raster has.
 bool may_be_grid(std::span<const Vector3f> points) {
   const auto few = static_cast<std::size_t>(8 * std::sqrt(static_cast<double>(points.size())));
   const std::size_t step = std::max<std::size_t>(1, points.size() / few);
@@ -57,7 +57,7 @@ bool may_be_grid(std::span<const Vector3f> points) {
   return nodes <= 20 * static_cast<double>(points.size());
 }
 
-/// The step is the typical gap between values.
+/// Returns the grid along an axis. Its step is the typical gap between values.
 GridAxis grid_axis(std::span<const Vector3f> points, int axis) {
   const std::vector<float> values = sorted_values(points, axis);
   const double extent = values.back() - values.front(), gap = gap_between(values, 0.5);
@@ -92,7 +92,7 @@ std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Vecto
   };
   for (std::size_t row = 0; row + 1 < y.nodes; ++row)
     for (std::size_t column = 0; column + 1 < x.nodes; ++column) {
-      // Counter-clockwise from the cell's corner nearest to the origin of the grid.
+      // Number the corners counter-clockwise from the one nearest to the origin of the grid.
       const std::uint32_t *low = &at[row * x.nodes + column], *high = low + x.nodes;
       const std::uint32_t a = low[0], b = low[1], c = high[1], d = high[0];
       const auto length = [&](std::uint32_t i, std::uint32_t j) { return (points[i] - points[j]).squaredNorm(); };

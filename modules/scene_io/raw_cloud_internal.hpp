@@ -20,13 +20,13 @@
 // Private to scene_io: output of the readers, input of complete_scene and describe_file.
 namespace insonify {
 
-/// Heights that mark holes by custom, although their files do not say so [units of the file].
+/// Heights that usually mark holes, although their files do not say so [units of the file].
 inline constexpr std::array<double, 3> usual_marks = {-9999, -32768, -99999};
 
-/// A height that is more than so many deviations of the middle 98 % away from the others is far from them.
+/// Number of deviations above which a height is far from the middle 98 % of the others.
 inline constexpr double far_deviations = 50;
 
-/// The middle 98 % of the heights of a file [its units].
+/// The spread of the middle 98 % of the heights of a file [its units].
 struct HeightSpread {
   double median = 0, deviation = 0, low = 0, high = 0;
 };
@@ -35,8 +35,8 @@ HeightSpread spread_of(std::vector<double> heights);
 
 /// Facts about the coordinates of the usable points of a file [units of the file], before usual_marks are judged.
 struct RawExtent {
-  Bounds box;                                            ///< without points whose height is one of usual_marks
-  std::vector<double> heights;                           ///< of some of these points
+  Bounds box;                                            ///< box without points whose height is one of usual_marks
+  std::vector<double> heights;                           ///< heights of some of these points
   std::array<std::size_t, usual_marks.size()> marked{};  ///< number of points with each of usual_marks
   std::array<Bounds, usual_marks.size()> marked_box{};
 
@@ -51,10 +51,10 @@ struct RawCloud {
   std::size_t width = 0, height = 1;
   std::size_t points_in_file = 0;  ///< differs from point.size() for OBJ corners
   FileMeaning meaning;
-  bool named_depth = false;  ///< the heights are called depths
+  bool named_depth = false;  ///< true: the heights are called depths
   RawExtent extent;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]
-  Bounds box;                                        ///< of the usable points, world [m]
+  Bounds box;                                        ///< box of the usable points, world [m]
   std::vector<Eigen::Vector3f> point;                ///< relative to origin [m]; all NaN if not finite, or withheld
   std::vector<Eigen::Vector3f> normal;
   std::vector<float> area;           ///< [m^2]
@@ -63,11 +63,11 @@ struct RawCloud {
   std::string label_field;           ///< name of the field of the labels in the file
   std::vector<std::uint32_t> id;
   std::vector<double> extra;               ///< numbers of ReadOptions::extra_field, if the file has it
-  std::vector<SceneColumn> columns;        ///< with ReadOptions::keep_columns: unused columns, and that of the labels
+  std::vector<SceneColumn> columns;        ///< unused columns and that of the labels, with ReadOptions::keep_columns
   std::vector<std::string> other_columns;  ///< names of the unused columns
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<std::array<std::size_t, 2>>
-      polygon;  ///< of more than three corners: its first triangle, and their number
+      polygon;  ///< with more than three corners: first triangle, number of triangles
   std::vector<std::array<std::uint32_t, 3>> raster;   ///< triangles between the points, if they are a raster of heights
   std::vector<std::array<std::uint32_t, 3>> surface;  ///< triangles between the points of a height field
   std::vector<float> surface_height;  ///< z of the surface at each point [m]; empty: the points lie on the surface
@@ -77,9 +77,9 @@ struct RawCloud {
   std::size_t withheld = 0;                              ///< points that their file marks as not to be used
   std::size_t other_classes = 0;                         ///< points of classes that are not read
   std::size_t not_finite = 0;                            ///< points that are not finite, including too_far
-  std::size_t too_far = 0;                               ///< beyond farthest_coordinate
+  std::size_t too_far = 0;                               ///< points beyond farthest_coordinate
   std::size_t holes = 0;                                 ///< points whose height marks a hole
-  bool float_coordinates = false;                        ///< stored as float32
+  bool float_coordinates = false;                        ///< true: stored as float32
   std::optional<Eigen::Vector3d> viewpoint;              ///< place from which all points were seen [m]
   std::vector<Eigen::Vector3d> stations;                 ///< places of the scanners of a cloud of several scans [m]
   std::vector<std::uint16_t> station;                    ///< index into `stations` of each point
@@ -92,13 +92,13 @@ struct RawCloud {
   std::optional<Eigen::Vector3d> seen_from(std::size_t i) const {
     return stations.empty() ? viewpoint : std::optional(stations[station[i]]);
   }
-  std::size_t unused() const { return withheld + other_classes + not_finite + holes; }  ///< points
+  std::size_t unused() const { return withheld + other_classes + not_finite + holes; }  ///< number of points
 };
 constexpr std::uint16_t no_label = 65535;
 constexpr std::size_t most_stations = 65535;
 constexpr double farthest_coordinate = 1e9;  ///< [m]; larger coordinates mean "no data"
 
-/// What rows say of their use: a bit that withholds them, and their class. In a file without these, bits are 0.
+/// The bits of a row that withhold it, and its class. In a file without these, the bits are 0.
 struct RowMarks {
   std::size_t withheld_at = 0, class_at = 0;  ///< offsets of their bytes within a row
   std::uint8_t withheld_bit = 0, class_bits = 0;
@@ -114,9 +114,9 @@ struct RowTable {
   struct Column {
     std::string name;
     NumberType type = NumberType::float64;
-    std::size_t offset = 0;       ///< within a row [bytes]
+    std::size_t offset = 0;       ///< offset within a row [bytes]
     double scale = 1, shift = 0;  ///< the value is scale x number + shift
-    std::uint8_t mask = 0xff;     ///< for a uint8: the bits that are used
+    std::uint8_t mask = 0xff;     ///< bits of a uint8 that are used
 
     double value(const char* row) const {
       if (mask != 0xff) return row[offset] & mask;
@@ -130,30 +130,30 @@ struct RowTable {
   RowMarks marks{};
 };
 
-/// The column of a name; null if there is none.
+/// Returns the column of this name; null if there is none.
 const RowTable::Column* column_named(const std::vector<RowTable::Column>& columns, const std::string& name);
 
-/// Table of doubles in row-major order, one column per name.
+/// Returns a table of doubles in row-major order, one column per name.
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers);
 
 struct ReadOptions {
   AskedMeaning meaning{};
   int threads = 0;
   MaterialField material_field{};  ///< source of the labels
-  std::string extra_field{};       ///< a column that is read as it is, or empty
+  std::string extra_field{};       ///< a column that is read unchanged; empty: none
   bool keep_columns = false;
   std::optional<Eigen::Vector3d>
-      origin{};  ///< [m] of the whole cloud, if this is a batch of it, whose meaning is known; a batch may hold no
-                 ///< usable point
+      origin{};  ///< origin of the whole cloud [m], if this is a batch of it, whose meaning is known; a batch may hold
+                 ///< no usable point
 };
 
-/// ReadOptions for `options`; labels are not read if all surfels get one material.
+/// Returns ReadOptions for `options`; labels are not read if all surfels get one material.
 ReadOptions read_options(const LoadOptions& options);
 
 /// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, and
-/// moves its viewpoint from the axes of the file to the world. raw.meaning, completed by the options and settle_meaning,
-/// says what its numbers are. Throws Error(content) if x, y, z or the requested material field is missing, or no point is
-/// finite.
+/// moves its viewpoint from the axes of the file to the world. The meaning of the numbers is raw.meaning, completed by
+/// the options and settle_meaning. Throws Error(content) if x, y, z or the requested material field is missing, or no
+/// point is finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
 /// Extends the extent of `whole` by that of `part`, and adds the counts of unused points.
@@ -163,18 +163,18 @@ void add_counts(RawCloud& whole, const RawCloud& part);
 /// box. Triangles have no holes.
 void settle_meaning(RawCloud& raw);
 
-/// Throws Error(content) if none of the file's points is usable, and says why.
+/// Throws Error(content) with the reason if none of the file's points is usable.
 void require_usable_points(const RawCloud& raw, std::size_t points);
 
-/// The origin of a cloud [m]: the one in its tags, else the centre of the box in whole metres.
+/// Returns the origin of a cloud [m]: the one in its tags, else the centre of the box in whole metres.
 Eigen::Vector3d origin_of(const RawCloud& raw);
 
-/// Coordinates of the rows in double [m], relative to raw.origin; NaN where unusable.
+/// Returns the coordinates of the rows in double [m], relative to raw.origin; NaN where unusable.
 std::vector<Eigen::Vector3d> read_places(const RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
 /// Appends a polygon as a fan of triangles; counts it as bad if a corner is not in [0, vertices).
 void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices);
-/// Appends a strip of triangles, whose sides alternate. A corner of -1 ends a strip; a triangle that has a corner twice
+/// Appends a strip of triangles, whose sides alternate. A corner of -1 ends a strip. A triangle that has a corner twice
 /// joins two strips, and is left out.
 void add_strip(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices);
 
@@ -191,7 +191,7 @@ RawCloud read_ptx(const std::string& path, const ReadOptions& options);
 RawCloud read_gltf(const std::string& path, const ReadOptions& options);
 RawCloud read_assimp(const std::string& path, const ReadOptions& options);  ///< .dae, .fbx, .off, .x3d
 RawCloud read_las(const std::string& path, const ReadOptions& options);
-RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< of heights, by GDAL
+RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< heights, by GDAL
 /// Throws Error(content) for a classic netCDF file that ends before its variables do; other files pass.
 void check_netcdf(const std::string& path);
 RawCloud read_asc(const std::string& path, const ReadOptions& options);  ///< text, or an ESRI ASCII grid

@@ -14,7 +14,7 @@ void pass(Stream& stream, RowTable::Column& column) {
   stream(column.name, column.type, column.offset, column.scale, column.shift, column.mask);
 }
 
-/// What a library may find out about a cloud.
+/// Sends or receives the facts that a library may find about a cloud.
 template <typename Stream>
 void pass(Stream& stream, RawCloud& raw) {
   stream(raw.format, raw.fields, raw.width, raw.height, raw.triangle, raw.polygon, raw.triangles_in_file,

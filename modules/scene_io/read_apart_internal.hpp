@@ -19,7 +19,7 @@ void pass(Stream& stream, FileMeaning& m) {
   stream(m.unit, m.unit_z, m.z_down, m.y_up, m.band, m.no_data, m.valid, m.classes, m.system, m.no_lengths);
 }
 
-/// The layout of the rows that a child sends. It has taken their bytes from the sender before, by take_array<char>.
+/// The layout of the rows that a child sends. The bytes came from the sender before, by take_array<char>.
 struct SentRows {
   std::vector<RowTable::Column> columns;
   std::size_t rows = 0, stride = 0;

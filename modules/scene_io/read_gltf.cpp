@@ -10,20 +10,20 @@
 #include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 
-// Meshes of glTF, where its nodes put them. Its y axis points up, as its meaning says.
+// Meshes of glTF in the places of their nodes. The y axis points up, as the meaning says.
 namespace insonify {
 namespace {
 
 using Eigen::Affine3d;
 using nlohmann::json;
 
-/// A mesh in its own axes, read once and placed by one node or many.
+/// A mesh in its own axes. It is read once, and placed by one node or more.
 struct GltfMesh {
   std::vector<double> points;  ///< x y z
   RawCloud faces;              ///< its triangles alone
 };
 
-/// Appends the triangles of a primitive whose points are `count` behind the first `first` of its mesh.
+/// Appends the triangles of a primitive, whose `count` points follow the first `first` points of its mesh.
 void add_primitive(const GltfDocument& document, const json& primitive, std::size_t first, std::size_t count,
                    RawCloud& faces) {
   const auto corner = [&](auto i) { return static_cast<std::int64_t>(first) + static_cast<std::int64_t>(i); };
@@ -47,8 +47,7 @@ void add_primitive(const GltfDocument& document, const json& primitive, std::siz
 
 GltfMesh read_mesh(const GltfDocument& document, std::uint64_t index) {
   GltfMesh mesh;
-  std::map<std::uint64_t, std::array<std::size_t, 2>>
-      known_points;  // accessors of points: where they begin, and their number
+  std::map<std::uint64_t, std::array<std::size_t, 2>> known_points;  // accessors of points: begin and number
   const json& primitives = document.list(document.entry("meshes", index), "primitives");
   if (primitives.empty()) document.refuse("a mesh has no primitives");
   for (const json& primitive : primitives) {
@@ -85,7 +84,7 @@ Affine3d transform_of(const json& node) {
   return Affine3d(Eigen::Map<const Eigen::Matrix4d>(numbers.data()));
 }
 
-/// Where the copies of a node's mesh stand: one, or those of EXT_mesh_gpu_instancing.
+/// Returns the transforms of the copies of a node's mesh: one, or those of EXT_mesh_gpu_instancing.
 std::vector<Affine3d> copies_of(const GltfDocument& document, const json& node) {
   const json extensions = node.value("extensions", json::object());
   if (!extensions.contains("EXT_mesh_gpu_instancing")) return {Affine3d::Identity()};
@@ -109,7 +108,7 @@ std::vector<Affine3d> copies_of(const GltfDocument& document, const json& node) 
   return transforms;
 }
 
-/// The scene as a whole, or all nodes without a parent if the document names no scene.
+/// Returns the nodes of the scene, or all nodes without a parent if the document names no scene.
 json roots_of(const GltfDocument& document) {
   const json& root = document.root;
   if (!document.list(root, "scenes").empty())
@@ -130,9 +129,9 @@ struct Placement {
   Affine3d world;
 };
 
-/// Follows the nodes, which must form trees, from the roots to the leaves.
+/// Returns the placements of all meshes, from the roots to the leaves. Nodes must form trees.
 std::vector<Placement> placements_of(const GltfDocument& document, RawCloud& raw) {
-  std::vector<Placement> placements, nodes;  // of nodes: the number of a node, and the place of its parent
+  std::vector<Placement> placements, nodes;  // nodes: number of a node, and place of its parent
   std::vector<bool> seen(document.list(document.root, "nodes").size());
   bool posed = document.root.contains("animations");
   for (const json& node : roots_of(document)) nodes.push_back({node.get<std::uint64_t>(), Affine3d::Identity()});
@@ -175,7 +174,7 @@ SentRows send_meshes(const GltfDocument& document, ArraySender& to, RawCloud& ra
       raw.float_coordinates = raw.float_coordinates || local.cwiseAbs().maxCoeff() > 1000;
       *place++ = p.x(), *place++ = p.y(), *place++ = p.z();
     }
-    // A mirror turns triangles over, whose outside stays where it was.
+    // A mirror turns triangles over; exchange corners so that their outside stays outside.
     const bool mirrored = world.linear().determinant() < 0;
     for (const auto& [a, b, c] : mesh.faces.triangle)
       raw.triangle.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});

@@ -11,14 +11,14 @@
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 
-// Reads LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15): a header, variable-length records, of which those that
-// describe extra bytes are read, and points as rows of packed numbers.
+// Reads LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15): a header, variable-length records, and points as rows of
+// packed numbers. The records that are read describe extra bytes or the coordinate system.
 namespace insonify {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "LAS numbers are read as they lie in the file");
 
-/// A part of a file, read with checks of its bounds.
+/// A part of a file that is read with checks of its bounds.
 struct Bytes {
   const std::string& path;
   const std::string& all;
@@ -36,11 +36,11 @@ struct Bytes {
   }
 };
 
-/// What all points have at first, by the point data record format.
+/// The fields at the begin of all points, by the point data record format.
 struct PointFormat {
-  std::size_t bytes;           ///< of a record without extra bytes
-  std::size_t classification;  ///< its offset
-  std::size_t gps_time, red;   ///< their offsets; 0: absent
+  std::size_t bytes;           ///< size of a record without extra bytes
+  std::size_t classification;  ///< offset of the class
+  std::size_t gps_time, red;   ///< offsets; 0: absent
 };
 constexpr std::array<PointFormat, 11> point_formats = {{{20, 15, 0, 0},
                                                         {28, 15, 20, 0},
@@ -59,16 +59,16 @@ constexpr std::array<NumberType, 10> extra_types = {
     NumberType::uint8, NumberType::int8,   NumberType::uint16, NumberType::int16,   NumberType::uint32,
     NumberType::int32, NumberType::uint64, NumberType::int64,  NumberType::float32, NumberType::float64};
 
-/// Adds the columns that one record of descriptions of extra bytes names, from `offset` within a row.
+/// Adds the columns in a record that describes extra bytes, from `offset` within a row.
 void add_extra_columns(const Bytes& header, std::size_t begin, std::size_t length, std::size_t offset, RowFile& file) {
   constexpr std::size_t description = 192, scaled = 8, shifted = 16;
   for (std::size_t at = begin; at + description <= begin + length; at += description) {
     const auto type = header.at<std::uint8_t>(at + 2), options = header.at<std::uint8_t>(at + 3);
     if (type == 0) {
-      offset += options;  // bytes without a meaning, as many as the options say
+      offset += options;  // as many bytes without a meaning as the options say
       continue;
     }
-    // Types from 11 on are pairs and triples of the others; later ones have no length.
+    // Types from 11 on are pairs and triples of these types; later ones have no length.
     const unsigned kind = (type - 1u) % 10, count = (type - 1u) / 10 + 1;
     const std::string name = header.text(at + 4, 32);
     if (count > 3) {
@@ -89,23 +89,23 @@ void add_extra_columns(const Bytes& header, std::size_t begin, std::size_t lengt
   }
 }
 
-/// Columns that the point format has.
+/// Adds the columns of the point format.
 void add_columns(const Bytes& header, const PointFormat& format, bool low_bits, RowFile& file) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     file.columns.push_back({std::string(1, static_cast<char>('x' + axis)), NumberType::int32, 4 * axis,
                             header.at<double>(131 + 8 * axis), header.at<double>(155 + 8 * axis)});
   file.columns.push_back({"intensity", NumberType::uint16, 12});
   file.columns.push_back({"classification", NumberType::uint8, format.classification});
-  file.columns.back().mask = low_bits ? 0x1f : 0xff;  // the others are flags
+  file.columns.back().mask = low_bits ? 0x1f : 0xff;  // the other bits are flags
   if (format.gps_time > 0) file.columns.push_back({"gps_time", NumberType::float64, format.gps_time});
   if (format.red == 0) return;
   for (std::size_t k = 0; k < 3; ++k)
     file.columns.push_back({std::array{"red", "green", "blue"}[k], NumberType::uint16, format.red + 2 * k});
 }
 
-constexpr std::size_t most_record = 1 << 16;  // of the extended ones that are read [bytes]
+constexpr std::size_t most_record = 1 << 16;  // largest extended record that is read [bytes]
 
-/// Reads the variable-length records between header and points, and behind the points.
+/// Reads the variable-length records between header and points, and after the points.
 SystemRecords read_records(const PointFormat& format, RowFile& file) {
   SystemRecords system;
   const auto take = [&](const Bytes& bytes, std::size_t at, std::size_t begin, std::size_t length) {
@@ -127,7 +127,7 @@ SystemRecords read_records(const PointFormat& format, RowFile& file) {
     take(header, at, at + 54, length);
     at += 54 + length;
   }
-  // Extended records, of LAS 1.4.
+  // LAS 1.4 has extended records, too.
   if (header.at<std::uint8_t>(25) < 4) return system;
   const BinaryFile all(file.path, BinaryFile::Mode::read);
   const std::size_t size = file_size_of(file.path);
@@ -149,7 +149,7 @@ SystemRecords read_records(const PointFormat& format, RowFile& file) {
   return system;
 }
 
-/// The command for coordinates in degrees, with the zone of the middle of the file.
+/// Returns the command for coordinates in degrees, with the zone of the middle of the file.
 std::string project_remedy(const Bytes& header) {
   const auto middle = [&](std::size_t at) { return 0.5 * (header.at<double>(at) + header.at<double>(at + 8)); };
   const std::string code = utm_code(middle(179), middle(195));

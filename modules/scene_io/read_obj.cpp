@@ -8,7 +8,7 @@
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 
-// A reader of our own, since PCL's and VTK's keep OBJ coordinates as float: 0.5 m steps at a UTM northing.
+// Reads OBJ without PCL and VTK, which keep its coordinates as float: 0.5 m steps at a UTM northing.
 namespace insonify {
 namespace {
 
@@ -32,13 +32,13 @@ void read_numbers(const Obj& obj, std::string_view rest, std::size_t line, std::
   }
 }
 
-/// Index from 0 of an OBJ reference (from 1, or negative from the end); -2 if it points nowhere.
+/// Returns the index from 0 of an OBJ reference (from 1, or negative from the end); -2 if it points nowhere.
 std::int64_t resolve(std::int64_t reference, std::size_t held) {
   const std::int64_t index = reference > 0 ? reference - 1 : static_cast<std::int64_t>(held) + reference;
   return reference != 0 && index >= 0 ? index : -2;
 }
 
-/// A corner "v", "v/t", "v//n" or "v/t/n".
+/// Returns the position and normal of a corner "v", "v/t", "v//n" or "v/t/n".
 std::array<std::int64_t, 2> read_corner(const Obj& obj, std::string_view word, std::size_t line) {
   const std::size_t first = std::min(word.find('/'), word.size());
   const std::size_t second = first < word.size() ? word.find('/', first + 1) : word.npos;
@@ -57,7 +57,7 @@ Obj parse(const std::string& path, const std::string& text) {
   std::string_view line;
   std::string whole;
   while (lines.next_filled(line)) {
-    // A line without its comment goes on behind a backslash at its end.
+    // A backslash at the end of a line, without its comment, joins it with the next.
     const auto text_of = [](std::string_view l) { return trimmed(l.substr(0, l.find('#'))); };
     for (whole = text_of(line); whole.ends_with('\\') && lines.next(line);) whole.back() = ' ', whole += text_of(line);
     std::string_view rest = whole;
@@ -76,7 +76,7 @@ Obj parse(const std::string& path, const std::string& text) {
   return obj;
 }
 
-/// One vertex per pair of position and normal that the faces use; a vertex without normal gets zeros.
+/// The vertices: one per pair of position and normal that the faces use. A vertex without normal has zeros.
 struct ObjCorners {
   std::vector<double> rows;  ///< x y z nx ny nz
   std::unordered_map<std::uint64_t, std::int64_t> known;

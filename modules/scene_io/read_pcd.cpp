@@ -11,7 +11,7 @@
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 
-// A reader of our own: PCL 1.13 takes words that are not numbers, and rows that are too short or too long, without a message.
+// Reads PCD without PCL 1.13, which takes words that are not numbers, and rows of a wrong length, without a message.
 namespace insonify {
 namespace {
 
@@ -28,7 +28,7 @@ struct Header {
   std::vector<double> viewpoint = {0, 0, 0, 1, 0, 0, 0};  ///< position, quaternion w x y z
   std::string data;
   SceneTags tags;
-  std::size_t end = 0, lines = 0;  ///< [bytes] and lines up to the data
+  std::size_t end = 0, lines = 0;  ///< offset of the data [bytes], and lines before it
 
   std::size_t stride() const {
     std::size_t bytes = 0;
@@ -131,12 +131,12 @@ Header read_pcd_header(const std::string& path) {
        " bytes of data, the file holds ", found, "; copy or export the file again");
 }
 
-// LZF writes at most 264 bytes for three.
+// LZF writes at most 264 bytes for three bytes.
 constexpr std::uint32_t lzf_most = 88;
 
-/// Byte counts of the compressed block against the file and the header.
+/// Compares the sizes of the compressed block with the file and the header. Throws Error(content) if they differ.
 void check_compressed(const Header& header, std::size_t held) {
-  // Writers do not agree on whether the block holds them.
+  // Writers differ in whether the block has padding fields: refuse them.
   if (std::any_of(header.fields.begin(), header.fields.end(), [](const Field& f) { return f.name == "_"; }))
     fail(ErrorKind::content, header.path, ": compressed points with padding fields '_' cannot be read; export them as ",
          "DATA binary or DATA ascii, or without these fields");
@@ -153,11 +153,11 @@ void check_compressed(const Header& header, std::size_t held) {
          packed, ", which holds at most ", lzf_most, " times its size; copy or export the file again");
 }
 
-/// What the header announces against the file.
+/// Throws Error(content) if the file has fewer data than its header announces.
 void check_data(const Header& header) {
   const std::size_t held = file_size_of(header.path) - header.end, stride = header.stride();
   if (header.data == "ascii") {
-    // A number takes two bytes with the blank that follows; which row lacks some, read_text_rows() says.
+    // A number takes two bytes with the blank after it. read_text_rows() finds the row that lacks numbers.
     std::size_t row = 0;
     for (const Field& f : header.fields) row += 2 * f.count;
     if (header.points > held || row > held + 1) cut_off(header, std::max(header.points, row), held);
@@ -168,11 +168,11 @@ void check_data(const Header& header) {
   }
 }
 
-/// Points of text as the rows of a binary file, whose padding is 0.
+/// Returns points of text as the rows of a binary file, whose padding is 0.
 std::shared_ptr<const std::string> read_text_rows(const Header& header) {
   struct Number {
     NumberType type;
-    std::size_t padding;  ///< bytes of it, instead of a number
+    std::size_t padding;  ///< bytes of padding in place of a number
   };
   std::vector<Number> columns;
   for (const Field& f : header.fields)
@@ -194,7 +194,7 @@ std::shared_ptr<const std::string> read_text_rows(const Header& header) {
     for (const auto& [type, padding] : columns) {
       const std::string_view word = take_word(rest);
       double value = 0;
-      // A missing word is reported with both counts.
+      // Leave a missing word to the message with both counts below.
       if (!word.empty() && (!to_number(word, value) || !fits(value, type)))
         refuse("a number in this point row that fits ", name_of(type), ", found '", shown(word));
       rows.append(padding, '\0');
@@ -206,7 +206,7 @@ std::shared_ptr<const std::string> read_text_rows(const Header& header) {
   return std::make_shared<const std::string>(std::move(rows));
 }
 
-/// Unpacks points, which stand field by field, into rows.
+/// Unpacks points, which are stored field by field, into rows.
 void unpack(const Header& header, std::size_t checked_bytes, char* rows) {
   const std::string bytes = read_whole_file(header.path);
   if (bytes.size() != checked_bytes)
@@ -229,12 +229,12 @@ void unpack(const Header& header, std::size_t checked_bytes, char* rows) {
 }
 
 std::optional<Eigen::Vector3d> viewpoint_of(const Header& header) {
-  // The identity pose is what writers put when they know nothing.
+  // Writers put the identity pose if they know none.
   if (header.viewpoint == std::vector<double>{0, 0, 0, 1, 0, 0, 0}) return std::nullopt;
   return Eigen::Vector3d(header.viewpoint[0], header.viewpoint[1], header.viewpoint[2]);
 }
 
-/// Where the rows of a binary file are, and how those of others are read.
+/// Returns the layout of the rows of a binary file, or the function that reads those of another file.
 RowFile row_file(const Header& header) {
   RowFile file{header.path, "PCD binary", {},          header.points,       header.stride(),
                header.end,  false,        header.tags, viewpoint_of(header)};

@@ -11,7 +11,7 @@
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/row_file_internal.hpp"
 
-// A reader of our own: PCL's takes no strips and no lists of vertices, and ends at counts with a sign.
+// Reads PLY without PCL, which takes no strips and no lists of vertices, and ends at counts with a sign.
 namespace insonify {
 namespace {
 
@@ -66,13 +66,13 @@ class PlyWalk {
     }
   }
 
-  /// The vertex of a number; -1 for -1, which ends a strip, and -2 for one that does not exist.
+  /// Returns the vertex of a number; -1 for -1, which ends a strip, and -2 for one that does not exist.
   std::int64_t vertex_of(double number) const {
     if (number == -1) return -1;
     return number >= 0 && number < static_cast<double>(header_.vertex().count) ? static_cast<std::int64_t>(number) : -2;
   }
 
-  /// The next number of this row.
+  /// Returns the next number of this row.
   double next(NumberType type) {
     if (ascii_) {
       double number = 0;

@@ -31,8 +31,8 @@ RawCloud read_raster(const std::string& path, const ReadOptions&) {
 
 namespace {
 
-/// Calls use(x, y, z) for the cells with a height, row by row [units of the file]. Returns the number of cells outside the
-/// valid range.
+/// Calls use(x, y, z) for the cells with a height, row by row [units of the file]. Returns the number of cells outside
+/// the valid range.
 template <typename Use>
 std::size_t for_each_height(const RawCloud& raw, const HeightBand& heights, Use&& use) {
   const GDALRasterBandH band = heights.band;
@@ -108,8 +108,8 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options) {
 
 namespace {
 
-/// Refuses an ESRI ASCII grid with fewer numbers than its head announces, where GDAL would see zeros, or that ends
-/// within a line.
+/// Throws Error(content) for an ESRI ASCII grid that has fewer numbers than its head announces, where GDAL would see
+/// zeros, or that ends within a line.
 void check_ascii_grid(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::uint64_t columns = 0, rows = 0, numbers = 0;

@@ -12,14 +12,14 @@
 #include "scene_io/raw_cloud_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 
-// A reader of our own: VTK's keeps coordinates of text as float, and takes neither a blank before 'solid' nor long names.
+// Reads STL without VTK, which keeps coordinates of text as float, and takes no blank before 'solid' and no long names.
 namespace insonify {
 namespace {
 
 constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
 constexpr std::size_t any_vertex = std::numeric_limits<std::uint32_t>::max();
 
-/// Corners at the same place are one vertex.
+/// The vertices of a file: corners at the same place are one vertex.
 struct StlVertices {
   std::vector<double> rows;  ///< x y z
   std::unordered_map<std::array<double, 3>, std::int64_t, boost::hash<std::array<double, 3>>> known;
@@ -32,7 +32,7 @@ struct StlVertices {
   }
 };
 
-/// Facets of text. A solid may have any name, and may have blanks and empty lines before it.
+/// Reads facets of text. A solid may have any name, and blanks and empty lines before it.
 void read_text_facets(const std::string& text, RawCloud& raw, StlVertices& vertices) {
   constexpr std::array words = {"facet", "outer", "loop", "endloop", "end"};
   LineReader lines(text);
@@ -49,7 +49,7 @@ void read_text_facets(const std::string& text, RawCloud& raw, StlVertices& verti
       const std::string_view word = take_word(rest);
       last = lower_case(std::string(word));
       if (last == "solid" || last == "endsolid") {
-        rest = {};  // a name
+        rest = {};  // the rest is a name
       } else if (last == "normal") {
         for (int axis = 0; axis < 3; ++axis) take_word(rest);
       } else if (last == "vertex") {
@@ -71,7 +71,7 @@ void read_text_facets(const std::string& text, RawCloud& raw, StlVertices& verti
          "'; copy or export the file again");
 }
 
-/// Facets of 50 bytes: a normal, three corners, and two bytes that programs use for colours.
+/// Reads facets of 50 bytes: a normal, three corners, and two bytes that programs use for colours.
 void read_binary_facets(const std::string& bytes, RawCloud& raw, StlVertices& vertices) {
   for (std::size_t t = 0; t < read_as<std::uint32_t>(bytes.data() + header_bytes - 4); ++t) {
     const char* number = bytes.data() + header_bytes + t * triangle_bytes + 3 * sizeof(float);
@@ -83,7 +83,7 @@ void read_binary_facets(const std::string& bytes, RawCloud& raw, StlVertices& ve
   }
 }
 
-/// Whether the file is text. The size of a binary file says how many triangles it has, whatever its first bytes are.
+/// Returns true if the file is text. A file of the size of its triangles is binary, whatever its first bytes are.
 bool is_text_stl(const std::string& path, const std::string& bytes) {
   const std::size_t announced = bytes.size() < header_bytes ? 0 : read_as<std::uint32_t>(&bytes[header_bytes - 4]);
   const std::size_t size = header_bytes + triangle_bytes * announced;

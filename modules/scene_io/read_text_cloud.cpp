@@ -12,7 +12,7 @@
 namespace insonify {
 namespace {
 
-/// A number with a point or a comma before its decimals, and an exponent after E or D.
+/// Reads a number with a point or a comma before its decimals, and an exponent after E or D.
 bool to_real(std::string_view cell, double& value, bool& comma) {
   if (to_number(cell, value)) return true;
   std::string text(cell);
@@ -28,7 +28,7 @@ bool to_real(std::string_view cell, double& value, bool& comma) {
 char delimiter_of(std::string_view line) {
   if (line.find(';') != line.npos) return ';';
   if (line.find(',') == line.npos) return ' ';
-  // Commas within numbers with blanks between them.
+  // Commas are decimal commas if the words between blanks are numbers.
   double value = 0;
   bool comma = false;
   for (int k = 0; k < 3; ++k)
@@ -38,7 +38,7 @@ char delimiter_of(std::string_view line) {
 
 constexpr std::size_t most_columns = 4096;
 
-/// The first most_columns + 1 cells of a line; an empty cell after the last delimiter does not count.
+/// Splits a line into its first most_columns + 1 cells; an empty cell after the last delimiter does not count.
 void split(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
   cells.clear();
   if (delimiter == ' ') {
@@ -60,8 +60,8 @@ bool is_comment(std::string_view line) {
   return line.starts_with("#") || line.starts_with("//") || line.starts_with("%");
 }
 
-/// The names in a line without its comment marks. With `marks`, delimiters within quotes and brackets count as letters,
-/// and so do blanks before brackets.
+/// Returns the names in a line without its comment marks. With `marks`, delimiters within quotes and brackets count as
+/// letters, and so do blanks before brackets.
 std::vector<std::string> names_in(std::string_view line, char delimiter, bool marks) {
   line.remove_prefix(std::min(line.find_first_not_of("#/% \t"), line.size()));
   std::vector<std::string> names(1);
@@ -84,16 +84,16 @@ std::vector<std::string> names_in(std::string_view line, char delimiter, bool ma
 }
 
 struct TextRows {
-  std::vector<std::vector<std::string>> headings;  ///< ways to read the line that names the columns; none without one
+  std::vector<std::vector<std::string>> headings;  ///< possible names in the line of column names; empty without one
   std::vector<std::string> names;
   std::vector<double> numbers;
-  std::size_t columns = 0, announced = 0;  ///< announced: by a line that holds one whole number
+  std::size_t columns = 0, announced = 0;  ///< announced: number of points in a line that holds one whole number
   bool list = false, comma = false;  ///< list: more numbers may follow the columns; comma: a number has a decimal comma
 
   std::size_t count() const { return columns == 0 ? 0 : numbers.size() / columns; }
 };
 
-/// Takes a line before the first row if it names the columns. Throws if it names others.
+/// Reads the names of a line before the first row. Returns true if they name the coordinates; throws for other names.
 bool take_names(std::string_view line, const std::string& where, TextRows& rows) {
   std::vector<std::string> first;
   for (const char delimiter : {';', '\t', ',', ' '}) {
@@ -111,17 +111,17 @@ bool take_names(std::string_view line, const std::string& where, TextRows& rows)
     return !to_real(name, value, comma);
   };
   if (first.size() > 1 && !is_comment(line) && std::all_of(first.begin(), first.end(), is_word))
-    find_columns(table_of_doubles(first, {}), where, "");  // throws
+    find_columns(table_of_doubles(first, {}), where, "");  // throws, because coordinates are missing
   return false;
 }
 
-/// Settles the columns by the first row, of `cells` numbers.
+/// Chooses the names of the columns by the first row, which has `cells` numbers.
 void settle_columns(TextRows& rows, std::size_t cells) {
   rows.columns = cells;
   if (rows.headings.empty()) return;
   for (std::vector<std::string>& names : rows.headings)
     if (names.size() == cells + 1 && names.back().empty()) names.pop_back();
-  // A list at the end, as the tracks of COLMAP, has any length.
+  // A list at the end, such as the tracks of COLMAP, has any length.
   rows.names = rows.headings.front();
   rows.list = rows.names.size() != cells && rows.names.back().find("[]") != std::string::npos;
   const auto found = std::find_if(rows.headings.begin(), rows.headings.end(),
@@ -177,7 +177,7 @@ TextRows read_rows(const std::string& path, const std::string& text) {
   return rows;
 }
 
-/// True if columns 4 to 6 hold unit vectors in every row, within 2 %.
+/// Returns true if columns 4 to 6 hold unit vectors in every row, within 2 %.
 bool has_unit_vectors(const TextRows& rows) {
   if (rows.columns < 6 || rows.numbers.empty()) return false;
   for (std::size_t at = 0; at < rows.numbers.size(); at += rows.columns) {

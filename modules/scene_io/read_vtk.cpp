@@ -20,18 +20,18 @@
 #include "scene_io/read_apart_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 
-// VTK allocates memory for whatever a file announces, and reads beyond it: files are checked first.
+// VTK allocates memory for everything that a file announces, and reads beyond its end: files are checked first.
 namespace insonify {
 namespace {
 
-/// Collects what VTK would print.
+/// Collects the messages that VTK would print.
 class VtkReadMessages : public vtkOutputWindow {
  public:
   static VtkReadMessages* New() { return new VtkReadMessages; }
   void DisplayText(const char*) override {}
   void DisplayErrorText(const char* text) override { add(errors, text); }
   void DisplayWarningText(const char* text) override { add(warnings, text); }
-  /// The legacy reader warns of missing numbers with a text that begins with Error.
+  /// VTK's legacy reader warns of missing numbers with a text that begins with Error.
   void DisplayGenericWarningText(const char* text) override {
     add(std::string_view(text).find("Error") == std::string_view::npos ? warnings : errors, text);
   }
@@ -39,7 +39,7 @@ class VtkReadMessages : public vtkOutputWindow {
   std::vector<std::string> errors, warnings;
 
  private:
-  /// VTK's text is "ERROR: In file.cxx, line n\nvtkX (0x..): message\n\n": the message alone is kept.
+  /// Keeps the message alone of VTK's text "ERROR: In file.cxx, line n\nvtkX (0x..): message\n\n".
   void add(std::vector<std::string>& list, const char* text) {
     std::string message = text;
     message.erase(0, std::min(message.find('\n') + 1, message.size()));
@@ -68,10 +68,10 @@ class QuietVtk {
   vtkLogger::Verbosity verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
 };
 
-// Numbers that a byte of a file can stand for: zlib packs at most 1032 bytes into one.
+// Largest number of bytes that zlib packs into one.
 constexpr double unpacked_per_byte = 1032;
 
-/// A count among the attributes; 0 if absent.
+/// Returns a count among the attributes; 0 if absent.
 double count_in(vtkXMLDataElement* element, const char* name) {
   double value = 0;
   const char* text = element->GetAttribute(name);
@@ -84,7 +84,7 @@ std::string name_of_array(vtkXMLDataElement* element) {
 }
 
 /// A reader of .vtp with two checks. It refuses arrays that a file of this size cannot hold before it allocates memory.
-/// It refuses arrays that end before their announced number; VTK leaves uninitialised memory there.
+/// It refuses arrays with fewer numbers than announced, in which VTK leaves uninitialised memory.
 class CheckedXmlReader : public vtkXMLPolyDataReader {
  public:
   static CheckedXmlReader* New() { VTK_STANDARD_NEW_BODY(CheckedXmlReader); }
@@ -132,7 +132,7 @@ void check_xml(const std::string& path) {
          what_it_looks_like(path));
 }
 
-/// What VTK reads; what it says goes to its output window.
+/// Returns the data that VTK reads. Its messages go to its output window.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string& path) {
   const vtkNew<vtkPolyDataReader> legacy;
   const vtkNew<CheckedXmlReader> xml;
@@ -148,7 +148,7 @@ vtkSmartPointer<vtkPolyData> read_polydata(const std::string& path) {
   return data;
 }
 
-/// Polygons and triangle strips become triangles.
+/// Adds polygons and triangle strips as triangles.
 void add_faces(vtkPolyData* data, RawCloud& raw) {
   if (!data->GetPolys()->IsValid() || !data->GetStrips()->IsValid())
     fail(ErrorKind::content, raw.path, ": its polygons begin and end at other places than its corners; the file is ",
@@ -169,7 +169,7 @@ void add_faces(vtkPolyData* data, RawCloud& raw) {
   }
 }
 
-/// Points, normals and one-component point arrays as rows of doubles.
+/// Sends points, normals and point arrays of one component as rows of doubles.
 SentRows send_rows(vtkPolyData* data, RawCloud& raw, ArraySender& to) {
   std::vector<vtkDataArray*> arrays = {data->GetPoints()->GetData()};
   std::vector<std::string> names = {"x", "y", "z"};

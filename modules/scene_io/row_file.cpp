@@ -11,7 +11,7 @@
 namespace insonify {
 
 std::optional<RowFile> find_ply_rows(const std::string& path) {
-  // Text files are checked line by line when read.
+  // The reader of text files checks them line by line.
   if (read_beginning(path, 64).find("format ascii") != std::string::npos) return std::nullopt;
   const PlyHeader header = probe_ply(path);
   if (header.encoding == "ascii") return std::nullopt;

@@ -22,26 +22,26 @@ struct RowFile {
   bool big_endian = false;
   SceneTags tags;
   std::optional<Eigen::Vector3d> viewpoint;  ///< [file units]
-  std::vector<std::string> comments{};       ///< of a PLY
+  std::vector<std::string> comments{};       ///< comments of a PLY
   RowMarks marks{};
   FileMeaning meaning{};
   std::vector<std::string> notes{};
 };
 
-/// The layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a whole.
-/// Throws as load_scene for files that are missing, truncated or of another format than their extension.
+/// Return the layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a
+/// whole. Throw as load_scene for files that are missing, truncated or of another format than their extension.
 std::optional<RowFile> find_ply_rows(const std::string& path);
 std::optional<RowFile> find_pcd_rows(const std::string& path);
 std::optional<RowFile> find_las_rows(const std::string& path);
 
-/// The rows of a binary little-endian PLY of points. Throws Error(file) if it cannot be read, Error(content) "path:
-/// `otherwise`" for any other file.
+/// Returns the layout of a binary little-endian PLY of points. Throws Error(file) if it cannot be read, Error(content)
+/// "path: `otherwise`" for any other file.
 RowFile rows_of_ply(const std::string& path, const char* otherwise);
 
-/// What the header of the file says, without points.
+/// Returns the facts in the header of the file, without points.
 RawCloud raw_of(const RowFile& file);
 
-/// `count` rows starting at `first`, in this machine's byte order.
+/// Returns `count` rows starting at `first`, in this machine's byte order.
 RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count);
 
 /// Reads a file in batches, and calls use(RowTable) for each.

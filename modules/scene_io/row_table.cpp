@@ -37,14 +37,14 @@ bool too_far(const Eigen::Vector3d& position) {
 
 bool usable(const Eigen::Vector3d& position) { return position.allFinite() && !too_far(position); }
 
-/// Where the rows of a table stand.
+/// The places of the rows of a table.
 struct Places {
   const RowTable& table;
   const Columns& found;
   const FileMeaning& meaning;
   FileAxes axes = meaning.axes();
 
-  /// The place of a row [m]; NaN if it is withheld, a hole or otherwise unusable.
+  /// Returns the place of a row [m]; NaN if it is withheld, a hole or otherwise unusable.
   Eigen::Vector3d of(const char* row) const {
     if (table.marks.withheld(row) || table.marks.left_out(row, meaning.classes.value)) return nowhere;
     const Eigen::Vector3d in_file = read_triple(found.position, row), p = axes.place(in_file);
@@ -85,7 +85,7 @@ void find_extent(RawCloud& raw, const RowTable& table, const Columns& found, con
   for (const RawCloud& block : blocks) add_counts(raw, block);
 }
 
-/// Decides what the numbers mean, from the file, its headings, the caller and the numbers themselves, and the origin.
+/// Sets the meaning of the numbers by the file, its headings, the caller and the numbers themselves, then the origin.
 void decide_meaning(RawCloud& raw, const RowTable& table, const Columns& found, const ReadOptions& options) {
   take_headings(table, found, raw);
   raw.meaning.override_by(options.meaning);
@@ -101,7 +101,7 @@ std::uint16_t label_from(double number) {
                                                                           : no_label;
 }
 
-/// The material of the interval that contains `number`, no_label if none does; intervals do not overlap.
+/// Returns the material of the interval that contains `number`; no_label if none does. Intervals do not overlap.
 std::uint16_t label_from(double number, const std::vector<MaterialInterval>& intervals) {
   if (intervals.empty()) return label_from(number);
   for (const MaterialInterval& interval : intervals) {
@@ -110,7 +110,7 @@ std::uint16_t label_from(double number, const std::vector<MaterialInterval>& int
   return no_label;
 }
 
-/// True if every number of the column is an integer that fits 32 bits.
+/// Returns true if every number of the column is an integer that fits 32 bits.
 bool holds_ids(const RowTable& table, const RowTable::Column& column, int threads) {
   std::atomic<bool> good{true};
   for_each_block(table, threads, [&](std::size_t, std::size_t rows, const char* bytes) {
@@ -122,7 +122,7 @@ bool holds_ids(const RowTable& table, const RowTable::Column& column, int thread
   return good;
 }
 
-/// The columns that a scene makes no use of.
+/// Returns the columns that a scene does not use.
 std::vector<const RowTable::Column*> others_of(const RowTable& table, const Columns& found) {
   std::vector<const RowTable::Column*> used = {found.area, found.label, found.id, found.noise};
   used.insert(used.end(), found.position.begin(), found.position.end());
@@ -207,7 +207,7 @@ void fill_cloud(RawCloud& raw, const RowTable& in_file, const ReadOptions& optio
   if (raw.viewpoint) raw.viewpoint = places.axes.place(*raw.viewpoint);
   for (Eigen::Vector3d& place : raw.stations) place = places.axes.place(place);
 
-  // Coordinates become relative to the origin in double, then float.
+  // Subtract the origin in double, then round to float.
   raw.point.resize(table.rows);
   const bool normals = found.normal[0];
   if (normals) raw.normal.resize(table.rows);

@@ -22,7 +22,7 @@ using Eigen::Vector3f;
 
 constexpr std::size_t default_surfels = 200000;
 
-/// Consistency of the winding over shared edges.
+/// The consistency of the winding over shared edges.
 struct Winding {
   std::size_t shared = 0, against = 0, border = 0;  ///< edges; against: traversed twice in the same direction
   double volume6 = 0;                               ///< six times the signed volume of a closed mesh
@@ -59,7 +59,7 @@ Winding examine_winding(const SceneMesh& mesh) {
   return winding;
 }
 
-/// True if the winding orients the face normals consistently; notes the result.
+/// Returns true if the winding orients the face normals consistently; notes the result.
 bool winding_is_oriented(const SceneMesh& mesh, std::vector<std::string>& notes) {
   const Winding winding = examine_winding(mesh);
   if (100 * winding.against > winding.shared) {
@@ -80,17 +80,17 @@ bool winding_is_oriented(const SceneMesh& mesh, std::vector<std::string>& notes)
   return true;
 }
 
-/// Barycentric weights of a surfel in its triangle. `along` in [0, 1) is stratified by the caller, the other coordinate
-/// advances by the golden ratio, so that successive surfels stay apart; jitter breaks the lattice.
+/// Returns the barycentric weights of a surfel in its triangle. The caller stratifies `along` in [0, 1). The other
+/// coordinate advances by the golden ratio, so that successive surfels stay apart; jitter breaks the lattice.
 Vector3d weights_at(double along, std::size_t sample, double jitter, double samples_here) {
   const double walk =
       static_cast<double>(sample) * (std::numbers::phi - 1) + jitter / std::sqrt(std::max(1.0, samples_here));
   return uniform_weights(along, walk - std::floor(walk));
 }
 
-/// Areas of the triangles and their cumulative sum, along which surfels are distributed.
+/// The areas of the triangles and their cumulative sum, along which surfels are distributed.
 struct Surface {
-  std::vector<double> area, end;  ///< of each triangle [m^2]; end: cumulative sum including it
+  std::vector<double> area, end;  ///< area of each triangle [m^2]; end: cumulative sum including it
   double total() const { return end.back(); }
 };
 
@@ -102,7 +102,7 @@ Surface measure(const SceneMesh& mesh) {
   return surface;
 }
 
-/// Places surfel i at random in the i-th of scene.size() equal intervals of the cumulative area; returns its nearest
+/// Places surfel i at random in the i-th of scene.size() equal intervals of the cumulative area. Returns its nearest
 /// corner.
 std::uint32_t place_surfel(const SceneMesh& mesh, const Surface& surface, std::uint64_t seed, std::size_t i,
                            SceneCloud& scene) {
@@ -127,7 +127,7 @@ void face_viewpoint(const Vector3d& viewpoint, SceneMesh& mesh) {
   }
 }
 
-/// The mesh of a file: its usable triangles, oriented by the file's normals, else the winding, else the viewpoint.
+/// Returns the usable triangles of a file, oriented by the file's normals, else the winding, else the viewpoint.
 SceneMesh usable_mesh(const RawCloud& raw, const LoadOptions& options, LoadReport& report) {
   SceneMesh mesh;
   mesh.origin = raw.origin;
@@ -152,8 +152,8 @@ SceneMesh usable_mesh(const RawCloud& raw, const LoadOptions& options, LoadRepor
   return mesh;
 }
 
-/// Whether the normals of the points are less steep than the triangles round them, by the mean square of the sine: then
-/// they are those of smoothed heights (E153).
+/// Returns true if the normals of the points are less steep than the triangles around them, by the mean square of the
+/// sine; they are then normals of smoothed heights (E153).
 bool smoother_than_facets(const SceneMesh& mesh) {
   double points = 0, facets = 0;
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) {
@@ -198,7 +198,7 @@ void add_surface(RawCloud& raw, const LoadOptions& options, LoadedScene& result)
         "the normals are smoother than the surface between the points, as those of planes through neighbours are: its "
         "triangles scatter with their own");
   }
-  // A height field looks to one side, to which the triangles of a file are turned.
+  // A height field looks to one side; turn the triangles of a file to it.
   double up = 0;
   for (std::size_t i = 0; i < scene.size(); ++i) up += double{scene.area[i]} * double{scene.normal[i].z()};
   if (scene.normals_oriented && up < 0 && !from_file)

@@ -28,7 +28,7 @@ CloudFormat format_of(const std::string& path, const char* who) {
   fail(ErrorKind::argument, who, ": ", path, " has extension '", extension, "', must be .ply or .pcd");
 }
 
-/// The format of a file for the scene, which must fit into it.
+/// Returns the format of a file for the scene, which must fit into it.
 CloudFormat format_for(const std::string& path, const SceneCloud& scene) {
   const CloudFormat format = format_of(path, "save_scene");
   require_valid(scene, "save_scene");
@@ -91,7 +91,7 @@ Eigen::Vector3d save_soundings(const std::string& path, const Soundings& soundin
   const auto far = [](const Eigen::Vector3d& p) { return p.cwiseAbs().maxCoeff() > farthest_in_pcd; };
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   if (std::any_of(soundings.position.begin(), soundings.position.end(), far))
-    origin = 100 * (soundings.position.front() / 100).array().round() + 0.0;  // no zero below zero
+    origin = 100 * (soundings.position.front() / 100).array().round() + 0.0;  // turns -0 into 0
   const PackedRows rows = pcd_rows_of(soundings, origin, who);
   write_rows(path, pcd_header(rows), rows);
   return origin;
@@ -112,7 +112,7 @@ void save_survey_returns(const std::string& path, const Soundings& soundings, co
 
 void join_clouds(const std::string& path, const std::vector<std::string>& parts) {
   if (parts.empty()) fail(ErrorKind::argument, "join_clouds: ", path, ": no parts, must be at least one");
-  // Columns and comments are those of the first part, the number of rows is that of all.
+  // Take columns and comments of the first part, and the number of rows of all.
   PackedRows all;
   std::vector<RowFile> files;
   for (const std::string& part : parts) {

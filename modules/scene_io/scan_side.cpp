@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From which side a cloud was seen, if neither its file nor the options say so. Neighbours of an organised scan stand
-// at even steps of direction from where the scanner stood, however far each of them is; from any other place relief and
-// noise make those steps uneven, as they make the points uneven themselves.
+// Finds the side from which a cloud was seen, if neither its file nor the options state it. Neighbours of an organised
+// scan lie at even steps of direction from the scanner, at any distance. From any other place relief and noise make
+// these steps uneven, as they make the points uneven themselves.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -16,15 +16,15 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t most_triples = 20000, fewest_triples = 64;    // along rows, and along columns
-constexpr double typical_unevenness = 0.1, most_unevenness = 0.25;  // of directions: median, and of 95 %
-constexpr double least_relief = 0.1, contrast = 4;  // unevenness of points, of 99 %; over that of directions
-constexpr double widest_step = 8;  // over the narrowest: pictures and turning scanners have wider steps in their middle
+constexpr double typical_unevenness = 0.1, most_unevenness = 0.25;  // of directions: median, and quantile 0.95
+constexpr double least_relief = 0.1, contrast = 4;  // unevenness of points, quantile 0.99; ratio to that of directions
+constexpr double widest_step = 8;  // ratio to the narrowest; pictures and turning scanners have wider steps midway
 
-/// Second differences over half the first ones, of neighbours in threes.
+/// The second differences over half the first ones, for neighbours in threes.
 struct Unevenness {
   std::vector<double> directions;  ///< seen from the origin of the coordinates, across the line of sight
   std::vector<double> points;
-  std::vector<double> step;  ///< between directions [rad]
+  std::vector<double> step;  ///< angle between directions [rad]
 };
 
 double quantile(std::vector<double> values, double part) {
@@ -33,7 +33,7 @@ double quantile(std::vector<double> values, double part) {
   return *at;
 }
 
-/// Neighbours along rows (`step` = 1) or columns (`step` = width) of an organised cloud.
+/// Returns the unevenness of neighbours along the rows or the columns of an organised cloud.
 Unevenness unevenness_along(const RawCloud& raw, bool rows) {
   const std::size_t step = rows ? 1 : raw.width, size = raw.point.size();
   const std::size_t stride = size / most_triples + 1;
@@ -45,7 +45,7 @@ Unevenness unevenness_along(const RawCloud& raw, bool rows) {
     const Vector3d before = place(i - step), here = place(i), behind = place(i + step);
     const Vector3d a = before.normalized(), b = here.normalized(), c = behind.normalized();
     const double first = (c - a).norm(), first_of_points = (behind - before).norm();
-    if (!(first > 0 && first_of_points > 0 && here.allFinite())) continue;  // holes, or points at the same place
+    if (!(first > 0 && first_of_points > 0 && here.allFinite())) continue;  // skip holes, and points at the same place
     const Vector3d second = a - 2 * b + c;
     found.directions.push_back(2 * (second - second.dot(b) * b).norm() / first);
     found.points.push_back(2 * (before - 2 * here + behind).norm() / first_of_points);
@@ -60,7 +60,7 @@ bool is_even(const Unevenness& u) {
          quantile(u.step, 0.95) <= widest_step * quantile(u.step, 0.05);
 }
 
-/// Whether the points are so much less even than their directions that this is no accident, as it may be of a plane.
+/// Returns true if the points are much less even than their directions, not by accident as those of a plane.
 bool shows_relief(const Unevenness& u) {
   return quantile(u.points, 0.99) >= std::max(least_relief, contrast * quantile(u.directions, 0.99));
 }

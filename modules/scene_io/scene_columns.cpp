@@ -19,7 +19,7 @@ NumberType type_of(const SceneColumn& column) {
        "', must be one of int8 to float64");
 }
 
-/// A type that readers of PLY (and, of 64 bits, of PCD) take and that holds all numbers of the column.
+/// Returns a type that readers of PLY (and, of 64 bits, of PCD) take and that holds all numbers of the column.
 NumberType written_type(const SceneColumn& column, NumberType type, CloudFormat format) {
   if (type == NumberType::int64 || type == NumberType::uint64) return NumberType::float64;
   if (format == CloudFormat::pcd || type == NumberType::uint8 || type >= NumberType::float32) return type;
@@ -29,7 +29,7 @@ NumberType written_type(const SceneColumn& column, NumberType type, CloudFormat 
   return NumberType::int32;
 }
 
-/// The numbers of a column in another type.
+/// Returns the numbers of a column in another type.
 std::vector<char> converted(const SceneColumn& column, NumberType from, NumberType to) {
   if (from == to) return column.bytes;
   const std::size_t rows = column.bytes.size() / size_of(from);
@@ -69,7 +69,7 @@ void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& colum
   };
   if (!raw.label_field.empty() && !options.material && options.material_field.intervals.empty()) {
     columns.material = raw.label_field;
-    columns.others.pop_back();  // that of the labels
+    columns.others.pop_back();  // column of the labels
   } else if (has("material")) {
     columns.material = "material_index";
   }
@@ -100,7 +100,7 @@ SceneColumns columns_of(const SceneColumns& columns, std::span<const std::uint32
 }
 
 void add_columns(PackedRows& rows, const SceneColumns& columns, CloudFormat format) {
-  // Names that all readers take, and the ones that they stand for.
+  // Give the columns legal names that differ from those in use; comments name the originals.
   std::vector<std::string> names = {columns.material}, taken = {"area", "id", "noise"};
   for (const SceneColumn& column : columns.others) names.push_back(column.name);
   for (const PackedRows::Column& column : rows.columns)

@@ -14,13 +14,13 @@ struct SceneColumn {
   std::vector<char> bytes{};     ///< one number for each surfel, in this machine's byte order
 };
 
-/// Contents of a file of surfels beyond the SceneCloud.
+/// The contents of a file of surfels beyond the SceneCloud.
 struct SceneColumns {
   std::string material = "material";  ///< name of the column of materials
   std::vector<SceneColumn> others{};
   std::string system{};      ///< coordinate system of the world, as FileMeaning::system; empty: unknown
-  bool heights = false;      ///< the points are those of a height field, with the surface between them
-  bool own_normals = false;  ///< the surface has the normals of the points, not of its triangles
+  bool heights = false;      ///< true: points of a height field, with the surface between them
+  bool own_normals = false;  ///< true: the surface has the normals of the points, not of its triangles
 };
 
 /// Returns the columns of the surfels with the ids `kept`. `ids` are the ids of the rows of `columns`, and include

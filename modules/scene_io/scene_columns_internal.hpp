@@ -17,8 +17,9 @@ void keep_rows(SceneColumn& column, const std::vector<std::uint32_t>& rows);
 /// are the indices of the materials.
 void take_columns(RawCloud& raw, const LoadOptions& options, SceneColumns& columns);
 
-/// Adds further columns to the rows of a scene, with legal_names, and comment lines that tell the names they stand for;
-/// names the column without a name, that of the materials. In PLY the types are int, uchar, float or double. Throws Error(argument) for a column of another length.
+/// Adds further columns to the rows of a scene, with legal_names, and comment lines with the names that they replace.
+/// Names the column without a name, that of the materials. In PLY the types are int, uchar, float or double. Throws
+/// Error(argument) for a column of another length.
 void add_columns(PackedRows& rows, const SceneColumns& columns, CloudFormat format);
 
 }  // namespace insonify

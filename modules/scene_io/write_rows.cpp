@@ -32,7 +32,7 @@ void write_rows(const std::string& path, const std::string& header, const Packed
   errno = 0;
   std::ofstream file(pending.temporary(), std::ios::binary);
   file << header;
-  constexpr std::size_t block = 1 << 12;  // fits into a cache
+  constexpr std::size_t block = 1 << 12;  // rows that fit into a cache
   const std::size_t stride = rows.stride();
   std::vector<char> bytes(block * stride);
   for (std::size_t first = 0; first < rows.rows && file; first += block) {
@@ -40,7 +40,7 @@ void write_rows(const std::string& path, const std::string& header, const Packed
     rows.write(first, count, bytes.data());
     file.write(bytes.data(), static_cast<std::streamsize>(count * stride));
   }
-  // The faces of a PLY: how many corners, and which.
+  // Append the faces of a PLY: the number of their corners, and the corners.
   constexpr std::size_t face = 1 + 3 * sizeof(std::uint32_t);
   bytes.resize(block * face);
   for (std::size_t first = 0; first < rows.triangles.size() && file; first += block) {
