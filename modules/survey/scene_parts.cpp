@@ -181,12 +181,12 @@ void SceneParts::prepare_scatter(const SceneScatter& scatter) {
       fail(ErrorKind::content, "scatter of '", scatter.bodies.front().name, "': corner (", corner.x(), ", ", corner.y(),
            ") of area_m is outside the bed, which reaches from (", bed.min.x(), ", ", bed.min.y(), ") to (",
            bed.max.x(), ", ", bed.max.y(), ") m");
-  Strewn strewn{{}, scatter.rule};
+  ScatteredBodies scattered{{}, scatter.rule};
   std::set<std::string> own;
   for (const SceneBody& body : scatter.bodies) {
     require_area(body);
     Drawable next{body};
-    for (const Strewn& before : strewn_)
+    for (const ScatteredBodies& before : scattered_)
       for (const Drawable& other : before.bodies)
         if (other.body.name == body.name)
           next.numbers_from = std::max(next.numbers_from, other.numbers_from + before.rule.most);
@@ -195,13 +195,13 @@ void SceneParts::prepare_scatter(const SceneScatter& scatter) {
     if (own.insert(body.name).second)
       for (int k = 1; k <= scatter.rule.most; ++k)
         names_.push_back(body.name + "-" + std::to_string(next.numbers_from + k));
-    strewn.bodies.push_back(std::move(next));
+    scattered.bodies.push_back(std::move(next));
   }
-  strewn_.push_back(std::move(strewn));
+  scattered_.push_back(std::move(scattered));
 }
 
 std::vector<PlacedPart> SceneParts::drawn_of(std::size_t scatter, std::uint64_t draw) const {
-  const auto& [bodies, rule] = strewn_[scatter];
+  const auto& [bodies, rule] = scattered_[scatter];
   const Draws draws{seed_, scatter, draw};
   const auto how_many = draws.of(0, 0);
   const std::size_t drawn_count =
@@ -230,15 +230,15 @@ std::vector<PlacedPart> SceneParts::drawn_of(std::size_t scatter, std::uint64_t 
            " tries; ask for fewer (count), a smaller min_distance_m, or a larger area_m without holes of the scan");
     if (setting.part) parts.push_back(*setting.part);
   }
-  add_absent(strewn_[scatter], parts);
+  add_absent(scattered_[scatter], parts);
   return parts;
 }
 
-void SceneParts::add_absent(const Strewn& strewn, std::vector<PlacedPart>& parts) {
+void SceneParts::add_absent(const ScatteredBodies& scattered, std::vector<PlacedPart>& parts) {
   std::set<std::string> there, listed;
   for (const PlacedPart& part : parts) there.insert(part.name);
-  for (const Drawable& body : strewn.bodies)
-    for (int k = 1; k <= strewn.rule.most; ++k) {
+  for (const Drawable& body : scattered.bodies)
+    for (int k = 1; k <= scattered.rule.most; ++k) {
       const std::string name = body.body.name + "-" + std::to_string(body.numbers_from + k);
       if (there.contains(name) || !listed.insert(name).second) continue;
       PlacedPart& absent = parts.emplace_back();
@@ -248,7 +248,7 @@ void SceneParts::add_absent(const Strewn& strewn, std::vector<PlacedPart>& parts
 
 std::vector<PlacedPart> SceneParts::drawn(std::uint64_t draw) const {
   std::vector<PlacedPart> all;
-  for (std::size_t s = 0; s < strewn_.size(); ++s)
+  for (std::size_t s = 0; s < scattered_.size(); ++s)
     for (PlacedPart& part : drawn_of(s, draw)) all.push_back(std::move(part));
   return all;
 }

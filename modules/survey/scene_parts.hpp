@@ -80,7 +80,7 @@ class SceneParts {
     int numbers_from = 0;
     double radius = 0;  ///< radius of the ball about the origin of its axes [m]
   };
-  struct Strewn {
+  struct ScatteredBodies {
     std::vector<Drawable> bodies;
     ScatterRule rule;
   };
@@ -89,7 +89,7 @@ class SceneParts {
   void place(const PartDefinition& part);
   void prepare_scatter(const SceneScatter& scatter);
   /// Adds the bodies of a scatter that a draw does not have as absent parts.
-  static void add_absent(const Strewn& strewn, std::vector<PlacedPart>& parts);
+  static void add_absent(const ScatteredBodies& scattered, std::vector<PlacedPart>& parts);
   std::vector<PlacedPart> drawn(std::uint64_t draw) const;
   std::vector<PlacedPart> drawn_of(std::size_t scatter, std::uint64_t draw) const;
 
@@ -97,7 +97,7 @@ class SceneParts {
   bool drawn_anew_;
   std::vector<PlacedPart> resting_;
   std::vector<std::pair<PartDefinition, PlacedPart>> moving_;  ///< with the part at time 0
-  std::vector<Strewn> strewn_;
+  std::vector<ScatteredBodies> scattered_;
   std::vector<std::string> names_;
   std::vector<Material> materials_;
   Ground ground_;

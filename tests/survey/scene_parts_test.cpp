@@ -44,7 +44,7 @@ PartDefinition level_bed() {
   return {body_of("bed", std::move(cloud)), {}};
 }
 
-ScatterRule strewn(int least, int most) {
+ScatterRule scatter_rule(int least, int most) {
   ScatterRule rule;
   rule.least = least, rule.most = most;
   rule.area = {{-2, -2}, {2, -2}, {2.5, 0}, {2, 2}, {0, 0.5}, {-2, 2}};  // with a re-entrant corner
@@ -79,7 +79,7 @@ TEST(SceneParts, number_classes_alike_at_all_times_and_in_all_draws) {
   auto sand = std::make_shared<SceneCloud>(*bed.body.cloud);
   sand->materials = {Material{.name = "sand"}, Material{.name = "gravel"}};
   bed.body.cloud = sand, bed.body.label.clear();
-  ScatterRule one = strewn(1, 1);
+  ScatterRule one = scatter_rule(1, 1);
   const auto named = [](const char* name) {
     SceneBody body = ball_named(name, 0.2);
     auto steel = std::make_shared<SceneCloud>(*body.cloud);
@@ -105,7 +105,7 @@ TEST(SceneParts, number_classes_alike_at_all_times_and_in_all_draws) {
 }
 
 TEST(SceneParts, draws_a_thousand_bodies_that_rest_in_their_area_apart) {
-  ScatterRule rule = strewn(15, 25);
+  ScatterRule rule = scatter_rule(15, 25);
   rule.min_distance = 0.3;
   const PartDefinition bed = rough_bed();
   const SceneParts parts({bed}, {{{ball_named("pot", 0.08), ball_named("mine", 0.12)}, rule}}, 7, true);
@@ -142,7 +142,7 @@ TEST(SceneParts, draws_a_thousand_bodies_that_rest_in_their_area_apart) {
 }
 
 TEST(SceneParts, draws_are_of_seed_and_number_alone) {
-  ScatterRule rule = strewn(2, 6);
+  ScatterRule rule = scatter_rule(2, 6);
   rule.most_bury = 0.5, rule.least_scale = 0.5, rule.most_scale = 2, rule.rest = PartRest::bed;
   const std::vector<SceneScatter> scatters{{{ball_named("pot", 0.1)}, rule}};
   const SceneParts parts({level_bed()}, scatters, 7, true), again({level_bed()}, scatters, 7, true);
@@ -159,7 +159,7 @@ TEST(SceneParts, draws_are_of_seed_and_number_alone) {
 }
 
 TEST(SceneParts, list_what_a_draw_does_not_have) {
-  ScatterRule rule = strewn(1, 3);
+  ScatterRule rule = scatter_rule(1, 3);
   rule.empty_share = 0.4;
   const SceneParts parts({level_bed()}, {{{ball_named("pot", 0.05), ball_named("net", 0.05)}, rule}}, 1, true);
   std::set<std::string> all(parts.names().begin(), parts.names().end());
@@ -177,7 +177,7 @@ TEST(SceneParts, list_what_a_draw_does_not_have) {
 }
 
 TEST(SceneParts, buries_and_scales_as_asked) {
-  ScatterRule rule = strewn(20, 20);
+  ScatterRule rule = scatter_rule(20, 20);
   rule.least_bury = 0.1, rule.most_bury = 0.4, rule.least_scale = 0.5, rule.most_scale = 1.5, rule.tilt = 0;
   const SceneParts parts({level_bed()}, {{{ball_named("pot", 0.1)}, rule}}, 3, true);
   double least = 1, most = 0, small = 9, large = 0;
@@ -264,20 +264,20 @@ TEST(SceneParts, refuse_what_cannot_be) {
   refused({{body_of("flat", flat), {}}}, {}, {"part 'flat' has no area"});
   refused({level_bed(), {ball_named("far", 0.1), placed_where({9, 0, 0}, PartRest::ground)}}, {},
           {"part 'far' at x = 9", "no ground"});
-  ScatterRule outside = strewn(1, 1);
+  ScatterRule outside = scatter_rule(1, 1);
   outside.area[2].x() = 3.5;
   refused({level_bed()}, {{{ball_named("pot", 0.1)}, outside}}, {"corner (3.5, 0) of area_m is outside the bed"});
-  refused({ball}, {{{ball_named("pot", 0.1)}, strewn(1, 1)}}, {"scatter of 'pot'", "no captured part"});
-  refused({level_bed()}, {{{ball_named("rock", 0.9)}, strewn(9, 9)}}, {"no place for body", "of 9"});
+  refused({ball}, {{{ball_named("pot", 0.1)}, scatter_rule(1, 1)}}, {"scatter of 'pot'", "no captured part"});
+  refused({level_bed()}, {{{ball_named("rock", 0.9)}, scatter_rule(9, 9)}}, {"no place for body", "of 9"});
   refused({level_bed(), {ball_named("pot-2", 0.1), placed_where({0, 0, 0})}},
-          {{{ball_named("pot", 0.1)}, strewn(1, 2)}}, {"two parts are called 'pot-2'"});
+          {{{ball_named("pot", 0.1)}, scatter_rule(1, 2)}}, {"two parts are called 'pot-2'"});
 }
 
 TEST(SceneParts, names_of_scatters_go_on_counting) {
-  const SceneParts parts(
-      {level_bed()},
-      {{{ball_named("pot", 0.05)}, strewn(2, 2)}, {{ball_named("pot", 0.05), ball_named("net", 0.05)}, strewn(1, 1)}},
-      1);
+  const SceneParts parts({level_bed()},
+                         {{{ball_named("pot", 0.05)}, scatter_rule(2, 2)},
+                          {{ball_named("pot", 0.05), ball_named("net", 0.05)}, scatter_rule(1, 1)}},
+                         1);
   EXPECT_EQ(parts.names(), (std::vector<std::string>{"bed", "pot-1", "pot-2", "pot-3", "net-1"}));
   EXPECT_EQ(parts.resting().size(), 4U);
 }
@@ -285,7 +285,7 @@ TEST(SceneParts, names_of_scatters_go_on_counting) {
 TEST(PartsSource, poses_each_ping_by_its_time_and_number) {
   PartPlacement falls = placed_where({0, 0, 0});
   falls.velocity = {0, 0, -1};
-  ScatterRule rule = strewn(3, 3);
+  ScatterRule rule = scatter_rule(3, 3);
   const auto parts =
       std::make_shared<const SceneParts>(std::vector<PartDefinition>{level_bed(), {ball_named("stone", 0.2), falls}},
                                          std::vector<SceneScatter>{{{ball_named("pot", 0.05)}, rule}}, 1, true);
@@ -312,9 +312,9 @@ TEST(PartsSource, poses_each_ping_by_its_time_and_number) {
 TEST(PartsSource, gives_several_threads_the_scenes_of_one) {
   PartPlacement drifts = placed_where({0, 0, 0});
   drifts.velocity = {0.1, 0, 0.2};
-  const auto parts =
-      std::make_shared<const SceneParts>(std::vector<PartDefinition>{level_bed(), {ball_named("buoy", 0.2), drifts}},
-                                         std::vector<SceneScatter>{{{ball_named("pot", 0.05)}, strewn(1, 4)}}, 1, true);
+  const auto parts = std::make_shared<const SceneParts>(
+      std::vector<PartDefinition>{level_bed(), {ball_named("buoy", 0.2), drifts}},
+      std::vector<SceneScatter>{{{ball_named("pot", 0.05)}, scatter_rule(1, 4)}}, 1, true);
   const PingSimulator simulator(small_head({}), {}, {});
   constexpr int pings = 40;
   const auto points_of = [&](const PartsSource& source, int ping) {

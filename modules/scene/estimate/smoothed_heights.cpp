@@ -26,7 +26,7 @@ using namespace cells;
 
 constexpr std::array<std::size_t, 8> widths = {16, 25, 40, 63, 100, 160, 250, 400};  // neighbours of a cubic
 constexpr std::size_t of_points = 16;                                                // points per tried point
-constexpr std::size_t asked_around = 512;                                            // tried points that share a choice
+constexpr std::size_t tried_around = 512;                                            // tried points that share a choice
 constexpr std::size_t blended = 4;                                                   // choices averaged at a point
 constexpr double next_narrower = 0.4;                                                // next width over a rejected one
 
@@ -43,7 +43,7 @@ constexpr int fits_of_cubic = 3;
 using Errors = std::array<float, widths.size()>;  // by width, over the variance of the noise
 
 /// Height of a point as its neighbours predict it.
-struct Foretold {
+struct Prediction {
   double rise = 0;      // rise over the point [m]
   double variance = 0;  // variance of the rise, over that of the noise
 };
@@ -52,11 +52,11 @@ struct Foretold {
 class CubicFit {
  public:
   /// Returns nothing if the neighbours do not determine a cubic, or stray from it by more than their noise.
-  std::optional<Foretold> operator()(std::span<const Place> places, double noise) {
+  std::optional<Prediction> operator()(std::span<const Place> places, double noise) {
     if (places.size() <= terms_of<3>) return {};
     set_places(places);
     const double freedom = static_cast<double>(places.size() - terms_of<3>);
-    std::optional<Foretold> found;
+    std::optional<Prediction> found;
     for (int n = 0; n < fits_of_cubic; ++n) {
       found = solve();
       if (!found) return {};
@@ -92,7 +92,7 @@ class CubicFit {
 
   /// Solves the weighted least squares and sets the residuals. The products of two terms are powers, many of them
   /// equal; their sums are computed once.
-  std::optional<Foretold> solve() {
+  std::optional<Prediction> solve() {
     weighted_ = power_.colwise() * weight_;
     std::array<std::array<double, 7>, 7> moment{};  // sums of x^i y^j
     for (std::size_t t = 0; t < terms_of<3>; ++t) {
@@ -116,7 +116,7 @@ class CubicFit {
     if (!(solver.vectorD().minCoeff() > least_pivot * solver.vectorD().maxCoeff())) return {};
     const Terms<3> cubic = solver.solve(Terms<3>(weighted_.matrix().transpose() * rise_.matrix()));
     left_ = (rise_.matrix() - power_.matrix() * cubic).array().abs();
-    return Foretold{cubic[0], solver.solve(Terms<3>::Unit(0))[0]};
+    return Prediction{cubic[0], solver.solve(Terms<3>::Unit(0))[0]};
   }
 
   /// Returns the standard deviation of the residuals, estimated by their median.
@@ -200,7 +200,7 @@ class Heights {
   /// Returns the move of a point onto the cubic of a width, or onto a narrower one [m] (E160).
   double rise_at(std::size_t i, std::size_t width, Neighbourhood& near, CubicFit& fit) const {
     const double noise = noise_[i];
-    std::optional<Foretold> found = fit(near.look_around(i, width), noise);
+    std::optional<Prediction> found = fit(near.look_around(i, width), noise);
     while (!found && width > widths.front()) {
       width = std::max(widths.front(), static_cast<std::size_t>(next_narrower * static_cast<double>(width)));
       found = fit(near.look_around(i, width), noise);
@@ -219,18 +219,18 @@ class Heights {
 /// Best widths of cubics, chosen at some of the points, each with those around it.
 class Widths {
  public:
-  Widths(const Heights& heights, const std::vector<std::uint32_t>& asked, int threads)
-      : places_(places_of(heights, asked)), index_(places_), log_width_(asked.size()) {
-    std::vector<Errors> errors(asked.size());
-    parallel_blocks(asked.size(), 128, threads, [&](std::size_t begin, std::size_t end) {
+  Widths(const Heights& heights, const std::vector<std::uint32_t>& tried, int threads)
+      : places_(places_of(heights, tried)), index_(places_), log_width_(tried.size()) {
+    std::vector<Errors> errors(tried.size());
+    parallel_blocks(tried.size(), 128, threads, [&](std::size_t begin, std::size_t end) {
       Neighbourhood near = heights.neighbourhood();
       CubicFit fit;
-      for (std::size_t a = begin; a < end; ++a) errors[a] = heights.errors_at(asked[a], near, fit);
+      for (std::size_t a = begin; a < end; ++a) errors[a] = heights.errors_at(tried[a], near, fit);
     });
-    parallel_blocks(asked.size(), 128, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(tried.size(), 128, threads, [&](std::size_t begin, std::size_t end) {
       std::vector<Neighbour> found;
       for (std::size_t a = begin; a < end; ++a) {
-        index_.find_nearest(places_[a], asked_around, found);
+        index_.find_nearest(places_[a], tried_around, found);
         std::array<double, widths.size()> sum{};
         for (const Neighbour& n : found)
           for (std::size_t w = 0; w < widths.size(); ++w) sum[w] += errors[n.index][w];
@@ -248,10 +248,10 @@ class Widths {
   }
 
  private:
-  static std::vector<Vector3f> places_of(const Heights& heights, const std::vector<std::uint32_t>& asked) {
+  static std::vector<Vector3f> places_of(const Heights& heights, const std::vector<std::uint32_t>& tried) {
     std::vector<Vector3f> places;
-    places.reserve(asked.size());
-    for (const std::uint32_t i : asked) places.push_back(heights.flat(i));
+    places.reserve(tried.size());
+    for (const std::uint32_t i : tried) places.push_back(heights.flat(i));
     return places;
   }
 
@@ -269,23 +269,23 @@ std::vector<float> smoothed_heights(std::span<const Vector3f> points, std::span<
   std::vector<float> smooth;
   smooth.reserve(points.size());
   for (const Vector3f& p : points) smooth.push_back(p.z());
-  std::vector<std::uint32_t> asked;
+  std::vector<std::uint32_t> tried;
   std::uint32_t turn = 0;  // steps by the golden ratio, which spread evenly whatever the row length of a raster
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (!(noise[i] > 0)) continue;
-    if (turn <= ~0u / of_points) asked.push_back(i);
+    if (turn <= ~0u / of_points) tried.push_back(i);
     turn += 0x9e3779b9u;
   }
-  if (asked.empty()) return smooth;
+  if (tried.empty()) return smooth;
   const Heights heights(points, noise);
-  const Widths widths_around(heights, asked, threads);
+  const Widths widths_around(heights, tried, threads);
   parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
     Neighbourhood near = heights.neighbourhood();
     CubicFit fit;
-    std::vector<Neighbour> asked_near;
+    std::vector<Neighbour> tried_near;
     for (std::size_t i = begin; i < end; ++i) {
       if (!(noise[i] > 0)) continue;
-      const std::size_t width = widths_around.at(heights.flat(i), asked_near);
+      const std::size_t width = widths_around.at(heights.flat(i), tried_near);
       smooth[i] += static_cast<float>(heights.rise_at(i, width, near, fit));
     }
   });
