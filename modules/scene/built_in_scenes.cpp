@@ -23,7 +23,7 @@ constexpr std::size_t most_points = 4000000000;
 
 enum HarbourMaterial : std::uint16_t { sand, concrete, timber, steel, rock, rubber, calibration };
 
-// Cubic step: rises from 0 at a to 1 at b with zero slope at both ends.
+// Returns a cubic step that rises from 0 at a to 1 at b with zero slope at both ends.
 double smooth_step(double x, double a, double b) {
   const double t = std::clamp((x - a) / (b - a), 0.0, 1.0);
   return t * t * (3 - 2 * t);
@@ -32,7 +32,7 @@ double smooth_step(double x, double a, double b) {
 struct SeaBed {
   double phase[4];
 
-  // Height [m] of sand waves, meandering ripples and the scour around the wreck.
+  // Returns the height [m] of sand waves, meandering ripples and the scour around the wreck.
   double height(double x, double y) const {
     const double waves =
         0.12 * std::sin(0.31 * x + 0.17 * y + phase[0]) + 0.10 * std::sin(0.13 * x - 0.27 * y + phase[1]);
@@ -48,7 +48,7 @@ struct SeaBed {
   }
 };
 
-// Wall of cast concrete blocks with buttresses every 5 m, worn joints between the blocks and a rough face.
+// Returns a wall of cast concrete blocks with a buttress every 5 m, worn joints between blocks and a rough face.
 Patch quay_wall() {
   return {[](double u, double v) {
             const double x = 6 + 54 * u, z = -8.4 + 8.3 * v;
@@ -141,7 +141,7 @@ void add_bed_objects(std::vector<Patch>& patches, const SeaBed& bed) {
   put(ellipsoid({14, -3.5, -5.4}, Vector3d::Constant(0.25)), calibration, 16);
 }
 
-/// The surfaces of the harbour: quay wall, pilings, rippled sea bed, wreck, pipe, boulders, tyres and calibration
+/// Returns the surfaces of the harbour: quay wall, pilings, rippled sea bed, wreck, pipe, boulders, tyres and the
 /// sphere. `seed` determines the phases of the ripples.
 std::vector<Patch> harbour_patches(std::uint64_t seed) {
   SeaBed bed{};
@@ -175,7 +175,7 @@ std::vector<Patch> sphere_patches(const BuiltInSceneOptions& options) {
   return {ellipsoid({5, 0, 0}, Vector3d::Constant(options.radius))};
 }
 
-// Rectangle in the plane x = const with its normal towards the head: y from low to high, z from bottom to top.
+// Returns a rectangle in the plane x = const that faces the head: y from low to high, z from bottom to top.
 Patch facing_wall(double x, double low, double high, double bottom, double top) {
   return rectangle({x, low, bottom}, {0, 0, top - bottom}, {0, high - low, 0});
 }

@@ -20,7 +20,7 @@ constexpr double distance_per_spacing = 0.8;
 constexpr std::uint32_t no_surfel = ~0u;
 constexpr int axis_bits = 21;
 
-// Bijective pseudo-random scrambling (finaliser of MurmurHash3).
+// Returns a number in pseudo-random order, different for each v (finaliser of MurmurHash3).
 std::uint32_t shuffled(std::uint32_t v) {
   v = (v ^ v >> 16) * 0x85ebca6b;
   v = (v ^ v >> 13) * 0xc2b2ae35;

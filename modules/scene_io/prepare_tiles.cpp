@@ -56,7 +56,7 @@ void report_progress(const PrepareTilesOptions& options, double part) {
   if (options.progress) options.progress(part);
 }
 
-/// First pass: finds the bounding box, the labels and the columns present.
+/// Finds the bounding box, the labels and the columns present, in the first pass.
 void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
   RawCloud& whole = survey.whole;
   std::int64_t last_id = -1;

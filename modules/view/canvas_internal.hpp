@@ -29,7 +29,7 @@ Theme theme(bool dark);
 constexpr Colour grid_colour = {0.8, 0.83, 0.86};
 constexpr double grid_opacity = 0.3;
 
-/// Red, green and blue of a colour, each in [0, 1].
+/// Returns red, green and blue of a colour, each in [0, 1].
 inline Colour shares_of(const Rgb& rgb) { return {rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0}; }
 
 /// Returns a closed ring with this number of corners.

@@ -24,7 +24,7 @@ struct NamedMap {
   std::vector<ColourStop> stops;
 };
 
-// Twenty equally spaced colours of viridis (S. van der Walt and N. Smith, CC0).
+// Returns twenty equally spaced colours of viridis (S. van der Walt and N. Smith, CC0).
 std::vector<ColourStop> viridis_stops() {
   constexpr std::uint32_t colours[] = {0x440154, 0x481567, 0x482677, 0x453781, 0x404788, 0x39568C, 0x33638D,
                                        0x2D708E, 0x287D8E, 0x238A8D, 0x1F968B, 0x20A387, 0x29AF7F, 0x3CBB75,
@@ -34,9 +34,9 @@ std::vector<ColourStop> viridis_stops() {
   return stops;
 }
 
-// Copper and jet as MATLAB defines them. Bronze in CIELAB: lightness 0, 20, 84, 98 and hue -10, 15, 95, 102 degrees at
-// 0, 0.3, 0.8 and 1, linear in between, so that most of its contrast lies where sea beds and their speckle are. Amber
-// is the screen of an analogue sonar: black, brown, orange, pale yellow.
+// Returns all maps. Copper and jet are MATLAB's. Bronze has lightness 0, 20, 84, 98 and CIELAB hue -10, 15, 95, 102
+// degrees at 0, 0.3, 0.8 and 1, linear in between, so that most of its contrast lies where sea beds and their speckle
+// are. Amber is the screen of an analogue sonar: black, brown, orange, pale yellow.
 std::vector<NamedMap> colour_maps() {
   return {{"viridis", viridis_stops()},
           {"bronze",

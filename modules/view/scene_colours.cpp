@@ -110,7 +110,7 @@ SceneColours by_part(const SceneCloud& scene) {
   return by_name(scene, names, [&](std::size_t i) -> std::size_t { return scene.part[i]; });
 }
 
-// Colours by visibility. Shading is reduced, since the colours of shadows are dark already.
+// Returns colours by visibility. Shading is reduced, since the colours of shadows are dark already.
 SceneColours by_visibility(const SceneCloud& scene, const SceneLook& look, const char* who) {
   if (look.visibility.empty())
     fail(ErrorKind::argument, who, ": look.visibility is empty, but colour is visibility; fill it by find_visibility");
@@ -140,7 +140,7 @@ SceneColours by_level(const SceneCloud& scene, const SceneLook& look, const Pict
           {scale, look.level_unit, {}}};
 }
 
-// Colours by the angle between ray and normal, or its complement. Back-facing surfels are grey.
+// Returns colours by the angle between ray and normal, or its complement. Back-facing surfels are grey.
 SceneColours by_angle(const SceneCloud& scene, const SceneLook& look, bool grazing, const char* who) {
   if (!look.head)
     fail(ErrorKind::argument, who, ": look.head is absent, but colour is ", grazing ? "grazing" : "incidence",

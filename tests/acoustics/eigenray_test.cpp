@@ -22,7 +22,7 @@ double gradient_at(const SoundSpeedProfile& p, double z) {
   return (sound_speed_at(p, z + h) - sound_speed_at(p, z - h)) / (2 * h);
 }
 
-// The ray equations dx = cos ds, dz = sin ds, dslope = -cos(slope) c'/c ds, by Runge and Kutta with fixed steps, until
+// Integrates dx = cos ds, dz = sin ds, dslope = -cos(slope) c'/c ds, by Runge and Kutta with fixed steps, until
 // x = `end`. Steps that straddle a kink of the profile are of second order: they are kept small.
 RayState march(const SoundSpeedProfile& p, double z, double slope, double end, int steps) {
   RayState s{0, z, slope, 0};

@@ -14,8 +14,8 @@ Pulse sweep(double time_bandwidth, ReplicaWindow window, double bandwidth = 40e3
   return {400e3, bandwidth, 220, PulseShape::linear_fm, time_bandwidth / bandwidth, window};
 }
 
-/// Matched filter by quadrature: the echo `received(tau)`, |tau| < T/2, against the weighted replica moved to `t`, per
-/// area of the weights. Gauss and Legendre, five points per quarter of a cycle.
+/// Returns the matched filter by quadrature: the echo `received(tau)`, |tau| < T/2, times the weighted replica moved to
+/// `t`, per area of the weights. Gauss and Legendre, five points per quarter of a cycle.
 template <typename Received>
 Complex correlation(const Pulse& pulse, Received received, double t) {
   const double half = 0.5 * pulse.duration, rate = pulse.bandwidth / pulse.duration;

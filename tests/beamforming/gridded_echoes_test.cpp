@@ -14,7 +14,7 @@ SonarHead head_of(PulseShape shape) {
   return head;
 }
 
-/// Absorption of 20 dB from end to end of the gate, and as much over the band by its slope or its curvature.
+/// Returns water with 20 dB of absorption over the gate, and as much over the band by its slope or its curvature.
 Medium medium_of(bool slope, bool curvature) {
   const double loss = 20 * nepers_per_db / 2.4;
   return {c0_cold, {loss, slope ? 0.3 * loss / 30e3 : 0, curvature ? 0.3 * loss / 30e3 / 30e3 : 0}};

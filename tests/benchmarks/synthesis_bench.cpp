@@ -31,7 +31,7 @@ BENCHMARK(gridded_engine)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// True delays for every element: against gridded_engine of the same arguments. 600 kHz, 5 to 40 m.
+/// Times true delays for every element, to compare with gridded_engine of the same arguments; 600 kHz, 5 to 40 m.
 void true_delay_engine(benchmark::State& state) {
   const AccuracyTask task = task_for(state);
   const TrueDelayEngine plan(task.head, task.medium, {tolerance_for(state), static_cast<int>(state.range(2))});
@@ -43,7 +43,7 @@ BENCHMARK(true_delay_engine)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
-/// Argument 0: echoes; 1: gridded (0), or by the plain sum (1).
+/// Times a few echoes. Argument 0: number of echoes; 1: gridded (0), or by the plain sum (1).
 void few_echoes(benchmark::State& state) {
   const AccuracyTask task =
       make_task({.scatterers = static_cast<std::size_t>(state.range(0)), .beams = 512, .bins = 2000});

@@ -16,8 +16,8 @@
 
 namespace {
 
-/// The bytes that are due under this name. They are made anew by deleting the file and running this test twice, after
-/// the decoders and another program have read what it writes.
+/// Expects the bytes of the golden file of this name. To make it anew, delete it and run this test twice, after the
+/// decoders and another program have read what it writes.
 void expect_golden(const std::string& written, const std::string& name) {
   const std::string golden = std::string(INSONIFY_GOLDEN_PRODUCTS) + "/" + name, bytes = file_bytes(written);
   if (!std::filesystem::exists(golden)) {

@@ -73,7 +73,7 @@ inline double gsf_unsigned(Cursor& c, int bytes, double steps) {
   return static_cast<double>(c.unsigned_big(bytes)) / steps;
 }
 
-/// A text whose length stands before it, with the 0 at its end.
+/// Reads a text after its length, which counts the 0 at its end.
 inline std::string gsf_text(Cursor& c, int length_bytes) {
   const std::string text = c.text(static_cast<std::size_t>(c.unsigned_big(length_bytes)));
   if (text.empty() || text.back() != '\0' || text.find('\0') + 1 != text.size())
@@ -86,7 +86,7 @@ struct GsfScale {
   int field;
 };
 
-// Table 4-3 and the types of gsfLoadScaleFactor: bytes and sign by subrecord id, in the usual size.
+// Reads an array; table 4-3 and the types of gsfLoadScaleFactor give usual bytes and sign by subrecord id.
 inline void read_gsf_array(Cursor& c, int id, std::size_t size, const GsfScale& scale, GsfSwath& s) {
   const std::map<int, std::pair<int, bool>> usual = {
       {1, {2, false}},  {2, {2, true}},   {3, {2, true}},   {4, {2, false}},  {5, {2, true}},   {6, {1, true}},

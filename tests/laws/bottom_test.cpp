@@ -19,7 +19,7 @@ LineArray array_of_one_degree() {
   return {0.442946 * wavelength / std::sin(radians(0.5)) / n, std::vector<double>(n, 1.0)};
 }
 
-/// RL = SL - 40 log r - 2 a r + 10 log mu + 20 log(h/r) + 10 log[(lambda/L) r^2 / sqrt(r^2 - h^2) c tau_e / 2],
+/// Returns RL = SL - 40 log r - 2 a r + 10 log mu + 20 log(h/r) + 10 log[(lambda/L) r^2 / sqrt(r^2 - h^2) c tau_e / 2],
 /// tau_e = 0.469719 / B.
 double closed_form_db(double r) {
   const double length = 0.442946 / std::sin(radians(0.5));

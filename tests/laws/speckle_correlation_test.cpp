@@ -29,14 +29,14 @@ Scatterers rings(std::size_t count, std::size_t per_ring, const RangeGate& gate,
   return s;
 }
 
-/// A head whose beams about ahead stand apart by their null width.
+/// Returns a head whose three beams ahead lie apart by their null width.
 SonarHead forward_head() {
   const double bandwidth = 40e3, bin = 0.44 * speed / (2 * bandwidth);
   return head_with(one_degree_array(), {std::asin(-2.0 / 101), 0, std::asin(2.0 / 101)}, bandwidth, {7.3, 8.7, bin});
 }
 
-/// Pressure of a flat bottom at a head that stands at `world_from_head`, the same patches for every pose: one image per
-/// seed.
+/// Returns the pressure of a flat bottom at a head at `world_from_head`, one image per seed. The patches are the same
+/// for all poses.
 std::vector<ComplexGrid> bottom_echoes_at(const Pose& world_from_head) {
   const SceneCloud scene = flat_bottom();
   const SonarHead head = forward_head();
@@ -48,9 +48,9 @@ std::vector<ComplexGrid> bottom_echoes_at(const Pose& world_from_head) {
   return images;
 }
 
-/// Correlation of the speckle ahead of a head at rest with that of one `sideways` [m] to port and turned: 3 beams, 56
-/// bins and 10 seeds are 1700 looks. The phase 2 k d u_b by which a beam's patches turn together is taken off; that of
-/// the longer way, - k d^2 / r, and that of the beam's footprint, which moves along by d, cancel.
+/// Returns the correlation of the speckle ahead of a head at rest with that of one `sideways` [m] to port and turned: 3
+/// beams, 56 bins and 10 seeds are 1700 looks. Removes the phase 2 k d u_b by which a beam's patches turn together. The
+/// phase of the longer path, - k d^2 / r, and that of the beam's footprint, which moves along by d, cancel.
 Complex correlation_with(const Pose& world_from_head, double sideways) {
   static const std::vector<ComplexGrid> at_rest = bottom_echoes_at(Pose::Identity());
   const std::vector<ComplexGrid> elsewhere = bottom_echoes_at(world_from_head);

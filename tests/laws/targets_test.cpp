@@ -11,8 +11,8 @@ using namespace insonify::laws;
 
 namespace {
 
-/// Target strength [dB re 1 m^2] of the facets of a built-in sphere of radius `a`, 5 m ahead of a head 50 m farther
-/// away than that: from so far perspective hides 0.2 % of the projected area.
+/// Returns the target strength [dB re 1 m^2] of the facets of a built-in sphere of radius `a`, 55 m ahead of a head.
+/// From so far, perspective hides 0.2 % of the projected area.
 double sphere_strength_db(double a, double mu, std::size_t points) {
   const SceneCloud sphere = make_built_in_scene("sphere", {.points = points, .radius = a, .lambert_mu = mu});
   const SonarHead head = head_with({wavelength / 2, {1.0}}, {0}, 30e3, {50, 60, 0.01});
@@ -25,8 +25,8 @@ double sphere_strength_db(double a, double mu, std::size_t points) {
   return db_from_power(sigma);
 }
 
-/// |f| of a rigid sphere over a/2, backscattered, in dB (Anderson 1950; Morse and Ingard, Theoretical Acoustics, 8.2):
-/// f = (i / k) sum_n (-1)^n (2n + 1) j_n'(ka) / h_n'(ka).
+/// Returns |f| of a rigid sphere over a/2, backscattered, in dB (Anderson 1950; Morse and Ingard, Theoretical
+/// Acoustics, 8.2): f = (i / k) sum_n (-1)^n (2n + 1) j_n'(ka) / h_n'(ka).
 double rigid_sphere_db(double ka) {
   std::complex<double> sum = 0;
   const int terms = static_cast<int>(ka + 10 * std::cbrt(ka) + 10);
@@ -55,7 +55,7 @@ SceneCloud kirchhoff_plate(double range, double facet = wavelength / 4) {
   return scene;
 }
 
-/// A head of one hydrophone with a pulse so long that the plate, at most 2.5 mm deep, lies in one range.
+/// Returns a head of one hydrophone with a pulse so long that the plate, at most 2.5 mm deep, lies in one range.
 SonarHead long_pulse_head(double range) {
   SonarHead head = head_with({wavelength / 2, {1.0}}, {0}, 3e3, {range - 0.15, range + 0.15, 0.02});
   head.fan.elevation_width = pi;

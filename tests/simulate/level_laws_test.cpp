@@ -25,9 +25,9 @@ SonarHead bottom_sonar(double min_range, double max_range) {
   return make_head(s, sound_speed({}));
 }
 
-/// Flat Lambert bottom at height h (one-way line pattern, Gaussian pulse of energy length tau_e = 0.469719 / B):
+/// Returns the level of a flat Lambert bottom at height h (one-way line pattern, Gaussian pulse, tau_e = 0.469719 / B):
 /// RL = SL - 40 log r - 2 a r + 10 log mu + 20 log(h / r) + 10 log[(lambda / L) r^2 / sqrt(r^2 - h^2) c tau_e / 2]
-/// ahead; the cone of a beam at u crosses a ring of range at a slant: cos psi = sqrt(1 - u^2 r^2 / (r^2 - h^2)).
+/// ahead. The cone of a beam at u crosses a ring of range at a slant: cos psi = sqrt(1 - u^2 r^2 / (r^2 - h^2)).
 double bottom_level_db(const SonarHead& head, double r, double h, double mu, double u) {
   const double c = sound_speed({}), wavelength = c / head.pulse.centre_frequency;
   const double length = head.array.spacing * static_cast<double>(head.array.elements());

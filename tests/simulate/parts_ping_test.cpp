@@ -110,7 +110,7 @@ TEST(PingOfParts, has_the_same_bytes_in_any_order_and_with_one_more_part_out_of_
   EXPECT_TRUE(same_bytes(one, event_ping(merge_parts(std::vector{c, beyond, a, b}))));
   EXPECT_FALSE(same_bytes(one, event_ping(merge_parts(std::vector{a, b}))));
 
-  // And where all but the bed is placed anew for the ping.
+  // Place all parts but the bed anew for the ping.
   PosedScene posed(std::vector{a},
                    std::vector{b.cloud->materials[0], c.cloud->materials[0], beyond.cloud->materials[0]});
   const PingSimulator simulator(head(), Environment{});

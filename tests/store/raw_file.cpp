@@ -12,7 +12,7 @@ namespace {
 time_t seconds_ahead = 0;
 }  // namespace
 
-// The clock that HDF5 reads, too: symbols of a program come before those of libraries.
+// Sets the clock that HDF5 reads, too: symbols of a program come before those of libraries.
 extern "C" int gettimeofday(timeval* now, void*) noexcept {
   timespec t;
   clock_gettime(CLOCK_REALTIME, &t);

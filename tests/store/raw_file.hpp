@@ -34,8 +34,8 @@ std::string raw_text(hid_t file, const char* object, const char* name);
 double raw_number(hid_t file, const char* name);
 void raw_set(hid_t file, const char* name, double value);
 
-/// write("first.h5") and write("second.h5"), which return the path of what they wrote, must give the same bytes, though
-/// the second is written a day later by the clock of this program, into memory that malloc filled with another byte.
+/// Expects the same bytes of write("first.h5") and write("second.h5"), which return the paths of their files. The
+/// second is written a day later by the clock of this program, into memory that malloc filled with another byte.
 void expect_same_bytes_a_day_later(const std::function<std::string(const std::string&)>& write);
 
 }  // namespace insonify

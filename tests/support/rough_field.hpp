@@ -17,9 +17,9 @@ struct RoughFieldOptions {
   bool terraces = true;             ///< true: two steps of 0.2 m across the field
 };
 
-/// A rough bed: waves from `shortest` to 2 m in all directions whose slopes are alike at every length (a power law),
-/// boulders half sunk into it, and terraces; slopes to 70 degrees. Fixed to the world, so that fields of different
-/// spacing are samples of one bed.
+/// Returns a rough bed: waves from `shortest` to 2 m in all directions whose slopes are alike at every length (a power
+/// law), boulders half sunk into it, and terraces; slopes to 70 degrees. Fixed to the world, so that fields of
+/// different spacing are samples of one bed.
 HeightField rough_field(const RoughFieldOptions& options = {});
 
 /// Returns the field without its nodes in round holes, `across` wide [m], so many per square metre.

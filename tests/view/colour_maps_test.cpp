@@ -70,8 +70,8 @@ Eigen::Vector3d lab_of(const Rgb& colour) {
   return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
-// Length of the way through CIELAB over the middle half of the levels, in steps beside which a byte's rounding is
-// small.
+// Returns the length of the path through CIELAB over the middle half of the levels. Its steps are large against the
+// rounding of a byte.
 double contrast_of_mid_tones(const std::string& name) {
   const ColourTable table = colour_table(name, "test");
   double way = 0;

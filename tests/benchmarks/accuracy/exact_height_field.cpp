@@ -200,7 +200,7 @@ std::string prepared(const std::string& path, const LoadOptions& load, const std
   return to;
 }
 
-// Tiles, which are discs, and a cloud with normals of its own: those that were estimated of it.
+// Returns readings of tiles, which are discs, and of a cloud with its estimated normals as its own.
 std::vector<Reading> with_normals(const std::string& path, const LoadOptions& load, const std::string& folder) {
   const SceneCloud scene = load_scene(path, load).scene;
   const std::string tiles = folder + "/normals.tiles", text = folder + "/normals.xyz";

@@ -28,7 +28,7 @@ constexpr double everywhere = 2;  // lobe margin: cells as wide as in a main lob
 
 class Bench {
  public:
-  /// preset: NAME, or NAME@MIN:MAX with the ends of its gate [m].
+  /// Sets up the sonar of `preset`: NAME, or NAME@MIN:MAX with the ends of its gate [m].
   Bench(const PreparedScene& scene, const std::string& preset) : scene_(scene) {
     const SonarFile file = find_sonar(preset.substr(0, preset.find('@')));
     SonarSpec spec = file.spec;

@@ -60,8 +60,8 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// True if the true range jumps within `distance` of where the ray meets the world: on one of four lines across it, the
-// inverse range is not linear as that of a plane is, by more than far_off.
+// Returns true if the true range jumps within `distance` of the place that the ray meets: on one of four lines across
+// it, the inverse range differs by more than far_off from the linear one of a plane.
 bool is_near_silhouette(const World& world, const Vector3d& from, const Vector3d& along, double range,
                         double distance) {
   const Vector3d right = along.unitOrthogonal(), up = along.cross(right);
@@ -138,7 +138,7 @@ void compare_rays(const World& world, const PreparedScene& scene, double spacing
           rest.quantile_mm(0.99), rest.far_percent());
 }
 
-// Surfels against the true line of sight to their centres, weighted by their Lambert cross-sections.
+// Compares surfels with the true line of sight to their centres, weighted by their Lambert cross-sections.
 void compare_surfels(const World& world, const PreparedScene& scene, double spacing, const View& view, Tables& tables) {
   constexpr double on_surface = 0.01;  // [m]
   constexpr std::size_t most = 40000;
