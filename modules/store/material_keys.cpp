@@ -37,8 +37,7 @@ KeyValue number_of(std::optional<double>& x, const LawNumber& n) {
                 {.least = n.least * n.in_file, .most = n.most * n.in_file, .above = n.above});
 }
 
-/// Returns the law of an entry: the numbers given in the file, and else those of `like`. `line(key)` is the line of a
-/// key.
+/// Returns the law of an entry: the numbers given in the file, else those of `like`. `line(key)` is the key's line.
 template <typename Line>
 SurfaceLaw law_of(const std::string& path, const MaterialEntry& entry, int begin, const Line& line) {
   SurfaceLaw law = entry.law.empty() ? entry.sourced.material.law : *law_named(entry.law);

@@ -24,9 +24,8 @@ struct MaterialEntry {
 /// Returns the keys of a [[material]], bound to `entry`, including those of material_numbers and law_numbers.
 std::vector<Key> material_keys(MaterialEntry& entry);
 
-/// Reads a table of keys into `entry`, which starts as a copy of the material `like` if the table names one;
-/// `find_like` returns it. Throws Error(content) with path and line for keys that are unknown, missing, out of range or
-/// of another law.
+/// Reads a table of keys into `entry`, which starts as a copy of find_like(like) if the table names a material `like`.
+/// Throws Error(content) with path and line for keys that are unknown, missing, out of range or of another law.
 void read_material(const std::string& path, const TomlValue& table, MaterialEntry& entry,
                    const std::function<Material(const std::string&)>& find_like,
                    const std::vector<std::string>& others = {});

@@ -9,8 +9,7 @@
 namespace insonify {
 namespace {
 
-// Throws Error(content) for cubes of different sonars, fans, gates or pulses. Their water may differ: each ping has its
-// own.
+// Throws Error(content) for cubes of different sonars, fans, gates or pulses. Water may differ from ping to ping.
 void require_alike(const NamedCube& one, const NamedCube& first) {
   const auto refuse = [&](const auto&... difference) {
     fail(ErrorKind::content, one.name, ": ", difference..., " in ", first.name,

@@ -16,8 +16,7 @@ struct SurveyRunHead {
   bool operator==(const SurveyRunHead&) const = default;
 };
 
-/// The contents of survey.toml in the folder of a survey. It identifies the mission; NAME/blocks holds the blocks of
-/// head NAME.
+/// The contents of survey.toml in the folder of a survey. NAME/blocks beside it holds the blocks of head NAME.
 struct SurveyRun {
   std::string mission_sha256;  ///< SHA-256 of the mission and all files that its result depends on
   std::vector<SurveyRunHead> heads;
