@@ -24,7 +24,7 @@ std::string line_of(const Vector3d& v) {
   return out.str();
 }
 
-// Header of a scan: numbers, place and axes of the scanner, and the matrix, row by row, of points as rows.
+// Returns the header of a scan: numbers, place and axes of the scanner, and the matrix of points as rows.
 std::string header(int columns, int rows, const Pose& scanner) {
   std::string text =
       std::to_string(columns) + "\n" + std::to_string(rows) + "\n" + line_of(scanner.translation()) + "\n";
@@ -40,7 +40,7 @@ Pose scanner_at(const Vector3d& place, double turn) {
   return pose;
 }
 
-// Range from a place to a floor at z = -2, a ball and a wall at x = 9, along a unit vector; 0: nothing.
+// Returns the range from a place to a floor at z = -2, a ball and a wall at x = 9, along a unit vector; 0: none.
 double range_from(const Vector3d& from, const Vector3d& d) {
   double range = d.z() < 0 ? (-2 - from.z()) / d.z() : 1e9;
   if (d.x() > 0) range = std::min(range, (9 - from.x()) / d.x());
@@ -50,7 +50,7 @@ double range_from(const Vector3d& from, const Vector3d& d) {
   return range < 40 ? range : 0;
 }
 
-// A scan of steps of half a degree, in the axes of the scanner; noise across and along the line of sight [m].
+// Returns a scan in steps of half a degree, in the axes of the scanner, with `noise` along the line of sight [m].
 std::string scan_from(const Pose& scanner, double noise, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -65,8 +65,8 @@ std::string scan_from(const Pose& scanner, double noise, unsigned seed) {
   return text;
 }
 
-// Share of the surfels of a station, by their ids, that a head at its place sees, and what the others take of the
-// energy [dB].
+// Returns the share of the surfels of a station, by their ids, that a head at its place sees, and the share of the
+// energy that comes from them [dB].
 std::pair<double, double> seen_again(const SceneCloud& scene, const Pose& from, std::size_t begin, std::size_t end) {
   const BeamFan fan = make_fan(64, radians(70), radians(1.5), radians(60));
   SamplingOptions options{.scatterers_per_cell = 0, .elevation_half_extent = radians(40)};
