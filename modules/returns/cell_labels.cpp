@@ -102,7 +102,7 @@ class CellFinder {
   double half_u_ = 0, half_up_ = 0;
 };
 
-/// The boxes of the surfels of a region that a head does not see, block by block.
+/// Returns the boxes of the surfels of a region that a head does not see, block by block.
 std::vector<std::vector<CellBox>> unseen_boxes(const PreparedScene& prepared, const InsonifiedRegion& region,
                                                const std::vector<std::uint8_t>& seen, const CellFinder& finder,
                                                int threads) {

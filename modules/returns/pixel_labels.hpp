@@ -49,9 +49,9 @@ struct PixelLabels {
   Grid<std::uint16_t> part{};      ///< part of that surfel, index into `part_names`; no_part: none. Empty: no parts
   std::vector<std::string> part_names{}, part_labels{};  ///< names and labels of all parts of the scene (ScenePart)
   std::vector<PartView> views{};                         ///< one per part
-  /// Maps of display cells alone (E194, E195), else empty: the direction from which the strongest surfel of the label is
-  /// heard above the x-y plane of the head [rad], 0 without a label; and the label with the most energy among the
-  /// others, or nothing, with its share.
+  /// Maps of display cells (E194, E195), else empty: the elevation from which the echo of the label's strongest surfel
+  /// arrives, above the x-y plane of the head [rad], 0 without a label; the label with the most energy among the
+  /// others, or nothing; and its share.
   Grid<float> elevation{};
   Grid<std::uint16_t> second{};
   Grid<float> second_share{};

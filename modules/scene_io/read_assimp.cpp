@@ -22,7 +22,7 @@ namespace {
 
 using Eigen::Affine3d;
 
-/// A function of Assimp, called as the one that its header declares.
+/// Returns a function of Assimp, which is called as its header declares it.
 template <typename Function>
 Function* in_assimp(Function&, const char* name) {
   static void* const library = dlopen(INSONIFY_ASSIMP, RTLD_LAZY | RTLD_LOCAL);
@@ -86,7 +86,7 @@ struct PlacedMeshes {
       raw.float_coordinates = raw.float_coordinates || local.cwiseAbs().maxCoeff() > 1000;
       rows.insert(rows.end(), {p.x(), p.y(), p.z(), static_cast<double>(mesh.mMaterialIndex)});
     }
-    // A mirror turns triangles over, whose outside stays where it was.
+    // A mirror turns triangles over; exchange corners so that their outside stays outside.
     const bool mirrored = world.linear().determinant() < 0;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];

@@ -37,7 +37,7 @@ constexpr DatasetName label_material_name{"/label_material", "",
                                           "material, index into label_names; 65535: nothing, 65534: shadow"};
 constexpr DatasetName label_id_name{"/label_id", "", "id of the strongest surfel in the scene; 4294967295: none"};
 constexpr DatasetName label_share_name{"/label_share", "", "share of the energy that is of the material, 0 to 1"};
-/// Of display cells: where the strongest surfel is heard from, and the label that comes next.
+/// Datasets of display cells: the elevation of the strongest surfel, and the second label.
 constexpr DatasetName label_elevation_name{"/label_elevation", "rad",
                                            "of the strongest surfel above the x-y plane of the head; 0: none"};
 constexpr DatasetName label_second_name{"/label_second", "",

@@ -19,7 +19,7 @@ const SonarHead swath_head = small_head({.beams = 48,
                                          .min_range = 3,
                                          .max_range = 15});
 
-/// A bed of sand with a wall of steel, which hides a part of it, and a block of rock.
+/// Returns a bed of sand with a wall of steel, which hides a part of it, and a block of rock.
 const SceneCloud& field() {
   static const SceneCloud scene = [] {
     SceneCloud made;
@@ -50,7 +50,7 @@ SimulatedPing labelled(const SimulationOptions& o, const SonarHead& head = swath
   return simulate_event(field(), head, {.world_from_head = over_field()}, environment, o);
 }
 
-/// Share of the energy in the display cells of a ping of samples that comes from each label of contributors.
+/// Energy share of each label of contributors, in each display cell of a ping of samples.
 using SharesOfLabels = std::map<std::uint16_t, double>;
 std::vector<std::vector<SharesOfLabels>> shares_in_cells(const SimulatedPing& samples, const RangeGate& cells) {
   const Ping& ping = samples.ping;
@@ -72,7 +72,7 @@ std::vector<std::vector<SharesOfLabels>> shares_in_cells(const SimulatedPing& sa
   return shares;
 }
 
-/// The same ping with labels of samples, from contributors.
+/// Returns the ping with labels of samples, from contributors.
 const SimulatedPing& of_contributors() {
   static const SimulatedPing made = [] {
     SimulationOptions samples;
@@ -116,7 +116,7 @@ TEST(CellLabels, shadow_is_where_all_samples_of_a_cell_have_it) {
         const double away = samples.gate.centre(n) - cells.gate.centre(static_cast<std::size_t>(c));
         if (std::abs(away) > 0.5 * cells.gate.bin_size) continue;
         ++all;
-        // So are the samples of the beams beside it, where edges of shadows may lie.
+        // Require shadow in the samples of the beams beside it, too: edges of shadows may lie there.
         const auto column = static_cast<Eigen::Index>(n);
         for (const Eigen::Index near : {b - 1, b, b + 1})
           in_shadow += samples.labels.material(near, column) == PixelLabels::shadow;
@@ -152,7 +152,7 @@ TEST(CellLabels, of_cells_that_are_means_of_samples_are_those_of_drawn_ones) {
   EXPECT_FALSE(same(drawn.pressure, averaged.pressure));
   EXPECT_TRUE(same(drawn.labels.material, averaged.labels.material));
   EXPECT_TRUE(same(drawn.labels.id, averaged.labels.id));
-  // So few samples are in these cells that they are never drawn.
+  // These cells hold so few samples that they are never drawn.
   SimulationOptions fine = with_labels();
   fine.outputs.display_bins = 400;
   const PixelLabels labels = labelled(fine).ping.labels;
@@ -170,7 +170,7 @@ TEST(CellLabels, shares_leave_out_noise_and_reverberation) {
   EXPECT_LT((clear.share - dim.share).abs().maxCoeff(), 0.02);
 }
 
-/// Two squares, each of one surfel in a cell of its own but for what they share.
+/// Tests two squares of one surfel each in one cell, at different elevations.
 TEST(CellLabels, shares_and_elevation_are_those_of_two_echoes) {
   SceneCloud two;
   two.materials = {{"sand", 0.1}, {"steel", 0.1}};

@@ -114,7 +114,7 @@ TEST(CubeOfParts, loses_its_labels_beside_pings_of_other_parts) {
   for (Ping& ping : other.pings) ping.labels.part_names[1] = "pot-2";
   const MergedCube merged = merge_cubes_by_time({{"a", cube_of_parts()}, {"b", other}});
   for (const Ping& ping : merged.cube.pings) EXPECT_TRUE(ping.labels.empty());
-  // So it does beside pings whose labels are of samples, without a second one.
+  // Labels of samples, without a second label, are dropped beside labels of cells, too.
   Cube of_samples = cube_of_parts();
   for (Ping& ping : of_samples.pings) {
     ping.labels.second.resize(0, 0);
