@@ -13,8 +13,8 @@
 // document them.
 namespace insonify {
 
-/// How a field is stored, highest byte first. text16 and text32 begin with their length, which counts the 0 at the end;
-/// text and zeros have as many bytes as the row says.
+/// The form of a field in a file, highest byte first. text16 and text32 begin with their length, which counts the 0 at
+/// the end; text and zeros have as many bytes as the row says.
 enum class GsfType { u8, i16, u16, i32, u32, text, text16, text32, zeros };
 
 /// A field of a record: raw = value times steps, rounded.

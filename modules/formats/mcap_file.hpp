@@ -15,7 +15,7 @@ class PendingFile;
 /// Compression of chunks: none, or one frame of LZ4 or of Zstandard.
 enum class McapCompression : std::uint8_t { none, lz4, zstd };
 
-/// Returns whether this build has the library of a compression.
+/// Returns true if this build has the library of a compression.
 bool has_compression(McapCompression compression);
 
 /// Writes messages of ROS 2 as an MCAP file (mcap.dev, profile ros2). Chunks of about 1 MiB have a CRC and an index of

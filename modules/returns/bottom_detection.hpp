@@ -13,8 +13,8 @@
 
 namespace insonify {
 
-/// How the range of a sounding was found: from the centre of gravity of its echo, or from the zero of the phase between
-/// the halves of the array.
+/// The method that found the range of a sounding: from the centre of gravity of its echo, or from the zero of the phase
+/// between the halves of the array.
 enum class BottomMethod : std::uint8_t { amplitude = 1, phase = 2 };
 
 /// Why a sounding is rejected, as bits of BottomSoundings::reject.

@@ -13,7 +13,7 @@
 
 namespace insonify {
 
-/// How pings insonified one surfel (E97).
+/// The insonification of one surfel by pings (E97).
 struct CoveredSurfel {
   std::uint32_t id = 0;                                      ///< SceneCloud::id
   std::uint32_t pings = 0;                                   ///< number of pings that insonified it

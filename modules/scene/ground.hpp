@@ -14,7 +14,7 @@
 
 namespace insonify {
 
-/// How a part of a scene is placed on the ground. `none`: it stays where it is. `ground`: it is lowered until it
+/// The rest of a part of a scene on the ground. `none`: it stays where it is. `ground`: it is lowered until it
 /// touches. `bed`: it is tilted with the bed under its footprint, then lowered.
 enum class PartRest { none, ground, bed };
 

@@ -139,8 +139,8 @@ TEST(JudgedSoundings, of_a_river_bed_with_gaps_by_an_em2040) {
 TEST(JudgedSoundings, of_a_river_bed_with_gaps_by_an_r2sonic_2024) {
   expect_trusted(judged(river(), head_below("r2sonic-2024", 14), {6, 0, -0.5}, 3.7, 6));
 }
-// Its beams are 20 degrees long along the way: a boulder ahead is heard before the bed below, which no ping can part
-// from one below the head. What is wrong says so itself.
+// Beams are 20 degrees long along track. An echo from a boulder ahead arrives before that of the bed below, and no ping
+// can distinguish it from a boulder below the head. Wrong soundings are marked as such.
 TEST(JudgedSoundings, of_a_river_bed_by_an_oculus_m750d_that_looks_down) {
   SonarSpec spec = find_sonar("oculus-m750d").spec;
   spec.beams = 256, spec.max_range = 11;
@@ -156,9 +156,9 @@ TEST(JudgedSoundings, of_a_reef) {
   const SceneCloud reef = make_built_in_scene("reef", {.points = 200000});
   expect_trusted(judged(reef, head_below("em2040", 9), {3, 0, -0.5}, 1.3, 5));
 }
-// A quay stands to port, 18 m beside the head and beyond the fan: half a wavelength apart, elements hear it in beams of
-// the other side, in frequencies beside the pulse's. There it is louder than the bed, which is found nevertheless;
-// where the two are one, the place is right and the echo is not.
+// A quay lies to port, 18 m beside the head and beyond the fan. Elements half a wavelength apart receive it in beams of
+// the other side, at frequencies beside the pulse's. It is louder there than the bed, which is found nevertheless.
+// Where both echoes coincide, the place is right and the echo is not.
 TEST(JudgedSoundings, of_a_harbour_with_a_quay_beside_the_fan) {
   const SceneCloud harbour = make_built_in_scene("harbour", {.points = 200000});
   const SceneCloud dense = make_built_in_scene("harbour", {.points = 1000000});

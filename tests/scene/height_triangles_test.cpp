@@ -109,8 +109,8 @@ TEST(SmoothedHeights, lie_near_the_surface_that_noise_hides) {
   EXPECT_LT(after, 0.15 * before);
 }
 
-// How wide the neighbourhoods are follows the surface: a plane is as even as the widest leave it, and the waves that
-// noise of a spacing does not hide keep their slopes.
+// The width of neighbourhoods follows the surface: a plane becomes as even as the widest ones make it, and waves that
+// noise of one spacing does not hide keep their slopes.
 TEST(SmoothedHeights, keep_the_waves_that_rise_out_of_noise_and_no_others) {
   constexpr int n = 128;
   constexpr float spacing = 1.0f / n;

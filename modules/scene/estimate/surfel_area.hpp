@@ -27,8 +27,8 @@ struct ShapeOptions {
   int neighbours =
       16;           ///< nearest points that bound a cell in a view from one place (otherwise twice as many); at least 6
   int threads = 0;  ///< 0: all cores
-  /// Where points were seen from [m]; empty: unknown. They count as one view if their cells among the directions from
-  /// there are at least `evenness_of_view` times as even as on the plan. Otherwise the viewpoint changes nothing.
+  /// Place from which points were seen [m]; empty: unknown. They count as one view if their cells among the directions
+  /// from there are at least `evenness_of_view` times as even as on the plan. Otherwise the viewpoint changes nothing.
   std::optional<Eigen::Vector3d> viewpoint{};
   double evenness_of_view = 1;
   bool keep_strays = false;  ///< true: points far from all others keep the areas of their cells
