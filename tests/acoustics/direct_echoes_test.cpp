@@ -32,7 +32,7 @@ const EchoOptions coherent{.amplitude = SurfaceAmplitude::coherent};
 TEST(LambertCrossSection, has_one_cosine_per_projected_area) {
   // A surfel of 1 m^2 at 60 degrees: mu cos^2 dS = 0.1 * 0.25 * 1.
   EXPECT_NEAR(lambert_cross_section(0.1, 0.5, 0.5 * 1.0), 0.025, 1e-15);
-  // Seen at 60 degrees, heard at arccos 0.25: mu cos_out cos_back dS.
+  // Seen at 60 degrees, received at arccos 0.25: mu cos_out cos_back dS.
   EXPECT_NEAR(cross_section(*surface_table(std::vector<Material>{{"m", 0.1}}, 1e5, 1500)[0], {0.5, 0.25, 0.5 * 1.0}),
               0.0125, 1e-15);
 }

@@ -164,7 +164,7 @@ TEST_F(DoubleEchoesTest, of_a_corner_lie_behind_its_edge) {
 }
 
 // Two plates that no beam resolves: their senses add coherently, to twice the power of the same echoes with independent
-// phases; resolved by direction, each beam hears one sense.
+// phases; resolved by direction, each beam receives one sense.
 TEST_F(DoubleEchoesTest, of_both_senses_add_coherently) {
   Room room(corner_of(0.1, 10), Vector3d(300, 0.5, 300), 300);
   room.sent.echo_options.amplitude = SurfaceAmplitude::complex_normal;

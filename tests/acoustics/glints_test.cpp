@@ -295,7 +295,7 @@ TEST(Glints, arrive_from_the_last_mirror_and_leave_for_the_first) {
   EXPECT_NEAR(e.u[0], 0, 1e-12);
   EXPECT_NEAR(e.u[2], std::cos(tilt), 1e-12);
   EXPECT_DOUBLE_EQ(e.delay[1], e.delay[3]);
-  EXPECT_GT(e.u[1], e.u[3]);  // the way a, b is heard from b, to port
+  EXPECT_GT(e.u[1], e.u[3]);  // the echo by a, then b arrives from b, to port
 }
 
 TEST(Glints, are_blocked_by_surfels_that_are_not_the_mirrors) {
@@ -325,7 +325,7 @@ TEST(Glints, refuse_a_head_on_or_behind_a_mirror) {
   EXPECT_EQ(b.echoes().size(), 0u);
   b.shapes.mirrors = {with_size({"plate", {0, 0.4, 0}, {-1, 0, 0}}, 1, 1)};
   expect_error(ErrorKind::argument, {"plate", "stands on"}, [&] { b.echoes(); });
-  // Nearer than the gate it is not heard.
+  // Nearer than the gate it is not received.
   b.shapes.mirrors = {{"quay", {0.05, 0, 0}, {-1, 0, 0}}};
   b.view.gate.min_range = 1;
   EXPECT_EQ(b.echoes().size(), 0u);

@@ -158,7 +158,7 @@ TEST(TrueDelayEngine, moving_echoes_and_absorption_by_frequency_keep_the_toleran
   EXPECT_LE(relative_l2(synthesize_true_delays(e, head, tilted, {1e-3}), exact(e, head, tilted)), 1e-3);
 }
 
-// Side lobes hear what lies far beyond the fan: half of the echoes.
+// Side lobes receive echoes from far beyond the fan: half of the echoes.
 TEST(TrueDelayEngine, echoes_from_all_directions_keep_the_tolerance) {
   const SonarHead head = true_delay_head({"", 400e3, 100e3, 40, 30, 3, 3.6});
   Echoes e = near_echoes(head, 60);
@@ -212,7 +212,7 @@ TEST(TrueDelayEngine, one_echo_and_none) {
   point.u = {0.01};
   point.amplitude = {{1e-30, 0}};
   EXPECT_LE(relative_l2(plan.pressure(point), exact(point, head)), 1e-3);
-  // Just outside the gate, in the outermost beam, whose elements hear part of it within.
+  // Just outside the gate, in the outermost beam, whose elements receive part of it within.
   point.delay = {2 * 5.005 / c0};
   point.u = {0.86};
   EXPECT_LE(relative_l2(plan.pressure(point), exact(point, head)), 1e-2);

@@ -134,7 +134,7 @@ const SceneCloud& river() {
 TEST(JudgedSoundings, of_a_river_bed_with_gaps_by_an_em2040) {
   const Judged j = judged(river(), head_below("em2040", 14), {6, 0, -0.5}, 3.7, 7);
   expect_trusted(j);
-  EXPECT_GT(j.wrong, 0.02 * j.found);  // beyond the edges, where side lobes and skirts are all that is heard
+  EXPECT_GT(j.wrong, 0.02 * j.found);  // beyond the edges, where side lobes and skirts are all that is received
 }
 TEST(JudgedSoundings, of_a_river_bed_with_gaps_by_an_r2sonic_2024) {
   expect_trusted(judged(river(), head_below("r2sonic-2024", 14), {6, 0, -0.5}, 3.7, 6));

@@ -200,7 +200,7 @@ TEST(Thesis, true_grating_lobes_stand_at_the_closed_form) {
     const auto copies = slice(targets({2.25}, {target}), head, 2.25);
     for (const double copy : copies) EXPECT_NEAR(level_db(copy, copies.front()), 0, 1e-9);
 
-    // Elements of the same total length, half a thesis_wavelength apart, hear the target and nothing from there.
+    // Elements of the same total length, half a thesis_wavelength apart, receive the target and nothing from there.
     head.array = {0.5 * thesis_wavelength, uniform_shading(static_cast<std::size_t>(12 * pitch))};
     const auto dense = slice(targets({2.25}, {target}), head, 2.25);
     const double peak = *std::max_element(dense.begin(), dense.end());

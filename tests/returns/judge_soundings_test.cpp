@@ -62,7 +62,7 @@ void add_lobe(Ping& ping, std::size_t beam, double turn, bool beside) {
 
 }  // namespace
 
-// Sound from beyond the fan fills the outer beams at one range, where nothing else is heard, a bandwidth beside the
+// Sound from beyond the fan fills the outer beams at one range, where nothing else is received, a bandwidth beside the
 // pulse's frequency: it lasts longer than a pulse and turns. The same without the turn is an echo of the fan's own, and
 // stays.
 TEST(JudgeSoundings, rejects_what_a_grating_lobe_brings_in) {
@@ -82,7 +82,7 @@ TEST(JudgeSoundings, rejects_what_a_grating_lobe_brings_in) {
   }
 }
 
-// In one beam nothing is heard of the bottom, but an echo behind it, 22 dB below.
+// In one beam there is no echo of the bottom, but one behind it, 22 dB below.
 TEST(JudgeSoundings, rejects_what_is_far_below_the_bottom_about_it) {
   Ping ping = quiet_ping(101, 90, 1, 24);
   add_level_bottom(ping, 1);

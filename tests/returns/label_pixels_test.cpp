@@ -89,7 +89,7 @@ TEST_F(PixelLabelling, side_lobes_are_not_what_they_leak_from) {
   hear(bin, 0, 0.1, 1, 1e6);
   const PixelLabels l = labels();
   const Contributors all = found();
-  EXPECT_GT(all.total[all.at(ahead, bin) / all.per_pixel], 1);  // heard by a side lobe, loud enough for any surface
+  EXPECT_GT(all.total[all.at(ahead, bin) / all.per_pixel], 1);  // received by a side lobe, loud enough for any surface
   EXPECT_EQ(l.material(ahead, bin), PixelLabels::nothing);
   EXPECT_EQ(l.share(ahead, bin), 0);
   EXPECT_EQ(l.id(ahead, bin), PixelLabels::no_id);

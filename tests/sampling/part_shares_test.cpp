@@ -117,7 +117,7 @@ TEST(PartShares, of_a_fan_are_of_what_one_main_lobe_hears_from_a_range) {
       ++number[s];
     return number;
   };
-  // Main lobes everywhere: a surfel with all parts of its cells gives three tenths of what is heard.
+  // Main lobes everywhere: a surfel with all parts of its cells gives three tenths of what is received.
   const std::vector<int> by_cells = parts(radians(90), nullptr), of_fan = parts(radians(90), quiet_above);
   ASSERT_GT(by_cells[1], 1000);
   EXPECT_EQ(of_fan[0], by_cells[0]);

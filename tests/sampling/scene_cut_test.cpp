@@ -123,7 +123,7 @@ TEST(SceneCut, does_not_depend_on_threads_or_where_scene_and_head_are) {
   expect_same(here.scene.scene(), cut_of(scene, Reach(moved)).scene.scene());
 }
 
-// A node that reaches across an end of the sampled ranges would be heard as a whole or not at all.
+// A node that reaches across an end of the sampled ranges would be received as a whole or not at all.
 TEST(SceneCut, no_node_reaches_across_the_ends_of_the_gate) {
   const SceneCloud plane = make_built_in_scene("plane", {.points = 300000, .size = {30, 30}});
   Reach reach(pose_from_yaw_pitch_roll({0, 0, 3}, 0, radians(15), 0));

@@ -107,7 +107,8 @@ TEST(SimulatedContributors, of_a_plane_stand_at_the_elevation_of_the_plane) {
   }
 }
 
-// Under a smooth surface a target is heard by four paths; those by way of the surface arrive later and from above.
+// Under a smooth surface the echo of a target arrives by four paths; those by way of the surface arrive later and from
+// above.
 TEST(SimulatedContributors, by_way_of_the_surface_carry_their_path_kind) {
   SceneCloud scene;
   scene.materials = {{"m", 0.1}};

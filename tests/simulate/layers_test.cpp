@@ -162,7 +162,7 @@ TEST(Layers, are_linear_each_in_its_own_strength) {
   expect_scaled(noisy, {{"noise", amplitude_from_db(change)}}, "self noise");
 }
 
-// Two scenes heard together are the sum of both heard alone, where neither hides the other: ids keep speckle apart.
+// Two scenes pinged together are the sum of both pinged alone, where neither hides the other: ids keep speckle apart.
 TEST(Layers, of_two_scenes_are_the_sum_of_both) {
   SceneCloud both, first, second;
   for (int i = 0; i < 40; ++i)
@@ -211,7 +211,7 @@ TEST(SimulatePing, of_a_head_with_no_velocity_is_that_of_a_head_at_rest_bit_for_
   moving.event.motion.velocity = {1, 0, 0};
   const Layers layers = layers_of(moving.ping());
   EXPECT_FALSE(same(layers.at("direct"), reference().at("direct")));
-  for (const char* name : {"multipath", "volume", "surface", "bottom", "noise"})  // heard as at rest
+  for (const char* name : {"multipath", "volume", "surface", "bottom", "noise"})  // received as at rest
     EXPECT_TRUE(same(layers.at(name), reference().at(name))) << name;
 }
 

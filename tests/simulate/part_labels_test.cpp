@@ -96,7 +96,7 @@ TEST(PartLabels, have_the_extents_of_a_sphere_and_all_of_its_share) {
 
 // Beside the axis of the head, the sides of a sphere are not where its extents in azimuth and range meet.
 TEST(PartLabels, have_the_places_where_a_fan_draws_a_sphere) {
-  const Vector3d middle(6, 2.5, -1.6);  // far below: a line array hears it in a beam nearer to its axis
+  const Vector3d middle(6, 2.5, -1.6);  // far below: a line array receives it in a beam nearer to its axis
   const PixelLabels labels = labels_of({bed(), placed("ball", "ball", ball(0.3), middle)});
   const PartView& view = labels.views.at(index_of(labels, "ball"));
   PartView::Extent ahead{1e9, -1e9}, port{1e9, -1e9};

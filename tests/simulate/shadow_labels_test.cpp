@@ -110,7 +110,7 @@ TEST_F(ShadowOnABed, of_a_wall_is_as_long_as_its_height_says) {
   EXPECT_EQ(c.shadow_amiss, 0U);
   EXPECT_GT(c.lit, 3000U);
   EXPECT_EQ(c.lit_amiss, 0U);
-  // The wall is steel, and nothing behind it is, although its side lobes are heard there.
+  // The wall is steel, and nothing behind it is, although its side lobes are received there.
   for (std::size_t n = 0; n < head.gate.bins(); ++n) {
     const double range = head.gate.centre(n);
     if (range < base + 0.1) continue;

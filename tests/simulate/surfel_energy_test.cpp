@@ -100,7 +100,7 @@ TEST(SurfelEnergy, is_left_open_where_parts_must_be_as_many_as_cells_ask_for) {
   EXPECT_FALSE(given(single_beam, {.sampling = {.scatterers_per_cell = 0}}));
 }
 
-// The foot of a wall, seen in the main lobe, and the bed before it, seen below, are heard at one range.
+// The foot of a wall, seen in the main lobe, and the bed before it, seen below, are received at one range.
 TEST(SurfelEnergy, lets_a_fan_do_with_fewer_parts) {
   SceneCloud scene;
   add_rectangle(scene, {12, -5, -4}, {0, 10, 0}, {0, 0, 8}, {-1, 0, 0}, 0.4, 0.1);

@@ -124,7 +124,7 @@ TEST(ViewerRecords, a_sweep_shows_every_bearing_as_it_was_heard_last) {
     EXPECT_NEAR(std::remainder(sweep.image.fan.azimuth[beam] - radians(30.0 * static_cast<double>(beam)), 2 * pi), 0,
                 1e-12);
   }
-  // In the first sweep nothing was heard of the bearings to come.
+  // In the first sweep nothing was received from the bearings to come.
   const SweepImage first = sweep_at(data, 3, false, page);
   EXPECT_EQ(first.image.level_db(4, 70), static_cast<float>(silence_db));
   EXPECT_GT(first.image.level_db(3, 70), 100);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Expected levels by how surfels are split, for cells of main lobes and of side lobes (E17), by shares of what is heard
-// (E127) and of the surface of a range (E128): part_accuracy [SURFELS] [PRESET[@MIN:MAX] ...], a table in Markdown
-// (docs/results/sampling.md).
+// Expected levels by how surfels are split, for cells of main lobes and of side lobes (E17), by shares of what is
+// received (E127) and of the surface of a range (E128): part_accuracy [SURFELS] [PRESET[@MIN:MAX] ...], a table in
+// Markdown (docs/results/sampling.md).
 //
 // Harbour of 300 000 surfels, each preset at its range, at most 30 m, or from MIN to MAX [m]; three seeds, against 100
 // parts per cell as wide as in a main lobe. Bins of side lobes: those of which the directions of main lobes give less
