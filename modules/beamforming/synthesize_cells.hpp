@@ -38,7 +38,7 @@ struct CellOptions {
 
 /// Labels of the surfaces that echoes are of.
 struct EchoLabels {
-  std::vector<std::uint16_t> label;            ///< of the first echoes of surfaces; those after them have none
+  std::vector<std::uint16_t> label;            ///< one for each of the first echoes of surfaces
   std::size_t water_begin = 0, water_end = 0;  ///< echoes of water and boundaries, of which no cell has a share
 };
 

@@ -46,7 +46,7 @@ class CellSum {
   SynthesizerTable& synthesizers_;
   SurfaceEchoes all_;
   Echoes fixed_;
-  std::vector<std::uint32_t> surfel_;  ///< of each direct echo
+  std::vector<std::uint32_t> surfel_;  ///< surfel of each direct echo
   std::size_t water_begin_ = 0;        ///< first echo of reverberation; 0: there is none
   std::vector<Span> layers_;
   std::vector<LayerReport> report_;

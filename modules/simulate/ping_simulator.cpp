@@ -70,7 +70,7 @@ void average_looks(const ResolvedPing& resolved, Ping& ping, const Simulate& sim
   ping.intensity = mean_over_bins(sum / wanted.looks_pings, wanted.looks_range);
 }
 
-/// The same ping, whose display cells are drawn for their labels alone.
+/// Returns the ping whose display cells are drawn for their labels alone.
 ResolvedPing drawn_for_labels(const WholeScene& scene, const ResolvedPing& ping) {
   ResolvedPing drawn = ping;
   SimulationOptions& o = drawn.options;

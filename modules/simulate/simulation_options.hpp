@@ -104,7 +104,7 @@ struct OutputSettings {
   /// contributor_band_mib [MiB], or two rows. Must outlive the ping; nullptr: none.
   ContributorSink* contributor_sink = nullptr;
   double contributor_band_mib = 512;
-  /// Whether every display cell gets a label with its share, elevation and second label (Ping::labels, E194), from
+  /// True: every display cell gets a label with its share, elevation and second label (Ping::labels, E194), from
   /// expected energies; needs display_bins.
   bool labels = false;
 };

@@ -58,7 +58,7 @@ rate_hz = 1
 [randomise]
 scene = "ping"
 [ping]
-keep = ["contributors"]
+keep = ["{keep}"]
 """
 
 
@@ -405,8 +405,10 @@ class Referee:
         return sums
 
 
-def make_set(tool: str, folder: Path, images: int, bed: str = "") -> None:
-    """A survey of a head that passes a bed, with bodies drawn anew for each ping, and the data set of it."""
+def make_set(tool: str, folder: Path, images: int, bed: str = "", keep: str = "labels") -> None:
+    """A survey of a head that passes a bed, with bodies drawn anew for each ping, and the data set of it.
+
+    keep: labels of display cells, or contributors, for labels of samples"""
     def run(*words: str) -> None:
         subprocess.run([tool, *words, "-q"], cwd=folder, check=True)
     if bed:
@@ -427,7 +429,8 @@ def make_set(tool: str, folder: Path, images: int, bed: str = "") -> None:
     length = float(np.linalg.norm(np.subtract(last, first)))
     # A head that looks along x, whatever the course.
     course = float(np.degrees(np.arctan2(last[1] - first[1], last[0] - first[0])))
-    mission = MISSION.format(first=first, last=last, speed=length / (images - 0.5))
+    mission = MISSION.format(first=first, last=last, speed=length / (images - 0.5),
+                             keep=keep)
     mission = mission.replace("pitch_deg = -20\n", f"pitch_deg = -20\nheading_deg = {course:.6f}\n")
     (folder / "scene.toml").write_text(SCENE.format(post=post, area=area))
     (folder / "mission.toml").write_text(mission)

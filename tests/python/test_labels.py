@@ -18,18 +18,27 @@ from label_projector import Referee, make_set  # noqa: E402
 def strewn(tmp_path_factory) -> Path:
     """30 images of a reef strewn with bodies; label_projector.py makes any number of them."""
     folder = tmp_path_factory.mktemp("strewn")
-    make_set(os.environ["INSONIFY_TOOL"], folder, 30)
+    make_set(os.environ["INSONIFY_TOOL"], folder, 30, keep="contributors")
     return folder
 
 
-def test_an_independent_projector_finds_no_wrong_label(strewn):
-    found = Referee(strewn).run()
+def no_label_is_wrong(folder: Path) -> None:
+    found = Referee(folder).run()
     assert found.wrong == {}, found.first
     assert found.counted["images"] == 30
     for form in ("polar", "fan"):  # it had enough to judge
         assert found.counted[f"boxes in {form} images"] > 40
         assert found.counted[f"sure objects in {form} images"] > 15
         assert found.counted[f"whole boxes in {form} images"] > 20
+
+
+def test_an_independent_projector_finds_no_wrong_label(strewn):
+    no_label_is_wrong(strewn)
+
+
+def test_nor_does_it_in_display_cells(tmp_path):
+    make_set(os.environ["INSONIFY_TOOL"], tmp_path, 30, keep="labels")
+    no_label_is_wrong(tmp_path)
 
 
 def test_the_projector_finds_what_is_wrong(strewn):

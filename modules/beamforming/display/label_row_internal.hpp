@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// What the beams of a row hear of the nodes of u in their main lobes and in their cells (E194), and which elevations
+/// Responses of the beams of a row to the nodes of u in their main lobes and in their cells (E194), and which elevations
 /// both hold.
 struct LabelLobes {
   LabelLobes(const DisplayPlan& plan, const SonarHead& head, const std::vector<FanRow>& rows, std::size_t row,
@@ -35,7 +35,7 @@ struct LabelLobes {
 struct LabelledRow {
   LabelLobes lobes;
   const EchoLabels& echoes;
-  const std::vector<double>& sines;  ///< of the elevations of the echoes of surfaces
+  const std::vector<double>& sines;  ///< sines of elevations of the echoes of surfaces
   const std::vector<std::size_t>& beams;
   CellLabels& labels;
 };
@@ -53,7 +53,7 @@ class LabelRow {
   /// Sets the labels of all beams in the cell. mean: what each hears of all surfaces and of noise [Pa^2].
   void finish(const std::vector<double>& mean, double noise);
 
-  /// Whether an echo is of the water or a boundary.
+  /// Returns true if an echo is of the water or a boundary.
   bool of_water(const CellEcho& echo) const {
     const std::size_t i = index_of(echo);
     return i >= row_.echoes.water_begin && i < row_.echoes.water_end;
@@ -84,7 +84,7 @@ class LabelRow {
   const LabelledRow& row_;
   std::size_t cell_ = 0;
   std::vector<Sums> sums_;
-  std::size_t used_ = 0;              ///< of sums_, in this cell
+  std::size_t used_ = 0;              ///< number of sums_ in this cell
   std::vector<std::size_t> sums_at_;  ///< place of each label among them + 1; 0: it has none
 };
 
