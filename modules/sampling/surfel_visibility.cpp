@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <string_view>
@@ -93,18 +95,17 @@ class DepthTile {
 
   void find_covers(const DirectionTile& tile, std::vector<Cover>& covers) {
     nearest_.fill(0);
-    for (const TileBox& box : tile.boxes) draw(tile, box);
+    depths_.clear();
+    for (const TileBox& box : tile.boxes) draw(tile, box, depths_.emplace_back(surfels_, box.surfel, tile.face));
     sort_open(tile);
     if (open_.empty()) return;
-    for (const TileBox& box : tile.boxes) {
-      const HidingDepth depth(surfels_, box.surfel, tile.face);
+    for (std::size_t b = 0; b < tile.boxes.size(); ++b) {
+      const TileBox& box = tile.boxes[b];
+      const HidingDepth& depth = depths_[b];
       for (std::size_t y = box.y0; y <= box.y1; ++y) {
         // Between the first and the last cell with a query that is deep enough.
-        const LeastDepth least(depth, tile, y);
-        const float* const deepest = deepest_.data() + y * side;
-        std::size_t x0 = box.x0, x1 = box.x1;
-        while (x0 < x1 && !(least.inverse_at(x0) * deepest[x0] >= 1)) ++x0;
-        while (x0 < x1 && !(least.inverse_at(x1) * deepest[x1] >= 1)) --x1;
+        const auto [x0, x1] = reached_cells(LeastDepth(depth, tile, y), y, box);
+        if (x0 > x1) continue;
         // Those of a row stand side by side; few of them are behind.
         std::size_t found = 0;
         for (std::uint32_t i = first_[y * side + x0]; i < first_[y * side + x1 + 1]; ++i) {
@@ -130,6 +131,19 @@ class DepthTile {
     Cover so_far;
   };
   static constexpr std::size_t side = DirectionTile::side;
+  static_assert(side == 64, "a bit for each cell of a row");
+
+  /// Returns the first and the last cell of a box's row with a query that is deep enough; the first beyond the last: none.
+  std::pair<std::size_t, std::size_t> reached_cells(const LeastDepth& least, std::size_t y, const TileBox& box) const {
+    const float* const deepest = deepest_.data() + y * side;
+    std::uint64_t cells = asked_in_[y] & (~std::uint64_t{0} >> (side - 1 - box.x1)) & (~std::uint64_t{0} << box.x0);
+    const auto first = [&] { return static_cast<std::size_t>(std::countr_zero(cells)); };
+    const auto last = [&] { return static_cast<std::size_t>(std::bit_width(cells)) - 1; };
+    const auto reached = [&](std::size_t x) { return least.inverse_at(x) * deepest[x] >= 1; };
+    while (cells != 0 && !reached(first())) cells &= cells - 1;
+    while (cells != 0 && !reached(last())) cells &= ~std::bit_floor(cells);
+    return cells == 0 ? std::pair<std::size_t, std::size_t>(1, 0) : std::pair(first(), last());
+  }
 
   /// Lists the queries behind the buffer, by counting sort cell by cell.
   void sort_open(const DirectionTile& tile) {
@@ -142,10 +156,12 @@ class DepthTile {
       ++first_[cell];
     }
     deepest_.fill(0);
+    asked_in_.fill(0);
     std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0U);
     std::vector<std::uint32_t> sorted(found.size());
     for (const auto& [cell, query] : found) {
       sorted[first_[cell]++] = query;
+      asked_in_[cell / side] |= std::uint64_t{1} << cell % side;
       deepest_[cell] = std::max(deepest_[cell], queries_[query].depth);
     }
     std::shift_right(first_.begin(), first_.end(), 1);
@@ -170,14 +186,14 @@ class DepthTile {
         deepest_[cell] = std::max(deepest_[cell], places_[i].depth);
         open_[kept] = open_[i], places_[kept++] = places_[i];
       }
+      if (first_[cell] == kept) asked_in_[cell / side] &= ~(std::uint64_t{1} << cell % side);
     }
     first_.back() = kept, hidden_ = 0;
     open_.erase(open_.begin() + kept, open_.end());
     places_.resize(kept);
   }
 
-  void draw(const DirectionTile& tile, const TileBox& box) {
-    const HidingDepth depth(surfels_, box.surfel, tile.face);
+  void draw(const DirectionTile& tile, const TileBox& box, const HidingDepth& depth) {
     for (std::size_t y = box.y0; y <= box.y1; ++y) {
       const LeastDepth least(depth, tile, y);
       float* const cells = nearest_.data() + y * side;
@@ -189,6 +205,8 @@ class DepthTile {
   std::span<const std::uint32_t> asked_;
   std::span<const CubePoint> queries_;
   std::array<float, side * side> nearest_, deepest_;  // inverse depth of occluders; depth of those open
+  std::array<std::uint64_t, side> asked_in_;          // bits of cells with open queries, by rows
+  std::vector<HidingDepth> depths_;                   // of the boxes
   std::vector<Open> open_;                            // by cells
   std::vector<CubePoint> places_;                     // of these
   std::array<std::uint32_t, side * side + 1> first_;  // of each cell

@@ -41,11 +41,11 @@ double below_deviations(double away) {
 /// deeper than the pulse; else both are a normal law.
 double part_between(const CellEcho& echo, double sigma, double low, double high) {
   if (echo.half_depth > sigma) {
-    const double half = std::hypot(echo.half_depth, std::numbers::sqrt3 * sigma);
+    const double half = std::sqrt(echo.half_depth * echo.half_depth + 3 * sigma * sigma);
     return overlap(echo.range - half, echo.range + half, low, high) / (2 * half);
   }
-  const double deviation = std::hypot(sigma, echo.half_depth / std::numbers::sqrt3);
-  return below_deviations((high - echo.range) / deviation) - below_deviations((low - echo.range) / deviation);
+  const double per_deviation = 1 / std::sqrt(sigma * sigma + echo.half_depth * echo.half_depth / 3);
+  return below_deviations((high - echo.range) * per_deviation) - below_deviations((low - echo.range) * per_deviation);
 }
 
 /// First and last cell of an echo; the first is beyond the last if it has none.
@@ -60,13 +60,21 @@ class EchoMaker {
             const CellOptions& options)
       : plan_(plan), surface_(surface), fixed_(fixed), options_(options), metres_per_s_(0.5 * medium.sound_speed) {}
 
-  /// Sets echoes begin .. end - 1 of the list, and the cells that they are in.
-  void make(std::size_t begin, std::size_t end, std::vector<CellEcho>& echoes, std::vector<CellSpan>& cells) const {
+  /// Sets the cells that echoes begin .. end - 1 are in.
+  void find_cells(std::size_t begin, std::size_t end, std::vector<CellSpan>& cells) const {
     const std::size_t surfaces = surface_.id.size();
     for (std::size_t i = begin; i < end; ++i) {
-      echoes[i] = i < surfaces ? of_surface(i) : of_target(i - surfaces);
-      cells[i] = cells_of(echoes[i]);
+      const bool is_surface = i < surfaces;
+      const double depth = is_surface && surface_.power[i] > 0 ? static_cast<double>(surface_.depth[i]) : 0;
+      cells[i] = cells_of(metres_per_s_ * (is_surface ? surface_.echoes.delay[i] : fixed_.delay[i - surfaces]), depth);
     }
+  }
+  /// Sets those of echoes begin .. end - 1 that have a place in the list; `place` beyond it: none.
+  void make(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& place,
+            std::vector<CellEcho>& echoes) const {
+    const std::size_t surfaces = surface_.id.size();
+    for (std::size_t i = begin; i < end; ++i)
+      if (place[i] < echoes.size()) echoes[place[i]] = i < surfaces ? of_surface(i) : of_target(i - surfaces);
     if (!options_.speckle || begin >= surfaces) return;
     end = std::min(end, surfaces);
     std::vector<double> re(end - begin), im(end - begin);
@@ -75,7 +83,8 @@ class EchoMaker {
       random_amplitudes(options_.seed + q * other_seed, {surface_.id.data() + begin, end - begin}, re.data(),
                         im.data());
       for (std::size_t k = 0; k < re.size(); ++k)
-        if (!is_both(begin + k)) echoes[begin + k].amplitude[q] = {re[k], im[k]};
+        if (place[begin + k] < echoes.size() && !is_both(begin + k))
+          echoes[place[begin + k]].amplitude[q] = {re[k], im[k]};
     }
   }
 
@@ -114,7 +123,7 @@ class EchoMaker {
   double energy_in_cell(double range) const { return plan_.pulse.energy(range) / plan_.cell_length; }
 
   void place(CellEcho& echo) const {
-    echo.reach = std::hypot(echo.half_depth, plan_.pulse.half_length());
+    echo.reach = std::sqrt(echo.half_depth * echo.half_depth + plan_.pulse.half_length() * plan_.pulse.half_length());
     echo.node = static_cast<std::uint32_t>(plan_.node_of(echo.u));
     echo.port = static_cast<std::uint32_t>(plan_.node_of(echo.u + echo.half_width) / 2);
     echo.starboard = static_cast<std::uint32_t>(plan_.node_of(echo.u - echo.half_width) / 2);
@@ -138,11 +147,11 @@ class EchoMaker {
     return (surface_.power[both - 2] + surface_.power[both - 1] + surface_.power[both]) / surface_.power[i];
   }
 
-  CellSpan cells_of(const CellEcho& echo) const {
+  CellSpan cells_of(double range, double half_depth) const {
     const auto last_cell = static_cast<double>(plan_.cells - 1);
-    const double reach = echo.half_depth + reach_of_pulse * plan_.pulse.deviation();
-    const double low = std::floor((echo.range - reach - plan_.first_range) / plan_.cell_length),
-                 high = std::floor((echo.range + reach - plan_.first_range) / plan_.cell_length);
+    const double reach = half_depth + reach_of_pulse * plan_.pulse.deviation();
+    const double low = std::floor((range - reach - plan_.first_range) / plan_.cell_length),
+                 high = std::floor((range + reach - plan_.first_range) / plan_.cell_length);
     if (!(high >= 0 && low <= last_cell)) return {};
     return {static_cast<std::uint32_t>(std::max(low, 0.0)), static_cast<std::uint32_t>(std::min(high, last_cell))};
   }
@@ -153,6 +162,23 @@ class EchoMaker {
   const CellOptions& options_;
   double metres_per_s_;
 };
+
+/// Returns the place of each echo among those that are in a cell, by their first cells: what a cell holds stands side by
+/// side. Those in no cell stand beyond. source: gets the echo at each place.
+std::vector<std::uint32_t> places_by_cell(const std::vector<CellSpan>& cells, std::size_t count,
+                                          std::vector<std::uint32_t>& source) {
+  std::vector<std::uint32_t> first(count + 1, 0), place(cells.size(), std::numeric_limits<std::uint32_t>::max());
+  for (const CellSpan& span : cells)
+    if (span.first <= span.last) ++first[span.first + 1];
+  for (std::size_t c = 0; c < count; ++c) first[c + 1] += first[c];
+  source.resize(first[count]);
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].first > cells[i].last) continue;
+    place[i] = first[cells[i].first]++;
+    source[place[i]] = i;
+  }
+  return place;
+}
 
 /// Sets the parts of the energies in cells begin .. end - 1.
 void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, EchoesByCell& lists) {
@@ -165,8 +191,8 @@ void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, Echo
       const CellEcho& echo = lists.echoes[in.echo];
       // The mean is over area, which grows with range.
       const double weight = std::clamp(echo.range, first, last) / middle;
-      in.energy = echo.energy > 0 ? weight * part_between(echo, deviation, first, last) : 0;
-      in.field = weight * overlap(echo.range - half, echo.range + half, first, last) / (2 * half);
+      in.energy = echo.energy > 0 ? echo.energy * (weight * part_between(echo, deviation, first, last)) : 0;
+      in.field = echo.strength * (weight * overlap(echo.range - half, echo.range + half, first, last) / (2 * half));
     }
   }
 }
@@ -177,12 +203,15 @@ EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surfac
                             const Medium& medium, const CellOptions& options) {
   EchoesByCell lists;
   const std::size_t count = surface.id.size() + fixed.size();
-  lists.echoes.resize(count);
   std::vector<CellSpan> cells(count);
   const EchoMaker maker(plan, surface, fixed, medium, options);
   parallel_blocks(count, echoes_at_once, options.threads,
-                  [&](std::size_t begin, std::size_t end) { maker.make(begin, end, lists.echoes, cells); });
-  // The echoes of each cell, in their order.
+                  [&](std::size_t begin, std::size_t end) { maker.find_cells(begin, end, cells); });
+  const std::vector<std::uint32_t> place = places_by_cell(cells, plan.cells, lists.source);
+  lists.echoes.resize(lists.source.size());
+  parallel_blocks(count, echoes_at_once, options.threads,
+                  [&](std::size_t begin, std::size_t end) { maker.make(begin, end, place, lists.echoes); });
+  // The echoes of each cell, in the order in which they were given.
   lists.first.assign(plan.cells + 1, 0);
   for (const CellSpan& span : cells)
     for (std::size_t c = span.first; c <= span.last; ++c) ++lists.first[c + 1];
@@ -190,16 +219,18 @@ EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surfac
   lists.part.resize(lists.first.back());
   std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
   for (std::uint32_t i = 0; i < count; ++i)
-    for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) lists.part[next[c]++].echo = i;
+    for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) lists.part[next[c]++].echo = place[i];
   parallel_blocks(plan.cells, cells_at_once, options.threads,
                   [&](std::size_t begin, std::size_t end) { set_parts(plan, begin, end, lists); });
   return lists;
 }
 
 RowWeights::RowWeights(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows, double cutoff,
-                       const SurfaceEchoes& surface, const Echoes& fixed, int threads)
-    : head_(head), wavelength_(wavelength), threads_(threads), v_(surface.echoes.v) {
-  v_.insert(v_.end(), fixed.v.begin(), fixed.v.end());
+                       const SurfaceEchoes& surface, const Echoes& fixed, const std::vector<std::uint32_t>& source,
+                       int threads)
+    : head_(head), wavelength_(wavelength), threads_(threads) {
+  const std::size_t surfaces = surface.id.size();
+  for (const std::uint32_t i : source) v_.push_back(i < surfaces ? surface.echoes.v[i] : fixed.v[i - surfaces]);
   if (head.column) column_.emplace(*head.column, wavelength);
   std::vector<double> v_row;
   for (const FanRow& row : rows) v_row.push_back(std::sin(row.elevation));

@@ -13,14 +13,14 @@ namespace insonify {
 EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surface, const Echoes& fixed,
                             const Medium& medium, const CellOptions& options);
 
-/// Returns the responses of a row of beams to the echoes of surfaces and to `fixed` ones after them (E14, E56); 0 if it
+/// Returns the responses of a row of beams to echoes of surfaces and `fixed` ones, which `source` lists (E14, E56); 0 if it
 /// is below `cutoff` times that of the row nearest to the echo. A column's are interpolated, within 1e-5. Elevations of
 /// all rows ascend.
 class RowWeights {
  public:
   /// Keeps a reference to the head.
   RowWeights(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows, double cutoff,
-             const SurfaceEchoes& surface, const Echoes& fixed, int threads);
+             const SurfaceEchoes& surface, const Echoes& fixed, const std::vector<std::uint32_t>& source, int threads);
   std::vector<double> of(const FanRow& row) const;
 
  private:

@@ -92,11 +92,11 @@ void CellRow::list_parts(std::size_t cell, Side& side) {
   side.energy = 0;
   for (std::size_t k = lists_.first[cell]; k < lists_.first[cell + 1]; ++k) {
     const EchoInCell& in = lists_.part[k];
-    const CellEcho& echo = lists_.echoes[in.echo];
     const double response = row_.response.empty() ? 1 : row_.response[in.echo];
-    const double energy = response * response * echo.energy * in.energy,
-                 field = response * response * echo.strength * in.field;
-    if (energy > 0 || field > 0) side.even.push_back({&echo, energy, field, response < 0 ? -1.0 : 1.0});
+    if (response == 0) continue;
+    const double energy = response * response * in.energy, field = response * response * in.field;
+    if (energy > 0 || field > 0)
+      side.even.push_back({&lists_.echoes[in.echo], energy, field, response < 0 ? -1.0 : 1.0});
     side.energy += energy;
   }
 }
@@ -120,12 +120,13 @@ void CellRow::label(std::size_t cell, Side& side) {
 void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
   // Energies of both cells over u, as real and imaginary parts. Nodes are counted from 1.
   std::fill(all_.begin(), all_.end(), Complex(0));
+  const double per_node = 1 / plan_.node_width;
   for (std::size_t s = 0; s < sides; ++s)
     for (const Part& part : side_[s].even) {
       const CellEcho& echo = *part.echo;
       if (part.energy == 0 || (!with_water && labels_->of_water(echo))) continue;
-      const double half = std::max(echo.half_width, 0.5 * plan_.node_width) / plan_.node_width;
-      const double place = std::clamp((echo.u + 1) / plan_.node_width, 0.0, static_cast<double>(plan_.nodes));
+      const double half = std::max(echo.half_width * per_node, 0.5);
+      const double place = std::clamp((echo.u + 1) * per_node, 0.0, static_cast<double>(plan_.nodes));
       const double low = std::max(place - half, -0.5),
                    high = std::min(place + half, static_cast<double>(plan_.nodes) + 0.5);
       const double density = part.energy / (high - low);
@@ -221,16 +222,16 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
   const std::size_t parts = plan_.parts, row = kernels::row_length(parts);
   std::fill(energy_.begin(), energy_.end(), 0.f);
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
-  const double length = plan_.cell_length / static_cast<double>(parts), unit = side.energy + side.noise;
+  const double per_length = static_cast<double>(parts) / plan_.cell_length, unit = side.energy + side.noise;
   for (const Part& part : side.even) {
     const CellEcho& echo = *part.echo;
     if (part.energy == 0) continue;
-    const double low = std::max(0.0, (echo.range - echo.reach - first) / length),
-                 high = std::min(static_cast<double>(parts), (echo.range + echo.reach - first) / length);
+    const double low = std::max(0.0, (echo.range - echo.reach - first) * per_length),
+                 high = std::min(static_cast<double>(parts), (echo.range + echo.reach - first) * per_length);
     if (!(high > low)) continue;
     const std::size_t port = echo.port, starboard = echo.starboard;
     const auto density =
-        static_cast<float>(part.energy / unit / (high - low) / static_cast<double>(port - starboard + 1));
+        static_cast<float>(part.energy / (unit * (high - low) * static_cast<double>(port - starboard + 1)));
     // The first and the last range are met in part.
     const auto k = static_cast<std::size_t>(low), last = std::min(parts, static_cast<std::size_t>(std::ceil(high))) - 1;
     const float before = density * static_cast<float>(low - static_cast<double>(k)),

@@ -43,13 +43,14 @@ inline constexpr std::size_t guards = 4;
 /// An echo in a cell.
 struct EchoInCell {
   std::uint32_t echo;
-  double energy;  ///< part of its surface's energy there
-  double field;   ///< the same of an echo from its middle
+  double energy;  ///< its surface's energy there, at the peak of the responses of rows [Pa^2]
+  double field;   ///< the same of an echo from its middle [Pa^2]
 };
 
 /// The echoes of each cell: those of cell c are part[first[c]] .. part[first[c + 1] - 1].
 struct EchoesByCell {
-  std::vector<CellEcho> echoes;
+  std::vector<CellEcho> echoes;         ///< those that are in a cell, by their first cells
+  std::vector<std::uint32_t> source{};  ///< of each of these, its number among those of the surface, then those fixed
   std::vector<std::size_t> first;
   std::vector<EchoInCell> part;
 };

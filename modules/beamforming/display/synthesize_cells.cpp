@@ -107,7 +107,7 @@ Grid<double> CellSynthesizer::formed(const SurfaceEchoes& surface, const Echoes&
     require_elevations(surface.echoes);
     require_elevations(fixed);
     weights.emplace(head, plan_->medium.sound_speed / head.pulse.centre_frequency, plan_->rows,
-                    row_cutoff(row_tolerance, plan_->rows.size()), surface, fixed, options.threads);
+                    row_cutoff(row_tolerance, plan_->rows.size()), surface, fixed, lists.source, options.threads);
   }
   for (std::size_t r = 0; r < plan_->rows.size(); ++r) {
     heard.beams = plan_->beams[r];

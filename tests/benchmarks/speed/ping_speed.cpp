@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Times of warm pings of prepared scenes, as tables in Markdown (docs/results/speed.md):
 //   ping_speed work [NAME]     some pings of the harbour of a million surfels: medians of five, or of eleven short ones
-//   ping_speed presets [NAME]  every preset on harbour and plane: medians of three, of eleven short ones, or one if
-//                              the first takes more than a second
-//   ping_speed display [NAME [CELLS]]  every preset as display images of 600 cells with noise, on the harbour: the same
+//   ping_speed presets [NAME]  every preset on harbour and plane: medians of three, of eleven short ones, or one if the first
+//                              takes more than a second
+//   ping_speed display [NAME [CELLS [DETAIL]]]  every preset as display images of 600 cells with noise, on the harbour, of
+//                              surfels or of nodes so many beams wide: the same
 // NAME: only those whose names contain it.
 #include <algorithm>
 #include <cstdio>
@@ -157,7 +158,7 @@ void time_presets(const std::string& part) {
 }
 
 /// Times display images of every preset on the harbour, by the rate of the sonar.
-void time_display(const std::string& part, int cells) {
+void time_display(const std::string& part, int cells, double detail) {
   const PreparedScene harbour(make_built_in_scene("harbour", {.points = 300000}));
   std::printf(
       "| preset | range [m] | beams x cells | scatterers | ms per image | CPU [ms] | real-time factor | sampling / "
@@ -167,7 +168,8 @@ void time_display(const std::string& part, int cells) {
     if (file.spec.name.find(part) == std::string::npos) continue;
     const double far = std::min(file.spec.max_range, 30.0), near = std::min(file.spec.min_range, 0.5 * far);
     const SonarHead head = preset(file.spec.name, near, far);
-    const SimulationOptions options{.effects = {.noise = true}, .outputs = {.display_bins = cells}};
+    const SimulationOptions options{
+        .sampling = {.detail_width = detail}, .effects = {.noise = true}, .outputs = {.display_bins = cells}};
     const PingTime t = median_ping(3, harbour, head, pose_of(file), options);
     const double rate = std::min(10.0, sound_speed(fresh_water.water) / (2 * far)), percent = 100 / t.wall;
     std::printf("| %s | %.3g:%.3g | %zu x %d | %zu | %.0f | %.0f | %.2f | %.0f / %.0f / %.0f / %.0f |\n",
@@ -187,7 +189,8 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "", part = argc > 2 ? argv[2] : "";
   if (what == "work") return time_work(part), 0;
   if (what == "presets") return time_presets(part), 0;
-  if (what == "display") return time_display(part, argc > 3 ? std::stoi(argv[3]) : 600), 0;
-  std::fprintf(stderr, "ping_speed work|presets|display [NAME [CELLS]]\n");
+  if (what == "display")
+    return time_display(part, argc > 3 ? std::stoi(argv[3]) : 600, argc > 4 ? std::stod(argv[4]) : 0), 0;
+  std::fprintf(stderr, "ping_speed work|presets|display [NAME [CELLS [DETAIL]]]\n");
   return 2;
 }
