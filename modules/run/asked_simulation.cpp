@@ -77,6 +77,10 @@ SimulationOptions asked_simulation(const CommonOptions& common, const PingOption
   return s;
 }
 
+void record_detail(Choice asked, Choice decided, PingOptions& options) {
+  if (asked != decided) (decided == Choice::always ? options.with : options.without).push_back("detail");
+}
+
 SynthesisSettings asked_synthesis(const RunOptions& o) {
   const SynthesisSettings planned;
   if (o.method == planned_word) return {planned.method, o.tolerance};

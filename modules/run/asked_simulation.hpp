@@ -10,6 +10,10 @@ namespace insonify {
 /// What the options ask of a simulator; the plan of a ping decides the rest.
 SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& options);
 
+/// Records among the options what was decided of SamplingSettings::detail, if it is not what was asked: with or without
+/// the stage, as run.toml has it.
+void record_detail(Choice asked, Choice decided, PingOptions& options);
+
 /// How beams are formed, as --method and --tolerance ask for it.
 SynthesisSettings asked_synthesis(const RunOptions& options);
 

@@ -134,7 +134,9 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
       {"ping", "scatterers_per_cell", "--scatterers-per-cell", &o.scatterers_per_cell,
        "least number of scatterers in a resolution cell; surfels are split until it holds them"},
       {"ping", "detail_width", "--detail-width", &o.detail_width,
-       "[beam widths] surfels of dense clouds are merged up to this width; 0: no merging; --with detail takes 1"},
+       "[beam widths] surfels of dense clouds are merged up to this width; 0: none, but of many display images of a "
+       "scene where that "
+       "pays; --with detail takes 1"},
       {"ping", "detail_spacing", "--detail-spacing", &o.detail_spacing,
        "[m] instead of --detail-width: surfels are merged up to this width at all ranges, so that passes over one "
        "place share their scatterers"},

@@ -101,6 +101,7 @@ class SceneOfTiles : public OpenScene {
   }
 
   const LoadReport& report() const override { return report_; }
+  const TiledScene* tiles() const override { return &tiled_; }
   Bounds box_at(const SceneMoment&) const override { return tiled_.info().box; }
   std::shared_ptr<const SceneCloud> cloud_at(const SceneMoment&) const override {
     return std::make_shared<const SceneCloud>(load_scene(how_.path, loading_of_file(how_, options_)).scene);

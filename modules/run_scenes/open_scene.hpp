@@ -63,6 +63,9 @@ class OpenScene : public SceneSource {
   virtual const LoadedScene* loaded() const { return nullptr; }
   /// Returns the scene of parts; null for another one.
   virtual const PartsOfPings* parts() const { return nullptr; }
+  /// Returns the scene of tiles; null for another one.
+  virtual const TiledScene* tiles() const { return nullptr; }
+  bool has_levels() const override { return tiles() != nullptr; }
   /// Has the points of a height field pinged, and not the surface between them; returns whether it is one.
   virtual bool leave_points() { return false; }
 

@@ -62,6 +62,17 @@ ordered_json seconds_json(double load, const StageSeconds& of, double output) {
           {"output", output}};
 }
 
+/// Decides whether a ping merges surfels of tiles: if so many are within its reach that reading them takes longer than
+/// the decision.
+void decide_detail(const OpenScene& scene, PingSetup& setup) {
+  constexpr std::size_t many = std::size_t{1} << 22;
+  const TiledScene* const tiled = scene.tiles();
+  if (!tiled) return;
+  const PingSimulator simulator = setup.simulator();
+  if (tiled->select(simulator.reach(tiled->info().whole, setup.event)).surfels < many) return;
+  setup.simulation.sampling.detail = simulator.for_many(1, scene, setup.event).options().sampling.detail;
+}
+
 }  // namespace
 
 ReadyPing load_ping_scene(const PingOptions& o, PingSetup& setup) {
@@ -74,6 +85,7 @@ ReadyPing load_ping_scene(const PingOptions& o, PingSetup& setup) {
   const PingEvent& event = setup.event;
   const Bounds box = scene->box_at(scene->moment_of(event.time, event.number));
   end_range_with_scene(setup.head, box, event.world_from_head);
+  decide_detail(*scene, setup);
   const PingSimulator simulator = setup.simulator();
   ReadyPing ready{scene->ping_scene(simulator, event), simulator};
   const LoadedScene* file = scene->loaded();

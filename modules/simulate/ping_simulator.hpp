@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <memory>
 
 #include "acoustics/environment.hpp"
@@ -14,6 +15,19 @@
 namespace insonify {
 
 struct ResolvedPing;
+class PingSimulator;
+
+/// Source of the scenes of pings: one scene in memory, or the part of a larger scene that each ping needs.
+class SceneSource {
+ public:
+  virtual ~SceneSource() = default;
+  /// Returns the scene for this ping: the whole scene, or at least the part that simulator.reach names. Several threads
+  /// may call it at once.
+  virtual std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator,
+                                                         const PingEvent& event) const = 0;
+  /// Returns true if levels of detail are stored with the scene, and scene_for cuts them as the simulator asks.
+  virtual bool has_levels() const { return false; }
+};
 
 /// One head in one environment, ready to ping any scene from any pose. Head and options are checked once. The first
 /// ping makes the tables, transforms and buffers that form the beams; later pings use them again and have the same
@@ -26,6 +40,16 @@ class PingSimulator {
   /// Returns a simulator of the same head and environment with other options; both share tables and buffers. Throws as
   /// the constructor.
   PingSimulator with(SimulationOptions options) const;
+
+  /// Returns a simulator for so many pings of a scene that are like `event`. Where options leave it open whether surfels
+  /// are merged, and pings give display cells, it is decided (E185): they are if that leaves at most half of the surfels
+  /// within reach, if the pings save more time than levels of detail take to make, and if the expected level of the event
+  /// stays within 0.1 dB in every tenth of its ranges. The decision follows from the arguments alone. Without one,
+  /// options stay as they are. Of a scene that has levels any number of pings counts, of pressures too, and nodes stand
+  /// for the surfels. Throws Error as ping, and what the source throws.
+  PingSimulator for_many(std::size_t pings, const SceneSource& source, const PingEvent& event) const;
+  /// Returns the same for pings of a scene in memory.
+  PingSimulator for_many(std::size_t pings, const PreparedScene& scene, const PingEvent& event) const;
 
   /// Returns the head given to the constructor.
   const SonarHead& head() const;

@@ -29,11 +29,11 @@ constexpr PlanStage geometry[] = {
      "surfels finer than the head resolves are merged; of nodes a beam wide, errors are at most 0.05 dB in total, 0.1 "
      "dB in "
      "a tenth of the ranges, and 3 cells of range at the edges of shadows",
-     "not asked for, or the scene or an output has no use for it", nullptr,
+     "not asked for, or the scene, an output or the number of its pings has no use for it", nullptr,
      [](bool in, E&, O& o) {
        SamplingSettings& s = o.sampling;
+       s.detail = chosen(in);
        if (!in) s.detail_width = s.detail_spacing = 0;
-       if (in && s.detail_spacing == 0 && s.detail_width == 0) s.detail_width = usual_detail_width;
      }},
     {"occlusion", DecidedBy::choice, [](const PlanCause& of) { return of.options.sampling.occlusion; },
      "surfels hide others", "off by the options",

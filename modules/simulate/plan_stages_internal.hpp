@@ -114,8 +114,6 @@ std::span<const PlanStage> synthesis_stages();
 constexpr bool always(const PlanCause&) { return true; }
 constexpr bool never(const PlanCause&) { return false; }
 
-constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
-
 /// Decides all effects that the options of a ping leave as_needed, as plan_ping does, and derives all dependent values
 /// again. Only undecided effects are judged, at a cost that grows with the region within the head's reach.
 void decide_effects(const PreparedScene& prepared, ResolvedPing& ping);

@@ -108,6 +108,14 @@ InsonifiedRegion region_of(const ResolvedPing& ping) {
   return region;
 }
 
+/// Decides whether surfels are merged, and to nodes of which width.
+void decide_detail(SamplingSettings& s) {
+  const bool has_width = s.detail_width > 0 || s.detail_spacing > 0;
+  s.detail = chosen(s.detail == Choice::always || (s.detail == Choice::as_needed && has_width));
+  if (s.detail == Choice::never) s.detail_width = s.detail_spacing = 0;
+  if (s.detail == Choice::always && !has_width) s.detail_width = usual_detail_width;
+}
+
 DetectionOptions detection_of(const SimulationOptions& o, const LineArray& array, double range_resolution,
                               double beam_noise_db) {
   DetectionOptions detection = o.detection;
@@ -139,8 +147,8 @@ SamplingOptions sampling_in_view(const ResolvedPing& ping) {
 }
 
 bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options) {
-  return (options.sampling.detail_width > 0 || options.sampling.detail_spacing > 0) && scene.facet.empty() &&
-         scene.parts.empty() && !options.outputs.scatterers && !options.outputs.mask;
+  return options.sampling.detail == Choice::always && scene.facet.empty() && scene.parts.empty() &&
+         !options.outputs.scatterers && !options.outputs.mask;
 }
 
 bool has_boundary(const Environment& environment) { return environment.surface || environment.bottom; }
@@ -195,6 +203,7 @@ ResolvedPing resolve_ping(const WholeScene& scene, const SonarHead& head, const 
   require_valid(head, surroundings, options, who);
   require_valid(event, who);
   ResolvedPing ping{head, event, environment_at(surroundings, event.world_from_head.translation().z(), who), options};
+  decide_detail(ping.options.sampling);
   ping.samples = head.gate;
   ping.smooth.mirrors = mirrors_of(ping.environment);
   if (options.effects.mirrors == Choice::always && !may_mirror(ping.environment, scene.smooth))

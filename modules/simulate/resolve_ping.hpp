@@ -52,8 +52,8 @@ inline bool draws_cells(const SimulationOptions& options) {
   return options.outputs.display_bins > 0 && !options.synthesis.phases;
 }
 
-/// Returns whether a ping of a scene merges surfels: SamplingSettings::detail_width is set, and scene and outputs allow
-/// it.
+/// Returns whether a ping of a scene merges surfels: SamplingSettings::detail of the resolved options says so, and
+/// scene and outputs allow it.
 bool merges_surfels(const SceneCloud& scene, const SimulationOptions& options);
 
 /// Returns whether the environment has a surface or bottom that can reflect sound.

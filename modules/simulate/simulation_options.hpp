@@ -15,6 +15,8 @@ namespace insonify {
 
 /// Whether an effect is computed. as_needed: only if the plan of the ping finds that accuracy_db needs it.
 enum class Choice { as_needed, always, never };
+/// Returns the choice that is made.
+constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
 
 /// Default of SamplingSettings::detail_width if detail is requested without a number.
 inline constexpr double usual_detail_width = 1;
@@ -30,12 +32,15 @@ struct SamplingSettings {
   double scatterers_per_cell = SamplingOptions{}.scatterers_per_cell;
   int rays_per_beam = 64;  ///< for sampling by rays, and for the mask of holes
   bool occlusion = true;
-  /// Surfels are merged to nodes of up to this width, in beam widths, within 0 and 4 (E137); 0: they are not merged.
+  /// Surfels are merged to nodes of up to this width, in beam widths, within 0 and 4 (E137); 0: as `detail` says.
   /// Surfels with facets are never merged, and no surfels are if an output lists each surfel: scatterers, mask.
   double detail_width = 0;
   /// Instead of detail_width: surfels are merged to nodes of up to this width [m] at any range, so that pings of one
   /// place from different poses have the same scatterers, as repeated passes and synthetic apertures need; 0: none.
   double detail_spacing = 0;
+  /// Whether surfels are merged. as_needed: if one of the two numbers above is set, and where it pays for display cells
+  /// of many pings (PingSimulator::for_many). always: to usual_detail_width if neither is set. never: whatever is.
+  Choice detail = Choice::as_needed;
   double elevation_floor_db = -40;              ///< elevations where the two-way pattern is lower are not sampled; < 0
   double azimuth_margin = 0;                    ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
   Choice outer_elevations = Choice::as_needed;  ///< always: elevations below the floor are also sampled

@@ -7,16 +7,6 @@
 
 namespace insonify {
 
-/// A source of the scenes of pings: one scene in memory, or the part of a larger scene that each ping needs.
-class SceneSource {
- public:
-  virtual ~SceneSource() = default;
-  /// Returns the scene for this ping: the whole scene, or at least the part that simulator.reach names. Several threads
-  /// may call it at once.
-  virtual std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator,
-                                                         const PingEvent& event) const = 0;
-};
-
 /// The source of one scene for all pings.
 class SceneInMemory : public SceneSource {
  public:

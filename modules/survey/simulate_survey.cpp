@@ -2,6 +2,8 @@
 #include "survey/simulate_survey.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <new>
 #include <utility>
 
 #include "core/error.hpp"
@@ -46,6 +48,29 @@ PingEvent Survey::event_of(const SurveyPing& ping) const {
   return event;
 }
 
+Survey Survey::decided(const SceneSource& scene, int threads) const {
+  Survey survey = *this;
+  for (std::size_t h = 0; h < heads_.size(); ++h) {
+    std::vector<SurveyPing> of_head;
+    std::copy_if(pings_.begin(), pings_.end(), std::back_inserter(of_head), [h](const auto& p) { return p.head == h; });
+    if (of_head.empty()) continue;
+    const SurveyPing& middle = of_head[of_head.size() / 2];
+    SimulationOptions options = heads_[h].options();
+    options.threads = threads;
+    try {
+      const PingSimulator many = simulator_of(middle).with(options).for_many(of_head.size(), scene, event_of(middle));
+      options = heads_[h].options();
+      options.sampling.detail = many.options().sampling.detail;
+      survey.heads_[h] = heads_[h].with(options);
+    } catch (const Error&) {
+      // The ping itself fails with the reason.
+    } catch (const std::bad_alloc&) {
+      // So it does here.
+    }
+  }
+  return survey;
+}
+
 PingOutcome Survey::simulate(const SurveyPing& ping, const SceneSource& scene) const {
   const PingSimulator simulator = simulator_of(ping);
   const PingEvent event = event_of(ping);
@@ -81,8 +106,10 @@ PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const 
 
 bool simulate_survey(const Survey& survey, const std::vector<SurveyBlock>& blocks, const SceneSource& scene,
                      SurveyStore& store, int threads) {
+  if (blocks.empty()) return true;
+  const Survey decided = survey.decided(scene, threads);
   return make_blocks(
-      survey.pings(), blocks, threads, [&](const SurveyPing& ping) { return survey.simulate(ping, scene); }, store);
+      survey.pings(), blocks, threads, [&](const SurveyPing& ping) { return decided.simulate(ping, scene); }, store);
 }
 
 SurveyInMemory simulate_survey(const Survey& survey, const SceneSource& scene, int threads) {

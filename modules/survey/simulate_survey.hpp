@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -35,6 +36,12 @@ class Survey {
   /// Returns time, pose and motion of a ping, with the random differences of the mission applied.
   PingEvent event_of(const SurveyPing& ping) const;
 
+  /// Returns the survey with SamplingSettings::detail of each head decided by its middle ping (PingSimulator::for_many);
+  /// what ping and scene refuse leaves it open. threads: 0: all cores; the decision does not depend on it.
+  Survey decided(const SceneSource& scene, int threads = 0) const;
+  /// Returns the options of a head's simulator.
+  const SimulationOptions& options_of(std::size_t head) const { return heads_.at(head).options(); }
+
   /// Simulates a ping and returns its outcome. With navigation errors, pose and soundings are those that the navigation
   /// reports. Several threads may call it at once. Throws Error as PingSimulator::ping.
   PingOutcome simulate(const SurveyPing& ping, const SceneSource& scene) const;
@@ -51,7 +58,8 @@ PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const 
 
 /// Simulates the pings of some blocks, `threads` (0: all cores) at once, in the order of the blocks. Memory holds the
 /// outcomes of unfinished blocks only. The outcome of a ping that throws Error or runs out of memory is a failure.
-/// Returns true if no ping is left. The outcomes do not depend on `threads`.
+/// Returns true if no ping is left. The outcomes do not depend on `threads`. What survey.decided decides is decided
+/// first.
 bool simulate_survey(const Survey& survey, const std::vector<SurveyBlock>& blocks, const SceneSource& scene,
                      SurveyStore& store, int threads = 0);
 

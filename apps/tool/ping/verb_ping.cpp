@@ -40,7 +40,9 @@ void ping(const PingCommand& command) {
 
   progress.step("loading " + o.scene.path);
   StopWatch watch;
+  const Choice detail = ready.simulation.sampling.detail;
   const ReadyPing sent = load_ping_scene(o, ready);
+  record_detail(detail, ready.simulation.sampling.detail, o);
   const PreparedScene& scene = *sent.scene.scene;
   PingRun run{o, ready, scene.scene(), sent.scene.json, sent.scene.places};
   run.load_seconds = watch.lap();

@@ -174,6 +174,15 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   return s;
 }
 
+void decide_detail(const SceneSource& scene, int threads, SurveySetup& setup) {
+  setup.survey = setup.survey->decided(scene, threads);
+  for (std::size_t h = 0; h < setup.heads.size(); ++h) {
+    Choice& detail = setup.heads[h].setup.simulation.sampling.detail;
+    record_detail(detail, setup.survey->options_of(h).sampling.detail, setup.heads[h].options);
+    detail = setup.survey->options_of(h).sampling.detail;
+  }
+}
+
 namespace {
 
 /// Throws Error(content) for what a mission asks of a scene of parts in vain.

@@ -48,5 +48,7 @@ std::size_t image_bytes(const PingSetup& ping);
 /// can listen.
 std::shared_ptr<const OpenScene> open_survey_scene(const SurveySetup& setup, const CommonOptions& common,
                                                    RunObserver& observer);
+/// Decides for each head whether its pings merge surfels, and records it among the options for its run.toml.
+void decide_detail(const SceneSource& scene, int threads, SurveySetup& setup);
 
 }  // namespace insonify::tool

@@ -294,7 +294,7 @@ ordered_json say_notes(const SurveySetup& s, const FolderStore& made, Progress& 
   return notes;
 }
 
-void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard, Progress& progress) {
+void make_pings(const SurveyOptions& o, SurveySetup& s, const Shard& shard, Progress& progress) {
   // A scene that does not fit is refused before there is a folder; of a survey that is done it is not read at all.
   std::shared_ptr<const OpenScene> scene;
   const auto load = [&] {
@@ -302,6 +302,7 @@ void make_pings(const SurveyOptions& o, const SurveySetup& s, const Shard& shard
     scene = open_survey_scene(s, o.common, progress);
     if (const std::string& system = scene->report().meaning.system.value; epsg_of_system(system) > 0)
       progress.note("the world is in " + system + ", which exports take");
+    decide_detail(*scene, o.common.threads, s);
   };
   if (!is_survey_run(o.output)) load();
   open_survey_run(o.output, s.run);
@@ -351,7 +352,7 @@ void survey(const SurveyOptions& o) {
   if (o.output.empty() != o.plan)
     fail(ErrorKind::argument, "give either --output, a folder for the survey, or --plan, a forecast");
   Progress progress(o.common, 3);
-  const SurveySetup s = set_up_survey(o);
+  SurveySetup s = set_up_survey(o);
   for (const SurveyHead& head : s.heads)
     for (const std::string& note : head.setup.head.notes) progress.note(note);
   for (const std::string& note : s.notes) progress.note(note);
@@ -362,6 +363,7 @@ void survey(const SurveyOptions& o) {
   const double begun = cpu_seconds();
   const auto scene = open_survey_scene(s, o.common, progress);
   progress.step("planning");
+  decide_detail(*scene, o.common.threads, s);
   plan_survey(o, s, *scene, begun);
 }
 
