@@ -103,6 +103,7 @@ struct MadePing {
   std::array<double, 6> pose{};  ///< x, y, z [m], yaw, pitch, roll [deg] of the vehicle
   PingEvent event{};
   SimulationOptions simulation{};  ///< that was asked for
+  std::optional<Choice> detail{};  ///< SamplingSettings::detail, if it was decided for many pings
   SimulatedPing made{};
 };
 using Pings = OrderedWork<std::shared_ptr<MadePing>>;

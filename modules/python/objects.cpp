@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -60,6 +62,12 @@ MadePing asked(const By& by, const Of& scene, const py::kwargs& keys, const char
   return ping;
 }
 
+/// The decision whether pings of one scene merge surfels, made once.
+struct Decided {
+  std::once_flag once;
+  Choice detail = Choice::as_needed;
+};
+
 MadePing asked_at(MadePing ping, const py::object& position, double yaw, double pitch, double roll) {
   const Numbers at = numbers_of(position, "ping: position", 0, 3);
   const Numbers turn = numbers_of(py::make_tuple(yaw, pitch, roll), "ping: yaw, pitch, roll", 0, 3);
@@ -86,9 +94,22 @@ PingSimulator settle(MadePing& ping, int threads) {
   ping.simulation = ping.by->simulation;
   ping.simulation.seed = ping.options.common.seed;
   ping.simulation.threads = threads;
+  if (ping.detail) ping.simulation.sampling.detail = *ping.detail;
   ping.simulation.outputs = asked_simulation(ping.options.common, ping.options).outputs;
   require_valid_settings(ping.options, ping.simulation, NamedBy::keyword);
   return ping.by->simulator->with(ping.simulation);
+}
+
+/// Decides whether pings like this one merge surfels, if so many share a scene; returns SamplingSettings::detail.
+Choice detail_of(MadePing ping, std::size_t pings, int threads) {
+  const Choice asked = ping.by->simulation.sampling.detail;
+  if (ping.scene->moving || ping.scene->loaded->mesh) return asked;
+  try {
+    const PingSimulator simulator = settle(ping, threads);
+    return simulator.for_many(pings, *ping.scene->prepared, ping.event).options().sampling.detail;
+  } catch (const Error&) {
+    return asked;  // the ping itself fails with the reason
+  }
 }
 
 std::shared_ptr<MadePing> make(MadePing ping, int threads) {
@@ -215,12 +236,22 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
   if (const py::object given = for_each_pose(keys, "draw"))
     draw = whole_numbers<int>(given, "pings: draw", numbers.shape(0), 1e9);
   const MadePing each = asked(by, scene, keys, "pings");
-  return std::make_unique<Pings>(pose.size() / 6, thread_count(threads), [each, pose, time, draw](std::size_t i) {
+  const auto asked_for = [each, pose, time, draw](std::size_t i) {
     MadePing ping = each;
     std::copy_n(&pose[6 * i], 6, ping.pose.begin());
     ping.options.ping = static_cast<int>(i);
     if (!time.empty()) ping.options.time = time[i];
     if (!draw.empty()) ping.options.draw = draw[i];
+    return ping;
+  };
+  // The first thread that makes a ping decides by the middle one; the others wait.
+  const auto decided = std::make_shared<Decided>();
+  const std::size_t count = pose.size() / 6;
+  return std::make_unique<Pings>(count, thread_count(threads), [asked_for, decided, count, threads](std::size_t i) {
+    MadePing ping = asked_for(i);
+    std::call_once(decided->once, [&] { decided->detail = detail_of(asked_for(count / 2), count, threads); });
+    ping.detail = decided->detail;
+    tool::record_detail(ping.by->simulation.sampling.detail, decided->detail, ping.options);
     return make(std::move(ping), 1);
   });
 }

@@ -65,6 +65,7 @@ class OpenScene : public SceneSource {
   virtual const PartsOfPings* parts() const { return nullptr; }
   /// Returns the scene of tiles; null for another one.
   virtual const TiledScene* tiles() const { return nullptr; }
+  /// Returns true for tiles, which store levels of detail.
   bool has_levels() const override { return tiles() != nullptr; }
   /// Has the points of a height field pinged, and not the surface between them; returns whether it is one.
   virtual bool leave_points() { return false; }

@@ -45,6 +45,21 @@ def test_a_batch_keeps_what_is_asked_for(simulator, scene):
         next(simulator.pings(scene, poses_of(1))).material_image
 
 
+def test_many_display_images_of_a_dense_scene_merge_surfels(tmp_path):
+    head = iy.sonar("p900-45", beams=32, beam_width_deg=2, field_of_view_deg=90, min_range=1, max_range=25)
+    harbour = iy.make_scene("harbour", points=600000)
+    sim = iy.PingSimulator(head, display=50)
+    poses = poses_of(20)
+    last = list(sim.pings(harbour, poses, threads=2))[-1]
+    last.save(tmp_path / "run", picture=False)
+    assert 'with = ["detail"]' in (tmp_path / "run" / "run.toml").read_text()
+    asked = iy.PingSimulator(head, display=50, with_="detail")
+    assert np.array_equal(last.level_db(), asked.ping(harbour, poses[19, :3], *poses[19, 3:], ping=19).level_db())
+    # Eight of them, and one alone, are of all surfels.
+    alone = sim.ping(harbour, poses[7, :3], *poses[7, 3:], ping=7).level_db()
+    assert np.array_equal(list(sim.pings(harbour, poses[:8]))[-1].level_db(), alone)
+
+
 def test_an_empty_batch_and_one_that_is_left(simulator, scene):
     assert list(simulator.pings(scene, np.zeros((0, 6)))) == []
     batch = simulator.pings(scene, poses_of(500))

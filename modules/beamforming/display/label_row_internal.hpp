@@ -73,7 +73,8 @@ class LabelRow {
     float cell = 0, lobe = 0;
   };
 
-  std::size_t index_of(const CellEcho& echo) const { return static_cast<std::size_t>(&echo - lists_.echoes.data()); }
+  /// Returns the number of an echo in the order in which echoes were given.
+  std::size_t index_of(const CellEcho& echo) const { return lists_.source[&echo - lists_.echoes.data()]; }
   Sums& sums_of(std::uint16_t label);
   Heard heard_of(const Sums& sums, const LabelLobes::Lobe& lobe) const;
   std::uint32_t strongest_of(const Sums& sums, const LabelLobes::Lobe& lobe) const;
