@@ -114,6 +114,9 @@ std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const Ping
 /// Returns a function of the second extension, which loads PCL and VTK.
 py::object io(const char* function);
 
+/// Adds the functions of images with labels to the second extension.
+void add_views(py::module_& m);
+
 std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::object& normals, const py::object& areas,
                                        const py::object& material, const py::object& instance, const py::kwargs& keys);
 /// Returns one ping at a position [m] and angles [deg], or its plan as a dict for each stage.

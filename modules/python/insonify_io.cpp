@@ -162,6 +162,7 @@ PYBIND11_MODULE(_insonify_io, m) {
   m.def("draw_fan", &draw, "ping"_a, "path"_a, py::kw_only(), "width"_a = usual.width, "height"_a = usual.height,
         "title"_a = py::none(), "colour_map"_a = usual.colour_map, "min_db"_a = usual.min_db, "max_db"_a = usual.max_db,
         "dark"_a = false);
+  add_views(m);
 }
 
 }  // namespace insonify::python

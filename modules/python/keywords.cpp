@@ -87,7 +87,8 @@ Keywords keywords(SceneOptions& options) {
 Keywords keywords(PingOptions& options, bool of_ping) {
   if (!of_ping) return {keys_of(simulator_settings(options)), "ping"};
   Keywords of{keys_of(all_settings(options)), "ping"};
-  const std::vector<std::string> names{"seed", "keep", "contributors", "time", "ping", "draw", "velocity", "turn_rate"};
+  const std::vector<std::string> names{"seed", "keep", "contributors", "display",  "time",
+                                       "ping", "draw", "velocity",     "turn_rate"};
   std::erase_if(of.keys, [&](const Key& key) { return std::ranges::find(names, key.name) == names.end(); });
   return of;
 }

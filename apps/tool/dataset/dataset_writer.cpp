@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -13,7 +12,6 @@
 #include "core/units.hpp"
 #include "files/pending_file.hpp"
 #include "files/sha256.hpp"
-#include "returns/fan_areas.hpp"
 #include "returns/looks.hpp"
 #include "run/run_checks.hpp"
 #include "store/run_manifest.hpp"
@@ -29,19 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// The objects of a ping's samples: by the scene's own instances, else connected parts of a class. `stuff` has none.
-Grid<std::uint16_t> objects_of(const ObjectKeys& keys, const Grid<std::uint8_t>& category,
-                               const std::set<std::uint8_t>& stuff, std::size_t least_pixels) {
-  const Grid<std::uint32_t> kind = category.unaryExpr(
-      [&](std::uint8_t value) { return value != 0 && !stuff.contains(value) ? std::uint32_t{value} : 0; });
-  const Grid<std::uint32_t> objects = number_objects(kind, keys.id, keys.instances, least_pixels);
-  if (objects.size() > 0 && objects.maxCoeff() > 65535)
-    fail(ErrorKind::content, "an image has an object with the number ", objects.maxCoeff(),
-         ", above 65535: objects without an instance count from the largest instance, ", keys.instances.most,
-         "; give smaller instances, or ask for larger objects with --least-pixels");
-  return objects.cast<std::uint16_t>();
-}
 
 /// Adds the contrasts in both forms to objects of parts, where they have pixels.
 ordered_json with_contrasts(ordered_json objects, const std::map<std::uint16_t, std::optional<double>>& polar,
@@ -83,25 +68,21 @@ const FanRaster& DatasetWriter::raster_of(const Ping& ping) {
 }
 
 void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Ping& ping, const DatasetImage& image) {
-  const Grid<float> level = dataset_levels(ping, options_);
-  std::set<std::uint8_t> stuff;
+  ImageRules rules{options_.share,
+                   {},
+                   static_cast<std::size_t>(options_.least_pixels),
+                   parse_min_level(options_.min_level, window_.min_db)};
   for (std::size_t k = 1; k < classes_.size(); ++k)
-    if (!is_thing(options_, classes_, k)) stuff.insert(static_cast<std::uint8_t>(k));
-  const std::optional<double> least = parse_min_level(options_.min_level, window_.min_db);
-  const Grid<std::uint8_t> category = classes_above(classes_of(ping.labels, options_.share, classes_), level, least);
-  const ObjectKeys keys = object_keys(ping.labels, source.instances, options_.share);
-  const Grid<std::uint16_t> object = objects_of(keys, category, stuff, static_cast<std::size_t>(options_.least_pixels));
-  ObjectsOf objects{parts_of_objects(ping.labels, options_.share, object), keys.instances.most};
+    if (!is_thing(options_, classes_, k)) rules.stuff.insert(static_cast<std::uint8_t>(k));
 
   // The same samples in both forms: each in one pixel, or all that a pixel covers.
+  const LabelledSamples samples =
+      labelled_samples(ping, dataset_levels(ping, options_), source.instances, classes_, rules);
+  const ObjectsOf& objects = samples.objects;
   const FanRaster& raster = raster_of(ping);
-  const FormOf polar{{ping},
-                     {polar_picture(category, ping.fan), polar_picture(object, ping.fan)},
-                     polar_picture(level, ping.fan),
-                     objects};
-  for (const Annotation& a : annotations_of(polar.map)) objects.classes[a.instance] = a.category;
-  const FanPixels seen = pixels_above(fan_pixels({level, category, object}, ping.fan, ping.gate, raster), least);
-  const FormOf fan{{ping, &raster}, {seen.category, seen.instance}, seen.level_db, objects};
+  LabelledImage in_polar = polar_image(samples, ping.fan), in_fan = fan_image(samples, ping, raster, rules);
+  const FormOf polar{{ping}, std::move(in_polar.map), std::move(in_polar.level_db), objects},
+      fan{{ping, &raster}, std::move(in_fan.map), std::move(in_fan.level_db), objects};
   const Grid<std::uint8_t> shown = quantise_8(fan.level_db, window_);
   save_grey_png(directory_.file("polar/images/" + image.name + ".png"), quantise_16(polar.level_db, window_));
   save_grey_png(directory_.file("fan/images/" + image.name + ".png"), shown);

@@ -15,6 +15,7 @@
 #include "tool/dataset/dataset_options.hpp"
 #include "tool/dataset/dataset_runs.hpp"
 #include "tool/dataset/dataset_split.hpp"
+#include "tool/dataset/labelled_image.hpp"
 #include "tool/dataset/part_objects.hpp"
 
 namespace insonify::tool {
@@ -43,12 +44,6 @@ class DatasetWriter {
   nlohmann::ordered_json boxes_by_class() const { return tool::boxes_by_class({&polar_, &fan_}, classes_); }
 
  private:
-  /// The objects of a ping, in either form.
-  struct ObjectsOf {
-    std::map<std::uint16_t, std::size_t> parts;       ///< of a scene of parts
-    std::uint32_t most_given = 0;                     ///< objects of larger numbers are connected pixels
-    std::map<std::uint16_t, std::uint8_t> classes{};  ///< that of most pixels of the polar image
-  };
   /// How a form shows a ping.
   struct FormOf {
     PictureOf picture;

@@ -76,6 +76,7 @@ Ping row_of(const Ping& ping, std::size_t row) {
   part.intensity = of_beams(ping.intensity, beams);
   part.labels = {of_beams(ping.labels.material, beams), of_beams(ping.labels.id, beams),
                  of_beams(ping.labels.share, beams), ping.labels.names};
+  part.labels.elevation = of_beams(ping.labels.elevation, beams);
   return part;
 }
 

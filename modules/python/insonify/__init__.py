@@ -9,8 +9,11 @@ _deg are degrees, those of arrays radians. World axes have z up.
 from ._insonify import (ArgumentError, Environment, Error, Ping, Pings, PingSimulator, Scene, Sonar, __version__,
                         draw_fan, load_scene, make_scene, sonar, sonars)
 
-__all__ = ["ArgumentError", "Environment", "Error", "Ping", "PingSimulator", "Pings", "Scene", "Sonar", "__version__",
+from .views import View, views as _views
+
+__all__ = ["ArgumentError", "Environment", "Error", "Ping", "PingSimulator", "Pings", "Scene", "Sonar", "View", "__version__",
            "draw_fan", "load_scene", "make_scene", "sonar", "sonars"]
 
-for _type in (Environment, Ping, PingSimulator, Pings, Scene, Sonar):
+PingSimulator.views = _views
+for _type in (Environment, Ping, PingSimulator, Pings, Scene, Sonar, View):
     _type.__module__ = __name__

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from collections.abc import Iterator, Sequence
 from os import PathLike
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -67,6 +67,17 @@ class Ping:
     def level_db(self, floor_db: float = -200) -> NDArray[np.float32]: ...
     def save(self, path: _Path, force: bool = False, picture: bool = True) -> None: ...
 
+class View:
+    image: Final[NDArray[np.uint8]]
+    mask: Final[NDArray[np.uint8] | None]
+    instances: Final[NDArray[np.uint16] | None]
+    elevation: Final[NDArray[np.float32] | None]
+    boxes: Final[NDArray[np.int32]]
+    objects: Final[list[dict[str, Any]]]
+    class_names: Final[list[str]]
+    window: Final[tuple[float, float]]
+    ping: Final[Ping]
+
 class Pings(Iterator[Ping]):
     def __next__(self) -> Ping: ...
     def __len__(self) -> int: ...
@@ -74,11 +85,16 @@ class Pings(Iterator[Ping]):
 class PingSimulator:
     def __init__(self, sonar: Sonar, environment: Environment = ..., **keys: _Value) -> None: ...
     def ping(self, scene: Scene, position: ArrayLike, yaw: float = 0, pitch: float = 0, roll: float = 0, *,
-             seed: int | None = None, keep: _Words = None, contributors: int | None = None, time: float | None = None,
+             seed: int | None = None, keep: _Words = None, contributors: int | None = None, display: int | None = None, time: float | None = None,
              draw: int | None = None, ping: int | None = None, velocity: ArrayLike | None = None, turn_rate: ArrayLike | None = None) -> Ping: ...
     def pings(self, scene: Scene, poses: ArrayLike, threads: int = 0, *, seed: int | None = None, keep: _Words = None,
-              contributors: int | None = None, time: ArrayLike | None = None, draw: ArrayLike | None = None,
+              contributors: int | None = None, display: int | None = None, time: ArrayLike | None = None, draw: ArrayLike | None = None,
               velocity: ArrayLike | None = None, turn_rate: ArrayLike | None = None) -> Pings: ...
+    def views(self, scene: Scene, poses: ArrayLike, *, width: int | None = None, height: int = 512,
+              geometry: Literal["fan", "polar"] = "fan", labels: bool = True,
+              window: tuple[float, float] | None = None, min_contrast_db: float = 3, box_dark: bool = False,
+              stuff: Sequence[str] = (), threads: int = 0, seed: int | None = None, time: ArrayLike | None = None, draw: ArrayLike | None = None,
+              velocity: ArrayLike | None = None, turn_rate: ArrayLike | None = None) -> Iterator[View]: ...
     def plan(self, scene: Scene, position: ArrayLike, yaw: float = 0, pitch: float = 0, roll: float = 0,
              **keys: _Value) -> list[dict[str, Any]]: ...
 
