@@ -44,7 +44,7 @@ std::vector<PingOutcome> pings_of(const MissionFile& file, const SceneSource& sc
 
 }  // namespace
 
-TEST(LibraryMission, over_tiles_and_parts_is_that_over_their_cloud) {
+TEST(LibraryMission, over_a_file_or_tiles_is_that_over_their_cloud) {
   const SceneCloud harbour = make_built_in_scene("harbour", {.points = 6000});
   save_tiles(own_path("harbour.tiles"), harbour, {});
   save_scene(own_path("harbour.ply"), harbour);
@@ -52,15 +52,23 @@ TEST(LibraryMission, over_tiles_and_parts_is_that_over_their_cloud) {
   const MissionFile in_memory = mission_over("harbour.ply");
   const std::vector<PingOutcome> expected = pings_of(in_memory, SceneInMemory(harbour));
   ASSERT_EQ(expected.size(), 4U);
-  for (const char* name : {"harbour.ply", "harbour.tiles", "parts.toml"}) {
+  for (const char* name : {"harbour.ply", "harbour.tiles"}) {
     const MissionFile file = mission_over(name);
     const std::vector<PingOutcome> pings = pings_of(file, *scene_source_of(file));
     ASSERT_EQ(pings.size(), expected.size());
-    for (std::size_t i = 0; i < pings.size(); ++i) {
-      EXPECT_EQ(pings[i].failure, "");
+    for (std::size_t i = 0; i < pings.size(); ++i)
       EXPECT_TRUE((pings[i].ping.pressure == expected[i].ping.pressure).all()) << name << ", ping " << i;
-      EXPECT_GT(pings[i].soundings.size(), 0U);
-    }
+  }
+  // Merged parts have a speckle of their own, which follows from the scene alone.
+  const MissionFile file = mission_over("parts.toml");
+  const std::vector<PingOutcome> pings = pings_of(file, *scene_source_of(file)),
+                                 again = pings_of(file, *scene_source_of(file, 1));
+  ASSERT_EQ(pings.size(), expected.size());
+  for (std::size_t i = 0; i < pings.size(); ++i) {
+    EXPECT_EQ(pings[i].failure, "");
+    EXPECT_GT(pings[i].scatterers, 0U);
+    EXPECT_TRUE((pings[i].ping.pressure == again[i].ping.pressure).all()) << "ping " << i;
+    EXPECT_FALSE((pings[i].ping.pressure == expected[i].ping.pressure).all()) << "ping " << i;
   }
 }
 
@@ -87,4 +95,22 @@ TEST(LibraryMission, scene_of_a_path_needs_no_mission) {
   EXPECT_GT(scene->scene().size(), 0U);
   EXPECT_LT(scene->scene().size(), 6000U) << "a ping reads what it reaches";
   EXPECT_THAT(error_with_kind([] { scene_source_of("absent.tiles"); }), HasSubstr("absent.tiles"));
+}
+
+// A ping that gives its plan is resolved once, with the bytes of one without, and the plan is that asked for alone.
+TEST(LibraryMission, a_ping_gives_the_plan_that_it_follows) {
+  const PreparedScene scene(make_built_in_scene("harbour", {.points = 6000}));
+  const PingSimulator head = mission_heads(mission_over("harbour.ply")).at(0);
+  const PingEvent event{.world_from_head = Pose(Eigen::Translation3d(0, 0, -3)), .motion = {.velocity = {1, 0, 0}}};
+  PingPlan plan;
+  const SimulatedPing planned = head.ping(scene, event, plan), alone = head.ping(scene, event);
+  const PingPlan asked = head.plan(scene, event);
+  EXPECT_TRUE((planned.ping.pressure == alone.ping.pressure).all());
+  EXPECT_EQ(planned.soundings.size(), alone.soundings.size());
+  EXPECT_EQ(plan.left_out_db, asked.left_out_db);
+  ASSERT_EQ(plan.stages.size(), asked.stages.size());
+  for (std::size_t i = 0; i < plan.stages.size(); ++i) {
+    EXPECT_EQ(plan.stages[i].included, asked.stages[i].included) << plan.stages[i].name;
+    EXPECT_EQ(plan.stages[i].bound_db, asked.stages[i].bound_db) << plan.stages[i].name;
+  }
 }

@@ -221,12 +221,14 @@ TEST_F(Dive, refuses_heads_without_a_depth_before_any_work) {
   expect_refused("survey dive.toml -o out", 3, {"dive.toml: head 'em2040', ping 1", "leave water.depth_m out"});
 }
 
-// Runs of versions that took the depth of a profile from water.depth_m alone can still be looked at.
-TEST_F(Dive, runs_of_a_profile_without_a_surface_can_be_read) {
+// Of a profile without a surface depths are not known: the pings can be exported, but not where the head would look. No
+// release wrote such runs.
+TEST_F(Dive, runs_of_a_profile_without_a_surface_are_exported_and_not_looked_from) {
   succeed(
       "ping bed.obj --sonar em2040 --set water.depth_m=8 --range 3:25 --set sonar.beams=16 --pose=0,0,-8,0,90,0 -q -o "
       "out");
   write("out/run.toml", read("out/run.toml") + "\n[profile]\ndepth_m = [0, 40]\nsound_speed = [1520, 1446]\n");
   succeed("export out --to csv -q -o soundings.csv");
-  succeed("image out --view scene --colour visibility -q -o scene.png");
+  expect_refused("image out --view scene --colour visibility -q -o scene.png", 2,
+                 {"the sound-speed profile counts depth from the surface", "give surface.height_m"});
 }

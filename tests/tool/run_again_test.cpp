@@ -5,7 +5,6 @@
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
-using namespace insonify;
 
 namespace {
 
