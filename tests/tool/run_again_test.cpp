@@ -4,7 +4,7 @@
 #include "store/cube.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
-
+using namespace insonify;
 
 namespace {
 
