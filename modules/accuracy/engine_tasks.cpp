@@ -19,6 +19,7 @@ struct Variation {
   std::size_t bins = 256;
   double field_of_view = radians(45);
   std::size_t beams = 48;
+  double sweep = 0;              ///< duration of a linear FM pulse [s]; 0: a Gaussian pulse
   double speed = 0;              ///< largest speed of echoes along the line of sight [m/s]
   std::size_t rows = 1;          ///< number of rows of beams of a planar array; 1: a line array
   double from_u = -1, to_u = 1;  ///< echoes outside of the fan as far as this are left out
@@ -40,7 +41,9 @@ SonarHead head_of(const Variation& v) {
     s.column_beam_width = radians(4);
     for (std::size_t k = 0; k < v.rows; ++k) s.elevations.push_back(radians(3.0 * static_cast<double>(k)));
   }
-  return make_head(s, nominal_sound_speed);
+  SonarHead head = make_head(s, nominal_sound_speed);
+  if (v.sweep > 0) head.pulse.shape = PulseShape::linear_fm, head.pulse.duration = v.sweep;
+  return head;
 }
 
 AccuracyTask task_for(const Variation& v, std::size_t echoes, std::uint64_t seed) {
@@ -102,6 +105,9 @@ std::vector<EngineTask> engine_tasks(std::size_t echoes, std::uint64_t seed) {
   add("one beam", {.field_of_view = radians(1), .beams = 1});
   add("130 degrees", {.field_of_view = radians(130), .beams = 96});
   add("planar", {.beams = 24, .rows = 4});
+  add("sweep", {.sweep = 1e-3});
+  add("wide sweep", {.bandwidth = 200e3, .sweep = 5e-4});
+  add("moving, narrow band", {.bandwidth = 3e3, .min_range = 20, .bins = 64, .speed = 5});
   return tasks;
 }
 

@@ -128,7 +128,7 @@ TEST_P(OneBeamPromise, the_same_of_moving_echoes) {
 
 using FastOneBeam = OneBeamPromise;
 
-// Shifts that tables do not hold. curved wavefronts come to the ends of a long array from beyond the fan.
+// Shifts that tables do not hold. Curved wavefronts come to the ends of a long array from beyond the fan.
 TEST_P(FastOneBeam, fast_echoes_keep_a_hundredth) {
   for (std::size_t i = 0; i < echoes.size(); ++i)
     echoes.doppler.push_back(i % 10 == 0 ? 0.03 * head.pulse.centre_frequency : 0);
@@ -156,6 +156,51 @@ TEST(TrueDelayEngine, moving_echoes_and_absorption_by_frequency_keep_the_toleran
   for (std::size_t i = 0; i < e.size(); ++i) e.doppler.push_back(40.0 * static_cast<double>(i % 50) - 1000);
   const Medium tilted{c0, {0.02, 2e-8, 1e-14}};
   EXPECT_LE(relative_l2(synthesize_true_delays(e, head, tilted, {1e-3}), exact(e, head, tilted)), 1e-3);
+}
+
+struct MovingCase {
+  TrueDelayCase head;
+  double speed;  ///< largest, along the line of sight [m/s]
+};
+
+Echoes moving_echoes(const MovingCase& of, const SonarHead& head) {
+  Echoes e = near_echoes(head, 60);
+  for (std::size_t i = 0; i < e.size(); ++i)
+    e.doppler.push_back(2 * of.speed / c0 * head.pulse.centre_frequency * std::sin(static_cast<double>(i)));
+  return e;
+}
+
+// Shifts beyond the band, and near ranges, where the curvature changes over a pulse whose spectrum is shifted.
+TEST(TrueDelayEngine, echoes_that_move_in_a_narrow_band_or_nearby_keep_the_tolerance) {
+  const MovingCase cases[] = {{{"beyond_the_band", 600e3, 3e3, 84, 45, 20, 26}, 5},
+                              {{"within_the_band", 600e3, 30e3, 84, 45, 3, 5}, 5},
+                              {{"nearby", 600e3, 30e3, 84, 45, 1, 1.7}, 5},
+                              {{"three_lengths_away", 600e3, 30e3, 84, 45, 0.35, 0.8}, 5}};
+  for (const MovingCase& of : cases) {
+    const SonarHead head = true_delay_head(of.head);
+    const Echoes e = moving_echoes(of, head);
+    const ComplexGrid referee = exact(e, head);
+    for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5})
+      EXPECT_LE(relative_l2(synthesize_true_delays(e, head, near_water(), {tolerance}), referee), tolerance)
+          << of.head.name << ", " << tolerance;
+  }
+}
+
+TEST(TrueDelayEngine, same_bits_for_moving_echoes_and_any_number_of_threads) {
+  const MovingCase of{{"", 600e3, 30e3, 84, 45, 3, 4}, 5};
+  const SonarHead head = true_delay_head(of.head);
+  const Echoes e = moving_echoes(of, head);
+  const ComplexGrid one = synthesize_true_delays(e, head, near_water(), {1e-4, 1});
+  EXPECT_TRUE((one == synthesize_true_delays(e, head, near_water(), {1e-4, 7})).all());
+}
+
+// The band reaches to 0.98 and 1.3 of the carrier below it.
+TEST(TrueDelayEngine, bands_that_reach_near_zero_keep_the_tolerance) {
+  for (const auto& [bandwidth, tolerance] : {std::pair{200e3, 1e-5}, std::pair{300e3, 1e-4}}) {
+    const SonarHead head = true_delay_head({"", 600e3, bandwidth, 84, 45, 1, 1.5});
+    const Echoes e = near_echoes(head, 60);
+    EXPECT_LE(relative_l2(synthesize_true_delays(e, head, near_water(), {tolerance}), exact(e, head)), tolerance);
+  }
 }
 
 // Side lobes receive echoes from far beyond the fan: half of the echoes.

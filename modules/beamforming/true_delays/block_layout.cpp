@@ -15,6 +15,13 @@ constexpr double widest_band = 1.35;  // off the carrier, of it: up to there, bl
 // and powers are many, longer ones leave the caches.
 constexpr std::size_t longest_level = 2;
 constexpr double most_curvature = 2;
+constexpr double left_of_doppler = 0.7;  // of the tolerance, for Doppler shifts between those that plans are for
+
+/// Range at which the curvature moves the frequencies of the outermost elements by half of the band [m].
+double moving_range(const SonarHead& head) {
+  const double length = head.array.spacing * static_cast<double>(head.array.elements() - 1);
+  return length * std::sqrt(head.pulse.centre_frequency / (8 * head.pulse.bandwidth));
+}
 
 /// Pulses that begin at three lengths of the array, or more of narrow bands.
 double nearest_range(const SonarHead& head, const Medium& medium, const TrueDelaySizes& sizes) {
@@ -22,9 +29,14 @@ double nearest_range(const SonarHead& head, const Medium& medium, const TrueDela
   // is of third order over a pulse is left out: measured at 0.01 of that part of the band times (reach / range)^2.
   // Where the band reaches so far below zero, the array is shorter than the rows between which it is interpolated.
   if (sizes.half_band > widest_band * head.pulse.centre_frequency) return head.gate.max_range + sizes.aperture;
-  const double length = sizes.aperture, reach = 0.5 * medium.sound_speed * sizes.reach,
-               moved = length * std::sqrt(head.pulse.centre_frequency / (8 * head.pulse.bandwidth));
-  return std::max({3 * length, moved / std::sqrt(0.3), std::sqrt(moved * reach / std::sqrt(50 * sizes.tolerance))}) +
+  const double length = sizes.aperture, reach = 0.5 * medium.sound_speed * sizes.reach, moved = moving_range(head);
+  // Between plans for shifts of both signs, what is of second order in the shift is left out: two of doppler_error^2.
+  const double shifted =
+      sizes.doppler.centre == 0
+          ? 0
+          : std::sqrt(doppler_error(head, sizes.doppler.most, 1) / std::sqrt(0.5 * left_of_doppler * sizes.tolerance));
+  return std::max({3 * length, moved / std::sqrt(0.3), std::sqrt(moved * reach / std::sqrt(50 * sizes.tolerance)),
+                   shifted}) +
          reach;
 }
 
@@ -37,8 +49,15 @@ CurvaturePhase::CurvaturePhase(const SonarHead& head, const Medium& medium, doub
   over_range = 0.5 * all * (1 - near / far);
 }
 
-BlockLayout::BlockLayout(const SonarHead& head, const Medium& medium, double tolerance, double widest) {
-  const TrueDelaySizes any(head, medium, tolerance, widest, 1);
+double doppler_error(const SonarHead& head, double shift, double range) {
+  if (head.pulse.shape != PulseShape::gaussian) return 0;
+  // (E191) The root mean square over a shaded array, measured.
+  return 0.32 * std::abs(shift) / head.pulse.bandwidth * std::pow(moving_range(head) / range, 2);
+}
+
+BlockLayout::BlockLayout(const SonarHead& head, const Medium& medium, double tolerance, double widest,
+                         DopplerSpan doppler) {
+  const TrueDelaySizes any(head, medium, tolerance, widest, doppler, 1);
   const auto bins = static_cast<double>(head.gate.bins());
   const std::size_t ends = any.guard;
   guard = static_cast<double>(ends);
@@ -50,12 +69,15 @@ BlockLayout::BlockLayout(const SonarHead& head, const Medium& medium, double tol
   };
   nearest = std::max(nearest_range(head, medium, any), 1e-3 * head.gate.bin_size);
   while (!fits(nearest, 0)) nearest *= 1.02;
+  steady =
+      left_of_doppler * tolerance / std::max(doppler_error(head, 1, std::max(nearest, head.gate.min_range)), 1e-300);
   double first = std::max(-guard, std::ceil((nearest - head.gate.min_range) / head.gate.bin_size));
   do {
     const double range = std::max(nearest, head.gate.min_range + first * head.gate.bin_size);
     const double allowed = range / head.gate.bin_size, wanted = bins + guard - first;
     const auto sizes_of = [&](std::size_t level) -> const TrueDelaySizes& {
-      while (levels.size() <= level) levels.emplace_back(head, medium, tolerance, widest, 2 * ends << levels.size());
+      while (levels.size() <= level)
+        levels.emplace_back(head, medium, tolerance, widest, doppler, 2 * ends << levels.size());
       return levels[level];
     };
     std::size_t level = 0;

@@ -63,7 +63,8 @@ Complex undone(const TrueDelayPlan& plan, const Curvature& curvature, double pha
   // second order in time, and in both.
   const double speed = 0.5 * plan.medium.sound_speed, width = plan.spectral_width2,
                turn = speed * wave * curvature.by_r;
-  const double late = width * (off / pi - turn / (4 * pi * pi)), later = late - width * turn / (4 * pi * pi);
+  const double late = width * ((off + plan.doppler.centre) / pi - turn / (4 * pi * pi)),
+               later = late - width * turn / (4 * pi * pi);
   const Complex second =
       0.5 * speed * speed * wave * curvature.by_r2 * Complex(0, width / (2 * pi * pi) + later * later) +
       speed * step * wave * curvature.by_ur * later * slope * std::conj(sum) / std::norm(sum);

@@ -2,6 +2,7 @@
 #include "beamforming/true_delays/true_delay_engine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <functional>
@@ -27,6 +28,8 @@ constexpr double finest = 1e-5, coarsest = 0.1;
 constexpr double farthest_out = 1 + 1e-9;    // |u| of echoes, rounded
 constexpr std::size_t exact_at_once = 4096;  // echoes that are summed element by element together
 constexpr std::size_t beams_at_once = 8;
+constexpr double steady_band = 0.1;  // of the bandwidth: Doppler shifts that the band of echoes at rest holds
+constexpr double first_rung = 0.05;  // of the bandwidth: plans of moving echoes are for 2^k times this
 
 /// Idle workspaces.
 class IdleWorkspaces {
@@ -56,7 +59,7 @@ struct LevelTables {
   mutable IdleWorkspaces workspaces;
 
   LevelTables(const SonarHead& head, const Medium& medium, const TrueDelaySizes& sizes)
-      : plan(head, medium, sizes.tolerance, sizes.widest, sizes.block), fits(plan), transforms(plan) {}
+      : plan(head, medium, sizes.tolerance, sizes.widest, sizes.doppler, sizes.block), fits(plan), transforms(plan) {}
 };
 
 /// Opens a latch when it is left, by an exception too.
@@ -79,19 +82,32 @@ struct TrueDelayEngine::Plan {
   Medium medium;
   SynthesisOptions options;
   double widest;  ///< |u| of echoes
+  DopplerSpan doppler;
   BlockLayout layout;
   TimeStretches stretches;                  ///< what is nearer than blocks reach, then the blocks
   std::unique_ptr<const OneBeam> one_beam;  ///< instead of blocks; nullptr: does not pay
   std::deque<Lazy<LevelTables>> levels;
   std::deque<Lazy<TimeBlock>> blocks;
   Lazy<Plan> all_around;  ///< for echoes farther out: of all directions
+  /// Plans for Doppler shifts up to 2^k first rungs: one, or two about the largest shifts of either sign.
+  struct Moving {
+    std::unique_ptr<const Plan> closing, leaving;
+  };
+  std::array<Lazy<Moving>, 32> moving;
 
-  Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest);
+  Plan(const SonarHead& head, const Medium& medium, const SynthesisOptions& options, double widest,
+       DopplerSpan doppler = {});
   const LevelTables& tables_of(std::size_t level) const;
   const TimeBlock& block(std::size_t number) const;
   /// The stretches by which echoes are fed to `pressure`.
   const TimeStretches& stretches_for(bool fast) const { return one_beam && !fast ? one_beam->stretches() : stretches; }
-  /// `fast`: echoes have larger Doppler shifts than OneBeam takes.
+  /// The image of stored echoes up to |u| = `far_out`. `fast`: they have larger Doppler shifts than OneBeam takes.
+  ComplexGrid image(const Echoes& echoes, double far_out, bool fast) const {
+    return with(far_out,
+                [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches_for(fast)), fast); });
+  }
+  /// The same for shifts of up to `fastest` that blocks for echoes at rest do not serve. (E191)
+  ComplexGrid moving_image(const Echoes& echoes, double far_out, double fastest) const;
   ComplexGrid pressure(const EchoFeed& feed, bool fast = false) const;
   /// Adds the images of all blocks.
   void add_blocks(const EchoFeed& feed, ComplexGrid& pressure) const;
@@ -106,7 +122,7 @@ struct TrueDelayEngine::Plan {
     if (far_out <= widest) return use(*this);
     if (far_out > farthest_out)
       fail(ErrorKind::argument, "TrueDelayEngine: an echo has u = +-", far_out, ", must be within -1 and 1");
-    return use(all_around.get([&] { return std::make_unique<Plan>(head, medium, options, 1); }));
+    return use(all_around.get([&] { return std::make_unique<Plan>(head, medium, options, 1, doppler); }));
   }
 };
 
@@ -125,13 +141,14 @@ TrueDelayEngine& TrueDelayEngine::operator=(TrueDelayEngine&&) noexcept = defaul
 
 ComplexGrid TrueDelayEngine::pressure(const Echoes& echoes) const {
   require_synthesis(echoes, plan_->head, plan_->medium, plan_->options, "TrueDelayEngine");
-  double widest = 0;
+  double widest = 0, fastest = 0;
   for (const double u : echoes.u) widest = std::max(widest, std::abs(u));
-  const double most = BeamTableSizes::most_shifted * plan_->head.pulse.centre_frequency;
-  const bool fast =
-      std::any_of(echoes.doppler.begin(), echoes.doppler.end(), [&](double d) { return std::abs(d) > most; });
-  return plan_->with(widest,
-                     [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches_for(fast)), fast); });
+  for (const double d : echoes.doppler) fastest = std::max(fastest, std::abs(d));
+  const Pulse& pulse = plan_->head.pulse;
+  const bool fast = fastest > BeamTableSizes::most_shifted * pulse.centre_frequency;
+  if ((plan_->one_beam && !fast) || fastest <= std::min(steady_band * pulse.bandwidth, plan_->layout.steady))
+    return plan_->image(echoes, widest, fast);
+  return plan_->moving_image(echoes, widest, fastest);
 }
 
 ComplexGrid TrueDelayEngine::pressure(const EchoStream& stream) const {
@@ -142,16 +159,40 @@ ComplexGrid TrueDelayEngine::pressure(const EchoStream& stream) const {
 }
 
 TrueDelayEngine::Plan::Plan(const SonarHead& head_in, const Medium& medium_in, const SynthesisOptions& options_in,
-                            double widest_in)
+                            double widest_in, DopplerSpan doppler_in)
     : head(head_in),
       medium(medium_in),
       options(options_in),
       widest(widest_in),
-      layout(head, medium, options.tolerance, widest),
+      doppler(doppler_in),
+      layout(head, medium, options.tolerance, widest, doppler),
       stretches(stretches_of(layout, head, medium)),
-      one_beam(OneBeam::make(head, medium, options.tolerance, widest)),
+      one_beam(doppler.most > 0 ? nullptr : OneBeam::make(head, medium, options.tolerance, widest)),
       levels(layout.levels.size()),
       blocks(layout.blocks.size()) {}
+
+ComplexGrid TrueDelayEngine::Plan::moving_image(const Echoes& echoes, double far_out, double fastest) const {
+  const double first = first_rung * head.pulse.bandwidth, rung = std::max(0.0, std::ceil(std::log2(fastest / first)));
+  if (!(rung < static_cast<double>(moving.size())))
+    fail(ErrorKind::argument, "TrueDelayEngine: an echo has a Doppler shift of ", fastest, " Hz");
+  const double most = std::ldexp(first, static_cast<int>(rung));
+  const auto plan_about = [&](double centre) {
+    return std::make_unique<const Plan>(head, medium, options, widest, DopplerSpan{most, centre});
+  };
+  const Moving& plans = moving[static_cast<std::size_t>(rung)].get([&] {
+    auto made = std::make_unique<Moving>();
+    made->closing = plan_about(most <= layout.steady ? 0 : most);
+    if (most > layout.steady) made->leaving = plan_about(-most);
+    return made;
+  });
+  if (!plans.leaving) return plans.closing->image(echoes, far_out, true);
+  const auto half = [&](const Plan& plan, double sign) {
+    Echoes some = echoes;
+    for (std::size_t i = 0; i < some.size(); ++i) some.amplitude[i] *= 0.5 + 0.5 * sign * some.doppler[i] / most;
+    return plan.image(some, far_out, true);
+  };
+  return half(*plans.closing, 1) + half(*plans.leaving, -1);  // (E191) linear in the shift
+}
 
 const LevelTables& TrueDelayEngine::Plan::tables_of(std::size_t level) const {
   return levels[level].get([&] { return std::make_unique<LevelTables>(head, medium, layout.levels[level]); });

@@ -31,7 +31,9 @@ constexpr double min_true_delay_tolerance = 1e-5;
 /// over a long pulse.
 ///
 /// The error of a fan is relative to the level of a block. The error of 256 elements within 3 m reaches 1.7e-4,
-/// whatever the tolerance. Sweeps have no sharp band; a test holds them to 1e-2.
+/// whatever the tolerance. Sweeps have no sharp band; a test holds them to 1e-2. At 1e-5, bands that reach to 0.95 of the
+/// carrier leave 1.1e-5 on fans of 130 degrees. Echoes whose Doppler shifts the band or the curvature does not bear cost
+/// up to twice as much, and those nearby are summed element by element (E191).
 ///
 /// Construct one object per head, medium and tolerance. Several threads may call `pressure` at once.
 class TrueDelayEngine {

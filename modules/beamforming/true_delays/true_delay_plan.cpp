@@ -41,9 +41,10 @@ double half_band_of(const Pulse& pulse, double tolerance) {
 }
 
 TrueDelaySizes::TrueDelaySizes(const SonarHead& head, const Medium& medium, double tolerance_in, double widest_in,
-                               std::size_t block_bins)
+                               DopplerSpan doppler_in, std::size_t block_bins)
     : tolerance(tolerance_in),
       widest(widest_in),
+      doppler(doppler_in),
       axis(head.gate, medium.sound_speed),
       cut(pulse_cut(tolerance_in)),
       aperture(length_of(head.array)),
@@ -51,7 +52,7 @@ TrueDelaySizes::TrueDelaySizes(const SonarHead& head, const Medium& medium, doub
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
   const double across = 0.5 * aperture / medium.sound_speed * 2.1 * widest;
   guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
-  half_band = half_band_of(head.pulse, tolerance);
+  half_band = half_band_of(head.pulse, tolerance) + doppler.most;
   // Of cycles that hold the block, the one with the fewest samples for its bins.
   const auto fine_of = [this](std::size_t bins) {
     const double lines = 2 * half_band * static_cast<double>(bins) * axis.step;
@@ -73,7 +74,7 @@ TrueDelaySizes::TrueDelaySizes(const SonarHead& head, const Medium& medium, doub
 
   // A period that the kernel between harmonics needs, and the array as long as it is at the highest frequency.
   const double finer = oversampling_for(tolerance);
-  // curved wavefronts come to the ends of a long array from other directions.
+  // Curved wavefronts come to the ends of a long array from other directions.
   const double bent = aperture > 0 ? 0.65 * aperture / std::max(3 * aperture, head.gate.min_range) : 0;
   period = 2.02 * std::max(widest, bent) * finer;
   const double wavelengths = 0.5 * aperture * (head.pulse.centre_frequency + 0.8 * half_band) / medium.sound_speed;
@@ -87,8 +88,8 @@ TrueDelaySizes::TrueDelaySizes(const SonarHead& head, const Medium& medium, doub
 }
 
 TrueDelayPlan::TrueDelayPlan(const SonarHead& head_in, const Medium& medium_in, double tolerance_in, double widest_in,
-                             std::size_t block_bins)
-    : TrueDelaySizes(head_in, medium_in, tolerance_in, widest_in, block_bins),
+                             DopplerSpan doppler_in, std::size_t block_bins)
+    : TrueDelaySizes(head_in, medium_in, tolerance_in, widest_in, doppler_in, block_bins),
       head(head_in),
       medium(medium_in),
       shapes(head.pulse, medium),
@@ -186,12 +187,16 @@ void TrueDelayPlan::plan_elements() {
 void TrueDelayPlan::plan_band() {
   const auto most_of = static_cast<Eigen::Index>(most_powers);
   const auto weights = [this](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    const Eigen::ArrayXd square = x.array().square();
-    const Eigen::VectorXd weight = (-spectral_width2 * half_band * half_band * square).exp() * (1 - square).pow(0.25);
+    const Eigen::ArrayXd beside = (x.array().abs() - doppler.most / half_band).max(0);  // the largest shift
+    const Eigen::VectorXd weight =
+        (-spectral_width2 * half_band * half_band * beside.square()).exp() * (1 - x.array().square()).pow(0.25);
     return weight / weight.norm();
   };
   digits = -std::log10(tolerance);
-  const Eigen::VectorXd nodes = chebyshev_points(static_cast<std::size_t>(std::ceil(std::max(7.0, 6 + 1.6 * digits)))),
+  // Where the band reaches near zero, rows of harmonics move faster along the array.
+  const double low = std::clamp(24 * (half_band / head.pulse.centre_frequency - 0.6), 0.0, 16.0);
+  const Eigen::VectorXd nodes = chebyshev_points(
+                            static_cast<std::size_t>(std::ceil(std::max(7.0, 6 + 1.6 * digits) + low))),
                         at_nodes = weights(nodes);
   const Eigen::VectorXd fit = chebyshev_points(fit_nodes), at_fit = weights(fit);
   for (const double x : nodes) node_frequency.push_back(half_band * x);

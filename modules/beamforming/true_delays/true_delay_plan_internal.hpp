@@ -18,6 +18,12 @@ namespace insonify {
 /// Returns the largest frequency off the carrier that contributes [Hz]: there the spectrum falls to the tolerance.
 double half_band_of(const Pulse& pulse, double tolerance);
 
+/// Doppler shifts of the echoes that a plan is for [Hz].
+struct DopplerSpan {
+  double most = 0;    ///< largest |shift|
+  double centre = 0;  ///< shift for which the change of the curvature over a pulse is undone
+};
+
 /// Sizes of the synthesis with true delays for blocks of time of one length. One cycle of a transform holds the pulses
 /// of a block with all delays across the array. Directions lie on a grid over one period. Its harmonics k / period, |k|
 /// <= most, are positions on the array in wavelengths; the elements are interpolated between these positions, frequency
@@ -27,11 +33,12 @@ struct TrueDelaySizes {
 
   double tolerance;
   double widest;  ///< |u| of echoes and beams
+  DopplerSpan doppler;
   TimeAxis axis;
   double cut;       ///< pulses are cut where they fall below this
   double aperture;  ///< length of the array [m]
 
-  double half_band = 0;                         ///< largest frequency off the carrier that contributes [Hz]
+  double half_band = 0;  ///< largest frequency off the carrier that contributes, of shifted echoes too [Hz]
   std::size_t block = 0, guard = 0, cycle = 0;  ///< bins: of the longest block, of its guard on either side, of a cycle
   std::size_t fine = 0, fine_row = 0;           ///< samples of a cycle before the beams are formed; allocated samples
   double fine_step = 0;                         ///< [s]
@@ -43,7 +50,8 @@ struct TrueDelaySizes {
   std::size_t taps = 0;                   ///< rows that give an element
 
   /// `widest`: |u| of echoes; `block_bins`: length of a block asked for.
-  TrueDelaySizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, std::size_t block_bins);
+  TrueDelaySizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, DopplerSpan doppler,
+                 std::size_t block_bins);
 
   std::size_t rows() const { return 2 * most + 1; }
   /// Returns the time of bin `bin` of the gate [s].
@@ -89,7 +97,8 @@ struct TrueDelayPlan : TrueDelaySizes {
   AlignedFloats line_power;       ///< the same at lines: by chunk, power and line
 
   /// As TrueDelaySizes.
-  TrueDelayPlan(const SonarHead& head, const Medium& medium, double tolerance, double widest, std::size_t block_bins);
+  TrueDelayPlan(const SonarHead& head, const Medium& medium, double tolerance, double widest, DopplerSpan doppler,
+                std::size_t block_bins);
 
   /// Transforms of the kernel times x^j, x in its steps, j < moments; `frequency` in cycles per step.
   std::array<std::complex<double>, moments> kernel_moments(double frequency) const;
@@ -121,10 +130,16 @@ struct BlockLayout {
   };
   double guard;    ///< bins by which a block extends beyond its ends, for the array's delays and the pulse
   double nearest;  ///< blocks keep the tolerance beyond this range [m]
+  double
+      steady;  ///< largest Doppler shift for which blocks of echoes at rest keep it, but for the width of the band [Hz]
   std::vector<TrueDelaySizes> levels;
   std::vector<Block> blocks;
 
-  BlockLayout(const SonarHead& head, const Medium& medium, double tolerance, double widest);
+  BlockLayout(const SonarHead& head, const Medium& medium, double tolerance, double widest, DopplerSpan doppler);
 };
+
+/// Returns the part of an image of echoes of Doppler shift `shift` that a plan for echoes at rest leaves out at a range
+/// (E191): the curvature changes over a pulse, and is undone as if the spectrum lay about the carrier. 0 for sweeps.
+double doppler_error(const SonarHead& head, double shift, double range);
 
 }  // namespace insonify
