@@ -18,11 +18,11 @@ if [[ ! -x ${INSONIFY_TOOL:-build/dev/bin/insonify} ]]; then
 fi
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-# INSONIFY_READ_HERE: readers work in this process, where libFuzzer sees them, and not in a child. GCC's name for the address
+# Readers work in this process, where libFuzzer sees them, as those of any library. GCC's name for the address
 # checks says to the sources that they are on; the libraries' types have no type information.
 cmake -S . -B $build -G Ninja -DCMAKE_BUILD_TYPE=Debug -DINSONIFY_VIEW=OFF -DINSONIFY_FUZZ=ON -DCMAKE_UNITY_BUILD=ON \
   -DCMAKE_C_COMPILER=clang-16 -DCMAKE_CXX_COMPILER=clang++-16 -DINSONIFY_SANITIZE=address,undefined \
-  -DCMAKE_CXX_FLAGS="-O1 -fsanitize=fuzzer-no-link -fno-sanitize=vptr -D__SANITIZE_ADDRESS__=1 -DINSONIFY_READ_HERE -include $PWD/tests/fuzz/for_clang.hpp" "${launcher[@]}" >/dev/null
+  -DCMAKE_CXX_FLAGS="-O1 -fsanitize=fuzzer-no-link -fno-sanitize=vptr -D__SANITIZE_ADDRESS__=1 -include $PWD/tests/fuzz/for_clang.hpp" "${launcher[@]}" >/dev/null
 cmake --build $build --target fuzz_readers -- -k 0 -j "${JOBS:-2}" >$build/log || { tail -30 $build/log >&2; exit 1; }
 ln -sf fuzz_readers "$build/bin/fuzz_$reader"
 

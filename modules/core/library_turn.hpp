@@ -10,23 +10,18 @@ template <typename Library>
 class LibraryTurn {
  public:
   /// Waits until no other thread has the turn.
-  LibraryTurn() { take(); }
-  ~LibraryTurn() { give_back(); }
-  LibraryTurn(const LibraryTurn&) = delete;
-  LibraryTurn& operator=(const LibraryTurn&) = delete;
-
-  /// Waits like the constructor, without an object: for a handler of fork().
-  static void take() {
-    if (taken_++ == 0) lock_.lock();
-  }
-  /// Gives back the turn of take().
-  static void give_back() {
-    if (--taken_ == 0) lock_.unlock();
-  }
+  LibraryTurn() : lock_(turn_) {}
 
  private:
-  static inline std::mutex lock_;
-  static inline thread_local int taken_ = 0;  // a recursive mutex would not know its owner again in a child process
+  static inline std::recursive_mutex turn_;
+  std::lock_guard<std::recursive_mutex> lock_;
 };
+
+/// The turn in VTK, with FreeType and EGL: fonts, texts, messages and contexts exist once per process. Whatever uses one
+/// of them has it.
+using VtkTurn = LibraryTurn<class Vtk>;
+
+/// The turn in HDF5, also in GDAL where it reads rasters: its drivers of netCDF and BAG use HDF5, and its cache is one.
+using Hdf5Turn = LibraryTurn<class Hdf5>;
 
 }  // namespace insonify

@@ -19,26 +19,36 @@ constexpr std::size_t head = SharedMemory::head;
 
 }  // namespace
 
-SharedMemory::SharedMemory(std::size_t most) {
+SharedMemory::SharedMemory(std::size_t most)
+    : SharedMemory(most, [](std::size_t bytes) -> char* {
+        constexpr int kind = MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE;
+        void* const start = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, kind, -1, 0);
+        return start == MAP_FAILED ? nullptr : static_cast<char*>(start);
+      }) {}
+
+SharedMemory::SharedMemory(std::size_t most, const Map& map) {
   constexpr std::size_t least = std::size_t{1} << 20;
   const std::size_t left = memory_left().value_or(2 * most);
-  // Not a file in memory, for whose size `ulimit -f` holds. Where memory is not promised twice, as much as is left.
-  for (std::size_t bytes = std::min(most, left / 2) / page * page; bytes >= least; bytes = bytes / 2 / page * page) {
-    void* const start = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (start == MAP_FAILED) continue;
-    start_ = static_cast<char*>(start), bytes_ = bytes;
-    return;
-  }
-  throw std::bad_alloc();
+  // Where memory is not promised twice, as much as is left.
+  bytes_ = std::min(most, left / 2) / page * page;
+  while (bytes_ >= least && !(start_ = map(bytes_))) bytes_ = bytes_ / 2 / page * page;
+  if (!start_) throw std::bad_alloc();
 }
 
 SharedMemory::~SharedMemory() { munmap(start_, bytes_); }
 
-void SharedMemory::keep(std::size_t bytes) {
-  const std::size_t kept = std::clamp(aligned(bytes, page), page, bytes_);
+std::size_t SharedMemory::end_of_sent() const {
+  std::size_t used = 0;
+  std::memcpy(&used, start_, sizeof used);
+  return head + std::min(used, bytes_ - head);
+}
+
+void SharedMemory::keep_sent() {
+  const std::size_t kept = std::clamp(aligned(end_of_sent(), page), page, bytes_);
   if (kept < bytes_) munmap(start_ + kept, bytes_ - kept);
   bytes_ = kept;
   mprotect(start_, bytes_, PROT_READ);
+  madvise(start_, bytes_, MADV_POPULATE_READ);  // else memory of shmget costs a page fault for each page
 }
 
 void SharedMemory::give_back(std::size_t begin, std::size_t end) const {
@@ -56,12 +66,7 @@ char* ArraySender::take(std::size_t bytes) {
 }
 
 ArrayReceiver::ArrayReceiver(std::string path, std::shared_ptr<SharedMemory> memory)
-    : path_(std::move(path)), memory_(std::move(memory)), at_(head) {
-  std::size_t used = 0;
-  std::memcpy(&used, memory_->start(), sizeof used);
-  end_ = head + std::min(used, memory_->bytes() - head);
-  memory_->keep(end_);
-}
+    : path_(std::move(path)), memory_(std::move(memory)), at_(head), end_(memory_->end_of_sent()) {}
 
 std::size_t ArrayReceiver::bytes_of(std::size_t count, std::size_t size) const {
   if (size > 0 && count > (end_ - at_) / size)

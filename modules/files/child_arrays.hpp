@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,16 +20,21 @@ template <typename Value>
 constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>;
 }  // namespace detail
 
-/// Memory that this process shares with the children that it starts during the lifetime of the object. Only addresses
-/// are reserved; pages take memory when they are written.
+/// Memory for what a reader sends, which may be another process. Only addresses are reserved; pages take memory when
+/// they are written.
 class SharedMemory {
  public:
-  /// Number of first bytes that no array uses: one number of the sender, the others for the process that starts the
-  /// child.
+  /// Number of first bytes that no array uses: one number of the sender, the others for a reader process.
   static constexpr std::size_t head = 128, of_sender = 16;
+  /// Returns the address of so many bytes that were mapped; null if there are not as many.
+  using Map = std::function<char*(std::size_t bytes)>;
 
   /// Reserves `most` bytes, or half of what the user's limits leave if that is less. Throws std::bad_alloc.
-  explicit SharedMemory(std::size_t most = std::size_t{1} << 38);
+  explicit SharedMemory(std::size_t most);
+  /// Does the same by `map`.
+  SharedMemory(std::size_t most, const Map& map);
+  /// Takes over `bytes` bytes that are mapped.
+  SharedMemory(char* start, std::size_t bytes) : bytes_(bytes), start_(start) {}
   ~SharedMemory();
   SharedMemory(const SharedMemory&) = delete;
   SharedMemory& operator=(const SharedMemory&) = delete;
@@ -37,8 +43,10 @@ class SharedMemory {
   char* start() const { return start_; }
   /// Returns the size of the memory [bytes].
   std::size_t bytes() const { return bytes_; }
-  /// Releases all but the first bytes; only these may be read afterwards.
-  void keep(std::size_t bytes);
+  /// Returns where the values end that a sender left [bytes].
+  std::size_t end_of_sent() const;
+  /// Releases all but these values, which may only be read afterwards.
+  void keep_sent();
   /// Gives back the whole pages within [begin, end).
   void give_back(std::size_t begin, std::size_t end) const;
 
@@ -47,7 +55,7 @@ class SharedMemory {
   char* start_ = nullptr;
 };
 
-/// Sends values through memory that a child process shares with its parent. To send a type of your own, define
+/// Sends values through memory, also to another process. To send a type of your own, define
 /// `template <typename Stream> void pass(Stream&, T&)` beside it; the function names the members: stream(t.a, t.b).
 class ArraySender {
  public:

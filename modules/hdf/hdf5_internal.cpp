@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <pthread.h>
-
 namespace insonify::hdf5 {
 namespace {
 
@@ -58,9 +56,6 @@ T read_scalar(const FileContext& place, hid_t where, const char* name, hid_t mem
 }  // namespace
 
 QuietErrors::QuietErrors() {
-  using Turn = LibraryTurn<class Hdf5>;
-  static const int forks_wait = pthread_atfork(Turn::take, Turn::give_back, Turn::give_back);
-  static_cast<void>(forks_wait);
   // A file that could not be written to its end stays open within HDF5, which would crash when the program ends.
   static const herr_t no_exit_handler = H5dont_atexit();
   static_cast<void>(no_exit_handler);

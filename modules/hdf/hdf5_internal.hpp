@@ -12,8 +12,10 @@
 
 #include "core/error.hpp"
 #include "core/library_turn.hpp"
-#include "files/child_process.hpp"
+#include "files/input_file.hpp"
+#include "files/path_status.hpp"
 #include "files/pending_file.hpp"
+#include "files/read_apart.hpp"
 #include "hdf/dataset_name_internal.hpp"
 
 // Private to the modules that read and write HDF5 files.
@@ -30,7 +32,7 @@ class QuietErrors {
   QuietErrors& operator=(const QuietErrors&) = delete;
 
  private:
-  LibraryTurn<class Hdf5> turn_;
+  Hdf5Turn turn_;
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
 };
@@ -106,14 +108,22 @@ void write_hdf5(const std::string& path, Body&& body) {
   pending.commit();  // waits for the disk, without the turn
 }
 
-/// Opens an existing file for reading. Call it in a child process (read_apart), so that a crash within HDF5 ends only
-/// the child. Throws Error(file) if the file is missing or a folder, Error(content) if it is not HDF5.
+/// Opens an existing file for reading, within read_hdf5. Throws Error(file) if the file is missing or a folder, Error(content) if it is not HDF5.
 Handle open_file(const FileContext& place);
 
-/// Returns the arrays that read(place, file, to) sent from a child process. Throws as open_file, read and read_in_child
-/// do.
-ArrayReceiver read_apart(const std::string& path,
-                         const std::function<void(const FileContext&, hid_t, ArraySender&)>& read);
+/// Returns what read(place, file, to, arguments...) sends, as read_apart. Throws as open_file and read do, too.
+template <typename Read, typename... Arguments>
+ArrayReceiver read_hdf5(const std::string& path, Read, const Arguments&... arguments) {
+  static_assert(std::is_empty_v<Read>, "captures do not reach another process");
+  require_regular_file(path);
+  const auto open_and_read = [](ArraySender& to, const std::string& name, const auto&... values) {
+    const QuietErrors quiet;
+    const FileContext place{name, ErrorKind::content};
+    const Handle file = open_file(place);
+    Read{}(place, file, to, values...);
+  };
+  return read_apart(path, limits_of_file(size_of_file(path)), open_and_read, path, arguments...);
+}
 
 /// Storage of the chunks of a dataset: unchanged, or shuffled and deflated at level 1, without loss.
 enum class Packing { none, deflate };

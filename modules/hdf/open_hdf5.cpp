@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "files/child_process.hpp"
 #include "files/input_file.hpp"
 #include "files/path_status.hpp"
 #include "hdf/hdf5_internal.hpp"
@@ -33,17 +32,6 @@ Handle open_file(const FileContext& place) {
   if (is_hdf5 < 0) fail(ErrorKind::file, place.path, ": cannot be read");
   if (is_hdf5 == 0) fail(place.kind, place.path, ": is not an HDF5 file");
   return {place.checked(H5Fopen(place.path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "is damaged or cut short"), H5Fclose};
-}
-
-ArrayReceiver read_apart(const std::string& path,
-                         const std::function<void(const FileContext&, hid_t, ArraySender&)>& read) {
-  require_regular_file(path);
-  return read_in_child(path, limits_of_file(size_of_file(path)), [&](ArraySender& to) {
-    const QuietErrors quiet;
-    const FileContext place{path, ErrorKind::content};
-    const Handle file = open_file(place);
-    read(place, file, to);
-  });
 }
 
 namespace {

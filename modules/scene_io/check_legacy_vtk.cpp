@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
 
@@ -57,8 +59,10 @@ class LegacyWalk {
       fail(ErrorKind::content, path_, ": not a legacy VTK file: expected '# vtk DataFile' in its first line, found ",
            what_it_looks_like(path_));
     const std::string first = line();
-    const std::size_t version = first.find("Version ");
-    modern_ = version != first.npos && first.size() > version + 8 && first[version + 8] >= '5';
+    constexpr std::string_view head = "# vtk DataFile Version";
+    int major = 0, minor = 0;
+    modern_ =
+        first.starts_with(head) && std::sscanf(first.c_str() + head.size(), "%d.%d", &major, &minor) == 2 && major >= 5;
     line();
     binary_ = lower_case(word()) == "binary";
     std::string key = lower_case(word());
@@ -80,6 +84,14 @@ class LegacyWalk {
     return found->second;
   }
 
+  /// Returns true if VTK reads a text that is a number as one of this type; else it goes on within the text, or crashes.
+  static bool fits(const std::string& number, double value, const std::string& type, std::size_t bits) {
+    if (type == "float" || type == "double") return true;
+    const bool positive = type.find("uns") != type.npos || type.find("uint") != type.npos;
+    const double most = std::ldexp(positive ? 2 : 1, static_cast<int>(std::max<std::size_t>(bits, 32)) - 1);
+    return number.find_first_not_of("+-0123456789") == number.npos && value >= -most && value < most;
+  }
+
   /// Skips the numbers of an array, and passes each to `use` if that is given.
   void take_numbers(const std::string& of, const std::string& type, std::size_t rows, std::size_t columns,
                     const std::function<void(std::int64_t)>& use = {}) {
@@ -96,8 +108,8 @@ class LegacyWalk {
     for (std::size_t i = 0; i < numbers && !binary_; ++i) {
       const std::string number = word();
       double value = 0;
-      if (!to_number(number, value))
-        refuse(of, " announces ", numbers, " numbers; number ", i, " is '", shown(number), "'");
+      if (!to_number(number, value) || !fits(number, value, lower_case(type), bits))
+        refuse(of, " announces ", numbers, " numbers of type ", type, "; number ", i, " is '", shown(number), "'");
       if (use) use(static_cast<std::int64_t>(std::clamp(value, -9e18, 9e18)));
     }
     if (binary_) at_ += bytes;

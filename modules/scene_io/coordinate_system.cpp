@@ -30,6 +30,11 @@ void take_system(const std::string&, const SystemRecords&, const std::string&, F
 
 #else
 
+template <typename Stream>
+void pass(Stream& stream, SystemRecords& records) {
+  stream(records.wkt, records.keys, records.numbers, records.texts);
+}
+
 namespace {
 
 Meant<double> unit_of(double metres, const char* name, const std::string& noun) {
@@ -91,8 +96,7 @@ void read_records(const SystemRecords& records, const std::string& remedy, FileM
     if (OSRImportFromWkt(reference.get(), &at) == OGRERR_NONE) take_system(reference.get(), remedy, meaning);
     return;
   }
-  GDALAllRegister();
-  CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");
+  const GdalReading reading;
   std::string tiff = tiff_with(records);
   const char* const name = "/vsimem/system.tif";
   VSIFCloseL(VSIFileFromMemBuffer(name, reinterpret_cast<GByte*>(tiff.data()), tiff.size(), false));
@@ -132,14 +136,15 @@ void take_system(void* reference, const std::string& remedy, FileMeaning& meanin
 void take_system(const std::string& path, const SystemRecords& records, const std::string& remedy,
                  FileMeaning& meaning) {
   if (records.wkt.empty() && records.keys.empty()) return;
-  ArrayReceiver sent = read_in_child(path, limits_of_file(records.wkt.size()), [&](ArraySender& to) {
+  const auto read = [](ArraySender& to, const SystemRecords& of_file, const std::string& remedy_of_degrees,
+                       FileMeaning& found) {
     try {
-      read_records(records, remedy, meaning);
-    } catch (const Error&) {  // GDAL is not installed
+      read_records(of_file, remedy_of_degrees, found);
+    } catch (const Error&) {  // GDAL is not there
     }
-    to(meaning);
-  });
-  sent(meaning);
+    to(found);
+  };
+  read_apart(path, limits_of_file(records.wkt.size()), read, records, remedy, meaning)(meaning);
   if (meaning.system.value.empty())
     meaning.unit.sentence =
         "the coordinate system of the file cannot be read: taken as metres; if it is in feet, give --unit us-ft or "

@@ -10,6 +10,8 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include "core/library_turn.hpp"
+
 // Private to scene_io: GDAL by its own names, from a library that is loaded when the first of its functions is called.
 // If GDAL were linked, it and its seventy libraries would take 0.1 s at every start of a program.
 namespace insonify {
@@ -32,7 +34,7 @@ INSONIFY_GDAL_FUNCTION(CPLPopErrorHandler);
 INSONIFY_GDAL_FUNCTION(CPLPushErrorHandler);
 INSONIFY_GDAL_FUNCTION(CPLQuietErrorHandler);
 INSONIFY_GDAL_FUNCTION(CSLDestroy);
-INSONIFY_GDAL_FUNCTION(CPLSetConfigOption);
+INSONIFY_GDAL_FUNCTION(CPLSetThreadLocalConfigOption);
 INSONIFY_GDAL_FUNCTION(GDALAllRegister);
 INSONIFY_GDAL_FUNCTION(GDALAttributeReadAsDoubleArray);
 INSONIFY_GDAL_FUNCTION(GDALAttributeReadAsString);
@@ -70,6 +72,7 @@ INSONIFY_GDAL_FUNCTION(GDALMDArrayRelease);
 INSONIFY_GDAL_FUNCTION(GDALOpenEx);
 INSONIFY_GDAL_FUNCTION(GDALRasterIO);
 INSONIFY_GDAL_FUNCTION(GDALReleaseDimensions);
+INSONIFY_GDAL_FUNCTION(GDALGetCacheMax64);
 INSONIFY_GDAL_FUNCTION(GDALSetCacheMax64);
 INSONIFY_GDAL_FUNCTION(OCTCoordinateTransformationOptionsSetBallparkAllowed);
 INSONIFY_GDAL_FUNCTION(OCTDestroyCoordinateTransformation);
@@ -108,6 +111,30 @@ struct QuietGdalErrors {
     const std::string text = CPLGetLastErrorMsg();
     return text.empty() ? text : " (" + text + ")";
   }
+};
+
+/// The turn of a thread to read rasters by GDAL, which does not print meanwhile, and shows the vertical systems of GeoTIFF
+/// 1.0. Its cache, which exists once per process, is held to 256 MiB: a twentieth of the machine's memory is beyond the
+/// limits of a reader process. What was set before is restored.
+class GdalReading {
+ public:
+  GdalReading() {
+    GDALAllRegister();
+    before_ = GDALGetCacheMax64();
+    GDALSetCacheMax64(256 << 20);
+    CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", "YES");
+  }
+  ~GdalReading() {
+    CPLSetThreadLocalConfigOption("GTIFF_REPORT_COMPD_CS", nullptr);
+    GDALSetCacheMax64(before_);
+  }
+  GdalReading(const GdalReading&) = delete;
+  GdalReading& operator=(const GdalReading&) = delete;
+
+ private:
+  Hdf5Turn turn_;
+  QuietGdalErrors quiet_;
+  GIntBig before_ = 0;
 };
 
 struct FreeReference {

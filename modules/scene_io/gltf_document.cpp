@@ -11,9 +11,9 @@
 
 #include "core/error.hpp"
 #include "core/text_lines.hpp"
-#include "files/child_process.hpp"
 #include "files/input_file.hpp"
 #include "files/path_status.hpp"
+#include "files/read_apart.hpp"
 #include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/number_type_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"

@@ -4,8 +4,8 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "files/child_process.hpp"
 #include "files/input_file.hpp"
+#include "files/read_apart.hpp"
 #include "scene_io/coordinate_system_internal.hpp"
 #include "scene_io/raster_band_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
@@ -187,9 +187,6 @@ void check_raster(const std::string& path, GDALDatasetH file) {
 }  // namespace
 
 HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
-  GDALAllRegister();
-  CPLSetConfigOption("GTIFF_REPORT_COMPD_CS", "YES");  // shows the vertical system of a GeoTIFF 1.0
-  GDALSetCacheMax64(256 << 20);  // GDAL would use a twentieth of the machine's memory, beyond the limits of a child
   HeightBand heights{open_netcdf(raw, asked), nullptr, {0, 1, 0, 0, 0, 1}};
   const bool netcdf = heights.file != nullptr;
   if (!netcdf) heights.file = open_bands(raw);

@@ -192,11 +192,11 @@ RawCloud read_gltf(const std::string& path, const ReadOptions& options) {
   raw.format = "glTF mesh";
   raw.meaning.y_up.value = true;
   raw.fields = {{"x", "float"}, {"y", "float"}, {"z", "float"}};
-  read_rows_apart(raw, file_size_of(path), options, [&](ArraySender& to, RawCloud& read) {
+  read_rows_apart(raw, file_size_of(path), options, [](ArraySender& to, RawCloud& read) {
     try {
-      return send_meshes(load_gltf(path), to, read);
+      return send_meshes(load_gltf(read.path), to, read);
     } catch (const json::exception& wrong) {
-      fail(ErrorKind::content, path, ": its document has a value of another type (", wrong.what(),
+      fail(ErrorKind::content, read.path, ": its document has a value of another type (", wrong.what(),
            "); the file is damaged: copy or export it again");
     }
   });

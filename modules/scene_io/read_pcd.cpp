@@ -7,7 +7,7 @@
 #include "core/error.hpp"
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
-#include "scene_io/read_apart_internal.hpp"
+#include "files/read_apart.hpp"
 #include "scene_io/row_file_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 
@@ -206,14 +206,14 @@ std::shared_ptr<const std::string> read_text_rows(const Header& header) {
   return std::make_shared<const std::string>(std::move(rows));
 }
 
-/// Unpacks points, which are stored field by field, into rows.
-void unpack(const Header& header, std::size_t checked_bytes, char* rows) {
+/// The points of a compressed block, where they stand field by field, as rows.
+std::shared_ptr<const std::string> unpacked_rows(const Header& header, std::size_t checked_bytes) {
   const std::string bytes = read_whole_file(header.path);
   if (bytes.size() != checked_bytes)
     fail(ErrorKind::content, header.path, ": changed while it was read; wait until it is complete");
   const char* const packed = bytes.data() + header.end + 8;
   const std::size_t stride = header.stride();
-  std::vector<char> fields(header.points * stride);
+  std::string fields(header.points * stride, '\0'), rows(fields.size(), '\0');
   const auto size = static_cast<unsigned>(fields.size());
   if (pcl::lzfDecompress(packed, read_as<std::uint32_t>(packed - 8), fields.data(), size) != size)
     fail(ErrorKind::content, header.path, ": PCL cannot unpack the compressed points; the file is damaged: copy or ",
@@ -223,9 +223,10 @@ void unpack(const Header& header, std::size_t checked_bytes, char* rows) {
   for (const Field& field : header.fields) {
     const std::size_t length = field.size * field.count;
     for (std::size_t i = 0; i < header.points; ++i, from += length)
-      std::copy_n(from, length, rows + i * stride + offset);
+      std::copy_n(from, length, &rows[i * stride + offset]);
     offset += length;
   }
+  return std::make_shared<const std::string>(std::move(rows));
 }
 
 std::optional<Eigen::Vector3d> viewpoint_of(const Header& header) {
@@ -258,15 +259,11 @@ RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
   if (header.width * header.height != 0) raw.width = header.width, raw.height = header.height;
   if (header.data == "binary") {
     fill_cloud(raw, read_rows(file, 0, header.points), options);
-  } else if (header.data == "ascii") {
-    const auto rows = read_text_rows(header);
-    fill_cloud(raw, {file.columns, header.points, stride, rows->data(), rows}, options);
   } else {
-    read_rows_apart(raw, bytes, options, [&](ArraySender& to, RawCloud&) {
-      expect_from_file(path, bytes, {static_cast<double>(header.points * stride), "bytes of points", 1});
-      unpack(header, bytes, to.take_array<char>(header.points * stride));
-      return SentRows{file.columns, header.points, stride};
-    });
+    const bool text = header.data == "ascii";
+    if (!text) expect_from_file(path, bytes, {static_cast<double>(header.points * stride), "bytes of points", 1});
+    const auto rows = text ? read_text_rows(header) : unpacked_rows(header, bytes);
+    fill_cloud(raw, {file.columns, header.points, stride, rows->data(), rows}, options);
   }
   return raw;
 }

@@ -71,7 +71,7 @@ std::size_t for_each_height(const RawCloud& raw, const HeightBand& heights, Use&
 }
 
 SentRows read_heights(ArraySender& to, RawCloud& raw, const AskedMeaning& asked) {
-  const QuietGdalErrors quiet;
+  const GdalReading reading;
   const HeightBand heights = open_heights(raw, asked);
   const std::size_t cells = static_cast<std::size_t>(GDALGetRasterXSize(heights.file.get())) *
                             static_cast<std::size_t>(GDALGetRasterYSize(heights.file.get()));
@@ -98,8 +98,13 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options) {
   check_netcdf(path);
   RawCloud raw;
   raw.path = path;
-  read_rows_apart(raw, file_size_of(path), options,
-                  [&](ArraySender& to, RawCloud& read) { return read_heights(to, read, options.meaning); });
+  const auto read = [](ArraySender& to, RawCloud& there, const std::string& band, bool says_no_data) {
+    AskedMeaning asked;
+    asked.band = band;
+    if (says_no_data) asked.no_data.emplace();
+    return read_heights(to, there, asked);
+  };
+  read_rows_apart(raw, file_size_of(path), options, read, options.meaning.band, options.meaning.no_data.has_value());
   raw.heights = true;
   return raw;
 }

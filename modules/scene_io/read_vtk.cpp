@@ -15,6 +15,7 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include "core/error.hpp"
+#include "core/library_turn.hpp"
 #include "core/text_lines.hpp"
 #include "files/input_file.hpp"
 #include "scene_io/read_apart_internal.hpp"
@@ -49,7 +50,7 @@ class VtkReadMessages : public vtkOutputWindow {
   }
 };
 
-/// Puts `messages` in the place of VTK's console and silences its log while it lives.
+/// Puts `messages` in the place of VTK's console and silences its log while it lives. Both exist once per process.
 class QuietVtk {
  public:
   explicit QuietVtk(vtkOutputWindow* messages) : before_(vtkOutputWindow::GetInstance()) {
@@ -64,6 +65,7 @@ class QuietVtk {
   QuietVtk& operator=(const QuietVtk&) = delete;
 
  private:
+  VtkTurn turn_;
   vtkSmartPointer<vtkOutputWindow> before_;
   vtkLogger::Verbosity verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
 };
@@ -225,7 +227,8 @@ RawCloud read_vtk(const std::string& path, const ReadOptions& options) {
   raw.path = path;
   raw.format = extension == ".vtk" ? "VTK legacy polydata" : "VTK XML polydata";
   extension == ".vtk" ? check_legacy_vtk(path) : check_xml(path);
-  read_rows_apart(raw, file_size_of(path), options, read_by_vtk);
+  read_rows_apart(raw, file_size_of(path), options,
+                  [](ArraySender& to, RawCloud& read) { return read_by_vtk(to, read); });
   return raw;
 }
 

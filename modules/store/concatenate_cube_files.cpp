@@ -8,8 +8,6 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "files/input_file.hpp"
-#include "files/path_status.hpp"
 #include "hdf/hdf5_internal.hpp"
 #include "store/cube_arrays_internal.hpp"
 #include "store/cube_axes_internal.hpp"
@@ -129,11 +127,8 @@ void add_part(JoinedCube& joined, const std::string& path) {
   for (Track& track : joined.tracks) add_track(place, file, track, extent[0]);
 }
 
-/// Files between which attributes are copied.
-struct Copy {
-  const FileContext& from;
-  hid_t to;
-};
+/// The file from which attributes are copied, and the object that gets them.
+using Copy = std::pair<const FileContext\&, hid_t>;
 
 /// Copies an attribute that is a number or text.
 herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to) try {
@@ -142,9 +137,9 @@ herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to)
   const Handle attribute(H5Aopen(from, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose),
       space(H5Aget_space(attribute), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) != 1) return -1;
-  const Handle made(H5Acreate2(copy.to, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle made(H5Acreate2(copy.second, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (H5Tis_variable_str(type) > 0) {
-    const std::string text = read_text(copy.from, from, name);
+    const std::string text = read_text(copy.first, from, name);
     const char* characters = text.c_str();
     return H5Awrite(made, type, &characters);
   }
@@ -210,25 +205,29 @@ void refer_to_parts(const FileContext& place, const JoinedCube& joined, const st
   place.checked(H5Pset_fill_value(properties, type, levels ? static_cast<const void*>(&no_level) : missing), image);
 }
 
-/// Copies an image of all parts, a few pings at a time.
+/// Copies an image of all parts, a few pings at a time, in the type that it has in the first of them.
 void copy_images(const FileContext& place, const JoinedCube& joined, const std::string& image, hid_t type,
                  hid_t dataset) {
   constexpr hsize_t bytes_at_once = 4 << 20;
   const hsize_t bytes = joined.extent[1] * joined.extent[2] * H5Tget_size(type);
   const hsize_t at_once = std::max<hsize_t>(1, bytes_at_once / std::max<hsize_t>(1, bytes));
+  const auto send = [](const FileContext& from, hid_t file, ArraySender& to, const std::string& like,
+                       const std::string& name, const Extent& all, hsize_t begin, hsize_t some) {
+    const FileContext like_place{like, from.kind};
+    const Handle like_file = open_file(like_place), source = open_dataset(from, file, {name.c_str(), ""});
+    const Handle like_image = open_dataset(like_place, like_file, {name.c_str(), ""});
+    const Handle stored(from.checked(H5Dget_type(like_image), name), H5Tclose);
+    const Handle there = rows(from, all, begin, some), here = rows(from, {some, all[1], all[2]}, 0, some);
+    read_values(from, source, {stored, here, there}, to.take(some * all[1] * all[2] * H5Tget_size(stored)), name);
+  };
   hsize_t row = 0;
   for (const Part& part : joined.parts) {
     const Extent extent = {part.pings, joined.extent[1], joined.extent[2]};
     for (hsize_t first = 0; first < part.pings; first += at_once) {
       const hsize_t count = std::min(at_once, part.pings - first);
-      const Extent some = {count, extent[1], extent[2]};
-      const Handle memory = rows(place, some, 0, count);
-      ArrayReceiver sent = read_apart(part.path, [&](const FileContext& from, hid_t file, ArraySender& to) {
-        const Handle source = open_dataset(from, file, {image.c_str(), ""});
-        read_values(from, source, {type, memory, rows(from, extent, first, count)}, to.take(count * bytes), image);
-      });
-      place.checked(H5Dwrite(dataset, type, memory, rows(place, joined.extent, row, count), H5P_DEFAULT,
-                             sent.take(count * bytes)),
+      ArrayReceiver sent = read_hdf5(part.path, send, joined.parts.front().path, image, extent, first, count);
+      place.checked(H5Dwrite(dataset, type, rows(place, {count, extent[1], extent[2]}, 0, count),
+                             rows(place, joined.extent, row, count), H5P_DEFAULT, sent.take(count * bytes)),
                     image);
       row += count;
     }
@@ -294,7 +293,8 @@ void concatenate_cube_files(const std::string& path, const std::vector<std::stri
   // A child process makes every call of HDF5 on the parts first, so that no damaged part ends this process.
   std::size_t bytes = 0;
   for (const std::string& part : parts) require_regular_file(part), bytes += size_of_file(part);
-  try_in_child(parts.front(), limits_of_file(bytes), [&] { join_parts(path, parts, {copy, true}); });
+  const auto attempt = [](ArraySender&, auto& to, auto& from, bool all) { join_parts(to, from, {all, true}); };
+  read_apart(parts.front(), limits_of_file(bytes), attempt, path, parts, copy);
   join_parts(path, parts, {copy});
 }
 

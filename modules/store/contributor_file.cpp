@@ -201,7 +201,7 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
 std::uintmax_t contributor_bytes(const std::string& path) {
   constexpr std::uintmax_t bytes_of_entry = 19;
   Extent extent;
-  read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
+  read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     require_ours(place, file);
     to(extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3));
   })(extent);
@@ -209,7 +209,7 @@ std::uintmax_t contributor_bytes(const std::string& path) {
 }
 
 NamedContributors read_contributor_file(const std::string& path) {
-  ArrayReceiver sent = read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
+  ArrayReceiver sent = read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     require_ours(place, file);
     const Extent extent = extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3);
     to(extent);

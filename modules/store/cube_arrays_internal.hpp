@@ -5,7 +5,7 @@
 #include "store/cube.hpp"
 #include "store/cube_layout_internal.hpp"
 
-// Private to store: the data that a child process sends when it reads a cube.
+// Private to store: the data that the reader of a cube sends.
 namespace insonify {
 
 template <typename Stream>

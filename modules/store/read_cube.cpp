@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "files/child_process.hpp"
 #include "hdf/hdf5_internal.hpp"
 #include "store/cube_arrays_internal.hpp"
 #include "store/cube_layout_internal.hpp"
@@ -156,75 +155,75 @@ Cube read_attributes(const FileContext& place, hid_t file) {
 }  // namespace
 
 Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
-  const auto range_of = [&](const CubeTable& table) {
-    const std::size_t begin = std::min(first, table.track.size());
-    return PingRange{begin, begin + std::min(count, table.track.size() - begin)};
-  };
-  ArrayReceiver sent = read_apart(path, [&](const FileContext& place, hid_t file, ArraySender& to) {
-    const Cube cube = read_attributes(place, file);
+  const auto read = [](const FileContext& place, hid_t file, ArraySender& to, std::size_t from, std::size_t most) {
+    to(read_attributes(place, file));
     const CubeTable table = read_table(place, file);
-    to(cube, table);
-    send_all_images(place, file, table.extent, range_of(table), to);
-  });
+    const std::size_t begin = std::min(from, table.track.size());
+    const PingRange range{begin, begin + std::min(most, table.track.size() - begin)};
+    to(table, range);
+    send_all_images(place, file, table.extent, range, to);
+  };
+  ArrayReceiver sent = read_hdf5(path, read, first, count);
   Cube cube;
   CubeTable table;
-  sent(cube, table);
-  cube.pings = pings_of(table, range_of(table));
+  PingRange range;
+  sent(cube, table, range);
+  cube.pings = pings_of(table, range);
   receive_all_images(sent, path, cube.pings);
   return cube;
 }
 
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam) {
-  ArrayReceiver sent = read_apart(path, [&](const FileContext& place, hid_t file, ArraySender& to) {
+  const auto read = [](const FileContext& place, hid_t file, ArraySender& to, std::size_t from, std::size_t pings,
+                       std::size_t one) {
     require_schema(place, file);
     if (has_levels(file))
       fail(place.kind, place.path, ": holds display cells, which have no phase; make it without --display");
     const Handle dataset = open_dataset(place, file, pressure_name);
     const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
     require_complex(place, dataset, pressure_name.path);
-    if (beam >= extent[1] || first + count > extent[0])
-      fail(ErrorKind::argument, "read_beam: pings ", first, " to ", first + count, ", beam ", beam, ", must be within ",
+    if (one >= extent[1] || from + pings > extent[0])
+      fail(ErrorKind::argument, "read_beam: pings ", from, " to ", from + pings, ", beam ", one, ", must be within ",
            extent[0], " and ", extent[1]);
     const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
     char* const rows =
-        to.take_grid(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(extent[2]), H5Tget_size(type));
-    if (count == 0) return;
-    const Extent start{first, beam, 0}, size{count, 1, extent[2]};
+        to.take_grid(static_cast<Eigen::Index>(pings), static_cast<Eigen::Index>(extent[2]), H5Tget_size(type));
+    if (pings == 0) return;
+    const Extent start{from, one, 0}, size{pings, 1, extent[2]};
     const Handle space(place.checked(H5Dget_space(dataset), pressure_name.path), H5Sclose);
     place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
     const Handle memory(place.checked(H5Screate_simple(3, size.data(), nullptr), pressure_name.path), H5Sclose);
     read_values(place, dataset, {type, memory, space}, rows, "/pressure");
-  });
+  };
   ComplexGridF rows;
-  sent(rows);
+  read_hdf5(path, read, first, count, beam)(rows);
   return rows;
 }
 
 void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use) {
   Cube cube;
   CubeTable table;
-  read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
+  read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     to(read_attributes(place, file));
     to(read_table(place, file));
   })(cube, table);
-  // One child process reads pings until the data that it sends are large; images copied from the file do not count.
-  constexpr std::size_t bytes_at_once = 2 << 20;
   const std::size_t pings = table.track.size();
   bool one_by_one = false;
-  const auto read_some = [&](std::size_t first) {
-    return read_apart(path, [&](const FileContext& place, hid_t file, ArraySender& to) {
-      std::size_t p = first;
-      do {
-        to(true);
-        send_all_images(place, file, table.extent, {p, p + 1}, to);
-      } while (++p < pings && !one_by_one && to.used() < bytes_at_once);
-      to(false);
-    });
+  // As many pings at once as keep memory small, of which what is not copied from the file takes the most.
+  const auto read_some = [](const FileContext& place, hid_t file, ArraySender& to, const Extent& extent,
+                            PingRange range, bool one) {
+    constexpr std::size_t bytes_at_once = 2 << 20;
+    std::size_t p = range.begin;
+    do {
+      to(true);
+      send_all_images(place, file, extent, {p, p + 1}, to);
+    } while (++p < range.end && !one && to.used() < bytes_at_once);
+    to(false);
   };
   for (std::size_t p = 0; p < pings;) {
     std::optional<ArrayReceiver> sent;
     try {
-      sent = read_some(p);
+      sent = read_hdf5(path, read_some, table.extent, PingRange{p, pings}, one_by_one);
     } catch (const Error&) {
       if (one_by_one) throw;
       one_by_one = true;  // find the damaged ping
@@ -242,7 +241,7 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
 
 std::vector<TrackPoint> read_track(const std::string& path) {
   std::vector<TrackPoint> track;
-  read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) {
+  read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) {
     require_schema(place, file);
     const DatasetName image = image_name_of(file);
     const Handle dataset = open_dataset(place, file, image);

@@ -234,7 +234,7 @@ void add_directory(const std::string& path, const std::string& name, const TileD
 TileDirectory read_directory(const std::string& path) {
   require_new_format(path);
   Found found;
-  read_apart(path, [](const FileContext& place, hid_t file, ArraySender& to) { to(find_all(place, file)); })(found);
+  read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) { to(find_all(place, file)); })(found);
   const Facts& facts = found.facts;
   TileDirectory directory;
   const BinaryFile file(path, BinaryFile::Mode::read);

@@ -257,7 +257,7 @@ std::string Canvas::png(const VtkMessages& messages) {
 
 void save_picture(const PictureOptions& options, const char* who, const std::string& png_path,
                   const std::function<void(Canvas&)>& draw) {
-  save_drawing(png_path, who, [&](const VtkMessages& messages) {
+  save_drawing(png_path, [&](const VtkMessages& messages) {
     Canvas canvas(options, who);
     draw(canvas);
     return canvas.png(messages);

@@ -65,7 +65,7 @@ std::string readable_text(const std::string& text) {
 }
 
 TextSize text_size(const std::string& text, int font_size) {
-  const DrawingTurn turn;
+  const VtkTurn turn;
   vtkNew<vtkTextProperty> property;
   set_font(property, font_size);
   int box[4] = {0, 0, 0, 0};

@@ -12,9 +12,9 @@
 #include <vtkTypeTraits.h>
 
 #include "core/error.hpp"
-#include "files/child_process.hpp"
 #include "files/input_file.hpp"
 #include "files/pending_file.hpp"
+#include "files/read_apart.hpp"
 #include "view/label_colours.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/scene_colours_internal.hpp"
@@ -79,6 +79,7 @@ PngHead png_head(const std::string& path) {
 }
 
 GreyPicture read_png(const std::string& path) {
+  const VtkMessages messages;
   vtkNew<vtkPNGReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -96,15 +97,14 @@ GreyPicture read_png(const std::string& path) {
 
 GreyPicture load_grey_png(const std::string& path) {
   const PngHead head = png_head(path);
-  const DrawingTurn turn;
-  ArrayReceiver sent = read_in_child(path, limits_of_file(head.bytes), [&](ArraySender& to) {
-    expect_from_file(path, head.bytes,
-                     {head.width * head.height, "pixels", head.channels * (head.bits > 8 ? 2.0 : 1.0), "crop it"});
-    const GreyPicture picture = read_png(path);
+  const auto read = [](ArraySender& to, const std::string& name, std::size_t bytes, double pixels, double bytes_each) {
+    expect_from_file(name, bytes, {pixels, "pixels", bytes_each, "crop it"});
+    const GreyPicture picture = read_png(name);
     to(picture.bits, picture.value);
-  });
+  };
   GreyPicture picture;
-  sent(picture.bits, picture.value);
+  read_apart(path, limits_of_file(head.bytes), read, path, head.bytes, head.width * head.height,
+             head.channels * (head.bits > 8 ? 2.0 : 1.0))(picture.bits, picture.value);
   return picture;
 }
 

@@ -9,9 +9,9 @@
 #include <vtkXMLImageDataReader.h>
 
 #include "core/error.hpp"
-#include "files/child_process.hpp"
 #include "files/input_file.hpp"
 #include "files/path_status.hpp"
+#include "files/read_apart.hpp"
 #include "view/off_screen_internal.hpp"
 #include "view/save_vtk.hpp"
 
@@ -49,12 +49,12 @@ void pass(Stream& stream, SampleField& field) {
 
 HorizontalMap load_map_image(const std::string& path) {
   require_regular_file(path);
-  const DrawingTurn turn;  // taken before the child is made, where no other thread could give it back
+  const auto read = [](ArraySender& to, const std::string& name) {
+    const HorizontalMap map = read_map_image(name);
+    to(map.x, map.y, map.cell, map.fields);
+  };
   HorizontalMap map;
-  read_in_child(path, limits_of_file(size_of_file(path)), [&](ArraySender& to) {
-    const HorizontalMap read = read_map_image(path);
-    to(read.x, read.y, read.cell, read.fields);
-  })(map.x, map.y, map.cell, map.fields);
+  read_apart(path, limits_of_file(size_of_file(path)), read, path)(map.x, map.y, map.cell, map.fields);
   return map;
 }
 

@@ -18,7 +18,6 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "files/child_process.hpp"
 #include "files/memory_limit.hpp"
 #include "files/pending_file.hpp"
 
@@ -63,33 +62,6 @@ constexpr std::size_t memory_of_a_picture = std::size_t{640} << 20;
 [[noreturn]] void too_little_memory(const char* who, std::size_t left) {
   fail(ErrorKind::memory, who, ": too little memory for a picture: the limit (ulimit -v) leaves ", left >> 20,
        " MiB, a picture takes ", memory_of_a_picture >> 20, " and more; raise the limit");
-}
-
-std::string drawn_in_child(const char* who, std::size_t left, const std::function<std::string()>& draw) {
-  constexpr unsigned most_seconds = 120;
-  constexpr std::size_t most_bytes = std::size_t{32} << 20;
-  ErrorKind refused = ErrorKind::runtime;
-  std::string refusal, png;
-  // Send refusals of the drawing as a result. Every other end of the child is a lack of memory, since the child may
-  // have more than is left.
-  const auto draw_or_refuse = [&](ArraySender& send) {
-    try {
-      const std::string drawn = draw();
-      send(refused, refusal, drawn);
-    } catch (const Error& error) {
-      send(error.kind(), std::string(error.what()), png);
-    }
-  };
-  try {
-    read_in_child(who, {2 * left, most_seconds, most_bytes}, draw_or_refuse)(refused, refusal, png);
-  } catch (const std::bad_alloc&) {
-    too_little_memory(who, left);
-  } catch (const Error& error) {
-    if (error.kind() == ErrorKind::content) too_little_memory(who, left);
-    throw;
-  }
-  if (!refusal.empty()) fail(refused, refusal);
-  return png;
 }
 
 }  // namespace
@@ -209,13 +181,10 @@ std::string png_of_window(vtkRenderWindow* window, const VtkMessages& messages, 
   return bytes_of_png(writer, messages, who);
 }
 
-void save_drawing(const std::string& path, const char* who,
-                  const std::function<std::string(const VtkMessages&)>& draw) {
+void save_drawing(const std::string& path, const std::function<std::string(const VtkMessages&)>& draw) {
   require_png_name(path);
-  const VtkMessages messages;  // waits for its turn before a child is made, in which no other thread could give it back
-  const auto drawing = [&] { return draw(messages); };
-  const std::optional<std::size_t> left = memory_left();
-  write_file(path, left ? drawn_in_child(who, *left, drawing) : drawing());
+  const VtkMessages messages;
+  write_file(path, draw(messages));
 }
 
 }  // namespace insonify

@@ -15,10 +15,6 @@
 
 namespace insonify {
 
-/// The turn of a thread in VTK, FreeType and EGL: fonts, texts, messages and contexts exist once per process. Code that
-/// uses one of them must hold the turn, through VtkMessages or its own object.
-using DrawingTurn = LibraryTurn<class Vtk>;
-
 /// A VTK render window without a screen: surfaceless EGL (Mesa), which needs neither an X server nor DISPLAY.
 /// Debian's VTK 9.1 supports only X windows and aborts the program if there is no display.
 class EglWindow : public vtkGenericOpenGLRenderWindow {
@@ -57,7 +53,7 @@ class VtkMessages {
   void throw_first_error(const char* who) const;
 
  private:
-  DrawingTurn turn_;
+  VtkTurn turn_;
   vtkSmartPointer<vtkOutputWindow> before_;
   vtkSmartPointer<vtkOutputWindow> collector_;
 };
@@ -74,8 +70,7 @@ void require_png_name(const std::string& path);
 /// Writes the bytes of a PNG. Throws Error(file) if the file cannot be written, and as require_png_name.
 void write_png(const std::string& path, std::string_view png);
 
-/// Writes the PNG that `draw` returns, as write_png. Under a limit of address space a child process draws, since Mesa
-/// ends its process when memory is short. Throws Error(memory) in that case.
-void save_drawing(const std::string& path, const char* who, const std::function<std::string(const VtkMessages&)>& draw);
+/// Writes the PNG that `draw` returns, as write_png.
+void save_drawing(const std::string& path, const std::function<std::string(const VtkMessages&)>& draw);
 
 }  // namespace insonify

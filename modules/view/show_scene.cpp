@@ -126,8 +126,7 @@ std::string scene_png(const SceneCloud& scene, const SceneLook& look, const Pict
 void show_scene(const SceneCloud& scene, const SceneLook& look, const PictureOptions& options,
                 const std::string& png_path) {
   require_picture_size(options, show_scene_name);
-  save_drawing(png_path, show_scene_name,
-               [&](const VtkMessages& messages) { return scene_png(scene, look, options, messages); });
+  save_drawing(png_path, [&](const VtkMessages& messages) { return scene_png(scene, look, options, messages); });
 }
 
 }  // namespace insonify

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <sstream>
 
@@ -20,6 +21,7 @@
 #include "fuzz/readers.hpp"
 #include "fuzz/structured.hpp"
 #include "tool/command/program.hpp"
+#include "tool/command/reader_server.hpp"
 
 namespace fs = std::filesystem;
 using namespace insonify;
@@ -156,7 +158,7 @@ struct Outcome {
   }
 };
 
-Outcome read_apart(const FuzzedReader& reader, const fs::path& path) {
+Outcome outcome_of(const FuzzedReader& reader, const fs::path& path) {
   const fs::path said = path.parent_path() / "said";
   std::fflush(nullptr);  // else the child may write it again
   StopWatch watch;
@@ -169,6 +171,8 @@ Outcome read_apart(const FuzzedReader& reader, const fs::path& path) {
     dup2(to, STDOUT_FILENO), dup2(to, STDERR_FILENO);
     const int code = tool::run_program(
         [&] {
+          std::optional<tool::ReaderServer> server;
+          if (reader.apart) server.emplace();
           reader.read(path.string());
           return 0;
         },
@@ -216,7 +220,7 @@ Tally try_reader(const FuzzedReader& reader, const fs::path& seed_folder, const 
   const fs::path path = work / ("mutant" + reader.extension);
   const auto try_bytes = [&](const std::string& bytes, const char* kind) {
     write_bytes(path, bytes);
-    const Outcome outcome = read_apart(reader, path);
+    const Outcome outcome = outcome_of(reader, path);
     tally.take(outcome);
     const bool whole = std::strcmp(kind, "seed") != 0 || outcome.exit_code == 0;
     if (outcome.good() && whole) return;
@@ -244,8 +248,9 @@ Tally try_reader(const FuzzedReader& reader, const fs::path& seed_folder, const 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 6) {
-    std::fprintf(stderr, "usage: fuzz_mutants READER|all SEEDS REGRESSIONS MUTANTS[,MUTANTS] SEED\n");
+  const bool all_apart = argc == 7 && std::strcmp(argv[6], "apart") == 0;
+  if (argc != 6 && !all_apart) {
+    std::fprintf(stderr, "usage: fuzz_mutants READER|all SEEDS REGRESSIONS MUTANTS[,MUTANTS] SEED [apart]\n");
     return 2;
   }
   const std::string name = argv[1];
@@ -258,8 +263,9 @@ int main(int argc, char** argv) {
   std::size_t bad = 0, tried = 0;
   std::printf(
       "| reader | files | refused | bad | slowest [s of processor] | largest [MiB] |\n|---|---|---|---|---|---|\n");
-  for (const FuzzedReader& reader : fuzzed_readers()) {
+  for (FuzzedReader reader : fuzzed_readers()) {
     if (name != "all" && name != reader.name) continue;
+    reader.apart = reader.apart || all_apart;
     const Tally t = try_reader(reader, argv[2], argv[3], reader.damage ? with_damage : mutants, seed, work);
     std::printf("| %s | %zu | %zu | %zu | %.2f | %.0f |\n", reader.name.c_str(), t.read, t.refused, t.bad, t.slowest,
                 t.largest);

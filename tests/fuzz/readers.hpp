@@ -15,6 +15,8 @@ struct FuzzedReader {
   std::function<void(const std::string& path)> read;
   /// Damage that the format's own checks do not find; empty: bytes are damaged anywhere.
   std::function<std::string(const std::string& bytes, const DamageSource& source)> damage{};
+  /// Read by HDF5, GDAL, libpng or VTK's XML, which damage may crash: programs read them by a ReaderServer.
+  bool apart = false;
 };
 
 /// Returns all readers.

@@ -24,11 +24,12 @@ std::string plain_file() {
   return path;
 }
 
-/// Looks for plain numbers in a file, in a child process.
+/// Looks for plain numbers in a file.
 void find_numbers(const std::string& path, hid_t type, const Extent& extent) {
-  read_apart(path, [&](const FileContext& place, hid_t file, ArraySender&) {
-    find_plain(place, file, numbers_name, type, extent);
-  });
+  const auto find = [](const FileContext& place, hid_t file, ArraySender&, hid_t of_type, const Extent& of_extent) {
+    find_plain(place, file, numbers_name, of_type, of_extent);
+  };
+  read_hdf5(path, find, type, extent);
 }
 
 }  // namespace
@@ -89,8 +90,7 @@ TEST(Hdf5File, appears_whole_or_not_at_all) {
   EXPECT_TRUE(std::filesystem::is_empty(own_folder()));
 }
 
-// A child process finds the lock of HDF5 as it was when the child was started.
-TEST(Hdf5File, is_read_in_a_child_while_another_thread_writes) {
+TEST(Hdf5File, is_read_while_another_thread_writes) {
   const std::string path = plain_file();
   std::jthread writer([to = own_path("other.h5")](const std::stop_token& end) {
     const std::vector<float> numbers(1 << 16);

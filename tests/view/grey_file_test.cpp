@@ -3,6 +3,7 @@
 #include "view/grey_file.hpp"
 
 #include "support/test.hpp"
+#include "tool/command/reader_server.hpp"
 
 TEST(GreyFile, reads_what_it_wrote_in_8_and_16_bits) {
   Grid<std::uint8_t> eight(2, 3);
@@ -28,6 +29,7 @@ TEST(GreyFile, refuses_damaged_files_and_says_why) {
   const Grid<std::uint8_t> grey = Grid<std::uint8_t>::Constant(30, 40, 7);
   save_grey_png(own_path("good.png"), grey);
   const std::string good = file_bytes(own_path("good.png"));
+  const tool::ReaderServer server;  // libpng ends its process
   const auto load = [](const std::string& path) { load_grey_png(path); };
   const auto damaged = [&](std::size_t at, const std::string& bytes) {
     return error_of_file(load, "a.png", std::string(good).replace(at, bytes.size(), bytes));

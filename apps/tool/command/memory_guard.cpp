@@ -7,12 +7,12 @@
 #include <cstdlib>
 
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "files/memory_limit.hpp"
 #include "tool/command/exit_code.hpp"
+#include "tool/command/reader_server.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -54,8 +54,12 @@ bool is_of_memory(int signal) {
 }  // namespace
 
 int under_memory_guard(const std::function<int()>& run, const char* less) {
+  const auto run_with_readers = [&] {
+    const ReaderServer readers;
+    return run();
+  };
   const auto left = memory_left();
-  if (!left) return run();
+  if (!left) return run_with_readers();
 
   // The child notes here that `run` returned: a library may end the process with any exit code.
   void* const page = mmap(nullptr, sizeof(bool), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -67,12 +71,11 @@ int under_memory_guard(const std::function<int()>& run, const char* less) {
   sigemptyset(&signals);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGCHLD}) sigaddset(&signals, signal);
   sigprocmask(SIG_BLOCK, &signals, &before);
-  const pid_t child = fork();
+  const pid_t child = fork_child();
   if (child < 0) return say_out_of_memory("error", errno, *left, less);
   if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
     sigprocmask(SIG_SETMASK, &before, nullptr);
-    const int exit_code = run();
+    const int exit_code = run_with_readers();
     *returned = true;
     return exit_code;
   }
