@@ -251,7 +251,7 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
     MadePing ping = asked_for(i);
     std::call_once(decided->once, [&] { decided->detail = detail_of(asked_for(count / 2), count, threads); });
     ping.detail = decided->detail;
-    tool::record_detail(ping.by->simulation.sampling.detail, decided->detail, ping.options);
+    record_detail(ping.by->simulation.sampling.detail, decided->detail, ping.options);
     return make(std::move(ping), 1);
   });
 }

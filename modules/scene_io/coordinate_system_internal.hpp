@@ -24,7 +24,7 @@ std::string utm_code(double longitude, double latitude);
 void take_system(void* reference, const std::string& remedy, FileMeaning& meaning);
 
 /// Sets `meaning` by the coordinate system in the records of a file. GDAL reads them in a child process. Without GDAL,
-/// or if GDAL cannot read them, only a sentence about the unit says so. Throws as read_in_child.
+/// or if GDAL cannot read them, only a sentence about the unit says so. Throws as read_apart.
 void take_system(const std::string& path, const SystemRecords& records, const std::string& remedy,
                  FileMeaning& meaning);
 

@@ -128,7 +128,7 @@ void add_part(JoinedCube& joined, const std::string& path) {
 }
 
 /// The file from which attributes are copied, and the object that gets them.
-using Copy = std::pair<const FileContext\&, hid_t>;
+using Copy = std::pair<const FileContext&, hid_t>;
 
 /// Copies an attribute that is a number or text.
 herr_t copy_attribute(hid_t from, const char* name, const H5A_info_t*, void* to) try {

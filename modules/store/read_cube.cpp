@@ -209,7 +209,7 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
   })(cube, table);
   const std::size_t pings = table.track.size();
   bool one_by_one = false;
-  // As many pings at once as keep memory small, of which what is not copied from the file takes the most.
+  // Reads as many pings at once as keep memory small; what is not copied from the file takes the most.
   const auto read_some = [](const FileContext& place, hid_t file, ArraySender& to, const Extent& extent,
                             PingRange range, bool one) {
     constexpr std::size_t bytes_at_once = 2 << 20;
