@@ -107,7 +107,7 @@ std::vector<EngineTask> engine_tasks(std::size_t echoes, std::uint64_t seed) {
   add("planar", {.beams = 24, .rows = 4});
   add("sweep", {.sweep = 1e-3});
   add("wide sweep", {.bandwidth = 200e3, .sweep = 5e-4});
-  add("moving, narrow band", {.bandwidth = 3e3, .min_range = 20, .bins = 64, .speed = 5});
+  add("moving in a narrow band", {.bandwidth = 3e3, .min_range = 20, .bins = 64, .speed = 5});
   return tasks;
 }
 

@@ -120,7 +120,7 @@ void synchronise_folder_of(const std::string& target) {
 }
 
 // Exchanges the names of two folders.
-void exchange(const std::string& temporary, const std::string& target) {
+void exchange_paths(const std::string& temporary, const std::string& target) {
   if (renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) fail_to_write(target, errno);
   // A file system without exchange: clear_leftovers() of the next run undoes the first step if only that was done.
@@ -184,8 +184,8 @@ void PendingPath::commit_together(const std::vector<PendingPath*>& files) {
       for (const PendingPath* file : files) {
         const std::string &from = file->temporary_, &to = file->target_;
         if (fs::exists(fs::symlink_status(to))) {
-          exchange(from, to);
-          undo.emplace_back([&] { exchange(from, to); });
+          exchange_paths(from, to);
+          undo.emplace_back([&] { exchange_paths(from, to); });
         } else {
           if (std::rename(from.c_str(), to.c_str()) != 0) fail_to_write(to, errno);
           undo.emplace_back([&] { std::rename(to.c_str(), from.c_str()); });
@@ -203,11 +203,11 @@ void PendingPath::commit_in_place_of_folder(const std::function<void(const std::
   synchronise_all(temporary_, target_);
   {
     const std::scoped_lock lock(pending_names().guard);
-    exchange(temporary_, target_);
+    exchange_paths(temporary_, target_);
     try {
       require_removable(temporary_);
     } catch (...) {
-      exchange(temporary_, target_);
+      exchange_paths(temporary_, target_);
       throw;
     }
   }

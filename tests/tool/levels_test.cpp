@@ -152,7 +152,7 @@ TEST_F(Levels, materials_that_are_none_are_refused) {
   refused(rough, "needs either density");
   refused(rough + "reflection = 1\nloss = 0.01\n", "7: law 'rough' of material 'x' has no loss");
   refused("law = \"seabed\"\n", "2: missing key 'material.density_ratio' of law 'seabed'");
-  refused("law = \"sea\"\n", "must be one of lambert, seabed, small_slope, rough, table");
+  refused("law = \"sea\"\n", "must be one of lambert, seabed, small_slope, rough, ellis_crowe, table");
   refused("law = \"table\"\nincidence_deg = [0]\nsigma_db = [-20]\n", "incidence has 1 angles, must have 2 or more");
   refused(sand + "lambert_mu_db = -20\n", "has no use beside law 'seabed'");
   refused(sand + "relief_slope = 0.1\n", "has slopes of its own");
