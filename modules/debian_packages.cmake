@@ -44,7 +44,10 @@ meshes: complex time series per beam, sonar pictures, returns as point clouds.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # Pictures: letters, and OpenGL in software where there is no graphics card.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "fonts-dejavu-core, libegl-mesa0, libgl1-mesa-dri")
-# Rasters: GDAL is not linked, so that its package is not found by that.
+# GDAL and Assimp are not linked, so that their packages are not found by that.
+if(INSONIFY_ASSIMP MATCHES "^libassimp[.]so[.]([0-9]+)$")
+  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", libassimp${CMAKE_MATCH_1}")
+endif()
 if(INSONIFY_GDAL MATCHES "^libgdal[.]so[.]([0-9]+)$")
   string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS ", libgdal${CMAKE_MATCH_1}")
 endif()
@@ -57,7 +60,7 @@ if(EMBREE_LIBRARY)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libembree-dev")
 endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "insonify (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), cmake,
- libhdf5-dev, libzstd-dev, libtomlplusplus-dev, libfmt-dev, libpcl-dev, libvtk9-dev, libgdal-dev, libglew-dev, libegl-dev, libx11-dev")
+ libhdf5-dev, libzstd-dev, libtomlplusplus-dev, libfmt-dev, libpcl-dev, libvtk9-dev, libgdal-dev, libassimp-dev, libglew-dev, libegl-dev, libx11-dev")
 string(REPLACE "\n" "" CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS}")
 
 set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "simulates imaging sonar on captured scenes: documentation
