@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether many pings of one scene merge its surfels (E185).
+// Tests which pings of one scene merge its surfels (E185): many of a large scene, and not a few.
 #include <random>
 
 #include "scene/built_in_scenes.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the pings of a survey merge surfels: as one ping of each head shows, for all of them.
+// Tests that one ping of each head decides for all of its pings in a survey if they merge surfels.
 #include "scene/built_in_scenes.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"

@@ -61,7 +61,7 @@ TEST_F(AccuracyVerb, every_row_is_complete_and_every_promise_kept) {
     if (row["method"] == "direct") {
       EXPECT_LE(number(row["error"]), 1e-12);
     }
-    // What takes short cuts does not get better than they are.
+    // Demands that a method with short cuts keeps their error.
     if (row["method"] == "nearest-bin") {
       EXPECT_GT(number(row["error"]), 0.05);
     }

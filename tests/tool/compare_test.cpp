@@ -24,7 +24,7 @@ class CompareRun : public ToolTest {
   nlohmann::json compared(const std::string& arguments) const {
     return nlohmann::json::parse(succeed("compare --json " + arguments));
   }
-  /// The same recording as an .aris, for its geometry: 48 beams, samples of 10 mm from 5 m on.
+  /// Returns an .aris file of one frame: 48 beams, 250 samples of 10.5 mm from 5.25 m on, made-up levels.
   std::string recording() const {
     const auto put = [](std::string& bytes, std::size_t at, auto number) {
       std::memcpy(bytes.data() + at, &number, sizeof number);

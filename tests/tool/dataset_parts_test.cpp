@@ -41,7 +41,7 @@ class DatasetOfParts : public DatasetRun {
   std::vector<nlohmann::json> meta() const { return json_lines(read("set/meta.jsonl")); }
 };
 
-/// Whether a box lies in another one that is `more` pixels wider on each side.
+/// Returns true if a box lies in another one that is `more` pixels wider on each side.
 bool lies_in(const nlohmann::json& box, const nlohmann::json& whole, int more) {
   for (std::size_t k : {0U, 1U}) {
     const int low = box[k], high = low + box[k + 2].get<int>(), first = whole[k],
@@ -181,7 +181,7 @@ TEST_F(DatasetOfParts, has_empty_images_and_splits_by_draws) {
   EXPECT_LE(empty, 7U);
 }
 
-// What the shares ask of images they ask of classes, too: none is in train alone.
+// The shares hold for the images of each class, too: no class is in train alone.
 TEST(DatasetSplit, divides_classes_by_the_shares) {
   std::vector<insonify::tool::DatasetSource> sources(40);
   for (std::size_t d = 0; d < sources.size(); ++d) {
@@ -220,7 +220,7 @@ TEST_F(DatasetOfParts, splits_single_pings_by_their_draws) {
     for (const auto& [split, forms] : parts.items()) polar += forms["polar"].get<std::size_t>();
   EXPECT_EQ(polar, said["boxes"]["polar"].get<std::size_t>());
   EXPECT_GT(polar, 0U);
-  // What the numbers of images and objects mean is beside them.
+  // Checks what an image says beside its objects: azimuths, widths and the names of all parts.
   EXPECT_EQ(images[0]["azimuths_deg"].size(), 48U);
   EXPECT_NEAR(images[0]["field_of_view_deg"].get<double>(), 45, 1.5);
   EXPECT_GT(images[0]["elevation_width_deg"].get<double>(), 5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What goes into train, val and test of a data set.
+// Tests which images go into train, val and test of a data set.
 #include "tool/dataset/dataset_split.hpp"
 
 #include "support/test.hpp"

@@ -80,7 +80,7 @@ TEST_F(DatasetRun, holds_images_masks_and_boxes_that_agree) {
   }
 }
 
-// As training programs load it, where their package is installed: Debian 12 has none.
+// Loads a data set as training programs do, where pycocotools is installed: Debian 12 has no package of it.
 TEST_F(DatasetRun, is_loaded_by_pycocotools) {
   if (std::system("python3 -c 'import pycocotools, numpy' 2>/dev/null") != 0)
     GTEST_SKIP() << "pycocotools is not installed";

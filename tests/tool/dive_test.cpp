@@ -197,7 +197,7 @@ TEST_F(Dive, a_ping_says_which_water_it_was_in_and_can_be_made_again) {
   EXPECT_EQ(info("out")["sound_speed"], manifest["water"]["sound_speed"]);
   succeed("ping --run out/run.toml -q -o again");
   EXPECT_EQ(read("again/cube.h5"), read("out/cube.h5"));
-  // Of two depths one cube is made: the head is the same.
+  // Pings of one head at two depths are merged into one cube.
   succeed(ping + "--pose=0,0,-2,0,90,0 --time 1 -q -o high");
   succeed("merge -q out high -o both");
   const Cube both = cube_of("both");
@@ -221,8 +221,8 @@ TEST_F(Dive, refuses_heads_without_a_depth_before_any_work) {
   expect_refused("survey dive.toml -o out", 3, {"dive.toml: head 'em2040', ping 1", "leave water.depth_m out"});
 }
 
-// Of a profile without a surface depths are not known: the pings can be exported, but not where the head would look. No
-// release wrote such runs.
+// A profile without a surface leaves depths unknown: pings can be exported, but nothing is drawn as the head sees it.
+// No release wrote such runs.
 TEST_F(Dive, runs_of_a_profile_without_a_surface_are_exported_and_not_looked_from) {
   succeed(
       "ping bed.obj --sonar em2040 --set water.depth_m=8 --range 3:25 --set sonar.beams=16 --pose=0,0,-8,0,90,0 -q -o "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What surrounds head and scene, from the command line: each option does what it says, and a run can be fed back.
+// Tests the options of water, surface, noise and motion: each does what it says, and a run can be fed back.
 #include <nlohmann/json.hpp>
 
 #include "acoustics/environment.hpp"

@@ -101,7 +101,7 @@ TEST_F(ExportGsf, soundings_follow_from_times_angles_and_profile) {
   EXPECT_EQ(gsf.profile, profile);
 }
 
-// The same soundings as a table in the world: across and along are level, as the ship heads, from the head.
+// Compares soundings with the table in the world: across and along are level, as the ship heads, from the head.
 TEST_F(ExportGsf, soundings_lie_where_the_table_has_them) {
   succeed("export run --to csv -q -o ship.csv");
   std::vector<std::vector<std::array<double, 3>>> expected(5);  // across, along, depth of each ping
@@ -177,7 +177,7 @@ TEST_F(ExportGsf, beams_are_those_of_the_cube_from_the_other_side) {
   EXPECT_GT(soundings, 100U);
 }
 
-// Of one ping on a trajectory, or with a velocity, course and speed are those, though its places are one.
+// A single ping has the course and speed of its trajectory or of its velocity, though it has one place only.
 TEST_F(ExportGsf, single_pings_have_the_course_and_speed_of_their_trajectory) {
   write("sea.toml", "[surface]\nheight_m = 0.5\n");
   const std::string ping = "ping bed.obj --sonar em2040 --environment sea.toml --range 6:20 --set sonar.beams=8 -q ";
@@ -250,7 +250,7 @@ TEST_F(ExportGsf, names_sonar_versions_and_how_the_head_is_mounted) {
     EXPECT_NEAR(s.of_sensor.at("receive_beam_width_deg"), 1, 0.051);
   }
   EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_OFFSET"), "+00.00,+00.00,+00.20");
-  // As the mission states it.
+  // Checks the mounting angles, as the mission states them.
   EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_PITCH_OFFSET"), "+01.00");
   EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_ROLL_OFFSET"), "+04.00");
   EXPECT_EQ(gsf.parameter.at("APPLIED_TRANSDUCER_HEADING_OFFSET"), "+00.00");

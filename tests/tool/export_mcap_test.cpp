@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `export --to mcap` writes of a ball to port of the head, ahead of it and above the bed.
+// Reads back what `export --to mcap` writes of a ball to port of the head, ahead of it and above the bed.
 #include "formats/mcap_file.hpp"
 #include "formats/ros_decoder.hpp"
 #include "tool/ball_fixture.hpp"

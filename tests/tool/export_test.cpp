@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `export` and --keep paths write for VTK's own readers.
+// Reads with VTK's own readers what `export` and --keep paths write.
 #include <nlohmann/json.hpp>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -65,7 +65,7 @@ TEST_F(Export, gives_grids_and_images_that_hold_the_levels_of_the_cube) {
   EXPECT_THAT(read("vtk/fan_000000.vts").substr(0, 400), HasSubstr("compressor=\"vtkZLibDataCompressor\""));
 }
 
-// What ParaView shows of the returns: places in double and every column under its name, with its unit.
+// Checks what ParaView shows of the returns: places in double, and every column under its name, with its unit.
 TEST_F(Export, gives_returns_with_names_and_units) {
   succeed(ping + "-o out");
   succeed("export out -o vtk -q");
@@ -103,7 +103,7 @@ TEST_F(Export, gives_returns_with_names_and_units) {
   EXPECT_THAT(all, HasSubstr("true_surfel: id in the scene; -1: none\n"));
 }
 
-// Of a survey of several heads: the returns of the head that is named, with the time and the head of each.
+// Exports the returns of the head that is named, of a survey of several heads, with the time and the head of each.
 TEST_F(Export, gives_the_returns_of_one_head) {
   write("two.toml", R"(schema = 1
 [survey]

@@ -209,7 +209,7 @@ TEST_F(ExportXtf, is_the_same_twice_and_reads_as_a_record) {
   EXPECT_EQ(info["first_utc"], "2026-05-01T08:30:00.000Z");
   EXPECT_NEAR(info["track_length_m"].get<double>(), 2.8, 1e-3);
   EXPECT_NEAR(info["latitude_deg"].get<double>(), 54.1, 1e-4);
-  // As received, in Pa, against dB re 1 uPa rms.
+  // Compares linear samples, peak pressures in Pa, with levels in dB re 1 uPa rms.
   succeed("merge line -q");
   succeed("export line --head right --to xtf --linear -o b.xtf -q");
   const nlohmann::json levels = json_of("compare line/right b.xtf")["levels"];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a new user meets: default ranges, notes with a remedy, missions to begin with, and heights of soundings against
-// the scene.
+// Tests what a new user meets: default ranges, notes with a remedy, missions to begin with, and heights of soundings
+// against the scene.
 #include <fmt/format.h>
 
 #include "files/sha256.hpp"
@@ -24,12 +24,12 @@ TEST_F(FirstHour, a_ping_without_a_range_ends_where_the_scene_does) {
   EXPECT_EQ(insonify::sha256_of_file(path("near/cube.h5")), insonify::sha256_of_file(path("again/cube.h5")));
   succeed("ping --run near/run.toml --pose=2,0,2,0,20,0 --no-picture -q -o moved");
   EXPECT_NEAR(info("moved")["max_range_m"].get<double>(), 9.3, 1e-9);
-  // What is said of the range stands, and no range is longer than the sonar's own.
+  // A range that is set stands, and no range is longer than the sonar's own.
   succeed("ping plane.ply --pose=0,0,2,0,20,0 --set sonar.max_range_m=12 " + head + "-o set");
   EXPECT_EQ(info("set")["max_range_m"], 12.0);
   succeed("ping plane.ply --pose=-46,0,2,0,2,0 --sonar p900-45 --set sonar.beams=8 --no-picture -q -o far");
   EXPECT_NEAR(info("far")["max_range_m"].get<double>(), 55, 1e-9);
-  // By way of the surface, 10 m above the bed, the corner is sqrt(80 + 18^2) = 20.1 m away.
+  // Sound by way of the surface, 10 m above the bed, has sqrt(80 + 18^2) = 20.1 m to the corner.
   succeed("ping plane.ply --pose=0,0,2,0,20,0 --set surface.height_m=10 " + head + "-o sea");
   EXPECT_NEAR(info("sea")["max_range_m"].get<double>(), 21, 1e-9);
   // Plan and tiles take the same.

@@ -14,7 +14,7 @@ class ForeignReaders : public SurveyTest {
     survey("run");
     succeed("merge -q run");
   }
-  /// What a command of the shell prints, in the folder of the test; nothing if it fails.
+  /// Returns what a command of the shell prints in the folder of the test; nothing if it fails.
   std::string output_of(const std::string& command) const {
     const std::string line = "cd " + folder_.string() + " && (" + command + ") >said.txt 2>&1";
     return std::system(line.c_str()) == 0 ? read("said.txt") : "";

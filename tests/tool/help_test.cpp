@@ -24,7 +24,7 @@ class Help : public ToolTest {
     return names;
   }
 
-  // What bash proposes for the last word of a line.
+  // Returns what bash proposes for word number `count` of a line, counted from 0.
   std::string proposed(const std::string& words, int count) const {
     const std::string script = "source <(" INSONIFY_TOOL " completion bash); COMP_WORDS=(" + words +
                                "); COMP_CWORD=" + std::to_string(count) + "; _insonify; echo \"${COMPREPLY[*]}\"";

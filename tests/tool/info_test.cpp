@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `info` says of every kind of file and what comes next, and what `materials` lists.
+// Tests what `info` says of every kind of file and what comes next, and what `materials` lists.
 #include <fmt/format.h>
 
 #include "tool/first_hour_fixture.hpp"

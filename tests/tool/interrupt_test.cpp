@@ -19,8 +19,8 @@ namespace {
 
 struct Ended {
   int exit_code;
-  double seconds;            ///< from the signal to the end
-  double processor_seconds;  ///< processor time of all threads in these seconds
+  double seconds;            ///< time from the signal to the end [s]
+  double processor_seconds;  ///< processor time of all threads in these seconds [s]
 };
 
 double seconds_of(const timeval& time) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every verb prints: with --json one JSON value and nothing else, with -q no line of what was written.
+// Tests what every verb prints: with --json one JSON value and nothing else, with -q no line of what was written.
 #include <set>
 
 #include <nlohmann/json.hpp>

@@ -71,7 +71,7 @@ TEST_F(JudgedExport, leaves_rejected_soundings_out_or_flags_them) {
   EXPECT_EQ(all["rejected"], kept["rejected"]);
   EXPECT_EQ(static_cast<double>(all["soundings"]), static_cast<double>(kept["soundings"]) + rejected);
 
-  // The same rows, and those that the shorter table lacks are flagged.
+  // Demands that all rows that the shorter table lacks are flagged, and no others.
   double flagged = 0;
   for (const auto& row : rows_of(read("all.csv"))) flagged += row.at("reject") != "0";
   EXPECT_EQ(flagged, rejected);
@@ -178,7 +178,7 @@ TEST_F(JudgedExport, by_a_wrong_profile_smile_as_rays_say) {
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const double theta = cube.pings[0].fan.azimuth[static_cast<std::size_t>(number(placed[i], "beam"))];
     const double c = 1499, time = number(placed[i], "range_m") / c;
-    // Of a gradient of -1/s: tan(theta / 2) falls by exp(-t), the ray is an arc; at constant speed it is straight.
+    // A gradient of -1/s lets tan(theta / 2) fall by exp(-t), the ray is an arc; at constant speed it is straight.
     const double end = 2 * std::atan(std::tan(0.5 * theta) * std::exp(-time));
     const double bent = -1 - (theta == 0 ? c * (1 - std::exp(-time)) : c * (1 - std::sin(end) / std::sin(theta)));
     EXPECT_NEAR(number(in_truth[i], "z_m"), bent, 2e-4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --keep contributors and --keep insonification write.
+// Tests what --keep contributors and --keep insonification write.
 #include <nlohmann/json.hpp>
 
 #include "scene_io/load_scene.hpp"

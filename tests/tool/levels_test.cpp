@@ -137,7 +137,7 @@ TEST_F(Levels, flat_bottoms_have_the_levels_of_their_laws) {
   }
 }
 
-// What no table of materials or word for one can mean, in a sentence each.
+// Refuses words and tables that are no material, with a sentence for each.
 TEST_F(Levels, materials_that_are_none_are_refused) {
   have("small.ply", "make-scene plane --points 500");
   const std::string ping = "ping small.ply --sonar p900-45 --pose=0,0,3,0,0,0 -o no --material ";

@@ -97,8 +97,8 @@ TEST_F(MakeObject, is_prepared_and_pinged_by_material) {
   EXPECT_TRUE(heard.contains(0) && heard.contains(2));  // fins are behind the legs
 }
 
-// Of a Lambert sphere mu cos^2 over its half that faces the head: sigma = 2/3 pi mu a^2, here of 5 cm and steel. Energy
-// against that of one scatterer of that strength where the mean of the echo comes from: a - 3/4 a before the middle.
+// A Lambert sphere has mu cos^2 over its half that faces the head: sigma = 2/3 pi mu a^2, here of a = 5 cm and steel.
+// Its energy is that of one scatterer of this strength at the mean range of its echo, 3/4 a before the middle.
 TEST_F(MakeObject, sphere_has_the_target_strength_of_lambert) {
   succeed("make-object sphere -o ball.ply --set diameter_m=0.1 --set tolerance_mm=0.1");
   const double mu = find_material("steel").lambert_mu, sigma = 2.0 / 3 * pi * mu * 0.05 * 0.05;
@@ -110,7 +110,8 @@ TEST_F(MakeObject, sphere_has_the_target_strength_of_lambert) {
   EXPECT_NEAR(energy_db("ball"), energy_db("one"), 0.05);
 }
 
-// As docs/objects.md and data/materials.toml say of a diver: all facets that face the head, as if none hid another.
+// Sums all facets of a diver that face the head, as if none hid another: docs/objects.md and data/materials.toml have
+// these strengths.
 TEST_F(MakeObject, diver_has_the_target_strength_that_is_documented) {
   succeed("make-object diver -o diver.ply");
   const SceneMesh mesh = *load_scene(path("diver.ply")).mesh;

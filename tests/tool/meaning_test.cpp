@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a user says of the meaning of a file counts alike in info, prepare, ping, its run.toml and scenes of parts.
+// Tests that unit and axes of a file, as a user states them, count alike in info, prepare, ping, run.toml and scenes of
+// parts.
 #include <fmt/format.h>
 
 #include "tool/tool_runner.hpp"

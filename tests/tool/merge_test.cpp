@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What merge joins beside the cubes: returns, contributors, insonification.
+// Tests what merge joins beside the cubes: returns, contributors, insonification.
 #include <cmath>
 
 #include <nlohmann/json.hpp>

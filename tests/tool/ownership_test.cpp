@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What --force may replace: files that a run wrote, and never an input, whatever it is called.
+// Tests what --force may replace: files that a run wrote, and never an input, whatever it is called.
 #include "tool/tool_runner.hpp"
 
 using namespace insonify;
@@ -11,7 +11,7 @@ namespace {
 struct FolderCommand {
   const char *verb, *arguments;
   const char* input;           ///< what IN is a copy of
-  const char* extension = "";  ///< of an output that is a file
+  const char* extension = "";  ///< end of the name of OUT; empty if OUT is a folder
 };
 constexpr FolderCommand folder_commands[] = {
     {"ping", "IN --sonar p900-45 --pose=0,0,2,0,30,0 --range 2:5 --no-picture -o OUT", "plane.ply"},

@@ -14,7 +14,7 @@ namespace {
 class DoorsToParts : public PartsOfTool {};
 }  // namespace
 
-// What all doors ask: the scene of a ping of a survey has each part where /part_views of the ping has it.
+// The scene of a ping of a survey, which all doors ask for, has each part where /part_views of the ping has it.
 TEST_F(DoorsToParts, the_scene_of_a_ping_of_a_survey_is_that_which_was_pinged) {
   mission_over("drawn.toml", "keep = [\"contributors\"]\n[randomise]\nscene = 3\n");
   survey("run");
@@ -91,7 +91,7 @@ TEST_F(DoorsToParts, soundings_are_compared_with_parts_where_they_were) {
   expect_refused("compare utc.csv plane.toml", 3, {"utc.csv", "from 1970", "give the run"});
   write("timeless.csv", "x_m,y_m,z_m\n6,0,20\n");
   expect_refused("compare timeless.csv plane.toml", 3, {"timeless.csv", "no column time_s", "plane.toml move"});
-  // By the run that they are of: its pings have their times, whatever the table says.
+  // Soundings that are compared with their run have the times of its pings, whatever the table says.
   mission_over("plane.toml");
   survey("run");
   merged_cubes("run", {"fls"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What limits the accuracy of pings, from the ping to all who ask: survey, cube, merge, info and viewer.
+// Follows notes on what limits the accuracy of pings to all who ask: survey, cube, merge, info and viewer.
 #include "tool/mission_text.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -47,7 +47,7 @@ TEST_F(PingNotes, of_a_survey_reach_the_person_by_kind) {
   }
 }
 
-// Of single pings, under the numbers that they have in the merged run.
+// Notes of single pings stand under the numbers that their pings have in the merged run.
 TEST_F(PingNotes, of_pings_are_in_their_cubes_and_in_merged_ones) {
   const std::string ping = "ping coarse.ply --sonar p900-45 --set sonar.beams=16 --range 1:12 --no-picture --ping 7 ";
   const ToolResult first = run(ping + "--pose=8,0,2,0,20,0 --time 1 -o early");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a ping would compute and leave out, through the tool.
+// Asks the tool what a ping would compute and leave out.
 #include <nlohmann/json.hpp>
 
 #include "store/cube.hpp"

@@ -10,7 +10,7 @@ namespace {
 
 class ProgressBar : public ToolTest {
  protected:
-  /// What a terminal shows of `insonify ARGUMENTS`.
+  /// Returns what a terminal shows of `insonify ARGUMENTS`.
   std::string shown(const std::string& arguments) const {
     const std::string command = "cd '" + folder_.string() + "' && script -qec '" INSONIFY_TOOL " " + arguments +
                                 "' typescript > screen 2>&1 < /dev/null";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `info` proposes for a scene is run as it stands, and its soundings are judged against the surface that the scene was
+// Runs what `info` proposes for a scene as it stands, and judges the soundings against the surface that the scene was
 // made from, a function of x and y.
 #include <cmath>
 #include <filesystem>
@@ -25,7 +25,7 @@ class RiverBed {
   }
   static constexpr double length = 20, half_width = 6;
 
-  /// Of the file's coordinates.
+  /// Returns the height of the surface [m] at x and y [m], all in the coordinates of the file.
   double height(double x, double y) const {
     const double u = x - at_.x(), v = y - at_.y();
     double z = 0.35 * std::sin(2 * pi * u / 7 + 0.4 * std::sin(v / 3)) + 0.03 * std::sin(2 * pi * u / 0.9);

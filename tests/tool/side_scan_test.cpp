@@ -160,7 +160,7 @@ TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_he
   options.view = "waterfall";
   constexpr double cell = 0.1;
 
-  // By slant range the shadow begins where the far edge of the box's top is, at 9 m across and 4 m down.
+  // In slant range the shadow begins where the far edge of the box's top is, at 9 m across and 4 m down.
   const double edge = std::hypot(9, altitude - box_height);
   const auto [begin, end] = shadow_around(beam_history(port, options), 11, 13);
   EXPECT_NEAR(begin, edge, cell);

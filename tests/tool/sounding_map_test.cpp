@@ -91,7 +91,7 @@ TEST(SoundingMap, and_other_exports_have_the_columns_of_the_page) {
           splits);
 }
 
-// As GDAL reads it, where its tools are installed.
+// Opens a map with gdalinfo, where it is installed.
 TEST(SoundingMap, is_opened_by_gdal) {
   if (std::system("gdalinfo --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gdal-bin is not installed";
   SoundingMap map(0.5);

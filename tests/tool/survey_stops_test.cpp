@@ -59,7 +59,7 @@ TEST_F(SurveyStops, interrupted_it_keeps_every_finished_ping) {
   EXPECT_EQ(read_json("run/status.json")["state"], "done");
 }
 
-// What a block that was interrupted after all of its pings leaves.
+// Lays out the files that a block leaves that was interrupted after all of its pings.
 TEST_F(SurveyStops, interrupted_blocks_are_read_and_not_pinged_again) {
   const auto whole = expected();
   survey("run");
@@ -100,7 +100,7 @@ TEST_F(SurveyStops, on_a_full_disk_it_ends_and_goes_on_when_there_is_space) {
   EXPECT_EQ(merged("run"), whole);
 }
 
-// As many pings a block as the folder has: the same survey, however it was begun.
+// Goes on with as many pings a block as the folder has: the same survey, however it was begun.
 TEST_F(SurveyStops, it_goes_on_in_blocks_of_the_size_it_was_begun_with) {
   survey("run", "--shard 0/2");
   succeed("survey m.toml -q -o run");
@@ -117,7 +117,7 @@ TEST_F(SurveyStops, names_missing_and_changed_blocks) {
   expect_refused("merge run", 3, {"run/fls/blocks/000001.h5: was changed since it was made"});
 }
 
-// As a loss of power leaves it on some disks.
+// Cuts or blanks the mark of a block, as a loss of power leaves it on some disks.
 TEST_F(SurveyStops, a_block_whose_mark_is_not_whole_is_made_again) {
   const auto whole = expected();
   survey("run");

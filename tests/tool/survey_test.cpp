@@ -217,7 +217,7 @@ TEST_F(Survey, plans_without_writing_anything) {
   EXPECT_LT(std::abs(std::log(plan["all"]["bytes"].get<double>() / bytes)), std::log(1.5)) << bytes;
 }
 
-// Of a swath with the phase between the halves of its array, which takes a third of the disk.
+// Plans a swath with the phase between the halves of its array, which takes a third of the disk.
 TEST_F(Survey, plan_says_the_disk_that_split_phase_takes) {
   write("swath.toml", R"(schema = 1
 [survey]

@@ -16,7 +16,7 @@ inline constexpr bool with_gdal = true;
 inline constexpr bool with_gdal = false;
 #endif
 
-/// What a run of the tool left behind.
+/// A run of the tool that has ended: its exit code, and what it printed on stdout and stderr.
 struct ToolResult {
   int exit_code = -1;
   std::string out, err;
@@ -38,11 +38,11 @@ class ToolTest : public testing::Test {
   void write(const std::string& name, const std::string& content) const { insonify::own_file(name, content); }
   std::string read(const std::string& name) const;
   nlohmann::json read_json(const std::string& name) const { return nlohmann::json::parse(read(name)); }
-  /// What a verb prints with --json.
+  /// Runs a verb with --json, demands success, and returns the value that it prints.
   nlohmann::json json_of(const std::string& arguments) const {
     return nlohmann::json::parse(succeed(arguments + " --json"));
   }
-  /// Of a run: its manifest, its cube, and its first ping.
+  /// Reads the manifest, the cube or the first ping of a run.
   nlohmann::json manifest_of(const std::string& run) const { return read_json(run + "/manifest.json"); }
   insonify::Cube cube_of(const std::string& run) const { return insonify::read_cube(path(run + "/cube.h5")); }
   insonify::Ping ping_of(const std::string& run) const { return cube_of(run).pings.at(0); }
