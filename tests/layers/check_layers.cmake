@@ -8,8 +8,8 @@ set(WALK core files sonar scene sampling acoustics beamforming returns compare s
 # Modules of the walk that may use files and processes.
 set(OPENS_FILES files accuracy)
 set(SIDE_DOORS hdf tiles scene_io store run run_scenes formats view viewer python)
-# What a side door may include beside itself and the walk. Python's module is a program as the tool is, and shares with it
-# how settings are read and runs are written (apps/tool).
+# A side door may include these beside itself and the walk. Python's module is a program as the tool is, and shares with
+# it how settings are read and runs are written (apps/tool).
 set(LENT_TO_tiles hdf)  # both read and write HDF5 files
 set(LENT_TO_store hdf)
 set(LENT_TO_scene_io tiles)  # prepared scenes are scenes

@@ -119,7 +119,7 @@ class Seen:
         place = scale * of.place @ head_from_own[:3, :3].T + head_from_own[:3, 3]
         normal = of.normal @ head_from_own[:3, :3].T
         self.range = np.linalg.norm(place, axis=1)
-        # Of the beam: a line array hears cones about its axis.
+        # The azimuth of the beam is an angle of cones, which a line array hears about its axis.
         self.azimuth = np.arcsin(place[:, 1] / self.range)
         self.elevation = np.arcsin(place[:, 2] / self.range)
         self.cosine = -(normal * place).sum(1) / self.range

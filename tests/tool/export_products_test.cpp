@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads back with the decoders of tests/formats what `export --to gsf|las|geotiff` and others write of a ball to port of
-// the head, ahead of it and above the bed: unit and sign of every field.
+// Reads back what `export --to gsf|las|geotiff|csv|png` writes of a ball to port of the head, ahead of it and above the
+// bed, with the decoders of tests/formats: unit and sign of every field.
 #include <nlohmann/json.hpp>
 #include <vtkImageData.h>
 #include <vtkPNGReader.h>
