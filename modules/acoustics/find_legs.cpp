@@ -36,7 +36,7 @@ bool out_of_water(const std::vector<Boundary>& boundaries, const Eigen::Vector3d
                      [&](const Boundary& b) { return b.ends_water && b.plane.signedDistance(world) < -b.thickness; });
 }
 
-// Whether neither a surfel nor its image can come within the gate: both stand as far from the head across.
+// Returns true if neither a surfel nor its image can come within the gate: both stand as far from the head across.
 bool out_of_reach(const SceneCloud& scene, std::size_t i, const View& view, const Eigen::Vector3d& normal) {
   const Eigen::Vector3d from_head = scene.origin - view.world_from_head.translation() + scene.point[i].cast<double>();
   const double disc = view.sampling.footprint * std::sqrt(static_cast<double>(scene.area[i]));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shapes of smooth surfels. Of each connected part of a coherent material the simplest that noise explains: one plane, a
-// cylinder with its ends or a sphere, planes. Of mirrors the flat parts alone. Planes grow from a surfel's neighbourhood,
-// again and again by least squares, as long as they find more surfels.
+// Shapes of smooth surfels. Of each connected part of a coherent material the simplest that noise explains: one plane,
+// a cylinder with its ends or a sphere, planes. Of mirrors the flat parts alone. Planes grow from a surfel's
+// neighbourhood, again and again by least squares, as long as they find more surfels.
 #include "acoustics/fit_shapes.hpp"
 
 #include <algorithm>
@@ -113,7 +113,8 @@ FlatParts flat_parts(const CoherentPart& part) {
   return flat;
 }
 
-/// Whether planes are facets of a bend: a fifth of their area has two others within 1 to 17 degrees of its normal.
+/// Returns true if planes are facets of a bend: a fifth of their area has two others within 1 to 17 degrees of its
+/// normal.
 bool are_facets(const FlatParts& flat) {
   constexpr double least_turn = 0.99985, most_turn = 0.9563, share = 0.2;
   double all = 0, bent = 0;

@@ -82,8 +82,8 @@ SectorBounds directions_of_legs(const View& view, const Transmission& sent) {
   return SectorBounds(insonified_sector(view.fan, sampling));
 }
 
-/// Adds the echo of a way; and where it rises with frequency two more about it, which are opposite at the carrier and the
-/// rise beside it (E179).
+/// Adds the echo of a way; and where it rises with frequency two more about it, which are opposite at the carrier and
+/// the rise beside it (E179).
 void add_echoes_of(const ImageWay& way, bool over_band, const Transmission& sent, Echoes& echoes) {
   constexpr double apart = 2;          // [rad] of the carrier, there and back, from the echo to either of the two
   constexpr double least_rise = 0.01;  // of the factor
@@ -146,7 +146,7 @@ class BentWays {
     return true;
   }
 
-  /// Whether the way is one ray to an image: by upright mirrors and one level boundary at most.
+  /// Returns true if the way is one ray to an image: by upright mirrors and one level boundary at most.
   static bool has_image(const ImageWay& way) {
     std::size_t levels = 0;
     for (const Boundary* boundary : way.by) {
@@ -156,7 +156,7 @@ class BentWays {
     return levels < 2;
   }
 
-  /// Whether all bounces are in one place, where mirrors meet.
+  /// Returns true if all bounces are in one place, where mirrors meet.
   static bool is_corner(const ImageWay& way) {
     constexpr double one_place = 1e-3;  // [m]
     return way.bounces.size() > 1 && std::all_of(way.bounces.begin(), way.bounces.end(), [&](const Vector3d& bounce) {

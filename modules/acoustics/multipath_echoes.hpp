@@ -52,7 +52,7 @@ struct MultipathOptions {
   /// Captured surfels along a boundary (within 60 degrees) that are nearer to it than this [m], and than three times
   /// its rms relief, count as the boundary itself: they neither block a bounce off it nor give an echo by one.
   double boundary_tolerance = 0.3;
-  /// Whether legs run through the profile of the environment, if it has one (E43, E167, E177).
+  /// True if legs run through the profile of the environment, if it has one (E43, E167, E177).
   bool refraction = false;
 };
 
@@ -78,9 +78,9 @@ struct MultipathOptions {
 ///          those seen only by a boundary are found and split here. With rays it is not used: patches are surfels then,
 ///          whose xi is not that of the rays.
 ///
-/// With `refraction` a leg is the ray to the place or to its image: by a level boundary through the profile and its image
-/// in the boundary, by an upright mirror through the profile itself, each within one degree. By a plane that is tilted it
-/// is the ray that the plane reflects (E177). `direct` holds straight places all the same.
+/// With `refraction` a leg is the ray to the place or to its image: by a level boundary through the profile and its
+/// image in the boundary, by an upright mirror through the profile itself, each within one degree. By a plane that is
+/// tilted it is the ray that the plane reflects (E177). `direct` holds straight places all the same.
 /// Visibility is that of straight legs. Legs take the smooth surfel for the facet.
 /// Does not depend on the thread count. Throws Error if there is no boundary, the head is not in the water, or an
 /// invalid environment, pulse or medium is met.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Effect of surfels on ways by mirrors and targets: all surfels are tested against all ways, those of one body at once if possible.
+// Effect of surfels on ways by mirrors and targets: all surfels are tested against all ways, those of one body at once
+// if possible.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -68,7 +69,7 @@ class SurfelTests {
     return bundle;
   }
 
-  /// Whether a surfel is too far from a bundle to block or cover any of its ways.
+  /// Returns true if a surfel is too far from a bundle to block or cover any of its ways.
   bool is_beside(const Bundle& bundle, std::size_t s, const Vector3d& p) const {
     if (bundle.radius < 0) return false;
     const double part = std::clamp(p.dot(bundle.middle) / bundle.middle.squaredNorm(), 0.0, 1.0);

@@ -20,7 +20,7 @@ struct SurfaceEchoes {
   static constexpr std::uint64_t of_both = 0xffffffffffffffff;
 
   Echoes echoes;                  ///< roots of the mean power, with the phase of the carrier (mean_power)
-  std::vector<std::uint64_t> id;  ///< of the random amplitude, as RandomCounter::first
+  std::vector<std::uint64_t> id;  ///< number from which the random amplitude follows, as RandomCounter::first
   std::vector<double> power;      ///< mean power of all echoes of the surface [Pa^2]; 0: another echo has it
   std::vector<float> depth;       ///< half extent of the whole surface along the line of sight [m]
   std::vector<float> width;       ///< half extent of the whole surface in u
@@ -64,12 +64,13 @@ struct CellLabels {
 ///
 /// Accuracy against cells of true_delays samples, of 14 looks or more and off grating lobes (docs/results/display.md):
 /// bands of range 0.07 dB, cells 0.3 dB rms in the mean; contrast 5 %. Doppler shifts are ignored. Throws Error for an
-/// invalid head or medium, for arrays of different lengths, and for a head with several rows or a column unless echoes.v
-/// has one entry per echo.
+/// invalid head or medium, for arrays of different lengths, and for a head with several rows or a column unless
+/// echoes.v has one entry per echo.
 Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed, const SonarHead& head,
                               const Medium& medium, const CellOptions& options = {});
 
-/// The same for many pings of one head, whose patterns and transforms are made once. Several threads may call.
+/// A synthesize_cells for many pings of one head, whose patterns and transforms are made once. Several threads may
+/// call.
 class CellSynthesizer {
  public:
   /// Throws Error for an invalid head or medium.

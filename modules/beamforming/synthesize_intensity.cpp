@@ -51,7 +51,7 @@ LineInput squared(LineInput image) {
   }
   image.echoes.doppler.clear();
   image.head.array = squared(image.head.array);
-  // The same spacing in wavelengths; twice the frequency keeps the bandwidth below twice the centre frequency.
+  // Keep the spacing in wavelengths; twice the frequency keeps the bandwidth below twice the centre frequency.
   image.head.array.spacing /= 2;
   image.head.pulse.centre_frequency *= 2;
   image.head.pulse.bandwidth *= std::numbers::sqrt2;

@@ -7,20 +7,20 @@
 /// Options of the command line, or settings of a file, as options of the library.
 namespace insonify {
 
-/// What the options ask of a simulator; the plan of a ping decides the rest.
+/// Returns the options that a simulator is asked for; the plan of a ping decides the rest.
 SimulationOptions asked_simulation(const CommonOptions& common, const PingOptions& options);
 
 /// Records among the options what was decided of SamplingSettings::detail, if it is not what was asked: with or without
 /// the stage, as run.toml has it.
 void record_detail(Choice asked, Choice decided, PingOptions& options);
 
-/// How beams are formed, as --method and --tolerance ask for it.
+/// Returns how beams are formed, as --method and --tolerance ask for it.
 SynthesisSettings asked_synthesis(const RunOptions& options);
 
-/// Whether --keep names `what`.
+/// Returns true if --keep names `what`.
 bool keeps(const PingOptions& options, const std::string& what);
 
-/// By what messages name a setting: --detail-width, or detail_width.
+/// The name of a setting in messages: --detail-width, or detail_width.
 enum class NamedBy { option, keyword };
 
 /// Throws Error(argument) for a problem of `simulation`, which was made of `options`. The message names the option of

@@ -20,9 +20,9 @@ struct OptionRules {
   bool required = false;
   std::vector<std::string> words = {};             ///< allowed values; empty: any
   std::optional<std::pair<int, int>> within = {};  ///< lowest and highest value of an integer
-  bool positive = false;                           ///< of a number: must be > 0
-  bool one_each = false;                           ///< of a list: one entry each time that the option is given
-  bool comma_separated = false;                    ///< of a list: "a,b" is two entries
+  bool positive = false;                           ///< a number must be > 0
+  bool one_each = false;                           ///< a list gets one entry each time that the option is given
+  bool comma_separated = false;                    ///< "a,b" is two entries of a list
   const char* excludes = nullptr;                  ///< an option, added before, that must not stand beside this one
   const char* group = nullptr;                     ///< title under which --help lists it; "": nowhere
   const char* shown_as = nullptr;                  ///< the value in --help; null: its type

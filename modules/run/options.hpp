@@ -54,8 +54,8 @@ struct PingOptions {
   CommonOptions common;
   SceneOptions scene;
   RunOptions run;
-  std::string pose;   ///< of the vehicle
-  std::string mount;  ///< of the head on the vehicle, or empty: as the sonar's file says
+  std::string pose;   ///< pose of the vehicle
+  std::string mount;  ///< mounting of the head on the vehicle, or empty: as the sonar's file says
   std::string world = "z-up";
   std::string sampling = "surfels";
   std::string amplitude = "speckle";
@@ -67,17 +67,17 @@ struct PingOptions {
   bool multipath = false;
   double double_echoes = library_options.effects.double_echoes;
   std::vector<std::string> keep;  ///< "elements", "mask", "labels", "contributors", "insonification", "paths"
-  int contributors = 4;           ///< of each pixel, if they are kept
+  int contributors = 4;           ///< surfels kept for each pixel, if `keep` names them
   bool layers = false;
   bool split = false;
   int display = library_options.outputs.display_bins;  ///< display cells along range; 0: samples
   int looks_range = library_options.outputs.looks_range, looks_pings = library_options.outputs.looks_pings;
-  int absorption_order = -1;  ///< as needed
+  int absorption_order = -1;  ///< order of the absorption; -1: as needed
   double accuracy_db = library_options.accuracy_db;
   std::string trajectory;  ///< CSV of times and poses, or empty: --pose instead
-  double time = 0;         ///< of transmission [s]
+  double time = 0;         ///< time of transmission [s]
   int ping = -1;           ///< number of the ping; -1: time in milliseconds
-  int draw = 0;            ///< of the scatters of a scene of parts
+  int draw = 0;            ///< number of the draw of the scatters of a scene of parts
   std::string velocity;    ///< "vx,vy,vz" [m/s], or empty: at rest
   std::string turn_rate;   ///< "x,y,z" [deg/s], or empty
   double threshold_db = library_options.detection.threshold_db;

@@ -23,19 +23,20 @@ struct HeadSetup {
   SonarSpec spec;
   SonarHead head;
   Environment environment;
-  Medium medium;                   ///< of the water as given; PingReport::medium is that at the head's depth
-  Pose mount = Pose::Identity();   ///< on a vehicle, as the sonar's file says
+  Medium medium;                   ///< medium of the water as given; PingReport::medium is that at the head's depth
+  Pose mount = Pose::Identity();   ///< pose on a vehicle, as the sonar's file says
   std::vector<std::string> notes;  ///< inputs outside the validity of the formulas
-  bool range_is_own = false;       ///< the sonar's: neither options nor a run say another
+  bool range_is_own = false;       ///< true: the sonar's range, neither options nor a run say another
   double farthest = std::numeric_limits<double>::infinity();  ///< greatest range of the sonar's file [m]; inf: a run's
   std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
 };
-/// Returns them: presets or files, then --set, then --range. Throws Error(argument) for what environment_at refuses of a
-/// head at `head_height` [m], if that is given. `water_level` [m]: replaces that of the environment.
+/// Returns sonar and environment: presets or files, then --set, then --range. Throws Error(argument) for what
+/// environment_at refuses of a head at `head_height` [m], if that is given. `water_level` [m]: replaces that of the
+/// environment.
 HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run,
                       std::optional<double> head_height = std::nullopt,
                       std::optional<double> water_level = std::nullopt);
-/// The same of a sonar and an environment that are read already: `spec` is that of the file, changed perhaps.
+/// Returns the setup of a sonar and an environment that are read already: `spec` is that of the file, changed perhaps.
 HeadSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment environment,
                       std::optional<double> head_height = std::nullopt);
 
@@ -67,19 +68,19 @@ struct PingSetup {
   PingSimulator simulator() const { return {head.head, head.environment, simulation}; }
 };
 
-/// Where and when the head of the options pings, and how it moves; Error(argument) names the option.
+/// Returns where and when the head of the options pings, and how it moves; Error(argument) names the option.
 PingEvent asked_event(const PingOptions& options);
-/// The same of a vehicle at a pose that is not that of the options.
+/// Returns the event of a vehicle at a pose that is not that of the options.
 PingEvent asked_event(const PingOptions& options, const Pose& vehicle);
 
-/// A sentence if the number of a ping is its time in milliseconds and the time lies between two: other pings within the
-/// millisecond have its noise. Empty otherwise.
+/// Returns a sentence if the number of a ping is its time in milliseconds and the time lies between two: other pings
+/// within the millisecond have its noise. Empty otherwise.
 std::string number_note(const PingEvent& event, const PingOptions& options);
 
 /// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
 /// read.
 PingSetup set_up_ping(const PingOptions& options);
-/// The same of pings that have poses and motion of their own, not the options'. `water_level` as of set_up_head.
+/// Sets up pings that have poses and motion of their own, not the options'. `water_level` as for set_up_head.
 PingSetup set_up_any_ping(const PingOptions& options, std::optional<double> water_level = std::nullopt);
 
 /// Places of about 10 000 surfels in head axes [m].

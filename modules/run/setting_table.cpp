@@ -153,7 +153,7 @@ std::vector<RunSetting> sent_settings(PingOptions& o) {
   };
 }
 
-/// What is kept of it, and what is refined, detected and limited.
+/// Lists the settings of what is kept of a ping, refined, detected and limited.
 std::vector<RunSetting> kept_settings(PingOptions& o) {
   return {
       {"ping", "keep", "--keep", &o.keep,
@@ -231,7 +231,7 @@ std::vector<RunSetting> ping_settings(PingOptions& o) {
 
 namespace {
 
-/// Whether a setting says what is pinged, from where and when.
+/// Returns true if a setting says what is pinged, from where and when.
 bool is_of_one_ping(const RunSetting& setting) {
   const std::vector<std::string> keys = {"path", "pose", "mount", "trajectory", "time",
                                          "ping", "draw", "world", "velocity",   "turn_rate"};

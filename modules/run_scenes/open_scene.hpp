@@ -21,7 +21,7 @@ namespace insonify {
 
 class PartsOfPings;
 
-/// What the draws of a scene of parts follow from.
+/// The seed and rule that the draws of a scene of parts follow from.
 struct RunDraws {
   std::uint64_t seed = 1;
   DrawRule rule;
@@ -29,7 +29,7 @@ struct RunDraws {
 
 /// How a scene is opened for pings.
 struct OpenSceneOptions {
-  RunDraws draws{};           ///< of a scene of parts; the seed also of samples of meshes
+  RunDraws draws{};           ///< draws of a scene of parts; the seed is also that of samples of meshes
   int threads = 0;            ///< 0: all cores
   double memory_limit = 0;    ///< [GiB] of tiles, or of the sample of a mesh, for one ping; 0: as --memory-limit says
   bool drawn_at_will = true;  ///< moments with any draw are asked for; else only those of draws.rule
@@ -39,8 +39,9 @@ struct OpenSceneOptions {
 /// The surfels of one ping, and what a manifest says of them.
 struct PingScene {
   std::shared_ptr<const PreparedScene> scene;
-  LoadReport report;                    ///< with notes on what was read for the ping
-  std::vector<Eigen::Vector3d> places;  ///< of some surfels of the whole scene, or centres of tiles, in head axes [m]
+  LoadReport report;  ///< what was read for the ping, with notes on it
+  std::vector<Eigen::Vector3d>
+      places;  ///< places of some surfels of the whole scene, or centres of tiles, in head axes [m]
   nlohmann::ordered_json json;
 };
 
@@ -82,8 +83,8 @@ class OpenScene : public SceneSource {
   const OpenSceneOptions options_;
 };
 
-/// Opens the scene at scene.path: the one place that asks what kind of scene a path is. Throws as load_scene, TiledScene
-/// and PartsScene; Error(argument) for options of loading beside a scene of parts.
+/// Opens the scene at scene.path: the one place that asks what kind of scene a path is. Throws as load_scene,
+/// TiledScene and PartsScene; Error(argument) for options of loading beside a scene of parts.
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options = {});
 
 /// Opens the scene of a run, one of parts with the run's draws; `run` as of draws_of_run. Throws as open_scene and

@@ -64,7 +64,7 @@ SceneBody PartsScene::load_body(const PartFile& file, const std::string& name, b
   return body;
 }
 
-/// Of captured tiles the ground beneath what is to rest: a ball that holds all of it.
+/// Reads the ground of captured tiles beneath what is to rest: a ball that holds all of it.
 SceneBody PartsScene::read_ground(const PartFile& file, const std::string& name) {
   require_no_loading_options(scene_options_of(file), "is prepared already");
   const TiledScene& tiled = tiles_.try_emplace(name, file.path).first->second;

@@ -18,8 +18,8 @@
 
 namespace insonify {
 
-/// A scene of parts with all its files. Captured .tiles stay on disk: of them the ground beneath the parts is read, then
-/// what each ping reaches.
+/// A scene of parts with all its files. Captured .tiles stay on disk: of them the ground beneath the parts is read,
+/// then what each ping reaches.
 class PartsScene {
  public:
   /// Throws Error(content) with scene file and line for whatever its files or places lack.
@@ -46,8 +46,8 @@ class PartsScene {
   Bounds box_at(double time, std::uint64_t draw = 0) const;
   /// Returns one cloud of all parts at `time`, with all tiles. Throws as TiledScene::load.
   LoadedScene whole_at(double time, std::uint64_t draw = 0) const;
-  /// The same for one ping: of tiles what it reaches. `memory` [bytes]: limit for tiles. Throws Error(runtime) before
-  /// reading if they need more.
+  /// Returns one cloud of all parts for one ping, with the part of tiles that it reaches. `memory` [bytes]: limit for
+  /// tiles. Throws Error(runtime) before reading if they need more.
   LoadedScene scene_of(const PingSimulator& simulator, const PingEvent& event, std::uint64_t draw, double memory) const;
   /// Returns a list of the parts at `time`: name, label, file, surfels, pose, scale,
   /// size, how they move.
@@ -63,8 +63,8 @@ class PartsScene {
   PartsOptions options_;
   LoadReport report_;
   bool random_ = false;
-  std::map<std::string, TiledScene> tiles_;     ///< of captured parts, by name
-  std::map<std::string, std::string> file_of_;  ///< by the name of a part, or of a body that is strewn
+  std::map<std::string, TiledScene> tiles_;     ///< tiles of captured parts, by name
+  std::map<std::string, std::string> file_of_;  ///< path of the file by the name of a part, or of a body that is strewn
   std::shared_ptr<const SceneParts> parts_;
 };
 

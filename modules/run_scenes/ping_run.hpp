@@ -30,21 +30,21 @@ struct ReadyPing {
 /// anything to draw; Error(runtime) before reading if tiles would not fit into memory (--memory-limit).
 ReadyPing load_ping_scene(const PingOptions& options, PingSetup& setup);
 
-/// What the run folder of a ping says of how it was made.
+/// The contents of the run folder of a ping: how it was made.
 struct PingRun {
   const PingOptions& options;
   const PingSetup& setup;
-  const SceneCloud& scene;              ///< that was pinged
-  nlohmann::ordered_json scene_json;    ///< as from scene_json
-  std::vector<Eigen::Vector3d> places;  ///< as from sampled_places
+  const SceneCloud& scene;              ///< scene that was pinged
+  nlohmann::ordered_json scene_json;    ///< description of the scene, from scene_json
+  std::vector<Eigen::Vector3d> places;  ///< places of some surfels, from sampled_places
   PingPlan plan{};
-  SceneInstances instances{};        ///< of its surfels, if contributors are kept
-  std::vector<std::string> notes{};  ///< so far
+  SceneInstances instances{};        ///< instances of its surfels, if contributors are kept
+  std::vector<std::string> notes{};  ///< notes so far
   double load_seconds = 0;
 };
 
-/// Writes all files of a run: cube, picture, returns, what is kept beside them, run.toml and manifest. `contributors` is
-/// the writer that took those of the ping. Returns the manifest. The folder is still to be committed. Throws
+/// Writes all files of a run: cube, picture, returns, what is kept beside them, run.toml and manifest. `contributors`
+/// is the writer that took those of the ping. Returns the manifest. The folder is still to be committed. Throws
 /// Error(file).
 nlohmann::ordered_json write_ping_run(RunDirectory& directory, const PingRun& run, SimulatedPing ping,
                                       ContributorWriter& contributors, const RunPictures& pictures,
@@ -55,11 +55,11 @@ struct PingInMemory {
   const SimulatedPing& ping;  ///< with its contributors, if it keeps them
   const PingSimulator& simulator;
   const PreparedScene& pinged;
-  const SceneCloud& whole;  ///< of which `pinged` may be a finer sample
+  const SceneCloud& whole;  ///< scene of which `pinged` may be a finer sample
   const LoadReport& report;
   const SceneInstances& instances;
-  std::optional<Bounds> box{};     ///< of a scene of parts; absent: of `whole`
-  nlohmann::ordered_json parts{};  ///< as PartsScene::parts_json; null: none
+  std::optional<Bounds> box{};     ///< box of a scene of parts; absent: that of `whole`
+  nlohmann::ordered_json parts{};  ///< list of parts from PartsScene::parts_json; null: none
 };
 /// Writes the whole run folder of such a ping, options.run.output. Throws Error(file).
 void save_ping_run(const PingOptions& options, PingSetup setup, const PingInMemory& of, const RunPictures& pictures);

@@ -50,7 +50,7 @@ struct EchoInCell {
 /// The echoes of each cell: those of cell c are part[first[c]] .. part[first[c + 1] - 1].
 struct EchoesByCell {
   std::vector<CellEcho> echoes;         ///< those that are in a cell, by their first cells
-  std::vector<std::uint32_t> source{};  ///< of each of these, its number among those of the surface, then those fixed
+  std::vector<std::uint32_t> source{};  ///< number of each echo here among those of the surface, then those fixed
   std::vector<std::size_t> first;
   std::vector<EchoInCell> part;
 };
@@ -58,8 +58,8 @@ struct EchoesByCell {
 struct LabelledRow;
 class LabelRow;
 
-/// The echoes that a row of beams hears: its response to each echo, 0 where it hears nothing; empty: 1. Its beams, its first
-/// element's number among those of the head, and the mean noise power at one of its elements [Pa^2].
+/// The echoes that a row of beams hears: its response to each echo, 0 where it hears nothing; empty: 1. Its beams, its
+/// first element's number among those of the head, and the mean noise power at one of its elements [Pa^2].
 struct HeardByRow {
   BeamPlaces beams;
   std::vector<double> response;
@@ -86,18 +86,19 @@ class CellRow {
   struct Part {
     const CellEcho* echo;
     double energy;  ///< [Pa^2]
-    double field;   ///< the same, of an echo from its middle [Pa^2]
-    double sign;    ///< of the response
+    double field;   ///< its energy there, were it an echo from its middle [Pa^2]
+    double sign;    ///< sign of the response: +1 or -1
   };
   /// One of the two cells: its echoes, and the sums over them.
   struct Side {
     std::vector<Part> even, strong;  ///< echoes that are part of even ground, and those that are added as pressures
-    double energy = 0;               ///< of all [Pa^2]
+    double energy = 0;               ///< energy of all echoes [Pa^2]
     double noise = 0;                ///< power of the noise in the fields of the beams [Pa^2]
-    std::vector<double> mean;        ///< of each beam [Pa^2]
-    std::vector<double> looks;       ///< of each broad node in use
-    std::array<std::vector<Complex>, 2> field;       ///< of a period of u, with guards
-    std::vector<std::vector<Complex>> strong_field;  ///< the same of strong echoes, by groups that interfere
+    std::vector<double> mean;        ///< expected intensity of each beam [Pa^2]
+    std::vector<double> looks;       ///< number of looks at each broad node in use (E182)
+    std::array<std::vector<Complex>, 2>
+        field;  ///< two sums over the echoes, samples of a period of u with guards (E183)
+    std::vector<std::vector<Complex>> strong_field;  ///< field of the strong echoes, by groups that interfere
     std::size_t groups = 0;
   };
 

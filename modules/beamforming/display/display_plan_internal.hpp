@@ -27,11 +27,11 @@ struct BetweenFour {
 /// Where the beams of a row stand among the nodes and samples of a DisplayPlan.
 struct BeamPlaces {
   std::vector<double> u_beam;           ///< directions
-  std::vector<std::int32_t> beam_near;  ///< of each node: the beam that hears it best; -1: none has it in its lobe
+  std::vector<std::int32_t> beam_near;  ///< the beam that hears each node best; -1: none has it in its lobe
   std::vector<std::size_t> broad_of;    ///< index into broad_used of each beam
   std::vector<std::size_t> broad_used;  ///< broad nodes of beams, each once
   std::vector<BetweenFour> in_period;   ///< place of each beam among the samples of a transformed period
-  std::vector<BetweenFour> in_all;      ///< the same among those of all directions
+  std::vector<BetweenFour> in_all;      ///< place of each beam among the samples of all directions
 };
 
 /// Directions, patterns and transforms of the display cells of a line array, made once for many pings (E180).
@@ -55,14 +55,14 @@ struct DisplayPlan {
   std::vector<double> shading;             ///< w_m / N
   std::size_t first_element;               ///< index of element 0 in a transformed period
   bool half_places;                        ///< elements stand at half-integers
-  std::vector<std::complex<double>> turn;  ///< of each node, if half_places
+  std::vector<std::complex<double>> turn;  ///< factor of the pressure of an echo at each node, if half_places
 
   std::vector<std::vector<double>> kernel;  ///< spectra of the band's mean pattern, by blocks of range
   std::size_t kernel_of(std::size_t cell) const { return cell * kernel.size() / cells; }
 
   std::vector<float> lobe;   ///< weights of broad nodes at distances 0, 1, .. within the main lobe
   double beside_lobe;        ///< mean response outside of it
-  std::size_t parts;         ///< of a cell
+  std::size_t parts;         ///< ranges of a cell whose energies are kept apart
   std::vector<float> looks;  ///< R_d of parts d apart (E182)
 
   ResponseTable response;

@@ -20,7 +20,7 @@ struct CellEnergies {
   const float* lobe;  ///< weight of nodes at distances 0, 1, .. below `lobe_reach`
   std::size_t lobe_reach;
   float beside, noise;       ///< weight of all nodes; energy that each range has besides
-  const float* correlation;  ///< of ranges at distances 0, 1, .. below `reach`
+  const float* correlation;  ///< R_d of ranges d apart, d below `reach` (E182)
   std::size_t reach;
 };
 /// Sets looks[k] to (sum P)^2 / sum_kl P_k P_l R_|k-l| (E182) of a beam at node at[k], k < count; at least 1.

@@ -30,8 +30,8 @@ class PulseEnergy {
 
  private:
   struct Samples {
-    std::vector<std::complex<double>> value;  ///< of G
-    double step = 0;                          ///< [s]
+    std::vector<std::complex<double>> value;  ///< samples of the envelope G
+    double step = 0;                          ///< time between samples [s]
   };
   Samples samples_of(double range) const;
 

@@ -51,7 +51,7 @@ struct CellSynthesizer::Plan {
   Medium medium;
   std::vector<FanRow> rows;
   DisplayPlan display;
-  std::vector<BeamPlaces> beams{};  ///< of each row
+  std::vector<BeamPlaces> beams{};  ///< places of the beams of each row
 
   Plan(const SonarHead& of, const Medium& water)
       : head(of), medium(water), rows(fan_rows(of.fan)), display(line_head(of, rows.front()), water) {

@@ -18,8 +18,8 @@ template <typename Real>
 struct BrickEchoes {
   Real* const* brick;  ///< brick at its first row and column, `lines` of them per echo; imaginary parts `plane` on
   const Real* column_offset;  ///< t in [-1, 1] for the polynomials of the columns
-  const Real* line_offset;    ///< and of the lines
-  const Real* sign;           ///< of whole cycles
+  const Real* line_offset;    ///< t in [-1, 1] for the polynomials of the lines
+  const Real* sign;           ///< sign due to whole cycles: +1 or -1
   const Real *pulse_re, *pulse_im;
 };
 

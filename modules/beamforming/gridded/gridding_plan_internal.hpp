@@ -32,20 +32,20 @@ struct GriddingPlan {
   std::size_t grid_row;  ///< row stride of the grid; not a power of 2, to avoid cache conflicts
   double cycles_per_u, element_offset;
 
-  PolynomialPieces<Real> columns;             ///< of the kernel over u
+  PolynomialPieces<Real> columns;             ///< polynomials of the kernel over u
   PolynomialPieces<Real> sweep_re, sweep_im;  ///< samples of a sweep whose shape absorption keeps; else empty
   bool sweep_ends = false;                    ///< they include the ends of the sweep
   double half = 0;                            ///< half length of a pulse as sent; of a sweep, whole bins [s]
-  double longest_half = 0;                    ///< of Gaussian pulses of any shape [s]
+  double longest_half = 0;                    ///< half length of the longest Gaussian pulse of any shape [s]
   std::size_t longest_rows = 0;               ///< rows of such a pulse; 0: sweeps
-  double pulse_energy = 0;                    ///< of the pulse as sent, with unit peak [bins]
+  double pulse_energy = 0;                    ///< energy of the pulse as sent, with unit peak [bins]
 
   std::vector<Complex> offset_phase;       ///< exp(i element_offset 2 pi j / grid)
   std::vector<Complex> element;            ///< shading / deconvolution factor, by grid frequency; 0 without element
   std::vector<Real> beam_weight;           ///< beams x width
   std::vector<std::uint32_t> beam_row;     ///< beams x width
   std::vector<FanRow> fan;                 ///< rows of beams
-  std::optional<ColumnPlan<Real>> column;  ///< of a planar array
+  std::optional<ColumnPlan<Real>> column;  ///< plan over v; a planar array alone has one
   SynthesisChoice choice;
 
   GriddingPlan(const SonarHead& head, const Medium& medium, double tolerance, KernelTolerance kernels);

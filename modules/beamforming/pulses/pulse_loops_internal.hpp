@@ -20,7 +20,7 @@ struct GaussianGrid {
   double first_u, cycles_per_u;         ///< cycles of the grid
   double grid, half_width, pad;         ///< steps of a cycle; of the kernel; before the first
   bool half_places;                     ///< elements stand at half-integers: whole cycles have signs
-  double a_sent, range_per_delay;       ///< of the pulse as sent (E8)
+  double a_sent, range_per_delay;       ///< `a` of EchoEnvelope as sent (E8); range [m] per delay [s]
   double a0, a1, a2;                    ///< absorption
 };
 

@@ -9,7 +9,7 @@ namespace insonify {
 /// Shape of the wavefronts at the array.
 enum class Wavefront {
   spherical,  ///< centred at the echo's apparent range (half its delay): exact also in the near field
-  plane       ///< from infinite range
+  plane       ///< a plane wave, as from infinite range
 };
 
 /// Range of tolerances that element_series and beam_from_elements accept.

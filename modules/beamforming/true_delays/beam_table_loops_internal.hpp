@@ -18,9 +18,9 @@ void focus_at(const ElementFocus& focus, std::size_t count, double* path);
 /// A Gaussian pulse at the elements: sample j is `late` + `start` + j `step` after the echo's delay [s].
 struct ElementPulse {
   double start, step, late;
-  double carrier;  ///< [Hz]
-  double speed;    ///< of sound [m/s]
-  double a, b;     ///< of its EchoEnvelope (E8)
+  double carrier;  ///< carrier frequency [Hz]
+  double speed;    ///< speed of sound [m/s]
+  double a, b;     ///< numbers of its EchoEnvelope (E8)
 };
 
 /// Adds the contribution of one element to a beam, for the samples j of [begin, end): weight exp(-2 pi i f (D + late))
@@ -30,7 +30,7 @@ void add_element(const ElementPulse& pulse, const double* focus, double path, do
                  std::size_t end, double* re, double* im);
 
 constexpr std::size_t most_ranges = 4;                    ///< nodes of range in a BeamTable at most
-constexpr std::size_t direction_taps = 8, time_taps = 8;  ///< of an interpolation in a BeamTable
+constexpr std::size_t direction_taps = 8, time_taps = 8;  ///< taps of an interpolation in a BeamTable
 constexpr std::size_t taps_before = 3;      ///< taps before the interpolated interval, of direction and time
 constexpr std::size_t numbers_at_once = 8;  ///< the length of a row of the table is a multiple of this
 

@@ -16,22 +16,24 @@ namespace {
 using kernels::direction_taps;
 using kernels::taps_before;
 
-// Of the ranges of a table: losses and pulses change with range, not with its inverse.
+// Limits the farthest range of a table to this times the nearest: losses and pulses change with range, not with its
+// inverse.
 constexpr double farthest_ratio = 1.4;
 // Tables of few ranges must be as long as this, so that they are few.
 constexpr double enough_ratio = 1.2;
-// What polynomials through eight steps leave at the middle of the inner one, of a wave that turns by one radian per
+// Error of polynomials through eight steps at the middle of the inner one, for a wave that turns by one radian per
 // step.
 constexpr double eight_left = 1.07e-3;
 
-/// Steps of the table per step of the sampling theorem, for the highest frequency of a Gaussian pulse's band: errors
-/// count by its spectrum, which has fallen to the tolerance there.
+/// Returns the steps of time per step of the sampling theorem, for the highest frequency of a Gaussian pulse's band:
+/// errors count by its spectrum, which has fallen to the tolerance there.
 double finer_in_time(double tolerance) {
   const double fall = -std::log(tolerance), weight = std::pow(4 / fall, 4) * std::exp(-4.0);
   return std::max(1.5, pi * std::pow(eight_left * weight / (0.1 * tolerance), 1.0 / 8));
 }
 
-/// The same for the elements at the ends of the array, which have a small part of its weight.
+/// Returns the steps of direction per step of the sampling theorem, for the elements at the ends of the array, which
+/// have a small part of its weight.
 double finer_in_direction(double tolerance) {
   constexpr double weight = 0.04;
   return std::max(1.5, pi * std::pow(eight_left * weight / (0.2 * tolerance), 1.0 / 8));
@@ -137,7 +139,7 @@ double BeamTableSizes::lateness(double range, double u) const {
   return (path_difference(range, u, part.centre) - path_difference(range, u_beam, part.centre)) / medium.sound_speed;
 }
 
-/// By how much later than at the centre of the part an echo counts at y, `time` after it [m].
+/// Returns the path [m] by which an echo counts later at y than at the centre of the part, `time` [s] after it.
 double BeamTableSizes::path(double range, double u, double time, double y) const {
   const double c = medium.sound_speed, focus = std::max(range + 0.5 * c * time, 1e-3);
   return path_difference(range, u, y) - path_difference(focus, u_beam, y) - c * lateness(range, u);

@@ -127,7 +127,7 @@ void CurvatureSamples::place_nodes(const TrueDelayPlan& plan, const CurvatureSpa
   const double c = plan.medium.sound_speed, least = 0.45 * plan.aperture;
   middle = 0.5 * (span.first_time + span.last_time);
   half = 0.5 * (span.last_time - span.first_time);
-  // As many as follow phases that change by this much.
+  // Take as many nodes as follow phases that change by this much.
   const double near = std::max(0.5 * c * span.first_time, std::max(least, 1e-3)),
                far = std::max(0.5 * c * span.last_time, near);
   const CurvaturePhase phase(plan.head, plan.medium, near, far);

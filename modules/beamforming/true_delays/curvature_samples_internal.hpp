@@ -25,10 +25,10 @@ struct CurvatureSamples {
   using RowMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   std::vector<double> u, r;    ///< nodes
-  double middle, half;         ///< of time [s]
+  double middle, half;         ///< middle and half length of the span of time [s]
   std::size_t places;          ///< nodes on the array, to RowPlaces::reach
   RowMatrix value;             ///< u x r by node of frequency and place
-  std::vector<double> weight;  ///< of the columns: shading, spectrum, and nodes
+  std::vector<double> weight;  ///< weight of each column: shading, spectrum, and nodes
 
   CurvatureSamples(const TrueDelayPlan& plan, const CurvatureSpan& span);
 

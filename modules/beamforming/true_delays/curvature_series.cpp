@@ -65,14 +65,14 @@ struct Factors {
 /// The second factors by row of harmonics and power of frequency.
 struct BandRows {
   std::vector<std::size_t> band;      ///< powers of each term
-  std::vector<Eigen::MatrixXcd> row;  ///< of each term: harmonic by power
+  std::vector<Eigen::MatrixXcd> row;  ///< factors of each term: harmonic by power
 
   BandRows(const TrueDelayPlan& plan, const RowFits& fits, const CurvatureSamples& samples, const Factors& factors) {
     const auto nodes = static_cast<Eigen::Index>(TrueDelayPlan::fit_nodes),
                rows = static_cast<Eigen::Index>(plan.rows()), count_y = static_cast<Eigen::Index>(samples.places);
     const Eigen::Map<const Eigen::VectorXd> fit(plan.fit_frequency.data(), nodes);
     const Eigen::MatrixXd between = from_nodes(fit / plan.half_band, plan.node_frequency.size());
-    // What rows of harmonics are, by frequency.
+    // Find the factors of the rows of harmonics, by frequency.
     std::vector<Eigen::MatrixXcd> value(static_cast<std::size_t>(factors.terms()), Eigen::MatrixXcd(nodes, rows));
     for (Eigen::Index f = 0; f < nodes; ++f) {
       Eigen::MatrixXcd here = Eigen::MatrixXcd::Zero(factors.terms(), count_y);

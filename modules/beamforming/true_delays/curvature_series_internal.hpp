@@ -21,21 +21,21 @@ namespace insonify {
 /// interpolation between harmonics.
 struct CurvatureSeries {
   std::size_t terms = 0;
-  std::size_t powers = 0;         ///< of time in [-1, 1] over the block, highest first
-  double middle = 0, half = 1;    ///< of the block [s]
+  std::size_t powers = 0;         ///< powers of time in [-1, 1] over the block, highest first
+  double middle = 0, half = 1;    ///< middle and half length of the block [s]
   std::size_t stride = 0;         ///< steps of the grid of directions, filled up to a multiple of 8
   std::vector<float> along;       ///< terms x powers x 2 (real, imaginary) x stride
   std::vector<std::size_t> band;  ///< number of powers of frequency of each term, in falling order
-  AlignedFloats rows;             ///< for kernels::RowMix
-  std::vector<std::size_t> ins;   ///< of each out of it,
-  std::size_t most_ins = 0;       ///< out of so many
+  AlignedFloats rows;             ///< factors row_qs, ordered for kernels::RowMix
+  std::vector<std::size_t> ins;   ///< number of rows in for each row out of the RowMix
+  std::size_t most_ins = 0;       ///< rows in for which `rows` has room, per row out
 };
 
 /// Least-squares fits of functions of frequency by powers of frequency, for each row of harmonics. All blocks of a plan
 /// share them.
 struct RowFits {
   struct Row {
-    Eigen::VectorXd weight;        ///< of frequencies
+    Eigen::VectorXd weight;        ///< weights of frequencies
     Eigen::MatrixXd across, root;  ///< root x coefficients = across x weighted values
     double counts = 0;             ///< weight of the row
   };

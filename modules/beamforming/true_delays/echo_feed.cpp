@@ -27,7 +27,7 @@ class StretchSink final : public EchoSink {
   bool wants(const SurfelBounds& s) const override { return reaches(s.range - s.reach, s.range + s.reach); }
   void take(const Scatterers&, const Echoes& echoes) override {
     require_finite(echoes, "TrueDelayEngine");
-    // As TimeStretches::of, without a branch: most echoes of a chunk lie in one stretch.
+    // Find the stretch as TimeStretches::of does, without a branch: most echoes of a chunk lie in one stretch.
     const double start = start_, step = step_, first = first_, last = last_;
     std::size_t count = 0;
     which_.resize(echoes.size());

@@ -24,7 +24,7 @@ double nearest_range(const SonarHead& head, const Medium& medium, double toleran
   return std::max(1.5 * aperture, moved / std::sqrt(0.3)) + medium.sound_speed * reach.half;
 }
 
-/// The same in bins of the gate, from its first on.
+/// Returns nearest_range in bins of the gate, from its first on.
 double nearest_bin(const SonarHead& head, const Medium& medium, double tolerance) {
   const double bin = (nearest_range(head, medium, tolerance) - head.gate.min_range) / head.gate.bin_size;
   return std::max(0.0, std::ceil(bin));

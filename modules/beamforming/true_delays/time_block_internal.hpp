@@ -29,7 +29,7 @@ struct BlockTransforms {
 /// A block of time.
 struct TimeBlock {
   double first, last;                              ///< bins of the gate; they may begin before it
-  CurvatureSeries echo_curvature, beam_curvature;  ///< by echoes, and for beams
+  CurvatureSeries echo_curvature, beam_curvature;  ///< curvature as echoes have it, and as beams undo it
 
   TimeBlock(const TrueDelayPlan& plan, const RowFits& fits, double first, double last);
 };
@@ -80,8 +80,8 @@ class BlockWorkspace {
   Numbers harmonics_, directions_;      ///< some samples by harmonic or direction, of each term
   Numbers spectrum_, row_;              ///< powers x harmonics x fine samples, and one harmonic by frequency
   Numbers bins_, bin_row_;              ///< powers x harmonics x bins, and one harmonic
-  AlignedFloats lines_, chunk_;         ///< by chunk, harmonic and line; of one chunk, or one harmonic
-  AlignedFloats across_, mixed_;        ///< by grid step and bin; workspace of mixes
+  AlignedFloats lines_, chunk_;         ///< numbers by chunk, harmonic and line; those of one chunk, or one harmonic
+  AlignedFloats across_, mixed_;        ///< numbers by grid step and bin; workspace of mixes
   std::vector<std::uint32_t> place_;    ///< rows of harmonics of a transform
   std::vector<std::uint32_t> bin_;      ///< first of each chunk
   std::vector<float> beam_;

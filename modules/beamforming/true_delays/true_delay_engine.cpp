@@ -106,7 +106,8 @@ struct TrueDelayEngine::Plan {
     return with(far_out,
                 [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches_for(fast)), fast); });
   }
-  /// The same for shifts of up to `fastest` that blocks for echoes at rest do not serve. (E191)
+  /// Returns the image of echoes with shifts of up to `fastest` [Hz] that blocks for echoes at rest do not serve
+  /// (E191).
   ComplexGrid moving_image(const Echoes& echoes, double far_out, double fastest) const;
   ComplexGrid pressure(const EchoFeed& feed, bool fast = false) const;
   /// Adds the images of all blocks.
@@ -208,7 +209,7 @@ const TimeBlock& TrueDelayEngine::Plan::block(std::size_t number) const {
 
 ComplexGrid TrueDelayEngine::Plan::pressure(const EchoFeed& feed, bool fast) const {
   ComplexGrid pressure(head.fan.beams(), stretches.axis.bins);
-  // By all threads: memory that the system clears only when it is added to costs each page two faults.
+  // Clear it by all threads: memory that the system clears only when it is added to costs each page two faults.
   parallel_blocks(head.fan.beams(), beams_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     pressure.middleRows(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin)).setZero();
   });
@@ -267,7 +268,7 @@ void TrueDelayEngine::Plan::add_nearest(const EchoFeed& feed, ComplexGrid& press
   near.gate.max_range = std::min(near.gate.max_range, 0.5 * medium.sound_speed * last + beyond);
   if (near.gate.max_range <= near.gate.min_range) return;
   const ElementOptions exact{0.5 * options.tolerance, Wavefront::spherical, options.threads};
-  // As many at once, however they come.
+  // Sum exact_at_once echoes at a time, however they come.
   ElementSeries all;
   Echoes some;
   const auto sum = [&] {

@@ -56,14 +56,14 @@ void mix_from_rows(RowMix mix, PlaceRows from, TimePlanes to, float* workspace);
 /// Interpolation of a chunk of frequencies from harmonics to elements: element m takes `taps` rows from row[m] on.
 struct ElementTaps {
   std::size_t elements, taps;
-  const std::uint32_t* row;  ///< by element
-  const float* weight;       ///< by element, tap and line
+  const std::uint32_t* row;  ///< the first row of the taps of each element
+  const float* weight;       ///< weights by element, tap and line
 };
 
 /// Powers of frequency at the lines of chunks.
 struct LinePowers {
   std::size_t powers, stride;  ///< number of powers in use, and of powers stored per chunk
-  const float* power;          ///< by chunk, power and line
+  const float* power;          ///< powers of frequency by chunk, power and line
 };
 
 /// Sums lines of complex numbers, one line per power of frequency, times those powers, for the chunks listed in

@@ -53,7 +53,7 @@ TrueDelaySizes::TrueDelaySizes(const SonarHead& head, const Medium& medium, doub
   const double across = 0.5 * aperture / medium.sound_speed * 2.1 * widest;
   guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
   half_band = half_band_of(head.pulse, tolerance) + doppler.most;
-  // Of cycles that hold the block, the one with the fewest samples for its bins.
+  // Take the cycle that holds the block with the fewest samples for its bins.
   const auto fine_of = [this](std::size_t bins) {
     const double lines = 2 * half_band * static_cast<double>(bins) * axis.step;
     std::size_t length = fft_length(static_cast<std::size_t>(std::ceil(lines)) + 2);
@@ -152,7 +152,7 @@ void TrueDelayPlan::plan_elements() {
   tap_row.assign(chunks.size() * n, 0);
   tap_weight.assign(chunks.size() * n * taps * lines_at_once, 0);
   element_weight.assign(chunks.size() * n * lines_at_once, 0);
-  // What undoes the kernel on the grid, at 32nds of harmonics.
+  // Find the factors that undo the kernel on the grid, at 32nds of harmonics.
   std::vector<double> undo;
   for (std::size_t k = 0; k <= 32 * most + 32; ++k)
     undo.push_back(1 / kernel_transform(static_cast<double>(k) / 32 / static_cast<double>(grid)));

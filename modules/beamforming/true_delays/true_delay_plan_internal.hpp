@@ -44,7 +44,7 @@ struct TrueDelaySizes {
   double fine_step = 0;                         ///< [s]
   double reach = 0;                             ///< half length of a pulse at the end of the gate [s]
 
-  double period = 0;                      ///< of direction
+  double period = 0;                      ///< period of the direction cosine
   std::size_t grid = 0, grid_stride = 0;  ///< steps of the period
   std::size_t most = 0;                   ///< harmonics run from -most to most, one row each
   std::size_t taps = 0;                   ///< rows that give an element
@@ -79,24 +79,24 @@ struct TrueDelayPlan : TrueDelaySizes {
   std::vector<double> y;       ///< places of elements [m], positive to port
   double spectral_width2 = 0;  ///< a of a Gaussian pulse with the spectrum exp(-a f^2) [s^2]; 0: of a sweep
 
-  GriddingKernel kernel;             ///< of directions on the grid, and of places between harmonics
-  PolynomialPieces<float> columns;   ///< of the kernel
+  GriddingKernel kernel;             ///< kernel of directions on the grid, and of places between harmonics
+  PolynomialPieces<float> columns;   ///< polynomials of the kernel
   std::vector<double> place_factor;  ///< undoes the kernel between harmonics, by step of the grid
-  std::vector<float> beam_weight;    ///< of each beam, kernel.width() grid steps
+  std::vector<float> beam_weight;    ///< weights of kernel.width() grid steps for each beam
   std::vector<std::uint32_t> beam_row;
 
   std::vector<std::size_t> chunks;                ///< chunks of lines_at_once frequencies that contribute
   std::vector<std::uint32_t> tap_row;             ///< the first of the taps, by chunk and element
-  AlignedFloats tap_weight;                       ///< by chunk, element, tap and line
-  AlignedFloats element_weight;                   ///< by chunk, element and line: shading, and undoes gridding
+  AlignedFloats tap_weight;                       ///< weights of taps by chunk, element, tap and line
+  AlignedFloats element_weight;                   ///< shading, with the kernel undone, by chunk, element and line
   double digits = 0;                              ///< decimal digits of the tolerance
   std::vector<double> node_frequency;             ///< off the carrier, against the sign of lines [Hz]
-  std::vector<double> node_weight;                ///< of the spectrum there, and of the node
-  std::vector<double> fit_frequency, fit_weight;  ///< as these, where functions are fitted
+  std::vector<double> node_weight;                ///< weight of the spectrum there times that of the node
+  std::vector<double> fit_frequency, fit_weight;  ///< frequencies [Hz] and weights where functions are fitted
   std::vector<double> fit_power;  ///< polynomials of frequency, orthonormal there by weight: node x power
   AlignedFloats line_power;       ///< the same at lines: by chunk, power and line
 
-  /// As TrueDelaySizes.
+  /// Takes the arguments of TrueDelaySizes.
   TrueDelayPlan(const SonarHead& head, const Medium& medium, double tolerance, double widest, DopplerSpan doppler,
                 std::size_t block_bins);
 
@@ -126,7 +126,7 @@ struct CurvaturePhase {
 struct BlockLayout {
   struct Block {
     double first, last;  ///< first and one after the last bin
-    std::size_t level;   ///< of its length
+    std::size_t level;   ///< index into `levels` of the sizes for its length
   };
   double guard;    ///< bins by which a block extends beyond its ends, for the array's delays and the pulse
   double nearest;  ///< blocks keep the tolerance beyond this range [m]
