@@ -24,7 +24,7 @@ struct HeadSetup {
   SonarHead head;
   Environment environment;
   Medium medium;                   ///< medium of the water as given; PingReport::medium is that at the head's depth
-  Pose mount = Pose::Identity();   ///< pose on a vehicle, as the sonar's file says
+  Pose mount = Pose::Identity();   ///< mounting on a vehicle, as the sonar's file says
   std::vector<std::string> notes;  ///< inputs outside the validity of the formulas
   bool range_is_own = false;       ///< true: the sonar's range, neither options nor a run say another
   double farthest = std::numeric_limits<double>::infinity();  ///< greatest range of the sonar's file [m]; inf: a run's

@@ -39,9 +39,8 @@ struct OpenSceneOptions {
 /// The surfels of one ping, and what a manifest says of them.
 struct PingScene {
   std::shared_ptr<const PreparedScene> scene;
-  LoadReport report;  ///< what was read for the ping, with notes on it
-  std::vector<Eigen::Vector3d>
-      places;  ///< places of some surfels of the whole scene, or centres of tiles, in head axes [m]
+  LoadReport report;                    ///< what was read for the ping, with notes on it
+  std::vector<Eigen::Vector3d> places;  ///< some surfels of the whole scene, or centres of tiles, in head axes [m]
   nlohmann::ordered_json json;
 };
 

@@ -96,8 +96,7 @@ class CellRow {
     double noise = 0;                ///< power of the noise in the fields of the beams [Pa^2]
     std::vector<double> mean;        ///< expected intensity of each beam [Pa^2]
     std::vector<double> looks;       ///< number of looks at each broad node in use (E182)
-    std::array<std::vector<Complex>, 2>
-        field;  ///< two sums over the echoes, samples of a period of u with guards (E183)
+    std::array<std::vector<Complex>, 2> field;       ///< sums over echoes at a period of u, with guards (E183)
     std::vector<std::vector<Complex>> strong_field;  ///< field of the strong echoes, by groups that interfere
     std::size_t groups = 0;
   };

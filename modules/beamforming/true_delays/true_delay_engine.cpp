@@ -106,8 +106,7 @@ struct TrueDelayEngine::Plan {
     return with(far_out,
                 [&](const Plan& plan) { return plan.pressure(feed_of(echoes, plan.stretches_for(fast)), fast); });
   }
-  /// Returns the image of echoes with shifts of up to `fastest` [Hz] that blocks for echoes at rest do not serve
-  /// (E191).
+  /// Returns the image of echoes with shifts up to `fastest` [Hz] that blocks for echoes at rest do not serve (E191).
   ComplexGrid moving_image(const Echoes& echoes, double far_out, double fastest) const;
   ComplexGrid pressure(const EchoFeed& feed, bool fast = false) const;
   /// Adds the images of all blocks.
