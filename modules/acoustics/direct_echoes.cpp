@@ -71,7 +71,7 @@ Echoes room_for(std::size_t n, int threads) {
   return echoes;
 }
 
-/// Returns true if amplitudes are drawn; others are all 1.
+/// Returns true if amplitudes are drawn; if not, all are 1.
 bool draws(const EchoOptions& options) {
   return options.amplitude != SurfaceAmplitude::coherent && options.amplitude != SurfaceAmplitude::mean_power;
 }
