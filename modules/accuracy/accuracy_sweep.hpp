@@ -17,8 +17,8 @@ struct SweepOptions {
   SweepSize size = SweepSize::standard;
   std::uint64_t seed = 1;
   int threads = 0;                     ///< 0: all cores
-  std::vector<double> tolerances{};    ///< of gridded, in [1e-13, 1); empty: those of the sweep
-  std::vector<std::string> methods{};  ///< of accuracy_methods; empty: all
+  std::vector<double> tolerances{};    ///< tolerances of gridded, in [1e-13, 1); empty: those of the sweep
+  std::vector<std::string> methods{};  ///< names from accuracy_methods; empty: all
 };
 
 /// A method and the function that measures it.

@@ -19,14 +19,14 @@ struct AccuracyRow {
   std::string precision;  ///< double, or single if the method chose it
   std::size_t scatterers = 0, beams = 0, elements = 0, bins = 0;
   double tolerance = 0;          ///< asked for; 0 if the method takes none
-  std::size_t kernel_width = 0;  ///< of gridded; 0 else
+  std::size_t kernel_width = 0;  ///< kernel width of gridded; 0 else
   double error = 0;              ///< ||P - P_ref|| / ||P_ref|| over the checked beams
   double local_error = 0;        ///< the largest of it over those eighths of the range axis that hold an echo
   double seconds = 0, seconds_min = 0, seconds_max = 0;  ///< wall time of one ping; seconds: the median
   double peak_mib = 0;                                   ///< largest resident set of the process meanwhile
   double max_level_db = 0;  ///< largest error in level of samples within 60 dB of the highest
   double plan_seconds = 0;  ///< wall time of the plan, once per head, not part of `seconds`
-  double parameter = 0;     ///< of pattern-cut: null widths; of absorption-order: the order
+  double parameter = 0;     ///< null widths of pattern-cut, or the order of absorption-order
   double bandwidth = 0, dynamic_range_db = 0;
   int absorption_order = 0, threads = 0, repeats = 0;
   std::size_t timed_scatterers = 0;  ///< if fewer than scatterers, time is scaled up in proportion
@@ -52,8 +52,9 @@ struct MeasureOptions {
   std::size_t twice_checked = 2000;  ///< echoes for which the referee itself is checked
 };
 
-/// Measures methods on one task against the direct sum in double, and engines against the referees of their models. The referee sums all echoes and all bins, in as many
-/// evenly picked beams as referee_work allows (at least 4, see picked).
+/// Measures methods on one task against the direct sum in double, and engines against the referees of their models. The
+/// referee sums all echoes and all bins, in as many evenly picked beams as referee_work allows (at least 4, see
+/// picked).
 class AccuracyBench {
  public:
   /// Sums the referee's beams of `task`. Throws Error for a task that cannot be synthesized.

@@ -36,7 +36,7 @@ class PatternTable {
 
  private:
   double step_;
-  std::vector<double> value_;  ///< from -step on
+  std::vector<double> value_;  ///< pattern at multiples of step_, from -step_ on
 };
 
 void require_windowed(const SonarHead& head, const Medium& medium, const WindowedOptions& o) {

@@ -12,8 +12,8 @@ struct SamplingErrorRow {
   double parameter = 0;  ///< rays per beam; surfels per m^2; scatterers wanted per resolution cell
   double scatterers_per_beam = 0;  ///< rays or scatterers that were made
   double error = 0;                ///< root mean square over beams and trials, relative, of the mean power
-  double error_db = 0;             ///< the same as level: 10 log10(1 + error)
-  double seconds = 0;              ///< of sampling once, median over trials
+  double error_db = 0;             ///< error as a level: 10 log10(1 + error)
+  double seconds = 0;              ///< time of sampling once, median over trials
 };
 
 /// Options of measure_sampling_error.

@@ -15,7 +15,7 @@
 namespace insonify {
 
 namespace detail {
-/// Whether a value is sent as its bytes.
+/// True if a value is sent as its bytes.
 template <typename Value>
 constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>;
 }  // namespace detail

@@ -100,7 +100,7 @@ void synchronise_all(const std::string& path, const std::string& target) {
   if (!fs::is_symlink(path, ignored)) synchronise(path, target);
 }
 
-// Whether an output lies in a folder that is not complete either, with which it is synchronised.
+// Returns true if an output lies in a folder that is not complete either, with which it is synchronised.
 bool lies_in_pending_folder(const std::string& target) {
   const std::scoped_lock lock(pending_names().guard);
   const auto& names = pending_names().names;
@@ -157,7 +157,7 @@ PendingPath::~PendingPath() {
 }
 
 void PendingPath::commit() {
-  // What is large is on its way to the disk while the rest of its folder is made.
+  // Synchronises a large output at once, so that it is on the disk while the rest of its folder is made.
   constexpr std::uintmax_t large = 16 << 20;
   const bool later = lies_in_pending_folder(target_);
   std::error_code no_size;

@@ -28,7 +28,7 @@ std::shared_ptr<SharedMemory> read_here(const ReadTask& task, const ReaderProces
 }  // namespace
 
 ReadLimits limits_of_file(std::size_t bytes) {
-  // Of text VTK makes larger numbers, and GDAL loads seventy libraries.
+  // Allows for VTK, which makes larger numbers of text, and for GDAL, which loads seventy libraries.
   constexpr std::size_t memory_per_byte = 40, memory_at_least = std::size_t{768} << 20;
   constexpr std::size_t bytes_per_second = 1 << 20;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -28,13 +28,13 @@ struct ReadTask {
   ReadLimits limits;
   void (*read)(ArrayReceiver& arguments, ArraySender& to) = nullptr;  ///< sends what it found
 
-  /// Calls `read` with the arguments that `memory` holds; what it sends, at most `most` bytes, takes their place. Throws
-  /// what `read` throws: Error and std::bad_alloc as they are, others as Error(content).
+  /// Calls `read` with the arguments that `memory` holds; what it sends, at most `most` bytes, takes their place.
+  /// Throws what `read` throws: Error and std::bad_alloc as they are, others as Error(content).
   void run(const std::shared_ptr<SharedMemory>& memory, const std::size_t& most) const;
 };
 
-/// A process that reads files for this one. A program that reads files of strangers sets one (set_reader_process), since
-/// damaged files can make HDF5, GDAL, libpng and VTK crash, or search and take memory without end.
+/// A process that reads files for this one. A program that reads files of strangers sets one (set_reader_process),
+/// since damaged files can make HDF5, GDAL, libpng and VTK crash, or search and take memory without end.
 struct ReaderProcess {
   using Send = std::function<void(ArraySender&)>;  ///< sends arguments
   /// Returns the memory in which task.read sent its values, for the arguments that `arguments` sends. Throws what it
@@ -44,16 +44,16 @@ struct ReaderProcess {
   std::function<void(double bytes)> expect{};
 };
 
-/// Makes `process` read files from now on; an empty one: this process, as at the start. Returns what did before. Call it
-/// before any thread reads.
+/// Makes `process` read files from now on; an empty one: this process, as at the start. Returns what did before. Call
+/// it before any thread reads.
 ReaderProcess set_reader_process(ReaderProcess process);
 
 /// Returns what a task sends, by the reader process, else from this process. Throws as ReadTask::run and
 /// ReaderProcess::run.
 ArrayReceiver read_apart(const ReadTask& task, const ReaderProcess::Send& arguments);
 
-/// Returns what read(to, arguments...) sends, as above. `read` is a lambda without captures: another process may call it
-/// with copies of the arguments, which are values that an ArraySender sends.
+/// Returns what read(to, arguments...) sends, as above. `read` is a lambda without captures: another process may call
+/// it with copies of the arguments, which are values that an ArraySender sends.
 template <typename Read, typename... Arguments>
 ArrayReceiver read_apart(const std::string& path, const ReadLimits& limits, Read, const Arguments&... arguments) {
   static_assert(std::is_empty_v<Read>, "captures do not reach another process");

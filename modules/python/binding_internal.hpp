@@ -59,7 +59,7 @@ struct Sonar {
 struct PointArrays {
   std::vector<Eigen::Vector3d> point, normal;  ///< [m]; normals of any length
   std::vector<double> area;                    ///< [m^2]
-  std::vector<std::uint16_t> label;            ///< of materials
+  std::vector<std::uint16_t> label;            ///< labels of materials
   LoadOptions options;
   LoadedScene loaded;
 };
@@ -78,8 +78,8 @@ struct MovingScene {
 struct Scene {
   Scene(LoadedScene loaded, SceneOptions how = {}, SceneInstances of = {});
   Scene(MovingScene of, LoadReport report, SceneOptions how);
-  std::shared_ptr<const LoadedScene> loaded;      ///< of a scene of parts the report alone
-  std::shared_ptr<const PreparedScene> prepared;  ///< of a scene of parts as it is when all are there
+  std::shared_ptr<const LoadedScene> loaded;      ///< the scene as loaded; of a scene of parts the report alone
+  std::shared_ptr<const PreparedScene> prepared;  ///< the scene for pings; one of parts as it is when all are there
   std::optional<MovingScene> moving;
   SceneOptions options;  ///< how it was completed, for run.toml
   SceneInstances instances;
@@ -99,7 +99,7 @@ struct Simulator {
 struct MadePing {
   By by;
   Of scene;
-  PingOptions options;           ///< of the simulator, with seed and what to keep
+  PingOptions options;           ///< options of the simulator, with seed and what to keep
   std::array<double, 6> pose{};  ///< x, y, z [m], yaw, pitch, roll [deg] of the vehicle
   PingEvent event{};
   SimulationOptions simulation{};  ///< that was asked for

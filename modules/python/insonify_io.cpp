@@ -94,7 +94,7 @@ HeadSetup head_of(const MadePing& ping) {
   return head;
 }
 
-/// What the tool notes on the same ping, but for what it notes on loading.
+/// Returns what the tool notes on the same ping, but for what it notes on loading.
 std::vector<std::string> notes(const MadePing& ping) {
   const py::gil_scoped_release release;
   const Scene& scene = *ping.scene;

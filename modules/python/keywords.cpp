@@ -61,7 +61,7 @@ TomlValue value_of(const py::handle& value, const std::string& name) {
   return {.kind = Kind::text, .text = py::cast<std::string>(py::str(value))};
 }
 
-/// What a value may stand for: itself, a list of one, numbers as text ("x,y,z").
+/// Returns what a value may stand for: itself, a list of one, numbers as text ("x,y,z").
 std::vector<TomlValue> meanings_of(const TomlValue& value) {
   std::vector<TomlValue> meanings{value};
   if (value.kind != Kind::array) meanings.push_back({.kind = Kind::array, .items = {value}});

@@ -83,8 +83,8 @@ GreyWindow usual_window(const Grid<float>& level_db) {
   return {max_db - 60, max_db};
 }
 
-/// Returns the elevation from which the surface of every pixel is heard; NaN where it shows none. In a fan it is that of
-/// the loudest cell of its class among those about the middle of the pixel.
+/// Returns the elevation from which the surface of every pixel is heard; NaN where it shows none. In a fan it is that
+/// of the loudest cell of its class among those about the middle of the pixel.
 Grid<float> elevations_of(const Ping& ping, const tool::LabelledSamples& samples, const Grid<std::uint8_t>& shown,
                           const FanRaster* raster) {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();

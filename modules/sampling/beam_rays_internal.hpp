@@ -11,7 +11,7 @@ namespace insonify {
 
 /// The part of the insonified sector covered by the rays of one beam.
 struct BeamCell {
-  double min_azimuth = 0, max_azimuth = 0;      ///< of cones [rad]
+  double min_azimuth = 0, max_azimuth = 0;      ///< bounds of the cones [rad]
   double min_elevation = 0, max_elevation = 0;  ///< [rad]
 };
 

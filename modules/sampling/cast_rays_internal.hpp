@@ -13,7 +13,7 @@ namespace insonify {
 struct CastResult {
   Scatterers scatterers;
   std::size_t missed = 0;       ///< rays that hit no surfel
-  std::size_t unknown = 0;      ///< of these, rays surrounded by surfels within three footprints
+  std::size_t unknown = 0;      ///< missed rays that are surrounded by surfels within three footprints
   std::size_t hit_surfels = 0;  ///< number of distinct surfels hit inside the gate
 };
 

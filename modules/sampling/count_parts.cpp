@@ -13,8 +13,8 @@
 
 // Counts the parts of surfels:
 //   1. by cells: so many that a cell of the surface holds scatterers_per_cell of them (E17);
-//   2. by shares: a bin adds up what its beam hears from one range. Its relative error is the least for a given number of
-//      parts if each surface has parts in proportion to what it gives, so none needs more (E127).
+//   2. by shares: a bin adds up what its beam hears from one range. Its relative error is the least for a given number
+//      of parts if each surface has parts in proportion to what it gives, so none needs more (E127).
 namespace insonify {
 namespace {
 

@@ -45,7 +45,8 @@ class EnergyShares {
   double start_, width_, length_;  // of the gate, of a cell
   double size_;                    // of a cell, in range resolutions and widths of shares
   std::size_t places_, ranges_;    // numbers of cells
-  // By ReceivedSurfel::beyond, ranges of one u after those of the u before; empty if there is none.
+  // Energy of the cells for each value of ReceivedSurfel::beyond, ranges of one u after those of the u before; empty
+  // if no surfel has the value.
   std::array<std::vector<double>, 4> energy_;
 };
 

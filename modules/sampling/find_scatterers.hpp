@@ -73,14 +73,14 @@ struct SamplingReport {
   std::size_t surfels = 0;      ///< in the scene
   std::size_t merged_to = 0;    ///< surfels and nodes that stand for those within reach (E137); 0: none are merged
   std::size_t in_gate = 0;      ///< inside sector and range gate
-  std::size_t back_facing = 0;  ///< of these, surfels facing away from the head
-  std::size_t hidden = 0;       ///< of these, surfels hidden behind others; 0 for rays
+  std::size_t back_facing = 0;  ///< surfels in the gate that face away from the head
+  std::size_t hidden = 0;       ///< surfels in the gate that are hidden behind others; 0 for rays
   std::size_t visible = 0;      ///< the remaining surfels; for rays: distinct surfels hit
   std::size_t rays_missed = 0;  ///< rays that hit no surfel
   std::size_t scatterers = 0;   ///< number after splitting
   std::size_t capped = 0;       ///< visible surfels that would need more than 4096 parts
-  /// Of rays_missed, the rays surrounded by surfels within three footprints: probably a hole in the scan (an opening up
-  /// to about seven spacings wide) rather than open water.
+  /// Rays of rays_missed that are surrounded by surfels within three footprints: probably a hole in the scan (an
+  /// opening up to about seven spacings wide) rather than open water.
   std::size_t rays_unknown = 0;
   Projection projection = Projection::automatic;  ///< the method used; automatic: none was needed
   std::size_t sparse_beams = 0;  ///< beams whose main lobe holds fewer than four of most surfels that they see

@@ -21,12 +21,12 @@ struct GatedSurfel {
   Eigen::Vector3f position;  ///< [m]
   float range;               ///< [m]
   Eigen::Vector3f away;      ///< unit normal, oriented away from the head
-  float plane_distance;      ///< from the head to the tangent plane [m], >= 0; 0: seen edge-on
-  float radius;              ///< of the disc, of a node at most 0.8 spacings; or the farthest corner of the facet [m]
+  float plane_distance;      ///< distance of the tangent plane from the head [m], >= 0; 0: seen edge-on
+  float radius;              ///< disc radius, of a node at most 0.8 spacings; or the farthest corner of the facet [m]
   float core;                ///< within it the disc hides by itself: 0.65 spacings, 0.5 of a node (E137) [m]
   float spacing;             ///< sqrt(area) [m]
   float unevenness;          ///< how far below its plane its own surface may lie [m]
-  float noise;               ///< of the surface [m]
+  float noise;               ///< noise of the surface [m]
   std::uint32_t surfel;      ///< index in the scene
   bool in_gate;              ///< inside sector and gate; else it can only occlude
   bool facing;               ///< front side towards the head (either side if normals are not oriented)
@@ -36,7 +36,7 @@ struct GatedSurfel {
 struct GatedFacet {
   std::array<Eigen::Vector3f, 3> corner;  ///< [m]
   Eigen::Vector3f away;                   ///< unit normal, away from the head; 0 if the triangle has no area
-  float plane_distance;                   ///< from the head to its plane [m], >= 0
+  float plane_distance;                   ///< distance of its plane from the head [m], >= 0
   float tolerance;  ///< how deep below the plane something lies that is on it but for rounding [m]
 };
 

@@ -50,7 +50,7 @@ inline Cover cover(const GatedSurfels& surfels, std::size_t front, const LineOfS
 /// surfel. Surfaces then have no gaps between surfels, and do not grow at their edges.
 inline bool hides(Cover c) {
   const auto shorter = [](Cover gaps, int by) { return gaps & std::rotr(gaps, by); };
-  // What is left of the gaps that are 21 sectors wide: 21 = 1 + 1 + 2 + 4 + 8 + 5.
+  // Keeps bits only of gaps that are at least 21 sectors wide: 21 = 1 + 1 + 2 + 4 + 8 + 5.
   return c != 0 && shorter(shorter(shorter(shorter(shorter(~c, 1), 2), 4), 8), 5) == 0;
 }
 

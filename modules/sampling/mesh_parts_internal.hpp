@@ -16,7 +16,7 @@ namespace insonify {
 struct Part {
   Corners corner;
   Eigen::Matrix3d weights = Eigen::Matrix3d::Identity();  ///< columns: barycentric weights of the corners
-  Eigen::Vector3d place;                                  ///< of the surfel, in weights of these corners
+  Eigen::Vector3d place;                                  ///< place of the surfel, in weights of these corners
   double area = 0;                                        ///< [m^2]
   std::uint64_t node = 1;                                 ///< children of n are 2 n and 2 n + 1
   std::uint32_t id = 0;

@@ -63,10 +63,10 @@ class MeshSampler {
   }
 
  private:
-  /// What of a part decides: where it is, and how large.
+  /// The place and size of a part, which decide whether it is divided.
   struct Extent {
     Vector3d centre;               ///< in head axes [m]
-    double radius = 0, reach = 0;  ///< of the part, and of what it may hide [m]
+    double radius = 0, reach = 0;  ///< radii of the part, and of what it may hide [m]
     double longest2 = 0;
     bool reaches = false;
   };

@@ -17,7 +17,7 @@ namespace insonify {
 /// ranges, and range cells between them receive no echo although the surface is continuous.
 struct RangeGaps {
   std::size_t cells = 0;  ///< range cells between neighbouring rays that hit one surface, over all beams
-  std::size_t empty = 0;  ///< of these, cells without a hit of the beam
+  std::size_t empty = 0;  ///< such cells without a hit of the beam
   double widest = 0;      ///< longest run of empty cells [m]
 
   /// Adds the counts of other beams and keeps the widest gap.

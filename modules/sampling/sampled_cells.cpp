@@ -10,7 +10,7 @@ namespace insonify {
 namespace {
 
 constexpr double per_distance = 0.5;  // width of a cell in side lobes, in distances from the main lobe
-// What part of what is heard a cell gives that has all of its parts: of a range, and of a range in a main lobe.
+// The share of the energy of a range, and of a range in a main lobe, from which a cell has all of its parts (E127).
 constexpr double full_share_of_range = 0.125, full_share_of_lobe = 0.3;
 
 /// Joins what lies within `half` of the axes.

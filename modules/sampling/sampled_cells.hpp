@@ -48,7 +48,7 @@ class SampledCells {
   double parts_of_share(double share, const Widths& widths) const;
   /// Width of a cell of shares, in u: a main lobe's; 2, which is all of u, for one beam.
   double width_of_shares() const { return one_beam_ ? 2 : main_lobe_.beam; }
-  /// As in the options.
+  /// Returns the scatterers per resolution cell that the options ask for.
   double scatterers_per_cell() const { return scatterers_per_cell_; }
   /// Length of a cell along the line of sight [m].
   double range_resolution() const { return range_resolution_; }

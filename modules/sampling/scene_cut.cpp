@@ -36,7 +36,7 @@ double factor_of(double of_surfels, double of_plane) {
   return of_plane > 0 ? std::clamp(of_surfels / of_plane, 0.5, 2.0) : 1;
 }
 
-/// What is walked: levels of a scene, whole or loaded on the way.
+/// The levels that are walked, of a scene that is whole or loaded on the way.
 struct Walked {
   const SceneCloud& scene;
   const DetailLevels& levels;
@@ -87,7 +87,7 @@ class LevelWalk {
   }
 
  private:
-  /// Whether the head does not resolve the surfels of a node (E137), and the mean of their law is known.
+  /// Returns true if the head does not resolve the surfels of a node (E137), and the mean of their law is known.
   bool unresolved(const DetailNode& node, double range) const {
     if (!traits_of(scene_.materials[node.material].law).merges) return false;
     const double nearest = range - node.extent, farthest = range + node.extent;
@@ -104,7 +104,7 @@ class LevelWalk {
     const double narrow = std::min(most_width(node, range) / std::sqrt(node.area), most_narrow);
     return narrow * (width_ > 0 ? std::max(flat_spread, steep_spread * cosine_square) : flat_spread);
   }
-  /// Whether the cell of a node lies within the region, whatever surfels of it are loaded.
+  /// Returns true if the cell of a node lies within the region, whatever surfels of it are loaded.
   bool holds_cell(const DetailNode& node) const {
     const double edge = node.cell, radius = half_diagonal * edge;
     const Vector3d cell = (node.place.cast<double>() / edge).array().floor() + 0.5;
@@ -146,7 +146,8 @@ class LevelWalk {
   std::vector<std::uint32_t> divided_{};
 };
 
-/// Returns true if nodes at silhouettes are divided (E172). Nodes of one spacing do not depend on where they are seen from.
+/// Returns true if nodes at silhouettes are divided (E172). Nodes of one spacing do not depend on where they are seen
+/// from.
 bool has_sharp_silhouettes(const CutOptions& options, bool noisy, const WholeScene& whole) {
   return options.most_width > 0 && !(options.most_spacing > 0) && (noisy || whole.surfels < many_surfels);
 }
@@ -179,14 +180,15 @@ std::vector<CutPart> walked(const LevelWalk& walk, const SceneCloud& scene, cons
   return parts;
 }
 
-/// The pieces of a source: what stands for the surfels of each, and what has been read of it, which is kept of small scenes.
+/// The pieces of a source: what stands for the surfels of each, and what has been read of it, which is kept of small
+/// scenes.
 struct WalkedPieces {
   std::vector<CutPart> parts;
   std::vector<std::unique_ptr<LoadedLevels>> read;
 };
 
-/// Finds what stands for the surfels of the pieces of a source; of pieces that are known already, again for those of which
-/// the walk divides a node.
+/// Finds what stands for the surfels of the pieces of a source; of pieces that are known already, again for those of
+/// which the walk divides a node.
 void walk_pieces(const LevelWalk& walk, const LevelSource& source, int threads, WalkedPieces& pieces) {
   const bool first = pieces.parts.empty(), keeps = source.like().part_of->surfels < many_surfels;
   pieces.parts.resize(source.pieces()), pieces.read.resize(source.pieces());

@@ -16,16 +16,16 @@ namespace insonify {
 /// A scene as fine as a head resolves it, for one ping.
 struct SceneCut {
   PreparedScene scene;  ///< with SceneCloud::part_of of the whole
-  /// Of each of its surfels, the index of a surfel of the whole: itself, or of those that are merged the one nearest to
+  /// Index of a surfel of the whole for each surfel of the cut: itself, or of those that are merged the one nearest to
   /// their middle.
   std::vector<std::uint32_t> stands_for;
 };
 
 /// How coarse a cut may be.
 struct CutOptions {
-  double most_width = 0;        ///< of a node, in beam widths
-  double most_spacing = 0;      ///< of a node, at any range [m]
-  double range_resolution = 0;  ///< of the head [m]
+  double most_width = 0;        ///< largest width of a node, in beam widths
+  double most_spacing = 0;      ///< width that a node may have at any range [m]
+  double range_resolution = 0;  ///< range resolution of the head [m]
   int threads = 0;              ///< 0: all cores; the cut does not depend on it
 };
 
@@ -38,21 +38,21 @@ struct CutOptions {
 ///   spread of normals <= 0.003 q             it is flat, or the head looks down on it so steeply that
 ///            or 0.008 q cos^2(incidence)     its relief hides nothing (not with most_spacing alone)
 ///
-/// with width = sqrt(area) and q = (largest width allowed) / width, at most 8, since errors of many narrow nodes average
-/// out. All of a node lies within the region and on one side of either end of `gate` (the sampled ranges). Its area is
-/// such that Lambert's law gives the mean over the normals of its surfels. Surfels elsewhere in the region stand for
-/// themselves, and so do those of nodes at silhouettes (E172), where one direction sees the node and the next, a
-/// twentieth of the largest width away, something behind or before it: in scenes with noise, which were scanned, and in
-/// all of fewer than 2^19 surfels. The surface of a node lies sqrt(area of a surfel) + 16 thickness below its plane at most, as far as its
-/// disc hides others.
+/// with width = sqrt(area) and q = (largest width allowed) / width, at most 8, since errors of many narrow nodes
+/// average out. All of a node lies within the region and on one side of either end of `gate` (the sampled ranges). Its
+/// area is such that Lambert's law gives the mean over the normals of its surfels. Surfels elsewhere in the region
+/// stand for themselves, and so do those of nodes at silhouettes (E172), where one direction sees the node and the
+/// next, a twentieth of the largest width away, something behind or before it: in scenes with noise, which were
+/// scanned, and in all of fewer than 2^19 surfels. The surface of a node lies sqrt(area of a surfel) + 16 thickness
+/// below its plane at most, as far as its disc hides others.
 ///
 /// The surfels within the region alone give the same cut. Errors as detail_levels.
 SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,
                    const RangeGate& gate, const CutOptions& options);
 
-/// Surfels and levels of a piece of a scene that are loaded as a cut needs them. Cells of a piece hold all their surfels.
-/// `nearest` of a node is the id of the surfel. A node without children is a surfel: its point, normal, area, material,
-/// and its place and area again.
+/// Surfels and levels of a piece of a scene that are loaded as a cut needs them. Cells of a piece hold all their
+/// surfels. `nearest` of a node is the id of the surfel. A node without children is a surfel: its point, normal, area,
+/// material, and its place and area again.
 struct LoadedLevels {
   SceneCloud scene;     ///< its surfels, those that were loaded
   DetailLevels levels;  ///< all roots; nodes and their children as far as they were loaded, without blocks

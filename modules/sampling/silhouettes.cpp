@@ -128,7 +128,8 @@ class NearestInCells {
   std::array<std::vector<Cell>, 6> nearest_;
 };
 
-/// Whether one of two surfels lies so far behind the surface of the other that it may be hidden there, and apart.
+/// Returns true if one of two surfels lies so far behind the surface of the other that it may be hidden there, and the
+/// two lie apart.
 bool is_apart(const GatedSurfel& a, const GatedSurfel& b) {
   const float depth = hiding_depth(a, b), between = a.spacing + b.spacing;
   if (!(a.away.dot(b.position) - a.plane_distance > depth || b.away.dot(a.position) - b.plane_distance > depth))

@@ -9,11 +9,11 @@ namespace insonify::kernels {
 /// A surfel whose parts are placed, in head axes.
 struct PartFrame {
   double centre[3], t1[3], t2[3], normal[3];  ///< [m]; tangents and normal are unit vectors
-  double radius;                              ///< of the disc [m]
-  double shift, turn_re, turn_im;             ///< of the sequence
+  double radius;                              ///< radius of the disc [m]
+  double shift, turn_re, turn_im;             ///< shift and turn of the sequence of parts
   double away[2];                             ///< unit vector in t1 and t2: in which the range grows
   double ahead[2], level[2];                  ///< unit vectors towards the centre, from above and in its vertical plane
-  double azimuth, elevation;                  ///< of the centre [rad]
+  double azimuth, elevation;                  ///< direction of the centre [rad]
   bool oriented;                              ///< else the normal has no sign
 };
 

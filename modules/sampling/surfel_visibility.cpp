@@ -52,8 +52,8 @@ std::vector<Cover> covers_by_index(const GatedSurfels& surfels, const DirectionI
 }
 
 // Depth beyond which a surfel may occlude. In the coordinates of a cube face its tangent plane is at depth
-// plane_distance / g(x, y) with g linear, and occluded points are deeper than (plane_distance + unevenness + 3 noise) / g.
-// Stores the inverse of that bound, slightly enlarged for rounding.
+// plane_distance / g(x, y) with g linear, and occluded points are deeper than
+// (plane_distance + unevenness + 3 noise) / g. Stores the inverse of that bound, slightly enlarged for rounding.
 struct HidingDepth {
   float constant, along_x, along_y;  // inverse depth and its slopes [1/m]
 
@@ -73,8 +73,8 @@ struct HidingDepth {
   bool before(const CubePoint& q) const { return q.depth * (constant + along_x * q.x + along_y * q.y) >= 1; }
 };
 
-// The inverse of the least hiding depth in each cell of a row of a tile: its value at the centre of the cell plus half a
-// cell along the gradient.
+// The inverse of the least hiding depth in each cell of a row of a tile: its value at the centre of the cell plus half
+// a cell along the gradient.
 struct LeastDepth {
   float row, step;
 
@@ -106,7 +106,7 @@ class DepthTile {
         // Between the first and the last cell with a query that is deep enough.
         const auto [x0, x1] = reached_cells(LeastDepth(depth, tile, y), y, box);
         if (x0 > x1) continue;
-        // Those of a row stand side by side; few of them are behind.
+        // Collects the queries of this row that are behind: they stand side by side, and few of them are.
         std::size_t found = 0;
         for (std::uint32_t i = first_[y * side + x0]; i < first_[y * side + x1 + 1]; ++i) {
           behind_[found] = i;
@@ -133,7 +133,8 @@ class DepthTile {
   static constexpr std::size_t side = DirectionTile::side;
   static_assert(side == 64, "a bit for each cell of a row");
 
-  /// Returns the first and the last cell of a box's row with a query that is deep enough; the first beyond the last: none.
+  /// Returns the first and the last cell of a box's row with a query that is deep enough; the first beyond the last:
+  /// none.
   std::pair<std::size_t, std::size_t> reached_cells(const LeastDepth& least, std::size_t y, const TileBox& box) const {
     const float* const deepest = deepest_.data() + y * side;
     std::uint64_t cells = asked_in_[y] & (~std::uint64_t{0} >> (side - 1 - box.x1)) & (~std::uint64_t{0} << box.x0);
@@ -246,7 +247,7 @@ std::vector<std::uint8_t> find_hidden_of(const GatedSurfels& surfels, Projection
   return hidden;
 }
 
-// What a surfel is as an occluder: its numbers up to the noise, and those of its facet.
+// The bytes of a surfel as an occluder: its numbers up to the noise, and those of its facet.
 struct OccluderBytes {
   std::string_view disc, facet;
 

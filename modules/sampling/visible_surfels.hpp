@@ -14,7 +14,7 @@ namespace insonify {
 struct VisibleSurfels {
   std::vector<std::uint32_t> surfel;  ///< index in the scene; by bands of range, and inside each by u
   std::vector<std::size_t> first;     ///< number of the first part of each, and of all parts
-  std::vector<SurfelBounds> bounds;   ///< of each
+  std::vector<SurfelBounds> bounds;   ///< bounds of each
   SamplingReport report;
   SamplingOptions options;  ///< with the outer scale of the relief that was left open
   std::optional<SceneRelief> relief;

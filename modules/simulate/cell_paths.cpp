@@ -23,7 +23,7 @@ std::uint64_t path_id(std::uint64_t surface, std::uint64_t kind, const LegPair& 
   return surface ^ (kind << 16 | most << 8 | least) * far_apart;
 }
 
-/// Whether the legs come after others of the same patch: the way back changes first.
+/// Returns true if the legs come after others of the same patch: the way back changes first.
 bool come_after(const LegPair& legs, const LegPair& before) {
   return std::pair(legs.out, legs.back) > std::pair(before.out, before.back);
 }

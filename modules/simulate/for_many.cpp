@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether many pings of one scene merge its surfels (E185): an event like them is judged once.
+// The decision whether many pings of one scene merge its surfels (E185), judged once by an event like them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -54,7 +54,7 @@ std::size_t surfels_within(const PreparedScene& scene, const InsonifiedRegion& r
   return sum;
 }
 
-/// Whether each tenth of the ranges that is not silent has the same level.
+/// Returns true if each tenth of the ranges that is not silent has the same level.
 bool same_bands(const Ping& one, const Ping& other) {
   const auto a = one.pressure.abs2().cast<double>().eval(), b = other.pressure.abs2().cast<double>().eval();
   for (Eigen::Index k = 0; k < judged_bands; ++k) {

@@ -22,7 +22,7 @@ class LayerSum {
 
   /// Synthesizes `echoes` and adds the image; keeps it as a layer called `name` if the options ask for it.
   void add(const std::string& name, const Echoes& echoes);
-  /// The same of a stream, whose echoes need not be stored for a head and method that are `streamed`.
+  /// Adds the image of a stream likewise. Its echoes need not be stored for a head and method that are `streamed`.
   void add(const std::string& name, const EchoStream& stream);
   /// Adds the noise of all elements; in an image of expected power, its expected intensity.
   void add_noise();

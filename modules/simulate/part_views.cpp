@@ -60,7 +60,8 @@ class PartViewer {
 
  private:
   /// Widens a view by what the head sees of some triangles of a part: discs of surfels stick out beyond the edge of a
-  /// face, where they would hide one that is nearly edge-on. Its corners bound a triangle as far as they are in the fan.
+  /// face, where they would hide one that is nearly edge-on. Its corners bound a triangle as far as they are in the
+  /// fan.
   void widen_by_facets(const ScenePart& part, const std::vector<std::uint32_t>& surfels, PartView& view) const {
     const SceneCloud own = subset(*part.own, surfels);
     const View& look = ping_.view;

@@ -11,7 +11,7 @@ namespace insonify {
 struct PingEvent {
   Pose world_from_head = Pose::Identity();
   Motion motion{};          ///< motion of the head during the ping (E44); it shifts only direct echoes
-  double time = 0;          ///< of transmission [s]
+  double time = 0;          ///< time of transmission [s]
   std::int64_t number = 0;  ///< selects the random streams: each number has its own noise, water and waves
 };
 

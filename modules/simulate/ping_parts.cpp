@@ -43,7 +43,7 @@ const Environment* profile_of(const ResolvedPing& ping) {
   return ping.options.effects.refraction == Choice::always ? &ping.environment : nullptr;
 }
 
-/// Whether some stage asks for all patches, or for a synthesis that takes all echoes at once.
+/// Returns true if some stage asks for all patches, or for a synthesis that takes all echoes at once.
 bool needs_all_patches(const ResolvedPing& ping) {
   const SimulationOptions& o = ping.options;
   return draws_cells(o) || o.outputs.scatterers || o.outputs.elements || o.outputs.contributors > 0 ||

@@ -21,7 +21,7 @@ namespace insonify {
 
 namespace {
 
-/// What a table of surface laws is made of. Most pings share it; pings of a dive have a sound speed each.
+/// The inputs of a table of surface laws. Most pings share it; pings of a dive have a sound speed each.
 struct SurfaceKey {
   std::vector<Material> materials;
   double frequency, sound_speed;
@@ -84,7 +84,8 @@ ResolvedPing drawn_for_labels(const WholeScene& scene, const ResolvedPing& ping)
   return drawn;
 }
 
-/// Whether a ping merges surfels of a scene. One whose surfels have depths of their own is a cut of levels already.
+/// Returns true if a ping merges surfels of a scene. A scene whose surfels have depths of their own is a cut of levels
+/// already.
 bool to_merge(const SceneCloud& scene, const SimulationOptions& options) {
   return scene.unevenness.empty() && merges_surfels(scene, options);
 }
@@ -192,18 +193,19 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
   StageSeconds& seconds = result.report.seconds;
   StopWatch watch;
 
-  // What the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to be.
+  // Finds what the head sees: visible surface patches inside fan and range gate, where refraction makes them seem to
+  // be.
   begin_stage("sampling");
   PingParts parts = sample_parts(scene, ping, result.report);
   seconds.sampling = watch.lap();
 
-  // What comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made when
-  // used.
+  // Makes what comes back: one echo per patch, with spreading, scattering, speckle and carrier phase; stored or made
+  // when used.
   begin_stage("echoes");
   const auto direct = direct_stream(scene.scene(), ping, parts);
   seconds.acoustics = watch.lap();
 
-  // What the array receives: a complex time series per beam, of these echoes and of all others, and noise.
+  // Forms what the array receives: a complex time series per beam, of these echoes and of all others, and noise.
   begin_stage("synthesis");
   find_bounces(scene, ping, parts);
   find_double_echoes(scene, ping, parts);
@@ -222,12 +224,12 @@ SimulatedPing PingSimulator::ping(const PreparedScene& scene, const ResolvedPing
     result.ping.labels = this->ping(scene, drawn_for_labels(scene.whole(), decided)).ping.labels;
   seconds.synthesis = watch.lap();
 
-  // What an operator would mark: detections, as points in the world.
+  // Finds what an operator would mark: detections, as points in the world.
   begin_stage("detection");
   result.soundings = detect(scene.scene(), ping, *direct, parts, result.ping);
   seconds.detection = watch.lap();
 
-  // What the options ask for besides, and how the ping came about.
+  // Adds what the options ask for besides, and how the ping came about.
   begin_stage("outputs");
   attach_outputs(scene, ping, std::move(parts), result);
   return result;

@@ -41,12 +41,12 @@ class PingSimulator {
   /// the constructor.
   PingSimulator with(SimulationOptions options) const;
 
-  /// Returns a simulator for so many pings of a scene that are like `event`. Where options leave it open whether surfels
-  /// are merged, and pings give display cells, it is decided (E185): they are if that leaves at most half of the surfels
-  /// within reach, if the pings save more time than levels of detail take to make, and if the expected level of the event
-  /// stays within 0.1 dB in every tenth of its ranges. The decision follows from the arguments alone. Without one,
-  /// options stay as they are. Of a scene that has levels any number of pings counts, of pressures too, and nodes stand
-  /// for the surfels. Throws Error as ping, and what the source throws.
+  /// Returns a simulator for so many pings of a scene that are like `event`. Where options leave it open whether
+  /// surfels are merged, and pings give display cells, it is decided (E185): they are if that leaves at most half of
+  /// the surfels within reach, if the pings save more time than levels of detail take to make, and if the expected
+  /// level of the event stays within 0.1 dB in every tenth of its ranges. The decision follows from the arguments
+  /// alone. Without one, options stay as they are. Of a scene that has levels any number of pings counts, of pressures
+  /// too, and nodes stand for the surfels. Throws Error as ping, and what the source throws.
   PingSimulator for_many(std::size_t pings, const SceneSource& source, const PingEvent& event) const;
   /// Returns the same for pings of a scene in memory.
   PingSimulator for_many(std::size_t pings, const PreparedScene& scene, const PingEvent& event) const;

@@ -32,7 +32,7 @@ void mark_holes(const PreparedScene& prepared, const ResolvedPing& ping, Simulat
   result.ping.unknown = mask_holes(holes, view.fan, ping.head.gate);
 }
 
-/// Whether surfels without a patch are hidden, face away or are missed by all rays.
+/// Finds whether surfels without a patch are hidden, face away or are missed by all rays.
 std::vector<Visibility> others_than(const Scatterers& patches, const PreparedScene& prepared, const View& view) {
   std::vector<std::uint8_t> asked(prepared.scene().size(), 1);
   for (const std::uint32_t surfel : patches.surfel) asked[surfel] = 0;
@@ -124,7 +124,8 @@ std::string sparse_note(const SamplingReport& report, std::size_t beams) {
          "some may be silent; give a denser cloud, or a mesh without --mesh-spacing";
 }
 
-/// What limits the accuracy of a ping by its scene: too few rays, laws out of their range, too few surfels.
+/// Returns notes on what limits the accuracy of a ping by its scene: too few rays, laws out of their range, too few
+/// surfels.
 std::vector<PingNote> scene_notes(const SceneCloud& scene, const ResolvedPing& ping, const Scatterers& patches,
                                   const PingReport& report) {
   std::vector<PingNote> notes;
@@ -140,7 +141,8 @@ std::vector<PingNote> scene_notes(const SceneCloud& scene, const ResolvedPing& p
   return notes;
 }
 
-/// Whether beams formed over the whole band hear beside their sector as in main lobes, at its upper end.
+/// Returns true if beams formed over the whole band hear beside their sector as in main lobes, at the upper end of the
+/// band.
 bool hears_all_ahead(const ResolvedPing& ping) {
   if (!hears_whole_band(ping.options.synthesis.method)) return false;
   const double highest = ping.head.pulse.centre_frequency + spectrum_nodes(ping.head.pulse).back().frequency;

@@ -27,7 +27,7 @@ struct PingParts {
   Multipath mirrors{};  ///< without glints, which belong to no surfel
   Echoes glints{};
   DoubleEchoes doubles{};
-  std::size_t unreached = 0;  ///< of legs of such echoes and of glints, those that no ray of the profile has
+  std::size_t unreached = 0;  ///< legs of such echoes and of glints that no ray of the profile has
 };
 
 /// Returns the surfels that the head sees, with their counts; sets ping.view.sampling.energy.

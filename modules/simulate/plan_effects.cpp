@@ -63,7 +63,7 @@ double bent_rays_bound(const PlanFacts& facts) {
                     straight_double_echoes(facts).bound);
 }
 
-/// Whether double echoes by straight legs would be off by more than a centimetre of range.
+/// Returns true if double echoes by straight legs would be off by more than a centimetre of range.
 bool misplaces_double_echoes(const PlanFacts& facts) { return straight_double_echoes(facts).range > 0.01; }
 
 double motion_bound(const PlanFacts& facts) {
@@ -109,7 +109,7 @@ double multipath_bound(const PlanFacts& facts) {
   return bound_of_added_echoes(facts, received_energy(ping, multipath));
 }
 
-/// The same of ghosts by the mirrors, and all energy of glints.
+/// Returns the bound of the echoes that mirrors add, by energy: ghosts of the sample, and all glints.
 double mirrors_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   const auto [sent, view] = of_sample(ping);

@@ -49,7 +49,7 @@ bool is_open(const PlanStage& stage, const SimulationOptions& options) {
   return stage.by == DecidedBy::budget && stage.asked(options) == Choice::as_needed;
 }
 
-/// Whether a stage is decided for each ping: an open one, or phases of display cells that may be drawn.
+/// Returns true if a stage is decided for each ping: an open one, or phases of display cells that may be drawn.
 bool to_decide(const PlanStage& stage, const SimulationOptions& options) {
   return is_open(stage, options) || (stage.reason && draws_cells(options));
 }

@@ -19,9 +19,9 @@ struct PlanCause {
   const Environment& environment;
   const SimulationOptions& options;
   const PingEvent& event;
-  bool single_precision = false;               ///< of tiles and transforms
-  double samples_per_cell = 0;                 ///< of a display
-  double max_range = 0, range_resolution = 0;  ///< of the head [m]
+  bool single_precision = false;               ///< tiles and transforms are in single precision
+  double samples_per_cell = 0;                 ///< samples per cell of a display
+  double max_range = 0, range_resolution = 0;  ///< greatest range, and resolution, of the head [m]
 };
 
 /// The data from which stages are judged.
@@ -70,7 +70,8 @@ double bound_of_changed_echoes(const PlanFacts& facts, const Change& change) {
 /// may miss, it is an estimate.
 double double_echo_bound(const PlanFacts& facts);
 
-/// Returns what straight legs cost double echoes in the profile of the environment, from pairs of some 50 places of the sample.
+/// Returns what straight legs cost double echoes in the profile of the environment, from pairs of some 50 places of the
+/// sample.
 struct StraightDoubleEchoes {
   double bound = 0;  ///< relative error of the image by it; 0 if double echoes are not asked for
   double range = 0;  ///< largest error of the apparent range [m] of those above -40 dB of the largest

@@ -26,7 +26,8 @@ void force_direct_sum(bool included, Environment&, SimulationOptions& options) {
 
 double tolerance_of(const PlanFacts& facts) { return facts.ping.options.synthesis.tolerance; }
 
-/// Of what is in view, and of what side lobes hear unless it is out by the options.
+/// Returns the bound of the error of the narrow-band image, of echoes in view and of those that side lobes hear unless
+/// they are out by the options.
 double narrow_band_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   const NarrowBandError error(ping.head, ping.sent.medium.sound_speed);
@@ -37,7 +38,7 @@ double narrow_band_bound(const PlanFacts& facts) {
       facts, inside.image > 0 ? (inside.error + beside.error) / inside.image * facts.sample.in_view : 0);
 }
 
-/// What the plan does where the narrow-band image is not good enough.
+/// Sets a method with true delays where the narrow-band image is not good enough, else a narrow-band one.
 void force_true_delays(bool included, Environment&, SimulationOptions& options) {
   if (!sums_pressures(options)) return;
   auto& [method, tolerance, true_delays, phases] = options.synthesis;
@@ -60,8 +61,8 @@ Choice asked_true_delays(const SimulationOptions& options) {
 constexpr double least_samples_per_cell = 4;
 constexpr double drawn_cell_error = 0.035;  // of an expected cell, in amplitude: 0.3 dB (docs/results/display.md)
 
-/// Whether surfels stand so near to a boundary that echoes by way of it arrive within a pulse of direct ones: at height h
-/// over it, heard at a height H and range R, a leg by way of it is longer by 2 h H / R.
+/// Returns true if surfels stand so near to a boundary that echoes by way of it arrive within a pulse of direct ones:
+/// at height h over it, heard at a height H and range R, a leg by way of it is longer by 2 h H / R.
 bool fringes_at_boundaries(const PlanCause& of) {
   const auto near_plane = [&](double height) {
     const double of_head = std::abs(of.event.world_from_head.translation().z() - height);

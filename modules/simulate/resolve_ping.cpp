@@ -97,7 +97,7 @@ Sector widest_sector(const ResolvedPing& ping) {
   return insonified_sector(ping.head.fan, widest);
 }
 
-/// What is open counts as in.
+/// Returns the region of the surfels that a ping may need. Effects that are open count as in.
 InsonifiedRegion region_of(const ResolvedPing& ping) {
   const View& view = ping.view;
   const double legs = reach_of_legs(ping);

@@ -23,13 +23,13 @@ struct ResolvedPing {
   Transmission sent{};          ///< pulse, medium and the patterns that weight echoes; surfaces: those of the pinged
                                 ///< scene, once it is known
   View view{};                  ///< pose, fan, sampled ranges and sampling
-  InsonifiedRegion region{};    ///< of all surfels that can be received or block sound, also for effects that are not
-                                ///< yet decided; with multipath a ball about the head
+  InsonifiedRegion region{};    ///< place of all surfels that can be received or block sound, also for effects that are
+                                ///< not yet decided; with multipath a ball about the head
   SmoothShapes smooth{};        ///< mirrors of the environment, and, once the scene is known (find_smooth), its shapes
                                 ///< that reflect as one body
   bool smooth_scene = false;    ///< WholeScene::smooth
-  double element_noise_db = 0;  ///< of all noise in the band, at an element [dB re 1 uPa]
-  double beam_noise_db = 0;     ///< of all noise in a beam: element_noise_db less the array's gain (E19)
+  double element_noise_db = 0;  ///< level of all noise in the band, at an element [dB re 1 uPa]
+  double beam_noise_db = 0;     ///< level of all noise in a beam: element_noise_db less the array's gain (E19)
   RangeGate samples{};          ///< the gate of the samples; head.gate is that of display cells where these are drawn
   /// Index in the given scene of each surfel of the pinged scene (SceneCut); empty: both are the same.
   std::span<const std::uint32_t> stands_for{};

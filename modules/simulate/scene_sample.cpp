@@ -107,7 +107,8 @@ Sampled sampled_surfels(const PreparedScene& prepared, const ResolvedPing& ping,
   return sampled;
 }
 
-/// What a pulse from beyond the gate still has inside it: a Gaussian, cut where the sampled ranges end.
+/// Returns the part of its energy that a pulse from range r [m] beyond the gate still has inside it: a Gaussian, cut
+/// where the sampled ranges end.
 double left_in_gate(const ResolvedPing& ping, double r) {
   const RangeGate &gate = ping.head.gate, &sampled = ping.view.gate;
   const double reach = sampled.max_range - gate.max_range;
@@ -116,14 +117,15 @@ double left_in_gate(const ResolvedPing& ping, double r) {
   return std::pow(0.5 * ping.options.synthesis.tolerance, 2 * std::pow(gap / reach, 2));
 }
 
-/// Whether beams are formed of all frequencies of the pulse, or may be as far as the options say.
+/// Returns true if beams are formed of all frequencies of the pulse, or may be as far as the options say.
 bool may_have_true_delays(const ResolvedPing& ping) {
   const auto& [method, tolerance, true_delays, phases] = ping.options.synthesis;
   if (engine_of(method).replaceable) return true_delays != Choice::never && !ping.head.column;
   return hears_whole_band(method);
 }
 
-/// What beams receive of a surfel, spread over its disc if it may be split: parts of it reach beyond the middle's u.
+/// The energy that beams receive of a surfel, spread over its disc if it may be split: parts of it reach beyond the
+/// middle's u.
 class ReceivedOfDisc {
  public:
   explicit ReceivedOfDisc(const ResolvedPing& ping)

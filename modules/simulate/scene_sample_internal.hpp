@@ -17,8 +17,8 @@ struct SceneSample {
 
   SceneCloud scene;                       ///< the sampled surfels; their areas are scaled to represent all surfels
   Scatterers places;                      ///< the sampled surfels that are not hidden
-  std::vector<double> energy;             ///< of each of `places` [Pa^2, as above]; 0 outside the view
-  std::vector<double> power;              ///< the same at one element, without the beams [Pa^2]
+  std::vector<double> energy;             ///< energy of each of `places` [Pa^2, as above]; 0 outside the view
+  std::vector<double> power;              ///< energy at one element, without the beams [Pa^2]
   std::vector<double> power_off_azimuth;  ///< power of places off_azimuth; empty if the options exclude them
 };
 

@@ -57,7 +57,7 @@ struct PingReport {
   RefractionReport refraction;
   HoleReport holes;
   std::vector<LayerReport> layers;  ///< in the order in which they were added
-  double noise_floor_db = 0;        ///< of a beam, used by the detection [dB re 1 uPa]
+  double noise_floor_db = 0;        ///< noise level of a beam, used by the detection [dB re 1 uPa]
   StageSeconds seconds;
   std::vector<PingNote> notes;  ///< what limits the accuracy of this ping
 };

@@ -13,7 +13,7 @@
 
 namespace insonify {
 
-/// Whether an effect is computed. as_needed: only if the plan of the ping finds that accuracy_db needs it.
+/// The choice whether an effect is computed. as_needed: only if the plan of the ping finds that accuracy_db needs it.
 enum class Choice { as_needed, always, never };
 /// Returns the choice that is made.
 constexpr Choice chosen(bool in) { return in ? Choice::always : Choice::never; }
@@ -38,8 +38,9 @@ struct SamplingSettings {
   /// Instead of detail_width: surfels are merged to nodes of up to this width [m] at any range, so that pings of one
   /// place from different poses have the same scatterers, as repeated passes and synthetic apertures need; 0: none.
   double detail_spacing = 0;
-  /// Whether surfels are merged. as_needed: if one of the two numbers above is set, and where it pays for display cells
-  /// of many pings (PingSimulator::for_many). always: to usual_detail_width if neither is set. never: whatever is.
+  /// Choice whether surfels are merged. as_needed: if one of the two numbers above is set, and where it pays for
+  /// display cells of many pings (PingSimulator::for_many). always: to usual_detail_width if neither is set. never:
+  /// whatever is.
   Choice detail = Choice::as_needed;
   double elevation_floor_db = -40;              ///< elevations where the two-way pattern is lower are not sampled; < 0
   double azimuth_margin = 0;                    ///< sampled beyond the outermost beams, in u; 0: 1.5 beam widths
@@ -55,11 +56,11 @@ struct SynthesisSettings {
   /// Relative L2 error of the image, within 0 and 1; gridded: from 1e-13; element_exact and element outputs: 1e-12 to
   /// 0.1; true_delays: 1e-5 to 0.1.
   double tolerance = 1e-4;
-  /// Whether method true_delays replaces gridded. as_needed: it does if the error of the narrow-band image exceeds its
-  /// share of the budget, except for a planar array, whose rows would be summed one by one. If the tolerance is finer
-  /// than the least of true_delays, element_exact replaces gridded, which is slow.
+  /// Choice whether method true_delays replaces gridded. as_needed: it does if the error of the narrow-band image
+  /// exceeds its share of the budget, except for a planar array, whose rows would be summed one by one. If the
+  /// tolerance is finer than the least of true_delays, element_exact replaces gridded, which is slow.
   Choice true_delays = Choice::as_needed;
-  /// Whether display cells are means of samples even where their statistics are drawn as well without them (E180).
+  /// True if display cells are means of samples even where their statistics are drawn as well without them (E180).
   bool phases = false;
 };
 

@@ -40,7 +40,7 @@ class SynthesizerTable {
     bool operator==(const CellsKey&) const = default;
   };
   std::mutex guard_;
-  std::array<std::vector<Row>, 3> rows_;  ///< of each part, the last used first
+  std::array<std::vector<Row>, 3> rows_;  ///< synthesizers of each part, the last used first
   LastMade<CellsKey, CellSynthesizer> cells_{most_media};
 };
 
