@@ -14,13 +14,13 @@
 // space", equally separated, extending 1.5 m; ranges and period below are a reconstruction that reproduces its figures.
 namespace insonify::thesis {
 
-constexpr double speed_of_sound = 1500;        ///< [m/s]
-constexpr double field_of_view = 45;           ///< of the BlueView P900-45 [deg]; the thesis does not state it
-constexpr double beam_width = 0.1;             ///< [rad], Table 2
-constexpr double ray_width = 0.0175;           ///< of a ray's cell in azimuth and elevation [rad]
-constexpr double lambert_mu = 1e-3;            ///< [1/sr]
-constexpr double first_range = 1.5;            ///< of the object [m]
-constexpr double object_depth = 1.5;           ///< [m]
+constexpr double speed_of_sound = 1500;  ///< [m/s]
+constexpr double field_of_view = 45;     ///< field of view of the BlueView P900-45 [deg]; the thesis does not state it
+constexpr double beam_width = 0.1;       ///< [rad], Table 2
+constexpr double ray_width = 0.0175;     ///< width of a ray's cell in azimuth and elevation [rad]
+constexpr double lambert_mu = 1e-3;      ///< [1/sr]
+constexpr double first_range = 1.5;      ///< range of the near end of the object [m]
+constexpr double object_depth = 1.5;     ///< [m]
 constexpr double printed_absorption = 0.0354;  ///< "dB/m at 900 kHz"
 
 /// Table 2. The corrected spectrum of eq. 22 is exp(-(f - fc)^2 pi^2 / b^2) with b = 295 kHz: -3 dB width 110.6 kHz.
@@ -80,8 +80,8 @@ Peak find_peak(const ComplexGrid& series, std::size_t row, const RangeGate& gate
 
 struct FigureOptions {
   std::string folder;
-  int width = 900, height = 675;  ///< of the charts [pixels]; images are five eighths of this
-  double bin_size = 1e-3;         ///< of the series [m]
+  int width = 900, height = 675;  ///< size of the charts [pixels]; images are five eighths of this
+  double bin_size = 1e-3;         ///< bin size of the series [m]
 };
 
 /// Writes figures 13 to 21 of the thesis, and three that explain them, as PNG files into the folder; prints the name of

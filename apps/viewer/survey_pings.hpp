@@ -21,7 +21,7 @@ LazyPings lazy_pings_of(std::vector<Ping> pings);
 
 /// One head of a survey.
 struct SurveyHeadRun {
-  std::string folder;  ///< of the head, with its run.toml
+  std::string folder;  ///< folder of the head, with its run.toml
   std::string name;
   std::vector<CubeOfPings> cubes;   ///< the finished blocks; if they are gone, the merged cube
   std::vector<std::string> others;  ///< names of the other heads

@@ -14,11 +14,11 @@ namespace insonify::viewer {
 struct ViewerCommand {
   CommonOptions common;
   SceneOptions scene;  ///< path: of --scene, or the target itself
-  RunOptions run;      ///< of which sonar, range and environment count
+  RunOptions run;      ///< settings; only sonar, range and environment count
   std::string target;  ///< run directory, cube.h5, recording, or scene
   std::string pose;
   std::string world = "z-up";
-  std::string head;   ///< of a survey, or channel of a side-scan's recording; empty: its first
+  std::string head;   ///< name of the head of a survey, or of the channel of a side-scan's recording; empty: the first
   std::string beam;   ///< number, or empty: nothing is selected
   ViewerState start;  ///< with ping, colour map and window
   std::string size = "1600x1000";

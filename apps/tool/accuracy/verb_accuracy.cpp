@@ -27,7 +27,7 @@ using nlohmann::ordered_json;
 struct AccuracyOptions {
   CommonOptions common;
   SceneOptions scene;  ///< path empty: built-in tasks
-  RunOptions run;      ///< of which sonar, range, environment, output, force and no_picture count
+  RunOptions run;      ///< settings; only sonar, range, environment, output, force and no_picture count
   std::string pose;
   std::string world = "z-up";
   std::vector<std::string> methods, tolerances;  ///< empty: all

@@ -6,7 +6,7 @@
 
 namespace insonify::tool {
 
-/// What is said of an option, wherever: in --help, in the man page and to the completion of a shell.
+/// The text on an option for --help, the man page and the completion of a shell.
 struct OptionText {
   std::vector<std::string> names;  ///< "-o", "--output"; of a positional argument "SCENE"
   std::string value;               ///< "INT", "WORD"; empty for a flag
@@ -18,7 +18,7 @@ struct OptionText {
   bool positional() const { return names.front().front() != '-'; }
 };
 
-/// What is said of the program or of a verb.
+/// The text on the program or on a verb.
 struct CommandText {
   std::string name, purpose, footer;
   std::vector<OptionText> options;

@@ -13,10 +13,10 @@ enum ExitCode : int {
   exit_file = 4,
   exit_some_failed = 5,
   exit_interrupted = 130,
-  exit_no_reader = 141  ///< as a shell says of SIGPIPE
+  exit_no_reader = 141  ///< code that a shell reports for SIGPIPE
 };
 
-/// What man pages and docs/troubleshooting.md say of each.
+/// An exit code with its meaning in man pages and docs/troubleshooting.md.
 struct ExitCodeText {
   ExitCode code;
   const char* meaning;

@@ -47,12 +47,12 @@ class CommandLine {
   std::optional<int> parse(int argc, char** argv);
   /// The verb that was named.
   std::string verb() const;
-  /// What --help says of the program and of its verbs, in the order in which they were added.
+  /// Return the texts of --help on the program and on its verbs, these in the order in which they were added.
   const CommandText& text() const { return text_; }
   const std::deque<CommandText>& verb_texts() const { return verb_texts_; }
 
  private:
-  /// What is wrong with arguments that the parsed command line does not take.
+  /// Describes what is wrong with arguments that the parsed command line does not take.
   std::string extras_message() const;
 
   std::unique_ptr<CLI::App> app_;

@@ -24,7 +24,7 @@ void finish_on_interrupt(const char* kept);
 /// Never returns if an interrupt is ending the program: for errors that only follow from that.
 void wait_for_end();
 
-/// Whether an interrupt was noted.
+/// Returns true if an interrupt was noted.
 bool is_interrupted();
 
 /// Ends the display of progress, before results are printed.

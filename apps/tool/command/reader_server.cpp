@@ -32,7 +32,7 @@ constexpr bool limits_memory = false;  // they take terabytes of addresses
 constexpr bool limits_memory = true;
 #endif
 
-/// What the user let this process have.
+/// Returns the soft limit of a resource that the user set for this process; RLIM_INFINITY: none.
 rlim_t limit_of(decltype(RLIMIT_AS) resource) {
   rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
   getrlimit(resource, &limit);
@@ -46,7 +46,7 @@ void set_limit(decltype(RLIMIT_AS) resource, rlim_t value) {
   setrlimit(resource, &limit);
 }
 
-/// What a reader may have; a limit that the user set lower stays.
+/// The limits of a reader; a limit that the user set lower stays.
 struct Allowed {
   std::size_t memory = 0, beyond_server = 0;  // address space, and without that of the server [bytes]
   unsigned seconds = 0;                       // of processor
@@ -74,7 +74,7 @@ Allowed& allowed_in(const SharedMemory& memory) {
   return *reinterpret_cast<Allowed*>(memory.start() + SharedMemory::of_sender);
 }
 
-/// What is asked of the server.
+/// A request to the server: which function is to read which file, with which shared memory.
 struct Request {
   void (*read)(ArrayReceiver&, ArraySender&);
   int memory;  // as of shmget

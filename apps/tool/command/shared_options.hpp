@@ -30,7 +30,7 @@ void add_world(OptionList list, std::string& world);
 
 /// A ping as the command line gives it, perhaps beside the run.toml of an earlier one.
 struct PingCommand {
-  PingOptions options;                     ///< of the command line, over those of --run
+  PingOptions options;                     ///< options of the command line, which overrule those of --run
   std::optional<PingOptions> of_run = {};  ///< if --run is given
 };
 

@@ -15,7 +15,7 @@ namespace insonify::tool {
 void write_compare_page(const RunDirectory& directory, const CompareOptions& options, const ComparedFile& a,
                         const ComparedFile& b, const ImageComparison& comparison, const std::string& table);
 
-/// The same of points: predicted against measured levels.
+/// Draws predicted against measured levels of points, and writes index.html that shows them with `table`.
 void write_points_page(const RunDirectory& directory, const CompareOptions& options, const ComparedPoints& points,
                        const PointComparison& comparison, const std::string& table);
 

@@ -36,7 +36,7 @@ constexpr double latest_scene_time = 1e8;  // [s]; what is later counts from 197
 /// The scene of soundings: one for all, or of parts as they stood at the ping of each.
 struct SceneOfSoundings {
   std::shared_ptr<const PartsOfPings> parts;  ///< absent: `whole` is of all
-  std::vector<SceneMoment> moment;            ///< of each sounding, of a scene of parts
+  std::vector<SceneMoment> moment;            ///< moment of each sounding; empty without parts
   std::shared_ptr<const SceneCloud> whole;
 };
 
@@ -134,11 +134,12 @@ class ScenePoints {
   std::map<HeightCell, std::pair<double, double>> cells_;
 };
 
-/// What soundings are compared by.
+/// The differences of soundings from a scene.
 struct SoundingDifferences {
-  std::vector<double> distance;                            ///< [m] of each from the nearest point of the scene
-  std::map<HeightCell, std::pair<double, double>> height;  ///< by cell: sum of differences [m], and how many
-  std::size_t cells = 0;                                   ///< that hold a sounding
+  std::vector<double> distance;  ///< [m] of each from the nearest point of the scene
+  std::map<HeightCell, std::pair<double, double>>
+      height;             ///< in each cell: sum of differences of height [m], and how many
+  std::size_t cells = 0;  ///< number of cells that hold a sounding
 };
 
 /// Rows of soundings of one moment; of a scene without parts all.

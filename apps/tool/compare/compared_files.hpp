@@ -11,20 +11,20 @@
 #include "core/pose.hpp"
 #include "run/options.hpp"
 
-/// What `compare` reads.
+/// Files that `compare` reads.
 namespace insonify::tool {
 
 /// Options of `compare`.
 struct CompareOptions {
   CommonOptions common;
   std::string a, b, output;
-  int ping = 0, ping_b = -1;  ///< of A; of B, -1: the same
-  int frame = 0;              ///< of a recording of an imaging sonar
-  int channel = 0;            ///< of a recording of a side-scan
+  int ping = 0, ping_b = -1;  ///< numbers of the pings of A and of B; -1: that of A
+  int frame = 0;              ///< number of the frame of a recording of an imaging sonar
+  int channel = 0;            ///< number of the channel of a recording of a side-scan
   std::string scale;          ///< MIN:MAX [dB] of grey values, or empty
   std::string window;         ///< MIN:MAX [dB], or empty: automatic
   std::string strength;       ///< field of a cloud
-  std::string unit = "db";    ///< of the field
+  std::string unit = "db";    ///< unit of the field `strength`
   std::string repeat;         ///< another record of the same place
   double cell = 0.25;         ///< [m] of grids of soundings and scene
   bool align = false;         ///< move A by the shift that is found
@@ -35,8 +35,8 @@ struct CompareOptions {
 struct ComparedFile {
   ComparedImage image;
   bool from_port = false;                 ///< beams are the columns of a picture, from port to starboard
-  std::optional<Pose> world_from_head{};  ///< of a run
-  double centre_frequency = 0, bandwidth = 0, sound_speed = 0;  ///< of a run; 0: unknown
+  std::optional<Pose> world_from_head{};  ///< pose of the head; absent for what is no run
+  double centre_frequency = 0, bandwidth = 0, sound_speed = 0;  ///< numbers of a run [Hz, Hz, m/s]; 0: unknown
   std::string kind{};                                           ///< run, ARIS 1200, NPY, PNG of 8 bits, ...
   bool waterfall = false;                                       ///< rows are pings of one beam
   std::vector<double> altitude{};  ///< of a waterfall that is a recording [m], by ping; 0: unknown
@@ -45,7 +45,7 @@ struct ComparedFile {
 /// "MIN:MAX" in dB. Throws Error(argument) naming the option.
 GreyWindow parse_window(const std::string& option, const std::string& text);
 
-/// Whether a path is the recording of a side-scan, which is compared as a waterfall: pings x bins.
+/// Returns true if a path is the recording of a side-scan, which is compared as a waterfall: pings x bins.
 bool is_waterfall(const std::string& path);
 
 /// Reads a run (directory or cube), a recording, .npy or .png; with `waterfall` all pings of a run of one beam. Throws

@@ -20,7 +20,7 @@ class ContactSheet {
   void save(const std::string& path) const;
 
  private:
-  std::vector<Grid<std::uint32_t>> kept_;  ///< as red x 65536 + green x 256 + blue
+  std::vector<Grid<std::uint32_t>> kept_;  ///< pixels of kept images, as red x 65536 + green x 256 + blue
   std::size_t added_ = 0, every_ = 1;      ///< one in so many is kept
 };
 

@@ -12,7 +12,7 @@
 #include "store/mission_file.hpp"
 #include "survey/randomise.hpp"
 
-/// What `dataset` reads.
+/// Runs that `dataset` reads.
 namespace insonify::tool {
 
 /// Cubes of one head of a run or survey, read one after the other.
@@ -21,13 +21,13 @@ struct DatasetSource {
   std::size_t run_index = 0;   ///< in the list of runs
   std::size_t head_index = 0;  ///< in the mission
   std::vector<std::string> cubes;
-  std::vector<TrackPoint> track;               ///< all pings, in the order of the cubes
-  std::string scene;                           ///< path, or empty: unknown
-  std::string scene_digest;                    ///< of the file; of a run without its scene that of the run's name
-  std::vector<std::string> split{};            ///< train, val or test, of each ping
+  std::vector<TrackPoint> track;     ///< all pings, in the order of the cubes
+  std::string scene;                 ///< path, or empty: unknown
+  std::string scene_digest;          ///< digest of the scene's file; of a run without its scene that of the run's name
+  std::vector<std::string> split{};  ///< train, val or test, of each ping
   std::vector<std::set<std::string>> shows{};  ///< classes that have boxes, of each ping; empty: unknown
-  std::string draw_key;                        ///< of a run that is no survey: equal for pings of one draw of one scene
-  std::optional<SurveyRandomisation> randomisation{};  ///< of a mission
+  std::string draw_key;  ///< key of a run that is no survey: equal for pings of one draw of one scene
+  std::optional<SurveyRandomisation> randomisation{};  ///< randomisation of a mission; absent: none
   SceneInstances instances{};                          ///< if the scene's cloud has a field `instance`
   std::string note{};                                  ///< on files of the scene that are gone; empty: none
 };

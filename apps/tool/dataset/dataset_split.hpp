@@ -13,9 +13,9 @@ namespace insonify::tool {
 /// The names of the parts of a data set, in this order.
 inline const std::vector<std::string> split_names{"train", "val", "test"};
 
-/// What stays together in one part of a data set.
+/// A kind of unit that stays together in one part of a data set.
 struct SplitUnit {
-  const char* name;    ///< as --split-by has it
+  const char* name;    ///< word of --split-by
   const char* plural;  ///< in messages
   const char* means;   ///< in --help and in the card
 };
@@ -38,7 +38,7 @@ class SplitTally {
 
   /// Images of each part that has one.
   std::map<std::string, std::size_t> images() const;
-  /// Of a part, how many images were taken of the same scene within their farthest range of an image of train.
+  /// Counts images of a part that were taken of the same scene within their farthest range of an image of train.
   std::size_t near_train(const std::string& split) const;
   /// Sentences about parts without an image, and about those that share places with train.
   std::vector<std::string> notes(const std::string& unit, const std::string& split_option,
@@ -50,7 +50,7 @@ class SplitTally {
     Eigen::Vector3d place;
     double max_range;
   };
-  std::map<std::string, std::vector<Image>> images_;  ///< by part
+  std::map<std::string, std::vector<Image>> images_;  ///< images of each part
 };
 
 }  // namespace insonify::tool

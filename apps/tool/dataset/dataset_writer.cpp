@@ -75,7 +75,7 @@ void DatasetWriter::add(const DatasetSource& source, const Cube& cube, const Pin
   for (std::size_t k = 1; k < classes_.size(); ++k)
     if (!is_thing(options_, classes_, k)) rules.stuff.insert(static_cast<std::uint8_t>(k));
 
-  // The same samples in both forms: each in one pixel, or all that a pixel covers.
+  // Label the samples once for both forms: each in one pixel, or all that a pixel covers.
   const LabelledSamples samples =
       labelled_samples(ping, dataset_levels(ping, options_), source.instances, classes_, rules);
   const ObjectsOf& objects = samples.objects;

@@ -69,8 +69,8 @@ class DatasetWriter {
   std::size_t images_ = 0, annotations_ = 0;
   DatasetForm polar_{"polar"}, fan_{"fan"};
   std::string meta_, sonars_;
-  ContactSheet sheet_;                                                    ///< of fan images
-  std::vector<Annotation> boxed_of_sheet_;                                ///< of the image that was added last
+  ContactSheet sheet_;                      ///< sheet of fan images
+  std::vector<Annotation> boxed_of_sheet_;  ///< annotations of the image that was added last
   nlohmann::ordered_json renumbered_ = nlohmann::ordered_json::object();  ///< ids given to instances, by scene
   std::map<std::string, FanRaster> rasters_;
   SplitTally tally_;

@@ -12,7 +12,7 @@
 /// Classes of pixels, and their colours in pictures.
 namespace insonify::tool {
 
-/// Of a pixel's energy, at least, for its class: the default of data sets, and that of pictures.
+/// The least share of a pixel's energy that gives its class: the default of data sets, and the share of pictures.
 constexpr double least_label_share = 0.5;
 /// Values of a class: nothing, shadow, then materials.
 constexpr std::uint8_t shadow_class = 1;
@@ -25,7 +25,7 @@ Grid<std::uint8_t> classes_of(const PixelLabels& labels, double share, const std
 
 /// --min-level: a level [dB], "black" for `black_db`, or nothing of "". Throws Error(argument).
 std::optional<double> parse_min_level(const std::string& text, double black_db);
-/// What --help says of --min-level.
+/// The text of --help on --min-level.
 inline constexpr const char* min_level_help =
     "[dB] surfaces have no class in pixels below; black: below the darkest grey; default: they have one at any level";
 

@@ -11,18 +11,18 @@ namespace insonify::tool {
 /// Options of `export`.
 struct ProductOptions {
   std::string to = "vtk", run, output;
-  std::string head;  ///< of a survey with several
+  std::string head;  ///< name of the head, of a survey with several
   AskedPlace place;
-  std::string start_utc;                                           ///< empty: as the mission says
-  std::string crs;                                                 ///< of a raster: EPSG:N, local, or empty: UTM
-  double cell = 0.5;                                               ///< of a raster [m]
-  int per_beam = 1;                                                ///< soundings of a beam
-  bool keep_rejected = false;                                      ///< keep soundings that are judged wrong, flagged
-  double min_level = -std::numeric_limits<double>::infinity();     ///< of a sounding [dB re 1 uPa]
+  std::string start_utc;       ///< empty: as the mission says
+  std::string crs;             ///< system of a raster: EPSG:N, local, or empty: that of the world, else UTM
+  double cell = 0.5;           ///< size of a raster's cells [m]
+  int per_beam = 1;            ///< soundings of a beam
+  bool keep_rejected = false;  ///< keep soundings that are judged wrong, flagged
+  double min_level = -std::numeric_limits<double>::infinity();     ///< least level of a sounding [dB re 1 uPa]
   double max_deviation = std::numeric_limits<double>::infinity();  ///< [m]
   std::string processing_profile;    ///< file; empty: the profile that the sound ran through
   std::string las_version = "1.4";   ///< or 1.2
-  std::string compression = "none";  ///< of an mcap: or lz4, zstd
+  std::string compression = "none";  ///< compression of an mcap: none, lz4 or zstd
   bool linear = false;               ///< images of pressure in 32 bits
   bool force = false;                ///< replace a file or directory
 };

@@ -77,7 +77,7 @@ std::vector<GsfBeam> beams_of(const PlacedRun& run, const Ping& ping, const Bott
   return sorted;
 }
 
-/// What GSF says of the sonar itself.
+/// Fills in the fields of a GSF ping that describe the sonar itself.
 void add_sonar(const Cube& cube, const Ping& ping, GsfPing& out) {
   out.number = static_cast<std::uint32_t>(ping.number);
   out.surface_sound_speed = ping.sound_speed;
@@ -148,7 +148,7 @@ std::string command_of(const ProductOptions& o) {
   return command;
 }
 
-/// What the file says before its first ping.
+/// Returns the facts that the file states before its first ping.
 GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProfile& profile, const GsfPing& first) {
   GsfSurvey survey;
   survey.sensor = gsf_sensor_of(cube.sonar);

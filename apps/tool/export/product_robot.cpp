@@ -37,7 +37,7 @@ struct RobotLog {
   SonarImageScale scale;
   Eigen::Vector3d origin;
   std::uint16_t image, fan, points, transforms, fixed_transforms;
-  std::optional<std::uint16_t> fix{};  ///< of a run with a place on the globe
+  std::optional<std::uint16_t> fix{};  ///< channel of fixes, of a run with a place on the globe
 
   RobotLog(const PlacedRun& run, const std::string& sonar, const Ping& ping)
       : file(run.options.output, compression_of(run.options)), grey(ping), origin(ping.world_from_head.translation()) {

@@ -15,10 +15,11 @@ namespace insonify::tool {
 struct PlacedRun {
   const ProductOptions& options;
   RunPings pings;
-  std::vector<RunPings> others{};                         ///< further heads of its survey, in an xtf
-  std::optional<Georeference> place{};                    ///< where its world is; csv, mcap and png need none
-  double start = 0;                                       ///< seconds since 1970 of time 0
-  std::optional<SoundSpeedProfile> processing_profile{};  ///< by which soundings are placed; absent: the true one
+  std::vector<RunPings> others{};       ///< further heads of its survey, in an xtf
+  std::optional<Georeference> place{};  ///< where its world is; csv, mcap and png need none
+  double start = 0;                     ///< seconds since 1970 of time 0
+  std::optional<SoundSpeedProfile>
+      processing_profile{};  ///< profile by which soundings are placed; absent: the true one
 
   const Georeference& reference() const { return *place; }
 };
@@ -40,7 +41,7 @@ struct SoundingCount {
 
 /// The name of the processing profile, without its folder.
 std::string profile_name(const ProductOptions& options);
-/// What the header of a product says of its processing profile; empty without one.
+/// Returns the remark of the header of a product on its processing profile; empty without one.
 std::string profile_remark(const ProductOptions& options);
 
 /// Calls `use` with every ping and its soundings of the bottom, as far as the options keep them; returns how many there
@@ -62,7 +63,7 @@ SoundingCount las_product(const PlacedRun& run);
 SoundingCount geotiff_product(const PlacedRun& run);
 SoundingCount csv_product(const PlacedRun& run);
 SoundingCount mcap_product(const PlacedRun& run);
-/// What to say if an mcap is not compressed as it was asked for; else nothing.
+/// Returns a note if an mcap is not compressed as it was asked for; else an empty text.
 std::string compression_note(const ProductOptions& options);
 /// Writes pictures and how to read them; returns how many pings there were.
 std::size_t png_product(const PlacedRun& run, RunDirectory& directory);

@@ -12,7 +12,7 @@
 
 namespace insonify::tool {
 
-/// What --crs may say.
+/// The text of --help on --crs.
 inline constexpr const char* crs_help =
     "projected system of a geotiff, as EPSG:25832 (by GDAL and PROJ), or local: the plane of the world; default: the "
     "system of the world, or the UTM zone of its place";
@@ -25,14 +25,14 @@ class RasterPlane {
   /// Throws Error(argument) for another crs, or without a place, and as ProjectedSystem.
   RasterPlane(const std::string& crs, const std::optional<Georeference>& place);
 
-  /// Whether it can do without a place on the globe.
+  /// Returns true if `crs` means the plane of the world, which needs no place on the globe.
   static bool is_local(const std::string& crs) { return crs == "local"; }
 
   /// Easting, northing [m] and height of a place in the world.
   Eigen::Vector3d place(const Eigen::Vector3d& world) const;
   /// The inverse of place() at z = 0 of the world, to a micrometre.
   Eigen::Vector2d world_of(const Eigen::Vector2d& place) const;
-  /// The same grid with code and unit of the system.
+  /// Returns the grid with code and unit of the system.
   GeoGrid in_system(GeoGrid grid) const;
 
  private:

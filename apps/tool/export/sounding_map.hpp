@@ -70,7 +70,7 @@ class SoundingMap {
  private:
   struct Cell {
     double count = 0, intensity = 0;
-    double mean = 0, squares = 0;  ///< of heights; squares: of their differences from the mean, summed
+    double mean = 0, squares = 0;  ///< mean of heights [m]; sum of squares of their differences from the mean [m^2]
     double least = 0, most = 0;
     double rejected = 0, rejected_mean = 0;
   };
@@ -81,7 +81,7 @@ class SoundingMap {
   Extent extent() const;
 
   double cell_;
-  std::map<std::pair<std::int64_t, std::int64_t>, Cell> cells_;  ///< by row and column
+  std::map<std::pair<std::int64_t, std::int64_t>, Cell> cells_;  ///< cells by row and column
 };
 
 }  // namespace insonify::tool

@@ -34,26 +34,26 @@ struct ImageOptions {
   bool force = false;
   bool raw = false;
   std::optional<double> tvg;   ///< [dB per decade of range]; absent: 40 of a run, none of a recording
-  int bits = 8;                ///< of view grey
-  std::string frame = "head";  ///< of view scan
-  std::string min_level;       ///< of view labels [dB] or black; empty: none
-  // Of view waterfall:
+  int bits = 8;                ///< bits of a grey value in view grey
+  std::string frame = "head";  ///< frame of view scan
+  std::string min_level;       ///< least level of surfaces in view labels [dB], or black; empty: none
+  // Options of view waterfall:
   std::string starboard;         ///< run to the right of this one
   std::string altitude, bottom;  ///< [m], of the flat bottom of ground range; empty: slant range
-  // Of view scene:
-  std::string scene;               ///< of a run, or empty: where run.toml says
+  // Options of view scene:
+  std::string scene;               ///< path of the scene of a run; empty: where run.toml says
   std::string sonar, pose, range;  ///< to inspect a scene
   std::string world = "z-up";
   std::string camera = "auto", colour;  ///< colour empty: the default of run or scene
   bool normals = false;                 ///< drawn as lines
 };
 
-/// What `image` reads of a run.
+/// A run or recording as `image` reads it.
 struct ImageRun {
-  std::string path;                    ///< as the user gave it
+  std::string path;                    ///< path that the user gave
   Cube cube;                           ///< with --layer: holds that layer in place of the whole pressure
-  std::optional<SonarHead> head = {};  ///< from the run's run.toml; absent for a bare cube
-  std::string unit = {};               ///< of levels of a recording; empty: those of sound
+  std::optional<SonarHead> head = {};  ///< head in the run's run.toml; absent for a bare cube
+  std::string unit = {};               ///< unit of levels of a recording; empty: that of sound
   bool side_scan = false;              ///< a recording whose beams are its channels, as Record has them
 };
 
@@ -80,7 +80,7 @@ struct PictureRequest {
 enum class BeamChoice { one, strongest, mean };
 struct ChosenBeam {
   BeamChoice choice = BeamChoice::one;
-  std::size_t beam = 0;  ///< of `one`
+  std::size_t beam = 0;  ///< number of the beam for `one`
 };
 
 /// An option that not all views take.
@@ -105,13 +105,13 @@ struct ViewSpec {
   const char* name;
   const char* shows;                                  ///< what --help says
   std::vector<ViewOption> options = {};               ///< that this view takes and not all views do
-  void (*draw)(const PictureRequest& job) = nullptr;  ///< of a run that has been read
+  void (*draw)(const PictureRequest& job) = nullptr;  ///< draws a run that has been read
   /// The highest level that the view chooses for a ping if --max is not given; a series of pictures takes the highest
   /// of all pings, so that it does not flicker. Null for a view that makes no series (--animate).
   double (*max_db)(const PictureRequest& job) = nullptr;
-  const char* beam_word = "";                   ///< that --beam takes beside a number
-  BeamChoice beam_choice = BeamChoice::one;     ///< that the word means
-  BeamChoice default_choice = BeamChoice::one;  ///< without --beam
+  const char* beam_word = "";                   ///< word that --beam takes beside a number
+  BeamChoice beam_choice = BeamChoice::one;     ///< choice that the word means
+  BeamChoice default_choice = BeamChoice::one;  ///< choice without --beam
   bool of_levels = false;                       ///< shows title, levels and marks of a ping, and nothing else
   bool of_bearings = false;  ///< shows beams by bearing, which the sides of a recorded side-scan have not
   bool of_phases = false;    ///< shows what follows from phases, which recordings of levels have not
@@ -126,11 +126,11 @@ const ViewSpec& view_of(const ImageOptions& options);
 /// Error(argument).
 ChosenBeam choose_beam(const ImageOptions& options, const BeamFan& fan);
 
-/// Of the picture to draw: its levels, and the fan of its ping.
+/// Return the levels of the picture to draw, and the fan of its ping.
 LevelImage levels_of(const PictureRequest& job);
 const BeamFan& fan_of(const PictureRequest& job);
 
-/// As ViewSpec::max_db, of pictures of all samples.
+/// Returns the highest level, as ViewSpec::max_db does, for pictures of all samples.
 double max_db_of_image(const PictureRequest& job);
 
 /// A beam in words, with its bearing.

@@ -31,7 +31,7 @@ double step_of(const std::vector<Ping>& pings, const std::vector<std::size_t>& s
 /// A raster of bearings and ranges that keeps the highest level in each cell.
 struct PolarRaster {
   LevelImage image;
-  double width;  ///< of a bearing
+  double width;  ///< width of a bearing [rad]
 
   void add(const Eigen::Vector3d& at, float level_db) {
     const double turn = (std::atan2(at.y(), at.x()) + pi) / width, range = std::hypot(at.x(), at.y());
@@ -71,7 +71,7 @@ LevelImage sweep_in_world(const ImageRun& run, const ImageOptions& o, std::size_
   const Ping& middle = pings[sweep[sweep.size() / 2]];
   const Pose reference = middle.world_from_head * Eigen::AngleAxisd(-middle.scan->angle, Eigen::Vector3d::UnitZ());
 
-  // As wide as the sweep and what the vehicle went in it.
+  // Extend the ranges by the farthest that the head was from the middle of the sweep.
   double gone = 0;
   for (const std::size_t p : sweep)
     gone = std::max(gone, (pings[p].world_from_head.translation() - reference.translation()).norm());

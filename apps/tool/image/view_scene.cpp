@@ -139,8 +139,8 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   return drawing;
 }
 
-/// Of a run, its returns over its scene; of a scene alone, its visibility from the sonar. Throws Error(argument) for
-/// options that exclude one another, and as read_run_cube and load_scene.
+/// Draws the returns of a run over its scene, or of a scene alone its visibility from the sonar. Throws Error(argument)
+/// for options that exclude one another, and as read_run_cube and load_scene.
 void draw_scene(const ImageOptions& o) {
   Progress progress(o.common, 2);
   progress.step("reading " + o.run);

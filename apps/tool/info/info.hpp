@@ -8,18 +8,18 @@
 #include "run/options.hpp"
 #include "scene/scene_cloud.hpp"
 
-/// What `info` says of a file or folder: facts by name, and under `next` the commands that go on from there.
+/// Facts of a file or folder for `info`, by name, and under `next` the commands that go on from there.
 namespace insonify::tool {
 
-/// Of a cube of pings; of a run if the path of its folder is given.
+/// Returns facts of a cube of pings, or of a run if the path of its folder is given.
 nlohmann::ordered_json info_of_cube(const std::string& path);
 
-/// Of a folder: a run, a survey, a head of one, or anything else with a manifest of insonify. Throws Error(content) for
-/// another folder.
+/// Returns facts of a folder: a run, a survey, a head of one, or anything else with a manifest of insonify. Throws
+/// Error(content) for another folder.
 nlohmann::ordered_json info_of_folder(const std::string& path);
 
-/// Of a TOML file: a scene of parts, a mission, a table of materials, settings of a run, an environment or a sonar, by its keys.
-/// Throws as the reader of each.
+/// Returns facts of a TOML file by its keys: a scene of parts, a mission, a table of materials, settings of a run, an
+/// environment or a sonar. Throws as the reader of each.
 nlohmann::ordered_json info_of_toml(const std::string& path);
 
 /// Facts of a cloud, mesh, raster or tiles. `asked` overrules the meaning of the file; tiles are prepared and ignore it.
@@ -29,7 +29,7 @@ nlohmann::ordered_json info_of_scene(const std::string& path, MeaningText asked)
 /// mission of two lines or more over it.
 std::vector<std::string> next_of_scene(const std::string& path, const Bounds& box);
 
-/// Of a recording of a real sonar, by its first ping.
+/// Returns facts of a recording of a real sonar, by its first ping.
 nlohmann::ordered_json info_of_record(const std::string& path);
 
 /// Prints what info_of_scene says of a cloud, mesh or raster.

@@ -40,7 +40,7 @@ HeadState state_of(const std::string& run, const SurveyRun& survey, const Survey
   return state;
 }
 
-/// What a head of a survey keeps: settings of its run.toml.
+/// Returns the settings that a head of a survey keeps in its run.toml; the default ones without that file.
 PingOptions settings_of(const std::string& run, const std::string& head) {
   const fs::path file = fs::path(run) / head / "run.toml";
   return path_exists(file) ? load_ping_settings(file.string()) : PingOptions{};
@@ -132,7 +132,7 @@ ordered_json survey_info(const std::string& run) {
           {"next", next}};
 }
 
-/// Of a head that is not merged yet: blocks alone.
+/// Returns facts of a head that is not merged yet: of its blocks alone.
 ordered_json head_info(const std::string& run, const SurveyRun& survey, const SurveyRunHead& head) {
   const HeadState state = state_of(run, survey, head);
   const std::string word = shell_word(run);
@@ -162,7 +162,7 @@ std::optional<std::pair<std::string, SurveyRunHead>> head_of_survey(const fs::pa
   return {};
 }
 
-/// Of any folder that insonify wrote: what its manifest says, but for lists.
+/// Returns facts of any folder that insonify wrote: what its manifest says, without objects and long lists.
 ordered_json manifest_info(const std::string& path) {
   const std::string file = path + "/manifest.json";
   ordered_json info = {{"path", path}, {"format", "folder written by insonify"}};

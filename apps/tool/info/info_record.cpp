@@ -21,7 +21,7 @@ ordered_json least_and_most(const std::vector<double>& values) {
   return *least == *most ? ordered_json(*least) : ordered_json{*least, *most};
 }
 
-/// What a side-scan says beside its samples.
+/// Adds the facts of a side-scan beside its samples.
 void add_side_scan(const Record& record, ordered_json& info) {
   const std::vector<Ping>& pings = record.cube.pings;
   info["channels"] = record.channels;

@@ -56,7 +56,7 @@ std::vector<std::string> next_of_scene(const std::string& path, const Bounds& bo
 
 namespace {
 
-/// Whether an organised cloud was seen along its z axis from its viewpoint: it has the axes of a camera, z ahead.
+/// Returns true if an organised cloud was seen along z from its viewpoint: it has the axes of a camera, z ahead.
 bool is_of_camera(const FileDescription& d) {
   if (!d.viewpoint || d.height <= 1) return false;
   const Eigen::Vector3d ahead = (d.min + d.max) / 2 - *d.viewpoint;

@@ -22,7 +22,7 @@ double in_file(const Material& material, const MaterialNumber& number) {
   return number.in_decibels ? std::round(1e4 * db_from_power(value)) / 1e4 : value;
 }
 
-/// Whether the material's law uses a number: Lambert's alone its coefficient.
+/// Returns true if the material's law uses a number; only Lambert's law uses Lambert's coefficient.
 bool counts(const Material& material, const MaterialNumber& number) {
   return number.member != &Material::lambert_mu || material.law == SurfaceLaw{};
 }

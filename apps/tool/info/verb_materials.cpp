@@ -39,7 +39,7 @@ void add_options(OptionList list, MaterialsOptions& o) {
   add_common(list, o.common);
 }
 
-/// What a name stands for: a file of materials, one of Lambert's table, one of data/materials; or all.
+/// The materials that a name stands for: a file of them, one of Lambert's table, one of data/materials; or all.
 struct Listed {
   std::string path;
   std::vector<SourcedMaterial> table;

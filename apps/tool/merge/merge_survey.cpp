@@ -66,12 +66,12 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
   return finished;
 }
 
-/// What joining the blocks of all heads gave.
+/// The results of joining the blocks of all heads.
 struct JoinedHeads {
   ordered_json heads = ordered_json::array(), failed = ordered_json::array();  ///< for the manifest
-  ordered_json notes = ordered_json::array();                                  ///< of the pings, for the manifest
-  std::vector<std::string> clouds, coverages;                                  ///< of the blocks
-  std::vector<HeadCubes> cubes;                                                ///< of the blocks
+  ordered_json notes = ordered_json::array();                                  ///< notes on the pings, for the manifest
+  std::vector<std::string> clouds, coverages;                                  ///< paths of the files of the blocks
+  std::vector<HeadCubes> cubes;                                                ///< cubes of the blocks, by head
   std::vector<HeadCube> joined_cubes;
 };
 

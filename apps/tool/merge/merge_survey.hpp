@@ -12,8 +12,8 @@ struct MosaicOptions {
   double cell = 0;          ///< [m]; 0: no mosaic
   std::string bottom;       ///< height of a level bed [m], or empty: the returns' surface
   std::string by = "mean";  ///< or "best"
-  std::string crs;          ///< of mosaic.tif: EPSG:N, local, or empty: that of the world, else UTM
-  AskedPlace place{};       ///< of the world; empty: as mission or scene say
+  std::string crs;          ///< system of mosaic.tif: EPSG:N, local, or empty: that of the world, else UTM
+  AskedPlace place{};       ///< place of the world; empty: as mission or scene say
 };
 
 /// Joins the blocks of a survey in its folder: NAME/cube.h5 of each head, which refers to the blocks unless `copy`,

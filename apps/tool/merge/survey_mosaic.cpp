@@ -60,7 +60,7 @@ class HeadStrips {
   const BedSurface& bed_;
   int threads_;
   std::unique_ptr<Ping> last_;
-  std::optional<Vector3d> way_;  ///< to the last ping
+  std::optional<Vector3d> way_;  ///< way to the last ping from the one before [m]; absent: none
   MosaicSource source_;
 };
 

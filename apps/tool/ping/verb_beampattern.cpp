@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 
 struct BeamPatternOptions {
   CommonOptions common;
-  RunOptions run;  ///< of which only the sonar counts
+  RunOptions run;  ///< settings; only the sonar counts
   std::string steer = "0";
   std::string output;  ///< picture, or empty: none
   bool force = false;

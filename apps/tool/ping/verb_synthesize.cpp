@@ -30,7 +30,7 @@ struct SynthesizeOptions {
   RunOptions run;
   std::string scatterers;
   double accuracy_db = library_options.accuracy_db;
-  int absorption_order = -1;  ///< as needed
+  int absorption_order = -1;  ///< order of absorption; -1: as needed
 };
 
 /// The settings that run.toml records at its top level.
@@ -48,13 +48,13 @@ void add_options(OptionList list, SynthesizeOptions& o) {
   add_work(list, o.common);
 }
 
-/// What run.toml records beside sonar and environment.
+/// Returns the text of run.toml beside sonar and environment.
 std::string settings_of(SynthesizeOptions o) {
   return settings_as_toml({seed_setting(o.common)}) + settings_as_toml(synthesis_settings(o.run)) +
          settings_as_toml(settings(o)) + fmt::format("scatterers = {}\n", as_toml(o.scatterers));
 }
 
-/// What is asked for; the plan decides the rest.
+/// Returns the options that the user asks for; the plan decides the rest.
 SimulationOptions asked_of(const SynthesizeOptions& o) {
   SimulationOptions options;
   options.threads = o.common.threads;
@@ -73,7 +73,7 @@ void synthesize(const SynthesizeOptions& o) {
   progress.step("reading " + o.scatterers);
   const ScattererTable table = load_scatterer_table(o.scatterers);
 
-  // The same elevation pattern and beams as in a ping; amplitudes and cross-sections are the caller's.
+  // Use the elevation pattern and beams of a ping; amplitudes and cross-sections are those of the caller.
   progress.step("synthesizing");
   StopWatch watch;
   const SonarHead& head = setup.head;

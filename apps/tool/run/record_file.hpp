@@ -21,12 +21,12 @@ bool is_record(const std::string& path);
 struct Record {
   Cube cube;
   std::string kind;  ///< "XTF by SEASCAN", "ARIS 1200", "Oculus of 8 bits"
-  std::string unit;  ///< of levels: "dB re full scale", ...
+  std::string unit;  ///< unit of levels: "dB re full scale", ...
   GreyWindow scale;  ///< levels of the lowest and the highest value; nothing of floats
   bool has_scale = true;
   bool side_scan = false;               ///< the beams are channels: those to port at +90 degrees, to starboard at -90
   std::vector<std::string> channels{};  ///< their names
-  std::vector<double> altitude{};       ///< of a side-scan [m], by ping; 0: unknown
+  std::vector<double> altitude{};       ///< altitude of a side-scan [m], by ping; 0: unknown
 };
 
 /// Reads `count` pings (frames) of a recording from the `first` on; fewer if there are not so many. Pings of a side-scan

@@ -114,7 +114,7 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
   return pings;
 }
 
-/// Of the run directory of a ping, or of a merged head within the folder of its survey.
+/// Reads the run directory of a ping, or of a merged head within the folder of its survey.
 RunPings pings_of_directory(const std::string& run) {
   RunPings pings;
   pings.cubes = {run_cube_path(run)};

@@ -19,16 +19,17 @@ namespace insonify::tool {
 struct RunPings {
   std::vector<std::string> cubes;    ///< paths
   std::vector<std::string> returns;  ///< paths of the returns of its pings, if it has any
-  Environment environment{};         ///< of its run.toml, if it has one
-  std::optional<Anchor> anchor{};    ///< of its mission
+  Environment environment{};         ///< environment in its run.toml; without one the default
+  std::optional<Anchor> anchor{};    ///< anchor of its mission; absent: none
   std::string system{};              ///< projected system of its world, as FileMeaning has it; empty: unknown
   std::string start_utc;
-  std::optional<Pose> vehicle_from_head{};     ///< of its mission or --mount, at scan angle 0; absent: unknown
+  std::optional<Pose>
+      vehicle_from_head{};  ///< place of the head by its mission or --mount, at scan angle 0; absent: unknown
   std::optional<Trajectory> trajectory{};      ///< world_from_vehicle, of its mission
   std::string settings{};                      ///< path of its run.toml, of a run without a mission
-  MissionWater water{};                        ///< of its mission
-  std::optional<double> position_deviation{};  ///< of what its mission believes of each coordinate [m]; 0: exact
-  std::vector<MissionLeg> legs{};              ///< of its mission
+  MissionWater water{};                        ///< water of its mission
+  std::optional<double> position_deviation{};  ///< deviation of each coordinate that its mission believes [m]; 0: exact
+  std::vector<MissionLeg> legs{};              ///< legs of its mission
   std::vector<std::string> notes{};            ///< on what is unknown because files are gone
 };
 

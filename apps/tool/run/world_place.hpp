@@ -9,7 +9,7 @@
 
 namespace insonify::tool {
 
-/// What is asked for the place of a world on the globe; empty: as its run says.
+/// The place of a world on the globe that options ask for; empty: as its run says.
 struct AskedPlace {
   std::string anchor, utm, system;
 
@@ -20,11 +20,11 @@ struct AskedPlace {
 /// Adds --anchor, --utm and --system.
 void add_place_options(OptionList list, AskedPlace& asked);
 
-/// What a run knows of the place of its world.
+/// The place of the world of a run, as far as the run knows it.
 struct KnownPlace {
-  std::string run;                 ///< its path, for messages
-  std::string system;              ///< of its mission or of the file of its scene, as FileMeaning has it; or empty
-  std::optional<Anchor> anchor{};  ///< of its mission
+  std::string run;     ///< its path, for messages
+  std::string system;  ///< system of its mission or of the file of its scene, as FileMeaning has it; or empty
+  std::optional<Anchor> anchor{};  ///< anchor of its mission; absent: none
 };
 
 /// Returns the system that a run recorded: of a survey in its scene.json, of a ping in its manifest.json; empty if the

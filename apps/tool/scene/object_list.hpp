@@ -12,7 +12,7 @@ namespace insonify::tool {
 
 /// Length, width and height of a mesh [m].
 Eigen::Vector3d size_of(const SceneMesh& mesh);
-/// The same as text: "2 x 0.533 x 0.533".
+/// Writes the size of a mesh [m] as text: "2 x 0.533 x 0.533".
 std::string size_text(const SceneMesh& mesh);
 
 /// Name, description, source, size, materials and options of an object.

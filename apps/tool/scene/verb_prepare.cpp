@@ -28,7 +28,7 @@ struct PrepareOptions {
   CommonOptions common;
   SceneOptions scene;
   std::string output;
-  double time = 0;  ///< of a scene of parts [s]
+  double time = 0;  ///< time at which a scene of parts is taken [s]
   double thin = 0;  ///< [m] between the surfels that stay; 0: all stay
   bool force = false;
   bool normals = false;  ///< without effect: missing normals are always estimated

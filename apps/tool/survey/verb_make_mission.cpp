@@ -65,7 +65,7 @@ std::string points_as_toml(const std::vector<Eigen::Vector3d>& points) {
   return text + "\n]\n";
 }
 
-/// What the shapes differ in.
+/// The points and keys in which the shapes of a mission differ.
 struct MissionShape {
   std::vector<Eigen::Vector3d> points;
   double turn_radius = 1;
@@ -122,7 +122,7 @@ MissionShape tunnel(const Eigen::Vector3d& centre, const std::vector<double>& si
           ""};
 }
 
-/// Whether a sonar is mounted to look down: a swath, or an echo sounder of one beam.
+/// Returns true if a sonar is mounted to look down: a swath, or an echo sounder of one beam.
 bool is_sounder(const SonarFile& sonar) { return sonar.mounting.x() == 0 && sonar.mounting.y() > radians(45); }
 
 /// Over the middle of a scene.

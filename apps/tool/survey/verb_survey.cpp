@@ -75,7 +75,8 @@ struct PlannedPing {
   double scatterers = 1, work = 1;
 };
 
-/// What the pings of a head cost: of a few, evenly spaced, some are made, and the others count as their plans compare.
+/// A trial of the cost of the pings of a head: of a few, evenly spaced, some are made, and the others count as their
+/// plans compare.
 struct HeadTrial {
   std::size_t pings = 0, tried = 0;
   std::vector<PlannedPing> planned;  ///< the most typical first
@@ -250,10 +251,10 @@ class FolderStore : public SurveyStore {
   std::map<std::size_t, std::vector<PingNote>> notes_;  // one thread at a time keeps
 };
 
-/// What is still to be made by a shard.
+/// The work of a shard that is still to be done.
 struct Todo {
   std::vector<SurveyBlock> blocks;
-  std::size_t pings = 0, done = 0;  ///< of the shard; of these, in finished blocks
+  std::size_t pings = 0, done = 0;  ///< pings of the shard; of these, in finished blocks
 };
 
 Todo blocks_of(const SurveySetup& s, const SurveyBlocks& store, const Shard& shard) {
