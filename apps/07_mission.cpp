@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission file over any scene, as `insonify survey` runs it: its heads, its scene and its pings, which say how far it is.
+// A mission file over any scene, as `insonify survey` runs it: its heads, its scene and its pings, which say how far it
+// is.
 #include <iostream>
 
 #include <insonify/core/error.hpp>

@@ -11,8 +11,8 @@ pid_t fork_child();
 
 /// Reads files of strangers for this process during its lifetime (set_reader_process). It is a process that is forked
 /// before this one has any thread, never has one itself, and forks for each file a reader: a damaged file ends that
-/// reader, or meets its limits. Readers have limits of memory and time, and hand over arrays in shared memory. Files are
-/// read one after the other, whichever thread asks.
+/// reader, or meets its limits. Readers have limits of memory and time, and hand over arrays in shared memory. Files
+/// are read one after the other, whichever thread asks.
 class ReaderServer {
  public:
   /// Starts the process. If it cannot be started, reading files is Error(runtime).

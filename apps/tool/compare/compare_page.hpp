@@ -10,8 +10,7 @@
 namespace insonify::tool {
 
 /// Draws both images, their difference, levels, correlations and map of grey, and writes index.html that shows them
-/// with
-/// `table`, text of the results.
+/// with `table`, text of the results.
 void write_compare_page(const RunDirectory& directory, const CompareOptions& options, const ComparedFile& a,
                         const ComparedFile& b, const ImageComparison& comparison, const std::string& table);
 

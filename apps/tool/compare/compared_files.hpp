@@ -39,7 +39,7 @@ struct ComparedFile {
   double centre_frequency = 0, bandwidth = 0, sound_speed = 0;  ///< numbers of a run [Hz, Hz, m/s]; 0: unknown
   std::string kind{};                                           ///< run, ARIS 1200, NPY, PNG of 8 bits, ...
   bool waterfall = false;                                       ///< rows are pings of one beam
-  std::vector<double> altitude{};  ///< of a waterfall that is a recording [m], by ping; 0: unknown
+  std::vector<double> altitude{};  ///< altitude of a recorded waterfall [m], by ping; 0: unknown
 };
 
 /// "MIN:MAX" in dB. Throws Error(argument) naming the option.
@@ -65,8 +65,8 @@ auto naming_both(const CompareOptions& options, const Body& body) {
 }
 
 /// Brings two images to one grid: of one size as they are, beams of pictures in the order of the other's fan; of two
-/// geometries A as resampled to B; of two waterfalls as many pings as both have, from the first on. Throws Error(content) naming
-/// sizes and remedy if neither is possible, and both files if they have nothing in common.
+/// geometries A as resampled to B; of two waterfalls as many pings as both have, from the first on. Throws
+/// Error(content) naming sizes and remedy if neither is possible, and both files if they have nothing in common.
 void match(ComparedFile& a, ComparedFile& b, const CompareOptions& options);
 
 /// Levels predicted by a run at the points of a cloud, against their strengths.

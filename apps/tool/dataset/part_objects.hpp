@@ -26,9 +26,9 @@ using PixelBox = std::array<int, 4>;
 /// Three numbers as a JSON array; NaN as null.
 nlohmann::ordered_json numbers_json(const Eigen::Vector3d& v);
 
-/// The box about all that the head would see of a part alone: in a polar picture by its ranges and the beams that hear it,
-/// in a fan by the places where it is drawn. Empty if the head would see nothing; for a fan also if the cube is of an
-/// earlier version, which lacks these places.
+/// The box about all that the head would see of a part alone: in a polar picture by its ranges and the beams that hear
+/// it, in a fan by the places where it is drawn. Empty if the head would see nothing; for a fan also if the cube is of
+/// an earlier version, which lacks these places.
 std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture);
 
 /// The part of each object of a picture, by the numbers of the objects; objects that are not of a labelled part are not
@@ -38,8 +38,8 @@ std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture
 std::map<std::uint16_t, std::size_t> parts_of_objects(const PixelLabels& labels, double least_share,
                                                       const Grid<std::uint16_t>& instance);
 
-/// All labelled parts that the head would see if they were alone, or that have pixels at the edge of the fan: name, class, pose, share that is seen, boxes in both
-/// forms, and the number of the object, null where it has no pixels.
+/// All labelled parts that the head would see if they were alone, or that have pixels at the edge of the fan: name,
+/// class, pose, share that is seen, boxes in both forms, and the number of the object, null where it has no pixels.
 nlohmann::ordered_json part_objects_json(const PixelLabels& labels, const std::map<std::uint16_t, std::size_t>& parts,
                                          const PictureOf& polar, const PictureOf& fan);
 

@@ -28,8 +28,8 @@ struct ProductOptions {
 };
 
 /// Writes the pings of a run, one after the other, as a file (png: a directory of them) of another program. Throws
-/// Error(argument) for a product with coordinates of the globe if neither options, mission nor scene say where the world
-/// is, or if they contradict each other,
+/// Error(argument) for a product with coordinates of the globe if neither options, mission nor scene say where the
+/// world is, or if they contradict each other,
 /// Error(content) for a survey that is not complete or has several heads, as read_cube for damaged cubes, and
 /// Error(file) if it cannot write.
 void export_product(const ProductOptions& options, const CommonOptions& common);

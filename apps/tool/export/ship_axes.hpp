@@ -14,7 +14,7 @@ struct ShipAxes {
   Eigen::Vector3d ahead, starboard;
   double pitch = 0, roll = 0;  ///< bow up, starboard down [rad]
 
-  /// Takes the axes from x, a direction ahead, level or not, or if that is upright from the port axis.
+  /// Takes the axes from `x`, a direction ahead, level or not, or from the `port` axis if `x` is upright.
   ShipAxes(const Eigen::Vector3d& x, const Eigen::Vector3d& port);
 };
 

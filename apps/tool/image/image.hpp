@@ -42,7 +42,7 @@ struct ImageOptions {
   std::string altitude, bottom;  ///< [m], of the flat bottom of ground range; empty: slant range
   // Options of view scene:
   std::string scene;               ///< path of the scene of a run; empty: where run.toml says
-  std::string sonar, pose, range;  ///< to inspect a scene
+  std::string sonar, pose, range;  ///< sonar, pose and range to inspect a scene
   std::string world = "z-up";
   std::string camera = "auto", colour;  ///< colour empty: the default of run or scene
   bool normals = false;                 ///< drawn as lines
@@ -57,8 +57,8 @@ struct ImageRun {
   bool side_scan = false;              ///< a recording whose beams are its channels, as Record has them
 };
 
-/// Reads a run directory, a cube, or a recording. Throws Error(file) if there is none, Error(content) if it is unfinished or damaged,
-/// Error(argument) for a layer that is not in it.
+/// Reads a run directory, a cube, or a recording. Throws Error(file) if there is none, Error(content) if it is
+/// unfinished or damaged, Error(argument) for a layer that is not in it.
 ImageRun read_image_run(const std::string& path, const std::string& layer);
 
 /// The gain of the options (--tvg, --raw) for a ping of a run or of a recording; absent: as received, or as recorded.

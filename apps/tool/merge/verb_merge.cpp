@@ -61,8 +61,8 @@ ordered_json inputs_json(const std::vector<NamedCube>& cubes) {
   return inputs;
 }
 
-/// The coordinate system of the world of all runs; without one, some state none. Throws Error(content) if they contradict
-/// each other.
+/// The coordinate system of the world of all runs; without one, some state none. Throws Error(content) if they
+/// contradict each other.
 std::string system_of_runs(const std::vector<std::string>& runs) {
   std::string common = recorded_system(runs.front());
   for (const std::string& run : runs) {

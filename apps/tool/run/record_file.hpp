@@ -29,8 +29,8 @@ struct Record {
   std::vector<double> altitude{};       ///< altitude of a side-scan [m], by ping; 0: unknown
 };
 
-/// Reads `count` pings (frames) of a recording from the `first` on; fewer if there are not so many. Pings of a side-scan
-/// whose ranges differ are brought to the finest bins among them, each sample the nearest of its own. Throws
+/// Reads `count` pings (frames) of a recording from the `first` on; fewer if there are not so many. Pings of a
+/// side-scan whose ranges differ are brought to the finest bins among them, each sample the nearest of its own. Throws
 /// Error(argument) if there is no ping `first` or for another ending, Error(content) if ranges differ too much, and as
 /// the readers.
 Record read_record(const std::string& path, std::size_t first = 0,

@@ -61,8 +61,8 @@ Pose mounting_of_ping(const std::string& settings) {
   return mount.empty() ? Pose::Identity() : parse_pose(mount, "z-up", "mount");
 }
 
-/// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their places; adds a
-/// note if it is there and does not.
+/// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their places; adds
+/// a note if it is there and does not.
 std::optional<Trajectory> named_way(const std::string& settings, const Pose& vehicle_from_head,
                                     const Trajectory& places, std::vector<std::string>& notes) {
   constexpr double same_place = 1e-3;  // [m]

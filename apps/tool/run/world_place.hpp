@@ -37,8 +37,8 @@ void record_system(const std::string& folder, const std::string& system);
 void require_same_system(const std::string& path, const std::optional<Anchor>& anchor, const std::string& system,
                          const std::string& of_scene);
 
-/// Returns where the world is, as asked or as the run says; absent if neither says it. Throws Error(argument) if what is
-/// asked contradicts the run, and if one of `places`, points of the world [m], cannot be there (require_plausible).
+/// Returns where the world is, as asked or as the run says; absent if neither says it. Throws Error(argument) if what
+/// is asked contradicts the run, and if one of `places`, points of the world [m], cannot be there (require_plausible).
 std::optional<Georeference> georeference_of(const AskedPlace& asked, const KnownPlace& known,
                                             const std::vector<Eigen::Vector3d>& places);
 

@@ -147,8 +147,8 @@ std::string range_over(const Bounds& box, const SonarFile& file, const std::vect
                     reach > sonar.min_range ? std::min(sonar.max_range, end_of_range(reach)) : sonar.max_range);
 }
 
-/// [ping]: of sounders the noise, above which the bottom is detected, of swaths the phase, by which it is; labels if asked
-/// for, of sounders those of samples, since their soundings need samples.
+/// [ping]: of sounders the noise, above which the bottom is detected, of swaths the phase, by which it is; labels if
+/// asked for, of sounders those of samples, since their soundings need samples.
 std::string ping_as_toml(const MakeMissionOptions& o, const SonarFile& sonar) {
   std::string keys;
   if (is_sounder(sonar)) keys = "noise = true  # the soundings are those that stand above it\n";
