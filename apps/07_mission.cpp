@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission file over any scene, as `insonify survey` runs it: its heads, its scene and its pings, which say how far it
-// is.
+// A mission file over any scene, as `insonify survey` runs it: its heads, its scene and its pings, which tell progress.
 #include <iostream>
 
 #include <insonify/core/error.hpp>

@@ -49,7 +49,7 @@ void set_limit(decltype(RLIMIT_AS) resource, rlim_t value) {
 /// The limits of a reader; a limit that the user set lower stays.
 struct Allowed {
   std::size_t memory = 0, beyond_server = 0;  // address space, and without that of the server [bytes]
-  unsigned seconds = 0;                       // of processor
+  unsigned seconds = 0;                       // time of the processor [s]
   rlim_t users_memory = RLIM_INFINITY, users_seconds = RLIM_INFINITY;
 
   bool short_of_memory() const { return users_memory < memory; }
@@ -77,7 +77,7 @@ Allowed& allowed_in(const SharedMemory& memory) {
 /// A request to the server: which function is to read which file, with which shared memory.
 struct Request {
   void (*read)(ArrayReceiver&, ArraySender&);
-  int memory;  // as of shmget
+  int memory;  // id of shared memory, from shmget
   std::size_t bytes;
   std::array<char, 4096> path;
 };

@@ -50,8 +50,8 @@ std::vector<std::string> parts_of(std::size_t units, const std::vector<double>& 
 }
 
 /// The parts of units by the classes that they show: each class, the rarest first, is divided by the shares as well as
-/// it goes (iterative stratification: Sechidis, Tsoumakas, Vlahavas 2011). As many units are in each part as of
-/// parts_of.
+/// it goes (iterative stratification: Sechidis, Tsoumakas, Vlahavas 2011). Parts are as
+/// large as those of parts_of.
 std::vector<std::string> stratified(const std::vector<std::set<std::string>>& shown,
                                     const std::vector<double>& shares) {
   std::array<std::size_t, 3> room = counts_of(shown.size(), shares);

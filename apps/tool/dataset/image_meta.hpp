@@ -19,8 +19,7 @@ struct ImageOf {
   const DatasetImage& image;
 };
 
-/// Returns what a line of meta.jsonl says of an image before its objects: run, pose, sonar, water, seed, mapping,
-/// parts.
+/// Returns a line of meta.jsonl on an image as far as its objects: run, pose, sonar, water, seed, mapping, parts.
 ///
 /// polar_pixels   of each class, in the polar image
 nlohmann::ordered_json image_meta(const ImageOf& of, const DatasetOptions& options, GreyWindow window,

@@ -159,8 +159,7 @@ std::string shown_by(const ImageRun& run, const ImageOptions& o, std::size_t pin
   return shown.digest();
 }
 
-/// Draws a picture of each ping into the folder; those that show the same, as of packets that a recording repeats,
-/// once.
+/// Draws a picture of each ping into the folder; equal ones, as of packets that a recording repeats, once.
 void draw_series(const ImageRun& run, const ImageOptions& o, const PictureOptions& picture,
                  const PictureAddition& annotation, const RunDirectory& directory,
                  const std::vector<std::string>& names) {

@@ -22,8 +22,8 @@ nlohmann::ordered_json info_of_folder(const std::string& path);
 /// environment or a sonar. Throws as the reader of each.
 nlohmann::ordered_json info_of_toml(const std::string& path);
 
-/// Facts of a cloud, mesh, raster or tiles. `asked` overrules the meaning of the file; tiles are prepared and ignore
-/// it.
+/// Returns facts of a cloud, mesh, raster or tiles. `asked` overrules the meaning of the file; tiles are prepared and
+/// ignore it.
 nlohmann::ordered_json info_of_scene(const std::string& path, MeaningText asked);
 
 /// Commands that go on from a scene with this box: a ping from before and above it that looks at its middle, and a

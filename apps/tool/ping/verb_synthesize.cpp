@@ -30,7 +30,7 @@ struct SynthesizeOptions {
   RunOptions run;
   std::string scatterers;
   double accuracy_db = library_options.accuracy_db;
-  int absorption_order = -1;  ///< order of absorption; -1: as needed
+  int absorption_order = -1;  ///< order of absorption about fc, 0 to 2; -1: as needed
 };
 
 /// The settings that run.toml records at its top level.

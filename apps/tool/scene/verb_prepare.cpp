@@ -49,8 +49,7 @@ void add_options(OptionList list, PrepareOptions& o) {
   add_work(list, o.common);
 }
 
-/// One cloud of a scene of parts, its surfels numbered through, with a column for the number of the part of each, from
-/// 1.
+/// One cloud of a scene of parts, its surfels numbered through, with a column for the number of its part, from 1.
 LoadedScene parts_as_cloud(LoadedScene loaded) {
   SceneCloud& scene = loaded.scene;
   SceneColumn instance{"instance", "uint16"};
