@@ -56,8 +56,8 @@ class MessageCollector : public vtkOutputWindow {
 };
 vtkStandardNewMacro(MessageCollector);
 
-// Mesa and its compiler take about as much; drawing does not begin with less.
-constexpr std::size_t memory_of_a_picture = std::size_t{640} << 20;
+// Mesa and its compiler take 700 MiB, and end the process if they do not get them; drawing does not begin with less.
+constexpr std::size_t memory_of_a_picture = std::size_t{768} << 20;
 
 [[noreturn]] void too_little_memory(const char* who, std::size_t left) {
   fail(ErrorKind::memory, who, ": too little memory for a picture: the limit (ulimit -v) leaves ", left >> 20,
