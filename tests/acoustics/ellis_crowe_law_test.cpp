@@ -10,7 +10,7 @@ namespace insonify::ellis_crowe_law_tests {
 
 constexpr double water_speed = 1500, frequency = 1e5;
 
-// Equations (1) and (2) of Ellis and Crowe: grazing angles of incidence and scattering, and the turn between their
+// The law of Ellis and Crowe in their variables: grazing angles of incidence and scattering, and the turn between their
 // azimuths, 0 for forward.
 double published(const EllisCroweLaw& law, double grazing_in, double grazing_out, double turn) {
   using std::cos, std::sin;

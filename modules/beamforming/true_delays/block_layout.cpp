@@ -15,7 +15,7 @@ constexpr double widest_band = 1.35;  // off the carrier, of it: up to there, bl
 // and powers are many, longer ones leave the caches.
 constexpr std::size_t longest_level = 2;
 constexpr double most_curvature = 2;
-constexpr double left_of_doppler = 0.7;  // of the tolerance, for Doppler shifts between those that plans are for
+constexpr double left_of_doppler = 0.7;  // share of the tolerance for Doppler shifts between those of plans
 
 /// Range at which the curvature moves the frequencies of the outermost elements by half of the band [m].
 double moving_range(const SonarHead& head) {

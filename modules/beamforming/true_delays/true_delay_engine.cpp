@@ -28,8 +28,8 @@ constexpr double finest = 1e-5, coarsest = 0.1;
 constexpr double farthest_out = 1 + 1e-9;    // |u| of echoes, rounded
 constexpr std::size_t exact_at_once = 4096;  // echoes that are summed element by element together
 constexpr std::size_t beams_at_once = 8;
-constexpr double steady_band = 0.1;  // of the bandwidth: Doppler shifts that the band of echoes at rest holds
-constexpr double first_rung = 0.05;  // of the bandwidth: plans of moving echoes are for 2^k times this
+constexpr double steady_band = 0.1;  // Doppler shift that the band of echoes at rest holds, over the bandwidth
+constexpr double first_rung = 0.05;  // least Doppler shift of plans for moving echoes, over the bandwidth
 
 /// Idle workspaces.
 class IdleWorkspaces {
