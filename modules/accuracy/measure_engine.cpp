@@ -46,7 +46,8 @@ double bound_of_narrow_band(const AccuracyTask& task, int threads) {
   std::vector<double> power;
   for (const std::complex<double>& amplitude : task.echoes.amplitude) power.push_back(std::norm(amplitude));
   const NarrowBandError error(task.head, task.medium.sound_speed);
-  const NarrowBandError::Sums sums = error.of(places_of(task.echoes, task.medium.sound_speed), power, threads);
+  const NarrowBandError::Sums sums =
+      error.of(places_of(task.echoes, task.medium.sound_speed), power, task.echoes.doppler, threads);
   return sums.image > 0 ? std::sqrt(sums.error / sums.image) : 0;
 }
 

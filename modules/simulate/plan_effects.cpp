@@ -67,14 +67,7 @@ double bent_rays_bound(const PlanFacts& facts) {
 bool misplaces_double_echoes(const PlanFacts& facts) { return straight_double_echoes(facts).range > 0.01; }
 
 double motion_bound(const PlanFacts& facts) {
-  const ResolvedPing& ping = facts.ping;
-  const Echoes still = echoes_of(facts, facts.sample.places);
-  Scatterers met = facts.sample.places;
-  Transmission mean_power = ping.sent;
-  mean_power.echo_options.amplitude = SurfaceAmplitude::mean_power;
-  const Echoes moved = echoes_in_motion(facts.sample.scene, met, ping.view.world_from_head,
-                                        {ping.event.motion, moves(facts.scene)}, mean_power);
-  return difference_bound(facts, still, moved);
+  return difference_bound(facts, echoes_of(facts, facts.sample.places), moved_echoes(facts));
 }
 
 /// Energy that beams receive of echoes within the gate.
@@ -194,6 +187,15 @@ constexpr PlanStage effects[] = {
      "a material has a coherent fraction", "no material has a coherent fraction"}};
 
 }  // namespace
+
+Echoes moved_echoes(const PlanFacts& facts) {
+  const ResolvedPing& ping = facts.ping;
+  Scatterers met = facts.sample.places;
+  Transmission mean_power = ping.sent;
+  mean_power.echo_options.amplitude = SurfaceAmplitude::mean_power;
+  return echoes_in_motion(facts.sample.scene, met, ping.view.world_from_head, {ping.event.motion, moves(facts.scene)},
+                          mean_power);
+}
 
 std::span<const PlanStage> effect_stages() { return effects; }
 

@@ -79,6 +79,9 @@ struct StraightDoubleEchoes {
 /// Returns it, by rays of all three legs (bent_pairs).
 StraightDoubleEchoes straight_double_echoes(const PlanFacts& facts);
 
+/// Returns the echoes of the sample by their mean power, of the moving head and parts (E44).
+Echoes moved_echoes(const PlanFacts& facts);
+
 /// A row of the plan.
 struct PlanStage {
   const char* name;

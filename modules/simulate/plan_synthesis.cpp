@@ -32,8 +32,10 @@ double narrow_band_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   const NarrowBandError error(ping.head, ping.sent.medium.sound_speed);
   const SceneSample& sample = facts.sample;
-  const NarrowBandError::Sums inside = error.of(sample.places, sample.power, ping.options.threads),
-                              beside = error.of(sample.places, sample.power_off_azimuth, ping.options.threads);
+  const bool moving = ping.options.effects.moving != Choice::never;
+  const std::vector<double> doppler = moving ? moved_echoes(facts).doppler : sample.doppler;
+  const NarrowBandError::Sums inside = error.of(sample.places, sample.power, doppler, ping.options.threads),
+                              beside = error.of(sample.places, sample.power_off_azimuth, doppler, ping.options.threads);
   return bound_of_added_echoes(
       facts, inside.image > 0 ? (inside.error + beside.error) / inside.image * facts.sample.in_view : 0);
 }

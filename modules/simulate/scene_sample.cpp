@@ -205,6 +205,7 @@ SceneSample sample_of(const Scatterers& places, const Echoes& echoes, const Reso
   ReceivedEnergy received(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
   SceneSample s;
   s.places = places;
+  s.doppler = echoes.doppler;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const double r = places.range[i];
     const bool heard = r >= gate.min_range && r <= gate.max_range;

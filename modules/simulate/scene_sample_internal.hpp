@@ -20,10 +20,11 @@ struct SceneSample {
   std::vector<double> energy;             ///< energy of each of `places` [Pa^2, as above]; 0 outside the view
   std::vector<double> power;              ///< energy at one element, without the beams [Pa^2]
   std::vector<double> power_off_azimuth;  ///< power of places off_azimuth; empty if the options exclude them
+  std::vector<double> doppler{};          ///< shifts of the carrier of given echoes [Hz]; empty: nothing moves
 };
 
 /// Returns given echoes of patches or targets at `places` as a sample, within the head's gate only. Sets only places,
-/// energy, power and in_view.
+/// energy, power, doppler and in_view.
 SceneSample sample_of(const Scatterers& places, const Echoes& echoes, const ResolvedPing& ping);
 
 /// Returns a sample of at most 4096 surfels of each kind of place, evenly strided. Each kind is sampled separately, so

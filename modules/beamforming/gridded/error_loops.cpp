@@ -24,7 +24,7 @@ void echo_phasors(const double* y, std::size_t count, const BeamEcho& echo, Echo
   for (std::size_t m = 0; m < count; ++m) {
     const double there = way_to(y[m], e.range, e.u);
     const double carrier = e.cycles_per_m * (there - way_to(y[m], e.range, e.u_beam));
-    vec::sine_cosine(-e.cycles_per_m * y[m] * (e.u - e.u_beam), p.sine[p.narrow][m], p.cosine[p.narrow][m]);
+    vec::sine_cosine(-e.narrow_cycles * y[m] * (e.u - e.u_beam), p.sine[p.narrow][m], p.cosine[p.narrow][m]);
     vec::sine_cosine(carrier, p.sine[p.carrier][m], p.cosine[p.carrier][m]);
     vec::sine_cosine(e.cycles_per_m * (there - way_to(y[m], e.nearer, e.u_beam)), p.sine[p.before][m],
                      p.cosine[p.before][m]);

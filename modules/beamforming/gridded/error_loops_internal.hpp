@@ -9,8 +9,9 @@ namespace insonify::kernels {
 /// An echo from (range, u) in a beam at u_beam, focused at its range, and nearer and farther by the pulse's length [m].
 struct BeamEcho {
   double range, u, u_beam, nearer, farther;
-  double cycles_per_m;       ///< at the carrier
-  double near_off, far_off;  ///< frequencies off the carrier, over it
+  double cycles_per_m;       ///< cycles of the received carrier, with the Doppler shift of the echo [1/m]
+  double narrow_cycles;      ///< cycles of the carrier of the head, which the narrow-band image uses [1/m]
+  double near_off, far_off;  ///< frequencies off the received carrier, over it
 };
 
 /// Phasors of the difference between the paths from echo and focus to each element (E61, E62), one row per use.

@@ -32,7 +32,7 @@ NarrowBandError::NarrowBandError(const SonarHead& head, double sound_speed)
 }
 
 NarrowBandError::Sums NarrowBandError::of(const Scatterers& places, const std::vector<double>& power,
-                                          int threads) const {
+                                          const std::vector<double>& doppler, int threads) const {
   // Some of the places, and how many parts of the power each stands for.
   const double parts = std::max(32.0, 768.0 / static_cast<double>(std::min(u_beam_.size(), near_beams)));
   const double part = std::accumulate(power.begin(), power.end(), 0.0) / parts;
@@ -49,7 +49,8 @@ NarrowBandError::Sums NarrowBandError::of(const Scatterers& places, const std::v
   parallel_blocks(chosen.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto [i, times] = chosen[k];
-      sums[k] = of_echo(places.range[i], std::cos(places.elevation[i]) * std::sin(places.azimuth[i]), times);
+      sums[k] = of_echo({places.range[i], std::cos(places.elevation[i]) * std::sin(places.azimuth[i]), times,
+                         head_.pulse.centre_frequency + (doppler.empty() ? 0 : doppler[i])});
     }
   });
   Sums sum;
@@ -57,32 +58,32 @@ NarrowBandError::Sums NarrowBandError::of(const Scatterers& places, const std::v
   return sum;
 }
 
-// An echo that stands for `times`: in all beams that have it in or near their main lobes, and in a few that stand for
-// the rest.
-NarrowBandError::Sums NarrowBandError::of_echo(double range, double u, double times) const {
+// Adds all beams that have the echo in or near their main lobes, and a few that stand for the rest.
+NarrowBandError::Sums NarrowBandError::of_echo(const Echo& echo) const {
   std::vector<double> u_beam = u_beam_;
   const std::size_t beams = u_beam.size(), near = std::min(near_beams, beams);
-  std::sort(u_beam.begin(), u_beam.end(), [u](double a, double b) { return std::abs(a - u) < std::abs(b - u); });
+  std::ranges::sort(u_beam, {}, [&](double u) { return std::abs(u - echo.u); });
   Sums sums;
   std::vector<double> workspace(2 * kernels::EchoPhasors::rows * y_.size());
-  for (std::size_t b = 0; b < near; ++b) add_beam(range, u, u_beam[b], times, workspace, sums);
+  for (std::size_t b = 0; b < near; ++b) add_beam(echo, u_beam[b], echo.times, workspace, sums);
   const std::size_t rest = beams - near, step = std::max<std::size_t>(1, rest / far_beams);
   for (std::size_t b = near + step / 2; b < beams; b += step)
-    add_beam(range, u, u_beam[b], times * static_cast<double>(step), workspace, sums);
+    add_beam(echo, u_beam[b], echo.times * static_cast<double>(step), workspace, sums);
   return sums;
 }
 
 // Nodes of the spectrum with the focus at the echo, and nodes of the pulse's length at the carrier: both at once are
 // of higher order.
-void NarrowBandError::add_beam(double range, double u, double u_beam, double weight, std::vector<double>& workspace,
+void NarrowBandError::add_beam(const Echo& echo, double u_beam, double weight, std::vector<double>& workspace,
                                Sums& sums) const {
   kernels::EchoPhasors p{};
   for (std::size_t row = 0; row < kernels::EchoPhasors::rows; ++row)
     p.cosine[row] = workspace.data() + 2 * row * y_.size(), p.sine[row] = p.cosine[row] + y_.size();
-  const double carrier = head_.pulse.centre_frequency;
+  const double nearer = std::max(echo.range - off_focus_, 0.3 * echo.range);
   kernels::echo_phasors(y_.data(), y_.size(),
-                        {range, u, u_beam, std::max(range - off_focus_, 0.3 * range), range + off_focus_, cycles_per_m_,
-                         nodes_[3].frequency / carrier, nodes_[4].frequency / carrier},
+                        {echo.range, echo.u, u_beam, nearer, echo.range + off_focus_,
+                         cycles_per_m_ * echo.carrier / head_.pulse.centre_frequency, cycles_per_m_,
+                         nodes_[3].frequency / echo.carrier, nodes_[4].frequency / echo.carrier},
                         p);
   const kernels::PhasorSums all = kernels::sum_phasors(shading_.data(), y_.size(), p);
   const auto sum_of = [](const double(&parts)[2]) { return std::complex(parts[0], parts[1]); };
