@@ -168,6 +168,9 @@ TEST(Accuracy, engines_hold_where_arithmetic_is_strained) {
       const AccuracyRow row = bench.engine(engine_of(method), 1e-4);
       EXPECT_EQ(row.refused, "") << task.name << ", " << row.method;
       EXPECT_LE(row.error, 1e-4) << task.name << ", " << row.method;
+      if (method == SynthesisMethod::gridded) {
+        EXPECT_GE(row.model_bound, 0.7 * row.model_error) << task.name;
+      }
       if (task.name == "two echoes 300 dB apart") {
         EXPECT_LE(row.local_error, 1e-4) << row.method;
       }

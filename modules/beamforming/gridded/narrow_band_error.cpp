@@ -58,11 +58,12 @@ NarrowBandError::Sums NarrowBandError::of(const Scatterers& places, const std::v
   return sum;
 }
 
-// Adds all beams that have the echo in or near their main lobes, and a few that stand for the rest.
+// Adds all beams that have the echo in or near their main or grating lobes, and a few that stand for the rest.
 NarrowBandError::Sums NarrowBandError::of_echo(const Echo& echo) const {
   std::vector<double> u_beam = u_beam_;
   const std::size_t beams = u_beam.size(), near = std::min(near_beams, beams);
-  std::ranges::sort(u_beam, {}, [&](double u) { return std::abs(u - echo.u); });
+  const double lobes_apart = 1 / (cycles_per_m_ * head_.array.spacing);
+  std::ranges::sort(u_beam, {}, [&](double u) { return std::abs(std::remainder(u - echo.u, lobes_apart)); });
   Sums sums;
   std::vector<double> workspace(2 * kernels::EchoPhasors::rows * y_.size());
   for (std::size_t b = 0; b < near; ++b) add_beam(echo, u_beam[b], echo.times, workspace, sums);
