@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 #include "sonar/pulse.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -44,7 +45,7 @@ void require_windowed(const SonarHead& head, const Medium& medium, const Windowe
   require_valid(medium, "synthesize_windowed");
   if (head.column || fan_rows(head.fan).size() != 1)
     fail(ErrorKind::argument, "synthesize_windowed: the head has several rows of beams, must have one");
-  if (head.pulse.shape != PulseShape::gaussian)
+  if (!is_gaussian(head.pulse))
     fail(ErrorKind::argument, "synthesize_windowed: the head sends a sweep, must be a Gaussian pulse");
   if (!(o.tolerance >= 1e-12 && o.tolerance < 1))
     fail(ErrorKind::argument, "synthesize_windowed: tolerance = ", o.tolerance, ", must be within [1e-12, 1)");

@@ -9,7 +9,7 @@
 #include <complex>
 
 #include "core/units.hpp"
-#include "sonar/pulse_spectrum.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {

@@ -12,6 +12,7 @@
 #include "beamforming/pulses/time_axis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "core/parallel.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -80,7 +81,7 @@ Grid<double> sum_directly(const LineInput& image, int threads) {
     parallel_for(count, threads, [&](std::size_t k) {
       const double delay = echoes.delay[first + k];
       const EchoEnvelope envelope = shapes.of(delay, echoes.doppler_of(first + k));
-      const auto [begin, end] = axis.around(delay, head.pulse.duration);
+      const auto [begin, end] = axis.around(delay, kind_of(head.pulse).end(head.pulse));
       pulses[k].first = begin;
       for (std::size_t n = begin; n < end; ++n) {
         const double t = axis.start + static_cast<double>(n) * axis.step - delay;
@@ -103,7 +104,7 @@ Grid<double> sum_directly(const LineInput& image, int threads) {
 Grid<double> sum_of_squares(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                             const SynthesisOptions& options) {
   LineInput image{echoes, head, medium};
-  if (head.pulse.shape == PulseShape::linear_fm) return sum_directly(image, options.threads);
+  if (!is_gaussian(head.pulse)) return sum_directly(image, options.threads);
   image = squared(std::move(image));
   return synthesize_gridded(image.echoes, image.head, image.medium, options).real().max(0);
 }

@@ -95,8 +95,7 @@ struct SurfelContribution {
 class ResolutionCell {
  public:
   ResolutionCell(const SonarHead& head, const Medium& medium, const Beams& beams)
-      : length_(std::sqrt(pi / (4 * std::log(2))) * range_resolution(head.pulse, medium.sound_speed)),
-        width_(beams.equivalent_width(head.fan.beam_width)) {}
+      : length_(energy_length(head.pulse, medium.sound_speed)), width_(beams.equivalent_width(head.fan.beam_width)) {}
 
   double area(double range, double cos_incidence, double u, double v) const {
     const double sine = std::sqrt(std::max(0.0, 1 - cos_incidence * cos_incidence)), ahead = 1 - u * u - v * v;

@@ -15,7 +15,7 @@ DelayBins::DelayBins(const SonarHead& head, const Medium& medium, double floor_d
       half(pulse_half_length(head.pulse, amplitude_from_db(floor_db))),
       bins(head.gate.bins()) {
   // The Doppler shift displaces the peak of a sweep's echo.
-  if (head.pulse.shape == PulseShape::linear_fm) half += doppler * head.pulse.duration / head.pulse.bandwidth;
+  half += std::max(std::abs(doppler_delay(head.pulse, doppler)), std::abs(doppler_delay(head.pulse, -doppler)));
   length = static_cast<std::size_t>(std::min(2 * half / step + 1, static_cast<double>(bins)));
 }
 

@@ -8,15 +8,16 @@
 
 namespace insonify {
 
-/// Overlap of two echoes of one scatterer that differ in delay [s], Doppler shift [Hz] and direction cosine: 1 for
-/// none, that of Gaussian pulses of the bandwidth, times that of the array's patterns.
+/// Overlap of two echoes of one scatterer that differ in delay [s], Doppler shift [Hz], which displaces sweeps, and
+/// direction cosine: 1 for none, that of Gaussian pulses of the bandwidth, times that of the array's patterns.
 class EchoOverlap {
  public:
-  explicit EchoOverlap(const ResolvedPing& ping) : array_(ping.head.array), bandwidth_(ping.head.pulse.bandwidth) {
+  explicit EchoOverlap(const ResolvedPing& ping) : array_(ping.head.array), pulse_(ping.head.pulse) {
     step_ = 2 * pi * ping.head.pulse.centre_frequency / ping.sent.medium.sound_speed * array_.spacing;
   }
   double of(double delay, double doppler, double u) const {
-    const double pulses = pi * bandwidth_ * delay, tones = doppler / bandwidth_;
+    const double pulses = pi * pulse_.bandwidth * (delay + doppler_delay(pulse_, doppler));
+    const double tones = doppler / pulse_.bandwidth;
     return std::exp(-pulses * pulses / (4 * std::numbers::ln2) - std::numbers::ln2 * tones * tones) * patterns(u);
   }
 
@@ -31,7 +32,8 @@ class EchoOverlap {
     return sum / all;
   }
   const LineArray& array_;
-  double bandwidth_, step_;
+  const Pulse& pulse_;
+  double step_;
 };
 
 }  // namespace insonify

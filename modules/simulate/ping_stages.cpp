@@ -18,7 +18,7 @@
 #include "sampling/seen_surfels.hpp"
 #include "simulate/part_views_internal.hpp"
 #include "simulate/ping_stages_internal.hpp"
-#include "sonar/pulse_spectrum.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/units.hpp"
 #include "simulate/echo_overlap_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
-#include "sonar/pulse_spectrum.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -120,8 +120,7 @@ double noise_bound(const PlanFacts& facts) {
   const SonarHead& head = facts.ping.head;
   const double noise = 2 * power_from_db(facts.ping.beam_noise_db) * micropascal * micropascal *
                        static_cast<double>(head.fan.beams() * head.gate.bins());
-  const double pulse_bins =
-      0.469719 / head.pulse.bandwidth * facts.ping.sent.medium.sound_speed / (2 * head.gate.bin_size);
+  const double pulse_bins = energy_length(head.pulse, facts.ping.sent.medium.sound_speed) / head.gate.bin_size;
   return bound_of_added_echoes(facts, noise / pulse_bins);
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "sonar/linear_fm_internal.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -24,6 +26,15 @@ Complex small_sinhc(Complex u) {
   const Complex v = u * u;
   return 1.0 + v / 6.0 * (1.0 + v / 20.0 * (1.0 + v / 42.0 * (1.0 + v / 72.0)));
 }
+
+/// Gauss-Hermite rules of several sizes, smallest first: sum_m weight f(node) = (1/sqrt(pi)) integral exp(-h^2) f dh.
+struct HermiteRules final : PulseTables {
+  struct Rule {
+    std::vector<double> node, weight;
+  };
+  std::vector<Rule> rules;
+  HermiteRules();
+};
 
 /// Returns a Gauss-Hermite rule by the eigenvalues of its recurrence (Golub and Welsch 1969).
 HermiteRules::Rule hermite_rule(int n) {
@@ -52,43 +63,48 @@ double log_hermite_error(std::size_t n, double x) {
   return 2 * m * std::log(2 * x) + log_factorial(m) - log_factorial(2 * m) - m * std::log(2.0);
 }
 
-/// Returns the least loss of the frequencies in [-half_band, half_band] [Np/m].
-double least_absorption(const Absorption& a, double half_band) {
-  double least = std::min(a.a0 - a.a1 * half_band, a.a0 + a.a1 * half_band) + a.a2 * half_band * half_band;
-  const double lowest = a.a2 > 0 ? -a.a1 / (2 * a.a2) : 2 * half_band;
-  if (std::abs(lowest) < half_band) least = a.a0 - a.a1 * a.a1 / (4 * a.a2);
-  return least;
-}
-
-}  // namespace
-
-ReplicaWeights replica_weights(ReplicaWindow window) {
-  if (window == ReplicaWindow::hann) return {0.5, 0.5};
-  if (window == ReplicaWindow::hamming) return {0.54, 0.46};
-  return {1, 0};
-}
-
 HermiteRules::HermiteRules() {
   for (const int n : {2, 4, 6, 8, 12, 16, 24, 32, 48, 64}) rules.push_back(hermite_rule(n));
 }
 
-LinearFmEcho::LinearFmEcho(const Pulse& pulse, const Absorption& absorption, double range, double doppler,
-                           const HermiteRules* rules)
+/// One echo of a sweep behind its matched filter (E54). The absorption's slope over the band is an exponential along
+/// the sweep. Its curvature is a Gaussian, an average of exponentials (Gauss-Hermite). Each exponential gives an
+/// integral in closed form.
+class LinearFmEcho final : public EchoShape {
+ public:
+  LinearFmEcho(const Pulse& pulse, ReplicaWeights window, const Absorption& absorption, double range, double doppler,
+               const HermiteRules* rules);
+  std::complex<double> at(double t) const override;
+
+ private:
+  /// The term weight exp(log_gain + slope tau) of the sweep's amplitude.
+  struct Exponential {
+    std::complex<double> log_gain, slope;
+    double weight;
+  };
+  std::complex<double> lossless(double t) const;
+  std::complex<double> lossy(double t) const;
+  void add_losses(const Pulse& pulse, const Absorption& absorption, double range, const HermiteRules* rules);
+
+  double duration_, rate_, doppler_;
+  ReplicaWeights window_;
+  double gain_;
+  std::vector<Exponential> exponentials_;  ///< empty: the loss is the same at all frequencies
+};
+
+LinearFmEcho::LinearFmEcho(const Pulse& pulse, ReplicaWeights window, const Absorption& absorption, double range,
+                           double doppler, const HermiteRules* rules)
     : duration_(pulse.duration),
       rate_(pulse.bandwidth / pulse.duration),
       doppler_(doppler),
-      window_(replica_weights(pulse.window)),
+      window_(window),
       gain_(std::exp(-2 * absorption.a0 * range)) {
   if (absorption.a1 != 0 || absorption.a2 != 0) add_losses(pulse, absorption, range, rules);
 }
 
 void LinearFmEcho::add_losses(const Pulse& pulse, const Absorption& absorption, double range,
                               const HermiteRules* rules) {
-  const double least = least_absorption(absorption, 0.5 * pulse.bandwidth);
-  if (!(least >= -1e-9 * absorption.a0))
-    fail(ErrorKind::argument, "echo_envelope: absorption slope ", absorption.a1, " Np/m/Hz and curvature ",
-         absorption.a2, " Np/m/Hz^2 turn a sweep over ", pulse.bandwidth,
-         " Hz into a growing one; use absorption order 0, or a smaller bandwidth");
+  const double least = least_absorption(absorption, 0.5 * pulse.bandwidth, pulse);
   if (2 * least * range > most_nepers) {
     gain_ = 0;
     return;
@@ -158,40 +174,39 @@ Complex LinearFmEcho::lossy(double t) const {
   return sum / (window_.level * duration_);
 }
 
-double linear_fm_half_width(const Pulse& pulse) {
-  const LinearFmEcho echo(pulse, {}, 0, 0, nullptr);
-  const auto above = [&](double t) { return std::norm(echo.at(t)) > 0.5; };
-  // Find the first step below half the peak, then bisect.
-  const double step = 0.02 / pulse.bandwidth;
-  double inside = 0, outside = step;
-  while (above(outside)) inside = outside, outside += step;
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = 0.5 * (inside + outside);
-    (above(middle) ? inside : outside) = middle;
-  }
-  return outside;  // (E55)
-}
+class LinearFmPulse final : public MatchedPulse {
+ public:
+  LinearFmPulse()
+      : MatchedPulse({.name = "linear_fm",
+                      .picture = "linear FM sweep",
+                      .most_product = 1e6,
+                      .products = "1 and 1e6",
+                      .window = true}) {}
 
-double linear_fm_half_length(const Pulse& pulse, double tolerance) {
-  const double duration = pulse.duration, main_lobe = 2 / pulse.bandwidth;
-  const auto [level, swing] = replica_weights(pulse.window);
-  // Behind the main lobe the envelope comes from the two ends of the overlap: that of the replica on one side and that
-  // of the echo on the other, where the replica's weight is that at T/2 - t.
-  const auto bound = [&](double t) {
-    const double f = pulse.bandwidth * t / duration, h = 1 / duration;
-    const Complex turn = std::polar(1.0, 2 * pi * t / duration);
-    const double replica_end = std::abs(level / f - swing * f / (f * f - h * h));
-    const double echo_end = std::abs(level / f - 0.5 * swing * (std::conj(turn) / (f - h) + turn / (f + h)));
-    return (replica_end + echo_end) / (2 * pi * level * duration);
-  };
-  constexpr int steps = 4096;
-  if (main_lobe >= duration) return duration;
-  for (int n = steps; n > 0; --n) {
-    const double t = main_lobe * std::pow(duration / main_lobe, static_cast<double>(n - 1) / steps);
-    if (bound(t) > tolerance)
-      return std::min(duration, main_lobe * std::pow(duration / main_lobe, static_cast<double>(n) / steps));
+  std::shared_ptr<const PulseTables> tables(const Pulse&, const Medium& medium) const override {
+    return medium.absorption.a2 == 0 ? nullptr : std::make_shared<const HermiteRules>();
   }
-  return main_lobe;
+  EchoEnvelope echo(const Pulse& pulse, const Absorption& absorption, double range, double doppler,
+                    const PulseTables* tables) const override {
+    EchoEnvelope envelope;
+    envelope.shape = std::make_shared<LinearFmEcho>(pulse, weights(pulse), absorption, range, doppler,
+                                                    static_cast<const HermiteRules*>(tables));
+    return envelope;
+  }
+  double phase(const Pulse& pulse, double t, double doppler) const override {
+    const double rate = pulse.bandwidth / pulse.duration;
+    return -pi * rate * t * t - 2 * pi * doppler * t;
+  }
+  double doppler_delay(const Pulse& pulse, double doppler) const override {
+    return -doppler * pulse.duration / pulse.bandwidth;  // (E54)
+  }
+};
+
+}  // namespace
+
+const PulseKind& linear_fm_pulse() {
+  static const LinearFmPulse kind;
+  return kind;
 }
 
 }  // namespace insonify

@@ -7,16 +7,11 @@
 #include "core/error.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
-#include "sonar/linear_fm_internal.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
-namespace {
-constexpr double two_ln2 = 2 * std::numbers::ln2;
-/// Intensity full width at half maximum times bandwidth of a Gaussian pulse: 2 ln2 / pi.
-constexpr double intensity_width = two_ln2 / pi;
-}  // namespace
 
-const char* pulse_shape_name(PulseShape shape) { return shape == PulseShape::linear_fm ? "linear_fm" : "gaussian"; }
+const char* pulse_shape_name(PulseShape shape) { return kind_of(shape).traits().name; }
 
 const char* replica_window_name(ReplicaWindow window) {
   if (window == ReplicaWindow::uniform) return "uniform";
@@ -31,12 +26,13 @@ void require_valid(const Pulse& pulse, const char* who) {
          "frequency (", pulse.centre_frequency, " Hz)");
   require(pulse.source_level_db >= -400 && pulse.source_level_db <= 260, who, "source_level_db", pulse.source_level_db,
           "dB", "within -400 and 260");
-  if (pulse.shape != PulseShape::linear_fm) return;
+  const double most = kind_of(pulse).traits().most_product;
+  if (most == 0) return;
   if (!std::isfinite(pulse.duration) || pulse.duration <= 0)
     fail(ErrorKind::argument, who, ": duration = ", pulse.duration, " s, must be finite and > 0 for a sweep");
-  if (const double product = pulse.bandwidth * pulse.duration; !(product >= 1 - 1e-9 && product <= 1e6))
+  if (const double product = pulse.bandwidth * pulse.duration; !(product >= 1 - 1e-9 && product <= most))
     fail(ErrorKind::argument, who, ": duration = ", pulse.duration, " s times bandwidth = ", pulse.bandwidth, " Hz is ",
-         product, ", must be within 1 and 1e6 for a sweep");
+         product, ", must be within ", kind_of(pulse).traits().products, " for a sweep");
 }
 
 double source_pressure(const Pulse& pulse) {
@@ -44,77 +40,68 @@ double source_pressure(const Pulse& pulse) {
 }
 
 double range_resolution(const Pulse& pulse, double sound_speed) {
-  if (pulse.shape == PulseShape::linear_fm) return sound_speed * linear_fm_half_width(pulse);  // (E55)
-  return 0.5 * sound_speed * intensity_width / pulse.bandwidth;                                // (E8)
+  return kind_of(pulse).range_resolution(pulse, sound_speed);
+}
+
+double energy_length(const Pulse& pulse, double sound_speed) {
+  return kind_of(pulse).energy_length(pulse, sound_speed);
 }
 
 double nominal_range_resolution(const Pulse& pulse, double sound_speed) { return sound_speed / (2 * pulse.bandwidth); }
 
-double noise_bandwidth(const Pulse& pulse) {
-  if (pulse.shape != PulseShape::linear_fm) return std::sqrt(pi / (2 * two_ln2)) * pulse.bandwidth;  // (E18)
-  const auto [level, swing] = replica_weights(pulse.window);
-  return (1 + 0.5 * (swing * swing) / (level * level)) / pulse.duration;  // (E55)
-}
+double noise_bandwidth(const Pulse& pulse) { return kind_of(pulse).noise_bandwidth(pulse); }
 
 double pulse_half_length(const Pulse& pulse, double tolerance) {
   if (!(tolerance > 0 && tolerance < 1))
     fail(ErrorKind::argument, "pulse_half_length: tolerance = ", tolerance, ", must be within 0 and 1");
-  if (pulse.shape == PulseShape::linear_fm) return linear_fm_half_length(pulse, tolerance);
-  return std::sqrt(-std::log(tolerance) * two_ln2) / (pi * pulse.bandwidth);  // (E8)
+  return kind_of(pulse).half_length(pulse, tolerance);
+}
+
+double doppler_delay(const Pulse& pulse, double doppler) { return kind_of(pulse).doppler_delay(pulse, doppler); }
+
+double doppler_tolerance(const Pulse& pulse, double loss_db) {
+  const EchoShapes shapes(pulse, {2, {}});
+  const double least = amplitude_from_db(-loss_db);
+  const auto keeps = [&](double doppler) {
+    return std::abs(shapes.of(0, doppler).at(doppler_delay(pulse, doppler))) > least;
+  };
+  // Step out much finer than the reciprocal of any length, then bisect.
+  double inside = 0, outside = 0.02 * std::min(pulse.bandwidth, 1 / pulse_half_length(pulse, pulse_floor));
+  for (; keeps(outside); inside = outside, outside *= 1.3)
+    if (outside > 0.5 * pulse.centre_frequency) return std::numeric_limits<double>::infinity();
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (inside + outside);
+    (keeps(middle) ? inside : outside) = middle;
+  }
+  return inside;
 }
 
 double replica_weight(const Pulse& pulse, double t) {
-  const auto [level, swing] = replica_weights(pulse.window);
-  return level + swing * std::cos(2 * pi * t / pulse.duration);
+  const MatchedPulse* const matched = kind_of(pulse).matched();
+  if (!matched) return 1;
+  const auto [level, swing] = matched->weights(pulse);
+  return level + swing * std::cos(2 * pi * t / matched->length(pulse));
 }
-
-namespace {
-
-EchoEnvelope gaussian_envelope(const Pulse& pulse, const Absorption& absorption, double range) {
-  const double a_sent = two_ln2 / (pulse.bandwidth * pulse.bandwidth);
-  const double a = a_sent + 2 * absorption.a2 * range;
-  if (!(a > 0))
-    fail(ErrorKind::argument, "echo_envelope: absorption curvature ", absorption.a2, " Np/m/Hz^2 at ", range,
-         " m turns the pulse into a growing one; use absorption order 0 or 1");
-  const double b = 2 * absorption.a1 * range;
-  const double gain = std::sqrt(a_sent / a) * std::exp(b * b / (4 * a) - 2 * absorption.a0 * range);  // (E8)
-  if (!(gain <= 1 + 1e-9))
-    fail(ErrorKind::argument, "echo_envelope: absorption slope ", absorption.a1, " Np/m/Hz at ", range,
-         " m turns the pulse into a growing one (gain ", gain, "); use absorption order 0, or a smaller bandwidth");
-  return {gain, a, b};
-}
-
-EchoEnvelope sweep_envelope(const Pulse& pulse, const Absorption& absorption, double range, double doppler,
-                            const HermiteRules* rules) {
-  EchoEnvelope envelope;
-  envelope.sweep = std::make_shared<LinearFmEcho>(pulse, absorption, range, doppler, rules);
-  return envelope;
-}
-
-}  // namespace
 
 EchoEnvelope echo_envelope(const Pulse& pulse, const Absorption& absorption, double range) {
-  if (pulse.shape != PulseShape::linear_fm) return gaussian_envelope(pulse, absorption, range);
+  const PulseKind& kind = kind_of(pulse);
+  if (kind.traits().gaussian) return kind.echo(pulse, absorption, range, 0, nullptr);
   return EchoShapes(pulse, {2, absorption}).of(range);  // at 2 m/s the two-way delay is the range
 }
 
-EchoShapes::EchoShapes(const Pulse& pulse, const Medium& medium) : pulse_(pulse), medium_(medium) {
+EchoShapes::EchoShapes(const Pulse& pulse, const Medium& medium)
+    : pulse_(pulse), medium_(medium), kind_(&kind_of(pulse)) {
   require_valid(pulse, "EchoShapes");
-  if (pulse.shape == PulseShape::linear_fm && medium.absorption.a2 != 0)
-    rules_ = std::make_shared<const HermiteRules>();
+  tables_ = kind_->tables(pulse, medium);
 }
 
 EchoEnvelope EchoShapes::of(double delay, double doppler) const {
   const double range = 0.5 * medium_.sound_speed * delay;
-  if (pulse_.shape == PulseShape::linear_fm)
-    return sweep_envelope(pulse_, medium_.absorption, range, doppler, rules_.get());
-  EchoEnvelope envelope = gaussian_envelope(pulse_, medium_.absorption, range);
-  envelope.doppler = doppler;
-  return envelope;
+  return kind_->echo(pulse_, medium_.absorption, range, doppler, tables_.get());
 }
 
 std::complex<double> EchoEnvelope::at(double t) const {
-  if (sweep) return sweep->at(t);
+  if (shape) return shape->at(t);
   const double w = 2 * pi * t;
   const double magnitude = gain * std::exp(-w * w / (4 * a));  // (E8)
   if (doppler != 0) return std::polar(magnitude, b * w / (2 * a) - doppler * w);

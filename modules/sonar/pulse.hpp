@@ -13,11 +13,18 @@ enum class PulseShape {
   linear_fm  ///< a sweep of the bandwidth, compressed by a matched filter
 };
 
+class PulseKind;
+const PulseKind& gaussian_pulse();   ///< E8
+const PulseKind& linear_fm_pulse();  ///< E54
+
+/// The kinds of pulses, in the order of PulseShape. This list is the table to which a new kind adds a row.
+inline constexpr const PulseKind& (*pulse_kinds[])() = {gaussian_pulse, linear_fm_pulse};
+
 /// Weights of the replica that the matched filter uses: 1, or level + (1 - level) cos(2 pi t / duration) with level
 /// 0.5 (hann) or 0.54 (hamming).
 enum class ReplicaWindow { uniform, hann, hamming };
 
-/// Returns the name in sonar files: "gaussian" or "linear_fm".
+/// Returns the name in sonar files, e.g. "gaussian".
 const char* pulse_shape_name(PulseShape shape);
 /// Returns the name in sonar files: "uniform", "hann" or "hamming".
 const char* replica_window_name(ReplicaWindow window);
@@ -26,10 +33,10 @@ const char* replica_window_name(ReplicaWindow window);
 /// the sonar equation.
 struct Pulse {
   double centre_frequency = 0;  ///< [Hz]
-  double bandwidth = 0;         ///< full -3 dB power width, or swept band [Hz]; "range resolution" is c/2B
+  double bandwidth = 0;         ///< full -3 dB power width, swept band, or 1 / length of a tone [Hz]; see c/2B
   double source_level_db = 0;   ///< dB re 1 uPa rms at 1 m, on axis
   PulseShape shape = PulseShape::gaussian;
-  double duration = 0;                            ///< duration of a sweep [s]; a Gaussian's follows from its bandwidth
+  double duration = 0;                            ///< duration of a sweep [s]; others' follow from the bandwidth
   ReplicaWindow window = ReplicaWindow::hamming;  ///< window of a sweep's replica
 
   bool operator==(const Pulse&) const = default;
@@ -42,10 +49,13 @@ void require_valid(const Pulse& pulse, const char* who);
 /// Returns the peak pressure at 1 m on axis [Pa]: sqrt(2) 10^(SL/20) 1 uPa (E5).
 double source_pressure(const Pulse& pulse);
 
-/// Returns the full width at half maximum of the intensity as range [m]. Gaussian: 0.4413 c / 2B (E8). Sweep: found
-/// numerically (E55); for bandwidth duration of 100 and more within 1 % of 0.886 (uniform), 1.44 (hann) or 1.30
-/// (hamming) c / 2B.
+/// Returns the full width at half maximum of the intensity as range [m]. Gaussian: 0.4413 c / 2B (E8). Sweep: found numerically (E55); for bandwidth duration of 100 and more within 1 % of
+/// 0.886 (uniform), 1.44 (hann) or 1.30 (hamming) c / 2B of a linear sweep.
 double range_resolution(const Pulse& pulse, double sound_speed);
+
+/// Returns the range over which an echo of the peak intensity would have the energy of the pulse [m]: c / 2 integral
+/// |G|^2 dt. Gaussian: 0.4697 c / 2B (E8). Sweep: by a sum, within 1e-3.
+double energy_length(const Pulse& pulse, double sound_speed);
 
 /// Returns the range resolution of datasheets [m]: c / 2B.
 double nominal_range_resolution(const Pulse& pulse, double sound_speed);
@@ -62,10 +72,24 @@ double pulse_half_length(const Pulse& pulse, double tolerance);
 /// (uniform), 1.5 (hann) or 1.363 (hamming) / duration.
 double noise_bandwidth(const Pulse& pulse);
 
-/// Returns the weight of a sweep's replica at t [s] from its middle, |t| <= duration / 2.
+/// Returns the time by which a Doppler shift `doppler` [Hz] of the carrier displaces the peak of an echo [s]: -f_d T / B
+/// of a linear sweep (E54); 0 of a pulse of one frequency.
+double doppler_delay(const Pulse& pulse, double doppler);
+
+/// Returns the least Doppler shift by which the peak of an echo, where doppler_delay has it, loses `loss_db` > 0 dB
+/// [Hz]; infinity if no shift below half of the carrier does.
+double doppler_tolerance(const Pulse& pulse, double loss_db);
+
+/// Returns the weight of the replica of a matched filter at t [s] from its middle; 1 of a pulse without one.
 double replica_weight(const Pulse& pulse, double t);
 
-class LinearFmEcho;
+/// Envelope of one echo of a kind that has a class of its own for it.
+class EchoShape {
+ public:
+  virtual ~EchoShape() = default;
+  /// Returns the envelope at t [s] from the echo's delay.
+  virtual std::complex<double> at(double t) const = 0;
+};
 
 /// Envelope of one echo after a way of `range` out and back, with absorption frequency by frequency.
 ///
@@ -78,7 +102,7 @@ class LinearFmEcho;
 /// With a1 = a2 = 0 it is exp(-2 a0 r) exp(-pi^2 B^2 t^2 / (2 ln2)), real. A Doppler shift f_d turns it as
 /// exp(-2 pi i f_d t).
 ///
-/// A sweep s(t) = exp(-i pi k t^2), k = B / T, |t| < T/2, rising in frequency, behind its matched filter with the
+/// A linear sweep s(t) = exp(-i pi k t^2), k = B / T, |t| < T/2, rising in frequency, behind its matched filter with the
 /// replica w s (E54):
 ///
 ///   G(t) = (1 / integral w) integral s_r(tau) exp(-2 pi i f_d tau) conj(w s)(tau - t) dtau
@@ -94,11 +118,11 @@ class LinearFmEcho;
 /// of a shifted echo stands at t = -f_d / k (range-Doppler coupling). Motion also stretches the sweep itself. This is
 /// left out, an error of about B T f_d / f_c cycles at the ends. Accurate to 1e-12 of the peak.
 struct EchoEnvelope {
-  double gain = 0;                              ///< gain at the peak of a Gaussian, at most 1
-  double a = 0;                                 ///< [s^2]
-  double b = 0;                                 ///< [s]
-  double doppler = 0;                           ///< Doppler shift of a Gaussian [Hz]
-  std::shared_ptr<const LinearFmEcho> sweep{};  ///< the sweep's echo, which replaces the members above
+  double gain = 0;                           ///< gain at the peak of a Gaussian, at most 1
+  double a = 0;                              ///< [s^2]
+  double b = 0;                              ///< [s]
+  double doppler = 0;                        ///< Doppler shift of a Gaussian [Hz]
+  std::shared_ptr<const EchoShape> shape{};  ///< echo of another kind, which replaces the members above
 
   std::complex<double> at(double t) const;  ///< envelope at t [s] from the echo's delay
 };
@@ -107,7 +131,10 @@ struct EchoEnvelope {
 /// its way.
 EchoEnvelope echo_envelope(const Pulse& pulse, const Absorption& absorption, double range);
 
-struct HermiteRules;
+/// Tables that the echoes of one ping share; each kind that needs some has its own.
+struct PulseTables {
+  virtual ~PulseTables() = default;
+};
 
 /// Envelopes of all echoes of one ping. Terms that the echoes share are computed once.
 class EchoShapes {
@@ -121,7 +148,8 @@ class EchoShapes {
  private:
   Pulse pulse_;
   Medium medium_;
-  std::shared_ptr<const HermiteRules> rules_;
+  const PulseKind* kind_;
+  std::shared_ptr<const PulseTables> tables_;
 };
 
 }  // namespace insonify

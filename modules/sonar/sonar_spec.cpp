@@ -7,29 +7,29 @@
 #include "core/error.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
 
 /// Throws Error unless keys of a sweep come with a sweep, and a sweep with its duration.
 void require_pulse(const SonarSpec& s, const char* who) {
-  if (s.pulse == PulseShape::gaussian) {
-    if (s.pulse_length)
-      fail(ErrorKind::argument, who, ": pulse_length_s = ", *s.pulse_length,
-           " s, must be left out for pulse gaussian, whose length follows from its bandwidth; use pulse = "
-           "\"linear_fm\"");
-    if (s.replica_window)
-      fail(ErrorKind::argument, who, ": replica_window = ", replica_window_name(*s.replica_window),
-           ", must be left out for pulse gaussian; use pulse = \"linear_fm\"");
-    return;
-  }
+  const PulseTraits& pulse = kind_of(s.pulse).traits();
+  if (pulse.most_product == 0 && s.pulse_length)
+    fail(ErrorKind::argument, who, ": pulse_length_s = ", *s.pulse_length, " s, must be left out for pulse ",
+         pulse.name, ", whose length follows from its bandwidth; use pulse = \"linear_fm\"");
+  if (!pulse.window && s.replica_window)
+    fail(ErrorKind::argument, who, ": replica_window = ", replica_window_name(*s.replica_window),
+         ", must be left out for pulse ", pulse.name, "; use pulse = \"linear_fm\"");
+  if (pulse.most_product == 0) return;
   if (!s.pulse_length)
-    fail(ErrorKind::argument, who, ": pulse = linear_fm, must come with pulse_length_s, the duration of the sweep");
+    fail(ErrorKind::argument, who, ": pulse = ", pulse.name, ", must come with pulse_length_s, the duration of the ",
+         "sweep");
   require(*s.pulse_length > 0 && std::isfinite(*s.pulse_length), who, "pulse_length_s", *s.pulse_length, "s", "> 0");
   const double product = s.bandwidth * *s.pulse_length;
-  if (!(product >= 1 - 1e-9 && product <= 1e6))
+  if (!(product >= 1 - 1e-9 && product <= pulse.most_product))
     fail(ErrorKind::argument, who, ": pulse_length_s = ", *s.pulse_length, " s, times bandwidth_hz = ", s.bandwidth,
-         " Hz, must be within 1 and 1e6; it is ", product);
+         " Hz, must be within ", pulse.products, "; it is ", product);
 }
 
 void require_beam_table(const SonarSpec& s, const char* who) {

@@ -33,7 +33,7 @@ struct SonarSpec {
   double column_beam_width = 0;      ///< -3 dB width in elevation of a planar array's beam [rad]; 0: a line array
   double transmit_width = 0;         ///< -3 dB width in azimuth of the transmitter [rad]; 0: fills the fan evenly
   PulseShape pulse = PulseShape::gaussian;
-  std::optional<double> pulse_length{};           ///< duration of a linear FM sweep [s]
+  std::optional<double> pulse_length{};           ///< duration of a sweep [s]
   std::optional<ReplicaWindow> replica_window{};  ///< window of its matched filter; absent: Hamming
 };
 

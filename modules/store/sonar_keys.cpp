@@ -16,7 +16,14 @@ std::vector<Named<Value>> named(const char* (*name)(Value), std::initializer_lis
   for (const Value value : values) table.push_back({name(value), value});
   return table;
 }
-const auto pulses = named(pulse_shape_name, {PulseShape::gaussian, PulseShape::linear_fm});
+// Returns the names of all kinds of pulses.
+std::vector<Named<PulseShape>> pulse_names() {
+  std::vector<Named<PulseShape>> table;
+  for (std::size_t k = 0; k < std::size(pulse_kinds); ++k)
+    table.push_back({pulse_shape_name(static_cast<PulseShape>(k)), static_cast<PulseShape>(k)});
+  return table;
+}
+const auto pulses = pulse_names();
 const auto windows = named(replica_window_name, {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming});
 const auto shadings = named(shading_name, {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev});
 
@@ -89,11 +96,12 @@ std::vector<Key> sonar_keys(SonarSpec& s) {
       {"", "min_range_m", "m", number(s.min_range), "range at which listening begins", true},
       {"", "max_range_m", "m", number(s.max_range), "range at which listening ends", true},
       {"", "bin_size_m", "m", number(s.bin_size), "size of a range bin; default and most: 0.44 c / 2B"},
-      {"", "pulse", "", omitted_if(word(s.pulse, pulses), [&s] { return s.pulse == PulseShape::gaussian; }),
-       "shape of the pulse; default: gaussian, whose length follows from the bandwidth; linear_fm is a sweep"},
-      {"", "pulse_length_s", "s", number(s.pulse_length), "duration of a linear_fm sweep"},
+      {"", "pulse", "", omitted_if(word(s.pulse, pulses), [&s] { return s.pulse == PulseShape{}; }),
+       "shape of the pulse; default: gaussian; a sweep has a pulse_length_s, the length of others follows from the "
+       "bandwidth"},
+      {"", "pulse_length_s", "s", number(s.pulse_length), "duration of a sweep"},
       {"", "replica_window", "", word(s.replica_window, windows),
-       "window of the matched filter of a linear_fm sweep; default: hamming"},
+       "window of the matched filter of a sweep; default: hamming"},
   };
 }
 

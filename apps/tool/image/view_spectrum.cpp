@@ -6,6 +6,7 @@
 
 #include "beamforming/numerics/beam_spectrum.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse_kind.hpp"
 #include "tool/image/image.hpp"
 #include "view/colour_maps_internal.hpp"
 
@@ -31,8 +32,7 @@ std::vector<SpectrumLine> spectrum_lines(const PictureRequest& job) {
   pulse.centre_frequency = run.cube.centre_frequency;
   pulse.bandwidth = run.cube.bandwidth;
   const std::string name =
-      fmt::format("pulse, {} of {:g} kHz", pulse.shape == PulseShape::gaussian ? "Gaussian" : "linear FM sweep",
-                  pulse.bandwidth / 1000);
+      fmt::format("pulse, {} of {:g} kHz", kind_of(pulse).traits().picture, pulse.bandwidth / 1000);
   return {{received.frequency, received.density, beam_text(chosen, ping.fan)},
           {received.frequency, pulse_density(pulse, step_time, received.frequency, power), name}};
 }

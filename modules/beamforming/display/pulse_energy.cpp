@@ -5,11 +5,13 @@
 
 #include "beamforming/display/pulse_energy_internal.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr double samples_per_period = 6;  // of the bandwidth
+constexpr int least_of_corners = 24;      // samples on either side of a pulse with corners: 0.1 % of its energy
 constexpr double most_periods = 48;       // side lobes of a sweep beyond these hold less than 1e-3 of its energy
 constexpr double cut = 1e-4;              // of the envelope
 
@@ -18,7 +20,7 @@ constexpr double cut = 1e-4;              // of the envelope
 PulseEnergy::PulseEnergy(const Pulse& pulse, const Medium& medium, const RangeGate& gate)
     : pulse_(pulse), medium_(medium), shapes_(pulse, medium), first_range_(gate.min_range) {
   // Energies over range; between the entries their logarithm is nearly straight.
-  const std::size_t entries = pulse.shape == PulseShape::gaussian ? 65 : 9;
+  const std::size_t entries = is_gaussian(pulse) ? 65 : 9;
   range_step_ = (gate.max_range - gate.min_range) / static_cast<double>(entries - 1);
   const double metres_per_s = 0.5 * medium.sound_speed;
   for (std::size_t k = 0; k < entries; ++k) {
@@ -48,7 +50,8 @@ PulseEnergy::PulseEnergy(const Pulse& pulse, const Medium& medium, const RangeGa
 PulseEnergy::Samples PulseEnergy::samples_of(double range) const {
   const double reach = std::min(pulse_half_length(pulse_, cut), most_periods / pulse_.bandwidth);
   const EchoEnvelope envelope = shapes_.of(2 * range / medium_.sound_speed);
-  const auto half = static_cast<int>(std::ceil(reach * samples_per_period * pulse_.bandwidth));
+  auto half = static_cast<int>(std::ceil(reach * samples_per_period * pulse_.bandwidth));
+  if (!is_gaussian(pulse_)) half = std::max(half, least_of_corners);
   Samples samples{{}, reach / half};
   for (int k = -half; k <= half; ++k) samples.value.push_back(envelope.at(k * samples.step));
   return samples;

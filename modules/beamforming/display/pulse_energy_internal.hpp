@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sonar/pulse.hpp"
-#include "sonar/pulse_spectrum.hpp"
+#include "sonar/pulse_kind.hpp"
 #include "sonar/range_gate.hpp"
 
 namespace insonify {

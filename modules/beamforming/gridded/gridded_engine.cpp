@@ -13,6 +13,7 @@
 #include "beamforming/numerics/synthesis_precision_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "core/error.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -93,7 +94,7 @@ struct GriddedEngine::Plan {
 };
 
 bool GriddedEngine::suits(const SonarHead& head) {
-  return head.column ? head.pulse.shape == PulseShape::gaussian : fan_rows(head.fan).size() == 1;
+  return head.column ? is_gaussian(head.pulse) : fan_rows(head.fan).size() == 1;
 }
 
 GriddedEngine::GriddedEngine(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {

@@ -6,6 +6,7 @@
 #include "beamforming/numerics/fft_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 template <typename Real>
@@ -38,7 +39,7 @@ GriddingPlan<Real>::GriddingPlan(const SonarHead& head_in, const Medium& medium_
 template <typename Real>
 void GriddingPlan<Real>::plan_time(double tolerance) {
   const PulseReach sent(head.pulse, medium.absorption, medium.sound_speed, false, cut);
-  const bool sweep = head.pulse.shape == PulseShape::linear_fm;
+  const bool sweep = !is_gaussian(head.pulse);
   // The centre of a sweep is a boundary between two pieces.
   half = sweep ? std::ceil(sent.half / axis.step) * axis.step : sent.half;
   choice.pulse_half_length = sent.half;
@@ -56,7 +57,7 @@ void GriddingPlan<Real>::plan_time(double tolerance) {
   if (!sweep || medium.absorption.a1 != 0 || medium.absorption.a2 != 0) return;
   // The ends of a sweep are discontinuous, which polynomials cannot follow: their pieces are constant, and the
   // remainder is added echo by echo.
-  sweep_ends = half > head.pulse.duration - axis.step;
+  sweep_ends = half > kind_of(head.pulse).end(head.pulse) - axis.step;
   const double first = -half / axis.step, last_piece = -first - 1;
   const auto value = [&](double x) {
     return envelope.at((sweep_ends ? std::clamp(x, first + 1, last_piece) : x) * axis.step);

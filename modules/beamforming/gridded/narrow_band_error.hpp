@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sampling/scatterers.hpp"
-#include "sonar/pulse_spectrum.hpp"
+#include "sonar/pulse_kind.hpp"
 #include "sonar/sonar_head.hpp"
 
 namespace insonify {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/vector_functions.hpp"
-#include "sonar/pulse.hpp"
+#include "sonar/pulse_kind.hpp"
 #include "sonar/range_gate.hpp"
 
 namespace insonify {
@@ -40,20 +40,21 @@ struct PulseReach {
   double half, growth = 0;  // half length as transmitted [s]; growth of its square per second of delay
 
   PulseReach(const Pulse& pulse, const Absorption& absorption, double sound_speed, bool doppler, double tolerance) {
-    if (pulse.shape == PulseShape::linear_fm) {
-      half = sweep_reach(pulse, absorption, doppler, tolerance);
+    if (const MatchedPulse* const matched = kind_of(pulse).matched()) {
+      half = matched_reach(*matched, pulse, absorption, doppler, tolerance);
       return;
     }
     half = pulse_half_length(pulse, tolerance / 2);  // the two cut ends of an echo stay below the tolerance
     growth = absorption.a2 * sound_speed / echo_envelope(pulse, {}, 0).a;
   }
 
-  /// Returns the half length of a sweep. The side lobes of a sweep decay slowly, so the cut is such that all omitted
-  /// side lobes together stay below the tolerance. Echoes with a Doppler shift or with frequency-dependent absorption
-  /// are not cut.
-  static double sweep_reach(const Pulse& pulse, const Absorption& a, bool doppler, double tolerance) {
-    if (a.a1 != 0 || a.a2 != 0 || doppler) return pulse.duration;
-    return pulse_half_length(pulse, 0.5 * tolerance / std::sqrt(3 * pulse.bandwidth * pulse.duration));
+  /// Returns the half length behind a matched filter. Side lobes decay slowly, so the cut is such that all omitted ones
+  /// together stay below the tolerance. Echoes with a Doppler shift or with frequency-dependent absorption are not cut.
+  static double matched_reach(const MatchedPulse& kind, const Pulse& pulse, const Absorption& a, bool doppler,
+                              double tolerance) {
+    const double end = kind.end(pulse);
+    if (a.a1 != 0 || a.a2 != 0 || doppler) return end;
+    return pulse_half_length(pulse, 0.5 * tolerance / std::sqrt(3 * pulse.bandwidth * end));
   }
 
   double at(double delay) const { return growth == 0 ? half : half * std::sqrt(std::max(1.0, 1 + growth * delay)); }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <vector>
 
 #include "beamforming/numerics/gridding_kernel_internal.hpp"
@@ -14,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -33,12 +33,9 @@ double path_difference(Wavefront wavefront, double range, double u, double y) {
   return insonify::path_difference(range, u, y);
 }
 
-/// Highest baseband frequency [Hz] that matters: there the spectrum has fallen to the tolerance. That of a sweep decays
-/// slowly beyond its ends.
+/// Highest baseband frequency [Hz] that matters.
 double half_band(const Pulse& pulse, double tolerance) {
-  if (pulse.shape == PulseShape::linear_fm)
-    return pulse.bandwidth * (0.5 + 4 / std::sqrt(pulse.bandwidth * pulse.duration));
-  return pulse.bandwidth * std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2));
+  return pulse.bandwidth * kind_of(pulse).relative_band(pulse, tolerance);
 }
 
 /// Kaiser-windowed sinc interpolation for signals that fill at most half of the band.

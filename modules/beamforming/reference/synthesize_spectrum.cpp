@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
-#include "sonar/pulse.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -31,10 +31,10 @@ struct FrequencyGrid {
   }
 };
 
-/// Computes spectra of single echoes after the receive filter [1/Hz]: by FFT of the samples of sweep and replica, or in
-/// closed form for a Gaussian. A Doppler shift moves the transmitted spectrum, after its absorption. Outside its swept
-/// band a sweep is absorbed as at the band edge, since the expansion of the absorption about the centre frequency does
-/// not hold there.
+/// Computes spectra of single echoes after the receive filter [1/Hz]: by FFT of the samples of signal and replica, or in
+/// closed form for a Gaussian. A Doppler shift moves the transmitted spectrum, after its absorption. Beyond the edge of
+/// its band a signal is absorbed as there, since the expansion of the absorption about the centre frequency does not
+/// hold there.
 class EchoSpectrum {
  public:
   EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid);
@@ -44,9 +44,10 @@ class EchoSpectrum {
   std::vector<Complex> of(double range, double doppler) const;
 
  private:
-  std::vector<Complex> sweep_spectrum(bool weighted, double doppler) const;
+  std::vector<Complex> transform(bool weighted, double doppler) const;
 
   Pulse pulse_;
+  const MatchedPulse* matched_;  ///< nullptr: Gaussian
   Absorption absorption_;
   FrequencyGrid grid_;
   Fft<double> fft_;
@@ -61,41 +62,34 @@ double gaussian_spectrum(double f, double bandwidth) {
 }
 
 EchoSpectrum::EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid)
-    : pulse_(pulse), absorption_(medium.absorption), grid_(grid), fft_({grid.samples}, FFTW_FORWARD) {
-  if (pulse.shape != PulseShape::linear_fm) return;
-  sent_ = sweep_spectrum(false, 0);
-  replica_ = sweep_spectrum(true, 0);
-  replica_area_ = pulse.duration * replica_weight(pulse, 0.25 * pulse.duration);  // the weight at T/4 equals its mean
+    : pulse_(pulse),
+      matched_(kind_of(pulse).matched()),
+      absorption_(medium.absorption),
+      grid_(grid),
+      fft_({grid.samples}, FFTW_FORWARD) {
+  if (!matched_) return;
+  sent_ = transform(false, 0);
+  replica_ = transform(true, 0);
+  const double length = matched_->length(pulse);
+  replica_area_ = length * replica_weight(pulse, 0.25 * length);  // the weight at T/4 equals its mean
 }
 
-std::vector<Complex> EchoSpectrum::sweep_spectrum(bool weighted, double doppler) const {
-  // Samples of the sweep in reversed time: its time dependence is exp(-i omega t), the opposite sign of the forward
-  // FFT.
-  std::vector<Complex> x(grid_.samples, 0);
-  const double half = 0.5 * pulse_.duration, rate = pulse_.bandwidth / pulse_.duration;
-  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(half / grid_.step_time));
-  for (std::ptrdiff_t n = -reach; n <= reach; ++n) {
-    const double t = static_cast<double>(n) * grid_.step_time;
-    const double covered = std::clamp((half - std::abs(t)) / grid_.step_time + 0.5, 0.0, 1.0);
-    const double weight = weighted ? replica_weight(pulse_, t) : 1;
-    x[static_cast<std::size_t>(n > 0 ? static_cast<std::ptrdiff_t>(grid_.samples) - n : -n)] =
-        std::polar(covered * weight * grid_.step_time, -pi * rate * t * t - 2 * pi * doppler * t);
-  }
+std::vector<Complex> EchoSpectrum::transform(bool weighted, double doppler) const {
+  std::vector<Complex> x = matched_->samples(pulse_, grid_.samples, grid_.step_time, weighted, doppler);
   fft_.run(x.data());
   return x;
 }
 
 std::vector<Complex> EchoSpectrum::of(double range, double doppler) const {
-  const bool sweep = pulse_.shape == PulseShape::linear_fm;
   std::vector<Complex> x(grid_.samples);
-  if (sweep) x = doppler == 0 ? sent_ : sweep_spectrum(false, doppler);
-  const double edge = sweep ? 0.5 * pulse_.bandwidth : std::numeric_limits<double>::infinity();
+  if (matched_) x = doppler == 0 ? sent_ : transform(false, doppler);
+  const double edge = matched_ ? matched_->edge(pulse_) : std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < x.size(); ++k) {
     const double sent = grid_.at(k) - doppler, f = std::clamp(sent, -edge, edge);
     const double alpha = absorption_.a0 + f * (absorption_.a1 + f * absorption_.a2);
     const double loss = std::exp(-2 * alpha * range);
-    x[k] =
-        sweep ? loss / replica_area_ * x[k] * std::conj(replica_[k]) : loss * gaussian_spectrum(sent, pulse_.bandwidth);
+    x[k] = matched_ ? loss / replica_area_ * x[k] * std::conj(replica_[k])
+                    : loss * gaussian_spectrum(sent, pulse_.bandwidth);
   }
   return x;
 }
@@ -109,8 +103,8 @@ struct SpectrumGrid {
 
   SpectrumGrid(const Echoes& echoes, const SonarHead& head, const Medium& medium) {
     const double bin_time = 2 * head.gate.bin_size / medium.sound_speed;
-    // At +-5 B the spectrum of a Gaussian is down to e^-34, 1e-15 of its peak; that of a sweep decays more slowly.
-    const double band = (head.pulse.shape == PulseShape::linear_fm ? 64 : 10) * head.pulse.bandwidth;
+    // At +-5 B the spectrum of a Gaussian is down to e^-34, 1e-15 of its peak; others decay more slowly.
+    const double band = (is_gaussian(head.pulse) ? 10 : 64) * head.pulse.bandwidth;
     oversampling = static_cast<std::size_t>(std::ceil(band * bin_time));
     step_time = bin_time / static_cast<double>(oversampling);
     const double guard = 2 * pulse_half_length(head.pulse, 1e-16);
@@ -180,7 +174,7 @@ ComplexGrid synthesize_spectrum(const Echoes& echoes, const SonarHead& head, con
   require_one_row(head, "synthesize_spectrum");
   const SpectrumGrid grid(echoes, head, medium);
   const std::vector<double> u_beam = beam_cosines(head.fan);
-  const bool alike = head.pulse.shape == PulseShape::gaussian && echoes.doppler.empty();
+  const bool alike = is_gaussian(head.pulse) && echoes.doppler.empty();
   ComplexGrid spectra;
   if (!alike) spectra = beam_spectra(echoes, head, medium, grid, u_beam, options.threads);
   ComplexGrid pressure(u_beam.size(), head.gate.bins());

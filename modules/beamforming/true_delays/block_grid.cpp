@@ -5,6 +5,7 @@
 #include "beamforming/gridded/gridding_loops_internal.hpp"
 #include "beamforming/pulses/pulse_loops_internal.hpp"
 #include "beamforming/true_delays/time_block_internal.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -30,7 +31,7 @@ void BlockWorkspace::add(const Echoes& echoes, List list) {
     if (most == 0) return;
     unit_ = std::exp2(std::round(std::log2(most)));
   }
-  if (plan_.head.pulse.shape != PulseShape::gaussian) return grid_sweeps(echoes, list);
+  if (!is_gaussian(plan_.head.pulse)) return grid_sweeps(echoes, list);
   for (; !list.empty(); list = list.subspan(std::min(GaussianBatch<float>::most, list.size())))
     grid_gaussians(echoes, list.first(std::min(GaussianBatch<float>::most, list.size())));
 }

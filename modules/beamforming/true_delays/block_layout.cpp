@@ -4,6 +4,7 @@
 
 #include "beamforming/true_delays/true_delay_plan_internal.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -50,7 +51,7 @@ CurvaturePhase::CurvaturePhase(const SonarHead& head, const Medium& medium, doub
 }
 
 double doppler_error(const SonarHead& head, double shift, double range) {
-  if (head.pulse.shape != PulseShape::gaussian) return 0;
+  if (!is_gaussian(head.pulse)) return 0;
   // (E191) The root mean square over a shaded array, measured.
   return 0.32 * std::abs(shift) / head.pulse.bandwidth * std::pow(moving_range(head) / range, 2);
 }

@@ -7,6 +7,7 @@
 
 #include "beamforming/true_delays/one_beam_internal.hpp"
 #include "core/parallel.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -105,7 +106,7 @@ OneBeam::OneBeam(const SonarHead& head, const Medium& medium, double tolerance, 
 
 std::unique_ptr<const OneBeam> OneBeam::make(const SonarHead& head, const Medium& medium, double tolerance,
                                              double widest) {
-  if (head.fan.beams() != 1 || head.pulse.shape != PulseShape::gaussian) return nullptr;
+  if (head.fan.beams() != 1 || !is_gaussian(head.pulse)) return nullptr;
   std::unique_ptr<const OneBeam> one(new OneBeam(head, medium, tolerance, widest, split_for(head, medium, widest)));
   const double work = one->whole_.work() + (one->end_ ? one->end_->work() : 0),
                bytes = one->whole_.bytes() + (one->end_ ? one->end_->bytes() : 0);

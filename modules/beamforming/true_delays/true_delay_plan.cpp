@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Dense>
 
@@ -9,6 +8,7 @@
 #include "beamforming/true_delays/true_delay_loops_internal.hpp"
 #include "beamforming/true_delays/true_delay_plan_internal.hpp"
 #include "core/units.hpp"
+#include "sonar/pulse_kind.hpp"
 
 namespace insonify {
 namespace {
@@ -35,9 +35,7 @@ double longest_reach(const SonarHead& head, const Medium& medium, double toleran
 }  // namespace
 
 double half_band_of(const Pulse& pulse, double tolerance) {
-  if (pulse.shape == PulseShape::linear_fm)
-    return pulse.bandwidth * (0.5 + 4 / std::sqrt(pulse.bandwidth * pulse.duration));
-  return pulse.bandwidth * (0.03 + std::sqrt(-std::log(tolerance) / (2 * std::numbers::ln2)));
+  return pulse.bandwidth * ((is_gaussian(pulse) ? 0.03 : 0) + kind_of(pulse).relative_band(pulse, tolerance));
 }
 
 TrueDelaySizes::TrueDelaySizes(const SonarHead& head, const Medium& medium, double tolerance_in, double widest_in,
@@ -98,7 +96,7 @@ TrueDelayPlan::TrueDelayPlan(const SonarHead& head_in, const Medium& medium_in, 
       columns(kernel.pieces<float>(1e-7)) {
   for (std::size_t m = 0; m < head.array.elements(); ++m)
     y.push_back(head.array.spacing * element_place(m, head.array.elements()));
-  if (head.pulse.shape == PulseShape::gaussian) spectral_width2 = echo_envelope(head.pulse, {}, 0).a;
+  if (is_gaussian(head.pulse)) spectral_width2 = echo_envelope(head.pulse, {}, 0).a;
   plan_directions();
   plan_elements();
   plan_band();
