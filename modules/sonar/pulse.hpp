@@ -9,16 +9,21 @@ namespace insonify {
 
 /// Kind of the transmitted pulse.
 enum class PulseShape {
-  gaussian,  ///< a short burst, as the receiver's filter passes it
-  linear_fm  ///< a sweep of the bandwidth, compressed by a matched filter
+  gaussian,      ///< a short burst, as the receiver's filter passes it
+  linear_fm,     ///< a sweep of the bandwidth, compressed by a matched filter
+  tone_burst,    ///< a tone of length 1 / bandwidth with sharp ends, behind its matched filter
+  hyperbolic_fm  ///< a sweep whose period changes evenly, compressed by a matched filter: it tolerates motion
 };
 
 class PulseKind;
-const PulseKind& gaussian_pulse();   ///< E8
-const PulseKind& linear_fm_pulse();  ///< E54
+const PulseKind& gaussian_pulse();       ///< E8
+const PulseKind& linear_fm_pulse();      ///< E54
+const PulseKind& tone_burst_pulse();     ///< E201
+const PulseKind& hyperbolic_fm_pulse();  ///< E202
 
 /// The kinds of pulses, in the order of PulseShape. This list is the table to which a new kind adds a row.
-inline constexpr const PulseKind& (*pulse_kinds[])() = {gaussian_pulse, linear_fm_pulse};
+inline constexpr const PulseKind& (*pulse_kinds[])() = {gaussian_pulse, linear_fm_pulse, tone_burst_pulse,
+                                                        hyperbolic_fm_pulse};
 
 /// Weights of the replica that the matched filter uses: 1, or level + (1 - level) cos(2 pi t / duration) with level
 /// 0.5 (hann) or 0.54 (hamming).
@@ -43,18 +48,19 @@ struct Pulse {
 };
 
 /// Throws Error unless all is finite, 0 < bandwidth < 2 centre_frequency, -400 <= source_level_db <= 260 and, for a
-/// sweep, 1 <= bandwidth duration <= 1e6.
+/// sweep, 1 <= bandwidth duration <= 1e6 (linear) or 2e4 (hyperbolic).
 void require_valid(const Pulse& pulse, const char* who);
 
 /// Returns the peak pressure at 1 m on axis [Pa]: sqrt(2) 10^(SL/20) 1 uPa (E5).
 double source_pressure(const Pulse& pulse);
 
-/// Returns the full width at half maximum of the intensity as range [m]. Gaussian: 0.4413 c / 2B (E8). Sweep: found numerically (E55); for bandwidth duration of 100 and more within 1 % of
+/// Returns the full width at half maximum of the intensity as range [m]. Gaussian: 0.4413 c / 2B (E8). Tone burst:
+/// (2 - sqrt 2) c / 2B (E201). Sweep: found numerically (E55); for bandwidth duration of 100 and more within 1 % of
 /// 0.886 (uniform), 1.44 (hann) or 1.30 (hamming) c / 2B of a linear sweep.
 double range_resolution(const Pulse& pulse, double sound_speed);
 
 /// Returns the range over which an echo of the peak intensity would have the energy of the pulse [m]: c / 2 integral
-/// |G|^2 dt. Gaussian: 0.4697 c / 2B (E8). Sweep: by a sum, within 1e-3.
+/// |G|^2 dt. Gaussian: 0.4697 c / 2B (E8). Tone burst: 2/3 c / 2B (E201). Sweep: by a sum, within 1e-3.
 double energy_length(const Pulse& pulse, double sound_speed);
 
 /// Returns the range resolution of datasheets [m]: c / 2B.
@@ -73,7 +79,7 @@ double pulse_half_length(const Pulse& pulse, double tolerance);
 double noise_bandwidth(const Pulse& pulse);
 
 /// Returns the time by which a Doppler shift `doppler` [Hz] of the carrier displaces the peak of an echo [s]: -f_d T / B
-/// of a linear sweep (E54); 0 of a pulse of one frequency.
+/// of a linear sweep (E54), that of E203 of a hyperbolic one; 0 of a pulse of one frequency.
 double doppler_delay(const Pulse& pulse, double doppler);
 
 /// Returns the least Doppler shift by which the peak of an echo, where doppler_delay has it, loses `loss_db` > 0 dB

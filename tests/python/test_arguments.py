@@ -68,6 +68,9 @@ def test_keywords_of_sonars_and_environments():
     for line in ("azimuths_deg = [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0]", "min_range_m = 2.0", "max_range_m = 9.0",
                  'pulse = "linear_fm"', "pulse_length_s = 0.001"):
         assert line in sonar.toml.splitlines()
+    for pulse in ("tone_burst", "hyperbolic_fm"):
+        length = {"pulse_length": 1e-3} if pulse == "hyperbolic_fm" else {}
+        assert f'pulse = "{pulse}"' in iy.sonar("p900-45", pulse=pulse, **length).toml.splitlines()
     sea = iy.Environment(temperature_c=8, surface_height=1, bottom_height_m=-20, surface_scattering_db=-40,
                          volume_scattering_db=-80, wind_speed=7, speed_m_s=7, profile_depth=[0, 50],
                          profile_sound_speed=[1500, 1490])

@@ -152,8 +152,27 @@ TEST(SonarFile, takes_a_sweep_with_its_length_and_window) {
   expect_same_bits(load_sonar(sonar_as_toml(s)).spec, s);
 }
 
+TEST(SonarFile, takes_a_hyperbolic_sweep_and_a_tone_burst) {
+  const SonarSpec sweep =
+      load_sonar(plain + "pulse = \"hyperbolic_fm\"\npulse_length_s = 2e-3\nreplica_window = \"hann\"\n").spec;
+  EXPECT_EQ(sweep.pulse, PulseShape::hyperbolic_fm);
+  EXPECT_EQ(make_head(sweep, 1500).pulse.window, ReplicaWindow::hann);
+  expect_same_bits(load_sonar(sonar_as_toml(sweep)).spec, sweep);
+  const SonarSpec burst = load_sonar(plain + "pulse = \"tone_burst\"\n").spec;
+  EXPECT_EQ(burst.pulse, PulseShape::tone_burst);
+  EXPECT_EQ(make_head(burst, 1500).pulse.shape, PulseShape::tone_burst);
+  expect_same_bits(load_sonar(sonar_as_toml(burst)).spec, burst);
+  refuses_sonar(plain + "pulse = \"hyperbolic_fm\"\n",
+                "12: pulse = hyperbolic_fm, must come with pulse_length_s, the duration of the sweep");
+  refuses_sonar(plain + "pulse = \"hyperbolic_fm\"\npulse_length_s = 10\n", "must be within 1 and 2e4");
+  refuses_sonar(plain + "pulse = \"tone_burst\"\nreplica_window = \"hann\"\n",
+                "13: replica_window = hann, must be left out for pulse tone_burst");
+}
+
 TEST(SonarFile, refuses_halves_of_a_sweep_with_line) {
-  refuses_sonar(plain + "pulse = \"chirp\"\n", "12: pulse = \"chirp\", must be one of gaussian, linear_fm");
+  refuses_sonar(plain + "pulse = \"chirp\"\n",
+                "12: pulse = \"chirp\", must be one of gaussian, linear_fm, "
+                "tone_burst, hyperbolic_fm");
   refuses_sonar(plain + "pulse = \"linear_fm\"\npulse_length_s = \"long\"\n",
                 "13: pulse_length_s = \"long\", must be a number");
   refuses_sonar(plain + "pulse = \"linear_fm\"\n",
