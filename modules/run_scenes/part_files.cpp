@@ -106,38 +106,48 @@ const SceneBody& PartFiles::body_of(const PartFile& file, bool captured) {
   return known->second;
 }
 
-SceneBody PartFiles::read(const PartFile& file, bool captured) {
-  SceneCloud cloud;
+namespace {
+
+/// Returns a body of a cloud: unless captured in axes of its own, near its coordinates, with numbers of its own.
+SceneBody body_of_cloud(SceneCloud cloud, const Eigen::Vector3d& size, bool captured) {
   SceneBody body;
-  if (file.scene) {
-    const PartsScene inner(file.path, options_);
-    random_ |= inner.is_random();
-    LoadedScene whole = inner.whole_at(0);
-    add_report(whole.report, report_);
-    if (captured) take_system_of(file.path, whole.report.meaning.system.value, report_.meaning);
-    body.size = size_of(whole);
-    cloud = std::move(whole.scene);
-    std::iota(cloud.id.begin(), cloud.id.end(), 0u);
-  } else {
-    if (is_tiles(file.path)) require_no_loading_options(scene_options_of(file), "is prepared already");
-    CommonOptions common;
-    common.seed = options_.seed, common.threads = options_.threads;
-    LoadOptions loading = load_options(common, scene_options_of(file));
-    if (captured) loading.mesh_spacing = file.spacing;
-    LoadedScene loaded = load_scene(file.path, loading);
-    add_report(loaded.report, report_);
-    if (captured) take_system_of(file.path, loaded.report.meaning.system.value, report_.meaning);
-    body.size = size_of(loaded);
-    cloud = surfels_of(loaded, file, captured, options_);
-  }
+  body.size = size;
   if (!captured) {
-    // In axes of its own, near its coordinates, with numbers of its own.
     body.centre = cloud.origin;
     cloud.origin.setZero();
     std::iota(cloud.id.begin(), cloud.id.end(), 0u);
   }
   body.cloud = std::make_shared<const SceneCloud>(std::move(cloud));
   return body;
+}
+
+}  // namespace
+
+SceneBody body_of_loaded(LoadedScene loaded, const PartFile& file, bool captured, const PartsOptions& options) {
+  const Eigen::Vector3d size = size_of(loaded);
+  return body_of_cloud(surfels_of(loaded, file, captured, options), size, captured);
+}
+
+SceneBody PartFiles::read(const PartFile& file, bool captured) {
+  if (file.scene) {
+    const PartsScene inner(file.path, options_);
+    random_ |= inner.is_random();
+    LoadedScene whole = inner.whole_at(0);
+    add_report(whole.report, report_);
+    if (captured) take_system_of(file.path, whole.report.meaning.system.value, report_.meaning);
+    const Eigen::Vector3d size = size_of(whole);
+    std::iota(whole.scene.id.begin(), whole.scene.id.end(), 0u);
+    return body_of_cloud(std::move(whole.scene), size, captured);
+  }
+  if (is_tiles(file.path)) require_no_loading_options(scene_options_of(file), "is prepared already");
+  CommonOptions common;
+  common.seed = options_.seed, common.threads = options_.threads;
+  LoadOptions loading = load_options(common, scene_options_of(file));
+  if (captured) loading.mesh_spacing = file.spacing;
+  LoadedScene loaded = load_scene(file.path, loading);
+  add_report(loaded.report, report_);
+  if (captured) take_system_of(file.path, loaded.report.meaning.system.value, report_.meaning);
+  return body_of_loaded(std::move(loaded), file, captured, options_);
 }
 
 }  // namespace insonify

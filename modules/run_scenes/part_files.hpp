@@ -26,6 +26,10 @@ SceneOptions scene_options_of(const PartFile& file);
 /// `path` states, unless empty. Throws Error(content) if another file is in another system.
 void take_system_of(const std::string& path, const std::string& system, FileMeaning& all);
 
+/// Returns what was loaded as a body without a name, as scenes of parts take it from a file; `file` says spacing,
+/// thinning and material. If not `captured`, the body has axes of its own, and surfel i has the id i.
+SceneBody body_of_loaded(LoadedScene loaded, const PartFile& file, bool captured, const PartsOptions& options = {});
+
 /// The surfels of the files that a scene of parts names. A file is read once for all parts that name it with the same
 /// settings, and their bodies share the surfels.
 class PartFiles {

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,19 @@ struct PlacedPart {
   /// those of the box of its surfels.
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 
+  /// Key of the random numbers of its surface. Absent: part_key(name). With 0 a captured part has the numbers that it
+  /// has as a scene of its own.
+  std::optional<std::uint64_t> key{};
+
   /// Returns the pose of the axes of the part's file.
   Pose world_from_file() const { return world_from_part * Eigen::Translation3d(file_origin); }
+  /// Places the axes of the part's file at a pose, with a velocity of their origin [m/s] and a turn rate [rad/s].
+  void place_file(const Pose& world_from_file, const Eigen::Vector3d& speed = Eigen::Vector3d::Zero(),
+                  const Eigen::Vector3d& turn = Eigen::Vector3d::Zero()) {
+    world_from_part = world_from_file * Eigen::Translation3d(-file_origin);
+    velocity = speed - turn.cross(world_from_file.linear() * file_origin);
+    turn_rate = turn;
+  }
   /// Returns true if the part moves.
   bool moves() const { return !velocity.isZero(0) || !turn_rate.isZero(0); }
 };

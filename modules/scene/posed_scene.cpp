@@ -2,277 +2,202 @@
 #include "scene/posed_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "core/error.hpp"
+#include "scene/merge_parts_internal.hpp"
+#include "scene/placed_block_internal.hpp"
+#include "scene/posed_scene_internal.hpp"
 
 namespace insonify {
 namespace {
 
-using Eigen::Vector3d;
-
-constexpr std::size_t most_parts_of_scene = 65000;
-
-using PartList = std::vector<const PlacedPart*>;
-
-/// Returns the parts, sorted by name. Throws Error(argument) for invalid parts and for two of one name.
-PartList by_name(std::span<const PlacedPart> parts, const char* who) {
-  PartList list;
-  for (const PlacedPart& part : parts) {
-    require_valid(part, who);
-    list.push_back(&part);
-  }
-  std::sort(list.begin(), list.end(), [](const PlacedPart* a, const PlacedPart* b) { return a->name < b->name; });
-  return list;
-}
-
-void require_distinct(const std::vector<ScenePart>& parts, const char* who) {
-  if (parts.size() > most_parts_of_scene)
-    fail(ErrorKind::argument, who, ": ", parts.size(), " parts, must be at most ", most_parts_of_scene);
-  std::vector<std::string> names;
-  for (const ScenePart& part : parts) names.push_back(part.name);
-  std::sort(names.begin(), names.end());
-  if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end())
-    fail(ErrorKind::argument, who, ": two parts are called '", *twice, "'; give each a name of its own");
-}
-
-/// Returns the index of a material in the table. A new material is appended.
-std::uint16_t index_of(const Material& material, std::vector<Material>& table, const char* who) {
-  const auto at = std::find(table.begin(), table.end(), material);
-  if (at == table.end()) {
-    if (table.size() >= 0xffff) fail(ErrorKind::argument, who, ": more than 65535 different materials");
-    table.push_back(material);
-    return static_cast<std::uint16_t>(table.size() - 1);
-  }
-  return static_cast<std::uint16_t>(at - table.begin());
-}
-
-/// Returns the origin of the scene: that of the first captured part, otherwise a point near the first part.
-Vector3d origin_of(const PartList& parts) {
-  for (const PlacedPart* part : parts)
-    if (part->captured && !part->absent) return part->cloud->origin;
-  return parts.empty() ? Vector3d(Vector3d::Zero())
-                       : Vector3d(parts.front()->world_from_part.translation().array().round());
-}
-
-double mean_spacing_of(const SceneCloud& cloud) { return whole_of(cloud).mean_spacing; }
-
-Vector3d size_of(const PlacedPart& placed) {
-  if (placed.captured || !placed.size.isZero(0)) return placed.size;
-  const Bounds box = bounds(*placed.cloud);
-  return box.max - box.min;
-}
-
-ScenePart scene_part(const PlacedPart& placed) {
-  if (placed.absent) return {.name = placed.name, .label = placed.label, .key = part_key(placed.name)};
-  return {.name = placed.name,
-          .label = placed.label,
-          .key = part_key(placed.name),
-          .spacing = mean_spacing_of(*placed.cloud),
-          .normals_oriented = placed.cloud->normals_oriented,
-          .world_from_part = placed.world_from_part,
-          .velocity = placed.velocity,
-          .turn_rate = placed.turn_rate,
-          .own = placed.captured ? nullptr : placed.cloud,
-          .file_origin = placed.file_origin,
-          .scale = placed.scale,
-          .size = size_of(placed)};
-}
-
-/// Returns the pose that maps the cloud's coordinates to the scene's, each relative to its origin.
-Eigen::Isometry3d scene_from_cloud(const SceneCloud& scene, const PlacedPart& placed) {
-  Eigen::Isometry3d turn = placed.world_from_part;
-  turn.translation() += placed.world_from_part.linear() * placed.cloud->origin - scene.origin;
-  return turn;
-}
-
-/// Appends noise and unevenness of a part's surfels if this part or one before has them.
-void add_heights(const PlacedPart& placed, std::size_t before, SceneCloud& scene) {
-  const SceneCloud& cloud = *placed.cloud;
-  const auto spacing = [&](std::size_t i) { return std::sqrt(static_cast<double>(scene.area[i])); };
-  const auto number = [&](std::size_t i) { return placed.surfels.empty() ? i - before : placed.surfels[i - before]; };
-  if (!scene.noise.empty() || !cloud.noise.empty()) {
-    scene.noise.resize(scene.size(), 0);
-    for (std::size_t i = before; i < scene.size() && !cloud.noise.empty(); ++i) scene.noise[i] = cloud.noise[number(i)];
-  }
-  if (scene.unevenness.empty() && cloud.unevenness.empty()) return;
-  for (std::size_t i = scene.unevenness.size(); i < scene.size(); ++i)
-    scene.unevenness.push_back(i >= before && !cloud.unevenness.empty() ? cloud.unevenness[number(i)]
-                                                                        : static_cast<float>(spacing(i)));
-}
-
-/// Reserves memory for `more` surfels.
-void reserve(std::size_t more, SceneCloud& scene) {
-  const std::size_t all = scene.size() + more;
-  scene.point.reserve(all), scene.normal.reserve(all), scene.area.reserve(all), scene.material.reserve(all);
-  scene.id.reserve(all), scene.part.reserve(all);
-}
-
-/// Returns the number of surfels of all parts.
-std::size_t surfels_of(const PartList& list) {
-  std::size_t sum = 0;
-  for (const PlacedPart* part : list)
-    if (!part->absent) sum += part->surfels.empty() ? part->cloud->size() : part->surfels.size();
-  return sum;
-}
-
-/// Appends the surfels of a part.
-void append(const PlacedPart& placed, SceneCloud& scene, const char* who) {
-  const auto number = static_cast<std::uint16_t>(scene.parts.size());
-  scene.parts.push_back(scene_part(placed));
-  if (placed.absent) return;
-  const SceneCloud& cloud = *placed.cloud;
-  std::vector<std::uint16_t> material;
-  for (const Material& m : cloud.materials) material.push_back(index_of(m, scene.materials, who));
-  const Eigen::Isometry3d to_scene = scene_from_cloud(scene, placed);
-  const bool as_it_is = placed.captured && cloud.origin == scene.origin;
-  const std::size_t before = scene.size(), count = placed.surfels.empty() ? cloud.size() : placed.surfels.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = placed.surfels.empty() ? k : placed.surfels[k];
-    scene.point.push_back(as_it_is ? cloud.point[i] : (to_scene * cloud.point[i].cast<double>()).cast<float>());
-    scene.normal.push_back(placed.captured ? cloud.normal[i]
-                                           : (to_scene.linear() * cloud.normal[i].cast<double>()).cast<float>());
-    scene.area.push_back(cloud.area[i]);
-    scene.material.push_back(material[cloud.material[i]]);
-    scene.id.push_back(placed.captured ? cloud.id[i] : static_cast<std::uint32_t>(i));
-  }
-  add_heights(placed, before, scene);
-  scene.part.resize(before + count, number);
-  scene.normals_oriented = scene.normals_oriented && cloud.normals_oriented;
-}
-
-/// Returns a scene of parts without surfels.
-SceneCloud empty_scene(const Vector3d& origin) {
-  SceneCloud scene;
-  scene.origin = origin;
-  scene.materials.clear();
-  return scene;
-}
-
 /// Returns an upper bound of the speed of a part's surfels [m/s].
-double fastest_of(const PlacedPart& placed, const SurfelBlock* begin, const SurfelBlock* end) {
+double fastest_of(const PlacedPart& placed, std::span<const SurfelBlock> blocks) {
   double arm = 0;
-  for (const SurfelBlock* b = begin; b != end; ++b)
-    arm = std::max(arm, (placed.cloud->origin + b->centre.cast<double>()).norm() + b->radius);
+  for (const SurfelBlock& b : blocks)
+    arm = std::max(arm, (placed.cloud->origin + b.centre.cast<double>()).norm() + b.radius);
   return placed.velocity.norm() + placed.turn_rate.norm() * arm;
+}
+
+/// Returns true if two parts have the same surfels of the same class.
+bool same_surfels(const PlacedPart& a, const PlacedPart& b) {
+  return a.name == b.name && a.label == b.label && a.absent == b.absent && a.captured == b.captured && a.key == b.key &&
+         a.cloud == b.cloud && a.surfels == b.surfels;
+}
+
+bool same_place(const PlacedPart& a, const PlacedPart& b) {
+  return a.world_from_part.matrix() == b.world_from_part.matrix() && a.velocity == b.velocity &&
+         a.turn_rate == b.turn_rate && a.file_origin == b.file_origin && a.scale == b.scale && a.size == b.size;
+}
+
+/// Returns the part as one that is listed, but not there.
+PlacedPart absent_of(const PlacedPart& part) {
+  return {.name = part.name, .label = part.label, .absent = true, .key = part.key};
+}
+
+template <typename Values>
+void erase_range(Values& values, std::size_t first, std::size_t end) {
+  if (values.size() < end) return;  // the scene lacks this property
+  values.erase(values.begin() + static_cast<std::ptrdiff_t>(first), values.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+template <typename Values>
+void cut_to(Values& values, std::size_t size) {
+  if (values.size() > size) values.resize(size);
 }
 
 }  // namespace
 
-void require_valid(const PlacedPart& part, const char* who) {
-  const auto refuse = [&](const auto&... why) { fail(ErrorKind::argument, who, ": part '", part.name, "': ", why...); };
-  if (part.name.empty()) fail(ErrorKind::argument, who, ": a part has no name");
-  if (part.absent) return;
-  if (!part.cloud || part.cloud->size() == 0) refuse("it has no surfels");
-  const Eigen::Matrix3d r = part.world_from_part.linear();
-  if (!part.world_from_part.matrix().allFinite() || !(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0)
-    refuse("world_from_part must be finite, a rotation and a translation");
-  if (!part.velocity.allFinite() || !part.turn_rate.allFinite()) refuse("velocity and turn rate must be finite");
-  if (part.captured && (part.moves() || !part.world_from_part.matrix().isIdentity(0)))
-    refuse("a captured part is neither moved nor turned");
-  for (std::size_t k = 0; k < part.surfels.size(); ++k)
-    if (part.surfels[k] >= part.cloud->size() || (k > 0 && part.surfels[k] <= part.surfels[k - 1]))
-      refuse("surfels[", k, "] = ", part.surfels[k], ", must ascend and be below ", part.cloud->size());
+PosedScene::State::State(std::shared_ptr<SceneCloud> of, std::size_t named, int threads)
+    : scene(std::move(of)),
+      prepared(std::shared_ptr<const SceneCloud>(scene), threads),
+      resting{scene->size(), prepared.blocks().size(), scene->materials.size(), scene->parts.size()},
+      whole(prepared.whole()),
+      numbered(named),
+      oriented(scene->normals_oriented),
+      noisy(!scene->noise.empty()),
+      uneven(!scene->unevenness.empty()) {}
+
+std::shared_ptr<const PreparedScene> PosedScene::State::body_of(const PlacedPart& part) {
+  if (!part.surfels.empty()) return std::make_shared<PreparedScene>(subset(*part.cloud, part.surfels), 1);
+  std::shared_ptr<const PreparedScene>& body = bodies[part.cloud];
+  if (!body) body = std::make_shared<PreparedScene>(part.cloud, 1);
+  return body;
 }
 
-SceneCloud merge_parts(std::span<const PlacedPart> parts, std::span<const Material> materials) {
-  constexpr const char* who = "merge_parts";
-  const PartList list = by_name(parts, who);
-  SceneCloud scene = empty_scene(origin_of(list));
-  for (const Material& material : materials) index_of(material, scene.materials, who);
-  reserve(surfels_of(list), scene);
-  WholeScene whole;
-  bool is_part = false;
-  for (const PlacedPart* part : list) {
-    append(*part, scene, who);
-    if (part->absent) continue;
-    whole = together(whole, whole_of(*part->cloud));
-    is_part = is_part || part->cloud->part_of;
-  }
-  require_distinct(scene.parts, who);
-  if (scene.materials.empty()) scene.materials = {Material{}};
-  if (is_part) whole.fastest = whole_of(scene).fastest, scene.part_of = whole;
-  return scene;
+void PosedScene::State::cut(std::size_t kept) {
+  if (kept == placed.size()) return;
+  settled = false;
+  const Sizes& to = kept == 0 ? resting : placed[kept].from;
+  SceneCloud& s = *scene;
+  cut_to(s.point, to.surfels), cut_to(s.normal, to.surfels), cut_to(s.area, to.surfels);
+  cut_to(s.material, to.surfels), cut_to(s.id, to.surfels), cut_to(s.part, to.surfels);
+  cut_to(s.noise, kept == 0 && !noisy ? 0 : to.surfels), cut_to(s.unevenness, kept == 0 && !uneven ? 0 : to.surfels);
+  for (std::size_t k = kept; k < placed.size(); ++k)
+    if (const Placed& gone = placed[k]; gone.number < numbered) s.parts[gone.number] = scene_part(absent_of(gone.part));
+  s.parts.resize(to.parts), s.materials.resize(std::max(to.materials, table));
+  prepared.order_.resize(to.surfels), prepared.blocks_.resize(to.blocks);
+  placed.resize(kept);
 }
 
-struct PosedScene::State {
-  std::shared_ptr<SceneCloud> scene;
-  PreparedScene prepared;
-  std::size_t surfels, blocks, materials, parts;  // sizes of the resting scene
-  WholeScene resting;
-  bool oriented, noisy, uneven;
-  std::map<std::shared_ptr<const SceneCloud>, std::shared_ptr<const PreparedScene>> bodies{};
+void PosedScene::State::append(const PlacedPart& part, const char* who) {
+  settled = false;
+  const Sizes from{scene->size(), prepared.blocks_.size(), scene->materials.size(), scene->parts.size()};
+  const std::shared_ptr<const PreparedScene> body = part.absent ? nullptr : body_of(part);
+  const std::uint16_t number = append_part(part, numbered, *scene, who);
+  placed.push_back({part, number, from, body});
+  if (!body) return;
+  const PosedBlocks blocks[] = {{body, scene_from_cloud(*scene, part)}};
+  prepared.replace_others(from.surfels, from.blocks, whole, blocks);
+}
 
-  State(std::shared_ptr<SceneCloud> of, int threads)
-      : scene(std::move(of)),
-        prepared(std::shared_ptr<const SceneCloud>(scene), threads),
-        surfels(scene->size()),
-        blocks(prepared.blocks().size()),
-        materials(scene->materials.size()),
-        parts(scene->parts.size()),
-        resting(prepared.whole()),
-        oriented(scene->normals_oriented),
-        noisy(!scene->noise.empty()),
-        uneven(!scene->unevenness.empty()) {}
+void PosedScene::State::move(std::size_t k, const PlacedPart& part) {
+  Placed& there = placed[k];
+  settled = false;
+  there.part = part;
+  scene->parts[there.number] = scene_part(part);
+  if (!there.body) return;
+  place_surfels(part, there.from.surfels, *scene);
+  const Eigen::Isometry3d turn = scene_from_cloud(*scene, part);
+  const auto first = static_cast<std::uint32_t>(there.from.surfels);
+  const auto own = there.body->blocks();
+  for (std::size_t b = 0; b < own.size(); ++b)
+    prepared.blocks_[there.from.blocks + b] = placed_block(own[b], turn, first);
+}
 
-  /// Truncates the scene to its resting parts.
-  void forget_others() {
-    SceneCloud& s = *scene;
-    for (auto* array : {&s.point, &s.normal}) array->resize(surfels);
-    s.area.resize(surfels), s.noise.resize(noisy ? surfels : 0), s.unevenness.resize(uneven ? surfels : 0);
-    for (auto* array : {&s.material, &s.part}) array->resize(surfels);
-    s.id.resize(surfels);
-    s.parts.resize(parts), s.materials.resize(materials);
-    s.normals_oriented = oriented;
+void PosedScene::State::remove(std::size_t k, const PlacedPart& absent) {
+  settled = false;
+  Placed& there = placed[k];
+  const std::size_t first = there.from.surfels, count = there.body->scene().size(), end = first + count;
+  const std::size_t first_block = there.from.blocks, blocks = there.body->blocks().size();
+  SceneCloud& s = *scene;
+  erase_range(s.point, first, end), erase_range(s.normal, first, end), erase_range(s.area, first, end);
+  erase_range(s.material, first, end), erase_range(s.id, first, end), erase_range(s.part, first, end);
+  erase_range(s.noise, first, end), erase_range(s.unevenness, first, end);
+  erase_range(prepared.order_, first, end), erase_range(prepared.blocks_, first_block, first_block + blocks);
+  const auto less = static_cast<std::uint32_t>(count);
+  for (std::size_t i = first; i < prepared.order_.size(); ++i) prepared.order_[i] -= less;
+  for (std::size_t b = first_block; b < prepared.blocks_.size(); ++b)
+    prepared.blocks_[b].begin -= less, prepared.blocks_[b].end -= less;
+  for (std::size_t j = k + 1; j < placed.size(); ++j) placed[j].from.surfels -= count, placed[j].from.blocks -= blocks;
+  s.parts[there.number] = scene_part(absent);
+  there.part = absent, there.body = nullptr;
+}
+
+void PosedScene::State::set_table(std::span<const Material> more) {
+  std::vector<Material>& materials = scene->materials;
+  if (more.empty() && materials.size() == resting.materials) return;  // the parts add none
+  const std::size_t had = std::min(materials.size() - resting.materials, more.size());
+  const bool agrees = std::equal(more.begin(), more.begin() + static_cast<std::ptrdiff_t>(had),
+                                 materials.begin() + static_cast<std::ptrdiff_t>(resting.materials));
+  if (!agrees || more.empty()) table = resting.materials, cut(0), materials.resize(table);
+  for (std::size_t m = materials.size() - resting.materials; m < more.size(); ++m) materials.push_back(more[m]);
+  table = resting.materials + more.size();
+}
+
+void PosedScene::State::pose(const PartList& list, std::span<const Material> more, const char* who) {
+  set_table(more);
+  // The origin of a scene without resting parts is near the first one.
+  if (resting.surfels == 0) cut(0), scene->origin = origin_of(list);
+  std::size_t new_surfels = 0;
+  for (const PlacedPart* part : list) new_surfels += count_of(*part);
+  reserve_surfels(resting.surfels + new_surfels - std::min(scene->size(), resting.surfels + new_surfels), *scene);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const PlacedPart& part = *list[k];
+    if (k < placed.size()) {
+      const PlacedPart& there = placed[k].part;
+      if (same_surfels(there, part)) {
+        if (!same_place(there, part)) move(k, part);
+        continue;
+      }
+      if (there.name == part.name && part.absent) {
+        remove(k, part);
+        continue;
+      }
+      cut(k);
+    }
+    append(part, who);
   }
+  cut(list.size());
+  if (!settled) settle(who);
+}
 
-  /// Returns the blocks of a part in its own axes. They are cached unless surfels of the part are left out.
-  std::shared_ptr<const PreparedScene> body_of(const PlacedPart& placed) {
-    if (!placed.surfels.empty()) return std::make_shared<PreparedScene>(subset(*placed.cloud, placed.surfels), 1);
-    std::shared_ptr<const PreparedScene>& body = bodies[placed.cloud];
-    if (!body) body = std::make_shared<PreparedScene>(placed.cloud, 1);
-    return body;
+void PosedScene::State::settle(const char* who) {
+  require_distinct(scene->parts, who);
+  WholeScene all = whole;
+  double fastest = whole.fastest;
+  scene->normals_oriented = oriented;
+  for (const Placed& there : placed) {
+    if (!there.body) continue;
+    all = together(all, there.body->whole());
+    if (there.part.moves()) fastest = std::max(fastest, fastest_of(there.part, there.body->blocks()));
+    scene->normals_oriented = scene->normals_oriented && there.part.cloud->normals_oriented;
   }
-};
+  all.fastest = fastest;
+  prepared.replace_others(scene->size(), prepared.blocks_.size(), all, {});
+  // Forget bodies that are not there anymore: bodies drawn anew, each of its own size, would fill the memory.
+  std::erase_if(bodies, [&](const auto& body) {
+    return std::ranges::none_of(placed, [&](const Placed& there) { return there.part.cloud == body.first; });
+  });
+  settled = true;
+}
 
 PosedScene::PosedScene(std::span<const PlacedPart> resting, std::span<const Material> materials, int threads) {
   auto scene = std::make_shared<SceneCloud>(merge_parts(resting, materials));
-  state_ = std::make_unique<State>(std::move(scene), threads);
+  state_ = std::make_unique<State>(std::move(scene), 0, threads);
 }
 
+PosedScene::PosedScene(Made, std::unique_ptr<State> state) : state_(std::move(state)) {}
 PosedScene::~PosedScene() = default;
 PosedScene::PosedScene(PosedScene&&) noexcept = default;
 PosedScene& PosedScene::operator=(PosedScene&&) noexcept = default;
 
 std::shared_ptr<const PreparedScene> PosedScene::pose(std::span<const PlacedPart> others) {
   constexpr const char* who = "PosedScene";
-  State& state = *state_;
-  const PartList list = by_name(others, who);
-  state.forget_others();
-  reserve(surfels_of(list), *state.scene);
-  if (state.surfels == 0) state.scene->origin = origin_of(list);
-  std::vector<PosedBlocks> blocks;
-  double fastest = state.resting.fastest;
-  for (const PlacedPart* placed : list) {
-    append(*placed, *state.scene, who);
-    if (placed->absent) continue;
-    const std::shared_ptr<const PreparedScene> body = state.body_of(*placed);
-    blocks.push_back({body, scene_from_cloud(*state.scene, *placed)});
-    const auto of_body = body->blocks();
-    if (placed->moves())
-      fastest = std::max(fastest, fastest_of(*placed, of_body.data(), of_body.data() + of_body.size()));
-  }
-  // Forget bodies that are not in the list: bodies drawn anew, each of its own size, would fill the memory.
-  std::erase_if(state.bodies, [&](const auto& body) {
-    return std::ranges::none_of(list, [&](const PlacedPart* placed) { return placed->cloud == body.first; });
-  });
-  require_distinct(state.scene->parts, who);
-  state.prepared.replace_others(state.surfels, state.blocks, state.resting, blocks);
-  state.prepared.whole_.fastest = fastest;
-  return {std::shared_ptr<const void>(), &state.prepared};
+  state_->pose(by_name(others, who), {}, who);
+  return {std::shared_ptr<const void>(), &state_->prepared};
 }
 
 }  // namespace insonify

@@ -12,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "core/radix_sort.hpp"
 #include "scene/detail_levels.hpp"
+#include "scene/placed_block_internal.hpp"
 #include "scene/surface_rays.hpp"
 
 namespace insonify {
@@ -142,19 +143,13 @@ void PreparedScene::divide(int threads) {
 
 void PreparedScene::replace_others(std::size_t surfels, std::size_t blocks, const WholeScene& resting,
                                    std::span<const PosedBlocks> others) {
-  constexpr float of_coordinate = 4e-7F;  // rounding of a float
   order_.resize(surfels);
   blocks_.resize(blocks);
   whole_ = resting;
   for (const auto& [part, scene_from_part] : others) {
     const auto first = static_cast<std::uint32_t>(order_.size());
     for (const std::uint32_t i : part->order_) order_.push_back(first + i);
-    for (SurfelBlock block : part->blocks_) {
-      block.centre = (scene_from_part * block.centre.cast<double>()).cast<float>();
-      block.radius = block.radius * rounding + of_coordinate * (block.centre.norm() + block.radius);
-      block.begin += first, block.end += first;
-      blocks_.push_back(block);
-    }
+    for (const SurfelBlock& block : part->blocks_) blocks_.push_back(placed_block(block, scene_from_part, first));
     whole_ = together(whole_, part->whole_);
   }
   later_ = std::make_shared<MadeLater>();

@@ -2,12 +2,10 @@
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "scene/posed_scene.hpp"
+#include "scene/posed_pool.hpp"
 #include "survey/scene_parts.hpp"
 #include "survey/scene_source.hpp"
 
@@ -47,19 +45,9 @@ class PartsSource : public SceneSource {
   SceneMoment moment_for(const PingEvent& event) const { return moment_of(rule_, event.time, event.number); }
 
  private:
-  struct Pool {
-    std::mutex guard;
-    std::vector<std::unique_ptr<PosedScene>> idle;
-    std::vector<std::pair<SceneMoment, std::weak_ptr<const PreparedScene>>> in_use;
-  };
-  struct Loan;
-  std::unique_ptr<PosedScene> take() const;
-
   std::shared_ptr<const SceneParts> parts_;
-  std::optional<std::vector<PlacedPart>> resting_;
   DrawRule rule_;
-  int threads_;
-  std::shared_ptr<Pool> pool_;  ///< shared with the scenes in use
+  PosedPool<SceneMoment> pool_;
 };
 
 }  // namespace insonify
