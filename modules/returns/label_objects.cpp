@@ -81,9 +81,21 @@ Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<s
 ObjectKeys object_keys(const PixelLabels& labels, const SceneInstances& of_scene, double least_share) {
   if (labels.part.size() == 0) return {id_image(labels, least_share), of_scene};
   ObjectKeys keys{part_image(labels, least_share).cast<std::uint32_t>(), {}};
-  keys.instances.most = static_cast<std::uint32_t>(labels.part_labels.size());
+  const std::uint32_t most = of_scene.most;
+  keys.instances.most = most + static_cast<std::uint32_t>(labels.part_labels.size());
+  keys.instances.renumbered = of_scene.renumbered;
   for (std::uint32_t p = 0; p < labels.part_labels.size(); ++p)
-    if (!labels.part_labels[p].empty()) keys.instances.of_surfel[p] = p + 1;
+    if (!labels.part_labels[p].empty()) keys.instances.of_surfel[p] = most + p + 1;
+  if (of_scene.of_surfel.empty()) return keys;
+  // Keys above those of parts are instances of surfels.
+  constexpr std::uint32_t first_key = 0x10000;
+  const Grid<std::uint32_t> surfel = id_image(labels, least_share);
+  for (Eigen::Index i = 0; i < surfel.size(); ++i) {
+    const auto of = keys.id(i) == 0 ? of_scene.of_surfel.find(surfel(i)) : of_scene.of_surfel.end();
+    if (of == of_scene.of_surfel.end()) continue;
+    keys.id(i) = first_key + of->second;
+    keys.instances.of_surfel[first_key + of->second] = of->second;
+  }
   return keys;
 }
 

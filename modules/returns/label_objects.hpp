@@ -40,8 +40,9 @@ Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<s
                                    const SceneInstances& instances, std::size_t least_pixels = 1);
 
 /// Keys that distinguish the objects of a ping, and the instances among the keys. In a scene of parts the keys are the
-/// indices of the parts, every part with a label is an instance, its number is its index + 1, and instances.most is the
-/// number of all parts. In other scenes the keys are the ids of surfels, and the instances are `of_scene`.
+/// indices of the parts, every part with a label is an instance, its number is of_scene.most + its index + 1, and
+/// instances.most is of_scene.most + the number of all parts; surfels of the first part that are instances of
+/// `of_scene` stay these. In other scenes the keys are the ids of surfels, and the instances are `of_scene`.
 struct ObjectKeys {
   Grid<std::uint32_t> id;
   SceneInstances instances;

@@ -45,6 +45,7 @@ struct EditedScene::Start {
     for (const PlacedPart& part : parts)
       if (part.captured) resting.push_back(&part);
     auto scene = std::make_shared<SceneCloud>(merge_list(resting, materials, parts, "EditedScene"));
+    reserve_surfels(scene->size() / 4, *scene);  // so that the first parts do not copy the scene
     return std::unique_ptr<PosedScene>(
         new PosedScene({}, std::make_unique<PosedScene::State>(std::move(scene), parts.size(), threads)));
   }

@@ -121,7 +121,7 @@ TEST(EditedScene, is_posed_once_for_threads_that_ask_at_once) {
   for (auto& scene : held) threads.emplace_back([&] { scene = edited.scene_of(arrangement); });
   for (std::thread& thread : threads) thread.join();
   for (const auto& scene : held) EXPECT_EQ(scene, held.front());
-  // What is made later of a scene stays while nothing is edited.
+  // Levels that a scene made stay while nothing is edited.
   const DetailLevels* const levels = &held.front()->levels();
   held.clear();
   EXPECT_EQ(&edited.scene_of(arrangement)->levels(), levels);

@@ -74,9 +74,18 @@ Ping row_of(const Ping& ping, std::size_t row) {
   }
   part.pressure = of_beams(ping.pressure, beams);
   part.intensity = of_beams(ping.intensity, beams);
-  part.labels = {of_beams(ping.labels.material, beams), of_beams(ping.labels.id, beams),
-                 of_beams(ping.labels.share, beams), ping.labels.names};
-  part.labels.elevation = of_beams(ping.labels.elevation, beams);
+  const PixelLabels& labels = ping.labels;
+  part.labels = {of_beams(labels.material, beams),
+                 of_beams(labels.id, beams),
+                 of_beams(labels.share, beams),
+                 labels.names,
+                 of_beams(labels.part, beams),
+                 labels.part_names,
+                 labels.part_labels,
+                 labels.views,
+                 of_beams(labels.elevation, beams),
+                 of_beams(labels.second, beams),
+                 of_beams(labels.second_share, beams)};
   return part;
 }
 
