@@ -104,7 +104,7 @@ struct GsfSummary {
 
 /// Writes bathymetry in the Generic Sensor Format 3.11 (Leidos 2024). The records are header, summary, comment,
 /// history, processing parameters, sound-speed profile, errors of the positions if known, and pings. The attitudes
-/// follow after at most a minute of pings. gsf_field_rows() lists the fields. The same pings give the same bytes.
+/// follow after at most a minute of pings. docs/reference/gsf.md lists the fields. The same pings give the same bytes.
 class GsfFile {
  public:
   /// Throws Error(file) if the file cannot be made, Error(content) for a time before 1970 or after 2106.
@@ -129,17 +129,5 @@ class GsfFile {
   GsfSummary summary_{};
   std::vector<GsfAttitude> attitudes_;  ///< attitudes not yet written
 };
-
-/// A field that GsfFile writes, for the list in docs/reference/gsf.md.
-struct GsfFieldRow {
-  std::string record;  ///< record or subrecord
-  std::string name;    ///< name in the specification
-  std::string type;    ///< "u16", "text", ...
-  std::string step;    ///< value of one count, e.g. "1/100 deg"
-  std::string meaning;
-};
-
-/// Returns all fields of all records in the order of the file, except fields that are always 0.
-std::vector<GsfFieldRow> gsf_field_rows();
 
 }  // namespace insonify

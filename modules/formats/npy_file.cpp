@@ -11,8 +11,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "files/input_file.hpp"
-#include "files/pending_file.hpp"
-#include "formats/packed_bytes_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -101,18 +99,6 @@ NpyArray read_npy(const std::string& path) {
     fail(ErrorKind::content, path, ": has ", there, " bytes of numbers, must have ", wanted, " for ", shape[0], " x ",
          shape[1], " of '", type, "'; the file is truncated");
   return npy_array(path, type, bytes.data() + begin + length, shape, fortran);
-}
-
-void write_npy(const std::string& path, const Grid<float>& array) {
-  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(array.rows()) + ", " +
-                       std::to_string(array.cols()) + "), }";
-  header.append(63 - (10 + header.size()) % 64, ' ');
-  header += '\n';
-  std::string bytes = npy_magic + std::string("\1\0", 2);
-  put_little(bytes, static_cast<std::uint16_t>(header.size()));
-  bytes += header;
-  bytes.append(reinterpret_cast<const char*>(array.data()), static_cast<std::size_t>(array.size()) * 4);
-  write_file(path, bytes);
 }
 
 }  // namespace insonify

@@ -19,7 +19,4 @@ struct NpyArray {
 /// have two dimensions of at least 1.
 NpyArray read_npy(const std::string& path);
 
-/// Writes an array as float32 in C order. Throws Error(file).
-void write_npy(const std::string& path, const Grid<float>& array);
-
 }  // namespace insonify

@@ -152,6 +152,26 @@ Cube read_attributes(const FileContext& place, hid_t file) {
   return cube;
 }
 
+/// Sends attributes and table of a cube unless its extent is known, then as many pings from `first` on as keep memory
+/// small, or one. What is not copied from the file takes the most time.
+void send_some_pings(const FileContext& place, hid_t file, ArraySender& to, Extent extent, std::size_t first,
+                     bool one) {
+  if (extent.empty()) {
+    to(read_attributes(place, file));
+    const CubeTable table = read_table(place, file);
+    to(table);
+    extent = table.extent;
+  }
+  constexpr std::size_t bytes_at_once = 2 << 20;
+  std::size_t p = first;
+  const auto sends_more = [&] { return p < extent[0] && (p == first || (!one && to.used() < bytes_at_once)); };
+  for (; sends_more(); ++p) {
+    to(true);
+    send_all_images(place, file, extent, {p, p + 1}, to);
+  }
+  to(false);
+}
+
 }  // namespace
 
 Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
@@ -201,39 +221,30 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
 }
 
 void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use) {
+  const auto read_some = [](const FileContext& place, hid_t file, ArraySender& to, const auto&... how) {
+    send_some_pings(place, file, to, how...);
+  };
   Cube cube;
   CubeTable table;
-  read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) {
-    to(read_attributes(place, file));
-    to(read_table(place, file));
-  })(cube, table);
-  const std::size_t pings = table.track.size();
+  ComplexGridF samples;  // the same memory for all pings
   bool one_by_one = false;
-  // Reads as many pings at once as keep memory small; what is not copied from the file takes the most.
-  const auto read_some = [](const FileContext& place, hid_t file, ArraySender& to, const Extent& extent,
-                            PingRange range, bool one) {
-    constexpr std::size_t bytes_at_once = 2 << 20;
-    std::size_t p = range.begin;
-    do {
-      to(true);
-      send_all_images(place, file, extent, {p, p + 1}, to);
-    } while (++p < range.end && !one && to.used() < bytes_at_once);
-    to(false);
-  };
-  for (std::size_t p = 0; p < pings;) {
+  for (std::size_t p = 0; table.extent.empty() || p < table.track.size();) {
     std::optional<ArrayReceiver> sent;
     try {
-      sent = read_hdf5(path, read_some, table.extent, PingRange{p, pings}, one_by_one);
+      sent = read_hdf5(path, read_some, table.extent, p, one_by_one);
     } catch (const Error&) {
       if (one_by_one) throw;
       one_by_one = true;  // find the damaged ping
       continue;
     }
+    if (table.extent.empty()) (*sent)(cube, table);
     bool another = false;
     for ((*sent)(another); another; (*sent)(another)) {
       std::vector<Ping> ping = pings_of(table, {p, p + 1});
+      samples.swap(ping.front().pressure);
       receive_all_images(*sent, path, ping);
       use(cube, ping.front());
+      samples.swap(ping.front().pressure);
       ++p;
     }
   }

@@ -11,9 +11,13 @@
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <thread>
 #include <vector>
 
+#include <insonify/formats/aris_file.hpp>
+#include <insonify/formats/oculus_file.hpp>
+#include <insonify/formats/xtf_file.hpp>
 #include <insonify/scene_io/load_scene.hpp>
 #include <insonify/store/cube.hpp>
 #include <insonify/store/environment_file.hpp>
@@ -47,13 +51,23 @@ double of_tiles(const std::string& path) {
   return tiles.load(tiles.select_all(), 0, 1).point[0].sum() + static_cast<double>(tiles.info().surfels);
 }
 
+double of_xtf(const std::string& path) {
+  double sum = 0;
+  for (const XtfPing& ping : read_xtf(path).pings)
+    for (const XtfTrace& trace : ping.traces) sum += std::accumulate(trace.samples.begin(), trace.samples.end(), 0.0);
+  return sum;
+}
+
 std::map<std::string, Read> readers() {
   std::map<std::string, Read> all = {
-      {"cube", of_cube}, {"tiles", of_tiles}, {"environment", [](const std::string& path) {
-                                                 return slowest_sound(load_environment(path));
-                                               }}};
-  for (const char* format :
-       {"pcd", "ply", "obj", "stl", "vtk", "vtp", "gltf", "glb", "xyz", "csv", "asc", "las", "tiff"})
+      {"cube", of_cube},
+      {"tiles", of_tiles},
+      {"environment", [](const std::string& path) { return slowest_sound(load_environment(path)); }},
+      {"aris", [](const std::string& path) { return level_db(read_aris_frame(path, 0)).sum(); }},
+      {"oculus", [](const std::string& path) { return level_db(read_oculus_ping(path, 0)).sum(); }},
+      {"xtf", of_xtf}};
+  for (const char* format : {"pcd", "ply", "obj", "stl", "vtk", "vtp", "gltf", "glb", "xyz", "pts", "ptx", "dae", "fbx",
+                             "off", "x3d", "csv", "asc", "las", "tiff"})
     all[format] = of_scene;
   return all;
 }

@@ -2,6 +2,7 @@
 #include "formats/gsf_file.hpp"
 
 #include "formats/gsf_decoder.hpp"
+#include "formats/gsf_field_rows.hpp"
 #include "support/page.hpp"
 #include "support/test.hpp"
 

@@ -12,7 +12,8 @@ from pathlib import Path
 import insonify as iy
 import numpy as np
 
-FORMATS = ["pcd", "ply", "obj", "stl", "vtk", "vtp", "gltf", "glb", "xyz", "csv", "asc", "las", "tiff", "tiles"]
+FORMATS = ["pcd", "ply", "obj", "stl", "vtk", "vtp", "gltf", "glb", "xyz", "pts", "ptx", "dae", "fbx", "off", "x3d", "csv",
+           "asc", "las", "tiff", "tiles"]
 
 
 def facts(path: Path) -> tuple:

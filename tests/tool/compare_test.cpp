@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
-#include "formats/npy_file.hpp"
 #include "returns/looks.hpp"
 #include "scene_io/load_scene.hpp"
 #include "sonar/beam_fan.hpp"
 #include "store/cube.hpp"
+#include "support/npy.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -79,7 +79,7 @@ TEST_F(CompareRun, moves_an_image_by_the_shift_that_it_finds) {
   const Grid<float> level = shown_level_db(ping_of("one"));
   Grid<float> moved = level;
   moved.rightCols(level.cols() - 5) = level.leftCols(level.cols() - 5);
-  write_npy(path("moved.npy"), moved);
+  write("moved.npy", npy_of(moved));
   const nlohmann::json as_is = compared("moved.npy one"), aligned = compared("moved.npy one --align");
   EXPECT_EQ(as_is["shift"]["bins"], 5);
   EXPECT_FALSE(as_is.contains("aligned_by"));
@@ -97,7 +97,7 @@ TEST_F(CompareRun, takes_pictures_and_arrays_of_the_run_itself) {
   EXPECT_LT(grey["similarity"][0]["mse_db2"].get<double>(), 0.25 * 0.25);  // half a step of grey
   succeed("image one --view grey --bits 16 --raw --window 60 --max 150 -o fine.png");
   EXPECT_LT(compared("one fine.png --scale 90:150 --window 90:150")["similarity"][0]["mse_db2"].get<double>(), 1e-4);
-  write_npy(path("one.npy"), shown_level_db(ping_of("one")));
+  write("one.npy", npy_of(shown_level_db(ping_of("one"))));
   EXPECT_EQ(compared("one one.npy")["similarity"][0]["mse_db2"], 0);
 }
 
@@ -146,7 +146,7 @@ TEST_F(CompareRun, ranks_a_scan_with_measured_strength) {
 TEST_F(CompareRun, refuses_records_that_do_not_fit) {
   write("other.npy", "PK");
   expect_refused("compare one other.npy", 3, {"other.npy", "does not begin as a .npy file"});
-  write_npy(path("small.npy"), Grid<float>::Constant(20, 30, 50));
+  write("small.npy", npy_of(Grid<float>::Constant(20, 30, 50)));
   expect_refused("compare one small.npy", 3, {"one has 64 beams", "small.npy 20 x 30", "small.npy has no geometry"});
   expect_refused("compare small.npy small.npy -o out --repeat x", 2, {"--repeat goes with --strength"});
   succeed("image one --view grey -o grey.png");
@@ -174,6 +174,6 @@ TEST_F(CompareRun, refuses_records_that_do_not_fit) {
   have("far", "ping plane.ply --sonar p900-45 --set sonar.beams=8 --pose=0,0,3,0,15,0 --range 10:11 --no-picture -q ");
   expect_refused("compare one far", 3, {"one, far: ", "do not overlap: 4 to 9 m and 10 to 11 m"});
   expect_refused("compare one two --ping 3", 2, {"--ping = 3", "below 1"});
-  write_npy(path("silent.npy"), Grid<float>::Constant(64, static_cast<Eigen::Index>(ping_of("one").gate.bins()), -200));
+  write("silent.npy", npy_of(Grid<float>::Constant(64, static_cast<Eigen::Index>(ping_of("one").gate.bins()), -200)));
   expect_refused("compare one silent.npy", 3, {"one, silent.npy: ", "no pixel has a level in both"});
 }

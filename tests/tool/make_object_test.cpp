@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Objects from the command line: lists, meshes with their materials, what a ping hears of them.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/text.hpp"
 #include "scene/objects.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/contributor_file.hpp"
@@ -165,8 +167,11 @@ TEST_F(MakeObject, is_documented_as_its_table_says) {
       "| object | key | default | from, to | what |\n|---|---|---|---|---|\n";
   const std::string pictures = file_bytes(INSONIFY_OBJECTS_PAGE);
   for (const ObjectKind& kind : object_kinds()) {
-    page += tool::object_as_markdown(kind);
-    options += tool::object_options_as_markdown(kind);
+    page += fmt::format("| `{}` | {} | {} | {} | {} |\n", kind.name, kind.description,
+                        tool::size_text(make_object(kind.name)), joined(kind.materials), kind.source);
+    for (const ObjectOption& o : kind.options)
+      options += fmt::format("| `{}` | `{}` | {:g} | {:g} to {:g} | {} |\n", kind.name, o.key, o.standard, o.least,
+                             o.most, o.help);
     EXPECT_THAT(pictures, HasSubstr(std::string("](images/objects/") + kind.name + ".png)"));
   }
   expect_reference_page("objects.md", page + options);

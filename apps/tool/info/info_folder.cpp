@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -186,6 +187,33 @@ std::vector<std::string> next_of_run(const std::string& path) {
   return next;
 }
 
+/// Returns the facts of a cube that its first ping and its attributes state; those of all pings have their place only.
+ordered_json facts_of(const std::string& file, const Cube& cube, const Ping& first) {
+  ordered_json layers = ordered_json::array();
+  for (const Layer& layer : first.layers) layers.push_back(layer.name);
+  const char* holds = first.display_cells ? "display cells" : first.expected_level ? "expected levels" : "samples";
+  return {{"path", file},
+          {"format", "insonify ping cube"},
+          {"sonar", cube.sonar},
+          {"pings", {}},
+          {"beams", first.fan.beams()},
+          {"bins", first.gate.bins()},
+          {"holds", holds},
+          {"min_range_m", first.gate.min_range},
+          {"max_range_m", first.gate.max_range},
+          {"bin_size_m", first.gate.bin_size},
+          {"layers", layers},
+          {"centre_frequency_hz", cube.centre_frequency},
+          {"bandwidth_hz", cube.bandwidth},
+          {"source_level_db", cube.source_level_db},
+          {"sound_speed", {}},
+          {"absorption_db_per_m", {}},
+          {"seed", cube.seed},
+          {"peak_level_db", {}},
+          {"notes", notes_json(cube.notes)},
+          {"insonify_version", cube.insonify_version}};
+}
+
 }  // namespace
 
 std::string shell_word(const std::string& path) {
@@ -202,41 +230,27 @@ std::string shell_word(const std::string& path) {
 ordered_json info_of_cube(const std::string& path) {
   const bool is_run = is_folder(path);
   const std::string file = is_run ? path + "/cube.h5" : path;
-  const Cube cube = read_cube(file);
-  const Ping& first = cube.pings.front();
-  ordered_json layers = ordered_json::array();
-  for (const Layer& layer : first.layers) layers.push_back(layer.name);
   // The water of a dive is not one number.
-  const auto water = [&](double Ping::*number) -> ordered_json {
-    const auto [least, most] = std::minmax_element(
-        cube.pings.begin(), cube.pings.end(), [number](const Ping& a, const Ping& b) { return a.*number < b.*number; });
-    if ((*least).*number == (*most).*number) return first.*number;
-    return {(*least).*number, (*most).*number};
+  struct Range {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    void take(double value) { least = std::min(least, value), most = std::max(most, value); }
+    ordered_json json() const { return least == most ? ordered_json(least) : ordered_json{least, most}; }
   };
-  const char* holds = first.display_cells ? "display cells" : first.expected_level ? "expected levels" : "samples";
+  ordered_json info;
+  std::size_t pings = 0;
+  Range sound_speed, absorption;
   float peak = silence_db;
-  for (const Ping& ping : cube.pings) peak = std::max(peak, level_db(ping).maxCoeff());
-  return {{"path", file},
-          {"format", "insonify ping cube"},
-          {"sonar", cube.sonar},
-          {"pings", cube.pings.size()},
-          {"beams", first.fan.beams()},
-          {"bins", first.gate.bins()},
-          {"holds", holds},
-          {"min_range_m", first.gate.min_range},
-          {"max_range_m", first.gate.max_range},
-          {"bin_size_m", first.gate.bin_size},
-          {"layers", layers},
-          {"centre_frequency_hz", cube.centre_frequency},
-          {"bandwidth_hz", cube.bandwidth},
-          {"source_level_db", cube.source_level_db},
-          {"sound_speed", water(&Ping::sound_speed)},
-          {"absorption_db_per_m", water(&Ping::absorption_db_per_m)},
-          {"seed", cube.seed},
-          {"peak_level_db", peak},
-          {"notes", notes_json(cube.notes)},
-          {"insonify_version", cube.insonify_version},
-          {"next", next_of_run(path)}};
+  read_cube_pings(file, [&](const Cube& cube, const Ping& ping) {
+    if (pings++ == 0) info = facts_of(file, cube, ping);
+    sound_speed.take(ping.sound_speed), absorption.take(ping.absorption_db_per_m);
+    peak = std::max(peak, level_db(ping).maxCoeff());
+  });
+  info["pings"] = pings;
+  info["sound_speed"] = sound_speed.json();
+  info["absorption_db_per_m"] = absorption.json();
+  info["peak_level_db"] = peak;
+  info["next"] = next_of_run(path);
+  return info;
 }
 
 ordered_json info_of_folder(const std::string& path) {

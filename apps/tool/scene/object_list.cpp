@@ -64,16 +64,4 @@ void print_object(const ObjectKind& kind) {
     fmt::print("{:<16} {:<10} {:<12} {}\n", o.key, value_text(o), range_text(o), o.help);
 }
 
-std::string object_as_markdown(const ObjectKind& kind) {
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", kind.name, kind.description, size_text(make_object(kind.name)),
-                     joined(kind.materials), kind.source);
-}
-
-std::string object_options_as_markdown(const ObjectKind& kind) {
-  std::string rows;
-  for (const ObjectOption& o : kind.options)
-    rows += fmt::format("| `{}` | `{}` | {:g} | {} | {} |\n", kind.name, o.key, o.standard, range_text(o), o.help);
-  return rows;
-}
-
 }  // namespace insonify::tool

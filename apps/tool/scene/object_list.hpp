@@ -23,8 +23,4 @@ void print_objects();
 /// Prints an object with its options.
 void print_object(const ObjectKind& kind);
 
-/// The rows of the tables in docs/reference/objects.md: of the object, and of its own options.
-std::string object_as_markdown(const ObjectKind& kind);
-std::string object_options_as_markdown(const ObjectKind& kind);
-
 }  // namespace insonify::tool
