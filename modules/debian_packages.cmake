@@ -12,7 +12,7 @@ install(FILES apps/01_first_ping.cpp apps/03_many_pings.cpp DESTINATION ${doc}/l
 set(packages program:insonify development:libinsonify-dev documentation:insonify-doc)
 if(INSONIFY_PYTHON)
   list(APPEND packages python:python3-insonify)
-  install(FILES apps/05_dataset.py apps/06_sweep.py DESTINATION ${doc}/python3-insonify/examples COMPONENT python)
+  install(FILES apps/05_dataset.py apps/06_sweep.py apps/07_reconstruction.py apps/08_synthetic_aperture.py apps/grey_png.py DESTINATION ${doc}/python3-insonify/examples COMPONENT python)
 endif()
 set(CPACK_COMPONENTS_ALL "")
 foreach(of IN LISTS packages)

@@ -6,6 +6,7 @@ import ast
 import importlib.util
 import inspect
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -83,9 +84,39 @@ def test_examples_pass_mypy(example, tmp_path):
     run("-m", "mypy", "--strict", "--cache-dir", str(tmp_path), str(example), env={**os.environ, "MYPYPATH": str(package.parent)})
 
 
-def test_the_data_set_example():
-    lines = run(str(root / "apps/05_dataset.py")).splitlines()
-    assert len(lines) == 7 and lines[-1].endswith("True") and all("64 beams" in line for line in lines[:-1])
+def size_of_picture(path):
+    head = path.read_bytes()[:24]
+    assert head[1:4] == b"PNG"
+    return int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+
+
+def test_the_data_set_example(tmp_path):
+    lines = run(str(root / "apps/05_dataset.py"), str(tmp_path / "sheet.png")).splitlines()
+    assert len(lines) == 7 and lines[-1].endswith("True")
+    boxes = [int(re.search(r"(\d+) boxes", line)[1]) for line in lines[:-1]]
+    assert min(boxes) >= 1 and all("classes [0, 1, 3, 4]" in line for line in lines[:-1])
+    assert size_of_picture(tmp_path / "sheet.png") == (960, 640)
+
+
+def test_the_reconstruction_example_brings_the_shape_back(tmp_path):
+    """Its surface is off by less than a voxel of 25 mm, of which the cells of the images have 20 mm."""
+    out = run(str(root / "apps/07_reconstruction.py"), str(tmp_path / "body.png"))
+    off, missed, tenths = (int(x) for x in re.search(r"off by (\d+) mm, .* by (\d+) mm .* by (\d+) mm", out).groups())
+    assert off <= 25 and missed <= 30 and tenths <= 60
+    assert size_of_picture(tmp_path / "body.png")[0] > 200
+
+
+def test_the_synthetic_aperture_focuses_points_as_theory_has_it(tmp_path):
+    lines = run(str(root / "apps/08_synthetic_aperture.py"), str(tmp_path / "reef.png")).splitlines()
+    along, across = (float(x) for x in re.search(r"theory: (.*) mm along, (.*) mm across", lines[0]).groups())
+    assert len(lines) == 4
+    for line in lines[1:]:
+        found = [float(x) for x in re.search(r"focused (\S+) mm and (\S+) mm .*, (\S+) mm along, (\S+) mm across; real beam"
+                                             r" (\S+) mm", line).groups()]
+        assert abs(found[0]) <= 2 and abs(found[1]) <= 1  # the places where the image was asked for are 1 and 0.5 mm apart
+        assert found[2] == pytest.approx(along, rel=0.05) and found[3] == pytest.approx(across, rel=0.05)
+        assert found[4] > 3 * along
+    assert size_of_picture(tmp_path / "reef.png") == (2000, 480)
 
 
 def test_the_sweep_example(tmp_path):
