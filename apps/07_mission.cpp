@@ -22,10 +22,12 @@ struct Counted : insonify::SurveyInMemory {
 int main(int count, char** words) try {
   using namespace insonify;
   if (count != 2) fail(ErrorKind::argument, "usage: 07_mission MISSION.toml");
-  const MissionFile file = load_mission(words[1]);
+  MissionFile file = load_mission(words[1]);
+  const auto scene = scene_source_of(file);
+  draw_poses(file, *scene);  // of a mission with [randomise.pose]
   const Survey survey(file.mission, mission_heads(file), {file.randomise, file.seed, file.coverage});
   Counted pings;
-  simulate_survey(survey, survey.blocks(), *scene_source_of(file), pings);
+  simulate_survey(survey, survey.blocks(), *scene, pings);
   std::cout << pings.of_head(0).size() << " pings of " << survey.mission().heads[0].name << '\n';
 } catch (const insonify::Error& error) {
   std::cerr << error.what() << '\n';

@@ -19,4 +19,9 @@ std::shared_ptr<const SceneSource> scene_source_of(const std::string& path, std:
 /// Error(content) for these tables.
 std::shared_ptr<const SceneSource> scene_source_of(const MissionFile& file, int threads = 0);
 
+/// Draws the poses of a mission that has [randomise.pose] over its scene, opened by scene_source_of(file): clear of the
+/// ground, of moving parts and of the bodies of each ping's draw (E198). Another mission stays as it is. Throws
+/// Error(content) naming file and ping if no place is clear; as TiledScene::load.
+void draw_poses(MissionFile& file, const SceneSource& scene);
+
 }  // namespace insonify

@@ -59,6 +59,22 @@ void read_trajectory(const std::string& path, const TomlValue& table, const Miss
   }
 }
 
+/// Reads the limits of random poses, which replace trajectory and legs.
+void read_random_poses(const std::string& path, const TomlValue& document, const TomlValue& table,
+                       const MissionTables& t, MissionFile& m) {
+  for (const char* other : {"trajectory", "leg"})
+    if (const TomlValue* found = document.find(other))
+      fail_in_file(path, found->line, "[", other,
+                   "] beside [randomise.pose]: random poses have no order; leave one out");
+  RandomPoses& poses = m.random_poses;
+  if (t.box.size() != 2)
+    fail_in_file(path, table.line, "randomise.pose.box_m has ", t.box.size(), " corners, must have two opposite ones");
+  poses.low = t.box[0].cwiseMin(t.box[1]);
+  poses.high = t.box[0].cwiseMax(t.box[1]);
+  poses.pings = m.mission.random_pings = static_cast<std::int64_t>(t.random_pings);
+  at_line(path, table.line, [&] { require_valid(poses, "randomise.pose"); });
+}
+
 /// Returns the pose of a head on its vehicle: the attitude of its sonar file (yaw, pitch, roll), turned by the mounting
 /// of the mission, Rz(heading) Ry(pitch) Rx(roll) in ship axes. If one of them is zero, the other keeps its bits.
 Pose vehicle_from_head(const MissionTables& t, const Vector3d& of_sonar) {
@@ -176,7 +192,11 @@ MissionFile load_mission(const std::string& path) {
   m.path = path;
   m.text = read_text_file(path);
   read_tables(path, document, t, m);
-  read_trajectory(path, required_table(path, document, "trajectory"), t, m);
+  const TomlValue* randomise = document.find("randomise");
+  if (const TomlValue* pose = randomise ? randomise->find("pose") : nullptr)
+    read_random_poses(path, document, *pose, t, m);
+  else
+    read_trajectory(path, required_table(path, document, "trajectory"), t, m);
   read_each(path, document, "head", [&](const TomlValue& table) { read_head(path, table, m); });
   if (m.mission.heads.empty()) fail_in_file(path, document.line, "missing table [[head]]");
   read_each(path, document, "leg", [&](const TomlValue& table) { read_leg(path, table, m); });

@@ -30,15 +30,16 @@ struct MissionFile {
   std::string scene;                 ///< path of the scene
   std::string environment, profile;  ///< paths; empty: none
   std::uint64_t seed = 1;
-  MissionWater water{};       ///< table [water]
-  Randomisation randomise{};  ///< table [randomise]: random differences between pings
-  bool coverage = false;      ///< true: the survey writes the coverage of each surfel
-  std::string start_utc;      ///< date of time 0, such as "2026-05-01T08:30:00Z"; empty: unknown
+  MissionWater water{};        ///< table [water]
+  Randomisation randomise{};   ///< table [randomise]: random differences between pings
+  RandomPoses random_poses{};  ///< table [randomise.pose]: poses that replace the trajectory
+  bool coverage = false;       ///< true: the survey writes the coverage of each surfel
+  std::string start_utc;       ///< date of time 0, such as "2026-05-01T08:30:00Z"; empty: unknown
   std::optional<Anchor> anchor;
-  std::string system;                ///< system of the world's coordinates, "EPSG:25832"; empty: unknown
-  std::string trajectory;            ///< path of the trajectory; empty: waypoints
-  double position_deviation = 0;     ///< standard deviation of nav_noise in each coordinate [m]
-  Mission mission;                   ///< listening times are 0: they follow from sonar and water
+  std::string system;             ///< system of the world's coordinates, "EPSG:25832"; empty: unknown
+  std::string trajectory;         ///< path of the trajectory; empty: waypoints, or random poses
+  double position_deviation = 0;  ///< standard deviation of nav_noise in each coordinate [m]
+  Mission mission;  ///< listening times are 0: they follow from sonar and water; random poses are not drawn
   std::vector<MissionSonar> sonars;  ///< one for each head
 };
 

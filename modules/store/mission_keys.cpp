@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -160,6 +161,35 @@ std::vector<Key> head_keys(MissionTables& t) {
   };
 }
 
+/// Returns two angles that ascend.
+KeyValue angles_between(std::array<double, 2>& angles) {
+  const Member<std::vector<double>> both{
+      [&angles] {
+        return std::vector<double>{angles[0], angles[1]};
+      },
+      [&angles](const std::vector<double>& given) { std::copy_n(given.begin(), angles.size(), angles.begin()); }};
+  return list(both, {}, in_degrees, {.least = 2, .most = 2, .ascending = true, .text = "two numbers that ascend"});
+}
+
+/// Returns the keys of [randomise.pose].
+std::vector<Key> pose_keys(MissionTables& t, RandomPoses& poses) {
+  return {
+      {"randomise.pose", "pings", "", number(given(t.random_pings), {.least = 1, .most = 1e8, .whole = true}),
+       "number of random poses of the vehicle (E198), which replace `[trajectory]`: each head pings once at each, at "
+       "rest, "
+       "the i-th time at i seconds. A pose depends only on the seed and the number of the ping",
+       true},
+      {"randomise.pose", "box_m", "m", points(t.box),
+       "two opposite corners of the box in which positions are drawn, in world axes", true},
+      {"randomise.pose", "yaw_deg", "deg", angles_between(poses.yaw), "least and greatest yaw, positive to port"},
+      {"randomise.pose", "pitch_deg", "deg", angles_between(poses.pitch), "least and greatest pitch, nose down"},
+      {"randomise.pose", "roll_deg", "deg", angles_between(poses.roll), "least and greatest roll, starboard down"},
+      {"randomise.pose", "clearance_m", "m", number(poses.clearance, not_negative),
+       "least height of the vehicle above the ground below it and at eight places as far around, the bodies of the "
+       "ping's draw included; a draw that is lower is drawn again. 0: any"},
+  };
+}
+
 /// Returns the keys of [randomise] and [water].
 std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
   return {
@@ -197,7 +227,7 @@ std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
 
 std::vector<Key> mission_keys(MissionTables& t, MissionFile& m) {
   std::vector<Key> all = survey_keys(t, m);
-  for (const std::vector<Key>& more : {head_keys(t), water_keys(m.randomise, m.water)})
+  for (const std::vector<Key>& more : {head_keys(t), water_keys(m.randomise, m.water), pose_keys(t, m.random_poses)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

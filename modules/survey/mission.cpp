@@ -59,6 +59,12 @@ void require_valid_head(const Mission& mission, std::size_t i, const char* who) 
   require_at_least_0(head.distance, item, "distance between pings", "m");
   require_at_least_0(head.listening_time, item, "listening time", "s");
   const int given = (head.interval > 0) + (head.distance > 0) + !head.times.empty();
+  if (mission.random_pings > 0) {
+    if (given > 0 || head.scan)
+      fail(ErrorKind::argument, item,
+           ": pings once at each random pose; leave out rate_hz, every_m, times_s and [head.scan]");
+    return;
+  }
   if (given > 1 || (given == 0 && !head.scan))
     fail(ErrorKind::argument, item, ": must say when it pings by one of rate_hz, every_m and times");
   for (std::size_t k = 0; k < head.times.size(); ++k)
@@ -108,7 +114,9 @@ std::optional<TrajectoryGap> gap_at(const Trajectory& trajectory, double time, d
 }
 
 void require_valid(const Mission& mission, const char* who) {
-  require_valid(mission.trajectory, who);
+  if (mission.random_pings == 0) require_valid(mission.trajectory, who);
+  if (mission.random_pings > 0 && !(mission.trajectory.time.empty() && mission.legs.empty()))
+    fail(ErrorKind::argument, who, ": random poses have no order, must have neither trajectory nor legs");
   if (!(mission.max_gap > 0)) fail(ErrorKind::argument, who, ": max_gap = ", mission.max_gap, " s, must be > 0");
   if (mission.heads.empty()) fail(ErrorKind::argument, who, ": no head, must have at least one");
   for (std::size_t i = 0; i < mission.heads.size(); ++i) require_valid_head(mission, i, who);

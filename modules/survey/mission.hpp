@@ -43,7 +43,7 @@ struct MissionLeg {
   double interval = 0, distance = 0;  ///< replace those of the heads unless 0
 };
 
-/// A vehicle with sonar heads along a trajectory.
+/// A vehicle with sonar heads along a trajectory, or at poses that are drawn at random.
 struct Mission {
   Trajectory trajectory;  ///< world_from_vehicle; vehicle axes as head axes: x forward, y port, z up
   std::vector<MissionHead> heads;
@@ -51,6 +51,9 @@ struct Mission {
   NavigationErrors navigation{};  ///< differences of the stored poses from the true ones
   /// No ping is sent between two entries of the trajectory that are farther apart than this [s].
   double max_gap = std::numeric_limits<double>::infinity();
+  /// Number of poses that replace the trajectory, at rest, one for each ping of every head; 0: there is a trajectory.
+  std::int64_t random_pings = 0;
+  std::vector<Pose> poses{};  ///< drawn poses, world_from_vehicle; empty until draw_poses has drawn them
 };
 
 /// Returns true if a head or leg, and with it a folder, may have this name: it consists of letters, digits, '-', '_'
@@ -58,8 +61,8 @@ struct Mission {
 bool is_plain_name(const std::string& name);
 
 /// Throws Error(argument) unless head `i` is valid. Its name consists of letters, digits, '-', '_' and '.' and differs
-/// from those of earlier heads. It has exactly one rule for its pings. Its scan has finite angles and a step > 0 of at
-/// most its span.
+/// from those of earlier heads. It has exactly one rule for its pings, or none and no scan at random poses. Its scan has
+/// finite angles and a step > 0 of at most its span.
 void require_valid_head(const Mission& mission, std::size_t i, const char* who);
 
 /// Throws Error(argument) unless leg `i` lies within the trajectory, after the legs before it, has a name of its own,
@@ -78,7 +81,8 @@ struct TrajectoryGap {
 /// there is none.
 std::optional<TrajectoryGap> gap_at(const Trajectory& trajectory, double time, double max_gap);
 
-/// Throws Error(argument) unless trajectory, heads and legs are valid and there is at least one head.
+/// Throws Error(argument) unless trajectory, heads and legs are valid and there is at least one head. Random poses have
+/// neither trajectory nor legs.
 void require_valid(const Mission& mission, const char* who);
 
 }  // namespace insonify

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include <Eigen/Core>
 
 #include "acoustics/environment.hpp"
 #include "core/pose.hpp"
+#include "core/units.hpp"
 #include "sonar/sonar_head.hpp"
 #include "survey/survey_pings.hpp"
 
@@ -26,6 +28,25 @@ struct Randomisation {
            heading > 0 || attitude > 0;
   }
 };
+
+class Ground;
+
+/// Poses of a vehicle that are drawn at random: limits of uniform draws.
+struct RandomPoses {
+  std::int64_t pings = 0;                               ///< number of poses; 0: none
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();        ///< least coordinates [m, world]
+  Eigen::Vector3d high = Eigen::Vector3d::Zero();       ///< greatest coordinates [m, world]
+  std::array<double, 2> yaw{-pi, pi}, pitch{}, roll{};  ///< least and greatest angle [rad]
+  double clearance = 0.5;  ///< least height above the ground, below and at eight places as far around [m]; 0: any
+};
+
+/// Throws Error(argument) unless all limits are finite and ascend, and the clearance is at least 0.
+void require_valid(const RandomPoses& rule, const char* who);
+
+/// Returns the pose of the vehicle at a ping, in world axes: the first of up to 1000 draws that is clear of the ground
+/// (E198). It depends on rule, seed, number and ground alone. Where there is no ground, a place is clear. Throws
+/// Error(content) naming the ping if no draw is clear.
+Pose drawn_pose(const RandomPoses& rule, std::uint64_t seed, std::int64_t number, const Ground& ground);
 
 /// The differences of one ping, within the half widths.
 struct RandomisedPing {

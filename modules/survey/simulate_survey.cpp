@@ -48,6 +48,12 @@ PingEvent Survey::event_of(const SurveyPing& ping) const {
   return event;
 }
 
+Survey Survey::with_poses(std::vector<Pose> poses) const {
+  Survey survey = *this;
+  survey.mission_.poses = std::move(poses);
+  return survey;
+}
+
 Survey Survey::decided(const SceneSource& scene, int threads) const {
   Survey survey = *this;
   for (std::size_t h = 0; h < heads_.size(); ++h) {

@@ -36,6 +36,8 @@ class Survey {
   /// Returns time, pose and motion of a ping, with the random differences of the mission applied.
   PingEvent event_of(const SurveyPing& ping) const;
 
+  /// Returns the survey with these poses of its vehicle, of a mission with random poses.
+  Survey with_poses(std::vector<Pose> poses) const;
   /// Returns the survey with SamplingSettings::detail of each head decided by its middle ping (PingSimulator::for_many);
   /// what ping and scene refuse leaves it open. threads: 0: all cores; the decision does not depend on it.
   Survey decided(const SceneSource& scene, int threads = 0) const;

@@ -150,6 +150,26 @@ Trajectory entries_about(const Trajectory& t, double time) {
   return {{t.time[i - 1], t.time[i]}, {t.pose[i - 1], t.pose[i]}};
 }
 
+/// Returns the pings at random poses: each head pings once at each, a second apart.
+std::vector<SurveyPing> pings_at_random(const Mission& mission) {
+  const double all = static_cast<double>(mission.random_pings) * static_cast<double>(mission.heads.size());
+  if (!(all <= most_survey_pings))
+    fail(ErrorKind::argument, "survey_pings: ", all, " pings at random poses, must be at most ", most_survey_pings);
+  std::vector<SurveyPing> pings;
+  for (std::size_t h = 0; h < mission.heads.size(); ++h)
+    for (std::int64_t k = 0; k < mission.random_pings; ++k) pings.push_back({h, k, static_cast<double>(k), 0, 0});
+  return pings;
+}
+
+/// Returns the drawn pose of a ping. Throws Error(argument) if none is drawn for it.
+const Pose& random_pose_of(const Mission& mission, const SurveyPing& ping) {
+  const auto i = static_cast<std::size_t>(ping.number);
+  if (ping.number < 0 || i >= mission.poses.size())
+    fail(ErrorKind::argument, "event_of: ping ", ping.number, " has none of ", mission.poses.size(),
+         " drawn poses; draw_poses must draw all of them over the scene");
+  return mission.poses[i];
+}
+
 /// Returns the pose of the ping's head on a vehicle.
 Pose on_vehicle(const Mission& mission, const SurveyPing& ping, const Pose& vehicle) {
   return vehicle * mission.heads.at(ping.head).vehicle_from_head *
@@ -160,6 +180,7 @@ Pose on_vehicle(const Mission& mission, const SurveyPing& ping, const Pose& vehi
 
 std::vector<SurveyPing> survey_pings(const Mission& mission) {
   require_valid(mission, "survey_pings");
+  if (mission.random_pings > 0) return pings_at_random(mission);
   const Trajectory& t = mission.trajectory;
   const std::vector<MissionLeg> whole{{"all", t.time.front(), t.time.back()}};
   require_countable(mission, mission.legs.empty() ? whole : mission.legs);
@@ -175,6 +196,8 @@ std::vector<SurveyPing> survey_pings(const Mission& mission) {
 }
 
 PingEvent event_of(const Mission& mission, const SurveyPing& ping) {
+  if (mission.random_pings > 0)
+    return {on_vehicle(mission, ping, random_pose_of(mission, ping)), {}, ping.time, random_stream_of(ping)};
   const Trajectory near = entries_about(mission.trajectory, ping.time);
   const Pose vehicle = pose_at(near, ping.time);
   Motion motion = motion_at(near, ping.time);

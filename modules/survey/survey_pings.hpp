@@ -21,12 +21,14 @@ inline constexpr double most_survey_pings = 1e8;  ///< limit for all heads of a 
 
 /// Returns all pings of a mission, head after head, in the order of time for each head. They depend on the mission
 /// alone. Every leg begins with a ping and a new sweep. Throws Error(argument) for an invalid mission, for two pings of
-/// a head that are closer than its listening time (naming both and the time), and if there is no ping.
+/// a head that are closer than its listening time (naming both and the time), and if there is no ping. At random poses
+/// each head pings once, the i-th time at i seconds.
 std::vector<SurveyPing> survey_pings(const Mission& mission);
 
 /// Returns time, pose and motion of a ping: those of the vehicle (pose_at, motion_at) with mounting and scan angle of
 /// the head, whose lever arm moves as the vehicle turns. Its number is random_stream_of(ping). O(log n) for a
-/// trajectory of n entries. Throws as pose_at.
+/// trajectory of n entries. At a random pose the vehicle rests. Throws as pose_at; Error(argument) if the poses of the
+/// mission are not drawn.
 PingEvent event_of(const Mission& mission, const SurveyPing& ping);
 
 /// Returns the pose of the head that the navigation reports: that of event_of with the mission's navigation errors.

@@ -62,6 +62,18 @@ keep = ["{keep}"]
 """
 
 
+# Where the head is, in place of the trajectory: at random beside the bed and over it, looking along it and down.
+AT_RANDOM = """[randomise.pose]
+pings = {images}
+box_m = [{low}, {high}]
+yaw_deg = [-40, 40]
+pitch_deg = [10, 30]
+roll_deg = [-5, 5]
+clearance_m = 0.6
+[ping]
+"""
+
+
 class Surface:
     """Places of a surface with normals, areas and scattering coefficients; of a mesh points a step apart."""
 
@@ -165,6 +177,17 @@ class Form:
         half = np.abs(self.azimuth).max() - margin
         return ((np.abs(seen.azimuth) < half) & (seen.range > self.meta["min_range_m"] + margin)
                 & (seen.range < self.meta["max_range_m"] - margin))
+
+    def pixels_inside(self) -> np.ndarray:
+        """Where the middle of a pixel is within ranges and beams."""
+        if self.name == "polar":
+            return np.ones(self.shape, bool)
+        metres, (rows, columns) = self.mapping["metres_per_pixel"], self.shape
+        ahead = (self.mapping["head_row"] - np.arange(rows)[:, None] - 0.5) * metres
+        aside = (self.mapping["head_column"] - np.arange(columns)[None] - 0.5) * metres
+        away = np.hypot(ahead, aside)
+        return ((np.abs(np.arctan2(aside, ahead)) <= np.abs(self.azimuth).max()) & (away >= self.meta["min_range_m"])
+                & (away <= self.meta["max_range_m"]))
 
     def marks(self, seen: Seen, which: np.ndarray) -> np.ndarray:
         row, column = (np.floor(x[which]).astype(int) for x in self.pixel(seen.range, seen.azimuth))
@@ -324,6 +347,38 @@ class Referee:
             boxed[a.get("part")] = a
             self.judge_box(form, a, parts, masks, numbers)
         self.judge_missing(form, parts, bed, facing, boxed, numbers)
+        self.judge_contrast(form, boxed, numbers, of_number)
+
+    def judge_contrast(self, form: Form, boxed: dict, numbers: np.ndarray, of_number: dict) -> None:
+        """An object far above its ring has a box, one far below it has none. Black pixels count as black, which brings
+        both nearer to nothing."""
+        name, least_pixels = form.meta["name"], 20
+        image = read_png(self.set / form.name / "images" / (name + ".png"))
+        window, steps = form.meta["mapping"], 255 if form.name == "fan" else 65535
+        intensity = 10 ** ((window["min_db"] + image * (window["max_db"] - window["min_db"]) / steps) / 10)
+        shown = form.pixels_inside()
+        for number in np.unique(numbers[numbers > 0]):
+            own = numbers == number
+            if own.sum() < least_pixels:
+                continue
+            rows, columns = np.flatnonzero(own.any(1)), np.flatnonzero(own.any(0))
+            ring = np.zeros_like(own)
+            along, across = max(2, np.ptp(rows) + 1), max(2, np.ptp(columns) + 1)
+            ring[max(0, rows[0] - along):rows[-1] + 1 + along, max(0, columns[0] - across):columns[-1] + 1 + across] = True
+            ring &= shown & (numbers == 0)
+            if not ring.any():
+                continue
+            contrast = 10 * np.log10(intensity[own].mean() / intensity[ring].mean())
+            where = f"{form.name} {name} {of_number.get(number)}: {contrast:.1f} dB"
+            self.counted[f"contrasts in {form.name} images"] += 1
+            if contrast > 6:
+                self.counted[f"loud objects in {form.name} images"] += 1
+                if of_number.get(number) not in boxed:
+                    self.complain("loud object without a box", where)
+            if contrast < -6:
+                self.counted[f"dark objects in {form.name} images"] += 1
+                if of_number.get(number) in boxed:
+                    self.complain("box of a dark object", where)
 
     def judge_box(self, form: Form, a: dict, parts: dict[str, Seen], masks: np.ndarray, numbers: np.ndarray) -> None:
         where = f"{form.name} {form.meta['name']} {a.get('part')}"
@@ -405,10 +460,19 @@ class Referee:
         return sums
 
 
-def make_set(tool: str, folder: Path, images: int, bed: str = "", keep: str = "labels") -> None:
+def at_random(mission: str, images: int, low: np.ndarray, high: np.ndarray) -> str:
+    """The mission with random poses, of which none has an order, in place of its trajectory."""
+    mission = re.sub(r"\[trajectory\].*?(?=\[\[head\]\])", "", mission, flags=re.S)
+    mission = re.sub(r"(pitch_deg|rate_hz) = .*\n", "", mission)
+    box = {"low": [float(low[0]) - 2, float(0.6 * low[1] + 0.4 * high[1]), float(high[2]) + 0.3],
+           "high": [float(0.6 * low[0] + 0.4 * high[0]), float(0.4 * low[1] + 0.6 * high[1]), float(high[2]) + 2]}
+    return mission.replace("[ping]\n", AT_RANDOM.format(images=images, **box))
+
+
+def make_set(tool: str, folder: Path, images: int, bed: str = "", keep: str = "labels", random: bool = False) -> None:
     """A survey of a head that passes a bed, with bodies drawn anew for each ping, and the data set of it.
 
-    keep: labels of display cells, or contributors, for labels of samples"""
+    keep: labels of display cells, or contributors, for labels of samples; random: poses of the head are, too"""
     def run(*words: str) -> None:
         subprocess.run([tool, *words, "-q"], cwd=folder, check=True)
     if bed:
@@ -431,7 +495,10 @@ def make_set(tool: str, folder: Path, images: int, bed: str = "", keep: str = "l
     course = float(np.degrees(np.arctan2(last[1] - first[1], last[0] - first[0])))
     mission = MISSION.format(first=first, last=last, speed=length / (images - 0.5),
                              keep=keep)
-    mission = mission.replace("pitch_deg = -20\n", f"pitch_deg = -20\nheading_deg = {course:.6f}\n")
+    if random:
+        mission = at_random(mission, images, low, high)
+    else:
+        mission = mission.replace("pitch_deg = -20\n", f"pitch_deg = -20\nheading_deg = {course:.6f}\n")
     (folder / "scene.toml").write_text(SCENE.format(post=post, area=area))
     (folder / "mission.toml").write_text(mission)
     run("survey", "mission.toml", "-o", "survey")
@@ -445,11 +512,12 @@ def main() -> None:
     arguments.add_argument("folder", type=Path)
     arguments.add_argument("--images", type=int, default=300)
     arguments.add_argument("--bed", default="")
+    arguments.add_argument("--random", action="store_true", help="random poses in place of a trajectory")
     arguments.add_argument("--judge-only", action="store_true", help="of a data set that is there already")
     o = arguments.parse_args()
     o.folder.mkdir(parents=True, exist_ok=True)
     if not o.judge_only:
-        make_set(str(Path(o.tool).absolute()), o.folder, o.images, o.bed)
+        make_set(str(Path(o.tool).absolute()), o.folder, o.images, o.bed, random=o.random)
     found = Referee(o.folder).run()
     print(json.dumps({"counted": found.counted, "wrong": found.wrong, "first": found.first,
                       "pixels beyond the outline": found.worst_px}, indent=2))

@@ -30,15 +30,20 @@ def no_label_is_wrong(folder: Path) -> None:
         assert found.counted[f"boxes in {form} images"] > 40
         assert found.counted[f"sure objects in {form} images"] > 15
         assert found.counted[f"whole boxes in {form} images"] > 20
+        assert found.counted[f"loud objects in {form} images"] > 20
 
 
 def test_an_independent_projector_finds_no_wrong_label(strewn):
     no_label_is_wrong(strewn)
 
 
-def test_nor_does_it_in_display_cells(tmp_path):
-    make_set(os.environ["INSONIFY_TOOL"], tmp_path, 30, keep="labels")
+def test_nor_does_it_in_display_cells_from_random_poses(tmp_path):
+    make_set(os.environ["INSONIFY_TOOL"], tmp_path, 30, keep="labels", random=True)
     no_label_is_wrong(tmp_path)
+    poses = np.array([json.loads(line)["world_from_head"]
+                      for line in (tmp_path / "set" / "meta.jsonl").read_text().splitlines()])
+    assert np.ptp(poses[:, :3, 3], axis=0).min() > 1  # anywhere in their box
+    assert np.ptp(np.degrees(np.arctan2(poses[:, 1, 0], poses[:, 0, 0]))) > 60
 
 
 def test_the_projector_finds_what_is_wrong(strewn):

@@ -275,3 +275,56 @@ TEST(MissionFile, says_how_often_bodies_are_drawn) {
   for (const char* bad : {"0", "1.5", "\"pings\"", "-3", "true"})
     EXPECT_THAT(error_with_kind([&] { pings_of(bad); }), HasSubstr("must be \"ping\", \"survey\" or a whole number"));
 }
+
+namespace {
+
+const std::string at_random = R"(schema = 1
+[survey]
+scene = "harbour.ply"
+seed = 7
+[[head]]
+name = "fls"
+sonar = "gemini-720im"
+range = "0.5:10"
+[randomise.pose]
+pings = 40
+box_m = [[5, 4, -1], [0, -4, -3]]
+yaw_deg = [-90, 90]
+pitch_deg = [5, 25]
+)";
+
+}  // namespace
+
+TEST(MissionFile, reads_limits_of_random_poses_in_place_of_a_trajectory) {
+  const MissionFile m = load_mission(own_file("m.toml", at_random));
+  EXPECT_EQ(m.random_poses.pings, 40);
+  EXPECT_EQ(m.mission.random_pings, 40);
+  EXPECT_TRUE(m.mission.trajectory.time.empty());
+  EXPECT_TRUE(m.mission.poses.empty()) << "they are drawn over the scene";
+  EXPECT_EQ(m.random_poses.low, Eigen::Vector3d(0, -4, -3));
+  EXPECT_EQ(m.random_poses.high, Eigen::Vector3d(5, 4, -1));
+  EXPECT_EQ(m.random_poses.yaw, (std::array<double, 2>{radians(-90), radians(90)}));
+  EXPECT_EQ(m.random_poses.pitch, (std::array<double, 2>{radians(5), radians(25)}));
+  EXPECT_EQ(m.random_poses.roll, (std::array<double, 2>{0, 0}));
+  EXPECT_EQ(m.random_poses.clearance, 0.5);
+  EXPECT_EQ(load_survey_randomisation(own_path("m.toml")).seed, 7U);
+}
+
+TEST(MissionFile, says_what_is_wrong_with_random_poses) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    return error_of_file(load_mission, "m.toml", replaced(at_random, from, to));
+  };
+  EXPECT_THAT(refused("pings = 40\n", ""), HasSubstr("missing key 'randomise.pose.pings'"));
+  EXPECT_THAT(refused("pings = 40", "pings = 0.5"), HasSubstr("randomise.pose.pings = 0.5, must be a whole number"));
+  EXPECT_THAT(refused("[[5, 4, -1], [0, -4, -3]]", "[[5, 4, -1]]"), HasSubstr("must have two opposite ones"));
+  EXPECT_THAT(refused("[5, 25]", "[25, 5]"), HasSubstr("must be two numbers that ascend"));
+  EXPECT_THAT(refused("[5, 25]", "[25]"), HasSubstr("must be two numbers that ascend"));
+  EXPECT_THAT(refused("[5, 25]", "[5, 25]\nclearance_m = -1"), HasSubstr("clearance_m = -1 m, must be"));
+  EXPECT_THAT(refused("[randomise.pose]", "[trajectory]\nwaypoints_m = [[0, 0, -3], [1, 0, -3]]\n[randomise.pose]"),
+              HasSubstr("[trajectory] beside [randomise.pose]"));
+  EXPECT_THAT(refused("[randomise.pose]", "[[leg]]\nname = \"a\"\n[randomise.pose]"),
+              HasSubstr("[leg] beside [randomise.pose]"));
+  EXPECT_THAT(refused("range = \"0.5:10\"", "rate_hz = 2"),
+              HasSubstr("head 'fls': pings once at each random pose; leave out rate_hz"));
+  EXPECT_THAT(refused("[[head]]", "[trajectory]\n[[head]]"), HasSubstr("[trajectory] beside"));
+}

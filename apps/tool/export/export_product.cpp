@@ -51,6 +51,20 @@ PlacedRun placed_run(const ProductOptions& o) {
   return run;
 }
 
+/// Writes a product that is a folder.
+void export_folder(const PlacedRun& run, const CommonOptions& common, Progress& progress) {
+  const ProductOptions& o = run.options;
+  RunDirectory directory(o.output, o.force, {o.run});
+  progress.step("writing " + o.output);
+  const bool pictures = o.to == "png";
+  std::vector<std::string> notes;
+  const std::size_t pings = pictures ? png_product(run, directory) : neusis_product(run, directory, notes);
+  for (const std::string& note : notes) progress.note(note);
+  print_summary(common, {{"output", o.output}, {"to", o.to}, {"pings", pings}},
+                pictures ? fmt::format("{}: pictures of {} pings; scales are in manifest.json", o.output, pings)
+                         : fmt::format("{}: images, poses and scene of {} pings", o.output, pings));
+}
+
 }  // namespace
 
 UtmWorld::UtmWorld(const Georeference& from)
@@ -107,14 +121,7 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   for (const std::string& note : run.pings.notes) progress.note(note);
   run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
   if (!o.processing_profile.empty()) run.processing_profile = load_sound_speed_profile(o.processing_profile);
-  if (o.to == "png") {
-    RunDirectory directory(o.output, o.force, {o.run});
-    progress.step("writing " + o.output);
-    const std::size_t pings = png_product(run, directory);
-    print_summary(common, {{"output", o.output}, {"to", o.to}, {"pings", pings}},
-                  fmt::format("{}: pictures of {} pings; scales are in manifest.json", o.output, pings));
-    return;
-  }
+  if (o.to == "png" || o.to == "neusis") return export_folder(run, common, progress);
   const auto& product =
       *std::find_if(std::begin(products), std::end(products), [&](const Product& each) { return o.to == each.name; });
   if (o.to == "las" && o.output.ends_with(".laz"))

@@ -27,7 +27,7 @@ struct ProductOptions {
   bool force = false;                ///< replace a file or directory
 };
 
-/// Writes the pings of a run, one after the other, as a file (png: a directory of them) of another program. Throws
+/// Writes the pings of a run, one after the other, as a file (png, neusis: a directory) of another program. Throws
 /// Error(argument) for a product with coordinates of the globe if neither options, mission nor scene say where the
 /// world is, or if they contradict each other,
 /// Error(content) for a survey that is not complete or has several heads, as read_cube for damaged cubes, and

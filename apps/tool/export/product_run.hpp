@@ -67,5 +67,8 @@ SoundingCount mcap_product(const PlacedRun& run);
 std::string compression_note(const ProductOptions& options);
 /// Writes pictures and how to read them; returns how many pings there were.
 std::size_t png_product(const PlacedRun& run, RunDirectory& directory);
+/// Writes images with poses, and the scene as truth.ply; adds to `notes` why there is none. Returns how many pings there
+/// were. Throws Error(content) for fans that the layout cannot hold.
+std::size_t neusis_product(const PlacedRun& run, RunDirectory& directory, std::vector<std::string>& notes);
 
 }  // namespace insonify::tool

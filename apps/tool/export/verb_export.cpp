@@ -32,13 +32,16 @@ struct ExportOptions {
 void add_options(OptionList list, ExportOptions& o) {
   ProductOptions& p = o.product;
   list.add("RUN", &p.run, "run directory, survey or cube.h5", {.required = true});
-  list.add("-o,--output", &p.output, "file that is written; for vtk and png: folder that is made", {.required = true});
+  list.add("-o,--output", &p.output, "file that is written; for vtk, png and neusis: folder that is made",
+           {.required = true});
   list.add(
       "--to", &p.to,
       "format. vtk: grids and returns for ParaView. Soundings of the bottom: gsf (Generic Sensor Format 3.11), las "
       "(LAS 1.4 in UTM), geotiff (a grid in UTM or another projected system) or csv (a table). mcap: images, points "
-      "and poses as messages of ROS 2. png: bare pictures. xtf: the samples of side-scans and scanning heads",
-      {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png", "xtf"}});
+      "and poses as messages of ROS 2. png: bare pictures. xtf: the samples of side-scans and scanning heads. neusis: "
+      "images with poses for "
+      "reconstruction, and the scene",
+      {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png", "xtf", "neusis"}});
   add_place_options(list, p.place);
   list.add("--start-utc", &p.start_utc,
            "time of day at time 0, as 2026-05-01T08:30:00Z; default: that of the mission, else 1970");
@@ -99,7 +102,7 @@ std::optional<std::size_t> save_returns(const RunPings& run, const std::string& 
 
 /// Throws for options of soundings beside a product that has none.
 void require_soundings(const ProductOptions& o) {
-  if ((o.to == "vtk" || o.to == "png" || o.to == "xtf") &&
+  if ((o.to == "vtk" || o.to == "png" || o.to == "xtf" || o.to == "neusis") &&
       (o.keep_rejected || std::isfinite(o.min_level) || std::isfinite(o.max_deviation) ||
        !o.processing_profile.empty()))
     fail(ErrorKind::argument, "--to = ", o.to,

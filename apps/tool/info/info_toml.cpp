@@ -38,10 +38,14 @@ ordered_json mission_info(const std::string& path) {
   }
   for (const MissionLeg& leg : mission.legs) legs.push_back(leg.name);
   const std::string word = shell_word(path);
+  const bool at_random = mission.random_pings > 0;
+  const ordered_json extent = at_random
+                                  ? ordered_json(mission.random_pings)
+                                  : ordered_json(mission.trajectory.time.back() - mission.trajectory.time.front());
   return {{"path", path},
           {"format", "insonify mission"},
           {"scene", survey.file.scene},
-          {"seconds", mission.trajectory.time.back() - mission.trajectory.time.front()},
+          {at_random ? "random_poses" : "seconds", extent},
           {"heads", heads},
           {"legs", legs},
           {"next", {"insonify survey " + word + " --plan", "insonify survey " + word + " -o run"}}};

@@ -42,7 +42,7 @@ void add_mission(const std::string& path, const std::string& head, RunPings& pin
   pings.legs = file.mission.legs;
   if (found == file.mission.heads.end()) return;
   pings.vehicle_from_head = found->vehicle_from_head;
-  pings.trajectory = std::move(file.mission.trajectory);
+  if (file.mission.random_pings == 0) pings.trajectory = std::move(file.mission.trajectory);
   pings.water = file.water;
   pings.position_deviation = file.position_deviation;
 }

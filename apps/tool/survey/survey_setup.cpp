@@ -11,6 +11,7 @@
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/scene_source_of.hpp"
 #include "store/environment_file.hpp"
 #include "store/material_library.hpp"
 #include "tool/run/world_place.hpp"
@@ -50,6 +51,7 @@ void at_scene_file(const std::string& path, const Body& body) {
 /// A sentence about pings that gaps of the trajectory leave out; empty if there are none.
 std::string gap_note(const SurveySetup& s) {
   const Mission& mission = s.survey->mission();
+  if (mission.random_pings > 0) return {};
   Mission flown = mission;
   flown.max_gap = std::numeric_limits<double>::infinity();
   const std::vector<SurveyPing> all = survey_pings(flown);
@@ -70,9 +72,11 @@ std::string gap_note(const SurveySetup& s) {
 /// Throws Error(content) for a mission whose anchor cannot be that of its way.
 void require_anchored(const SurveySetup& s) {
   if (!s.file.anchor) return;
+  std::vector<Eigen::Vector3d> ends{s.file.random_poses.low, s.file.random_poses.high};
+  if (s.file.mission.random_pings == 0)
+    ends = {s.file.mission.trajectory.pose.front().translation(), s.file.mission.trajectory.pose.back().translation()};
   at_scene_file(s.file.path, [&] {
-    for (const Pose& pose : {s.file.mission.trajectory.pose.front(), s.file.mission.trajectory.pose.back()})
-      require_plausible(Georeference{{}, *s.file.anchor}, pose.translation(), "[survey.anchor]");
+    for (const Eigen::Vector3d& end : ends) require_plausible(Georeference{{}, *s.file.anchor}, end, "[survey.anchor]");
   });
 }
 
@@ -82,7 +86,7 @@ void require_in_water(const SurveySetup& s) {
     const double z = event_of(s.file.mission, ping).world_from_head.translation().z();
     if (const auto surface = surface_height(environment); surface && z >= *surface)
       refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", *surface,
-                  " m; lower the trajectory, or give surface.height_m in the frame of the scene");
+                  " m; lower the trajectory or the box, or give surface.height_m in the frame of the scene");
     try {
       environment_at(environment, z, "environment");
     } catch (const Error& error) {
@@ -131,9 +135,11 @@ std::string digest_of(const SurveySetup& s) {
 }  // namespace
 
 std::size_t image_bytes(const PingSetup& ping) {
+  constexpr std::size_t level_bytes = 2, pressure_bytes = 8, label_bytes = 6;
   const SonarHead& head = ping.head.head;
   const auto cells = static_cast<std::size_t>(ping.simulation.outputs.display_bins);
-  return head.fan.beams() * (cells > 0 ? 2 * cells : 8 * head.gate.bins());
+  const std::size_t samples = head.fan.beams() * (cells > 0 ? cells : head.gate.bins());
+  return samples * ((cells > 0 ? level_bytes : pressure_bytes) + (ping.simulation.outputs.labels ? label_bytes : 0));
 }
 
 SurveySetup set_up_survey(const SurveyOptions& o) {
@@ -158,7 +164,7 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   }
   if (std::string note = gap_note(s); !note.empty()) s.notes.push_back(std::move(note));
   require_anchored(s);
-  require_in_water(s);
+  if (s.file.mission.random_pings == 0) require_in_water(s);  // else when the poses are drawn
   for (const SurveyHead& head : s.heads)
     if (s.file.randomise.noise_db > 0 && !(head.options.noise && head.setup.head.environment.self_noise_db))
       fail(ErrorKind::content, s.file.path,
@@ -235,7 +241,7 @@ void require_reach(const SurveySetup& setup, const Bounds& box, RunObserver& obs
 
 }  // namespace
 
-std::shared_ptr<const OpenScene> open_survey_scene(const SurveySetup& setup, const CommonOptions& common,
+std::shared_ptr<const OpenScene> open_survey_scene(SurveySetup& setup, const CommonOptions& common,
                                                    RunObserver& observer) {
   const MissionFile& file = setup.file;
   const PingOptions& pinged = setup.heads.front().options;
@@ -252,6 +258,11 @@ std::shared_ptr<const OpenScene> open_survey_scene(const SurveySetup& setup, con
   for (const std::string& note : loading_notes(scene->report())) observer.note(note);
   count_surfels(setup, *scene, observer);
   require_same_system(file.path, file.anchor, file.system, scene->report().meaning.system.value);
+  if (file.random_poses.pings > 0) {
+    draw_poses(setup.file, *scene);
+    setup.survey = setup.survey->with_poses(file.mission.poses);
+    require_in_water(setup);
+  }
   require_reach(setup, scene->box_at({first, 0}), observer);
   return scene;
 }
