@@ -27,7 +27,34 @@ std::shared_ptr<Scene> scene_of_parts(const std::shared_ptr<const PartsOfPings>&
                                       std::uint64_t seed) {
   MovingScene moving{parts, [parts](const SceneMoment& moment) { return parts->whole_at(moment); },
                      parts->scene().parts()->begin(), seed};
+  moving.edit = [parts]() -> std::shared_ptr<EditedScene> {
+    const PartsScene& scene = parts->scene();
+    if (!scene.parts()->still())
+      fail(ErrorKind::argument, scene.file().path,
+           ": parts of it move or are drawn anew, so that it cannot be edited; load a scene without them, and move "
+           "parts "
+           "by Scene.move");
+    std::vector<PlacedPart> all = scene.resting_with_tiles();
+    for (PlacedPart& part : scene.parts()->others_at(0, 0)) all.push_back(std::move(part));
+    return std::make_shared<EditedScene>(std::move(all), scene.parts()->materials());
+  };
   return std::make_shared<Scene>(std::move(moving), parts->scene().report(), how);
+}
+
+/// Adds what another scene holds as a part; a mesh is sampled `spacing` [m] apart, 0: as its size says.
+std::uint32_t add(Scene& scene, const Scene& body, const std::optional<std::string>& name,
+                  const std::optional<std::string>& label, const py::object& pose, const py::object& velocity,
+                  const py::object& turn_rate, double spacing) {
+  const bool of_parts = body.moving || body.edited;
+  LoadedScene loaded = of_parts ? LoadedScene{body.now()->scene(), {}} : *body.loaded;
+  PlacedPart part{.name = name.value_or("")};
+  if (!name) part.name = fmt::format("part {}", next_id(scene));
+  PartFile how;
+  how.path = part.name, how.spacing = spacing;
+  SceneBody own = body_of_loaded(std::move(loaded), how, false);
+  part.label = label.value_or(part.name), part.cloud = own.cloud;
+  part.file_origin = -own.centre, part.size = own.size;
+  return add_part(scene, std::move(part), pose, velocity, turn_rate);
 }
 
 std::shared_ptr<Scene> load(const Path& path, const py::kwargs& keys) {
@@ -82,7 +109,17 @@ void complete(const py::capsule& capsule) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(rows.data());
   cloud.data.assign(bytes, bytes + cloud.row_step);
   const py::gil_scoped_release release;
-  arrays.loaded = from_pcl(cloud, arrays.options);
+  if (arrays.triangle.empty()) {
+    arrays.loaded = from_pcl(cloud, arrays.options);
+    return;
+  }
+  pcl::PolygonMesh mesh;
+  mesh.cloud = std::move(cloud);
+  for (const auto& corners : arrays.triangle) {
+    pcl::Vertices& polygon = mesh.polygons.emplace_back();
+    polygon.vertices.assign(corners.begin(), corners.end());
+  }
+  arrays.loaded = from_pcl(mesh, arrays.options);
 }
 
 /// The head of a ping as the tool sets it up at its depth.
@@ -96,14 +133,15 @@ HeadSetup head_of(const MadePing& ping) {
 
 /// Returns what the tool notes on the same ping, but for what it notes on loading.
 std::vector<std::string> notes(const MadePing& ping) {
+  if (!ping.scene) return ping.noted;
   const py::gil_scoped_release release;
   const Scene& scene = *ping.scene;
   const PingSimulator simulator = ping.by->simulator->with(ping.simulation);
   const auto pinged = surfels_of(ping, simulator);
-  const SceneCloud& whole = scene.moving ? pinged->scene() : scene.loaded->scene;
+  const bool moves = scene.moving && !ping.arrangement;
+  const SceneCloud& whole = moves || ping.arrangement ? pinged->scene() : scene.loaded->scene;
   const auto draw = static_cast<std::uint64_t>(ping.options.draw);
-  const Bounds box =
-      scene.moving ? scene.moving->parts->scene().box_at(ping.event.time, draw) : bounds(scene.loaded->scene);
+  const Bounds box = moves ? scene.moving->parts->scene().box_at(ping.event.time, draw) : bounds(whole);
   const PingSetup setup{ping.event, head_of(ping), ping.simulation};
   std::vector<std::string> all = setup.head.notes;
   const auto add = [&](std::vector<std::string> more) {
@@ -116,6 +154,8 @@ std::vector<std::string> notes(const MadePing& ping) {
 }
 
 void save(const MadePing& ping, const Path& path, bool force, bool picture) {
+  if (!ping.scene)
+    fail(ErrorKind::argument, "save: the ping was unpickled and has no scene; save it in the process that made it");
   const py::gil_scoped_release release;
   const Simulator& by = *ping.by;
   const Scene& scene = *ping.scene;
@@ -123,13 +163,15 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   o.common.quiet = true;
   o.pose = fmt::format("{}", fmt::join(ping.pose, ","));
   o.scene = scene.options;
+  if (ping.arrangement) o.scene.path.clear();  // no file holds the edits
   o.run.output = path.string(), o.run.force = force, o.run.no_picture = !picture;
   const HeadSetup head = head_of(ping);
   const PingSimulator simulator = by.simulator->with(ping.simulation);
   const auto pinged = surfels_of(ping, simulator);
-  const SceneCloud& whole = scene.moving ? pinged->scene() : scene.loaded->scene;
+  const bool moves = scene.moving && !ping.arrangement;
+  const SceneCloud& whole = moves || ping.arrangement ? pinged->scene() : scene.loaded->scene;
   PingInMemory made{ping.made, simulator, *pinged, whole, scene.loaded->report, scene.instances};
-  if (scene.moving) {
+  if (moves) {
     const PartsScene& parts = scene.moving->parts->scene();
     if (parts.is_random() && scene.moving->seed != o.common.seed)
       fail(ErrorKind::argument, "save: seed = ", o.common.seed, ", but the scene is drawn with seed ",
@@ -157,6 +199,7 @@ PYBIND11_MODULE(_insonify_io, m) {
   const PictureOptions usual;
   m.def("load_scene", &load, "path"_a);
   m.def("complete", &complete, "arrays"_a);
+  m.def("add", &add, "scene"_a, "body"_a, "name"_a, "label"_a, "pose"_a, "velocity"_a, "turn_rate"_a, "spacing"_a);
   m.def("notes", &notes, "ping"_a);
   m.def("save", &save, "ping"_a, "path"_a, "force"_a, "picture"_a);
   m.def("draw_fan", &draw, "ping"_a, "path"_a, py::kw_only(), "width"_a = usual.width, "height"_a = usual.height,

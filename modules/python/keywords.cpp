@@ -4,6 +4,9 @@
 #include <deque>
 #include <map>
 #include <ranges>
+#include <regex>
+#include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -26,19 +29,77 @@ std::string shown_name(const Keywords& of, const Key& key) {
   return (*key.section && key.section != of.main ? std::string(key.section) + "_" : "") + key.name;
 }
 
-/// The keys by all names that they have.
-std::map<std::string, const Key*> by_name(const Keywords& of) {
-  std::map<std::string, const Key*> named;
+/// All names of the keys, in the order of the keys, and what each names.
+std::vector<std::pair<std::string, const Key*>> all_names(const Keywords& of) {
+  std::vector<std::pair<std::string, const Key*>> all;
+  const auto is_new = [&](const std::string& name) {
+    return std::ranges::find(all, name, &std::pair<std::string, const Key*>::first) == all.end();
+  };
+  std::vector<std::pair<std::string, const Key*>> without_unit;
   for (const Key& key : of.keys) {
     std::vector<std::string> names{shown_name(of, key)};
-    if (std::ranges::count(of.keys, std::string_view(key.name), &Key::name) == 1) names.push_back(key.name);
+    if (std::ranges::count(of.keys, std::string_view(key.name), &Key::name) == 1 && names.front() != key.name)
+      names.push_back(key.name);
     const std::string_view* end = find_named(si_units, key.unit);
     for (const std::string& name : names) {
-      named[name] = &key;
-      if (end && name.ends_with(*end)) named.try_emplace(name.substr(0, name.size() - end->size()), &key);
+      all.emplace_back(name, &key);
+      if (end && name.ends_with(*end)) without_unit.emplace_back(name.substr(0, name.size() - end->size()), &key);
     }
   }
-  return named;
+  for (const auto& [name, key] : without_unit)
+    if (is_new(name)) all.emplace_back(name, key);
+  return all;
+}
+
+/// The keys by all names that they have.
+std::map<std::string, const Key*> by_name(const Keywords& of) {
+  const auto all = all_names(of);
+  return {all.begin(), all.end()};
+}
+
+/// The name as Python can spell it.
+std::string spelt(const std::string& name) { return name == "with" ? name + "_" : name; }
+
+/// Words of the tool for which Python has others than those of the settings.
+constexpr Named<const char*> words_of_python[] = {
+    {"force", "force=True"},           {"no-picture", "picture=False"},
+    {"range", "min_range, max_range"}, {"pose", "position, yaw, pitch, roll"},
+    {"mount", "mounting_deg"},         {"threads", "threads"}};
+
+/// The keyword for an option of the tool; empty if there is none.
+std::string keyword_of_option(const std::string& option) {
+  if (const char* const* word = find_named(words_of_python, option)) return *word;
+  static const auto of_settings = [] {
+    std::map<std::string, std::string> names;
+    PingOptions any;
+    for (const RunSetting& setting : all_settings(any)) names[setting.option] = setting.key;
+    return names;
+  }();
+  const auto known = of_settings.find("--" + option);
+  return known == of_settings.end() ? "" : spelt(known->second);
+}
+
+}  // namespace
+
+std::string in_keywords(const std::string& text) {
+  static const std::regex option("--(set (sonar\\.)?([a-z]+\\.)?([a-z_]+)|[a-z][a-z-]*[a-z])(?![a-z-])");
+  std::string result;
+  auto from = text.cbegin();
+  for (std::sregex_iterator found(text.begin(), text.end(), option), end; found != end; ++found) {
+    const std::smatch& match = *found;
+    std::string word = keyword_of_option(match[1]);
+    if (match[4].matched) {
+      std::string section = match[3];
+      if (!section.empty()) section.back() = '_';
+      word = (section == "water_" ? "" : section) + match[4].str();
+    }
+    result.append(from, match[0].first);
+    result += word.empty() ? match[0].str() : word;
+    from = match[0].second;
+  }
+  result.append(from, text.cend());
+  if (const std::string_view own = "EditedScene::"; result.starts_with(own)) result.replace(0, own.size(), "Scene.");
+  return result;
 }
 
 TomlValue value_of(const py::handle& value, const std::string& name) {
@@ -60,6 +121,26 @@ TomlValue value_of(const py::handle& value, const std::string& name) {
   if (std::abs(x) < 0x1p53) return {.kind = Kind::integer, .number = x};
   return {.kind = Kind::text, .text = py::cast<std::string>(py::str(value))};
 }
+
+py::object object_of(const TomlValue& value) {
+  switch (value.kind) {
+    case TomlValue::Kind::boolean:
+      return py::bool_(value.number != 0);
+    case TomlValue::Kind::integer:
+      return py::int_(static_cast<std::int64_t>(value.number));
+    case TomlValue::Kind::number:
+      return py::float_(value.number);
+    case TomlValue::Kind::array:
+      break;
+    default:
+      return py::str(value.text);
+  }
+  py::list items;
+  for (const TomlValue& item : value.items) items.append(object_of(item));
+  return items;
+}
+
+namespace {
 
 /// Returns what a value may stand for: itself, a list of one, numbers as text ("x,y,z").
 std::vector<TomlValue> meanings_of(const TomlValue& value) {
@@ -117,6 +198,19 @@ const char* with_docs(const char* text, const Keywords& of) {
     docs += fmt::format("    {}{}: {}{}{}\n", shown_name(of, key), *key.unit ? fmt::format(" [{}]", key.unit) : "",
                         key.value.rule, key.help.empty() ? "" : "; ", key.help);
   return docs.c_str();
+}
+
+const char* signed_docs(const std::string& name, const std::string& fixed, const char* text, const Keywords& of) {
+  std::string arguments = fixed;
+  if (!of.keys.empty() && fixed.find('*') == fixed.npos) arguments += fixed.empty() ? "*" : ", *";
+  std::set<std::string> given;
+  std::istringstream words(fixed);
+  for (std::string word; words >> word;) given.insert(word.substr(0, word.find_first_of("=,")));
+  for (const auto& [word, key] : all_names(of))
+    if (!given.contains(spelt(word))) arguments += ", " + spelt(word) + "=None";
+  const std::string signature = name + "(" + arguments + ")\n--\n\n";
+  static std::deque<std::string> kept;
+  return kept.emplace_back(signature + (of.keys.empty() ? text : with_docs(text, of))).c_str();
 }
 
 Numbers numbers_of(const py::handle& value, const std::string& name, py::ssize_t columns, py::ssize_t rows) {

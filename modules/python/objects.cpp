@@ -20,45 +20,11 @@
 namespace insonify::python {
 namespace {
 
-/// The whole numbers of an argument, one a row, each within 0 and `most`.
-template <typename T>
-std::vector<T> whole_numbers(const py::handle& value, const std::string& name, py::ssize_t rows, double most) {
-  const Numbers numbers = numbers_of(value, name, 0, rows);
-  std::vector<T> whole;
-  for (py::ssize_t i = 0; i < rows; ++i) {
-    const double x = numbers.at(i);
-    if (x != std::floor(x) || x < 0 || x > most)
-      fail(ErrorKind::argument, name, "[", i, "] = ", x, ", must be a whole number within 0 and ", most);
-    whole.push_back(static_cast<T>(x));
-  }
-  return whole;
-}
-
-std::vector<Eigen::Vector3d> vectors_of(const Numbers& numbers) {
-  const auto* rows = reinterpret_cast<const Eigen::Vector3d*>(numbers.data());
-  return {rows, rows + numbers.shape(0)};
-}
-
-/// Makes the scene of arrays that lack nothing, without PCL.
-void complete(PointArrays& arrays) {
-  SceneCloud& scene = arrays.loaded.scene;
-  Eigen::Vector3d low = arrays.point.front(), high = low;
-  for (const Eigen::Vector3d& p : arrays.point) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  scene.origin = ((low + high) / 2).array().round();
-  scene.materials = arrays.options.materials;
-  const int most = arrays.label.empty() ? 0 : *std::ranges::max_element(arrays.label);
-  for (int label = 0; arrays.options.materials.empty() && label <= most; ++label)
-    scene.materials.push_back(Material{.name = arrays.label.empty() ? "default" : fmt::format("label {}", label)});
-  for (std::size_t i = 0; i < arrays.point.size(); ++i)
-    add_surfel(scene, arrays.point[i], arrays.normal[i].normalized(), arrays.area[i],
-               arrays.label.empty() ? arrays.options.material.value_or(0) : arrays.label[i]);
-  arrays.loaded.report.points_read = scene.size();
-}
-
 /// A ping that is still to be made, with the options of its simulator but for `keys`.
 MadePing asked(const By& by, const Of& scene, const py::kwargs& keys, const char* who) {
   MadePing ping{by, scene, by->options};
   set_keywords(keywords(ping.options, true), keys, who);
+  if (scene->edited) ping.edited = scene->edited, ping.arrangement = scene->edited->now();
   return ping;
 }
 
@@ -75,15 +41,26 @@ MadePing asked_at(MadePing ping, const py::object& position, double yaw, double 
   return ping;
 }
 
-/// Takes a keyword out that has a value for each pose; null if it has one for all.
-py::object for_each_pose(const py::dict& keys, const char* name) {
+/// Takes a keyword out that has a value for each pose, of so many numbers; null if it has one for all.
+py::object for_each_pose(const py::dict& keys, const char* name, py::ssize_t numbers = 0) {
   if (!keys.contains(name)) return {};
   const py::object value = keys[name];
   const auto array = py::array::ensure(value);
   PyErr_Clear();
-  if (!array || array.ndim() == 0) return {};
+  if (!array || array.ndim() <= (numbers > 0 ? 1 : 0)) return {};
   keys.attr("pop")(name);
   return value;
+}
+
+/// Takes the keyword of a vector out, if it has one for each pose; returns the vectors as text.
+std::vector<std::string> vectors_for_each_pose(const py::dict& keys, const char* name, py::ssize_t poses) {
+  std::vector<std::string> all;
+  if (const py::object given = for_each_pose(keys, name, 3)) {
+    const Numbers numbers = numbers_of(given, fmt::format("pings: {}", name), 3, poses);
+    for (py::ssize_t i = 0; i < poses; ++i)
+      all.push_back(fmt::format("{},{},{}", numbers.at(i, 0), numbers.at(i, 1), numbers.at(i, 2)));
+  }
+  return all;
 }
 
 /// Settles event and options of a ping; returns its simulator.
@@ -103,7 +80,7 @@ PingSimulator settle(MadePing& ping, int threads) {
 /// Decides whether pings like this one merge surfels, if so many share a scene; returns SamplingSettings::detail.
 Choice detail_of(MadePing ping, std::size_t pings, int threads) {
   const Choice asked = ping.by->simulation.sampling.detail;
-  if (ping.scene->moving || ping.scene->loaded->mesh) return asked;
+  if (ping.arrangement || ping.scene->moving || ping.scene->loaded->mesh) return asked;
   try {
     const PingSimulator simulator = settle(ping, threads);
     return simulator.for_many(pings, *ping.scene->prepared, ping.event).options().sampling.detail;
@@ -134,6 +111,7 @@ Scene::Scene(MovingScene of, LoadReport report, SceneOptions how)
 
 std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator) {
   const auto draw = static_cast<std::uint64_t>(ping.options.draw);
+  if (ping.arrangement) return ping.edited->scene_of(ping.arrangement);
   if (ping.scene->moving) return ping.scene->moving->at({ping.event.time, draw});
   if (!ping.scene->loaded->mesh) return ping.scene->prepared;
   const LoadedScene& loaded = *ping.scene->loaded;
@@ -146,6 +124,8 @@ std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const Ping
 Simulator::Simulator(const Sonar& of, const Environment& environment, const py::kwargs& keys)
     : sonar(of), head(set_up_head(of.file, of.spec, environment)) {
   set_keywords(keywords(options), keys, "PingSimulator");
+  for (const auto& [name, value] : keys)
+    if (!value.is_none()) given.emplace_back(py::cast<std::string>(name), value_of(value, "PingSimulator"));
   options.run.sonar = sonar.file.path;
   options.mount = mounting_text(sonar.file);
   simulation = asked_simulation(options.common, options);
@@ -157,42 +137,6 @@ Simulator::Simulator(const Sonar& of, const Environment& environment, const py::
 }
 
 py::object io(const char* function) { return py::module_::import("insonify._insonify_io").attr(function); }
-
-std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const py::object& normals, const py::object& areas,
-                                       const py::object& material, const py::object& instance, const py::kwargs& keys) {
-  const Numbers places = numbers_of(points, "Scene: points", 3);
-  const py::ssize_t n = places.shape(0);
-  if (n == 0) fail(ErrorKind::argument, "Scene: points has no row, must have one or more");
-  PointArrays arrays;
-  arrays.point = vectors_of(places);
-  if (!normals.is_none()) arrays.normal = vectors_of(numbers_of(normals, "Scene: normals", 3, n));
-  for (std::size_t i = 0; i < arrays.normal.size(); ++i)
-    if (arrays.normal[i].isZero(0)) fail(ErrorKind::argument, "Scene: normals: row ", i, " is zero, has no direction");
-  if (!areas.is_none()) {
-    const Numbers given = numbers_of(areas, "Scene: areas", 0, n);
-    arrays.area.assign(given.data(), given.data() + n);
-  }
-  for (std::size_t i = 0; i < arrays.area.size(); ++i)
-    if (arrays.area[i] < 0) fail(ErrorKind::argument, "Scene: areas[", i, "] = ", arrays.area[i], ", must be >= 0");
-  SceneOptions how;
-  set_keywords(keywords(how), keys, "Scene");
-  if (py::isinstance<py::str>(material))
-    how.material = py::cast<std::string>(material);
-  else if (!material.is_none())
-    arrays.label = whole_numbers<std::uint16_t>(material, "Scene: material", n, 65533);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> given;
-  if (!instance.is_none())
-    for (const auto of : whole_numbers<std::uint32_t>(instance, "Scene: instance", n, 4294967294.0))
-      given.emplace_back(static_cast<std::uint32_t>(given.size()), of);
-  arrays.options = load_options({}, how);
-  if (arrays.normal.empty() || arrays.area.empty())
-    io("complete")(py::capsule(&arrays));
-  else
-    complete(arrays);
-  arrays.loaded.report.format = "arrays";
-  const py::gil_scoped_release release;
-  return std::make_shared<Scene>(std::move(arrays.loaded), std::move(how), number_instances(given));
-}
 
 std::shared_ptr<MadePing> next_of(Pings& pings) {
   const py::gil_scoped_release release;
@@ -235,13 +179,17 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
   }
   if (const py::object given = for_each_pose(keys, "draw"))
     draw = whole_numbers<int>(given, "pings: draw", numbers.shape(0), 1e9);
+  const std::vector<std::string> velocity = vectors_for_each_pose(keys, "velocity", numbers.shape(0)),
+                                 turn_rate = vectors_for_each_pose(keys, "turn_rate", numbers.shape(0));
   const MadePing each = asked(by, scene, keys, "pings");
-  const auto asked_for = [each, pose, time, draw](std::size_t i) {
+  const auto asked_for = [each, pose, time, draw, velocity, turn_rate](std::size_t i) {
     MadePing ping = each;
     std::copy_n(&pose[6 * i], 6, ping.pose.begin());
     ping.options.ping = static_cast<int>(i);
     if (!time.empty()) ping.options.time = time[i];
     if (!draw.empty()) ping.options.draw = draw[i];
+    if (!velocity.empty()) ping.options.velocity = velocity[i];
+    if (!turn_rate.empty()) ping.options.turn_rate = turn_rate[i];
     return ping;
   };
   // The first thread that makes a ping decides by the middle one; the others wait.

@@ -194,7 +194,7 @@ py::dict view_of_ping(const MadePing& made, bool fan, int width, int height, dou
     const py::gil_scoped_release release;
     const Ping& ping = made.made.ping;
     if (tool::rows_of(ping) > 1) row = tool::row_of(ping, tool::rows_of(ping) / 2);
-    shown = shown_of(tool::rows_of(ping) > 1 ? row : ping, made.scene->instances, form, window);
+    shown = shown_of(tool::rows_of(ping) > 1 ? row : ping, made.instances(), form, window);
   }
   const auto array = [](const auto& grid) -> py::object {
     return grid.size() == 0 ? py::object(py::none()) : py::cast(grid);

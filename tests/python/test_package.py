@@ -78,6 +78,55 @@ def test_stubs_have_all_that_is_public_and_nothing_else():
     assert (package / "py.typed").exists()
 
 
+def test_stubs_are_made_from_the_tables():
+    spec = importlib.util.spec_from_file_location("make_stubs", root / "modules/python/stubs/make_stubs.py")
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    assert made.stub() == (root / "modules/python/insonify/__init__.pyi").read_text(), f"run {made.__doc__}"
+
+
+def test_signatures_have_every_keyword():
+    for function, words in ((iy.sonar, ("name", "beams", "min_range_m", "min_range", "mounting_deg")),
+                            (iy.Environment, ("path", "temperature_c", "surface_height", "wind_speed_m_s", "speed")),
+                            (iy.Scene, ("points", "normals", "triangles", "viewpoint", "unit")),
+                            (iy.Scene.add, ("self", "body", "class_", "pose")), (iy.Scene.move, ("self", "id", "pose")),
+                            (iy.load_scene, ("path", "seed", "mesh_spacing")), (iy.make_scene, ("name", "points", "seed")),
+                            (iy.PingSimulator, ("sonar", "environment", "noise", "with_", "without", "accuracy_db")),
+                            (iy.PingSimulator.ping, ("self", "scene", "position", "yaw", "keep", "turn_rate", "draw")),
+                            (iy.PingSimulator.pings, ("self", "scene", "poses", "threads", "velocity", "time")),
+                            (iy.PingSimulator.views, ("self", "poses", "geometry")), (iy.draw_fan, ("ping", "path", "dark")),
+                            (iy.Ping.save, ("self", "path", "force")), (iy.Ping.level_db, ("self", "floor_db"))):
+        parameters = inspect.signature(function).parameters
+        assert set(words) <= set(parameters), function
+        assert not (function.__doc__ or "").startswith(f"{function.__name__}(")
+    bound = iy.PingSimulator(iy.sonar("p900-45", beams=4)).ping
+    assert next(iter(inspect.signature(bound).parameters)) == "scene"
+    for name in inspect.signature(iy.sonar).parameters:
+        if name != "name":
+            iy.sonar("p900-45", **{name: None})  # is known
+
+
+@pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
+def test_mypy_finds_keywords_that_do_not_exist(tmp_path):
+    program = tmp_path / "program.py"
+    right = ["import insonify as iy", 'iy.sonar("p900-45", max_range=3, azimuths_deg=[1, 2], shading="hann", min_range_m=0.5)',
+             'iy.Environment(temperature_c=8, surface_height=0)', 'scene = iy.load_scene("a.ply", unit="mm", viewpoint=(0, 0, 5))',
+             'sim = iy.PingSimulator(iy.sonar("p900-45"), noise=True, with_="detail", without=["noise"])',
+             "sim.ping(scene, (0, 0, 0), velocity=(1, 0, 0), display=600, keep=None)", "scene.add('a.ply', pose=(0,) * 6)",
+             "sim.pings(scene, [(0,) * 6], velocity=[(1, 0, 0)], draw=[3])"]
+    wrong = {'iy.sonar("p900-45", max_rnge=3)': "max_rnge", "iy.Environment(temperature=8)": "temperature",
+             "iy.PingSimulator(iy.sonar('p900-45'), acuracy_db=1)": "acuracy_db", "sim.ping(scene, (0, 0, 0), sed=1)": "sed",
+             "sim.views(scene, [(0,) * 6], with_=1)": "with_", "scene.add('a.ply', nme='a')": "nme",
+             "iy.sonar('p900-45', beams='many')": "beams"}
+    program.write_text("\n".join([*right, *wrong]) + "\n")
+    made = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(tmp_path), str(program)], text=True,
+                          capture_output=True, env={**os.environ, "MYPYPATH": str(package.parent)})
+    lines = [line for line in made.stdout.splitlines() if ": error: " in line]
+    assert len(lines) == len(wrong), made.stdout
+    for number, (line, word) in enumerate(zip(lines, wrong.values()), len(right) + 1):
+        assert line.startswith(f"{program}:{number}: error") and f'"{word}"' in line, line
+
+
 @pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
 @pytest.mark.parametrize("example", examples, ids=lambda path: path.name)
 def test_examples_pass_mypy(example, tmp_path):

@@ -9,11 +9,15 @@ _deg are degrees, those of arrays radians. World axes have z up.
 from ._insonify import (ArgumentError, Environment, Error, Ping, Pings, PingSimulator, Scene, Sonar, __version__,
                         draw_fan, load_scene, make_scene, sonar, sonars)
 
+from .editing import add as _add
+from .pictures import png_of_ping as _png_of_ping
 from .views import View, views as _views
 
 __all__ = ["ArgumentError", "Environment", "Error", "Ping", "PingSimulator", "Pings", "Scene", "Sonar", "View", "__version__",
            "draw_fan", "load_scene", "make_scene", "sonar", "sonars"]
 
 PingSimulator.views = _views
+Scene.add = _add
+Ping._repr_png_ = _png_of_ping
 for _type in (Environment, Ping, PingSimulator, Pings, Scene, Sonar, View):
     _type.__module__ = __name__

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._insonify import ArgumentError, Ping, PingSimulator, Scene
+from .pictures import png_of_grey
 
 
 class View:
@@ -61,6 +62,9 @@ class View:
     def window(self) -> tuple[float, float]:
         """Levels of black and white [dB re 1 uPa at 1 m]."""
         return self._parts["window"]  # type: ignore[no-any-return]
+
+    def _repr_png_(self) -> bytes:
+        return png_of_grey(self.image)
 
 
 def views(self: PingSimulator, scene: Scene, poses: ArrayLike, *, width: int | None = None, height: int = 512,
