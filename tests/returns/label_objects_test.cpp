@@ -61,6 +61,21 @@ TEST(LabelObjects, keep_the_ids_of_the_scene_and_connected_parts_come_above_all_
                [] { number_objects(three_parts_of_two(), Grid<std::uint32_t>::Zero(5, 4), {}); });
 }
 
+TEST(LabelObjects, of_a_ground_with_given_ids_and_of_its_parts_have_numbers_of_their_own) {
+  PixelLabels labels{Grid<std::uint16_t>(1, 5), Grid<std::uint32_t>(1, 5), Grid<float>::Ones(1, 5), {"sand", "mine"}};
+  labels.material << 0, 0, 1, 1, 0;
+  labels.id << 7, 8, 7, 3, 9;
+  labels.part.resize(1, 5);
+  labels.part << 0, 0, 1, 2, 0;
+  labels.part_names = {"bed", "mine", "net"}, labels.part_labels = {"", "mine", ""};
+  // Surfel 7 of the bed is of object 4; surfels 7 and 3 of other parts are not.
+  Grid<std::uint32_t> expected(1, 5), without(1, 5);
+  expected << 4, 8, 6, 9, 10;
+  EXPECT_TRUE((instance_image(labels, number_instances({{7, 4}, {3, 4}})) == expected).all());
+  without << 4, 4, 2, 5, 6;
+  EXPECT_TRUE((instance_image(labels) == without).all());
+}
+
 TEST(LabelObjects, shadow_and_weak_labels_are_of_no_object) {
   PixelLabels labels;
   labels.material.resize(1, 5), labels.id.resize(1, 5), labels.share.resize(1, 5);
