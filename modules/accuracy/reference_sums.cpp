@@ -46,7 +46,7 @@ void require_windowed(const SonarHead& head, const Medium& medium, const Windowe
   if (head.column || fan_rows(head.fan).size() != 1)
     fail(ErrorKind::argument, "synthesize_windowed: the head has several rows of beams, must have one");
   if (!is_gaussian(head.pulse))
-    fail(ErrorKind::argument, "synthesize_windowed: the head sends a sweep, must be a Gaussian pulse");
+    fail(ErrorKind::argument, "synthesize_windowed: the head has another pulse, must be a Gaussian");
   if (!(o.tolerance >= 1e-12 && o.tolerance < 1))
     fail(ErrorKind::argument, "synthesize_windowed: tolerance = ", o.tolerance, ", must be within [1e-12, 1)");
 }

@@ -42,7 +42,11 @@ double stretch_of(const Pulse& pulse, double doppler) { return 1 + doppler / pul
 class SweepTables final : public PulseTables, public std::enable_shared_from_this<SweepTables> {
  public:
   static constexpr std::size_t most_terms = 12;
-  using Terms = std::array<double, most_terms>;
+  /// Factors of the terms, and how many of them count.
+  struct Terms {
+    std::array<double, most_terms> factor = {};
+    std::size_t used = 1;
+  };
 
   SweepTables(const MatchedPulse& kind, const Pulse& pulse, const Absorption& absorption)
       : pulse_(pulse),
@@ -76,22 +80,24 @@ class SweepTables final : public PulseTables, public std::enable_shared_from_thi
 
   /// Returns the factors of the terms for an echo from `range` whose frequencies moved by `doppler` [Hz].
   Terms factors(double range, double doppler) const {
-    Terms factor = {kept(range, 0)};
-    if (terms_ == 1) return factor;
+    constexpr double faint = 1e-7;  // of the first term
+    Terms terms{{kept(range, 0)}};
+    if (terms_ == 1) return terms;
     const auto n = static_cast<double>(terms_);
     for (std::size_t j = 0; j < terms_; ++j) {
-      factor[j] = 0;
+      double& factor = terms.factor[j] = 0;
       for (std::size_t m = 0; m < terms_; ++m) {
         const double angle = pi * (static_cast<double>(m) + 0.5) / n;
         const double left = kept(range, 0.5 * pulse_.bandwidth * std::cos(angle) - doppler);
-        factor[j] += (j == 0 ? 1 : 2) / n * left * std::cos(static_cast<double>(j) * angle);
+        factor += (j == 0 ? 1 : 2) / n * left * std::cos(static_cast<double>(j) * angle);
       }
+      if (std::abs(factor) > faint * terms.factor[0]) terms.used = j + 1;
     }
-    return factor;
+    return terms;
   }
 
   /// Returns the sum of the terms at t [s] from the delay, between six samples (Lagrange).
-  std::complex<double> at(double t, const Terms& factor) const {
+  std::complex<double> at(double t, const Terms& terms) const {
     constexpr double divisor[] = {-120, 24, -12, 12, -24, 120};
     const double place = t / step_, whole = std::floor(place), x = place - whole;
     const double from[] = {x + 2, x + 1, x, x - 1, x - 2, x - 3};
@@ -101,7 +107,7 @@ class SweepTables final : public PulseTables, public std::enable_shared_from_thi
       for (std::ptrdiff_t j = 0; j < 6; ++j)
         if (j != k) weight *= from[j];
       const auto sample = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(whole) + k - 2) & (count_ - 1);
-      for (std::size_t j = 0; j < terms_; ++j) sum += weight * factor[j] * value_[sample * terms_ + j];
+      for (std::size_t j = 0; j < terms.used; ++j) sum += weight * terms.factor[j] * value_[sample * terms_ + j];
     }
     return sum;
   }
@@ -129,7 +135,7 @@ class HyperbolicEcho final : public EchoShape {
  public:
   HyperbolicEcho(const Pulse& pulse, const SweepTables& tables, double range, double doppler)
       : pulse_(pulse), tables_(tables.shared_from_this()), period_(pulse), range_(range), doppler_(doppler) {
-    factor_ = tables.factors(range, doppler);
+    terms_ = tables.factors(range, doppler);
     const double stretch = stretch_of(pulse, doppler);
     half_ = 0.5 * pulse.duration / stretch;
     late_ = period_.middle / period_.slope * (1 - 1 / stretch);
@@ -138,12 +144,12 @@ class HyperbolicEcho final : public EchoShape {
 
   std::complex<double> at(double t) const override {
     if (!(std::abs(t) < pulse_.duration)) return 0;
-    if (doppler_ == 0) return tables_->at(t, factor_);
+    if (doppler_ == 0) return tables_->at(t, terms_);
     const double moved = t - late_, half = 0.5 * pulse_.duration;
     // Limits of the overlap of replica and sweep, and of the sweep at rest, in the time of the latter.
     const double first = std::max(-half_ - late_, moved - half), last = std::min(half_ - late_, moved + half);
     if (!(first < last)) return 0;
-    return turn_ * (tables_->at(moved, factor_) - part(moved, std::max(-half, moved - half), first) +
+    return turn_ * (tables_->at(moved, terms_) - part(moved, std::max(-half, moved - half), first) +
                     part(moved, std::min(half, moved + half), last));
   }
 
@@ -169,7 +175,7 @@ class HyperbolicEcho final : public EchoShape {
   Pulse pulse_;
   std::shared_ptr<const SweepTables> tables_;
   SweepPeriod period_;
-  SweepTables::Terms factor_;
+  SweepTables::Terms terms_;
   double range_, doppler_, half_, late_;
   std::complex<double> turn_;
 };

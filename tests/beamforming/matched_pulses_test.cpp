@@ -151,7 +151,7 @@ TEST(ToneBurstSpectrum, of_a_beam_is_the_fourth_power_of_a_sinc) {
   std::vector<double> frequency;
   for (int k = -30; k <= 30; ++k) frequency.push_back(tone.centre_frequency + 500.0 * k);
   const std::vector<double> density = pulse_density(tone, 0.44 * length, frequency, 1);
-  // Eight samples per bin fold sinc^2 back from every 18 B: up to pi^2 / 3 (0.055 / pi)^2 of its peak.
+  // Eight samples per bin fold sinc^2 back from every 18 B: up to pi^2 / 3 (0.055 / pi)^2 of its peak, of two folds.
   const double corner = 0.055 * 0.055 / 3;
   const auto folded = [](double x) {  // with what the sampling folds back
     double sum = 0;
@@ -164,7 +164,7 @@ TEST(ToneBurstSpectrum, of_a_beam_is_the_fourth_power_of_a_sinc) {
   for (std::size_t k = 0; k < frequency.size(); ++k) {
     const double y = (frequency[k] - tone.centre_frequency) * length;
     const double expected = folded(y) / folded(0);
-    EXPECT_NEAR(density[k] / density[30], expected, 2 * corner * std::sqrt(expected) + corner * corner) << k;
+    EXPECT_NEAR(density[k] / density[30], expected, 2 * corner * std::sqrt(2 * expected) + corner * corner) << k;
   }
 }
 
