@@ -78,9 +78,11 @@ void write_pressures(const FileContext& place, hid_t file, const DatasetName& na
 // Writes the levels of display cells, in place of pressures.
 template <typename Part>
 void write_levels(const FileContext& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
+  // Levels with labels, which are packed and read with them, are packed as well: to three quarters.
+  const Packing packing = cube.pings.front().labels.empty() ? Packing::none : Packing::deflate;
   write_images(
       place, file, name, cube.pings, [&](const Ping& ping) -> Grid<std::int16_t> { return stored_levels(part(ping)); },
-      Packing::none);
+      packing);
   const Handle dataset = open_dataset(place, file, name);
   write_attribute(place, dataset, scale_factor_attribute, level_step);
 }

@@ -110,3 +110,38 @@ def test_a_ball_of_6_cm_at_15_m_is_in_every_fan_image(tool, tmp_path):
         assert len(coco["images"]) == 12 and len(seen) == 12
     whole = [json.loads(line)["objects"][0] for line in (tmp_path / "set" / "meta.jsonl").read_text().splitlines()]
     assert np.allclose([o["size_m"] for o in whole], 0.06, atol=0.003)
+
+
+shared_mission = """schema = 1
+[survey]
+scene = "reef.ply"
+seed = 3
+[[head]]
+name = "fls"
+sonar = "p900-45"
+set = ["sonar.beams=32"]
+range = "2:8"
+[randomise.pose]
+pings = 6
+box_m = [[-1, -2, -2.6], [5, 2, -1]]
+yaw_deg = [-40, 40]
+pitch_deg = [10, 30]
+[ping]
+keep = ["labels"]
+"""
+
+
+def test_random_poses_are_those_of_all_shards_and_threads(tool, tmp_path):
+    tool("make-scene", "reef", "--points", "10000", "-o", "reef.ply", folder=tmp_path)
+    (tmp_path / "mission.toml").write_text(shared_mission)
+    tool("survey", "mission.toml", "-o", "whole", "-j", "1", folder=tmp_path)
+    for shard in ("1/2", "0/2"):
+        tool("survey", "mission.toml", "-o", "parts", "--shard", shard, "--pings-per-block", "2", "-j", "2", folder=tmp_path)
+    poses, images = [], []
+    for name in ("whole", "parts"):
+        tool("dataset", name, "-o", f"{name}-set", "--split", "100:0:0", folder=tmp_path)
+        lines = (tmp_path / f"{name}-set" / "meta.jsonl").read_text().splitlines()
+        poses.append([json.loads(line)["world_from_head"] for line in lines])
+        images.append([path.read_bytes() for path in sorted((tmp_path / f"{name}-set/polar/images").iterdir())])
+    assert len(poses[0]) == 6 and poses[0] == poses[1] and images[0] == images[1]
+    assert len({str(pose) for pose in poses[0]}) == 6
