@@ -6,10 +6,10 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/uninitialized_vector.hpp"
 #include "core/units.hpp"
 #include "sampling/count_parts_internal.hpp"
 #include "sampling/energy_shares_internal.hpp"
-#include "sampling/uninitialized_vector_internal.hpp"
 
 // Counts the parts of surfels:
 //   1. by cells: so many that a cell of the surface holds scatterers_per_cell of them (E17);

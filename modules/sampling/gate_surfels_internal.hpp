@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/pose.hpp"
-#include "sampling/uninitialized_vector_internal.hpp"
+#include "core/uninitialized_vector.hpp"
 #include "scene/prepared_scene.hpp"
 #include "scene/scene_cloud.hpp"
 #include "sonar/beam_fan.hpp"

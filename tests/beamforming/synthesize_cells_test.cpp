@@ -180,7 +180,8 @@ TEST(DisplayCells, looks_of_even_ground_are_those_of_the_pulse) {
   const SonarHead head = cells_head(samples_head(), 10);
   const double looks = looks_of_even_ground(head);
   double mean = 0, square = 0, n = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  // The mean of 90 cells a seed, of contrast 0.29, deviates by 0.0024 over so many seeds.
+  for (std::uint64_t seed = 1; seed <= 160; ++seed) {
     const SurfaceEchoes ground = even_ground(20000, seed);
     const Grid<double> expected = synthesize_cells(ground, {}, head, {c0_cold, {}}, {.speckle = false});
     const Grid<double> relative = synthesize_cells(ground, {}, head, {c0_cold, {}}, {.seed = seed}) / expected;

@@ -6,6 +6,7 @@
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/cell_echoes_internal.hpp"
+#include "beamforming/display/looks_loops_internal.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
 
@@ -13,11 +14,6 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t echoes_at_once = 4096, cells_at_once = 16;
-constexpr std::uint64_t other_seed = 0x9e3779b97f4a7c15;  // the golden ratio: far from the seeds of other pings
-constexpr double spread_of_disc = 0.866;  // half width of the box with the variance of a disc, in its radius
-constexpr double half_maximum_of_box =
-    0.68;                              // length at half maximum of a Gaussian, in that of the box of its variance
-constexpr double pieces_per_cell = 8;  // SamplingOptions::scatterers_per_cell
 
 /// Part of a normal law below so many deviations, within 3e-6; 0 or 1 beyond reach_of_pulse.
 double below_deviations(double away) {
@@ -40,12 +36,13 @@ double below_deviations(double away) {
 /// Part of an echo's energy between two ranges: its surface is a box, and so is the pulse with it where the surface is
 /// deeper than the pulse; else both are a normal law.
 double part_between(const CellEcho& echo, double sigma, double low, double high) {
-  if (echo.half_depth > sigma) {
-    const double half = std::sqrt(echo.half_depth * echo.half_depth + 3 * sigma * sigma);
-    return overlap(echo.range - half, echo.range + half, low, high) / (2 * half);
+  const double range = echo.range, depth = echo.half_depth;
+  if (depth > sigma) {
+    const double half = std::sqrt(depth * depth + 3 * sigma * sigma);
+    return overlap(range - half, range + half, low, high) / (2 * half);
   }
-  const double per_deviation = 1 / std::sqrt(sigma * sigma + echo.half_depth * echo.half_depth / 3);
-  return below_deviations((high - echo.range) * per_deviation) - below_deviations((low - echo.range) * per_deviation);
+  const double per_deviation = 1 / std::sqrt(sigma * sigma + depth * depth / 3);
+  return below_deviations((high - range) * per_deviation) - below_deviations((low - range) * per_deviation);
 }
 
 /// First and last cell of an echo; the first is beyond the last if it has none.
@@ -58,7 +55,13 @@ class EchoMaker {
  public:
   EchoMaker(const DisplayPlan& plan, const SurfaceEchoes& surface, const Echoes& fixed, const Medium& medium,
             const CellOptions& options)
-      : plan_(plan), surface_(surface), fixed_(fixed), options_(options), metres_per_s_(0.5 * medium.sound_speed) {}
+      : plan_(plan),
+        surface_(surface),
+        fixed_(fixed),
+        options_(options),
+        metres_per_s_(0.5 * medium.sound_speed),
+        per_cell_length_(1 / plan.cell_length),
+        per_node_(1 / plan.node_width) {}
 
   /// Sets the cells that echoes begin .. end - 1 are in.
   void find_cells(std::size_t begin, std::size_t end, std::vector<CellSpan>& cells) const {
@@ -71,87 +74,96 @@ class EchoMaker {
   }
   /// Sets those of echoes begin .. end - 1 that have a place in the list; `place` beyond it: none.
   void make(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& place,
-            std::vector<CellEcho>& echoes) const {
-    const std::size_t surfaces = surface_.id.size();
-    for (std::size_t i = begin; i < end; ++i)
-      if (place[i] < echoes.size()) echoes[place[i]] = i < surfaces ? of_surface(i) : of_target(i - surfaces);
-    if (!options_.speckle || begin >= surfaces) return;
-    end = std::min(end, surfaces);
-    std::vector<double> re(end - begin), im(end - begin);
-    for (const std::size_t q : {0, 1}) {
-      // The first is that of samples of the same seed (E9).
-      random_amplitudes(options_.seed + q * other_seed, {surface_.id.data() + begin, end - begin}, re.data(),
-                        im.data());
-      for (std::size_t k = 0; k < re.size(); ++k)
-        if (place[begin + k] < echoes.size() && !is_both(begin + k))
-          echoes[place[begin + k]].amplitude[q] = {re[k], im[k]};
+            UninitializedVector<CellEcho>& echoes) const {
+    const std::size_t surfaces = surface_.id.size(), drawn = begin < surfaces ? std::min(end, surfaces) - begin : 0;
+    std::array<std::vector<double>, 2> re, im;
+    for (const std::size_t q : {0, 1}) re[q].assign(drawn, 0), im[q].assign(drawn, 0);
+    if (options_.speckle && drawn > 0) {
+      // The first amplitude is that of samples of the same seed (E9).
+      const std::uint64_t* const id = surface_.id.data() + begin;
+      random_amplitudes(options_.seed, {id, drawn}, re[0].data(), im[0].data());
+      kernels::draw_normals(options_.seed, id, drawn, re[1].data(), im[1].data());  // (E187)
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      if (place[i] >= echoes.size()) continue;
+      if (i >= surfaces) {
+        echoes[place[i]] = of_target(i - surfaces);
+        continue;
+      }
+      const std::size_t k = i - begin;
+      echoes[place[i]] = of_surface(i, {Complex(re[0][k], im[0][k]), Complex(re[1][k], im[1][k])});
     }
   }
 
  private:
-  CellEcho of_surface(std::size_t i) const {
-    CellEcho echo = at(surface_.echoes, i);
-    const double in_cell = energy_in_cell(echo.range);
-    echo.energy = in_cell * surface_.power[i];
+  using Complex = std::complex<double>;
+  static constexpr std::array<Complex, 2> no_amplitude{};
+
+  CellEcho of_surface(std::size_t i, const std::array<Complex, 2>& amplitude) const {
+    CellEcho echo;
+    const double in_cell = set_place(surface_.echoes, i, echo);
+    set_pressure(surface_.echoes.amplitude[i], in_cell, is_both(i) ? no_amplitude : amplitude, echo);
+    echo.energy = static_cast<float>(in_cell * surface_.power[i]);
     if (echo.energy > 0) {
-      echo.half_depth = static_cast<double>(surface_.depth[i]);
+      echo.half_depth = surface_.depth[i];
       echo.half_width = surface_.width[i];
-      echo.pieces = pieces_of(echo.range, i);
       echo.together = together(i);
     }
-    place(echo);
+    set_extent(surface_.echoes.u[i], echo);
     return echo;
   }
   CellEcho of_target(std::size_t i) const {
-    CellEcho echo = at(fixed_, i);
-    echo.energy = echo.strength;
-    echo.fixed = true;
-    echo.amplitude = {1, 0};
-    place(echo);
-    return echo;
-  }
-  CellEcho at(const Echoes& echoes, std::size_t i) const {
     CellEcho echo;
-    echo.range = metres_per_s_ * echoes.delay[i];
-    echo.u = echoes.u[i];
-    const double square = std::norm(echoes.amplitude[i]);
-    echo.strength = energy_in_cell(echo.range) * square;
-    if (square > 0) echo.phase = echoes.amplitude[i] / std::sqrt(square);
+    set_pressure(fixed_.amplitude[i], set_place(fixed_, i, echo), {1, 0}, echo);
+    echo.energy = echo.strength;
+    echo.together = 0;
+    set_extent(fixed_.u[i], echo);
     return echo;
   }
-  /// Energy of an echo of power 1 in a cell that holds all of it.
-  double energy_in_cell(double range) const { return plan_.pulse.energy(range) / plan_.cell_length; }
-
-  void place(CellEcho& echo) const {
-    echo.reach = std::sqrt(echo.half_depth * echo.half_depth + plan_.pulse.half_length() * plan_.pulse.half_length());
-    echo.node = static_cast<std::uint32_t>(plan_.node_of(echo.u));
-    echo.port = static_cast<std::uint32_t>(plan_.node_of(echo.u + echo.half_width) / 2);
-    echo.starboard = static_cast<std::uint32_t>(plan_.node_of(echo.u - echo.half_width) / 2);
+  /// Sets range and direction; returns the energy of an echo of power 1 in a cell that holds all of it.
+  double set_place(const Echoes& echoes, std::size_t i, CellEcho& echo) const {
+    const double range = metres_per_s_ * echoes.delay[i];
+    echo.range = static_cast<float>(range), echo.u = static_cast<float>(echoes.u[i]);
+    return plan_.pulse.energy(range) * per_cell_length_;
   }
-
-  /// Returns the number of parts that samples split a surface into (E17).
-  double pieces_of(double range, std::size_t i) const {
-    const double resolved = 2 * plan_.pulse.half_length() * half_maximum_of_box;
-    const double radius = surface_.width[i] / spread_of_disc * range;
-    const double sine = radius > 0 ? std::min(1.0, surface_.depth[i] / spread_of_disc / radius) : 1;
-    const double length = std::min(resolved / std::max(sine, 1e-9), 2 * std::sqrt(2 * range * resolved));
-    return std::max(1.0, pieces_per_cell * pi * radius * radius / (length * range * plan_.beam_width));
+  static void set_pressure(const Complex& of, double in_cell, const std::array<Complex, 2>& amplitude, CellEcho& echo) {
+    const double square = std::norm(of);
+    echo.strength = static_cast<float>(in_cell * square);
+    if (!(square > 0)) return;
+    const Complex phase = of * (1 / std::sqrt(square));
+    for (const std::size_t q : {0, 1}) {
+      const Complex& a = amplitude[q];
+      echo.pressure[q] = {static_cast<float>(phase.real() * a.real() - phase.imag() * a.imag()),
+                          static_cast<float>(phase.real() * a.imag() + phase.imag() * a.real())};
+    }
+  }
+  void set_extent(double u, CellEcho& echo) const {
+    const auto depth = static_cast<double>(echo.half_depth), width = static_cast<double>(echo.half_width);
+    const double pulse = plan_.pulse.half_length();
+    echo.reach = static_cast<float>(depth > 0 ? std::sqrt(depth * depth + pulse * pulse) : pulse);
+    echo.node = node_of(u);
+    echo.port = width > 0 ? node_of(u + width) / 2 : echo.node / 2;
+    echo.starboard = width > 0 ? node_of(u - width) / 2 : echo.node / 2;
+  }
+  std::uint32_t node_of(double u) const {
+    return static_cast<std::uint32_t>(std::clamp((u + 1) * per_node_, 0.0, static_cast<double>(plan_.nodes - 1)));
   }
 
   bool is_both(std::size_t i) const { return i < surface_.id.size() && surface_.id[i] == surface_.of_both; }
 
   /// Returns the energy of both senses of a path, in that of entry i; 1 of an echo that has no other sense.
-  double together(std::size_t i) const {
+  float together(std::size_t i) const {
     const std::size_t both = is_both(i) ? i : is_both(i + 1) ? i + 1 : i + 2;
     if (both < 2 || !is_both(both)) return 1;
-    return (surface_.power[both - 2] + surface_.power[both - 1] + surface_.power[both]) / surface_.power[i];
+    return static_cast<float>((surface_.power[both - 2] + surface_.power[both - 1] + surface_.power[both]) /
+                              surface_.power[i]);
   }
 
   CellSpan cells_of(double range, double half_depth) const {
     const auto last_cell = static_cast<double>(plan_.cells - 1);
     const double reach = half_depth + reach_of_pulse * plan_.pulse.deviation();
-    const double low = std::floor((range - reach - plan_.first_range) / plan_.cell_length),
-                 high = std::floor((range + reach - plan_.first_range) / plan_.cell_length);
+    const double low = std::floor((range - reach - plan_.first_range) * per_cell_length_),
+                 high = std::floor((range + reach - plan_.first_range) * per_cell_length_);
     if (!(high >= 0 && low <= last_cell)) return {};
     return {static_cast<std::uint32_t>(std::max(low, 0.0)), static_cast<std::uint32_t>(std::min(high, last_cell))};
   }
@@ -160,7 +172,7 @@ class EchoMaker {
   const SurfaceEchoes& surface_;
   const Echoes& fixed_;
   const CellOptions& options_;
-  double metres_per_s_;
+  double metres_per_s_, per_cell_length_, per_node_;
 };
 
 /// Returns the place of each echo among those that are in a cell, by their first cells: what a cell holds stands side by
@@ -182,17 +194,19 @@ std::vector<std::uint32_t> places_by_cell(const std::vector<CellSpan>& cells, st
 
 /// Sets the parts of the energies in cells begin .. end - 1.
 void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, EchoesByCell& lists) {
-  const double half = plan.pulse.half_length(), deviation = plan.pulse.deviation();
+  const double half = plan.pulse.half_length(), per_pulse = 1 / (2 * half), deviation = plan.pulse.deviation();
   for (std::size_t cell = begin; cell < end; ++cell) {
     const double first = plan.first_range + static_cast<double>(cell) * plan.cell_length,
-                 last = first + plan.cell_length, middle = 0.5 * (first + last);
+                 last = first + plan.cell_length, per_middle = 2 / (first + last);
     for (std::size_t k = lists.first[cell]; k < lists.first[cell + 1]; ++k) {
       EchoInCell& in = lists.part[k];
       const CellEcho& echo = lists.echoes[in.echo];
       // The mean is over area, which grows with range.
-      const double weight = std::clamp(echo.range, first, last) / middle;
-      in.energy = echo.energy > 0 ? echo.energy * (weight * part_between(echo, deviation, first, last)) : 0;
-      in.field = echo.strength * (weight * overlap(echo.range - half, echo.range + half, first, last) / (2 * half));
+      const double range = echo.range, weight = std::clamp(range, first, last) * per_middle;
+      const double part = echo.energy > 0 ? part_between(echo, deviation, first, last) : 0;
+      in.energy = static_cast<float>(static_cast<double>(echo.energy) * (weight * part));
+      in.field = static_cast<float>(static_cast<double>(echo.strength) *
+                                    (weight * overlap(range - half, range + half, first, last) * per_pulse));
     }
   }
 }

@@ -2,9 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/cell_row_internal.hpp"
 #include "beamforming/display/label_row_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
@@ -23,10 +21,10 @@ std::uint64_t noise_seed(const CellOptions& options) {
   return (options.seed ^ stage_seed) + static_cast<std::uint64_t>(options.ping) * ping_seed;
 }
 
-/// Turns a gamma variate of mean 1 and `from` looks into one of `to` looks (Wilson and Hilferty 1931; E183).
-double with_looks(double variate, double from, double to) {
-  const double root = 1 - 1 / (9 * to) + std::sqrt(from / to) * (std::cbrt(variate) - 1 + 1 / (9 * from));
-  return root > 0 ? root * root * root : 0;
+/// Looks at a place between two nodes.
+double looks_at(double place, const std::vector<double>& looks) {
+  const auto left = static_cast<std::size_t>(place);
+  return std::lerp(looks[left], looks[left + 1], place - static_cast<double>(left));
 }
 
 }  // namespace
@@ -40,16 +38,20 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const Heard
       all_(plan.all_length),
       all_samples_(plan.all_samples),
       power_(plan.period_samples + guards),
-      energy_(plan.broad * kernels::row_length(plan.parts)),
+      power_at_(plan.period),
+      energy_((plan.broad + 1) * kernels::row_length(plan.parts)),
       noise_id_(plan.shading.size()),
       noise_re_(plan.shading.size()),
       noise_im_(plan.shading.size()) {
+  const std::size_t beams = row.beams.u_beam.size();
   for (Side& side : side_) {
-    side.mean.resize(row.beams.u_beam.size());
+    for (auto* numbers : {&side.mean, &side.power}) numbers->resize(beams);
     side.looks.resize(row.beams.broad_used.size());
     for (auto& field : side.field) field.resize(plan.period_samples + guards);
   }
   for (auto& nodes : nodes_) nodes.resize(plan.period);
+  for (auto* numbers : {&even_.variate, &even_.from, &even_.looks, &even_.mean, &even_.strong, &drawn_})
+    numbers->resize(beams);
   if (row.labelled) labels_ = std::make_unique<LabelRow>(plan, lists, *row.labelled);
 }
 
@@ -72,18 +74,19 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
         image(static_cast<Eigen::Index>(b), column + static_cast<Eigen::Index>(s)) = side_[s].mean[b];
     return;
   }
+  std::fill(power_at_.begin(), power_at_.end(), Complex(0));
   for (std::size_t s = 0; s < sides; ++s) {
     Side& side = side_[s];
     part_strong(side);
     sum_strong(side);
     count_looks(cell + s, side);
-    sum_fields(cell + s, side);
+    sum_fields(cell + s, s);
   }
   sum_powers(sides);
-  for (std::size_t b = 0; b < beams_.u_beam.size(); ++b) {
-    const Complex power = beams_.in_period[b].of(power_.data());
-    image(static_cast<Eigen::Index>(b), column) = drawn(b, side_[0], power.real());
-    if (sides > 1) image(static_cast<Eigen::Index>(b), column + 1) = drawn(b, side_[1], power.imag());
+  for (std::size_t s = 0; s < sides; ++s) {
+    draw(side_[s]);
+    for (std::size_t b = 0; b < drawn_.size(); ++b)
+      image(static_cast<Eigen::Index>(b), column + static_cast<Eigen::Index>(s)) = drawn_[b];
   }
 }
 
@@ -94,10 +97,11 @@ void CellRow::list_parts(std::size_t cell, Side& side) {
     const EchoInCell& in = lists_.part[k];
     const double response = row_.response.empty() ? 1 : row_.response[in.echo];
     if (response == 0) continue;
-    const double energy = response * response * in.energy, field = response * response * in.field;
+    const auto square = static_cast<float>(response * response);
+    const float energy = square * in.energy, field = square * in.field;
     if (energy > 0 || field > 0)
-      side.even.push_back({&lists_.echoes[in.echo], energy, field, response < 0 ? -1.0 : 1.0});
-    side.energy += energy;
+      side.even.push_back({&lists_.echoes[in.echo], energy, field, response < 0 ? -1.f : 1.f});
+    side.energy += static_cast<double>(energy);
   }
 }
 
@@ -127,14 +131,15 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
       if (part.energy == 0 || (!with_water && labels_->of_water(echo))) continue;
       const double half = std::max(echo.half_width * per_node, 0.5);
       const double place = std::clamp((echo.u + 1) * per_node, 0.0, static_cast<double>(plan_.nodes));
-      const double low = std::max(place - half, -0.5),
-                   high = std::min(place + half, static_cast<double>(plan_.nodes) + 0.5);
+      const double low = std::max(place - half, -0.5) + 1,
+                   high = std::min(place + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
       const double density = part.energy / (high - low);
-      const auto first = static_cast<std::size_t>(low + 1), last = static_cast<std::size_t>(high + 1);
-      for (std::size_t i = first; i <= last; ++i) {
-        const double at = static_cast<double>(i) - 1;
-        reinterpret_cast<double*>(&all_[i])[s] += density * overlap(low, high, at, at + 1);
-      }
+      // The first and the last node are met in part.
+      const auto first = static_cast<std::size_t>(low), last = static_cast<std::size_t>(high);
+      double* const at = reinterpret_cast<double*>(all_.data()) + s;
+      for (std::size_t i = first; i < last; ++i) at[2 * i] += density;
+      at[2 * first] -= density * (low - static_cast<double>(first));
+      at[2 * last] += density * (high - static_cast<double>(last));
     }
   // Times the pattern, on twice as many samples.
   plan_.to_all.run(all_.data());
@@ -152,16 +157,21 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
   }
 }
 
-void CellRow::sum_fields(std::size_t cell, Side& side) {
+void CellRow::sum_fields(std::size_t cell, std::size_t s) {
+  Side& side = side_[s];
   for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), Complex(0));
   for (const Part& part : side.even) {
     const CellEcho& echo = *part.echo;
     if (!(part.field > 0)) continue;
-    const std::size_t place = echo.node % plan_.period;
-    Complex pressure = part.sign * std::sqrt(part.field) * echo.phase;
-    if (plan_.half_places) pressure *= plan_.turn[echo.node];
-    nodes_[0][place] += pressure * echo.amplitude[0];
-    nodes_[1][place] += pressure * echo.amplitude[1];
+    std::size_t place = echo.node;
+    while (place >= plan_.period) place -= plan_.period;
+    Complex turn = static_cast<double>(part.sign * std::sqrt(part.field));
+    if (plan_.half_places) turn = turn.real() * plan_.turn[echo.node];
+    for (std::size_t q = 0; q < 2; ++q) {
+      const double re = echo.pressure[q].real(), im = echo.pressure[q].imag();
+      nodes_[q][place] += Complex(turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re);
+    }
+    reinterpret_cast<double*>(&power_at_[place])[s] += part.field;
   }
   for (std::size_t q = 0; q < 2; ++q) plan_.to_elements.run(nodes_[q].data());
   add_noise(cell, side);
@@ -174,9 +184,12 @@ void CellRow::add_noise(std::size_t cell, Side& side) {
   for (std::size_t q = 0; q < 2; ++q) {
     for (std::size_t m = 0; m < noise_id_.size(); ++m)
       noise_id_[m] = ((row_.first_element + m) * plan_.cells + cell) * 2 + q;
-    random_amplitudes(noise_seed(options_), noise_id_, noise_re_.data(), noise_im_.data());
-    for (std::size_t m = 0; m < noise_id_.size(); ++m)
-      nodes_[q][(plan_.first_element + m) % plan_.period] += root * Complex(noise_re_[m], noise_im_[m]);
+    kernels::draw_normals(noise_seed(options_), noise_id_.data(), noise_id_.size(), noise_re_.data(), noise_im_.data());
+    std::size_t at = plan_.first_element;
+    for (std::size_t m = 0; m < noise_id_.size(); ++m) {
+      nodes_[q][at] += root * Complex(noise_re_[m], noise_im_[m]);
+      if (++at == plan_.period) at = 0;
+    }
   }
 }
 
@@ -200,11 +213,7 @@ void CellRow::transform_period(std::vector<Complex>& samples) const {
 
 void CellRow::sum_powers(std::size_t sides) {
   // Expected powers of the fields of both cells, as real and imaginary parts.
-  std::vector<Complex>& nodes = nodes_[0];
-  std::fill(nodes.begin(), nodes.end(), Complex(0));
-  for (std::size_t s = 0; s < sides; ++s)
-    for (const Part& part : side_[s].even)
-      reinterpret_cast<double*>(&nodes[part.echo->node % plan_.period])[s] += part.field;
+  std::vector<Complex>& nodes = power_at_;
   plan_.to_elements.run(nodes.data());
   std::fill(power_.begin(), power_.end(), Complex(0));
   const std::size_t length = plan_.period_samples;
@@ -215,32 +224,37 @@ void CellRow::sum_powers(std::size_t sides) {
   }
   at[0] += Complex(side_[0].noise, sides > 1 ? side_[1].noise : 0);
   transform_period(power_);
+  for (std::size_t b = 0; b < drawn_.size(); ++b) {
+    const Complex power = beams_.in_period[b].of(power_.data());
+    side_[0].power[b] = power.real(), side_[1].power[b] = power.imag();
+  }
 }
 
 void CellRow::count_looks(std::size_t cell, Side& side) {
-  // Energies by range, for broad nodes of u.
+  // Energies by range, for broad nodes of u, each beyond those of the node before.
   const std::size_t parts = plan_.parts, row = kernels::row_length(parts);
   std::fill(energy_.begin(), energy_.end(), 0.f);
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double per_length = static_cast<double>(parts) / plan_.cell_length, unit = side.energy + side.noise;
+  const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(parts);
   for (const Part& part : side.even) {
     const CellEcho& echo = *part.echo;
     if (part.energy == 0) continue;
-    const double low = std::max(0.0, (echo.range - echo.reach - first) * per_length),
-                 high = std::min(static_cast<double>(parts), (echo.range + echo.reach - first) * per_length);
+    const auto place = static_cast<float>((echo.range - first) * per_length),
+               reach = static_cast<float>(echo.reach * per_length);
+    const float low = std::max(0.f, place - reach), high = std::min(length, place + reach);
     if (!(high > low)) continue;
-    const std::size_t port = echo.port, starboard = echo.starboard;
-    const auto density =
-        static_cast<float>(part.energy / (unit * (high - low) * static_cast<double>(port - starboard + 1)));
+    const std::uint32_t port = echo.port, starboard = echo.starboard;
+    const float density = part.energy * per_unit / ((high - low) * static_cast<float>(port - starboard + 1));
     // The first and the last range are met in part.
-    const auto k = static_cast<std::size_t>(low), last = std::min(parts, static_cast<std::size_t>(std::ceil(high))) - 1;
-    const float before = density * static_cast<float>(low - static_cast<double>(k)),
-                beyond = density * static_cast<float>(static_cast<double>(last + 1) - high);
-    for (std::size_t j = starboard; j <= port; ++j) {
-      float* const energy = energy_.data() + j * row;
-      for (std::size_t n = k; n <= last; ++n) energy[n] += density;
-      energy[k] -= before, energy[last] -= beyond;
-    }
+    const auto k = static_cast<std::uint32_t>(low), whole = static_cast<std::uint32_t>(high);
+    const std::uint32_t last = whole - (static_cast<float>(whole) == high ? 1 : 0);
+    const float before = density * (low - static_cast<float>(k)),
+                beyond = density * (static_cast<float>(last + 1) - high);
+    // More than its neighbours on one side, less than those on the other.
+    float *const more = energy_.data() + starboard * row, *const less = energy_.data() + (port + 1) * row;
+    for (std::size_t n = k; n <= last; ++n) more[n] += density, less[n] -= density;
+    more[k] -= before, more[last] -= beyond, less[k] += before, less[last] += beyond;
   }
   kernels::CellEnergies of{energy_.data(),     plan_.broad,       parts, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
                            plan_.looks.data(), plan_.looks.size()};
@@ -249,24 +263,36 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
   kernels::count_looks(of, beams_.broad_used.data(), beams_.broad_used.size(), side.looks.data());
 }
 
-double CellRow::drawn(std::size_t beam, const Side& side, double power) const {
-  const double mean = side.mean[beam], looks = side.looks[beams_.broad_of[beam]];
-  const BetweenFour& place = beams_.in_period[beam];
-  power = std::max({power, side.noise, std::numeric_limits<double>::min()});
-  const Complex f = place.of(side.field[0].data()), g = place.of(side.field[1].data());
+void CellRow::draw(const Side& side) {
+  for (std::size_t b = 0; b < drawn_.size(); ++b) {
+    const BetweenFour& place = beams_.in_period[b];
+    const Complex f = place.of(side.field[0].data()), g = place.of(side.field[1].data());
+    const double power = std::max({side.power[b], side.noise, std::numeric_limits<double>::min()});
+    even_.variate[b] = (std::norm(f) + std::norm(g)) / (2 * power);
+    even_.from[b] = 2, even_.looks[b] = looks_at(beams_.broad_of[b], side.looks);
+    even_.mean[b] = side.mean[b], even_.strong[b] = 0;
+    if (side.groups > 0) add_groups(b, side, {f, g}, power);
+  }
+  kernels::draw_looks(
+      {even_.variate.data(), even_.from.data(), even_.looks.data(), even_.mean.data(), even_.strong.data()},
+      drawn_.size(), drawn_.data());  // (E183)
+}
+
+void CellRow::add_groups(std::size_t beam, const Side& side, const std::array<Complex, 2>& field, double power) {
+  const double mean = even_.mean[beam], looks = even_.looks[beam];
   const double unit = mean / (looks * power);  // of one look of the even ground
   double strong = 0, taken = 0;
   for (std::size_t k = 0; k < side.groups; ++k) {
-    const Complex s = place.of(side.strong_field[k].data());
+    const Complex s = beams_.in_period[beam].of(side.strong_field[k].data());
     // A group interferes with one look of the even ground, if it is not far weaker.
     const bool interferes = std::norm(s) > least_interference * mean / looks && taken + 1 < looks;
-    const Complex look = interferes ? std::sqrt(unit) * (static_cast<int>(taken) % 2 == 0 ? f : g) : Complex(0);
-    strong += std::norm(look + s);  // (E184)
+    strong += std::norm(interferes ? std::sqrt(unit) * field[static_cast<std::size_t>(taken) % 2] + s : s);  // (E184)
     taken += interferes;
   }
-  if (taken == 0) return strong + mean * with_looks((std::norm(f) + std::norm(g)) / (2 * power), 2, looks);  // (E183)
-  const double rest = looks - taken;
-  return strong + mean * rest / looks * with_looks(std::norm(g) / power, 1, rest);
+  even_.strong[beam] = strong;
+  if (taken == 0) return;
+  even_.variate[beam] = std::norm(field[1]) / power, even_.from[beam] = 1;
+  even_.looks[beam] = looks - taken, even_.mean[beam] = mean * (looks - taken) / looks;
 }
 
 }  // namespace insonify

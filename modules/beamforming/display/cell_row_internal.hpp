@@ -9,25 +9,28 @@
 
 #include "beamforming/display/display_plan_internal.hpp"
 #include "beamforming/synthesize_cells.hpp"
+#include "core/uninitialized_vector.hpp"
 
 namespace insonify {
 
-/// An echo, as the cells of all rows of beams take it, at the peak of their responses.
+/// An echo, as the cells of all rows of beams take it, at the peak of their responses: in single precision, so that it
+/// is one line of the cache.
 struct CellEcho {
-  double range = 0, half_depth = 0;               ///< [m]
-  double reach = 0;                               ///< half length of surface and pulse together [m]
-  double u = 0;                                   ///< direction cosine of its middle
-  double energy = 0;                              ///< energy of its surface in a cell that holds all of it [Pa^2]
-  double strength = 0;                            ///< its own energy in such a cell [Pa^2]
-  std::complex<double> phase;                     ///< phase of its own pressure, of size 1
-  std::array<std::complex<double>, 2> amplitude;  ///< random, of mean power 1; of a fixed echo the first is 1
-  double half_width = 0;                          ///< in u
-  double pieces = 1;                              ///< independent echoes that samples would have of it
+  float range = 0, half_depth = 0;                ///< [m]
+  float reach = 0;                                ///< half length of surface and pulse together [m]
+  float u = 0;                                    ///< direction cosine of its middle
+  float half_width = 0;                           ///< in u
+  float energy = 0;                               ///< energy of its surface in a cell that holds all of it [Pa^2]
+  float strength = 0;                             ///< its own energy in such a cell [Pa^2]
+  float together = 1;                             ///< energy of all echoes of its amplitude, which add as pressures,
+                                                  ///< in its own; 0: its amplitude is not random
+  std::array<std::complex<float>, 2> pressure{};  ///< its phase, times random amplitudes of mean power 1; of an echo
+                                                  ///< whose amplitude is not random the second is 0
   std::uint32_t node = 0;                         ///< node of its middle
   std::uint32_t port = 0, starboard = 0;          ///< broad nodes of its ends
-  bool fixed = false;                             ///< its amplitude is not random
-  double together = 1;  ///< energy of all echoes of one amplitude that are added as pressures, in its own
+  std::uint32_t unused = 0;
 };
+static_assert(sizeof(CellEcho) == 64);
 
 /// Returns the length of the overlap of [low, high] with [first, last].
 inline double overlap(double low, double high, double first, double last) {
@@ -43,16 +46,16 @@ inline constexpr std::size_t guards = 4;
 /// An echo in a cell.
 struct EchoInCell {
   std::uint32_t echo;
-  double energy;  ///< its surface's energy there, at the peak of the responses of rows [Pa^2]
-  double field;   ///< the same of an echo from its middle [Pa^2]
+  float energy;  ///< its surface's energy there, at the peak of the responses of rows [Pa^2]
+  float field;   ///< the same of an echo from its middle [Pa^2]
 };
 
 /// The echoes of each cell: those of cell c are part[first[c]] .. part[first[c + 1] - 1].
 struct EchoesByCell {
-  std::vector<CellEcho> echoes;         ///< those that are in a cell, by their first cells
-  std::vector<std::uint32_t> source{};  ///< number of each echo here among those of the surface, then those fixed
+  UninitializedVector<CellEcho> echoes;  ///< those that are in a cell, by their first cells
+  std::vector<std::uint32_t> source{};   ///< number of each echo here among those of the surface, then those fixed
   std::vector<std::size_t> first;
-  std::vector<EchoInCell> part;
+  UninitializedVector<EchoInCell> part;
 };
 
 struct LabelledRow;
@@ -85,9 +88,9 @@ class CellRow {
   /// An echo in a cell, with the part of its energy there.
   struct Part {
     const CellEcho* echo;
-    double energy;  ///< [Pa^2]
-    double field;   ///< its energy there, were it an echo from its middle [Pa^2]
-    double sign;    ///< sign of the response: +1 or -1
+    float energy;  ///< [Pa^2]
+    float field;   ///< its energy there, were it an echo from its middle [Pa^2]
+    float sign;    ///< sign of the response: +1 or -1
   };
   /// One of the two cells: its echoes, and the sums over them.
   struct Side {
@@ -95,6 +98,7 @@ class CellRow {
     double energy = 0;               ///< energy of all echoes [Pa^2]
     double noise = 0;                ///< power of the noise in the fields of the beams [Pa^2]
     std::vector<double> mean;        ///< expected intensity of each beam [Pa^2]
+    std::vector<double> power;       ///< expected power of the field of each beam [Pa^2]
     std::vector<double> looks;       ///< number of looks at each broad node in use (E182)
     std::array<std::vector<Complex>, 2> field;       ///< sums over echoes at a period of u, with guards (E183)
     std::vector<std::vector<Complex>> strong_field;  ///< field of the strong echoes, by groups that interfere
@@ -108,14 +112,15 @@ class CellRow {
   void part_strong(Side& side);
   void sum_strong(Side& side);
   void add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const;
-  void sum_fields(std::size_t cell, Side& side);
+  void sum_fields(std::size_t cell, std::size_t s);
   void sum_powers(std::size_t sides);
   void count_looks(std::size_t cell, Side& side);
   void add_noise(std::size_t cell, Side& side);
   void form_period(const Complex* elements, std::vector<Complex>& samples) const;
   /// Turns elements into samples of a period, and copies those at its ends to the guards.
   void transform_period(std::vector<Complex>& samples) const;
-  double drawn(std::size_t beam, const Side& side, double power) const;
+  void draw(const Side& side);
+  void add_groups(std::size_t beam, const Side& side, const std::array<Complex, 2>& field, double power);
 
   const DisplayPlan& plan_;
   const EchoesByCell& lists_;
@@ -123,11 +128,16 @@ class CellRow {
   const BeamPlaces& beams_;
   const CellOptions& options_;
   std::array<Side, 2> side_;
-  std::vector<Complex> all_, all_samples_, power_;
+  std::vector<Complex> all_, all_samples_, power_, power_at_;
   std::array<std::vector<Complex>, 2> nodes_;
   std::vector<float> energy_;
   std::vector<std::uint64_t> noise_id_;
   std::vector<double> noise_re_, noise_im_;
+  /// Even ground as each beam hears it (kernels::EvenGround).
+  struct {
+    std::vector<double> variate, from, looks, mean, strong;
+  } even_;
+  std::vector<double> drawn_;
   std::unique_ptr<LabelRow> labels_;
 };
 

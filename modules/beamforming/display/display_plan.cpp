@@ -82,13 +82,13 @@ BeamPlaces DisplayPlan::places_of(const BeamFan& fan) const {
     at.in_all.push_back(between_four(samples_per_node * (node + 1)));
     const double turns = node / static_cast<double>(period), within = turns - std::floor(turns);
     at.in_period.push_back(between_four(within * static_cast<double>(period_samples) + 1));  // a guard stands before
-    at.broad_of.push_back(node_of(u) / 2);
+    at.broad_of.push_back(std::clamp(0.5 * (node - 0.5), 0.0, static_cast<double>(broad - 1)) / 2);
   }
-  at.broad_used = at.broad_of;
-  std::sort(at.broad_used.begin(), at.broad_used.end());
-  at.broad_used.erase(std::unique(at.broad_used.begin(), at.broad_used.end()), at.broad_used.end());
-  for (std::size_t& node : at.broad_of)
-    node = static_cast<std::size_t>(std::ranges::lower_bound(at.broad_used, node) - at.broad_used.begin());
+  // Every other broad node: they stand as near as the array resolves, and looks between them are interpolated.
+  const auto [least, most] = std::minmax_element(at.broad_of.begin(), at.broad_of.end());
+  const auto begin = static_cast<std::size_t>(*least), end = static_cast<std::size_t>(*most) + 1;
+  for (std::size_t k = begin; k <= end; ++k) at.broad_used.push_back(std::min(2 * k, broad - 1));
+  for (double& place : at.broad_of) place -= static_cast<double>(begin);
 
   at.beam_near.assign(nodes, -1);
   const double reach = main_lobe_reach * fan.beam_width;
@@ -146,7 +146,7 @@ void DisplayPlan::fill_looks(const SonarHead& head) {
     lobe.push_back(static_cast<float>(response_at(2 * static_cast<double>(k) * node_width)));
 
   const double resolved = std::max(2 * pulse.half_length(), 1e-9);
-  parts = std::clamp(static_cast<std::size_t>(std::ceil(cell_length / resolved * 1.5)), least_parts_of_a_cell,
+  parts = std::clamp(static_cast<std::size_t>(std::ceil(cell_length / resolved)), least_parts_of_a_cell,
                      kernels::most_parts);
   const double length = cell_length / static_cast<double>(parts);
   constexpr int steps = 32;

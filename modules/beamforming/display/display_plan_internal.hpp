@@ -28,8 +28,8 @@ struct BetweenFour {
 struct BeamPlaces {
   std::vector<double> u_beam;           ///< directions
   std::vector<std::int32_t> beam_near;  ///< the beam that hears each node best; -1: none has it in its lobe
-  std::vector<std::size_t> broad_of;    ///< index into broad_used of each beam
-  std::vector<std::size_t> broad_used;  ///< broad nodes of beams, each once
+  std::vector<double> broad_of;         ///< place of each beam among broad_used: index, and part of the way to the next
+  std::vector<std::size_t> broad_used;  ///< every other broad node as far as beams go, ascending
   std::vector<BetweenFour> in_period;   ///< place of each beam among the samples of a transformed period
   std::vector<BetweenFour> in_all;      ///< place of each beam among the samples of all directions
 };

@@ -98,7 +98,7 @@ void LabelRow::add(const CellEcho& echo, double energy) {
                        sine >= lobes.cell_heights.low - echo.half_width &&
                        sine <= lobes.cell_heights.high + echo.half_width;
   Sums& sums = sums_of(row_.echoes.label[i]);
-  const double half = std::max(echo.half_width, 0.5 * plan_.node_width) / plan_.node_width;
+  const double half_width = echo.half_width, half = std::max(half_width, 0.5 * plan_.node_width) / plan_.node_width;
   const double place = (echo.u + 1) / plan_.node_width, last_node = static_cast<double>(plan_.nodes - 1);
   const double low = place - half, high = place + half, density = energy / (high - low);
   const auto first = static_cast<std::size_t>(std::clamp(low, 0.0, last_node)),

@@ -1,38 +1,113 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 
 #include "beamforming/display/looks_loops_internal.hpp"
 #include "core/target_clones.hpp"
+#include "core/vector_functions.hpp"
 
 namespace insonify::kernels {
 
-INSONIFY_CLONES void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks) {
-  const std::size_t whole = row_length(cell.parts);
-  // Energies of all nodes, as side lobes hear them; of ranges beyond the cell nothing.
-  float everywhere[most_parts] = {};
-  for (std::size_t j = 0; j < cell.nodes; ++j)
-    for (std::size_t n = 0; n < whole; ++n) everywhere[n] += cell.energy[j * whole + n];
-  for (std::size_t n = 0; n < cell.parts; ++n) everywhere[n] = cell.noise + cell.beside * everywhere[n];
+namespace {
 
+constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
+
+/// Returns well mixed bits of a number (the finaliser of SplitMix64; Steele, Lea and Flood 2014).
+INSONIFY_ALWAYS_INLINE std::uint64_t mixed(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
+  return bits ^ (bits >> 31);
+}
+/// Returns the midpoint of one of 2^52 equal intervals between 0 and 1.
+INSONIFY_ALWAYS_INLINE double uniform(std::uint64_t bits) {
+  return (std::bit_cast<double>((bits >> 12) | 0x3ff0000000000000) - 1) + 0x1p-53;
+}
+
+/// Ranges side by side, in registers.
+using Lanes = float __attribute__((vector_size(part_lanes * sizeof(float))));
+
+INSONIFY_ALWAYS_INLINE void load(const float* from, Lanes& lanes) { __builtin_memcpy(&lanes, from, sizeof(lanes)); }
+INSONIFY_ALWAYS_INLINE void store(const Lanes& lanes, float* to) { __builtin_memcpy(to, &lanes, sizeof(lanes)); }
+
+/// Sums up the energies of nodes from their differences; returns those of all nodes in `everywhere`.
+template <std::size_t rows>
+INSONIFY_ALWAYS_INLINE void sum_differences(const CellEnergies& cell, Lanes (&everywhere)[rows]) {
+  Lanes sum[rows] = {};
+  for (std::size_t j = 0; j < cell.nodes; ++j)
+    for (std::size_t r = 0; r < rows; ++r) {
+      float* const at = cell.energy + (j * rows + r) * part_lanes;
+      Lanes difference;
+      load(at, difference);
+      sum[r] += difference, everywhere[r] += sum[r];
+      store(sum[r], at);
+    }
+}
+
+/// Counts looks of cells of so many whole lanes of ranges.
+template <std::size_t rows>
+INSONIFY_ALWAYS_INLINE void count_looks_of(const CellEnergies& cell, const std::size_t* at, std::size_t count,
+                                           double* looks) {
+  constexpr std::size_t whole = rows * part_lanes;
+  Lanes everywhere[rows] = {};
+  sum_differences<rows>(cell, everywhere);
+  // Side lobes hear all nodes; of ranges beyond the cell nothing.
+  for (std::size_t n = 0; n < whole; ++n) {
+    float heard = everywhere[n / part_lanes][n % part_lanes];
+    everywhere[n / part_lanes][n % part_lanes] = n < cell.parts ? cell.noise + cell.beside * heard : 0;
+  }
+  float padded[2 * whole] = {};  // what lies beyond is 0
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t j = at[k], reach = cell.lobe_reach - 1;
-    float heard[2 * most_parts] = {};  // what lies beyond is 0
-    for (std::size_t n = 0; n < whole; ++n) heard[n] = everywhere[n];
+    Lanes heard[rows], other, sum = {}, product = {};
+    for (std::size_t r = 0; r < rows; ++r) heard[r] = everywhere[r];
     for (std::size_t i = j > reach ? j - reach : 0; i <= std::min(j + reach, cell.nodes - 1); ++i) {
       const float weight = cell.lobe[i > j ? i - j : j - i];
-      for (std::size_t n = 0; n < whole; ++n) heard[n] += weight * cell.energy[i * whole + n];
+      for (std::size_t r = 0; r < rows; ++r)
+        load(cell.energy + i * whole + r * part_lanes, other), heard[r] += weight * other;
     }
-    float sums[part_lanes] = {}, products[part_lanes] = {};
-    for (std::size_t n = 0; n < whole; n += part_lanes)
-      for (std::size_t l = 0; l < part_lanes; ++l) sums[l] += heard[n + l];
+    for (std::size_t r = 0; r < rows; ++r) store(heard[r], padded + r * part_lanes), sum += heard[r];
     for (std::size_t d = 0; d < cell.reach; ++d) {
       const float weight = (d > 0 ? 2 : 1) * cell.correlation[d];
-      for (std::size_t n = 0; n < whole; n += part_lanes)
-        for (std::size_t l = 0; l < part_lanes; ++l) products[l] += weight * heard[n + l] * heard[n + l + d];
+      for (std::size_t r = 0; r < rows; ++r)
+        load(padded + r * part_lanes + d, other), product += weight * heard[r] * other;
     }
-    float sum = 0, product = 0;
-    for (std::size_t l = 0; l < part_lanes; ++l) sum += sums[l], product += products[l];
-    looks[k] = product > 0 ? std::max(1.0, static_cast<double>(sum / product * sum)) : 1;  // (E182)
+    float sums = 0, products = 0;
+    for (std::size_t l = 0; l < part_lanes; ++l) sums += sum[l], products += product[l];
+    looks[k] = products > 0 ? std::max(1.0, static_cast<double>(sums / products * sums)) : 1;  // (E182)
+  }
+}
+
+}  // namespace
+
+INSONIFY_CLONES void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks) {
+  static_assert(most_parts == 2 * part_lanes);
+  if (cell.parts <= part_lanes) return count_looks_of<1>(cell, at, count, looks);
+  count_looks_of<2>(cell, at, count, looks);
+}
+
+INSONIFY_CLONES void draw_normals(std::uint64_t seed, const std::uint64_t* id, std::size_t count, double* re,
+                                  double* im) {
+  const std::uint64_t stream = mixed(seed + golden);
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint64_t at = mixed(stream ^ (id[k] * golden));
+    double sine, cosine;
+    vec::sine_cosine(uniform(mixed(at + golden)), sine, cosine);
+    const double magnitude = std::sqrt(-vec::log(uniform(mixed(at + 2 * golden))));
+    re[k] = magnitude * cosine, im[k] = magnitude * sine;  // (E187)
+  }
+}
+
+INSONIFY_CLONES void draw_looks(const EvenGround& ground, std::size_t count, double* drawn) {
+  const EvenGround of = ground;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const double from = of.from[k], to = of.looks[k], variate = of.variate[k] > 1e-300 ? of.variate[k] : 1e-300;
+    const double third = vec::exp(vec::log(variate) * (1.0 / 3));
+    const double root = 1 - 1 / (9 * to) + std::sqrt(from / to) * (third - 1 + 1 / (9 * from));
+    drawn[k] = of.strong[k] + of.mean[k] * (root > 0 ? root * root * root : 0);
   }
 }
 

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <cstdint>
 
 // Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
 // on each. They do not include Eigen, so wide registers are safe.
 namespace insonify::kernels {
 
 /// Ranges of a cell whose energies are kept apart, at most, and numbers that are summed side by side.
-constexpr std::size_t most_parts = 48, part_lanes = 16;
+constexpr std::size_t most_parts = 32, part_lanes = 16;
 
 /// Returns the length of a row of so many ranges, in whole lanes.
 constexpr std::size_t row_length(std::size_t parts) { return (parts + part_lanes - 1) / part_lanes * part_lanes; }
 
-/// Energies in a cell: of node j of u and range n at j row_length(parts) + n, 0 for n >= parts; and the pattern of a
-/// beam.
+/// Energies in a cell: of range n by how much more node j of u has than the one before, at j row_length(parts) + n, 0
+/// for n >= parts; and the pattern of a beam.
 struct CellEnergies {
-  const float* energy;
+  float* energy;
   std::size_t nodes, parts;
   const float* lobe;  ///< weight of nodes at distances 0, 1, .. below `lobe_reach`
   std::size_t lobe_reach;
@@ -23,7 +24,21 @@ struct CellEnergies {
   const float* correlation;  ///< R_d of ranges d apart, d below `reach` (E182)
   std::size_t reach;
 };
-/// Sets looks[k] to (sum P)^2 / sum_kl P_k P_l R_|k-l| (E182) of a beam at node at[k], k < count; at least 1.
+/// Sets looks[k] to (sum P)^2 / sum_kl P_k P_l R_|k-l| (E182) of a beam at node at[k], k < count; at least 1. Adds up
+/// cell.energy over the nodes.
 void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks);
+
+/// Sets re and im to complex normal numbers of mean power 1, one for each id: from 64 mixed bits twice, for speckle and
+/// noise that need no counter of their own (E187).
+void draw_normals(std::uint64_t seed, const std::uint64_t* id, std::size_t count, double* re, double* im);
+
+/// Even ground in beams: a gamma variate of mean 1, the number of looks that it has and that it shall have, the mean
+/// intensity, and the intensity of what stands out.
+struct EvenGround {
+  const double *variate, *from, *looks, *mean, *strong;
+};
+/// Sets drawn[k] to strong[k] + mean[k] times the variate with so many looks, k < count (Wilson and Hilferty 1931;
+/// E183).
+void draw_looks(const EvenGround& ground, std::size_t count, double* drawn);
 
 }  // namespace insonify::kernels

@@ -19,16 +19,8 @@ constexpr double cut = 1e-4;              // of the envelope
 
 PulseEnergy::PulseEnergy(const Pulse& pulse, const Medium& medium, const RangeGate& gate)
     : pulse_(pulse), medium_(medium), shapes_(pulse, medium), first_range_(gate.min_range) {
-  // Energies over range; between the entries their logarithm is nearly straight.
-  const std::size_t entries = is_gaussian(pulse) ? 65 : 9;
-  range_step_ = (gate.max_range - gate.min_range) / static_cast<double>(entries - 1);
   const double metres_per_s = 0.5 * medium.sound_speed;
-  for (std::size_t k = 0; k < entries; ++k) {
-    const Samples g = samples_of(first_range_ + static_cast<double>(k) * range_step_);
-    double energy = 0;
-    for (const std::complex<double>& value : g.value) energy += std::norm(value);
-    log_energy_.push_back(std::log(std::max(energy * g.step * metres_per_s, 1e-300)));
-  }
+  fill_energies(gate, metres_per_s);
 
   // Length and correlation in the middle of the gate.
   const Samples g = samples_of(0.5 * (gate.min_range + gate.max_range));
@@ -57,11 +49,24 @@ PulseEnergy::Samples PulseEnergy::samples_of(double range) const {
   return samples;
 }
 
-double PulseEnergy::energy(double range) const {
-  const double last = static_cast<double>(log_energy_.size() - 1);
-  const double place = std::clamp((range - first_range_) / range_step_, 0.0, last);
-  const auto left = std::min(static_cast<std::size_t>(place), log_energy_.size() - 2);
-  return std::exp(std::lerp(log_energy_[left], log_energy_[left + 1], place - static_cast<double>(left)));
+void PulseEnergy::fill_energies(const RangeGate& gate, double metres_per_s) {
+  // Between ranges at which the pulse is sampled, the logarithm of its energy is nearly straight; between the finer
+  // entries of the table the energy itself is.
+  const std::size_t sampled = is_gaussian(pulse_) ? 65 : 9, finer = 1024 / (sampled - 1);
+  const double step = (gate.max_range - gate.min_range) / static_cast<double>(sampled - 1);
+  entries_per_metre_ = static_cast<double>(finer) / step;
+  std::vector<double> log_energy;
+  for (std::size_t k = 0; k < sampled; ++k) {
+    const Samples g = samples_of(first_range_ + static_cast<double>(k) * step);
+    double energy = 0;
+    for (const std::complex<double>& value : g.value) energy += std::norm(value);
+    log_energy.push_back(std::log(std::max(energy * g.step * metres_per_s, 1e-300)));
+  }
+  for (std::size_t k = 0; k + 1 < sampled; ++k)
+    for (std::size_t i = 0; i < finer; ++i)
+      energy_.push_back(
+          std::exp(std::lerp(log_energy[k], log_energy[k + 1], static_cast<double>(i) / static_cast<double>(finer))));
+  energy_.push_back(std::exp(log_energy.back()));
 }
 
 double PulseEnergy::correlation(double distance) const {

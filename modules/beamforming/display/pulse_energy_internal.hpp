@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <numbers>
 #include <vector>
@@ -17,7 +18,12 @@ class PulseEnergy {
   PulseEnergy(const Pulse& pulse, const Medium& medium, const RangeGate& gate);
 
   /// Returns the integral of |G|^2 over range [m] for an echo from `range` [m].
-  double energy(double range) const;
+  double energy(double range) const {
+    const double last = static_cast<double>(energy_.size() - 1);
+    const double place = std::clamp((range - first_range_) * entries_per_metre_, 0.0, last);
+    const auto left = std::min(static_cast<std::size_t>(place), energy_.size() - 2);
+    return energy_[left] + (place - static_cast<double>(left)) * (energy_[left + 1] - energy_[left]);
+  }
   /// Returns half the length [m] of the box with the variance of |G|^2 in range, in the middle of the gate.
   double half_length() const { return half_length_; }
   /// Returns the standard deviation of |G|^2 in range [m], there.
@@ -34,12 +40,13 @@ class PulseEnergy {
     double step = 0;                          ///< time between samples [s]
   };
   Samples samples_of(double range) const;
+  void fill_energies(const RangeGate& gate, double metres_per_s);
 
   Pulse pulse_;
   Medium medium_;
   EchoShapes shapes_;
-  double first_range_, range_step_;
-  std::vector<double> log_energy_;  ///< at ranges range_step_ apart
+  double first_range_, entries_per_metre_ = 0;
+  std::vector<double> energy_;  ///< at ranges so far apart
   double half_length_ = 0, correlation_step_ = 0;
   std::vector<double> correlation_;
 };

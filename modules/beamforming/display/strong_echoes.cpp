@@ -9,16 +9,32 @@
 namespace insonify {
 namespace {
 
-constexpr double strong_part = 0.1;  // of a cell, from which on an echo is added as a pressure (E184)
+constexpr double strong_part = 0.1;       // of a cell, from which on an echo is added as a pressure (E184)
+constexpr double spread_of_disc = 0.866;  // half width of the box with the variance of a disc, in its radius
+constexpr double half_maximum_of_box =
+    0.68;                              // length at half maximum of a Gaussian, in that of the box of its variance
+constexpr double pieces_per_cell = 8;  // SamplingOptions::scatterers_per_cell
+
+/// Returns the number of parts that samples split a surface into (E17).
+double pieces_of(const CellEcho& echo, const DisplayPlan& plan) {
+  if (!(echo.half_width > 0)) return 1;
+  const double resolved = 2 * plan.pulse.half_length() * half_maximum_of_box, range = echo.range;
+  const double radius = static_cast<double>(echo.half_width) / spread_of_disc * range;
+  const double sine = radius > 0 ? std::min(1.0, static_cast<double>(echo.half_depth) / spread_of_disc / radius) : 1;
+  const double length = std::min(resolved / std::max(sine, 1e-9), 2 * std::sqrt(2 * range * resolved));
+  return std::max(1.0, pieces_per_cell * pi * radius * radius / (length * range * plan.beam_width));
+}
 
 }  // namespace
 
 void CellRow::part_strong(Side& side) {
   const auto strong = [&](const Part& part) {
-    const double energy = part.energy * part.echo->together / part.echo->pieces;
-    if (part.echo->fixed || energy > strong_part * side.energy) return true;
-    const std::int32_t beam = beams_.beam_near[part.echo->node];
-    return beam >= 0 && energy > strong_part * side.mean[static_cast<std::size_t>(beam)];
+    const CellEcho& echo = *part.echo;
+    if (echo.together == 0) return true;
+    const double energy = part.energy * echo.together;
+    const std::int32_t beam = beams_.beam_near[echo.node];
+    const double heard = beam < 0 ? side.energy : std::min(side.energy, side.mean[static_cast<std::size_t>(beam)]);
+    return energy > strong_part * heard && energy > strong_part * heard * pieces_of(echo, plan_);
   };
   const auto first = std::stable_partition(side.even.begin(), side.even.end(), [&](auto& p) { return !strong(p); });
   side.strong.assign(first, side.even.end());
@@ -45,15 +61,14 @@ void CellRow::sum_strong(Side& side) {
 void CellRow::add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const {
   const CellEcho& echo = *part.echo;
   const double step = 2 * pi / (plan_.node_width * static_cast<double>(plan_.period));
-  const double away = echo.u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
+  const double u = echo.u, away = u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
   const std::size_t count = plan_.shading.size();
   const Complex turn = std::polar(1.0, -step * away);
-  Complex at = part.sign * std::sqrt(part.energy) * echo.phase * echo.amplitude[0] *
+  Complex at = static_cast<double>(part.sign * std::sqrt(part.energy)) * Complex(echo.pressure[0]) *
                std::polar(1.0, -step * away * element_place(0, count));
   for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
   // The mean of even ground excludes it.
-  for (std::size_t b = 0; b < mean.size(); ++b)
-    mean[b] -= part.energy * plan_.response.intensity(echo.u - beams_.u_beam[b]);
+  for (std::size_t b = 0; b < mean.size(); ++b) mean[b] -= part.energy * plan_.response.intensity(u - beams_.u_beam[b]);
 }
 
 }  // namespace insonify

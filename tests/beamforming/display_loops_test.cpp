@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Inner loops of display cells against sums in double precision and laws of random numbers.
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "beamforming/display/looks_loops_internal.hpp"
+
+namespace insonify {
+namespace {
+
+/// Looks of a beam at node `at` by the formula (E182).
+double looks_by_formula(const std::vector<std::vector<double>>& energy, const kernels::CellEnergies& cell,
+                        std::size_t at) {
+  std::vector<double> heard(cell.parts, cell.noise);
+  for (std::size_t j = 0; j < energy.size(); ++j) {
+    const std::size_t away = j > at ? j - at : at - j;
+    for (std::size_t n = 0; n < cell.parts; ++n)
+      heard[n] += energy[j][n] * ((away < cell.lobe_reach ? cell.lobe[away] : 0) + cell.beside);
+  }
+  double products = 0;
+  for (std::size_t k = 0; k < cell.parts; ++k)
+    for (std::size_t n = 0; n < cell.parts; ++n) {
+      const std::size_t away = k > n ? k - n : n - k;
+      if (away < cell.reach) products += heard[k] * heard[n] * static_cast<double>(cell.correlation[away]);
+    }
+  return std::pow(std::accumulate(heard.begin(), heard.end(), 0.0), 2) / products;
+}
+
+std::vector<std::complex<double>> display_normals(std::uint64_t seed, std::size_t count) {
+  std::vector<std::uint64_t> id(count);
+  std::iota(id.begin(), id.end(), std::uint64_t{5} << 32);
+  std::vector<double> re(count), im(count);
+  kernels::draw_normals(seed, id.data(), count, re.data(), im.data());
+  std::vector<std::complex<double>> numbers(count);
+  for (std::size_t k = 0; k < count; ++k) numbers[k] = {re[k], im[k]};
+  return numbers;
+}
+
+TEST(DisplayLoops, looks_are_those_of_the_formula) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  const std::vector<float> lobe = {1, 0.6f, 0.1f}, correlation = {0.7f, 0.3f, 0.05f};
+  for (const std::size_t parts : {4, 16, 17, 32}) {
+    constexpr std::size_t nodes = 40;
+    const std::size_t row = kernels::row_length(parts);
+    std::vector<std::vector<double>> energy(nodes, std::vector<double>(parts, 0));
+    std::vector<float> differences((nodes + 1) * row, 0);
+    for (int k = 0; k < 30; ++k) {
+      const auto pick = [&](std::size_t n) {
+        return static_cast<std::size_t>(uniform(engine) * static_cast<float>(n));
+      };
+      const std::size_t first = pick(nodes), last = first + pick(nodes - first), n = pick(parts);
+      const float more = uniform(engine);
+      for (std::size_t j = first; j <= last; ++j) energy[j][n] += static_cast<double>(more);
+      differences[first * row + n] += more, differences[(last + 1) * row + n] -= more;
+    }
+    const kernels::CellEnergies cell{differences.data(), nodes, parts, lobe.data(),
+                                     lobe.size(),        1e-3f, 1e-2f, correlation.data(),
+                                     correlation.size()};
+    const std::vector<std::size_t> at = {0, 1, 7, 20, 38, 39};
+    std::vector<double> looks(at.size());
+    kernels::count_looks(cell, at.data(), at.size(), looks.data());
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const double exact = std::max(1.0, looks_by_formula(energy, cell, at[k]));
+      EXPECT_NEAR(looks[k], exact, 1e-4 * exact) << parts << " parts, node " << at[k];
+    }
+  }
+}
+
+TEST(DisplayLoops, normal_numbers_have_moments_of_their_law_and_are_independent) {
+  constexpr std::size_t count = 1 << 19;
+  const auto one = display_normals(1, count), other = display_normals(2, count);
+  double power = 0, square = 0;
+  std::complex<double> mean = 0, pseudo = 0, next = 0, between_seeds = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    power += std::norm(one[k]), square += std::norm(one[k]) * std::norm(one[k]);
+    mean += one[k], pseudo += one[k] * one[k];
+    next += one[k] * std::conj(one[(k + 1) % count]), between_seeds += one[k] * std::conj(other[k]);
+  }
+  constexpr double n = count;
+  const double deviation = 1 / std::sqrt(n);  // of a mean of numbers of variance 1
+  EXPECT_NEAR(power / n, 1, 5 * deviation);
+  EXPECT_NEAR(square / n, 2, 5 * std::sqrt(20.0) * deviation);
+  EXPECT_LT(std::abs(mean) / n, 5 * deviation);
+  EXPECT_LT(std::abs(pseudo) / n, 5 * std::sqrt(2.0) * deviation);
+  EXPECT_LT(std::abs(next) / n, 5 * deviation);
+  EXPECT_LT(std::abs(between_seeds) / n, 5 * deviation);
+}
+
+TEST(DisplayLoops, drawn_intensities_have_their_mean_and_looks) {
+  constexpr std::size_t count = 1 << 18;
+  const auto f = display_normals(3, count), g = display_normals(4, count);
+  std::vector<double> variate(count), from(count, 2), mean(count, 3), strong(count, 0.5), drawn(count);
+  for (std::size_t k = 0; k < count; ++k) variate[k] = 0.5 * (std::norm(f[k]) + std::norm(g[k]));
+  for (const double looks : {4.0, 19.0}) {
+    const std::vector<double> wanted(count, looks);
+    kernels::draw_looks({variate.data(), from.data(), wanted.data(), mean.data(), strong.data()}, count, drawn.data());
+    double sum = 0, squares = 0;
+    for (const double value : drawn) sum += value - 0.5, squares += (value - 0.5) * (value - 0.5);
+    const double average = sum / count, contrast = std::sqrt(squares / count - average * average) / average;
+    EXPECT_NEAR(average, 3, 0.01 * 3) << looks;
+    EXPECT_NEAR(contrast, 1 / std::sqrt(looks), 0.01 / std::sqrt(looks) + 0.002) << looks;
+  }
+}
+
+}  // namespace
+}  // namespace insonify
