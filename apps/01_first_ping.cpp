@@ -4,7 +4,7 @@
 
 #include <insonify/core/units.hpp>
 #include <insonify/scene/built_in_scenes.hpp>
-#include <insonify/simulate/simulate_ping.hpp>
+#include <insonify/simulate/ping_simulator.hpp>
 #include <insonify/store/sonar_file.hpp>
 
 int main() {
@@ -15,15 +15,14 @@ int main() {
   const SceneCloud scene = make_built_in_scene("harbour", {.points = 100000});
 
   // The sonar: a preset limited to 20 m, in water of 8 deg C.
-  const Water water{.temperature_c = 8};
   SonarSpec spec = find_sonar("p900-45").spec;
   spec.max_range = 20;
-  const SonarHead head = make_head(spec, sound_speed(water));
+  const PingSimulator simulator(spec, Environment{Water{.temperature_c = 8}});
 
   // The pose: 3 m deep, looking along +x, nose 10 degrees down.
   const Pose pose = pose_from_yaw_pitch_roll({0, 0, -3}, 0, radians(10), 0);
 
-  const SimulatedPing result = simulate_ping(scene, head, pose, {water});
+  const SimulatedPing result = simulator.ping(PreparedScene(scene), {pose});
   std::cout << result.report.sampling.scatterers << " scatterers, " << result.soundings.size()
             << " soundings, mean level " << mean_level_db(result.ping, 5, 20) << " dB re 1 uPa\n";
 }

@@ -20,12 +20,12 @@ int main(int argc, char** argv) {
   SonarSpec spec = find_sonar("p900-45").spec;
   spec.max_range = 15;
   spec.beams = 64;
-  const SonarHead head = make_head(spec, sound_speed(environment.water));
 
   // A simulator is one head in one environment: what forms its beams is made in the first ping and used by all.
-  const PingSimulator simulator(head, environment, {.outputs = {.scatterers = true}});
+  const PingSimulator simulator(spec, environment, {.outputs = {.scatterers = true}});
 
   // Eight pings along the quay, half a second apart; what they did to each surfel adds up.
+  const SonarHead& head = simulator.head();
   Cube cube = make_cube(head, medium_of(environment, head.pulse.centre_frequency));
   std::vector<CoveredSurfel> covered;
   for (int k = 0; k < 8; ++k) {

@@ -11,10 +11,9 @@
 int main() {
   using namespace insonify;
   const SceneInMemory scene(make_built_in_scene("river", {.points = 100000}));
-  const Environment environment{Water{.temperature_c = 8}};
   SonarSpec spec = find_sonar("em2040").spec;
   spec.max_range = 12;
-  const PingSimulator simulator(make_head(spec, sound_speed(environment.water)), environment);
+  const PingSimulator simulator(spec, Environment{Water{.temperature_c = 8}});
 
   // Ten metres at 2 m/s, a ping every half second; the head looks down.
   Mission mission;

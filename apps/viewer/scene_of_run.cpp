@@ -35,7 +35,7 @@ void show_parts(const std::shared_ptr<const OpenScene>& scene, LoadedView& view)
 
 /// Replaces the overview of a mesh by the surfels of the run's ping, whose contributors are named by them.
 void sample_for_run(const std::string& run_folder, LoadedScene& loaded, LoadedView& view) {
-  const PingOptions run = load_ping_settings((fs::path(run_folder) / "run.toml").string());
+  const Run run = load_ping_settings((fs::path(run_folder) / "run.toml").string());
   const PingSetup setup = set_up_ping(run);
   MeshSample fine =
       mesh_sample_for(*loaded.mesh, loaded.scene.size(), run.memory_limit, setup.simulator(), setup.event);
@@ -56,7 +56,7 @@ void load_scene_of_run(const ViewerCommand& command, const std::string& run_fold
                              : options.path + ": the scene of the run is missing: give it with --scene");
     return;
   }
-  const std::shared_ptr<OpenScene> scene = open_scene_of_run(command.common, options, run_folder);
+  const std::shared_ptr<OpenScene> scene = open_scene_of_run(options, run_folder, command.common.threads);
   for (const std::string& note : loading_notes(scene->report())) view.notes.push_back(note);
   if (scene->parts()) {
     show_parts(scene, view);

@@ -56,14 +56,14 @@ void add_options(tool::OptionList list, ViewerCommand& c) {
   list.add("--window", &c.start.window_db, "[dB] levels from the darkest to the brightest colour, 5 to 150");
   list.add("--scene", &c.scene.path, "scene of the run, if it is not at the path that run.toml names");
   list.add("--no-scene", &c.no_scene, "show the run without its scene, which starts faster");
-  list.add("--sonar", &c.run.sonar, "to inspect a scene: preset, .toml file, or the run.toml of a run");
+  list.add("--sonar", &c.sonar.sonar, "to inspect a scene: preset, .toml file, or the run.toml of a run");
   list.add("--pose", &c.pose,
            "to inspect a scene: x,y,z,yaw,pitch,roll [m, deg] of the head; pitch is positive nose down");
   tool::add_world(list, c.world);
-  list.add("--range", &c.run.range,
+  list.add("--range", tool::range_value(c.sonar),
            "to inspect a scene: min:max [m]; default: to the end of the scene, at most that of the sonar");
   tool::add_completion(list, c.scene);
-  list.add("--set", &c.common.settings, "to inspect a scene: SECTION.KEY=VALUE that replaces a value of the sonar",
+  list.add("--set", &c.sonar.settings, "to inspect a scene: SECTION.KEY=VALUE that replaces a value of the sonar",
            {.one_each = true});
   list.add("--size", &c.size, "WIDTHxHEIGHT of the window [pixels], at least 800x600");
   list.add("--screenshot", &c.screenshot, "draw one picture into this .png and exit; needs no display");
@@ -198,7 +198,7 @@ bool is_run(const std::string& target) {
 }
 
 LoadedView load_run(const ViewerCommand& command) {
-  if (!command.run.sonar.empty() || !command.pose.empty())
+  if (!command.sonar.sonar.empty() || !command.pose.empty())
     fail(ErrorKind::argument, command.target,
          " is a run, whose sonar and poses are known; leave --sonar and --pose out");
   if (tool::is_record(command.target)) return load_record(command);
@@ -231,12 +231,12 @@ LoadedView load_run(const ViewerCommand& command) {
 LoadedView load_inspection(const ViewerCommand& command) {
   if (!command.head.empty())
     fail(ErrorKind::argument, "--head = '", command.head, "' is of a survey, ", command.target, " is a scene");
-  if (command.run.sonar.empty())
+  if (command.sonar.sonar.empty())
     fail(ErrorKind::argument, "--sonar must be given to inspect a scene, e.g. --sonar p900-45; see insonify sonars");
   if (command.pose.empty())
     fail(ErrorKind::argument, "--pose must be given to inspect a scene, e.g. --pose=0,0,-3,0,10,0");
   LoadedView view{{}, command.start, {}};
-  HeadSetup setup = set_up_head(command.common, command.run);
+  PingSetup setup = set_up_head(command.sonar);
   view.start.mode = ViewerMode::inspect;
   view.start.head = head_place(parse_pose(command.pose, command.world) * setup.mount);
   view.start.scene_colour = SceneColour::visibility;
@@ -244,7 +244,7 @@ LoadedView load_inspection(const ViewerCommand& command) {
   view.data.vehicle_from_head = setup.mount;
   SceneOptions options = command.scene;
   options.path = command.target;
-  LoadedScene loaded = load_any_scene(command.common, options);
+  LoadedScene loaded = load_any_scene(options, command.common.threads);
   for (const std::string& note : loading_notes(loaded.report)) view.notes.push_back(note);
   view.data.title = setup.head.name + " before " + fs::path(command.target).filename().string();
   view.data.scene = std::move(loaded.scene);

@@ -6,15 +6,16 @@
 #include <vector>
 
 #include "run/options.hpp"
+#include "tool/command/common_options.hpp"
 #include "viewer/viewer_data.hpp"
 
 namespace insonify::viewer {
 
 /// Options of insonify-view.
 struct ViewerCommand {
-  CommonOptions common;
+  tool::CommonOptions common;
   SceneOptions scene;  ///< path: of --scene, or the target itself
-  RunOptions run;      ///< settings; only sonar, range and environment count
+  HeadOptions sonar;   ///< --sonar, --range and --set
   std::string target;  ///< run directory, cube.h5, recording, or scene
   std::string pose;
   std::string world = "z-up";

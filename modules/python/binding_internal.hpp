@@ -38,7 +38,7 @@ Keywords keywords(Sonar& sonar);
 Keywords keywords(Environment& environment);
 Keywords keywords(SceneOptions& options);
 /// Returns the keywords of a simulator, or of one of its pings.
-Keywords keywords(PingOptions& options, bool of_ping = false);
+Keywords keywords(Run& run, bool of_ping = false);
 /// Returns the text of an error with keywords of Python in place of options of the tool: "force=True" for "--force".
 std::string in_keywords(const std::string& text);
 
@@ -129,9 +129,7 @@ struct Simulator {
   Simulator(const Sonar& sonar, const Environment& environment, const py::kwargs& keys);
   Sonar sonar;
   std::vector<std::pair<std::string, TomlValue>> given{};  ///< its keywords
-  PingOptions options;                                     ///< for run.toml
-  HeadSetup head;
-  SimulationOptions simulation;
+  PingSetup setup;                                         ///< without an event
   std::optional<PingSimulator> simulator;
 };
 
@@ -139,10 +137,7 @@ struct Simulator {
 struct MadePing {
   By by;
   Of scene;
-  PingOptions options;           ///< options of the simulator, with seed and what to keep
-  std::array<double, 6> pose{};  ///< x, y, z [m], yaw, pitch, roll [deg] of the vehicle
-  PingEvent event{};
-  SimulationOptions simulation{};  ///< that was asked for
+  PingSetup setup;                 ///< that of the simulator, with seed, place and what to keep
   std::optional<Choice> detail{};  ///< SamplingSettings::detail, if it was decided for many pings
   SimulatedPing made{};
   std::shared_ptr<const EditedScene> edited{};  ///< the scene if it was edited, and what it held

@@ -140,7 +140,7 @@ void add_scene(py::module_& m) {
 }
 
 void add_simulator(py::module_& m) {
-  PingOptions any;
+  Run any;
   py::class_<Simulator, std::shared_ptr<Simulator>> type(
       m, "PingSimulator",
       signed_docs("PingSimulator", "sonar, environment=...", "A head in an environment, checked once.", keywords(any)));

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // insonify._insonify_io: what needs PCL, VTK and the files of runs.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -12,7 +10,8 @@
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_of_pings.hpp"
 #include "run_scenes/ping_report.hpp"
-#include "run_scenes/ping_run.hpp"
+#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "scene_io/pcl_bridge.hpp"
 #include "tool/run/vtk_pictures.hpp"
 #include "view/ping_record.hpp"
@@ -60,14 +59,13 @@ std::uint32_t add(Scene& scene, const Scene& body, const std::optional<std::stri
 std::shared_ptr<Scene> load(const Path& path, const py::kwargs& keys) {
   SceneOptions how;
   how.path = path.string();
-  CommonOptions common;
+  std::uint64_t seed = 1;
   Keywords all = keywords(how);
-  const RunSetting seed = seed_setting(common);
-  all.keys.push_back(keys_of({seed}).front());
+  all.keys.push_back(keys_of({seed_setting(seed)}).front());
   set_keywords(all, keys, "load_scene");
   const py::gil_scoped_release release;
-  const auto scene = open_scene(how, {{common.seed, {}}});
-  if (const PartsOfPings* parts = scene->parts()) return scene_of_parts({scene, parts}, how, common.seed);
+  const auto scene = open_scene(how, {{seed, {}}});
+  if (const PartsOfPings* parts = scene->parts()) return scene_of_parts({scene, parts}, how, seed);
   return std::make_shared<Scene>(scene->take_whole({}), how, instances_of_scene(how.path));
 }
 
@@ -122,34 +120,44 @@ void complete(const py::capsule& capsule) {
   arrays.loaded = from_pcl(mesh, arrays.options);
 }
 
-/// The head of a ping as the tool sets it up at its depth.
-HeadSetup head_of(const MadePing& ping) {
+/// A ping as the tool has it before its folder is written.
+struct ToolPing {
+  PingSetup setup;  ///< with the notes of its head at its depth, and of its scene
+  PingSimulator simulator;
+  PingScene scene;
+};
+
+ToolPing tool_ping_of(const MadePing& ping) {
+  const Scene& of = *ping.scene;
   const Simulator& by = *ping.by;
-  const double z = ping.event.world_from_head.translation().z();
-  HeadSetup head = set_up_head(by.sonar.file, by.sonar.spec, by.head.environment, z);
-  if (std::string note = number_note(ping.event, ping.options); !note.empty()) head.notes.push_back(std::move(note));
-  return head;
+  PingSetup setup = ping.setup;
+  const PingEvent& event = setup.event;
+  setup.notes =
+      set_up_head(by.sonar.file, by.sonar.spec, setup.environment, event.world_from_head.translation().z()).notes;
+  if (std::string note = number_note(event, setup.run.placement); !note.empty()) setup.notes.push_back(std::move(note));
+  PingSimulator simulator = by.simulator->with(setup.simulation);
+  const auto pinged = surfels_of(ping, simulator);
+  const bool moves = of.moving && !ping.arrangement;
+  const SceneCloud& whole = moves || ping.arrangement ? pinged->scene() : of.loaded->scene;
+  PingScene scene{pinged, of.loaded->report, sampled_places(whole, event.world_from_head),
+                  scene_json(of.loaded->report, pinged->scene())};
+  Bounds box = bounds(whole);
+  if (moves) {
+    const PartsScene& parts = of.moving->parts->scene();
+    const auto draw = static_cast<std::uint64_t>(setup.run.placement.draw);
+    box = parts.box_at(event.time, draw), scene.json["parts"] = parts.parts_json(event.time, draw);
+  }
+  for (std::string& note : fit_notes(whole, box, setup)) setup.notes.push_back(std::move(note));
+  return {std::move(setup), std::move(simulator), std::move(scene)};
 }
 
 /// Returns what the tool notes on the same ping, but for what it notes on loading.
 std::vector<std::string> notes(const MadePing& ping) {
   if (!ping.scene) return ping.noted;
   const py::gil_scoped_release release;
-  const Scene& scene = *ping.scene;
-  const PingSimulator simulator = ping.by->simulator->with(ping.simulation);
-  const auto pinged = surfels_of(ping, simulator);
-  const bool moves = scene.moving && !ping.arrangement;
-  const SceneCloud& whole = moves || ping.arrangement ? pinged->scene() : scene.loaded->scene;
-  const auto draw = static_cast<std::uint64_t>(ping.options.draw);
-  const Bounds box = moves ? scene.moving->parts->scene().box_at(ping.event.time, draw) : bounds(whole);
-  const PingSetup setup{ping.event, head_of(ping), ping.simulation};
-  std::vector<std::string> all = setup.head.notes;
-  const auto add = [&](std::vector<std::string> more) {
-    for (std::string& note : more) all.push_back(std::move(note));
-  };
-  add(fit_notes(whole, box, setup));
-  const auto places = sampled_places(whole, ping.event.world_from_head);
-  add(ping_notes(ping.made, setup, places, !ping.options.mount.empty()));
+  const ToolPing sent = tool_ping_of(ping);
+  std::vector<std::string> all = sent.setup.notes;
+  for (std::string& note : ping_notes(ping.made, sent.setup, sent.scene.places)) all.push_back(std::move(note));
   return all;
 }
 
@@ -157,29 +165,23 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   if (!ping.scene)
     fail(ErrorKind::argument, "save: the ping was unpickled and has no scene; save it in the process that made it");
   const py::gil_scoped_release release;
-  const Simulator& by = *ping.by;
   const Scene& scene = *ping.scene;
-  PingOptions o = ping.options;
-  o.common.quiet = true;
-  o.pose = fmt::format("{}", fmt::join(ping.pose, ","));
-  o.scene = scene.options;
-  if (ping.arrangement) o.scene.path.clear();  // no file holds the edits
-  o.run.output = path.string(), o.run.force = force, o.run.no_picture = !picture;
-  const HeadSetup head = head_of(ping);
-  const PingSimulator simulator = by.simulator->with(ping.simulation);
-  const auto pinged = surfels_of(ping, simulator);
-  const bool moves = scene.moving && !ping.arrangement;
-  const SceneCloud& whole = moves || ping.arrangement ? pinged->scene() : scene.loaded->scene;
-  PingInMemory made{ping.made, simulator, *pinged, whole, scene.loaded->report, scene.instances};
-  if (moves) {
-    const PartsScene& parts = scene.moving->parts->scene();
-    if (parts.is_random() && scene.moving->seed != o.common.seed)
-      fail(ErrorKind::argument, "save: seed = ", o.common.seed, ", but the scene is drawn with seed ",
-           scene.moving->seed, ", and a run has one seed; load it by load_scene(path, seed=", o.common.seed, ")");
-    const auto draw = static_cast<std::uint64_t>(o.draw);
-    made.box = parts.box_at(ping.event.time, draw), made.parts = parts.parts_json(ping.event.time, draw);
-  }
-  save_ping_run(o, {ping.event, head, ping.simulation}, made, tool::VtkPictures());
+  ToolPing sent = tool_ping_of(ping);
+  Run& run = sent.setup.run;
+  run.scene = scene.options;
+  if (ping.arrangement) run.scene.path.clear();  // no file holds the edits
+  run.output.folder = path.string(), run.output.force = force, run.output.no_picture = !picture;
+  if (const std::uint64_t seed = run.simulation.seed;
+      scene.moving && !ping.arrangement && scene.moving->parts->scene().is_random() && scene.moving->seed != seed)
+    fail(ErrorKind::argument, "save: seed = ", seed, ", but the scene is drawn with seed ", scene.moving->seed,
+         ", and a run has one seed; load it by load_scene(path, seed=", seed, ")");
+  const tool::VtkPictures pictures;
+  RunObserver silent;
+  RunFolder folder(sent.setup, {run.scene.path, run.head.sonar}, pictures, silent);
+  if (folder.options_for(sent.scene.scene->scene()).outputs.contributor_sink)
+    folder.take(ping.made.outputs.contributors, 0);
+  folder.write(ping.made, sent.simulator.plan(*sent.scene.scene, sent.setup.event), sent.scene, scene.instances);
+  folder.commit();
 }
 
 void draw(const MadePing& ping, const Path& path, int width, int height, const std::optional<std::string>& title,
@@ -188,7 +190,7 @@ void draw(const MadePing& ping, const Path& path, int width, int height, const s
   const Ping& made = ping.made.ping;
   PictureOptions options;
   options.width = width, options.height = height, options.dark = dark, options.trim = true;
-  options.title = title ? *title : picture_title(ping.by->head.head.name, made);
+  options.title = title ? *title : picture_title(ping.by->setup.head.name, made);
   options.colour_map = colour_map, options.min_db = min_db, options.max_db = max_db;
   show_fan(level_image(made, Tvg{40, made.absorption_db_per_m}), options, path.string());
 }

@@ -46,7 +46,7 @@ py::dict poses_of_parts(const MadePing& ping) {
     return poses;
   }
   if (!ping.arrangement && !ping.scene->moving) return poses;
-  const auto scene = surfels_of(ping, ping.by->simulator->with(ping.simulation));
+  const auto scene = surfels_of(ping, ping.by->simulator->with(ping.setup.simulation));
   for (const ScenePart& part : scene->scene().parts)
     if (part.spacing > 0) add(part.name, part.world_from_part * Eigen::Translation3d(part.file_origin));
   return poses;

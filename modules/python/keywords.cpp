@@ -71,7 +71,7 @@ std::string keyword_of_option(const std::string& option) {
   if (const char* const* word = find_named(words_of_python, option)) return *word;
   static const auto of_settings = [] {
     std::map<std::string, std::string> names;
-    PingOptions any;
+    Run any;
     for (const RunSetting& setting : all_settings(any)) names[setting.option] = setting.key;
     return names;
   }();
@@ -165,9 +165,9 @@ Keywords keywords(SceneOptions& options) {
   const auto settings = scene_settings(options);
   return {keys_of({settings.begin() + 1, settings.end()}), "scene"};  // all but the path
 }
-Keywords keywords(PingOptions& options, bool of_ping) {
-  if (!of_ping) return {keys_of(simulator_settings(options)), "ping"};
-  Keywords of{keys_of(all_settings(options)), "ping"};
+Keywords keywords(Run& run, bool of_ping) {
+  if (!of_ping) return {keys_of(simulator_settings(run)), "ping"};
+  Keywords of{keys_of(all_settings(run)), "ping"};
   const std::vector<std::string> names{"seed", "keep", "contributors", "display",  "time",
                                        "ping", "draw", "velocity",     "turn_rate"};
   std::erase_if(of.keys, [&](const Key& key) { return std::ranges::find(names, key.name) == names.end(); });

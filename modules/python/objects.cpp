@@ -14,7 +14,7 @@
 #include "core/units.hpp"
 #include "python/binding_internal.hpp"
 #include "returns/sounding_columns.hpp"
-#include "simulate/plan_ping.hpp"
+#include "run/parse_values.hpp"
 #include "survey/mesh_source.hpp"
 
 namespace insonify::python {
@@ -22,8 +22,8 @@ namespace {
 
 /// A ping that is still to be made, with the options of its simulator but for `keys`.
 MadePing asked(const By& by, const Of& scene, const py::kwargs& keys, const char* who) {
-  MadePing ping{by, scene, by->options};
-  set_keywords(keywords(ping.options, true), keys, who);
+  MadePing ping{by, scene, by->setup};
+  set_keywords(keywords(ping.setup.run, true), keys, who);
   if (scene->edited) ping.edited = scene->edited, ping.arrangement = scene->edited->now();
   return ping;
 }
@@ -37,7 +37,7 @@ struct Decided {
 MadePing asked_at(MadePing ping, const py::object& position, double yaw, double pitch, double roll) {
   const Numbers at = numbers_of(position, "ping: position", 0, 3);
   const Numbers turn = numbers_of(py::make_tuple(yaw, pitch, roll), "ping: yaw, pitch, roll", 0, 3);
-  ping.pose = {at.at(0), at.at(1), at.at(2), turn.at(0), turn.at(1), turn.at(2)};
+  ping.setup.run.placement.pose = {at.at(0), at.at(1), at.at(2), turn.at(0), turn.at(1), turn.at(2)};
   return ping;
 }
 
@@ -52,38 +52,37 @@ py::object for_each_pose(const py::dict& keys, const char* name, py::ssize_t num
   return value;
 }
 
-/// Takes the keyword of a vector out, if it has one for each pose; returns the vectors as text.
-std::vector<std::string> vectors_for_each_pose(const py::dict& keys, const char* name, py::ssize_t poses) {
-  std::vector<std::string> all;
+/// Takes the keyword of a vector out, if it has one for each pose; returns the vectors.
+std::vector<Eigen::Vector3d> vectors_for_each_pose(const py::dict& keys, const char* name, py::ssize_t poses) {
+  std::vector<Eigen::Vector3d> all;
   if (const py::object given = for_each_pose(keys, name, 3)) {
     const Numbers numbers = numbers_of(given, fmt::format("pings: {}", name), 3, poses);
-    for (py::ssize_t i = 0; i < poses; ++i)
-      all.push_back(fmt::format("{},{},{}", numbers.at(i, 0), numbers.at(i, 1), numbers.at(i, 2)));
+    for (py::ssize_t i = 0; i < poses; ++i) all.emplace_back(numbers.at(i, 0), numbers.at(i, 1), numbers.at(i, 2));
   }
   return all;
 }
 
 /// Settles event and options of a ping; returns its simulator.
 PingSimulator settle(MadePing& ping, int threads) {
-  const auto& p = ping.pose;
-  ping.event = asked_event(ping.options,
-                           pose_from_yaw_pitch_roll({p[0], p[1], p[2]}, radians(p[3]), radians(p[4]), radians(p[5])));
-  ping.simulation = ping.by->simulation;
-  ping.simulation.seed = ping.options.common.seed;
-  ping.simulation.threads = threads;
-  if (ping.detail) ping.simulation.sampling.detail = *ping.detail;
-  ping.simulation.outputs = asked_simulation(ping.options.common, ping.options).outputs;
-  require_valid_settings(ping.options, ping.simulation, NamedBy::keyword);
-  return ping.by->simulator->with(ping.simulation);
+  PingSetup& setup = ping.setup;
+  const Placement& at = setup.run.placement;
+  setup.event = asked_event(at, pose_of(*at.pose));
+  setup.simulation = ping.by->setup.simulation;
+  setup.simulation.seed = setup.run.simulation.seed;
+  setup.simulation.threads = threads;
+  if (ping.detail) setup.simulation.sampling.detail = *ping.detail;
+  setup.simulation.outputs = asked_simulation(setup.run).outputs;
+  require_valid_settings(setup.run, setup.simulation, NamedBy::keyword);
+  return ping.by->simulator->with(setup.simulation);
 }
 
 /// Decides whether pings like this one merge surfels, if so many share a scene; returns SamplingSettings::detail.
 Choice detail_of(MadePing ping, std::size_t pings, int threads) {
-  const Choice asked = ping.by->simulation.sampling.detail;
+  const Choice asked = ping.by->setup.simulation.sampling.detail;
   if (ping.arrangement || ping.scene->moving || ping.scene->loaded->mesh) return asked;
   try {
     const PingSimulator simulator = settle(ping, threads);
-    return simulator.for_many(pings, *ping.scene->prepared, ping.event).options().sampling.detail;
+    return simulator.for_many(pings, *ping.scene->prepared, ping.setup.event).options().sampling.detail;
   } catch (const Error&) {
     return asked;  // the ping itself fails with the reason
   }
@@ -91,7 +90,7 @@ Choice detail_of(MadePing ping, std::size_t pings, int threads) {
 
 std::shared_ptr<MadePing> make(MadePing ping, int threads) {
   const PingSimulator simulator = settle(ping, threads);
-  ping.made = simulator.ping(*surfels_of(ping, simulator), ping.event);
+  ping.made = simulator.ping(*surfels_of(ping, simulator), ping.setup.event);
   return std::make_shared<MadePing>(std::move(ping));
 }
 
@@ -110,30 +109,26 @@ Scene::Scene(MovingScene of, LoadReport report, SceneOptions how)
       options(std::move(how)) {}
 
 std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator) {
-  const auto draw = static_cast<std::uint64_t>(ping.options.draw);
+  const auto draw = static_cast<std::uint64_t>(ping.setup.run.placement.draw);
   if (ping.arrangement) return ping.edited->scene_of(ping.arrangement);
-  if (ping.scene->moving) return ping.scene->moving->at({ping.event.time, draw});
+  if (ping.scene->moving) return ping.scene->moving->at({ping.setup.event.time, draw});
   if (!ping.scene->loaded->mesh) return ping.scene->prepared;
   const LoadedScene& loaded = *ping.scene->loaded;
   MeshSample sample =
-      mesh_sample_for(*loaded.mesh, loaded.scene.size(), ping.options.memory_limit, simulator, ping.event);
+      mesh_sample_for(*loaded.mesh, loaded.scene.size(), ping.setup.run.memory_limit, simulator, ping.setup.event);
   if (!sample.scene) return ping.scene->prepared;
   return std::make_shared<const PreparedScene>(std::move(*sample.scene), simulator.options().threads);
 }
 
-Simulator::Simulator(const Sonar& of, const Environment& environment, const py::kwargs& keys)
-    : sonar(of), head(set_up_head(of.file, of.spec, environment)) {
-  set_keywords(keywords(options), keys, "PingSimulator");
+Simulator::Simulator(const Sonar& of, const Environment& environment, const py::kwargs& keys) : sonar(of) {
+  Run run;
+  set_keywords(keywords(run), keys, "PingSimulator");
   for (const auto& [name, value] : keys)
     if (!value.is_none()) given.emplace_back(py::cast<std::string>(name), value_of(value, "PingSimulator"));
-  options.run.sonar = sonar.file.path;
-  options.mount = mounting_text(sonar.file);
-  simulation = asked_simulation(options.common, options);
-  for (const std::string& stage : options.with) force_stage(stage, true, {}, head.environment, simulation);
-  for (const std::string& stage : options.without) force_stage(stage, false, {}, head.environment, simulation);
-  require_valid_settings(options, simulation, NamedBy::keyword);
-  require_depths_known(head.environment, "environment");
-  simulator.emplace(head.head, head.environment, simulation);
+  run.head.sonar = sonar.file.path;
+  run.placement.mount = given_mounting(sonar.file);
+  setup = set_up(set_up_head(of.file, of.spec, environment), run, {}, NamedBy::keyword);
+  simulator.emplace(setup.simulator());
 }
 
 py::object io(const char* function) { return py::module_::import("insonify._insonify_io").attr(function); }
@@ -159,7 +154,7 @@ py::list plan(const By& by, const Of& scene, const py::object& position, double 
   MadePing ping = asked_at(asked(by, scene, keys, "plan"), position, yaw, pitch, roll);
   py::list stages;
   const PingSimulator simulator = settle(ping, 0);
-  for (const PlannedStage& s : simulator.plan(*surfels_of(ping, simulator), ping.event).stages) {
+  for (const PlannedStage& s : simulator.plan(*surfels_of(ping, simulator), ping.setup.event).stages) {
     using namespace py::literals;
     stages.append(py::dict("name"_a = s.name, "included"_a = s.included, "why"_a = s.why, "bound_db"_a = s.bound_db));
   }
@@ -179,17 +174,18 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
   }
   if (const py::object given = for_each_pose(keys, "draw"))
     draw = whole_numbers<int>(given, "pings: draw", numbers.shape(0), 1e9);
-  const std::vector<std::string> velocity = vectors_for_each_pose(keys, "velocity", numbers.shape(0)),
-                                 turn_rate = vectors_for_each_pose(keys, "turn_rate", numbers.shape(0));
+  const std::vector<Eigen::Vector3d> velocity = vectors_for_each_pose(keys, "velocity", numbers.shape(0)),
+                                     turn_rate = vectors_for_each_pose(keys, "turn_rate", numbers.shape(0));
   const MadePing each = asked(by, scene, keys, "pings");
   const auto asked_for = [each, pose, time, draw, velocity, turn_rate](std::size_t i) {
     MadePing ping = each;
-    std::copy_n(&pose[6 * i], 6, ping.pose.begin());
-    ping.options.ping = static_cast<int>(i);
-    if (!time.empty()) ping.options.time = time[i];
-    if (!draw.empty()) ping.options.draw = draw[i];
-    if (!velocity.empty()) ping.options.velocity = velocity[i];
-    if (!turn_rate.empty()) ping.options.turn_rate = turn_rate[i];
+    Placement& at = ping.setup.run.placement;
+    std::copy_n(&pose[6 * i], 6, at.pose.emplace().begin());
+    at.number = static_cast<int>(i);
+    if (!time.empty()) at.time = time[i];
+    if (!draw.empty()) at.draw = draw[i];
+    if (!velocity.empty()) at.velocity = velocity[i];
+    if (!turn_rate.empty()) at.turn_rate = turn_rate[i];
     return ping;
   };
   // The first thread that makes a ping decides by the middle one; the others wait.
@@ -199,7 +195,7 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
     MadePing ping = asked_for(i);
     std::call_once(decided->once, [&] { decided->detail = detail_of(asked_for(count / 2), count, threads); });
     ping.detail = decided->detail;
-    record_detail(ping.by->simulation.sampling.detail, decided->detail, ping.options);
+    record_detail(ping.by->setup.simulation.sampling.detail, decided->detail, ping.setup.run);
     return make(std::move(ping), 1);
   });
 }

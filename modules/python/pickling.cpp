@@ -86,8 +86,8 @@ void pass_sonar(Archive& archive, Sonar& sonar) {
 /// Calls archive(state) for what a ping has without its scene.
 void pass_ping(Archive& archive, MadePing& ping) {
   PingOutputs& outputs = ping.made.outputs;
-  archive(ping.event, ping.simulation.seed, ping.pose, ping.made.ping, ping.made.soundings, outputs.contributors,
-          outputs.elements, ping.noted, ping.copied.most);
+  archive(ping.setup.event, ping.setup.simulation.seed, ping.setup.run.placement.pose, ping.made.ping,
+          ping.made.soundings, outputs.contributors, outputs.elements, ping.noted, ping.copied.most);
 }
 
 /// Returns the instances among those of a scene that the pixels of a ping show.
@@ -127,7 +127,7 @@ auto unpickled(const py::bytes& bytes, const Pass& pass) {
 
 std::shared_ptr<MadePing> ping_of(const By& by, const py::bytes& bytes) {
   return unpickled(bytes, [&](Archive& archive) {
-    auto ping = std::make_shared<MadePing>(MadePing{by, nullptr, by->options});
+    auto ping = std::make_shared<MadePing>(MadePing{by, nullptr, by->setup});
     pass_ping(archive, *ping);
     std::vector<std::array<std::uint32_t, 2>> shown;
     archive(shown);
@@ -157,7 +157,7 @@ void add_pickling(py::class_<Simulator, std::shared_ptr<Simulator>>& simulator) 
       [](const Simulator& of) {
         py::dict keys;
         for (const auto& [name, value] : of.given) keys[name.c_str()] = object_of(value);
-        return py::make_tuple(of.sonar, of.head.environment, keys);
+        return py::make_tuple(of.sonar, of.setup.environment, keys);
       },
       [](const py::tuple& state) {
         return std::make_shared<Simulator>(py::cast<const Sonar&>(state[0]), py::cast<const Environment&>(state[1]),

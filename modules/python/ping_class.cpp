@@ -126,10 +126,10 @@ void add_ping(py::module_& m) {
       "bin, true_elevation [rad], true_surfel, true_material",
       [](const MadePing& p) { return array_of(p.made.soundings); });
   add_property(type, "world_from_head", "float64 (4, 4) [m]; head axes are x forward, y to port, z up",
-               [](const MadePing& p) { return p.event.world_from_head.matrix(); });
-  add_property(type, "number", "int", [](const MadePing& p) { return p.event.number; });
-  add_property(type, "time", "float [s], of transmission", [](const MadePing& p) { return p.event.time; });
-  add_property(type, "seed", "int, of all random numbers", [](const MadePing& p) { return p.simulation.seed; });
+               [](const MadePing& p) { return p.setup.event.world_from_head.matrix(); });
+  add_property(type, "number", "int", [](const MadePing& p) { return p.setup.event.number; });
+  add_property(type, "time", "float [s], of transmission", [](const MadePing& p) { return p.setup.event.time; });
+  add_property(type, "seed", "int, of all random numbers", [](const MadePing& p) { return p.setup.simulation.seed; });
   add_property(type, "sound_speed", "float [m/s], at the head",
                [](const MadePing& p) { return p.made.ping.sound_speed; });
   add_property(type, "notes", "list of str: what the tool notes on the same ping: limits of its accuracy, silence",

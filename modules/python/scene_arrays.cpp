@@ -77,14 +77,14 @@ std::vector<std::string> names_of_materials(const py::object& material, py::ssiz
 /// Sets the labels by names of materials: those of the table, which is that of insonify unless `how` names another.
 void take_names(const std::vector<std::string>& names, SceneOptions how, PointArrays& arrays) {
   how.material = names.front();
-  arrays.options = load_options({}, how);
+  arrays.options = load_options(how);
   arrays.options.material.reset();
   const std::vector<Material>& table = arrays.options.materials;
   for (const std::string& name : names) {
     auto found = std::ranges::find(table, name, &Material::name);
     if (found == table.end()) {
       how.material = name;
-      load_options({}, how);  // names what is near
+      load_options(how);  // names what is near
       fail(ErrorKind::argument, "Scene: material '", name, "' is unknown");
     }
     arrays.label.push_back(static_cast<std::uint16_t>(found - table.begin()));
@@ -113,7 +113,7 @@ std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const GivenArra
     for (const auto of : whole_numbers<std::uint32_t>(given.instance, "Scene: instance", n, 4294967294.0))
       objects.emplace_back(static_cast<std::uint32_t>(objects.size()), of);
   if (names.empty())
-    arrays.options = load_options({}, how);
+    arrays.options = load_options(how);
   else
     take_names(names, how, arrays);
   if (arrays.normal.empty() || arrays.area.empty() || !arrays.triangle.empty())

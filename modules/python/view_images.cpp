@@ -215,7 +215,7 @@ py::dict view_of_ping(const MadePing& made, bool fan, int width, int height, dou
 /// Returns the display cells that views of a simulator need: rows of polar images, or half a pixel of a fan.
 int cells_of_view(const Simulator& by, bool fan, int width, int height) {
   if (!fan) return height;
-  const SonarHead& head = by.head.head;
+  const SonarHead& head = by.setup.head;
   BeamFan row = head.fan;
   const std::vector<FanRow> rows = fan_rows(head.fan);
   const std::vector<std::size_t>& beams = rows[rows.size() / 2].beams;
@@ -228,7 +228,7 @@ int cells_of_view(const Simulator& by, bool fan, int width, int height) {
 
 /// Returns the number of beams of the images of a simulator.
 std::size_t beams_of_view(const Simulator& by) {
-  const std::vector<FanRow> rows = fan_rows(by.head.head.fan);
+  const std::vector<FanRow> rows = fan_rows(by.setup.head.fan);
   return rows[rows.size() / 2].beams.size();
 }
 

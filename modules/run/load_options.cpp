@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "run/parse_values.hpp"
 #include "run/ping_setup.hpp"
 #include "store/material_library.hpp"
 #include "store/materials_file.hpp"
@@ -31,19 +30,19 @@ std::uint16_t material_index(std::vector<Material>& materials, const std::string
 
 }  // namespace
 
-LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene) {
+LoadOptions load_options(const SceneOptions& scene, std::uint64_t seed, int threads) {
   LoadOptions options;
-  options.seed = common.seed;
-  options.threads = common.threads;
+  options.seed = seed;
+  options.threads = threads;
   options.meaning = parse_meaning(scene.meaning);
   options.mesh_spacing = scene.mesh_spacing;
-  if (!scene.scan_noise.empty()) options.scan_noise = parse_numbers("--scan-noise", scene.scan_noise, 1, "metres")[0];
+  options.scan_noise = scene.scan_noise;
   for (const auto& [option, value] :
        {std::pair("--mesh-spacing", options.mesh_spacing), std::pair("--scan-noise", options.scan_noise.value_or(0))})
     if (!(value >= 0 && std::isfinite(value)))
       fail(ErrorKind::argument, option, " = ", value, " m, must be 0 or more, and finite");
   options.keep_strays = scene.keep_strays;
-  if (!scene.viewpoint.empty()) options.viewpoint = parse_vector("--viewpoint", scene.viewpoint, "x,y,z in metres");
+  options.viewpoint = scene.viewpoint;
   if (!scene.materials_file.empty() || !scene.material.empty()) {
     const MaterialTable table = load_materials(path_of_materials(scene.materials_file));
     options.materials = materials_by_label(table);

@@ -51,14 +51,18 @@ Eigen::Vector3d parse_vector(const std::string& option, const std::string& text,
   return {v[0], v[1], v[2]};
 }
 
-Pose parse_pose(const std::string& text, const std::string& world, const char* option) {
-  const auto v = parse_numbers(
-      option, text, 6, printed("x,y,z,yaw,pitch,roll in metres and degrees, e.g. %s=0,0,-3,0,10,0", option).c_str());
-  const auto pose = world == "ned" ? pose_from_ned : pose_from_yaw_pitch_roll;
+Pose pose_of(const GivenPose& v, WorldAxes world) {
+  const auto pose = world == WorldAxes::ned ? pose_from_ned : pose_from_yaw_pitch_roll;
   return pose({v[0], v[1], v[2]}, radians(v[3]), radians(v[4]), radians(v[5]));
 }
 
-std::pair<double, double> parse_range(const std::string& text) {
+Pose parse_pose(const std::string& text, const std::string& world, const char* option) {
+  const auto v = parse_numbers(
+      option, text, 6, printed("x,y,z,yaw,pitch,roll in metres and degrees, e.g. %s=0,0,-3,0,10,0", option).c_str());
+  return pose_of({v[0], v[1], v[2], v[3], v[4], v[5]}, *find_named(world_words, world));
+}
+
+std::array<double, 2> parse_range(const std::string& text) {
   const std::vector<std::string> parts = split(text, ':');
   const auto min = as_number(parts[0]), max = as_number(parts.back());
   if (parts.size() != 2 || !min || !max)

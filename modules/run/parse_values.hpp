@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "acoustics/direct_echoes.hpp"
 #include "core/error.hpp"
 #include "core/pose.hpp"
 #include "core/text.hpp"
-#include "sampling/find_scatterers.hpp"
+#include "run/options.hpp"
 
 /// Words of options and what they mean, and parsers of other values. All throw Error(argument) that names option, value
 /// and rule, with an example.
 namespace insonify {
 
-/// The word for the plan's choice among engines, whose words are those of `engines`.
-constexpr const char* planned_word = "planned";
-constexpr Named<SamplingKind> sampling_words[] = {{"surfels", SamplingKind::surfels}, {"rays", SamplingKind::rays}};
-constexpr Named<SurfaceAmplitude> amplitude_words[] = {{"speckle", SurfaceAmplitude::complex_normal},
-                                                       {"random-phase", SurfaceAmplitude::random_phase},
-                                                       {"coherent", SurfaceAmplitude::coherent}};
+constexpr Named<WorldAxes> world_words[] = {{"z-up", WorldAxes::z_up}, {"ned", WorldAxes::ned}};
 
 /// The words of such a table, for OptionRules.
 template <typename Table>
@@ -36,12 +31,14 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
 /// "x,y,z" to a vector; `meaning` as in parse_numbers.
 Eigen::Vector3d parse_vector(const std::string& option, const std::string& text, const char* meaning);
 
-/// "x,y,z,yaw,pitch,roll" in metres and degrees; world "z-up" (pitch positive nose down) or "ned" (z down, pitch
-/// positive nose up, yaw clockwise).
+/// Returns the pose that is given in numbers.
+Pose pose_of(const GivenPose& given, WorldAxes world = WorldAxes::z_up);
+
+/// "x,y,z,yaw,pitch,roll" in metres and degrees; `world` is a word of world_words.
 Pose parse_pose(const std::string& text, const std::string& world, const char* option = "--pose");
 
 /// "min:max" in metres, 0 < min < max.
-std::pair<double, double> parse_range(const std::string& text);
+std::array<double, 2> parse_range(const std::string& text);
 
 /// "1400x1050" pixels.
 std::pair<int, int> parse_size(const std::string& text);

@@ -16,6 +16,7 @@
 #include "simulate/resolve_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
+#include "store/key_table.hpp"
 #include "store/toml_tree.hpp"
 #include "survey/mission.hpp"
 
@@ -28,13 +29,6 @@ struct Track {
   Motion motion;
 };
 
-/// Refuses multipath without any boundary.
-void require_boundaries(const PingOptions& o, const Environment& environment) {
-  if (o.multipath && !environment.surface && !environment.bottom)
-    fail(ErrorKind::argument, "--multipath: the environment has neither surface nor bottom; give their heights, e.g. ",
-         "--set surface.height_m=0");
-}
-
 /// A sentence with the remedy if the range ends beyond that of the sonar's file.
 std::string beyond_sonar_note(const SonarSpec& spec, const SonarFile& device) {
   const double most = device.spec.max_range;
@@ -46,33 +40,32 @@ std::string beyond_sonar_note(const SonarSpec& spec, const SonarFile& device) {
 }
 
 /// Refuses a time that is no number.
-void require_time(const PingOptions& o) {
-  if (!std::isfinite(o.time)) fail(ErrorKind::argument, "--time = ", o.time, " s, must be finite");
+void require_time(const Placement& p) {
+  if (!std::isfinite(p.time)) fail(ErrorKind::argument, "--time = ", p.time, " s, must be finite");
 }
 
 /// The motion that --velocity and --turn-rate ask for.
-Motion asked_motion(const PingOptions& o) {
-  Motion motion;
-  if (!o.velocity.empty()) motion.velocity = parse_vector("--velocity", o.velocity, "vx,vy,vz in m/s");
-  if (!o.turn_rate.empty()) motion.turn_rate = parse_vector("--turn-rate", o.turn_rate, "x,y,z in deg/s") * radians(1);
-  return motion;
+Motion asked_motion(const Placement& p) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  return {p.velocity.value_or(none), p.turn_rate.value_or(none) * radians(1)};
 }
 
-Track track_of(const PingOptions& o) {
-  require_time(o);
-  if (o.pose.empty() == o.trajectory.empty())
+Track track_of(const Placement& p) {
+  require_time(p);
+  if (p.pose.has_value() != p.trajectory.empty())
     fail(ErrorKind::argument, "give either --pose or --trajectory, e.g. --pose=0,0,-3,0,10,0");
-  if (o.trajectory.empty()) return {parse_pose(o.pose, o.world), asked_motion(o)};
-  if (o.world != "z-up") fail(ErrorKind::argument, "--world ", o.world, ": trajectories are z-up; leave --world out");
-  if (!o.velocity.empty() || !o.turn_rate.empty())
+  if (p.pose) return {pose_of(*p.pose, p.world), asked_motion(p)};
+  if (p.world != WorldAxes::z_up)
+    fail(ErrorKind::argument, "--world ", name_of(world_words, p.world), ": trajectories are z-up; leave --world out");
+  if (p.velocity || p.turn_rate)
     fail(ErrorKind::argument, "--velocity and --turn-rate follow from --trajectory; leave them out");
-  const Trajectory trajectory = load_trajectory(o.trajectory);
-  return {pose_at(trajectory, o.time), motion_at(trajectory, o.time)};
+  const Trajectory trajectory = load_trajectory(p.trajectory);
+  return {pose_at(trajectory, p.time), motion_at(trajectory, p.time)};
 }
 
 /// Refuses velocities for which the echoes of a moving head are not computed.
-void require_slow(const PingOptions& o, const Motion& motion, double sound_speed) {
-  if (!o.velocity.empty() && !(motion.velocity.norm() < sound_speed / 100))
+void require_slow(const Placement& p, const Motion& motion, double sound_speed) {
+  if (p.velocity && !(motion.velocity.norm() < sound_speed / 100))
     fail(ErrorKind::argument, "--velocity = ", motion.velocity.norm(), " m/s, must be below ", sound_speed / 100,
          " m/s, a hundredth of the sound speed");
 }
@@ -82,32 +75,31 @@ void require_slow(const PingOptions& o, const Motion& motion, double sound_speed
 namespace {
 
 /// Where and when the head of a vehicle on its track pings.
-PingEvent event_on(const Track& track, const PingOptions& o) {
-  const bool mounted = !o.mount.empty();
-  const Pose mount = mounted ? parse_pose(o.mount, "z-up", "--mount") : Pose::Identity();
+PingEvent event_on(const Track& track, const Placement& p) {
+  const Pose mount = p.mount ? pose_of(*p.mount) : Pose::Identity();
   PingEvent event;
-  event.world_from_head = mounted ? track.pose * mount : track.pose;
+  event.world_from_head = p.mount ? track.pose * mount : track.pose;
   Motion& motion = event.motion;
   motion = track.motion;
   // A head away from the vehicle's centre moves as the vehicle turns.
-  if (mounted) motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
-  event.time = o.time;
-  event.number = o.ping >= 0 ? o.ping : std::llround(1000 * o.time);
+  if (p.mount) motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(track.pose.linear() * mount.translation()));
+  event.time = p.time;
+  event.number = p.number >= 0 ? p.number : std::llround(1000 * p.time);
   return event;
 }
 
 }  // namespace
 
-PingEvent asked_event(const PingOptions& o) { return event_on(track_of(o), o); }
+PingEvent asked_event(const Placement& p) { return event_on(track_of(p), p); }
 
-PingEvent asked_event(const PingOptions& o, const Pose& vehicle) {
-  require_time(o);
-  return event_on({vehicle, asked_motion(o)}, o);
+PingEvent asked_event(const Placement& p, const Pose& vehicle) {
+  require_time(p);
+  return event_on({vehicle, asked_motion(p)}, p);
 }
 
-std::string number_note(const PingEvent& event, const PingOptions& o) {
+std::string number_note(const PingEvent& event, const Placement& p) {
   constexpr double rounding = 1e-6;  // [ms], of times in seconds
-  if (o.ping >= 0 || std::abs(1000 * event.time - static_cast<double>(event.number)) < rounding) return {};
+  if (p.number >= 0 || std::abs(1000 * event.time - static_cast<double>(event.number)) < rounding) return {};
   return fmt::format(
       "the ping has number {}, its time in whole milliseconds: any other ping within this millisecond has the same "
       "noise, waves and water; --ping gives another number",
@@ -117,52 +109,54 @@ std::string number_note(const PingEvent& event, const PingOptions& o) {
 namespace {
 
 /// Notes on the trajectory of a ping, and on a time in one of its gaps.
-std::vector<std::string> notes_on_track(const PingOptions& o) {
-  std::vector<std::string> notes = trajectory_notes(o.trajectory);
-  const Trajectory trajectory = load_trajectory(o.trajectory);
-  if (const auto gap = gap_at(trajectory, o.time, gap_of(trajectory)))
+std::vector<std::string> notes_on_track(const Placement& p) {
+  std::vector<std::string> notes = trajectory_notes(p.trajectory);
+  const Trajectory trajectory = load_trajectory(p.trajectory);
+  if (const auto gap = gap_at(trajectory, p.time, gap_of(trajectory)))
     notes.push_back(fmt::format(
         "{} has no entry between {:g} and {:g} s: the pose at {:g} s is that of a straight line between them",
-        o.trajectory, gap->from, gap->to, o.time));
+        p.trajectory, gap->from, gap->to, p.time));
   return notes;
-}
-
-/// Checks head and options of a ping at an event.
-PingSetup set_up(const PingOptions& o, const PingEvent& event, HeadSetup head) {
-  PingSetup setup{event, std::move(head), {}};
-  setup.simulation = asked_simulation(o.common, o);
-  if (!o.trajectory.empty())
-    for (const std::string& note : notes_on_track(o)) setup.head.notes.push_back(note);
-  if (std::string note = number_note(event, o); !note.empty()) setup.head.notes.push_back(std::move(note));
-  const auto force = [&](const char* option, const std::string& stage, bool included) {
-    in_words_of(fmt::format("{} {}", option, stage),
-                [&] { force_stage(stage, included, event, setup.head.environment, setup.simulation); });
-  };
-  for (const std::string& stage : o.with) force("--with", stage, true);
-  for (const std::string& stage : o.without) force("--without", stage, false);
-  require_boundaries(o, setup.head.environment);
-  require_depths_known(setup.head.environment, "environment");
-  require_valid_settings(o, setup.simulation);
-  require_slow(o, event.motion, setup.head.medium.sound_speed);
-  require_valid(event, "PingSimulator");
-  return setup;
 }
 
 }  // namespace
 
-std::string mounting_text(const SonarFile& sonar) {
-  if (sonar.mounting.isZero()) return "";
-  const Eigen::Vector3d angles = sonar.mounting * degrees(1);
-  return fmt::format("0,0,0,{:.10g},{:.10g},{:.10g}", angles.x(), angles.y(), angles.z());
+PingSetup set_up(PingSetup head, const Run& run, const PingEvent& event, NamedBy by) {
+  PingSetup setup = std::move(head);
+  setup.run = run, setup.event = event, setup.simulation = asked_simulation(run);
+  if (!run.placement.trajectory.empty())
+    for (const std::string& note : notes_on_track(run.placement)) setup.notes.push_back(note);
+  if (std::string note = number_note(event, run.placement); !note.empty()) setup.notes.push_back(std::move(note));
+  const char* dashes = by == NamedBy::option ? "--" : "";
+  const auto force = [&](const char* name, const std::string& stage, bool included) {
+    in_words_of(fmt::format("{}{} {}", dashes, name, stage),
+                [&] { force_stage(stage, included, event, setup.environment, setup.simulation); });
+  };
+  for (const std::string& stage : run.with) force("with", stage, true);
+  for (const std::string& stage : run.without) force("without", stage, false);
+  if (run.simulation.effects.multipath == Choice::always && !setup.environment.surface && !setup.environment.bottom)
+    fail(ErrorKind::argument, dashes, "multipath: the environment has neither surface nor bottom; give their heights, ",
+         "e.g. --set surface.height_m=0");
+  require_depths_known(setup.environment, "environment");
+  require_valid_settings(run, setup.simulation, by);
+  require_slow(run.placement, event.motion, setup.medium.sound_speed);
+  require_valid(event, "PingSimulator");
+  return setup;
 }
 
-PingSetup set_up_ping(const PingOptions& o) {
-  const PingEvent event = asked_event(o);
-  return set_up(o, event, set_up_head(o.common, o.run, event.world_from_head.translation().z()));
+std::optional<GivenPose> given_mounting(const SonarFile& sonar) {
+  if (sonar.mounting.isZero()) return std::nullopt;
+  const Eigen::Vector3d angles = sonar.mounting.unaryExpr(&shortest_degrees);
+  return GivenPose{0, 0, 0, angles.x(), angles.y(), angles.z()};
 }
 
-PingSetup set_up_any_ping(const PingOptions& o, std::optional<double> water_level) {
-  return set_up(o, {}, set_up_head(o.common, o.run, std::nullopt, water_level));
+PingSetup set_up_ping(const Run& run) {
+  const PingEvent event = asked_event(run.placement);
+  return set_up(set_up_head(run.head, event.world_from_head.translation().z()), run, event);
+}
+
+PingSetup set_up_any_ping(const Run& run, std::optional<double> water_level) {
+  return set_up(set_up_head(run.head, std::nullopt, water_level), run);
 }
 
 std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose) {
@@ -188,15 +182,14 @@ void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate
          " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
 }
 
-HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::optional<double> head_height,
-                      std::optional<double> water_level) {
-  const SonarFile file = find_sonar(run.sonar);
+PingSetup set_up_head(const HeadOptions& o, std::optional<double> head_height, std::optional<double> water_level) {
+  const SonarFile file = find_sonar(o.sonar);
   SonarSpec spec = file.spec;
   Environment environment;
-  if (!run.environment.empty()) environment = load_environment(run.environment);
-  if (!run.profile.empty()) environment.profile = load_sound_speed_profile(run.profile);
+  if (!o.environment.empty()) environment = load_environment(o.environment);
+  if (!o.profile.empty()) environment.profile = load_sound_speed_profile(o.profile);
   bool sets_range = false;
-  for (const std::string& text : common.settings) {
+  for (const std::string& text : o.settings) {
     const Setting setting = parse_setting(text);
     sets_range |= setting.section == "sonar" && setting.key == "max_range_m";
     if (setting.section == "sonar")
@@ -205,15 +198,15 @@ HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run, std::o
       set_environment_value(environment, setting.section, setting.key, setting.value);
   }
   if (water_level) environment.water_level = water_level;
-  if (!run.range.empty()) std::tie(spec.min_range, spec.max_range) = parse_range(run.range);
-  HeadSetup setup = set_up_head(file, spec, std::move(environment), head_height);
-  setup.range_is_own = run.range.empty() && !sets_range && !file.of_run;
+  if (o.range) spec.min_range = (*o.range)[0], spec.max_range = (*o.range)[1];
+  PingSetup setup = set_up_head(file, spec, std::move(environment), head_height);
+  setup.range_is_own = !o.range && !sets_range && !file.of_run;
   return setup;
 }
 
-HeadSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment environment,
+PingSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment environment,
                       std::optional<double> head_height) {
-  HeadSetup setup;
+  PingSetup setup;
   setup.spec = spec;
   if (!file.of_run) setup.farthest = file.spec.max_range;
   setup.environment = std::move(environment);
@@ -239,9 +232,9 @@ SceneOptions scene_of_run(const std::string& run) {
 std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads) {
   const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
   if (!path_exists(settings) || !load_toml(settings.string()).find("sonar")) return std::nullopt;
-  RunOptions options;
+  HeadOptions options;
   options.sonar = options.environment = settings.string();
-  const HeadSetup setup = set_up_head({}, options);
+  const PingSetup setup = set_up_head(options);
   Pose somewhere = Pose::Identity();
   const Environment& e = setup.environment;
   if (const auto surface = surface_height(e))

@@ -17,35 +17,40 @@
 
 namespace insonify {
 
-/// Sonar and environment of a run. The head does not depend on where it pings: its bins are fine enough for the slowest
-/// sound of the water.
-struct HeadSetup {
-  SonarSpec spec;
-  SonarHead head;
-  Environment environment;
-  Medium medium;                   ///< medium of the water as given; PingReport::medium is that at the head's depth
-  Pose mount = Pose::Identity();   ///< mounting on a vehicle, as the sonar's file says
-  std::vector<std::string> notes;  ///< inputs outside the validity of the formulas
-  bool range_is_own = false;       ///< true: the sonar's range, neither options nor a run say another
+/// Everything that a ping needs except the scene, or pings of a head with poses of their own. The head does not depend
+/// on where it pings: its bins are fine enough for the slowest sound of the water.
+struct PingSetup {
+  Run run{};                       ///< run that was asked for, with decisions that its run.toml records
+  PingEvent event{};               ///< place and time of the ping, if it is of one
+  SimulationOptions simulation{};  ///< asked_simulation, with stages forced in or out
+  SonarSpec spec{};
+  SonarHead head{};
+  Environment environment{};
+  Medium medium{};                   ///< medium of the water as given; PingReport::medium is that at the head's depth
+  Pose mount = Pose::Identity();     ///< mounting on a vehicle, as the sonar's file says
+  std::vector<std::string> notes{};  ///< inputs outside the validity of the formulas
+  bool range_is_own = false;         ///< true: the sonar's range, neither options nor a run say another
   double farthest = std::numeric_limits<double>::infinity();  ///< greatest range of the sonar's file [m]; inf: a run's
-  std::vector<SonarNumber> doubtful;  ///< numbers of the sonar that are assumed or unknown, for the manifest
+  std::vector<SonarNumber> doubtful{};  ///< numbers of the sonar that are assumed or unknown, for the manifest
+
+  /// Returns the simulator of the head with these options.
+  PingSimulator simulator() const { return {head, environment, simulation}; }
 };
 /// Returns sonar and environment: presets or files, then --set, then --range. Throws Error(argument) for what
 /// environment_at refuses of a head at `head_height` [m], if that is given. `water_level` [m]: replaces that of the
 /// environment.
-HeadSetup set_up_head(const CommonOptions& common, const RunOptions& run,
-                      std::optional<double> head_height = std::nullopt,
+PingSetup set_up_head(const HeadOptions& options, std::optional<double> head_height = std::nullopt,
                       std::optional<double> water_level = std::nullopt);
 /// Returns the setup of a sonar and an environment that are read already: `spec` is that of the file, changed perhaps.
-HeadSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment environment,
+PingSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment environment,
                       std::optional<double> head_height = std::nullopt);
 
-/// The mounting that the file of a sonar names, as --mount takes it; empty if it is none.
-std::string mounting_text(const SonarFile& sonar);
+/// The mounting that the file of a sonar names; absent if it names none.
+std::optional<GivenPose> given_mounting(const SonarFile& sonar);
 
 /// Options of loading a scene. Materials come from --materials, else, with --material, from the table that is part of
 /// insonify.
-LoadOptions load_options(const CommonOptions& common, const SceneOptions& scene);
+LoadOptions load_options(const SceneOptions& scene, std::uint64_t seed = 1, int threads = 0);
 
 /// One sentence per thing that was dropped, repaired or assumed on loading.
 std::vector<std::string> loading_notes(const LoadReport& report);
@@ -58,30 +63,22 @@ SceneOptions scene_of_run(const std::string& run);
 /// run.toml that has the sonar.
 std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads);
 
-/// Everything that a ping needs except the scene.
-struct PingSetup {
-  PingEvent event;
-  HeadSetup head;
-  SimulationOptions simulation;
-
-  /// Returns the simulator of the head with these options.
-  PingSimulator simulator() const { return {head.head, head.environment, simulation}; }
-};
-
-/// Returns where and when the head of the options pings, and how it moves; Error(argument) names the option.
-PingEvent asked_event(const PingOptions& options);
-/// Returns the event of a vehicle at a pose that is not that of the options.
-PingEvent asked_event(const PingOptions& options, const Pose& vehicle);
+/// Returns where and when the head pings, and how it moves; Error(argument) names the option.
+PingEvent asked_event(const Placement& placement);
+/// Returns the event of a vehicle at a pose that is not the one given.
+PingEvent asked_event(const Placement& placement, const Pose& vehicle);
 
 /// Returns a sentence if the number of a ping is its time in milliseconds and the time lies between two: other pings
 /// within the millisecond have its noise. Empty otherwise.
-std::string number_note(const PingEvent& event, const PingOptions& options);
+std::string number_note(const PingEvent& event, const Placement& placement);
 
+/// Completes the setup of a head by the run that it pings for, and checks all options; Error(argument) names them.
+PingSetup set_up(PingSetup head, const Run& run, const PingEvent& event = {}, NamedBy by = NamedBy::option);
 /// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
 /// read.
-PingSetup set_up_ping(const PingOptions& options);
-/// Sets up pings that have poses and motion of their own, not the options'. `water_level` as for set_up_head.
-PingSetup set_up_any_ping(const PingOptions& options, std::optional<double> water_level = std::nullopt);
+PingSetup set_up_ping(const Run& run);
+/// Sets up pings that have poses and motion of their own. `water_level` as for set_up_head.
+PingSetup set_up_any_ping(const Run& run, std::optional<double> water_level = std::nullopt);
 
 /// Places of about 10 000 surfels in head axes [m].
 std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose);

@@ -19,8 +19,7 @@ struct RunSetting {
   OptionValue value;    ///< never a function
   std::string help;
   OptionRules rules = {};
-  bool is_path = false;     ///< relative to the current folder, or to the folder of run.toml
-  const char* member = "";  ///< what SimulationOptions call it, where that is not `key`
+  bool is_path = false;  ///< relative to the current folder, or to the folder of run.toml
 };
 
 /// Titles under which --help lists settings.
@@ -33,21 +32,21 @@ std::vector<RunSetting> meaning_settings(MeaningText& options);
 /// Rows of [scene]: how a cloud is read and completed.
 std::vector<RunSetting> scene_settings(SceneOptions& options);
 /// Rows of the top level: the synthesis.
-std::vector<RunSetting> synthesis_settings(RunOptions& options);
+std::vector<RunSetting> synthesis_settings(SynthesisSettings& settings);
 /// Rows of [ping].
-std::vector<RunSetting> ping_settings(PingOptions& options);
+std::vector<RunSetting> ping_settings(Run& run);
 /// Rows of what stays the same from ping to ping: seed, synthesis, and those of [ping] but for pose, motion and time.
-std::vector<RunSetting> simulator_settings(PingOptions& options);
+std::vector<RunSetting> simulator_settings(Run& run);
 /// Rows of the tables [scene] and [ping] of a mission.
-std::vector<RunSetting> mission_settings(PingOptions& options);
+std::vector<RunSetting> mission_settings(Run& run);
 /// The seed.
-RunSetting seed_setting(CommonOptions& options);
+RunSetting seed_setting(std::uint64_t& seed);
 /// The budget of what is left out: of [ping], or of another section.
 RunSetting accuracy_setting(double& accuracy_db, const char* section = "ping");
 /// The order of absorption, in the same way.
-RunSetting absorption_setting(int& order, const char* section = "ping");
+RunSetting absorption_setting(std::optional<int>& order, const char* section = "ping");
 /// All settings of a ping, in the order of run.toml.
-std::vector<RunSetting> all_settings(PingOptions& options);
+std::vector<RunSetting> all_settings(Run& run);
 
 /// The files that settings name as inputs.
 std::vector<std::string> input_files(const std::vector<RunSetting>& settings);
@@ -62,10 +61,10 @@ std::string settings_as_toml(const std::vector<RunSetting>& settings);
 /// and environment are the file itself. Relative paths in it are looked up from the current folder, then from the
 /// folder of run.toml, then from the folder above it; a path that is in none of them stays as it is. Throws
 /// Error(content) with path and line for an unknown key or a value that is not allowed, Error(file) without a file.
-PingOptions load_ping_settings(const std::string& path);
+Run load_ping_settings(const std::string& path);
 
 /// Reads [scene] and [ping] of a mission, in the same way; what the mission says elsewhere is left as it is by default.
-PingOptions load_mission_settings(const std::string& path);
+Run load_mission_settings(const std::string& path);
 
 /// Reads [scene] alone, in the same way.
 SceneOptions load_scene_settings(const std::string& path);

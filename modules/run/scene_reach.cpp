@@ -78,7 +78,7 @@ double end_of_range(double reach) {
 
 std::string range_text(double min, double max) { return fmt::format("{:g}:{:g}", min, max); }
 
-void end_range_with_scene(HeadSetup& setup, const Bounds& box, const Pose& pose) {
+void end_range_with_scene(PingSetup& setup, const Bounds& box, const Pose& pose) {
   if (!setup.range_is_own) return;
   const double reach = reach_of(box, pose.translation(), setup.environment);
   if (!(reach > setup.spec.min_range)) return;
@@ -86,7 +86,7 @@ void end_range_with_scene(HeadSetup& setup, const Bounds& box, const Pose& pose)
   setup.head = make_head(setup.spec, slowest_sound(setup.environment));
 }
 
-std::string far_range_note(const HeadSetup& setup, double reach) {
+std::string far_range_note(const PingSetup& setup, double reach) {
   const RangeGate& gate = setup.head.gate;
   constexpr double far = 2;
   if (!mirrors_of(setup.environment).empty()) return {};  // echoes by way of walls fill any range
@@ -100,7 +100,7 @@ std::string far_range_note(const HeadSetup& setup, double reach) {
       range_text(gate.min_range, end));
 }
 
-std::string shallow_profile_note(const HeadSetup& setup, const Bounds& box, const Vector3d& head) {
+std::string shallow_profile_note(const PingSetup& setup, const Bounds& box, const Vector3d& head) {
   constexpr double least_missing = 0.5, part_missing = 0.1;  // [m], of the depth
   const auto surface = surface_height(setup.environment);
   if (!setup.environment.profile || !surface || box.min.z() > box.max.z()) return {};
@@ -117,8 +117,8 @@ std::string shallow_profile_note(const HeadSetup& setup, const Bounds& box, cons
 std::vector<std::string> fit_notes(const SceneCloud& cloud, const Bounds& box, const PingSetup& setup) {
   const Vector3d head = setup.event.world_from_head.translation();
   std::vector<std::string> notes;
-  for (const std::string& note : {far_range_note(setup.head, reach_of(box, head, setup.head.environment)),
-                                  shallow_profile_note(setup.head, box, head), buried_note(cloud, head)})
+  for (const std::string& note : {far_range_note(setup, reach_of(box, head, setup.environment)),
+                                  shallow_profile_note(setup, box, head), buried_note(cloud, head)})
     if (!note.empty()) notes.push_back(note);
   return notes;
 }

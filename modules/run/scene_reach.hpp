@@ -25,13 +25,13 @@ std::string range_text(double min, double max);
 
 /// Ends the range of a head at `pose` where the scene ends, if neither the options nor a run say where: at most at the
 /// sonar's own end, which stays that of a scene within its least range.
-void end_range_with_scene(HeadSetup& setup, const Bounds& box, const Pose& pose);
+void end_range_with_scene(PingSetup& setup, const Bounds& box, const Pose& pose);
 
 /// A sentence with the remedy if the range ends far beyond the scene; empty otherwise.
-std::string far_range_note(const HeadSetup& setup, double reach);
+std::string far_range_note(const PingSetup& setup, double reach);
 
 /// A sentence with the remedy if the sound-speed profile ends above what a head at `head` hears of the scene; else empty.
-std::string shallow_profile_note(const HeadSetup& setup, const Bounds& box, const Eigen::Vector3d& head);
+std::string shallow_profile_note(const PingSetup& setup, const Bounds& box, const Eigen::Vector3d& head);
 
 /// Sentences with the remedy for a range far beyond the scene, a profile that ends above it, and a head within or behind its surface.
 std::vector<std::string> fit_notes(const SceneCloud& cloud, const Bounds& box, const PingSetup& setup);

@@ -2,6 +2,7 @@
 #include "run/survey_heads.hpp"
 
 #include "run/mission_heads.hpp"
+#include "run/parse_values.hpp"
 #include "run/run_settings.hpp"
 
 namespace insonify {
@@ -14,27 +15,23 @@ struct DroppedContributors : ContributorSink {
 
 }  // namespace
 
-SurveyHead set_up_survey_head(const CommonOptions& common, const MissionFile& file, std::size_t h) {
-  PingOptions options = load_mission_settings(file.path);
-  options.common = common;
-  options.common.seed = file.seed;
-  options.common.settings = file.sonars[h].settings;
-  options.scene.path = file.scene;
-  options.run.sonar = file.sonars[h].sonar;
-  options.run.range = file.sonars[h].range;
-  options.run.environment = file.environment;
-  options.run.profile = file.profile;
-  options.pose = "0,0,0,0,0,0";  // for run.toml, which demands one
-  SurveyHead head{options, set_up_any_ping(options, file.water.level)};
+PingSetup set_up_survey_head(const MissionFile& file, std::size_t h, int threads) {
+  const MissionSonar& sonar = file.sonars[h];
+  Run run = load_mission_settings(file.path);
+  run.simulation.seed = file.seed, run.simulation.threads = threads;
+  run.scene.path = file.scene;
+  run.head = {sonar.sonar, {}, file.environment, file.profile, sonar.settings};
+  if (!sonar.range.empty()) run.head.range = parse_range(sonar.range);
+  run.placement.pose.emplace();  // for run.toml, which demands one
+  PingSetup head = set_up_any_ping(run, file.water.level);
   static DroppedContributors labels_alone;
-  head.setup.simulation.outputs.contributor_sink = &labels_alone;
+  head.simulation.outputs.contributor_sink = &labels_alone;
   return head;
 }
 
 std::vector<PingSimulator> mission_heads(const MissionFile& file) {
   std::vector<PingSimulator> heads;
-  for (std::size_t h = 0; h < file.mission.heads.size(); ++h)
-    heads.push_back(set_up_survey_head({}, file, h).setup.simulator());
+  for (std::size_t h = 0; h < file.mission.heads.size(); ++h) heads.push_back(set_up_survey_head(file, h).simulator());
   return heads;
 }
 

@@ -5,14 +5,8 @@
 
 namespace insonify {
 
-/// A head of a mission, ready to ping at any pose.
-struct SurveyHead {
-  PingOptions options;  ///< sonar, scene and settings as for a ping; a run.toml of them has the pose of no ping
-  PingSetup setup;
-};
-
-/// Returns head `h` of a mission with the settings that its file gives for all. Throws Error(content) for these, and
-/// Error(argument) for sonar, range and environment, naming the setting.
-SurveyHead set_up_survey_head(const CommonOptions& common, const MissionFile& file, std::size_t h);
+/// Returns head `h` of a mission with the settings that its file gives for all. Its run.toml has the pose of no ping.
+/// Throws Error(content) for these settings, and Error(argument) for sonar, range and environment, naming the setting.
+PingSetup set_up_survey_head(const MissionFile& file, std::size_t h, int threads = 0);
 
 }  // namespace insonify

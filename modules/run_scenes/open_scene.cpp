@@ -29,9 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 LoadOptions loading_of_file(const SceneOptions& how, const OpenSceneOptions& o) {
-  CommonOptions common;
-  common.seed = o.draws.seed, common.threads = o.threads;
-  LoadOptions loading = load_options(common, how);
+  LoadOptions loading = load_options(how, o.draws.seed, o.threads);
   loading.keep_columns = o.keep_columns;
   return loading;
 }
@@ -171,14 +169,13 @@ std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenScene
   return std::make_shared<SceneOfFile>(scene, options);
 }
 
-std::shared_ptr<OpenScene> open_scene_of_run(const CommonOptions& common, const SceneOptions& scene,
-                                             const std::string& run) {
-  const RunDraws draws = is_scene_file(scene.path) ? draws_of_run(run) : RunDraws{common.seed, {}};
-  return open_scene(scene, {draws, common.threads});
+std::shared_ptr<OpenScene> open_scene_of_run(const SceneOptions& scene, const std::string& run, int threads,
+                                             std::uint64_t seed) {
+  return open_scene(scene, {is_scene_file(scene.path) ? draws_of_run(run) : RunDraws{seed, {}}, threads});
 }
 
-LoadedScene load_any_scene(const CommonOptions& common, const SceneOptions& scene, double time) {
-  return open_scene(scene, {{common.seed, {}}, common.threads})->take_whole({time, 0});
+LoadedScene load_any_scene(const SceneOptions& scene, int threads) {
+  return open_scene(scene, {{}, threads})->take_whole({});
 }
 
 std::shared_ptr<const SceneSource> scene_source_of(const std::string& path, std::uint64_t seed, int threads) {
@@ -188,7 +185,7 @@ std::shared_ptr<const SceneSource> scene_source_of(const std::string& path, std:
 }
 
 std::shared_ptr<const SceneSource> scene_source_of(const MissionFile& file, int threads) {
-  PingOptions pinged = load_mission_settings(file.path);
+  Run pinged = load_mission_settings(file.path);
   pinged.scene.path = file.scene;
   const RunDraws draws{file.seed, {file.randomise.scene_pings, 0}};
   return open_scene(pinged.scene, {draws, threads, pinged.memory_limit, false});

@@ -86,13 +86,13 @@ class OpenScene : public SceneSource {
 /// TiledScene and PartsScene; Error(argument) for options of loading beside a scene of parts.
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options = {});
 
-/// Opens the scene of a run, one of parts with the run's draws; `run` as of draws_of_run. Throws as open_scene and
-/// draws_of_run.
-std::shared_ptr<OpenScene> open_scene_of_run(const CommonOptions& common, const SceneOptions& scene,
-                                             const std::string& run);
+/// Opens the scene of a run, one of parts with the run's draws, another with samples by `seed`; `run` as of
+/// draws_of_run. Throws as open_scene and draws_of_run.
+std::shared_ptr<OpenScene> open_scene_of_run(const SceneOptions& scene, const std::string& run, int threads,
+                                             std::uint64_t seed = 1);
 
-/// Loads a scene of any kind whole, one of parts as it is at `time` [s]. Throws as open_scene and take_whole.
-LoadedScene load_any_scene(const CommonOptions& common, const SceneOptions& scene, double time = 0);
+/// Loads a scene of any kind whole, one of parts as it is at time 0. Throws as open_scene and take_whole.
+LoadedScene load_any_scene(const SceneOptions& scene, int threads);
 
 /// Returns the tiles of a scene that is on disk; nothing for a scene of another kind. Throws as TiledScene.
 std::optional<TiledScene> find_tiles(const std::string& path);

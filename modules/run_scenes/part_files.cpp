@@ -93,14 +93,16 @@ SceneOptions scene_options_of(const PartFile& file) {
   SceneOptions o;
   o.path = file.path, o.meaning = file.meaning;
   o.material = file.material, o.materials_file = file.materials, o.material_field = file.material_field;
-  if (const auto& v = file.viewpoint) o.viewpoint = fmt::format("{:.17g},{:.17g},{:.17g}", v->x(), v->y(), v->z());
+  o.viewpoint = file.viewpoint;
   return o;
 }
 
 const SceneBody& PartFiles::body_of(const PartFile& file, bool captured) {
   const SceneOptions o = scene_options_of(file);
-  const Settings settings = {o.path,      o.meaning, o.material,   o.materials_file, o.material_field,
-                             o.viewpoint, file.thin, file.spacing, captured};
+  std::vector<double> viewpoint;
+  if (o.viewpoint) viewpoint.assign(o.viewpoint->begin(), o.viewpoint->end());
+  const Settings settings = {o.path,    o.meaning, o.material,   o.materials_file, o.material_field,
+                             viewpoint, file.thin, file.spacing, captured};
   const auto [known, is_new] = bodies_.try_emplace(settings);
   if (is_new) known->second = read(file, captured);
   return known->second;
@@ -140,9 +142,7 @@ SceneBody PartFiles::read(const PartFile& file, bool captured) {
     return body_of_cloud(std::move(whole.scene), size, captured);
   }
   if (is_tiles(file.path)) require_no_loading_options(scene_options_of(file), "is prepared already");
-  CommonOptions common;
-  common.seed = options_.seed, common.threads = options_.threads;
-  LoadOptions loading = load_options(common, scene_options_of(file));
+  LoadOptions loading = load_options(scene_options_of(file), options_.seed, options_.threads);
   if (captured) loading.mesh_spacing = file.spacing;
   LoadedScene loaded = load_scene(file.path, loading);
   add_report(loaded.report, report_);

@@ -47,8 +47,8 @@ class PartFiles {
   SceneBody read(const PartFile& file, bool captured);
 
   /// Everything that the surfels of a file depend on: the members of its SceneOptions, thin, spacing, captured.
-  using Settings =
-      std::tuple<std::string, MeaningText, std::string, std::string, std::string, std::string, double, double, bool>;
+  using Settings = std::tuple<std::string, MeaningText, std::string, std::string, std::string, std::vector<double>,
+                              double, double, bool>;
   PartsOptions options_;
   LoadReport& report_;
   bool random_ = false;

@@ -24,8 +24,8 @@ RunDraws draws_of_run(const std::string& run) {
     return {differs.seed, {differs.spread.scene_pings, 0}};
   }
   if (!path_exists(settings)) return {};
-  const PingOptions sent = load_ping_settings(settings.string());
-  return {sent.common.seed, {0, static_cast<std::uint64_t>(sent.draw)}};
+  const Run sent = load_ping_settings(settings.string());
+  return {sent.simulation.seed, {0, static_cast<std::uint64_t>(sent.placement.draw)}};
 }
 
 namespace {

@@ -19,29 +19,30 @@ namespace {
 
 /// The options with which a head that hears nothing looks at the scene.
 std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& centre,
-                              const PingSetup& setup, bool mounted) {
+                              const PingSetup& setup) {
   const Eigen::Vector3d way = setup.event.world_from_head.linear() * centre,
                         at = setup.event.world_from_head.translation();
-  std::string remedy = mounted ? "move or turn the vehicle by --pose, or the head on it by --mount"
-                               : fmt::format("--pose={} looks at the scene",
-                                             pose_text(at, std::atan2(way.y(), way.x()),
-                                                       std::atan2(-way.z(), std::hypot(way.x(), way.y()))));
+  std::string remedy =
+      setup.run.placement.mount
+          ? "move or turn the vehicle by --pose, or the head on it by --mount"
+          : fmt::format("--pose={} looks at the scene", pose_text(at, std::atan2(way.y(), way.x()),
+                                                                  std::atan2(-way.z(), std::hypot(way.x(), way.y()))));
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
   for (const auto& p : places) nearest = std::min(nearest, p.norm()), farthest = std::max(farthest, p.norm());
-  const RangeGate& gate = setup.head.head.gate;
+  const RangeGate& gate = setup.head.gate;
   if (centre.norm() <= gate.max_range) return remedy;
   // No range beyond that of the sonar itself is proposed.
-  const double most = setup.head.farthest, end = std::min(end_of_range(farthest), most);
+  const double most = setup.farthest, end = std::min(end_of_range(farthest), most);
   if (nearest > most)
     return remedy + fmt::format("; move the head nearer too: the scene begins {:.3g} m away, {} hears to {:g} m",
-                                nearest, setup.head.spec.name, most);
+                                nearest, setup.spec.name, most);
   if (end > gate.max_range) remedy += fmt::format(", with --range {}", range_text(gate.min_range, end));
   return remedy;
 }
 
 /// States that the ping is silent, where the scene lies and what to do.
 std::string silence_note(const std::vector<Eigen::Vector3d>& places, const SamplingReport& sampling,
-                         const PingSetup& setup, bool mounted) {
+                         const PingSetup& setup) {
   if (sampling.in_gate > 0)
     return fmt::format(
         "the ping is silent: of {} surfels inside fan and range gate, {} face away from the head and {} are hidden; "
@@ -54,7 +55,7 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places, const Sampl
       "the ping is silent: no surfel is inside fan and range gate; the centre of the scene is {:.3g} m away, {:.0f} "
       "deg to {} and {:.0f} deg {} the axis of the head: {}",
       centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard", std::abs(degrees(d.elevation)),
-      d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup, mounted));
+      d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup));
 }
 
 /// JSON has no infinity: null is no bound.
@@ -113,11 +114,17 @@ ordered_json motion_json(const Motion& motion) {
   return {{"velocity_m_s", list(motion.velocity)}, {"turn_rate_deg_s", list(motion.turn_rate * degrees(1))}};
 }
 
+std::vector<std::string> notes_before(const PingSetup& setup, const LoadReport& report) {
+  std::vector<std::string> notes = setup.notes;
+  for (std::string& note : loading_notes(report)) notes.push_back(std::move(note));
+  return notes;
+}
+
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
-                                    const std::vector<Eigen::Vector3d>& places, bool mounted) {
+                                    const std::vector<Eigen::Vector3d>& places) {
   std::vector<std::string> notes;
-  for (PingNote& note : notes_of(ping, setup.head.environment, setup.head.head.gate))
-    notes.push_back(note.kind == silent_note_kind ? silence_note(places, ping.report.sampling, setup, mounted)
+  for (PingNote& note : notes_of(ping, setup.environment, setup.head.gate))
+    notes.push_back(note.kind == silent_note_kind ? silence_note(places, ping.report.sampling, setup)
                                                   : std::move(note.text));
   return notes;
 }

@@ -24,10 +24,12 @@ nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);
 /// Returns a motion in m/s and degrees a second.
 nlohmann::ordered_json motion_json(const Motion& motion);
 
-/// Notes on the result: a silent ping, refraction, multipath without any echo. `places` as from sampled_places;
-/// `mounted`: the pose of the options is that of a vehicle.
+/// Returns the notes on head, water, place and scene of a ping, before it is made.
+std::vector<std::string> notes_before(const PingSetup& setup, const LoadReport& report);
+
+/// Notes on the result: a silent ping, refraction, multipath without any echo. `places` as from sampled_places.
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
-                                    const std::vector<Eigen::Vector3d>& places, bool mounted);
+                                    const std::vector<Eigen::Vector3d>& places);
 
 /// The plan for the manifest: stages with name, included, why, bound_db, bound_relative (null: no bound), and the
 /// parameters of the synthesis.

@@ -118,6 +118,9 @@ void count_merged(const PreparedScene& scene, const ResolvedPing& ping, Sampling
 PingSimulator::PingSimulator(SonarHead head, Environment environment, SimulationOptions options)
     : PingSimulator(std::make_shared<Shared>(std::move(head), std::move(environment), std::move(options))) {}
 
+PingSimulator::PingSimulator(const SonarSpec& sonar, Environment environment, SimulationOptions options)
+    : PingSimulator(make_head(sonar, slowest_sound(environment)), environment, std::move(options)) {}
+
 PingSimulator::PingSimulator(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {
   require_valid(shared_->head, shared_->environment, shared_->options, me);
 }

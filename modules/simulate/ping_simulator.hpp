@@ -10,7 +10,7 @@
 #include "simulate/ping_plan.hpp"
 #include "simulate/simulated_ping.hpp"
 #include "simulate/simulation_options.hpp"
-#include "sonar/sonar_head.hpp"
+#include "sonar/sonar_spec.hpp"
 
 namespace insonify {
 
@@ -36,6 +36,8 @@ class PingSimulator {
  public:
   /// Throws Error(argument) for an invalid head or option, and for multipath without surface or bottom.
   PingSimulator(SonarHead head, Environment environment, SimulationOptions options = {});
+  /// Makes the head of a sonar in the water of its environment (slowest_sound). Throws as make_head, too.
+  PingSimulator(const SonarSpec& sonar, Environment environment, SimulationOptions options = {});
 
   /// Returns a simulator of the same head and environment with other options; both share tables and buffers. Throws as
   /// the constructor.

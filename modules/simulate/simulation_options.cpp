@@ -27,12 +27,12 @@ struct Checker {
   const char* group;
 
   template <typename Value>
-  void require(bool good, const char* name, Value value, const std::string& rule) const {
+  void require(bool good, const char* name, const Value& value, const std::string& rule) const {
     if (good || problem) return;
     std::ostringstream text;
     text.precision(10);
-    text << value;
-    problem = {std::string(group) + name, text.str(), rule};
+    text << std::boolalpha << value;
+    problem = {std::string(group) + name, text.str(), rule, &value};
   }
 };
 
@@ -51,7 +51,7 @@ void check(const SamplingSettings& s, std::optional<OptionProblem>& problem) {
 
 void check(const SynthesisSettings& s, bool elements, std::optional<OptionProblem>& problem) {
   const Checker check{problem, "synthesis."};
-  const double t = s.tolerance;
+  const double& t = s.tolerance;
   check.require(t > 0 && t < 1, "tolerance", t, "above 0 and below 1");
   const auto require_within = [&](double least, double most, const std::string& of) {
     check.require(t >= least && t <= most, "tolerance", t, printed("within %g and %g for ", least, most) + of);
@@ -66,7 +66,8 @@ void check(const SynthesisSettings& s, bool elements, std::optional<OptionProble
 
 void check(const EffectSettings& e, std::optional<OptionProblem>& problem) {
   const Checker check{problem, "effects."};
-  const int order = e.absorption_order.value_or(0);
+  const int none = 0;
+  const int& order = e.absorption_order ? *e.absorption_order : none;
   check.require(e.double_echoes == 0 || (e.double_echoes >= 1e-6 && e.double_echoes <= 1e4), "double_echoes",
                 e.double_echoes, "0, or within 1e-6 and 10000");
   check.require(order >= 0 && order <= 2, "absorption_order", order, "0, 1 or 2");
@@ -89,7 +90,7 @@ void check_display(const OutputSettings& o, std::optional<OptionProblem>& proble
   const Checker check{problem, "outputs."};
   check.require(o.display_bins >= 0 && o.display_bins <= most_display_bins, "display_bins", o.display_bins,
                 "within 0 and 65536; 0: samples");
-  check.require(o.display_bins > 0 || !o.labels, "labels", "true", "false without display_bins: labels are of cells");
+  check.require(o.display_bins > 0 || !o.labels, "labels", o.labels, "false without display_bins: labels are of cells");
   if (o.display_bins == 0) return;
   check.require(o.looks_range == 1 && o.looks_pings == 1, "display_bins", o.display_bins,
                 "0 with looks_range or looks_pings: a display cell is a mean of looks already");
@@ -111,13 +112,13 @@ std::optional<OptionProblem> problem_of(const SimulationOptions& o) {
   outputs.require(o.outputs.contributors >= 0 && o.outputs.contributors <= most_contributors, "contributors",
                   o.outputs.contributors, "within 0 and 255");
   for (const auto& [looks, name] :
-       {std::pair(o.outputs.looks_range, "looks_range"), std::pair(o.outputs.looks_pings, "looks_pings")})
-    outputs.require(looks >= 1 && looks <= most_looks, name, looks, "within 1 and 1024");
+       {std::pair(&o.outputs.looks_range, "looks_range"), std::pair(&o.outputs.looks_pings, "looks_pings")})
+    outputs.require(*looks >= 1 && *looks <= most_looks, name, *looks, "within 1 and 1024");
   outputs.require(o.outputs.looks_pings == 1 || !gives_power(o.synthesis.method), "looks_pings", o.outputs.looks_pings,
                   "1 with method incoherent: an expected intensity has no looks to average");
-  outputs.require(!(o.outputs.elements && gives_power(o.synthesis.method)), "elements", "true",
+  outputs.require(!(o.outputs.elements && gives_power(o.synthesis.method)), "elements", o.outputs.elements,
                   "false with method incoherent: an expected intensity has no pressures at elements; use gridded");
-  outputs.require(!(o.outputs.split_phase && gives_power(o.synthesis.method)), "split_phase", "true",
+  outputs.require(!(o.outputs.split_phase && gives_power(o.synthesis.method)), "split_phase", o.outputs.split_phase,
                   "false with method incoherent: an expected intensity has no phase; use gridded");
   check_display(o.outputs, problem);
   const Checker top{problem, ""};

@@ -134,6 +134,7 @@ struct OptionProblem {
   std::string member;  ///< e.g. "sampling.detail_width"
   std::string value;   ///< e.g. "-1", or "true" of a flag
   std::string rule;    ///< what goes on "must be", e.g. "within 0 and 4"
+  const void* at;      ///< address of the member of the options that were judged
 };
 
 /// Returns the first problem of the options, for callers that call options by names of their own; none: all are valid.

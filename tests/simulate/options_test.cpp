@@ -85,6 +85,15 @@ TEST(PingOptions, are_refused_by_the_plan_as_by_the_ping) {
             "plan_ping: options.outputs.contributors = 300, must be within 0 and 255");
 }
 
+// Water is stated once: the head is made for the sound speed of the simulator's own environment.
+TEST(PingSimulators, make_the_head_of_a_sonar_in_their_own_water) {
+  const SonarSpec sonar = small_sonar({});
+  const Environment cold{Water{.temperature_c = 4}};
+  const SonarHead head = PingSimulator(sonar, cold).head(), expected = make_head(sonar, slowest_sound(cold));
+  EXPECT_EQ(head.gate.bin_size, expected.gate.bin_size);
+  EXPECT_LT(head.gate.bin_size, PingSimulator(sonar, Environment{}).head().gate.bin_size);
+}
+
 TEST(PingEvents, are_refused_if_they_are_not_finite) {
   const PingSimulator simulator(small_head({}), {});
   const SceneCloud nothing;

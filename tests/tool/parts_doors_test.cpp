@@ -24,7 +24,7 @@ TEST_F(DoorsToParts, the_scene_of_a_ping_of_a_survey_is_that_which_was_pinged) {
   insonify::SceneOptions scene = insonify::scene_of_run(path("run/fls"));
   EXPECT_EQ(scene.path, "drawn.toml");
   scene.path = path(scene.path);
-  const auto parts = insonify::open_scene_of_run({}, scene, path("run/fls"));
+  const auto parts = insonify::open_scene_of_run(scene, path("run/fls"), 0);
   std::size_t drawn = 0;
   std::set<std::pair<double, double>> places;
   for (const Ping& ping : cube.pings) {

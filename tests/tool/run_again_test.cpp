@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run.toml makes the same bytes again: every setting is in it and is read back, and the command line overrides it.
+#include "run/asked_simulation.hpp"
 #include "run/run_settings.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"
@@ -29,6 +30,14 @@ void change(const RunSetting& setting) {
       *value = !*value;
     else if constexpr (std::is_same_v<Value, std::vector<std::string>*>)
       *value = {other_word(""), other_word("")};
+    else if constexpr (std::is_same_v<Value, Shown<std::string>>)
+      value.value.set(other_word(*value.value.get()));
+    else if constexpr (std::is_same_v<Value, Shown<int>>)
+      value.value.set(*value.value.get() + 1);
+    else if constexpr (std::is_same_v<Value, Shown<bool>>)
+      value.value.set(!*value.value.get());
+    else if constexpr (std::is_same_v<Value, NumberList>)
+      value.numbers.set(std::vector<double>(value.count, 0.1));
     else
       FAIL() << "no value that run.toml holds";
   };
@@ -61,19 +70,54 @@ const std::string gate = " --range 2:9";
 }  // namespace
 
 TEST(RunSettings, every_setting_of_a_ping_reads_back) {
-  PingOptions given, defaults;
+  insonify::Run given, defaults;
   const auto settings = all_settings(given), usual = all_settings(defaults);
   for (const RunSetting& setting : settings) change(setting);
   const std::string path = testing::TempDir() + "insonify_every_setting.toml";
   std::ofstream(path) << "schema = 1\ninsonify_version = \"1\"\n"
                       << settings_as_toml(settings) << "\n[sonar]\nbeams = 1\n";
-  PingOptions read = load_ping_settings(path);
+  insonify::Run read = load_ping_settings(path);
   const auto back = all_settings(read);
   ASSERT_GE(back.size(), 30U);
   for (std::size_t i = 0; i < back.size(); ++i) {
     EXPECT_EQ(settings_as_toml({back[i]}), settings_as_toml({settings[i]}));
     EXPECT_NE(settings_as_toml({back[i]}), settings_as_toml({usual[i]})) << "not changed";
   }
+  std::filesystem::remove(path);
+}
+
+// The settings of a simulator are its own options: a row that is bound to a copy would leave them as they are.
+TEST(RunSettings, rows_set_the_options_of_the_simulator) {
+  const auto set = [](const char* key, const char* value) {
+    const std::string path = testing::TempDir() + "insonify_one_setting.toml";
+    std::ofstream(path) << "schema = 1\ninsonify_version = \"1\"\n[ping]\n" << key << " = " << value << "\n";
+    return load_ping_settings(path);
+  };
+  EXPECT_EQ(asked_simulation(set("detail_width", "0.5")).sampling.detail_width, 0.5);
+  EXPECT_EQ(asked_simulation(set("multipath", "true")).effects.multipath, Choice::always);
+  EXPECT_EQ(asked_simulation(set("absorption_order", "1")).effects.absorption_order, 1);
+  EXPECT_EQ(asked_simulation(set("amplitude", "\"coherent\"")).amplitude, SurfaceAmplitude::coherent);
+  EXPECT_EQ(asked_simulation(set("all_bins_above", "60.5")).detection.above_db, 60.5);
+  EXPECT_TRUE(asked_simulation(set("keep", "[\"labels\"]")).outputs.labels);
+  EXPECT_EQ(asked_simulation(set("keep", "[\"labels\"]")).outputs.display_bins, usual_display_bins);
+}
+
+// Numbers in files are text, as insonify writes them, or a list.
+TEST(RunSettings, lists_of_numbers_are_text_or_a_list) {
+  const std::string path = testing::TempDir() + "insonify_lists.toml";
+  const auto pose_of_file = [&](const std::string& pose) {
+    std::ofstream(path) << "schema = 1\ninsonify_version = \"1\"\n[ping]\npose = " << pose << "\n";
+    return load_ping_settings(path).placement.pose;
+  };
+  const GivenPose expected{1, 2.5, -3, 0, 10, 0};
+  EXPECT_EQ(pose_of_file("\"1, 2.50,-3,0,10,0\""), expected);
+  EXPECT_EQ(pose_of_file("[1, 2.5, -3, 0, 10, 0]"), expected);
+  EXPECT_EQ(pose_of_file("\"\""), std::nullopt);
+  for (const char* wrong : {"\"1,2\"", "[1, 2]", "[1, 2, 3, 4, 5, \"6\"]", "\"a,0,0,0,0,0\"", "7", "true"})
+    EXPECT_THAT(error_of([&] { pose_of_file(wrong); }),
+                testing::AllOf(HasSubstr(path + ":4: ping.pose = "),
+                               HasSubstr("must be x,y,z,yaw,pitch,roll in metres and degrees")))
+        << wrong;
   std::filesystem::remove(path);
 }
 

@@ -26,8 +26,7 @@ using nlohmann::ordered_json;
 
 struct AccuracyOptions {
   CommonOptions common;
-  SceneOptions scene;  ///< path empty: built-in tasks
-  RunOptions run;      ///< settings; only sonar, range, environment, output, force and no_picture count
+  Run run;  ///< scene (without a path: built-in tasks), head and output
   std::string pose;
   std::string world = "z-up";
   std::vector<std::string> methods, tolerances;  ///< empty: all
@@ -36,23 +35,23 @@ struct AccuracyOptions {
 };
 
 void add_options(OptionList list, AccuracyOptions& o) {
-  o.run.output = "accuracy";
-  list.add("-o,--output", &o.run.output, "run directory that is made; default: accuracy");
-  list.add("--scene", &o.scene.path, "scene of your own ping, whose echoes are measured; needs --sonar and --pose");
-  list.add("--sonar", &o.run.sonar, "preset (see `insonify sonars`) or a .toml file");
+  o.run.output.folder = "accuracy";
+  list.add("-o,--output", &o.run.output.folder, "run directory that is made; default: accuracy");
+  list.add("--scene", &o.run.scene.path, "scene of your own ping, whose echoes are measured; needs --sonar and --pose");
+  list.add("--sonar", &o.run.head.sonar, "preset (see `insonify sonars`) or a .toml file");
   list.add("--pose", &o.pose, "x,y,z,yaw,pitch,roll [m, deg] of the head; pitch is positive nose down");
   add_world(list, o.world);
-  list.add("--range", &o.run.range, "min:max [m]; default: the sonar's range");
-  list.add("--material", &o.scene.material, "name of one material for the whole scene, e.g. sand");
+  list.add("--range", range_value(o.run.head), "min:max [m]; default: the sonar's range");
+  list.add("--material", &o.run.scene.material, "name of one material for the whole scene, e.g. sand");
   list.add("--methods", &o.methods, "methods that are measured: " + joined(accuracy_methods()) + "; default: all",
            {.comma_separated = true});
   list.add("--tolerances", &o.tolerances, "tolerances of gridded, e.g. 1e-3,1e-6", {.comma_separated = true});
   list.add("--repeats", &o.repeats, "timed runs of each method, after one to warm up; fewer if they take long");
   list.add("--full", &o.full, "measure larger tasks and all tolerances: some ten minutes");
   list.add("--quick", &o.quick, "tiny tasks: seconds", {.group = ""});
-  list.add("--set", &o.common.settings, "SECTION.KEY=VALUE of sonar or environment", {.one_each = true});
-  list.add("--force", &o.run.force, "replace an existing run directory");
-  list.add("--no-picture", &o.run.no_picture, "do not draw the charts");
+  list.add("--set", &o.run.head.settings, "SECTION.KEY=VALUE of sonar or environment", {.one_each = true});
+  list.add("--force", &o.run.output.force, "replace an existing run directory");
+  list.add("--no-picture", &o.run.output.no_picture, "do not draw the charts");
   add_common(list, o.common);
   add_work(list, o.common);
 }
@@ -78,25 +77,25 @@ SweepOptions sweep_options(const AccuracyOptions& o) {
 
 /// The steps for the user's own scene, or for the built-in tasks.
 std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions& sweep, Progress& progress) {
-  if (o.scene.path.empty()) {
-    if (!o.run.sonar.empty() || !o.pose.empty() || !o.run.range.empty())
+  if (o.run.scene.path.empty()) {
+    if (!o.run.head.sonar.empty() || !o.pose.empty() || o.run.head.range)
       fail(ErrorKind::argument,
            "--sonar, --pose and --range need --scene FILE; without a scene the tasks are built in");
     return accuracy_sweep(sweep);
   }
-  if (o.run.sonar.empty() || o.pose.empty())
+  if (o.run.head.sonar.empty() || o.pose.empty())
     fail(ErrorKind::argument, "--scene needs --sonar and --pose, e.g. --sonar p900-45 --pose=0,0,-3,0,10,0");
-  PingSetup setup{{parse_pose(o.pose, o.world)}, set_up_head(o.common, o.run), {}};
-  setup.event.world_from_head = setup.event.world_from_head * setup.head.mount;
+  PingSetup setup = set_up_head(o.run.head);
+  setup.event.world_from_head = parse_pose(o.pose, o.world) * setup.mount;
   setup.simulation.seed = o.common.seed;
   setup.simulation.threads = o.common.threads;
-  progress.step("loading " + o.scene.path);
-  const auto scene = open_scene(o.scene, {{o.common.seed, {}}, o.common.threads});
+  progress.step("loading " + o.run.scene.path);
+  const auto scene = open_scene(o.run.scene, {{o.common.seed, {}}, o.common.threads});
   const PingScene pinged = scene->ping_scene(setup.simulator(), setup.event);
   for (const std::string& note : loading_notes(pinged.report)) progress.note(note);
-  return accuracy_sweep_of(task_of(pinged.scene->scene(), setup.head.head, setup.event.world_from_head,
-                                   setup.head.environment, setup.simulation),
-                           sweep);
+  return accuracy_sweep_of(
+      task_of(pinged.scene->scene(), setup.head, setup.event.world_from_head, setup.environment, setup.simulation),
+      sweep);
 }
 
 std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const AccuracyOptions& o,
@@ -121,8 +120,8 @@ ordered_json manifest_of(const AccuracyOptions& o) {
           {"size", o.quick  ? "quick"
                    : o.full ? "full"
                             : "standard"},
-          {"scene", o.scene.path},
-          {"sonar", o.run.sonar},
+          {"scene", o.run.scene.path},
+          {"sonar", o.run.head.sonar},
           {"pose", o.pose},
           {"protocol",
            {{"referee", "direct sum in double over all echoes and bins, in `checked_beams` evenly picked beams"},
@@ -172,14 +171,15 @@ void accuracy(const AccuracyOptions& o) {
     fail(ErrorKind::argument, "--repeats = ", o.repeats, ", must be within 1 and 1000");
   const SweepOptions sweep = sweep_options(o);
   Progress preparing(common, 1);
-  RunDirectory directory(o.run.output, o.run.force, {o.scene.path, o.run.sonar});
+  const OutputOptions& output = o.run.output;
+  RunDirectory directory(output.folder, output.force, {o.run.scene.path, o.run.head.sonar});
   const std::vector<AccuracyStep> steps = steps_of(o, sweep, preparing);
   Progress progress(common, static_cast<int>(steps.size()) + 2);
   ordered_json manifest = manifest_of(o);
   const std::vector<AccuracyRow> rows = run_steps(steps, o, progress);
 
   std::vector<SamplingErrorRow> sampling;
-  if (o.scene.path.empty() && o.methods.empty()) {
+  if (o.run.scene.path.empty() && o.methods.empty()) {
     progress.step("sampling error");
     sampling = measure_sampling_error({.most_rays = o.quick  ? 64
                                                     : o.full ? 16384
@@ -189,17 +189,17 @@ void accuracy(const AccuracyOptions& o) {
                                        .threads = common.threads});
   }
 
-  progress.step("writing " + o.run.output);
+  progress.step("writing " + output.folder);
   write_file(directory.file("sweep.csv"), sweep_csv(rows));
   if (!sampling.empty()) write_file(directory.file("sampling.csv"), sampling_csv(sampling));
   const auto draw = [&] { manifest["pictures"] = draw_accuracy(rows, sampling, directory); };
-  if (!o.run.no_picture) draw_if_possible("no pictures", draw, manifest, progress);
+  if (!output.no_picture) draw_if_possible("no pictures", draw, manifest, progress);
   manifest["summary"] = accuracy_summary(rows);
   manifest["peak_memory_mib"] = peak_memory_mib();
   write_manifest(directory, manifest);
   directory.commit();
   print_result(common, manifest, [&] {
-    if (!common.quiet) print_table(o.run.output, rows, manifest["summary"]);
+    if (!common.quiet) print_table(output.folder, rows, manifest["summary"]);
   });
 }
 

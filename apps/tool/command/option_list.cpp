@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/message.hpp"
+#include "run/parse_values.hpp"
 #include "run/run_checks.hpp"
 #include "store/nearest_word.hpp"
 #include "tool/command/exit_code.hpp"
@@ -21,8 +22,28 @@ namespace insonify::tool {
 
 namespace {
 
+/// Adds an option whose value goes through a function; its default is what the value is now.
+template <typename T>
+CLI::Option* add_shown(CLI::App& app, const std::string& name, const Member<T>& value, const std::string& help) {
+  if constexpr (std::is_same_v<T, bool>)
+    return app.add_flag_function(
+        name, [set = value.set](std::int64_t count) { set(count > 0); }, help);
+  else
+    return app.add_option_function<T>(name, value.set, help)->default_str(fmt::format("{}", value.get().value()));
+}
+
 CLI::Option* add_value(CLI::App& app, const std::string& name, const OptionValue& value, const std::string& help) {
   using Function = std::function<void(const std::string&)>;
+  if (const auto* word = std::get_if<Shown<std::string>>(&value)) return add_shown(app, name, word->value, help);
+  if (const auto* number = std::get_if<Shown<int>>(&value)) return add_shown(app, name, number->value, help);
+  if (const auto* flag = std::get_if<Shown<bool>>(&value)) return add_shown(app, name, flag->value, help);
+  if (const auto* list = std::get_if<NumberList>(&value))
+    return app.add_option_function<std::string>(
+        name,
+        [name, of = *list](const std::string& text) {
+          of.numbers.set(parse_numbers(name, text, of.count, of.meaning));
+        },
+        help);
   if (bool* const* flag = std::get_if<bool*>(&value)) return app.add_flag(name, **flag, help);
   if (const auto* text = std::get_if<std::optional<std::string>*>(&value))
     return app.add_option(name, **text, help)->expected(0, 1);
@@ -30,8 +51,7 @@ CLI::Option* add_value(CLI::App& app, const std::string& name, const OptionValue
     return app.add_option_function<std::string>(name, *function, help);
   return std::visit(
       [&](const auto& target) -> CLI::Option* {
-        if constexpr (!std::is_same_v<std::decay_t<decltype(target)>, Function>)
-          return app.add_option(name, *target, help);
+        if constexpr (std::is_pointer_v<std::decay_t<decltype(target)>>) return app.add_option(name, *target, help);
         return nullptr;
       },
       value);

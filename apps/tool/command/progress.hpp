@@ -7,8 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "run/options.hpp"
 #include "run/run_observer.hpp"
+#include "tool/command/common_options.hpp"
 #include "tool/command/program.hpp"
 
 namespace insonify::tool {

@@ -2,8 +2,8 @@
 #pragma once
 #include <optional>
 
-#include "run/options.hpp"
 #include "run/run_settings.hpp"
+#include "tool/command/common_options.hpp"
 #include "tool/command/option_list.hpp"
 
 /// Options that several verbs share.
@@ -15,6 +15,7 @@ void add_verbosity(OptionList list, CommonOptions& options);
 void add_common(OptionList list, CommonOptions& options);
 /// --threads and --seed.
 void add_work(OptionList list, CommonOptions& options);
+void add_work(OptionList list, SimulationOptions& options);
 /// The options of settings.
 void add_settings(OptionList list, const std::vector<RunSetting>& settings);
 /// The scene that is required, and how it is completed.
@@ -22,22 +23,25 @@ void add_scene(OptionList list, SceneOptions& options);
 /// How a scene is completed: viewpoint, materials, unit.
 void add_completion(OptionList list, SceneOptions& options);
 /// --sonar, which is required, the environment and the synthesis. `default_range` says what range holds by default.
-void add_sonar(OptionList list, CommonOptions& common, RunOptions& options, const char* default_range = "the sonar's");
+void add_sonar(OptionList list, Run& run, const char* default_range = "the sonar's");
+/// Takes --range.
+OptionValue range_value(HeadOptions& options);
 /// The run directory to make.
-void add_output(OptionList list, RunOptions& options);
+void add_output(OptionList list, OutputOptions& options);
 /// --world, beside a --pose.
 void add_world(OptionList list, std::string& world);
 
 /// A ping as the command line gives it, perhaps beside the run.toml of an earlier one.
 struct PingCommand {
-  PingOptions options;                     ///< options of the command line, which overrule those of --run
-  std::optional<PingOptions> of_run = {};  ///< if --run is given
+  CommonOptions common;
+  Run run;                         ///< run of the command line, which overrules that of --run
+  std::optional<Run> of_run = {};  ///< if --run is given
 };
 
 /// Adds everything that says what a ping is: --run, scene, sonar, pose and so on. `with_output` adds the run directory.
 void add_ping_options(OptionList list, PingCommand& command, bool with_output);
 
-/// The options to use: a pose of the command line replaces a trajectory of --run, and a trajectory the pose.
-PingOptions complete_options(const PingCommand& command);
+/// The run to make: a pose of the command line replaces a trajectory of --run, and a trajectory the pose.
+Run complete_run(const PingCommand& command);
 
 }  // namespace insonify::tool

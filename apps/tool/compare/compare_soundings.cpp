@@ -88,7 +88,7 @@ SceneOfSoundings scene_of_soundings(const CompareOptions& o, const SoundingTable
                             : ": does not say what its scene was; give the scene");
   }
   const auto opened = folder.empty() ? open_scene(options, {{o.common.seed, {}}, o.common.threads})
-                                     : open_scene_of_run(o.common, options, folder);
+                                     : open_scene_of_run(options, folder, o.common.threads, o.common.seed);
   scene.parts = {opened, opened->parts()};
   if (!scene.parts)
     scene.whole = std::make_shared<const SceneCloud>(opened->take_whole({}).scene);

@@ -9,7 +9,7 @@
 #include "compare/resample_image.hpp"
 #include "core/error.hpp"
 #include "core/pose.hpp"
-#include "run/options.hpp"
+#include "tool/command/common_options.hpp"
 
 /// Files that `compare` reads.
 namespace insonify::tool {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "run/options.hpp"
+#include "tool/command/common_options.hpp"
 #include "tool/dataset/label_pictures.hpp"
 
 namespace insonify::tool {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "run/options.hpp"
+#include "tool/command/common_options.hpp"
 #include "tool/run/world_place.hpp"
 
 namespace insonify::tool {

@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "run/options.hpp"
 #include "run/parse_values.hpp"
 #include "sonar/sonar_head.hpp"
 #include "store/cube.hpp"
+#include "tool/command/common_options.hpp"
 #include "tool/command/option_list.hpp"
 #include "view/ping_record.hpp"
 

@@ -52,7 +52,7 @@ void add_notes(const LoadReport& report, Progress& progress) {
 /// The scene of a run as it was when a ping was sent.
 std::shared_ptr<const SceneCloud> load_of_ping(const ImageOptions& o, const SceneOptions& options, const Ping& ping,
                                                Progress& progress) {
-  const auto scene = open_scene_of_run(o.common, options, o.run);
+  const auto scene = open_scene_of_run(options, o.run, o.common.threads);
   add_notes(scene->report(), progress);
   return scene->cloud_at(scene->moment_of(ping.time, ping.number));
 }
@@ -113,12 +113,12 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   options.path = o.run;
   drawing.title = fs::path(o.run).filename().string();
   drawing.look.colour = o.sonar.empty() ? SceneColour::height : SceneColour::visibility;
-  std::optional<HeadSetup> setup;
+  std::optional<PingSetup> setup;
   if (!o.sonar.empty()) {
-    RunOptions run;
-    run.sonar = o.sonar;
-    run.range = o.range;
-    setup = set_up_head(o.common, run);
+    HeadOptions asked;
+    asked.sonar = o.sonar;
+    if (!o.range.empty()) asked.range = parse_range(o.range);
+    setup = set_up_head(asked);
     const SonarHead& head = setup->head;
     drawing.look.head = SceneHead{parse_pose(o.pose, o.world) * setup->mount, head.fan, head.gate};
     drawing.title = head.name + " before " + drawing.title;
@@ -126,7 +126,7 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   if (!o.colour.empty()) drawing.look.colour = *find_named(colour_words, o.colour);
   if (!drawing.look.head && (o.colour == "visibility" || o.colour == "grazing" || o.colour == "incidence"))
     fail(ErrorKind::argument, "--colour ", o.colour, " needs a head: give --sonar and --pose");
-  LoadedScene loaded = load_any_scene(o.common, options);
+  LoadedScene loaded = load_any_scene(options, o.common.threads);
   add_notes(loaded.report, progress);
   drawing.scene = std::make_shared<const SceneCloud>(std::move(loaded.scene));
   if (setup) {

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "files/path_status.hpp"
 #include "returns/looks.hpp"
+#include "run/asked_simulation.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/run_files.hpp"
@@ -42,9 +43,9 @@ HeadState state_of(const std::string& run, const SurveyRun& survey, const Survey
 }
 
 /// Returns the settings that a head of a survey keeps in its run.toml; the default ones without that file.
-PingOptions settings_of(const std::string& run, const std::string& head) {
+Run settings_of(const std::string& run, const std::string& head) {
   const fs::path file = fs::path(run) / head / "run.toml";
-  return path_exists(file) ? load_ping_settings(file.string()) : PingOptions{};
+  return path_exists(file) ? load_ping_settings(file.string()) : Run{};
 }
 
 /// Notes of the pings of a head that are done, of its merged cube or of its blocks.
@@ -63,10 +64,6 @@ ordered_json notes_json(const std::vector<PingNote>& notes, const std::string& h
   return json;
 }
 
-bool keeps_contributors(const PingOptions& settings) {
-  return std::find(settings.keep.begin(), settings.keep.end(), "contributors") != settings.keep.end();
-}
-
 /// The option of `export` by which a run gets its place, with a blank before it: none if mission or scene say it, that
 /// of projected coordinates far from the origin, else an anchor.
 std::string place_option(const std::string& run, const std::string& head) {
@@ -83,9 +80,9 @@ std::string place_option(const std::string& run, const std::string& head) {
 
 /// How a finished head goes on; `target` is what `export` takes.
 std::vector<std::string> products_of(const std::string& target, const std::string& run, const std::string& head,
-                                     const PingOptions& settings) {
+                                     const Run& settings) {
   std::vector<std::string> next;
-  if (settings.split) {
+  if (settings.simulation.outputs.split_phase) {
     next.push_back("insonify export " + target + " --to csv -o soundings.csv");
     next.push_back("insonify export " + target + " --to gsf" + place_option(run, head) + " -o soundings.gsf");
   }
@@ -100,7 +97,7 @@ ordered_json survey_info(const std::string& run) {
   for (const SurveyRunHead& head : survey.heads) {
     const HeadState state = state_of(run, survey, head);
     done &= state.done == head.blocks(), merged &= state.merged;
-    labelled |= keeps_contributors(settings_of(run, head.name));
+    labelled |= keeps(settings_of(run, head.name), "contributors");
     for (const ordered_json& note : notes_json(notes_of_head(run, survey, head), head.name)) notes.push_back(note);
     heads.push_back({{"name", head.name},
                      {"pings", head.pings},
@@ -180,10 +177,10 @@ std::vector<std::string> next_of_run(const std::string& path) {
   const fs::path run(path), folder = is_folder(run) ? run : run.parent_path();
   const std::string word = shell_word(path);
   std::vector<std::string> next = {"insonify image " + word + " -o picture.png"};
-  const PingOptions settings = is_folder(run) && path_exists(run / "run.toml") ? settings_of(path, ".") : PingOptions{};
+  const Run settings = is_folder(run) && path_exists(run / "run.toml") ? settings_of(path, ".") : Run{};
   if (is_folder(run)) next.push_back("insonify view " + word);
   for (std::string& command : products_of(word, path, "", settings)) next.push_back(std::move(command));
-  if (keeps_contributors(settings)) next.push_back("insonify dataset " + word + " -o dataset");
+  if (keeps(settings, "contributors")) next.push_back("insonify dataset " + word + " -o dataset");
   return next;
 }
 

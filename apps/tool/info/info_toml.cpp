@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "core/text.hpp"
@@ -28,7 +29,7 @@ ordered_json mission_info(const std::string& path) {
   const Mission& mission = survey.file.mission;
   ordered_json heads = ordered_json::array(), legs = ordered_json::array();
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
-    const HeadSetup& head = survey.heads[h].setup.head;
+    const PingSetup& head = survey.heads[h];
     const std::vector<SurveyPing>& all = survey.survey->pings();
     const auto pings = std::count_if(all.begin(), all.end(), [h](const SurveyPing& p) { return p.head == h; });
     heads.push_back({{"name", mission.heads[h].name},
@@ -67,15 +68,16 @@ ordered_json materials_info(const std::string& path) {
 }
 
 ordered_json settings_info(const std::string& path) {
-  const PingOptions options = load_ping_settings(path);
+  const Run run = load_ping_settings(path);
   const SonarSpec spec = load_sonar_file(path).spec;
+  const std::optional<GivenPose>& pose = run.placement.pose;
   return {{"path", path},
           {"format", "insonify settings of a run"},
-          {"scene", options.scene.path},
+          {"scene", run.scene.path},
           {"sonar", spec.name},
           {"range_m", range_text(spec.min_range, spec.max_range)},
-          {"pose", options.pose},
-          {"seed", options.common.seed},
+          {"pose", pose ? fmt::format("{}", fmt::join(*pose, ",")) : ""},
+          {"seed", run.simulation.seed},
           {"next",
            {"insonify ping --run " + shell_word(path) + " -o again",
             "insonify ping --run " + shell_word(path) + " --seed 2 -o other-speckle"}}};

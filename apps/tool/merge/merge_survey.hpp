@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "run/options.hpp"
+#include "tool/command/common_options.hpp"
 #include "tool/run/world_place.hpp"
 
 namespace insonify::tool {

@@ -22,7 +22,7 @@ using nlohmann::ordered_json;
 
 struct BeamPatternOptions {
   CommonOptions common;
-  RunOptions run;  ///< settings; only the sonar counts
+  HeadOptions head;  ///< sonar and --set
   std::string steer = "0";
   std::string output;  ///< picture, or empty: none
   bool force = false;
@@ -31,11 +31,11 @@ struct BeamPatternOptions {
 };
 
 void add_options(OptionList list, BeamPatternOptions& o) {
-  list.add("SONAR", &o.run.sonar, "preset (see `insonify sonars`) or a .toml file", {.required = true});
+  list.add("SONAR", &o.head.sonar, "preset (see `insonify sonars`) or a .toml file", {.required = true});
   list.add("--steer", &o.steer, "[deg] azimuth of the beam, positive to port, within -90 and 90");
   list.add("-o,--output", &o.output, "picture that is written, .png");
   list.add("--force", &o.force, "replace an existing picture");
-  list.add("--set", &o.common.settings,
+  list.add("--set", &o.head.settings,
            "sonar.KEY=VALUE or water.KEY=VALUE that replaces a value; may be given several times", {.one_each = true});
   list.add("--size", &o.size, "WIDTHxHEIGHT [pixels]");
   list.add("--dark", &o.dark, "draw on a dark background");
@@ -44,7 +44,7 @@ void add_options(OptionList list, BeamPatternOptions& o) {
 
 /// The beam that is measured, in the water of the run.
 struct SteeredBeam {
-  const HeadSetup& setup;
+  const PingSetup& setup;
   double wavelength = 0;
   double steering = 0;
 
@@ -126,8 +126,8 @@ void beampattern(const BeamPatternOptions& o) {
   std::tie(picture.width, picture.height) = parse_size(o.size);
   picture.dark = o.dark;
   const double steering = parse_steering(o.steer);
-  if (!o.output.empty()) require_free_file(o.output, o.force, {o.run.sonar});
-  const HeadSetup setup = set_up_head(o.common, o.run);
+  if (!o.output.empty()) require_free_file(o.output, o.force, {o.head.sonar});
+  const PingSetup setup = set_up_head(o.head);
   const SteeredBeam beam{setup, setup.medium.sound_speed / setup.spec.centre_frequency, steering};
 
   progress.step("measuring the beam of " + setup.spec.name);

@@ -6,8 +6,9 @@
 
 #include "core/stop_watch.hpp"
 #include "run/run_settings.hpp"
+#include "run_scenes/ping_report.hpp"
 #include "run_scenes/ping_run.hpp"
-#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
@@ -28,38 +29,33 @@ std::string summary(const std::string& output, const ordered_json& manifest) {
 void add_ping_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, true); }
 
 void ping(const PingCommand& command) {
-  PingOptions o = complete_options(command);
-  const CommonOptions& common = o.common;
+  const CommonOptions& common = command.common;
   // The whole command line is checked before any work.
   Progress progress(common, 4);
-  PingSetup ready = set_up_ping(o);
-  const HeadSetup& setup = ready.head;
+  PingSetup ready = set_up_ping(complete_run(command));
+  Run& o = ready.run;
   InputPaths inputs = input_files(all_settings(o));
-  inputs.insert(inputs.end(), {o.run.sonar, o.run.environment, o.run.profile});
-  RunDirectory directory(o.run.output, o.run.force, inputs);
+  inputs.insert(inputs.end(), {o.head.sonar, o.head.environment, o.head.profile});
+  const VtkPictures pictures;
+  RunFolder folder(ready, inputs, pictures, progress);
 
   progress.step("loading " + o.scene.path);
   StopWatch watch;
-  const Choice detail = ready.simulation.sampling.detail;
-  const ReadyPing sent = load_ping_scene(o, ready);
-  record_detail(detail, ready.simulation.sampling.detail, o);
+  const ReadyPing sent = load_ping_scene(ready);
+  const double load_seconds = watch.lap();
   const PreparedScene& scene = *sent.scene.scene;
-  PingRun run{o, ready, scene.scene(), sent.scene.json, sent.scene.places};
-  run.load_seconds = watch.lap();
-  run.notes = setup.notes;
-  for (std::string& note : loading_notes(sent.scene.report)) run.notes.push_back(std::move(note));
-  for (const std::string& note : run.notes) progress.note(note);
-  SimulationOptions options = ready.simulation;
-  if (options.outputs.contributors > 0 || options.outputs.labels) run.instances = instances_of_scene(o.scene.path);
+  for (const std::string& note : notes_before(ready, sent.scene.report)) progress.note(note);
+  SimulationOptions options = folder.options_for(scene.scene());
+  SceneInstances instances;
+  if (options.outputs.contributors > 0 || options.outputs.labels) instances = instances_of_scene(o.scene.path);
 
   progress.step("pinging");
-  ContributorWriter contributors(directory, run.scene, setup.head, options);
-  SimulatedPing result = sent.simulator.with(options).ping(scene, ready.event, run.plan);
-  const ordered_json manifest =
-      write_ping_run(directory, run, std::move(result), contributors, VtkPictures(), progress);
+  PingPlan plan;
+  SimulatedPing result = sent.simulator.with(options).ping(scene, ready.event, plan);
+  const ordered_json manifest = folder.write(std::move(result), plan, sent.scene, instances, load_seconds);
   progress.step("done");
-  directory.commit();
-  print_summary(common, manifest, summary(o.run.output, manifest));
+  folder.commit();
+  print_summary(common, manifest, summary(o.output.folder, manifest));
 }
 
 }  // namespace

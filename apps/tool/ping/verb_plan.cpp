@@ -44,13 +44,11 @@ void print_plan(const PingPlan& plan) {
 void add_plan_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, false); }
 
 void plan(const PingCommand& command) {
-  const PingOptions o = complete_options(command);
-  Progress progress(o.common, 2);
-  PingSetup ready = set_up_ping(o);
-  progress.step("loading " + o.scene.path);
-  const ReadyPing sent = load_ping_scene(o, ready);
-  for (const std::string& note : ready.head.notes) progress.note(note);
-  for (const std::string& note : loading_notes(sent.scene.report)) progress.note(note);
+  Progress progress(command.common, 2);
+  PingSetup ready = set_up_ping(complete_run(command));
+  progress.step("loading " + ready.run.scene.path);
+  const ReadyPing sent = load_ping_scene(ready);
+  for (const std::string& note : notes_before(ready, sent.scene.report)) progress.note(note);
   progress.step("planning");
   const PreparedScene& scene = *sent.scene.scene;
   const PingPlan plan = sent.simulator.plan(scene, ready.event);
@@ -58,7 +56,7 @@ void plan(const PingCommand& command) {
   nlohmann::ordered_json json = plan_json(plan);
   json["surfels_in_view"] = count.visible, json["back_facing"] = count.back_facing;
   json["scatterers"] = count.scatterers;
-  print_result(o.common, json, [&] {
+  print_result(command.common, json, [&] {
     print_plan(plan);
     fmt::print("{} surfels are in view, {} more face away; {} scatterers\n", count.visible, count.back_facing,
                count.scatterers);

@@ -11,9 +11,8 @@
 #include "core/stop_watch.hpp"
 #include "core/units.hpp"
 #include "run/parse_values.hpp"
-#include "run/run_checks.hpp"
 #include "run/run_settings.hpp"
-#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "simulate/plan_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "store/toml_tree.hpp"
@@ -27,48 +26,41 @@ namespace {
 
 struct SynthesizeOptions {
   CommonOptions common;
-  RunOptions run;
+  Run run;  ///< budget, order of absorption and synthesis are all that counts of its simulation
   std::string scatterers;
-  double accuracy_db = library_options.accuracy_db;
-  int absorption_order = -1;  ///< order of absorption about fc, 0 to 2; -1: as needed
 };
 
 /// The settings that run.toml records at its top level.
 std::vector<RunSetting> settings(SynthesizeOptions& o) {
-  return {accuracy_setting(o.accuracy_db, ""), absorption_setting(o.absorption_order, "")};
+  SimulationOptions& simulation = o.run.simulation;
+  return {accuracy_setting(simulation.accuracy_db, ""), absorption_setting(simulation.effects.absorption_order, "")};
 }
 
 void add_options(OptionList list, SynthesizeOptions& o) {
   list.add("SCATTERERS", &o.scatterers, "CSV: range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im",
            {.required = true});
-  add_sonar(list, o.common, o.run);
+  add_sonar(list, o.run);
   add_settings(list, settings(o));
-  add_output(list, o.run);
+  add_output(list, o.run.output);
   add_common(list, o.common);
-  add_work(list, o.common);
+  add_work(list, o.run.simulation);
 }
 
 /// Returns the text of run.toml beside sonar and environment.
 std::string settings_of(SynthesizeOptions o) {
-  return settings_as_toml({seed_setting(o.common)}) + settings_as_toml(synthesis_settings(o.run)) +
-         settings_as_toml(settings(o)) + fmt::format("scatterers = {}\n", as_toml(o.scatterers));
-}
-
-/// Returns the options that the user asks for; the plan decides the rest.
-SimulationOptions asked_of(const SynthesizeOptions& o) {
-  SimulationOptions options;
-  options.threads = o.common.threads;
-  options.accuracy_db = o.accuracy_db;
-  options.synthesis = asked_synthesis(o.run);
-  if (o.absorption_order >= 0) options.effects.absorption_order = o.absorption_order;
-  return options;
+  return settings_as_toml({seed_setting(o.run.simulation.seed)}) +
+         settings_as_toml(synthesis_settings(o.run.simulation.synthesis)) + settings_as_toml(settings(o)) +
+         fmt::format("scatterers = {}\n", as_toml(o.scatterers));
 }
 
 void synthesize(const SynthesizeOptions& o) {
   const CommonOptions& common = o.common;
   Progress progress(common, 3);
-  const HeadSetup setup = set_up_head(common, o.run);
-  RunDirectory directory(o.run.output, o.run.force, {o.scatterers, o.run.sonar, o.run.environment, o.run.profile});
+  const Run& run = o.run;
+  PingSetup setup = set_up_head(run.head);
+  setup.run = run;
+  const VtkPictures pictures;
+  RunFolder folder(setup, {o.scatterers, run.head.sonar, run.head.environment, run.head.profile}, pictures, progress);
 
   progress.step("reading " + o.scatterers);
   const ScattererTable table = load_scatterer_table(o.scatterers);
@@ -78,22 +70,23 @@ void synthesize(const SynthesizeOptions& o) {
   StopWatch watch;
   const SonarHead& head = setup.head;
   const EchoOptions echo_options =
-      with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = common.threads}, head);
+      with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = run.simulation.threads}, head);
   const Echoes echoes = target_echoes(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, echo_options);
-  const SimulationOptions settled = decided_synthesis(table.scatterers, echoes, head, setup.environment, asked_of(o));
+  const SimulationOptions settled =
+      decided_synthesis(table.scatterers, echoes, head, setup.environment, run.simulation);
   const auto& [method, tolerance, true_delays, phases] = settled.synthesis;
   const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, *settled.effects.absorption_order);
-  const ComplexGrid pressure = synthesize(echoes, head, medium, method, {tolerance, common.threads});
+  const ComplexGrid pressure = synthesize(echoes, head, medium, method, {tolerance, run.simulation.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   ping.expected_level = gives_power(method);
   note_water(medium, ping);
   const double seconds = watch.lap();
 
-  progress.step("writing " + o.run.output);
+  progress.step("writing " + run.output.folder);
   nlohmann::ordered_json manifest = {
       {"schema", 1},
       {"insonify_version", INSONIFY_VERSION},
-      {"seed", common.seed},
+      {"seed", run.simulation.seed},
       {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
       {"synthesis", {{"method", engine_of(method).word}, {"absorption_order", *settled.effects.absorption_order}}},
       {"notes", nlohmann::ordered_json::array()}};
@@ -102,12 +95,12 @@ void synthesize(const SynthesizeOptions& o) {
     manifest["notes"].push_back(note);
   }
   manifest["peak_level_db"] = std::max(silence_db, pressure_level_db(pressure.abs().maxCoeff()));
-  write_run(directory, common, o.run, setup, {std::move(ping)}, settings_of(o), manifest, VtkPictures(), progress);
+  folder.write_image(std::move(ping), {}, settings_of(o), manifest);
   manifest["seconds"] = {{"synthesis", seconds}};
-  write_manifest(directory, manifest);
-  directory.commit();
+  folder.finish(manifest);
+  folder.commit();
   print_summary(common, manifest,
-                fmt::format("{}: {} scatterers, peak {:.4f} dB re 1 uPa", o.run.output, table.scatterers.size(),
+                fmt::format("{}: {} scatterers, peak {:.4f} dB re 1 uPa", run.output.folder, table.scatterers.size(),
                             manifest["peak_level_db"].get<double>()));
 }
 

@@ -66,7 +66,7 @@ void prepare_as_tiles(const PrepareOptions& o) {
   Progress progress(o.common, 1);
   progress.step("preparing " + o.output);
   PrepareTilesOptions options;
-  options.load = load_options(o.common, o.scene);
+  options.load = load_options(o.scene, o.common.seed, o.common.threads);
   options.progress = [&](double part) { progress.show(part, "preparing " + o.output); };
   const PreparedTiles prepared = prepare_tiles(o.scene.path, o.output, options);
   auto notes = loading_notes(prepared.report);

@@ -78,7 +78,6 @@ BlockOutcomes SurveyBlocks::resume(const SurveyBlock& block) const {
 
 void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const {
   const BlockFiles files = files_of(block);
-  const SurveyHead& head = setup_.heads[block.head];
   std::vector<Ping> pings;
   std::vector<FailedPing> failed;
   std::vector<double> time;
@@ -107,7 +106,7 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const
     for (const PingNote& note : unlike)
       observer_.note("head " + setup_.file.mission.heads[block.head].name + ": " + sentence(note));
     gather(notes, unlike);
-    Cube cube = cube_of(std::move(pings), head.options.common, head.options.run, head.setup.head);
+    Cube cube = cube_of(std::move(pings), setup_.heads[block.head]);
     cube.head = setup_.file.mission.heads[block.head].name;
     cube.notes = std::move(notes);
     cube.start_utc = setup_.file.start_utc, cube.anchor = setup_.file.anchor;
@@ -124,11 +123,9 @@ void write_survey_settings(const SurveySetup& setup, const std::string& folder) 
   };
   write_once(fs::path(folder) / "mission.toml", setup.file.text);
   for (std::size_t h = 0; h < setup.heads.size(); ++h) {
-    PingOptions options = setup.heads[h].options;
+    Run run = setup.heads[h].run;
     const fs::path head = fs::path(folder) / setup.file.mission.heads[h].name;
-    if (path_exists(head))
-      write_once(head / "run.toml",
-                 run_toml(options.run, setup.heads[h].setup.head, settings_as_toml(all_settings(options))));
+    if (path_exists(head)) write_once(head / "run.toml", run_toml(setup.heads[h], settings_as_toml(all_settings(run))));
   }
 }
 

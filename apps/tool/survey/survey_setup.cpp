@@ -82,7 +82,7 @@ void require_anchored(const SurveySetup& s) {
 
 void require_in_water(const SurveySetup& s) {
   for (const SurveyPing& ping : s.survey->pings()) {
-    const Environment& environment = s.heads[ping.head].setup.head.environment;
+    const Environment& environment = s.heads[ping.head].environment;
     const double z = event_of(s.file.mission, ping).world_from_head.translation().z();
     if (const auto surface = surface_height(environment); surface && z >= *surface)
       refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", *surface,
@@ -123,12 +123,11 @@ std::string digest_of(const SurveySetup& s) {
   Sha256 sha;
   const auto add = [&](const std::string& part) { sha.add(std::to_string(part.size()) + ":" + part); };
   for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, digest_of_scene(s.file.scene)}) add(part);
-  for (const std::string& path : {s.file.trajectory, s.heads.front().options.scene.materials_file})
+  for (const std::string& path : {s.file.trajectory, s.heads.front().run.scene.materials_file})
     if (!path.empty()) add(sha256_of_file(path_of_materials(path)));
   for (const MissionHead& head : s.file.mission.heads)  // the mounting may be that of the sonar file
     add(std::string(reinterpret_cast<const char*>(head.vehicle_from_head.data()), 16 * sizeof(double)));
-  for (const SurveyHead& head : s.heads)
-    add(environment_as_toml(head.setup.head.environment) + sonar_as_toml(head.setup.head.spec));
+  for (const PingSetup& head : s.heads) add(environment_as_toml(head.environment) + sonar_as_toml(head.spec));
   return sha.digest();
 }
 
@@ -136,7 +135,7 @@ std::string digest_of(const SurveySetup& s) {
 
 std::size_t image_bytes(const PingSetup& ping) {
   constexpr std::size_t level_bytes = 2, pressure_bytes = 8, label_bytes = 6;
-  const SonarHead& head = ping.head.head;
+  const SonarHead& head = ping.head;
   const auto cells = static_cast<std::size_t>(ping.simulation.outputs.display_bins);
   const std::size_t samples = head.fan.beams() * (cells > 0 ? cells : head.gate.bins());
   return samples * ((cells > 0 ? level_bytes : pressure_bytes) + (ping.simulation.outputs.labels ? label_bytes : 0));
@@ -149,14 +148,13 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   const SurveyRun begun = is_survey_run(o.output) ? load_survey_run(o.output) : SurveyRun{};
   std::vector<std::size_t> per_block;
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
-    s.heads.push_back(set_up_survey_head(o.common, s.file, h));
-    const HeadSetup& head = s.heads.back().setup.head;
+    s.heads.push_back(set_up_survey_head(s.file, h, o.common.threads));
+    const PingSetup& head = s.heads.back();
     mission.heads[h].listening_time = 2 * head.head.gate.max_range / slowest_sound(head.environment);
-    per_block.push_back(
-        block_size(o, begun, mission.heads[h].name, image_bytes(s.heads.back().setup), s.file.coverage));
+    per_block.push_back(block_size(o, begun, mission.heads[h].name, image_bytes(head), s.file.coverage));
   }
   std::vector<PingSimulator> simulators;
-  for (const SurveyHead& head : s.heads) simulators.push_back(head.setup.simulator());
+  for (const PingSetup& head : s.heads) simulators.push_back(head.simulator());
   try {
     s.survey.emplace(mission, simulators, SurveySettings{s.file.randomise, s.file.seed, s.file.coverage});
   } catch (const Error& error) {
@@ -165,8 +163,8 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   if (std::string note = gap_note(s); !note.empty()) s.notes.push_back(std::move(note));
   require_anchored(s);
   if (s.file.mission.random_pings == 0) require_in_water(s);  // else when the poses are drawn
-  for (const SurveyHead& head : s.heads)
-    if (s.file.randomise.noise_db > 0 && !(head.options.noise && head.setup.head.environment.self_noise_db))
+  for (const PingSetup& head : s.heads)
+    if (s.file.randomise.noise_db > 0 && !(head.simulation.effects.noise && head.environment.self_noise_db))
       fail(ErrorKind::content, s.file.path,
            ": [randomise] noise_db changes the noise of platform and electronics: give ",
            "noise = true in [ping] and self_noise_db in the environment, or leave it out");
@@ -183,8 +181,8 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
 void decide_detail(const SceneSource& scene, int threads, SurveySetup& setup) {
   setup.survey = setup.survey->decided(scene, threads);
   for (std::size_t h = 0; h < setup.heads.size(); ++h) {
-    Choice& detail = setup.heads[h].setup.simulation.sampling.detail;
-    record_detail(detail, setup.survey->options_of(h).sampling.detail, setup.heads[h].options);
+    Choice& detail = setup.heads[h].simulation.sampling.detail;
+    record_detail(detail, setup.survey->options_of(h).sampling.detail, setup.heads[h].run);
     detail = setup.survey->options_of(h).sampling.detail;
   }
 }
@@ -226,16 +224,15 @@ void require_reach(const SurveySetup& setup, const Bounds& box, RunObserver& obs
     outside[ping.head].add(pose, box);
     if (at.z() < lowest[ping.head].z()) lowest[ping.head] = at;
     const double away = (at - at.cwiseMax(box.min).cwiseMin(box.max)).norm();
-    const double reach = setup.heads[ping.head].setup.head.head.gate.max_range;
+    const double reach = setup.heads[ping.head].head.gate.max_range;
     if (away > reach)
       refuse_ping(setup, ping, "is ", away, " m from the scene, beyond its max range of ", reach,
                   " m; is the trajectory in another frame, or should this be a transit (active = false)?");
-    farthest[ping.head] =
-        std::max(farthest[ping.head], reach_of(box, at, setup.heads[ping.head].setup.head.environment));
+    farthest[ping.head] = std::max(farthest[ping.head], reach_of(box, at, setup.heads[ping.head].environment));
   }
   for (std::size_t h = 0; h < setup.heads.size(); ++h)
-    for (const std::string& note : {far_range_note(setup.heads[h].setup.head, farthest[h]),
-                                    shallow_profile_note(setup.heads[h].setup.head, box, lowest[h]), outside[h].note()})
+    for (const std::string& note : {far_range_note(setup.heads[h], farthest[h]),
+                                    shallow_profile_note(setup.heads[h], box, lowest[h]), outside[h].note()})
       if (!note.empty()) observer.note("head " + setup.file.mission.heads[h].name + ": " + note);
 }
 
@@ -244,7 +241,7 @@ void require_reach(const SurveySetup& setup, const Bounds& box, RunObserver& obs
 std::shared_ptr<const OpenScene> open_survey_scene(SurveySetup& setup, const CommonOptions& common,
                                                    RunObserver& observer) {
   const MissionFile& file = setup.file;
-  const PingOptions& pinged = setup.heads.front().options;
+  const Run& pinged = setup.heads.front().run;
   const RunDraws draws{file.seed, {file.randomise.scene_pings, 0}};
   const auto scene = open_scene(pinged.scene, {draws, common.threads, pinged.memory_limit, false});
   double first = std::numeric_limits<double>::infinity(), last = -first;

@@ -14,6 +14,7 @@
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 #include "survey/simulate_survey.hpp"
+#include "tool/command/common_options.hpp"
 
 namespace insonify::tool {
 
@@ -29,7 +30,7 @@ struct SurveyOptions {
 /// A mission with its sonars: all that the survey does, but for the scene.
 struct SurveySetup {
   MissionFile file;
-  std::vector<SurveyHead> heads;
+  std::vector<PingSetup> heads;
   std::optional<Survey> survey;
   std::vector<SurveyBlock> blocks;
   SurveyRun run;
@@ -48,7 +49,7 @@ std::size_t image_bytes(const PingSetup& ping);
 /// can listen.
 std::shared_ptr<const OpenScene> open_survey_scene(SurveySetup& setup, const CommonOptions& common,
                                                    RunObserver& observer);
-/// Decides for each head whether its pings merge surfels, and records it among the options for its run.toml.
+/// Decides for each head whether its pings merge surfels, and records it for its run.toml.
 void decide_detail(const SceneSource& scene, int threads, SurveySetup& setup);
 
 }  // namespace insonify::tool

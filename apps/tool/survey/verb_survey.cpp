@@ -176,7 +176,7 @@ ordered_json cost_of_head(const SurveySetup& s, const HeadTrial& trial, std::siz
   const double n = static_cast<double>(trial.pings), part = trial.part(&PlannedPing::scatterers);
   const double images = trial.image_bytes > 0  // else the pings failed
                             ? trial.image_bytes / static_cast<double>(trial.tried)
-                            : static_cast<double>(image_bytes(s.heads[h].setup));
+                            : static_cast<double>(image_bytes(s.heads[h]));
   return {{"name", s.file.mission.heads[h].name},
           {"pings", trial.pings},
           {"pings_tried", trial.tried},
@@ -320,7 +320,7 @@ void make_pings(const SurveyOptions& o, SurveySetup& s, const Shard& shard, Prog
     if (!scene) load();
     record_system(o.output, scene->report().meaning.system.value);
     progress.step("pinging");
-    FolderStore folder(store, status, !mirrors_of(s.heads.front().setup.head.environment).empty());
+    FolderStore folder(store, status, !mirrors_of(s.heads.front().environment).empty());
     finish_on_interrupt("finished pings are kept; the same command goes on from there");
     whole = simulate_survey(*s.survey, todo.blocks, *scene, folder, o.common.threads);
     silent = folder.silent();
@@ -354,8 +354,8 @@ void survey(const SurveyOptions& o) {
     fail(ErrorKind::argument, "give either --output, a folder for the survey, or --plan, a forecast");
   Progress progress(o.common, 3);
   SurveySetup s = set_up_survey(o);
-  for (const SurveyHead& head : s.heads)
-    for (const std::string& note : head.setup.head.notes) progress.note(note);
+  for (const PingSetup& head : s.heads)
+    for (const std::string& note : head.notes) progress.note(note);
   for (const std::string& note : s.notes) progress.note(note);
   if (lower_case(s.file.trajectory).ends_with(".csv"))
     for (const std::string& note : trajectory_notes(s.file.trajectory)) progress.note(note);
