@@ -29,7 +29,8 @@ bool belong_together(const Contributors& list, const SceneCloud& scene) {
 // Parts are, ping by ping, where they were when it was sent.
 void show_parts(const std::shared_ptr<const OpenScene>& scene, LoadedView& view) {
   std::vector<SceneMoment> moments;
-  for (const TrackPoint& ping : view.data.pings.places()) moments.push_back(scene->moment_of(ping.time, ping.number));
+  for (const TrackPoint& ping : view.data.pings.positions())
+    moments.push_back(scene->moment_of(ping.time, ping.number));
   view.data.scene_of_ping = [scene, moments](std::size_t ping) { return scene->cloud_at(moments.at(ping)); };
 }
 

@@ -18,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Pings of several cubes as one list.
 struct CubeList {
   std::vector<CubeOfPings> cubes;
   std::vector<std::size_t> begin;  // of each cube in the list; and the end of all
@@ -56,15 +55,15 @@ struct CubeList {
 LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes) {
   const auto list = std::make_shared<CubeList>();
   list->cubes = cubes;
-  std::vector<TrackPoint> places;
+  std::vector<TrackPoint> positions;
   for (const CubeOfPings& cube : cubes) {
-    list->begin.push_back(places.size());
+    list->begin.push_back(positions.size());
     for (const TrackPoint& point : read_track(cube.cube)) {
-      places.push_back(point);
+      positions.push_back(point);
       list->number.push_back(point.number);
     }
   }
-  list->begin.push_back(places.size());
+  list->begin.push_back(positions.size());
   PingSource source;
   source.ping = [list](std::size_t i) {
     const std::size_t c = list->cube_of(i);
@@ -75,12 +74,12 @@ LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes) {
   };
   if (std::any_of(cubes.begin(), cubes.end(), [](const CubeOfPings& cube) { return !cube.returns.empty(); }))
     source.returns = [list](std::size_t i) { return list->returns_of_ping(i); };
-  return {std::move(places), std::move(source)};
+  return {std::move(positions), std::move(source)};
 }
 
 LazyPings lazy_pings_of(std::vector<Ping> pings) {
-  std::vector<TrackPoint> places;
-  for (const Ping& ping : pings) places.push_back(track_point_of(ping));
+  std::vector<TrackPoint> positions;
+  for (const Ping& ping : pings) positions.push_back(track_point_of(ping));
   const auto all = std::make_shared<const std::vector<Ping>>(std::move(pings));
   PingSource source;
   source.ping = [all](std::size_t i) { return all->at(i); };
@@ -90,7 +89,7 @@ LazyPings lazy_pings_of(std::vector<Ping> pings) {
       rows.row(static_cast<Eigen::Index>(k)) = all->at(first + k).pressure.row(static_cast<Eigen::Index>(beam));
     return rows;
   };
-  return {std::move(places), std::move(source)};
+  return {std::move(positions), std::move(source)};
 }
 
 std::optional<SurveyHeadRun> find_survey_head(const std::string& target, const std::string& head) {

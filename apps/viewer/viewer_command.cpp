@@ -121,7 +121,7 @@ void load_contributors(const fs::path& run, LoadedView& view) {
 }
 
 // The strongest sample of a beam, range compensated (E20), which is the most prominent in the picture.
-PixelPlace loudest_of(const ViewerData& data, std::size_t ping_index, std::size_t beam) {
+PixelPosition loudest_of(const ViewerData& data, std::size_t ping_index, std::size_t beam) {
   const auto ping = data.pings.ping(ping_index);
   const Grid<float> level = range_compensated_level_db(*ping, ping->absorption_db_per_m);
   Eigen::Index bin = 0;
@@ -238,7 +238,7 @@ LoadedView load_inspection(const ViewerCommand& command) {
   LoadedView view{{}, command.start, {}};
   PingSetup setup = set_up_head(command.sonar);
   view.start.mode = ViewerMode::inspect;
-  view.start.head = head_place(parse_pose(command.pose, command.world) * setup.mount);
+  view.start.head = pose_angles(parse_pose(command.pose, command.world) * setup.mount);
   view.start.scene_colour = SceneColour::visibility;
   view.data.fan = setup.head.fan;
   view.data.vehicle_from_head = setup.mount;

@@ -44,9 +44,9 @@ Runs short_cuts(const std::vector<double>& nulls) {
   return runs;
 }
 
-Runs joined(std::vector<Runs> parts) {
+Runs joined(std::vector<Runs> blocks) {
   Runs all;
-  for (Runs& part : parts) all.insert(all.end(), part.begin(), part.end());
+  for (Runs& block : blocks) all.insert(all.end(), block.begin(), block.end());
   return all;
 }
 
@@ -193,8 +193,8 @@ class Sweep {
   /// Engines of all models where they differ, and where arithmetic is strained.
   void add_engines() {
     const bool quick = size_ == SweepSize::quick;
-    const std::vector<double>&asked = options_.tolerances, one = asked.empty() ? std::vector<double>{1e-4} : asked,
-          most = quick ? one : tolerances(options_);
+    const std::vector<double>&requested = options_.tolerances,
+          one = requested.empty() ? std::vector<double>{1e-4} : requested, most = quick ? one : tolerances(options_);
     const auto add_task = [&](const char* sweep, const EngineTask& task, const std::vector<double>& at) {
       const auto named = [task] {
         AccuracyTask made = task.make();

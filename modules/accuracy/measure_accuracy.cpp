@@ -44,9 +44,9 @@ ImageError image_error(const ComplexGrid& pressure, const ComplexGrid& referee,
                        const std::vector<bool>& eighth_counts) {
   ImageError error;
   const auto relative = [&](Eigen::Index first, Eigen::Index last) {
-    const auto part = referee.middleCols(first, last - first);
-    const double power = part.abs2().sum();
-    return power > 0 ? std::sqrt((pressure.middleCols(first, last - first) - part).abs2().sum() / power) : 0.0;
+    const auto block = referee.middleCols(first, last - first);
+    const double power = block.abs2().sum();
+    return power > 0 ? std::sqrt((pressure.middleCols(first, last - first) - block).abs2().sum() / power) : 0.0;
   };
   error.whole = relative(0, referee.cols());
   for (Eigen::Index k = 0; k < 8; ++k) {
@@ -121,8 +121,8 @@ void AccuracyBench::time_all(const Synthesis& run, AccuracyRow& row) const {
   }
   row.peak_mib = peak_memory_mib();
   std::sort(seconds.begin(), seconds.end());
-  const auto part = static_cast<double>(std::max<std::size_t>(1, echoes.size()) * row.timed_beams);
-  const double scale = static_cast<double>(std::max<std::size_t>(1, row.scatterers) * row.beams) / part;
+  const auto block = static_cast<double>(std::max<std::size_t>(1, echoes.size()) * row.timed_beams);
+  const double scale = static_cast<double>(std::max<std::size_t>(1, row.scatterers) * row.beams) / block;
   row.repeats = static_cast<int>(seconds.size());
   row.seconds = scale * seconds[seconds.size() / 2];
   row.seconds_min = scale * seconds.front();
@@ -140,11 +140,11 @@ AccuracyRow AccuracyBench::direct() const {
   const SonarHead head = some_beams(task_.head, std::min<std::size_t>(4, r.beams));
   const std::vector<std::size_t> bins = picked(r.bins, 64);
   const ComplexGrid in_double = synthesize_direct(some, head, task_.medium, options);
-  ComplexGrid part(in_double.rows(), bins.size());
+  ComplexGrid block(in_double.rows(), bins.size());
   for (std::size_t k = 0; k < bins.size(); ++k)
-    part.col(static_cast<Eigen::Index>(k)) = in_double.col(static_cast<Eigen::Index>(bins[k]));
+    block.col(static_cast<Eigen::Index>(k)) = in_double.col(static_cast<Eigen::Index>(bins[k]));
   const ComplexGrid exact = synthesize_extended(some, head, task_.medium, bins, options_.threads);
-  const ImageError error = image_error(part, exact, eighths_with_echo(some, task_));
+  const ImageError error = image_error(block, exact, eighths_with_echo(some, task_));
   r.error = error.whole;
   r.local_error = error.worst_eighth;
   r.checked_beams = head.fan.beams();

@@ -26,19 +26,19 @@ ComplexGrid expected_by_echoes(const AccuracyTask& task, const SonarHead& head, 
 }
 
 /// Places from which the echoes come, and their powers.
-Scatterers places_of(const Echoes& echoes, double sound_speed) {
-  Scatterers places;
+Scatterers positions_of(const Echoes& echoes, double sound_speed) {
+  Scatterers positions;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     const double v = echoes.v.empty() ? 0 : echoes.v[i], elevation = std::asin(v);
-    places.range.push_back(0.5 * sound_speed * echoes.delay[i]);
-    places.elevation.push_back(elevation);
-    places.azimuth.push_back(std::asin(std::clamp(echoes.u[i] / std::cos(elevation), -1.0, 1.0)));
+    positions.range.push_back(0.5 * sound_speed * echoes.delay[i]);
+    positions.elevation.push_back(elevation);
+    positions.azimuth.push_back(std::asin(std::clamp(echoes.u[i] / std::cos(elevation), -1.0, 1.0)));
   }
-  places.cos_incidence.assign(echoes.size(), 1);
-  places.projected_area.assign(echoes.size(), 1);
-  places.material.assign(echoes.size(), 0);
-  for (std::size_t i = 0; i < echoes.size(); ++i) places.id.push_back(i), places.surfel.push_back(0);
-  return places;
+  positions.cos_incidence.assign(echoes.size(), 1);
+  positions.projected_area.assign(echoes.size(), 1);
+  positions.material.assign(echoes.size(), 0);
+  for (std::size_t i = 0; i < echoes.size(); ++i) positions.id.push_back(i), positions.surfel.push_back(0);
+  return positions;
 }
 
 /// The plan's bound of the error of the narrow band.
@@ -47,7 +47,7 @@ double bound_of_narrow_band(const AccuracyTask& task, int threads) {
   for (const std::complex<double>& amplitude : task.echoes.amplitude) power.push_back(std::norm(amplitude));
   const NarrowBandError error(task.head, task.medium.sound_speed);
   const NarrowBandError::Sums sums =
-      error.of(places_of(task.echoes, task.medium.sound_speed), power, task.echoes.doppler, threads);
+      error.of(positions_of(task.echoes, task.medium.sound_speed), power, task.echoes.doppler, threads);
   return sums.image > 0 ? std::sqrt(sums.error / sums.image) : 0;
 }
 
@@ -56,7 +56,7 @@ SynthesisMethod planned_method(const AccuracyTask& task, double tolerance, int t
   SimulationOptions options;
   options.synthesis.tolerance = tolerance;
   options.threads = threads;
-  return decided_synthesis(places_of(task.echoes, task.medium.sound_speed), task.echoes, task.head, {}, options)
+  return decided_synthesis(positions_of(task.echoes, task.medium.sound_speed), task.echoes, task.head, {}, options)
       .synthesis.method;
 }
 

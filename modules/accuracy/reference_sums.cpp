@@ -104,14 +104,14 @@ class Windowed {
     parallel_for(last - first, options_.threads, [&](std::size_t k) {
       const double delay = echoes.delay[first + k];
       const EchoEnvelope envelope = shapes_.of(delay);
-      const double place = options_.nearest_bin ? start_ + step_ * std::nearbyint((delay - start_) / step_) : delay;
-      const double low = std::max(0.0, std::ceil((place - half_ - start_) / step_));
-      const double high = std::min(bins - 1, std::floor((place + half_ - start_) / step_));
+      const double position = options_.nearest_bin ? start_ + step_ * std::nearbyint((delay - start_) / step_) : delay;
+      const double low = std::max(0.0, std::ceil((position - half_ - start_) / step_));
+      const double high = std::min(bins - 1, std::floor((position + half_ - start_) / step_));
       if (high < low) return;
       pulses.first[k] = static_cast<std::size_t>(low);
       pulses.count[k] = std::min(length_, static_cast<std::size_t>(high - low) + 1);
       for (std::size_t n = 0; n < pulses.count[k]; ++n)
-        pulses.sample[k * length_ + n] = envelope.at(start_ + (low + static_cast<double>(n)) * step_ - place);
+        pulses.sample[k * length_ + n] = envelope.at(start_ + (low + static_cast<double>(n)) * step_ - position);
     });
     return pulses;
   }
@@ -144,8 +144,8 @@ Extended response(const LineArray& array, Extended wavelength, Extended u, Exten
   const std::size_t n = array.elements();
   Sum sum;
   for (std::size_t m = 0; m < n; ++m) {
-    const Extended place = static_cast<Extended>(m) - (static_cast<Extended>(n) - 1) / 2;
-    sum.add(static_cast<Extended>(array.shading[m]) * std::cos(step * place));
+    const Extended position = static_cast<Extended>(m) - (static_cast<Extended>(n) - 1) / 2;
+    sum.add(static_cast<Extended>(array.shading[m]) * std::cos(step * position));
   }
   return sum.value / static_cast<Extended>(n);
 }

@@ -35,7 +35,6 @@ SonarHead bottom_head() {
   return make_head(s, nominal_sound_speed);
 }
 
-/// Power of each beam from the strip, up to a constant.
 class Strip {
  public:
   explicit Strip(const SonarHead& head) : head_(head), power_(head.fan.beams(), 0.0) {}

@@ -37,7 +37,7 @@ struct Quadrature {
 
 /// int_0^along of h (1 - exp(i pi (h^2 + t^2) / 2)) / (h^2 + t^2) dt for h > 0 and along >= 0: twice pi what a part of a
 /// side adds that begins at the foot of the perpendicular from the line of sight, h away.
-complex part_of_side(double h, double along) {
+complex share_of_side(double h, double along) {
   const double angle = std::atan2(along, h);
   if (h > far_off) return angle;
   if (along < far_along) {
@@ -59,9 +59,9 @@ complex part_of_side(double h, double along) {
   return angle - whole - std::polar(1.0, std::remainder(pi / 2 * square, 2 * pi)) * (first - second);
 }
 
-complex signed_part(double h, double along) {
-  const complex part = h == 0 ? 0 : part_of_side(std::abs(h), std::abs(along));
-  return (h < 0) != (along < 0) ? -part : part;
+complex signed_share(double h, double along) {
+  const complex share = h == 0 ? 0 : share_of_side(std::abs(h), std::abs(along));
+  return (h < 0) != (along < 0) ? -share : share;
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ complex aperture_factor(std::span<const Eigen::Vector2d> corners) {
     const double length = side.norm();
     if (length == 0) continue;
     const double h = (a.x() * side.y() - a.y() * side.x()) / length, along = a.dot(side) / length;
-    sum += signed_part(h, along + length) - signed_part(h, along);
+    sum += signed_share(h, along + length) - signed_share(h, along);
   }
   return sum / (2 * pi);  // (E150)
 }

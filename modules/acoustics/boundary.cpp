@@ -17,11 +17,11 @@ constexpr double on_the_plane = 1e-3;  // [m]: a head nearer than this stands on
 
 }  // namespace
 
-bool Boundary::within_edges(const Vector3d& place) const {
+bool Boundary::within_edges(const Vector3d& position) const {
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vector3d side = corners[(k + 1) % corners.size()] - corners[k];
     const Vector3d inward = normal.cross(side).normalized();
-    if (inward.dot(place - corners[k]) < -on_the_plane) return false;
+    if (inward.dot(position - corners[k]) < -on_the_plane) return false;
   }
   return true;
 }
@@ -106,7 +106,7 @@ std::vector<Boundary> boundaries_of(std::span<const Mirror> mirrors, const Pose&
   std::vector<Boundary> boundaries;
   for (const Mirror& mirror : mirrors) {
     Boundary b;
-    b.plane = MirrorPlane(mirror.normal.normalized(), mirror.place);
+    b.plane = MirrorPlane(mirror.normal.normalized(), mirror.position);
     b.normal = to_head.linear() * b.plane.normal();
     b.head_distance = b.plane.signedDistance(world_from_head.translation());
     b.rms_height = mirror.rms_height, b.thickness = mirror.thickness + 3 * mirror.rms_height;

@@ -32,9 +32,9 @@ struct Boundary {
   const Mirror* mirror = nullptr;          ///< mirror, or null; neither: the surface, which turns the sign
   std::vector<Eigen::Vector3d> corners{};  ///< in head axes; empty: no edges
 
-  /// Returns the distance from the plane into the water [m] of a place in head axes; negative beyond it.
-  double distance(const Eigen::Vector3d& place) const { return normal.dot(place) + head_distance; }
-  Eigen::Vector3d mirrored(const Eigen::Vector3d& place) const { return place - 2 * distance(place) * normal; }
+  /// Returns the distance from the plane into the water [m] of a position in head axes; negative beyond it.
+  double distance(const Eigen::Vector3d& position) const { return normal.dot(position) + head_distance; }
+  Eigen::Vector3d mirrored(const Eigen::Vector3d& position) const { return position - 2 * distance(position) * normal; }
   Eigen::Vector3d mirrored_direction(const Eigen::Vector3d& direction) const {
     return direction - 2 * normal.dot(direction) * normal;
   }
@@ -43,12 +43,12 @@ struct Boundary {
   bool holds(double distance_into_water, double along_normal) const {
     return std::abs(distance_into_water) <= thickness && std::abs(along_normal) > 0.5;
   }
-  /// Returns whether the foot of the perpendicular from a place lies within the edges, to a millimetre.
-  bool within_edges(const Eigen::Vector3d& place) const;
+  /// Returns whether the foot of the perpendicular from a position lies within the edges, to a millimetre.
+  bool within_edges(const Eigen::Vector3d& position) const;
   /// Returns the pressure reflection coefficient, reduced by roughness.
   std::complex<double> reflection(double grazing) const;
-  /// Returns the factor of the boundary's edges (E150) on the path from the head to a place; `image` is the image of
-  /// that place in the boundary, in head axes.
+  /// Returns the factor of the boundary's edges (E150) on the path from the head to a position; `image` is the image of
+  /// that position in the boundary, in head axes.
   std::complex<double> edges(const Eigen::Vector3d& image) const;
   /// Returns the largest factor of roughness on a bounce within `range` [m] of the image, which is that at the least
   /// grazing angle.

@@ -20,25 +20,25 @@ inline void add_echo(Echoes& echoes, double delay, double u, double v, std::comp
 }
 
 /// Adds the echoes of all parts, in order; frees the parts on the way.
-inline void join_echoes(std::vector<Echoes>&& parts, Echoes& all) {
-  if (parts.size() == 1 && all.size() == 0) {
-    all = std::move(parts[0]);
+inline void join_echoes(std::vector<Echoes>&& shares, Echoes& all) {
+  if (shares.size() == 1 && all.size() == 0) {
+    all = std::move(shares[0]);
     return;
   }
   std::size_t total = all.size();
-  for (const Echoes& part : parts) total += part.size();
+  for (const Echoes& share : shares) total += share.size();
   const auto append = [](auto& to, auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   all.delay.reserve(total);
   all.u.reserve(total);
   all.v.reserve(total);
   all.amplitude.reserve(total);
-  for (Echoes& part : parts) {
-    append(all.delay, part.delay);
-    append(all.u, part.u);
-    append(all.v, part.v);
-    append(all.amplitude, part.amplitude);
-    append(all.doppler, part.doppler);
-    part = {};
+  for (Echoes& share : shares) {
+    append(all.delay, share.delay);
+    append(all.u, share.u);
+    append(all.v, share.v);
+    append(all.amplitude, share.amplitude);
+    append(all.doppler, share.doppler);
+    share = {};
   }
 }
 
@@ -46,11 +46,11 @@ inline void join_echoes(std::vector<Echoes>&& parts, Echoes& all) {
 /// so that the result does not depend on `threads`.
 template <typename Body>
 Echoes collect_echoes(std::size_t n, std::size_t block, int threads, Body&& body) {
-  std::vector<Echoes> parts((n + block - 1) / block);
+  std::vector<Echoes> shares((n + block - 1) / block);
   parallel_blocks(n, block, threads,
-                  [&](std::size_t begin, std::size_t end) { body(begin, end, parts[begin / block]); });
+                  [&](std::size_t begin, std::size_t end) { body(begin, end, shares[begin / block]); });
   Echoes all;
-  join_echoes(std::move(parts), all);
+  join_echoes(std::move(shares), all);
   return all;
 }
 

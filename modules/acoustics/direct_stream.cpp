@@ -8,9 +8,8 @@
 namespace insonify {
 namespace {
 
-constexpr std::size_t chunk_parts = 2048;  // with their echoes they fit into the cache of a core
+constexpr std::size_t chunk_pieces = 2048;  // with their echoes they fit into the cache of a core
 
-/// Removes the patches of the surfels `which` that are not wanted.
 void keep_wanted(const EchoSink& sink, const VisibleSurfels& visible, std::span<const std::uint32_t> which,
                  Scatterers& patches) {
   const auto for_each_array = [&patches](const auto& use) {
@@ -69,7 +68,7 @@ DirectStream::DirectStream(const SceneCloud& scene, const VisibleSurfels& visibl
     chunk.size += visible.first[k + 1] - visible.first[k];
     chunk.min_range = std::min(chunk.min_range, s.range - s.reach);
     chunk.max_range = std::max(chunk.max_range, s.range + s.reach);
-    if (chunk.size >= chunk_parts || k + 1 == visible.surfel.size()) first_surfel_.push_back(k + 1);
+    if (chunk.size >= chunk_pieces || k + 1 == visible.surfel.size()) first_surfel_.push_back(k + 1);
   }
 }
 
@@ -78,7 +77,7 @@ void DirectStream::visit(std::size_t chunk, EchoSink& sink) const {
   for (std::uint32_t k = first_surfel_[chunk]; k < first_surfel_[chunk + 1]; ++k)
     if (sink.wants(visible_.bounds[k])) which.push_back(k);
   if (which.empty()) return;
-  Scatterers patches = make_parts(scene_, world_from_head_, visible_, which, 1);
+  Scatterers patches = make_chunks(scene_, world_from_head_, visible_, which, 1);
   if (sink.chooses_patches()) keep_wanted(sink, visible_, which, patches);
   const Echoes echoes = echoes_in_motion(scene_, patches, world_from_head_, moving_, sent_);
   sink.take(patches, echoes);

@@ -21,12 +21,12 @@ struct MovingScene {
 };
 
 /// Returns the direct echoes of patches (E7) as a head in motion receives them (E44) from parts in motion (E145, E146);
-/// patches of moving parts are moved to the places at which sound meets them. Errors as direct_echoes, move_echoes and
+/// patches of moving parts are moved to the positions at which sound meets them. Errors as direct_echoes, move_echoes and
 /// meet_moving_parts.
 Echoes echoes_in_motion(const SceneCloud& scene, Scatterers& patches, const Pose& world_from_head,
                         const MovingScene& moving, const Transmission& sent);
 
-/// Widens the bounds of visible surfels to hold the apparent places of their echoes for a moving head (E44) and for
+/// Widens the bounds of visible surfels to hold the apparent positions of their echoes for a moving head (E44) and for
 /// moving parts (E145), whose fastest surfel has this speed [m/s].
 void widen_bounds(const SceneCloud& scene, const MovingScene& moving, double fastest_part, double sound_speed,
                   VisibleSurfels& visible);

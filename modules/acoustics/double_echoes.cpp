@@ -46,7 +46,7 @@ struct Pair {
   std::uint32_t first, last;
   PathAngles here{}, there{};  ///< angles of the straight way at both patches: in from the head, out to the other patch
   double density = 0;          ///< density of surface where the ray ends (SurfaceRayEnd)
-  std::optional<PairWay> way;  ///< absent: no ray connects the two
+  std::optional<PairPath> way;  ///< absent: no ray connects the two
 };
 
 /// Surfels of an echo, and the id of their pair.
@@ -80,8 +80,8 @@ class PairBuilder {
 
   /// Adds the echoes of the rays from surfel i; returns how many it sent, and adds to `unreached`.
   std::size_t add(std::uint32_t i, Echoes& echoes, std::vector<PairEnds>& ends, std::size_t& unreached) const {
-    const double part = random_uniform(options_.seed, RandomStage::surface_ray, {scene_.random_id(i), 0, 1})[0];
-    const auto count = static_cast<std::size_t>(number_[i] + part);
+    const double share = random_uniform(options_.seed, RandomStage::surface_ray, {scene_.random_id(i), 0, 1})[0];
+    const auto count = static_cast<std::size_t>(number_[i] + share);
     for (std::size_t k = 0; k < count; ++k)
       if (const std::optional<Pair> pair = find_pair(i, k, 0))
         pair->way ? add_pair(*pair, k, echoes, ends) : void(unreached += 2);
@@ -186,7 +186,7 @@ class PairBuilder {
     const double rays =
         rays_per_area(pair.first) * sampling_density(law.lobe_slope(), pair.here) * pair.there.cos_out +
         rays_per_area(pair.last) * sampling_density(law_there.lobe_slope(), pair.there) * pair.here.cos_out;
-    const PairWay& way = *pair.way;
+    const PairPath& way = *pair.way;
     const double power = law.cross_section(way.here) * law_there.cross_section(way.there) * pair.density / rays;
     const double phase = 2 * pi * reduced_cycles(cycles_per_m_ * way.path);
     const double size = way.pressure * std::sqrt(power) / (way.out.range * way.back.range);  // (E159)
@@ -253,24 +253,24 @@ DoubleEchoes double_echoes(const PreparedScene& prepared, std::span<const std::u
   return result;
 }
 
-Scatterers apparent_places(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
-                           double sound_speed, const Environment* through) {
+Scatterers apparent_positions(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
+                              double sound_speed, const Environment* through) {
   const Pose head_from_world = world_from_head.inverse();
-  std::optional<BentLegs> rays;
+  std::optional<RefractedLegs> rays;
   if (through && through->profile) rays.emplace(*through->profile, through->water.depth, world_from_head, 0);
-  Scatterers places;
+  Scatterers positions;
   for (std::size_t i = 0; i < doubles.echoes.size(); ++i) {
     const std::uint32_t last = doubles.last[i];
-    Vector3d place = head_from_world * Vector3d(scene.origin + scene.point[last].cast<double>());
-    if (const auto bent = rays ? rays->to(place) : std::nullopt) place = bent->apparent;
-    places.range.push_back(0.5 * sound_speed * doubles.echoes.delay[i]);
-    places.azimuth.push_back(std::atan2(place.y(), place.x()));
-    places.elevation.push_back(std::asin(std::clamp(place.z() / place.norm(), -1.0, 1.0)));
-    places.material.push_back(scene.material[last]);
-    places.id.push_back(scene.piece_id(last, 0));
+    Vector3d position = head_from_world * Vector3d(scene.origin + scene.point[last].cast<double>());
+    if (const auto refracted = rays ? rays->to(position) : std::nullopt) position = refracted->apparent;
+    positions.range.push_back(0.5 * sound_speed * doubles.echoes.delay[i]);
+    positions.azimuth.push_back(std::atan2(position.y(), position.x()));
+    positions.elevation.push_back(std::asin(std::clamp(position.z() / position.norm(), -1.0, 1.0)));
+    positions.material.push_back(scene.material[last]);
+    positions.id.push_back(scene.piece_id(last, 0));
   }
-  places.surfel = doubles.last;
-  return places;
+  positions.surfel = doubles.last;
+  return positions;
 }
 
 }  // namespace insonify

@@ -43,7 +43,7 @@ struct DoubleEchoOptions {
 /// sigma is the law of a surface for both directions of its path, b the one-way pattern of each leg (the square root of
 /// the two-way pattern E14; times E57 on the leg out). u and v are those of the leg back from j. Sound also goes from j
 /// to i: another echo of the same delay and amplitude, with the same random number xi_ij, from the other direction. A
-/// beam that holds both directions adds them coherently, and hears twice the power of a radiosity sum.
+/// beam that holds both directions adds them coherently, and receives twice the power of a radiosity sum.
 ///
 /// Pairs are drawn by rays (E159): from patch i, half of them by its cosine, half over the lobe of its law, if it has
 /// one. A ray stands for sigma_i sigma_j density / (n_i pdf_i cos_j + n_j pdf_j cos_i), n the rays per area from either
@@ -64,26 +64,26 @@ DoubleEchoes double_echoes(const PreparedScene& scene, std::span<const std::uint
                            const Transmission& sent, const DoubleEchoOptions& options = {});
 
 /// A piece of surface, in head axes [m].
-struct SurfacePlace {
+struct SurfacePoint {
   Eigen::Vector3d at, normal;
 };
 
-/// Change that a profile makes to the echo by way of two places.
-struct BentPair {
+/// Change that a profile makes to the echo by way of two positions.
+struct RefractedPair {
   std::size_t first = 0, last = 0;
-  PathAngles here{}, there{};  ///< angles at both places: in from the head, out to the other place
+  PathAngles here{}, there{};  ///< angles at both positions: in from the head, out to the other position
   double longer = 0;           ///< apparent path of all three legs, less that of straight ones [m]
-  double turned = 0;           ///< change of the direction cosine u of the last place
+  double turned = 0;           ///< change of the direction cosine u of the last position
   double pressure = 1;         ///< pressure by all three legs, over that by straight ones
 };
 
 /// Returns the change for every ordered pair of places that rays join and that face each other.
-std::vector<BentPair> bent_pairs(std::span<const SurfacePlace> places, const Environment& environment,
-                                 const Pose& world_from_head, const Medium& medium);
+std::vector<RefractedPair> refracted_pairs(std::span<const SurfacePoint> positions, const Environment& environment,
+                                           const Pose& world_from_head, const Medium& medium);
 
-/// Returns a scatterer for each double echo at its apparent place: at half the path, in the direction of the last
+/// Returns a scatterer for each double echo at its apparent position: at half the path, in the direction of the last
 /// surfel, through a profile that of the ray to it, with id, material and surfel of the last surfel. Areas and incidence are empty.
-Scatterers apparent_places(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
-                           double sound_speed, const Environment* through = nullptr);
+Scatterers apparent_positions(const DoubleEchoes& doubles, const SceneCloud& scene, const Pose& world_from_head,
+                              double sound_speed, const Environment* through = nullptr);
 
 }  // namespace insonify

@@ -38,7 +38,7 @@ void apply_lobe(const double* angle, std::size_t count, double axis, double widt
 
 INSONIFY_CLONES
 void direct_echoes(const EchoPatches& patches, std::size_t count, double cycles_per_m, double sound_speed,
-                   EchoPlaces echoes) {
+                   EchoPositions echoes) {
   const EchoPatches s = patches;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ void direct_echoes(const EchoPatches& patches, std::size_t count, double cycles_
 
 INSONIFY_CLONES
 void move_echoes(const double* range, const double* azimuth, const double* elevation, std::size_t count,
-                 const MovingHead& head, EchoPlaces echoes, double* doppler) {
+                 const MovingHead& head, EchoPositions echoes, double* doppler) {
   const MovingHead h = head;
   const double *v = h.velocity, *k = h.axis, c = h.sound_speed;
   const double speed_2 = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / (c * c);

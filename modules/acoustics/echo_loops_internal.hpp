@@ -14,7 +14,7 @@ void complex_normal(const double* u, const double* turn, std::size_t count, doub
 void apply_lobe(const double* angle, std::size_t count, double axis, double width, double* gain);
 
 /// Arrays into which echoes are written; amplitudes are real and imaginary parts interleaved.
-struct EchoPlaces {
+struct EchoPositions {
   double *delay, *u, *v, *amplitude;
 };
 
@@ -24,7 +24,7 @@ struct EchoPatches {
   const double *range, *azimuth, *elevation, *gain, *xi_re, *xi_im;
 };
 void direct_echoes(const EchoPatches& patches, std::size_t count, double cycles_per_m, double sound_speed,
-                   EchoPlaces echoes);
+                   EchoPositions echoes);
 
 /// A head in motion, in its own axes at transmission.
 struct MovingHead {
@@ -34,6 +34,6 @@ struct MovingHead {
 /// Turns echoes of patches at range, azimuth and elevation into those of a moving head (E44); sets their Doppler
 /// shifts.
 void move_echoes(const double* range, const double* azimuth, const double* elevation, std::size_t count,
-                 const MovingHead& head, EchoPlaces echoes, double* doppler);
+                 const MovingHead& head, EchoPositions echoes, double* doppler);
 
 }  // namespace insonify::kernels

@@ -39,8 +39,8 @@ struct PhasedLine {
   double range(double s) const { return std::hypot(distance, s); }
   /// Phase at s over that at c.
   double phase(double s, double c) const { return 2 * wavenumber * (s - c) * (s + c) / (range(s) + range(c)); }
-  /// The place from c >= 0 on at which the phase has grown by so much; back towards the foot if that is negative.
-  double place_after(double c, double phase) const {
+  /// The position from c >= 0 on at which the phase has grown by so much; back towards the foot if that is negative.
+  double position_after(double c, double phase) const {
     const double longer = phase / (2 * wavenumber), r = range(c);
     return std::sqrt(std::max(0.0, c * c + longer * (2 * r + longer)));
   }
@@ -69,16 +69,16 @@ Share windowed(const PhasedLine& line, double begin, double end, double centre, 
   const double last = std::asinh(end / line.scale);
   while (t < last) {
     // s = scale sinh(t): even a peak of this width at the foot is smooth in t.
-    const double by_phase = std::asinh(line.place_after(s, panel_phase) / line.scale);
+    const double by_phase = std::asinh(line.position_after(s, panel_phase) / line.scale);
     double next = std::min(t + panel_length, by_phase);
     if (!(next < last && next > t)) next = last;  // where doubles end, so do panels
     const double half = 0.5 * (next - t), middle = 0.5 * (next + t);
     for (std::size_t k = 0; k < gauss_node.size(); ++k)
       for (const double side : {-1.0, 1.0}) {
-        const double at = middle + side * half * gauss_node[k], place = line.scale * std::sinh(at);
-        const double phase = line.phase(place, centre), x = 2 * std::abs(phase) / length - 1;
+        const double at = middle + side * half * gauss_node[k], position = line.scale * std::sinh(at);
+        const double phase = line.phase(position, centre), x = 2 * std::abs(phase) / length - 1;
         const double fading = length > 0 ? 0.5 * std::erfc(window_steepness * x) : 0.5;
-        const double size = half * gauss_weight[k] * line.scale * std::cosh(at) * fading * slow(place);
+        const double size = half * gauss_weight[k] * line.scale * std::cosh(at) * fading * slow(position);
         const complex piece = std::polar(size, phase);
         all += {piece, phase * piece};
       }
@@ -93,8 +93,8 @@ template <typename Slow>
 EndSums end_sums(const PhasedLine& line, double near, double far, Slow&& slow) {
   const double phase = line.phase(far, near), length = std::min(phase, window_phase);
   if (!(far > near)) return {};
-  const double end = phase > window_phase ? line.place_after(near, length) : far;
-  const double begin = phase > window_phase ? line.place_after(far, -length) : near;
+  const double end = phase > window_phase ? line.position_after(near, length) : far;
+  const double begin = phase > window_phase ? line.position_after(far, -length) : near;
   return {windowed(line, near, end, near, length, slow), windowed(line, begin, far, far, length, slow)};
 }
 
@@ -124,23 +124,23 @@ class ArrivalList {
   ArrivalList(double distance, double wavenumber, double power)
       : distance_(distance), wavenumber_(wavenumber), power_(power) {}
 
-  /// Adds what `place` sends back, `size` times its share. It is heard as much later as its pieces are on average, so
+  /// Adds what `position` sends back, `size` times its share. It is received as much later as its pieces are on average, so
   /// that its phase is right at the frequencies about the carrier too.
-  void add(const Vector3d& place, const Share& share, complex size = 1) {
+  void add(const Vector3d& position, const Share& share, complex size = 1) {
     if (share.sum == 0.0) return;
-    const double range = place.norm(), late = std::clamp((share.moment / share.sum).real(), -most_late, most_late);
+    const double range = position.norm(), late = std::clamp((share.moment / share.sum).real(), -most_late, most_late);
     const double moved = 1 + late / (2 * wavenumber_ * range);
     const complex factor = 2 * moved * range * size * std::polar(1.0, -late);
-    // A phase grows with the wavenumber, but for the part of it that is in the place. (E179)
+    // A phase grows with the wavenumber, but for the part of it that is in the position. (E179)
     const complex rise = complex(0, 1) * (share.moment - late * share.sum) + power_ * share.sum;
     list_.push_back(
-        {place, moved * place, factor * share.sum, factor * rise, std::asin(std::min(1.0, distance_ / range))});
+        {position, moved * position, factor * share.sum, factor * rise, std::asin(std::min(1.0, distance_ / range))});
   }
   /// Returns the arrivals. Those of a body of which all parts have nearly one phase come from its middle: they are large
   /// against their sum, and patterns of beams must weigh the body as a whole.
   std::vector<BodyArrival> about(const Vector3d& middle, double farthest) && {
     double nearest = farthest;
-    for (const BodyArrival& a : list_) nearest = std::min(nearest, a.place.norm());
+    for (const BodyArrival& a : list_) nearest = std::min(nearest, a.position.norm());
     const double spread = 2 * wavenumber_ * (farthest - nearest);
     const double x = std::clamp((spread - small_spread) / (wide_spread - small_spread), 0.0, 1.0);
     if (x == 1) return std::move(list_);

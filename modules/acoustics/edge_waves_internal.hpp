@@ -8,13 +8,14 @@
 
 namespace insonify {
 
-/// The arrival that one place of a smooth body sends back to the head, in head axes [m].
+/// The arrival that one position of a smooth body sends back to the head, in head axes [m].
 struct BodyArrival {
-  Eigen::Vector3d place;     ///< place that sends it back: a specular point, a point of an edge, a corner
-  Eigen::Vector3d apparent;  ///< where it seems to come from: `place`; near the middle of a body that is small in phase
+  Eigen::Vector3d position;  ///< place that sends it back: a specular point, a point of an edge, a corner
+  Eigen::Vector3d
+      apparent;  ///< where it seems to come from: `position`; near the middle of a body that is small in phase
   std::complex<double> factor;  ///< amplitude over exp(2 i k r) / (2 r), r the range of `apparent`; of a rigid body
   std::complex<double> rise;    ///< change of `factor` with wavenumber, times the wavenumber
-  double grazing;               ///< angle of sound to the surface at `place` [rad]
+  double grazing;               ///< angle of sound to the surface at `position` [rad]
 };
 
 /// Returns the echo of a rigid plate by Kirchhoff's integral (E164): of its specular point, if that lies within the

@@ -16,7 +16,7 @@ constexpr double pattern_floor_db = -80;  // of one way
 struct MirroredScene {
   SceneCloud cloud;                   // real surfels, then images
   std::vector<std::uint32_t> surfel;  // of each image, its index in the scene
-  std::vector<std::uint8_t> asked;    // 1 for the images
+  std::vector<std::uint8_t> queried;  // 1 for the images
 };
 
 void append(const SceneCloud& from, std::size_t i, SceneCloud& to) {
@@ -72,8 +72,8 @@ MirroredScene mirrored_scene(const SceneCloud& scene, const View& view, const Bo
     if (!cloud.facet.empty())
       for (Eigen::Vector3f& corner : cloud.facet.back()) mirror(corner);
   }
-  all.asked.assign(real, 0);
-  all.asked.resize(2 * real, 1);
+  all.queried.assign(real, 0);
+  all.queried.resize(2 * real, 1);
   return all;
 }
 
@@ -82,7 +82,7 @@ void find_bounces(const SceneCloud& scene, const View& view, const std::vector<B
   if (boundaries[b].strongest_bounce(view.gate.max_range) < amplitude_from_db(pattern_floor_db)) return;
   const MirroredScene all = mirrored_scene(scene, view, boundaries[b], boundaries);
   const auto visibility =
-      find_visibility(all.cloud, view.world_from_head, view.fan, view.gate, all.asked, view.sampling);
+      find_visibility(all.cloud, view.world_from_head, view.fan, view.gate, all.queried, view.sampling);
   const std::size_t real = all.surfel.size();
   for (std::size_t k = 0; k < real; ++k) {
     if (visibility[real + k] == Visibility::seen) found.legs[all.surfel[k]] |= leg_by(b);
@@ -104,10 +104,10 @@ FoundLegs find_legs(const SceneCloud& scene, const View& view, const std::vector
   for (std::size_t b = 0; b < boundaries.size(); ++b) find_bounces(scene, view, boundaries, b, found);
 
   // Directly the head may have looked at fewer elevations than count here.
-  std::vector<std::uint8_t> asked(scene.size());
-  for (std::size_t i = 0; i < scene.size(); ++i) asked[i] = found.legs[i] && !seen_directly[i];
-  if (std::any_of(asked.begin(), asked.end(), [](std::uint8_t a) { return a; })) {
-    const auto visibility = find_visibility(scene, view.world_from_head, view.fan, view.gate, asked, view.sampling);
+  std::vector<std::uint8_t> queried(scene.size());
+  for (std::size_t i = 0; i < scene.size(); ++i) queried[i] = found.legs[i] && !seen_directly[i];
+  if (std::any_of(queried.begin(), queried.end(), [](std::uint8_t a) { return a; })) {
+    const auto visibility = find_visibility(scene, view.world_from_head, view.fan, view.gate, queried, view.sampling);
     for (std::size_t i = 0; i < scene.size(); ++i)
       if (visibility[i] == Visibility::seen) found.legs[i] |= direct_leg;
   }

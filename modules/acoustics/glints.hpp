@@ -11,7 +11,7 @@ namespace insonify {
 struct GlintOptions {
   int most_bounces = 3;  ///< off mirrors, surface and bottom, one after the other
   /// True if ways run through the profile of the environment, if it has one (E43, E167): to targets and to edges as two
-  /// rays to the place; by upright mirrors and one level boundary as the ray to the image; by other mirrors as the ray
+  /// rays to the position; by upright mirrors and one level boundary as the ray to the image; by other mirrors as the ray
   /// that they reflect (E177), without a new place on their edges.
   bool refraction = false;
   /// True if edges and corners rise or fade over the band (E179), by two more echoes each, which are opposite at the

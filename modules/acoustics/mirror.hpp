@@ -17,8 +17,8 @@ struct ElasticSolid {
 /// A smooth plane that mirrors sound: a wall, a quay, a plate. World frame [m].
 struct Mirror {
   std::string name = "mirror";
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();    ///< a point of the plane
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< towards the water, of any length
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< a point of the plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< towards the water, of any length
   /// Corners of a convex plane with edges, counterclockwise as seen from the water; place and normal then follow from
   /// them (with_corners). Empty: the plane has no edges.
   std::vector<Eigen::Vector3d> corners{};
@@ -31,7 +31,7 @@ struct Mirror {
 
 /// Returns a mirror with these corners, and with place and normal that follow from them.
 Mirror with_corners(Mirror mirror, std::vector<Eigen::Vector3d> corners);
-/// Returns a mirror with the corners of a rectangle about `place`: `width` [m] along the level direction in the plane
+/// Returns a mirror with the corners of a rectangle about `position`: `width` [m] along the level direction in the plane
 /// (along x if the plane is level), `height` [m] across it.
 Mirror with_size(Mirror mirror, double width, double height);
 

@@ -40,7 +40,7 @@ Pose pose_at(const Trajectory& trajectory, double time);
 Motion motion_at(const Trajectory& trajectory, double time);
 
 /// Changes the echoes of a head at rest into those of a moving head (E44). Sound leaves the head at `world_from_head`
-/// at time 0. The head receives it at the time `delay`, at the place of that time. With d the vector to the scatterer,
+/// at time 0. The head receives it at the time `delay`, at the position of that time. With d the vector to the scatterer,
 /// r0 = |d|,
 ///
 ///   delay = 2 (c r0 - v d) / (c^2 - v^2),  r1 = c delay - r0

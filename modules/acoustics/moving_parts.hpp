@@ -12,7 +12,7 @@
 
 namespace insonify {
 
-/// Moves scatterers of moving parts (ScenePart) from their places at transmission to the places at which sound meets
+/// Moves scatterers of moving parts (ScenePart) from their positions at transmission to the positions at which sound meets
 /// them (E145). With d the vector from the head to the scatterer, w = velocity + turn_rate x arm its velocity and r =
 /// |d|,
 ///

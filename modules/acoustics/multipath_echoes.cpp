@@ -130,7 +130,7 @@ View widened(const View& view, double max_range, const Transmission& sent) {
   return wide;
 }
 
-std::vector<std::uint32_t> parts_per_surfel(const Scatterers& patches, std::size_t surfels) {
+std::vector<std::uint32_t> pieces_per_surfel(const Scatterers& patches, std::size_t surfels) {
   std::vector<std::uint32_t> parts(surfels, 0);
   for (const std::uint32_t surfel : patches.surfel) {
     if (surfel >= surfels)
@@ -164,9 +164,8 @@ Multipath bounced_echoes(const SceneCloud& scene, const Scatterers& direct, cons
   Multipath result;
   for (const Boundary& boundary : boundaries) result.planes.push_back(boundary.plane);
 
-  // Legs, surfel by surfel.
   const bool rays = view.sampling.kind == SamplingKind::rays;
-  const auto parts = parts_per_surfel(direct, scene.size());
+  const auto parts = pieces_per_surfel(direct, scene.size());
   std::vector<std::uint8_t> seen_directly(scene.size(), 0);
   for (std::size_t i = 0; i < scene.size() && !rays; ++i) seen_directly[i] = parts[i] > 0;
   const FoundLegs found = find_legs(scene, widened(view, longest, sent), boundaries, seen_directly);
@@ -177,7 +176,7 @@ Multipath bounced_echoes(const SceneCloud& scene, const Scatterers& direct, cons
   if (!rays) builder.add(direct, parts, true, result);
   const Scatterers beside = split_listed(scene, view.world_from_head, view.fan, view.gate,
                                          surfels_beside(found, seen_directly), view.sampling);
-  builder.add(beside, parts_per_surfel(beside, scene.size()), false, result);
+  builder.add(beside, pieces_per_surfel(beside, scene.size()), false, result);
   return result;
 }
 
@@ -238,8 +237,8 @@ double longest_leg(const Environment& environment, std::span<const Mirror> mirro
   if (environment.surface) farthest = std::max(farthest, std::abs(head - environment.surface->height));
   if (environment.bottom) farthest = std::max(farthest, std::abs(head - environment.bottom->height));
   for (const Mirror& m : mirrors)
-    farthest =
-        std::max(farthest, MirrorPlane(m.normal.normalized(), m.place).absDistance(view.world_from_head.translation()));
+    farthest = std::max(farthest,
+                        MirrorPlane(m.normal.normalized(), m.position).absDistance(view.world_from_head.translation()));
   return view.gate.max_range + pulse_margin(transmission) + farthest;
 }
 

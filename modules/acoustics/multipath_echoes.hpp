@@ -78,7 +78,7 @@ struct MultipathOptions {
 ///          those seen only by a boundary are found and split here. With rays it is not used: patches are surfels then,
 ///          whose xi is not that of the rays.
 ///
-/// With `refraction` a leg is the ray to the place or to its image: by a level boundary through the profile and its
+/// With `refraction` a leg is the ray to the position or to its image: by a level boundary through the profile and its
 /// image in the boundary, by an upright mirror through the profile itself, each within one degree. By a plane that is
 /// tilted it is the ray that the plane reflects (E177). `direct` holds straight places all the same.
 /// Visibility is that of straight legs. Legs take the smooth surfel for the facet.

@@ -17,25 +17,25 @@ PairLegs::PairLegs(const SceneCloud& scene, std::span<const std::uint32_t> seen,
       to_head_(view.world_from_head.linear().transpose()) {
   if (!through || !through->profile) return;
   rays_.emplace(*through->profile, through->water.depth, view.world_from_head, sent.medium.absorption.a0);
-  std::vector<Vector3d> places;
-  places.reserve(seen.size());
-  for (const std::uint32_t i : seen) places.emplace_back(to_head_ * (scene.point[i].cast<double>() - head_));
-  rays_->prepare(places, sent.echo_options.threads);
+  std::vector<Vector3d> positions;
+  positions.reserve(seen.size());
+  for (const std::uint32_t i : seen) positions.emplace_back(to_head_ * (scene.point[i].cast<double>() - head_));
+  rays_->prepare(positions, sent.echo_options.threads);
 }
 
-std::optional<HeadLeg> PairLegs::leg_to(const Vector3d& place) const {
+std::optional<HeadLeg> PairLegs::leg_to(const Vector3d& position) const {
   HeadLeg leg;
-  const Vector3d from_head = place - head_;
+  const Vector3d from_head = position - head_;
   leg.range = from_head.norm();
   leg.to_head = -from_head / leg.range;
   Vector3d direction = to_head_ * from_head / leg.range;
   double pressure = 1;
   if (rays_) {
-    const auto bent = rays_->to(to_head_ * from_head);
-    if (!bent) return std::nullopt;
-    leg.range = bent->apparent.norm();
-    leg.to_head = to_head_.transpose() * -bent->arrival;
-    direction = bent->apparent / leg.range, pressure = bent->pressure;
+    const auto refracted = rays_->to(to_head_ * from_head);
+    if (!refracted) return std::nullopt;
+    leg.range = refracted->apparent.norm();
+    leg.to_head = to_head_.transpose() * -refracted->arrival;
+    direction = refracted->apparent / leg.range, pressure = refracted->pressure;
   }
   leg.u = direction.y(), leg.v = direction.z();
   leg.gain = pressure * one_way_pattern(options_, leg.v);
@@ -43,14 +43,14 @@ std::optional<HeadLeg> PairLegs::leg_to(const Vector3d& place) const {
   return leg;
 }
 
-std::optional<PairWay> PairLegs::by(const PairEnd& first, const PairEnd& last, const Vector3d& direction,
-                                    double distance) const {
-  const auto out = leg_to(first.place), back = leg_to(last.place);
+std::optional<PairPath> PairLegs::by(const PairEnd& first, const PairEnd& last, const Vector3d& direction,
+                                     double distance) const {
+  const auto out = leg_to(first.position), back = leg_to(last.position);
   if (!out || !back) return std::nullopt;
-  PairWay way{*out, *back, first.straight, last.straight, 0, 1};
+  PairPath way{*out, *back, first.straight, last.straight, 0, 1};
   way.path = way.out.range + distance + way.back.range;
   if (!rays_) return way;
-  const Vector3d from = to_head_ * (first.place - head_);
+  const Vector3d from = to_head_ * (first.position - head_);
   const auto between = rays_->between(from, from + distance * (to_head_ * direction));
   if (!between) return std::nullopt;
   const Vector3d leaves = to_head_.transpose() * between->leaves, arrives = to_head_.transpose() * between->arrives;
@@ -62,34 +62,34 @@ std::optional<PairWay> PairLegs::by(const PairEnd& first, const PairEnd& last, c
   return way;
 }
 
-std::vector<BentPair> bent_pairs(std::span<const SurfacePlace> places, const Environment& environment,
-                                 const Pose& world_from_head, const Medium& medium) {
-  std::vector<BentPair> pairs;
+std::vector<RefractedPair> refracted_pairs(std::span<const SurfacePoint> positions, const Environment& environment,
+                                           const Pose& world_from_head, const Medium& medium) {
+  std::vector<RefractedPair> pairs;
   if (!environment.profile) return pairs;
-  const BentLegs rays(*environment.profile, environment.water.depth, world_from_head, medium.absorption.a0);
-  std::vector<std::optional<BentLeg>> legs;
-  for (const SurfacePlace& place : places) legs.push_back(rays.to(place.at));
-  const auto add = [&](std::size_t i, std::size_t j, const BentPiece& between, double distance) {
+  const RefractedLegs rays(*environment.profile, environment.water.depth, world_from_head, medium.absorption.a0);
+  std::vector<std::optional<RefractedLeg>> legs;
+  for (const SurfacePoint& position : positions) legs.push_back(rays.to(position.at));
+  const auto add = [&](std::size_t i, std::size_t j, const RayPiece& between, double distance) {
     const Vector3d from_head = -legs[i]->arrival, to_head = -legs[j]->arrival;
-    const Vector3d &normal = places[i].normal, &normal_there = places[j].normal;
+    const Vector3d &normal = positions[i].normal, &normal_there = positions[j].normal;
     const double apparent = legs[i]->apparent.norm() + between.apparent + legs[j]->apparent.norm();
-    const double straight = places[i].at.norm() + distance + places[j].at.norm();
+    const double straight = positions[i].at.norm() + distance + positions[j].at.norm();
     const double spread =
-        places[i].at.norm() * places[j].at.norm() / legs[i]->apparent.norm() / legs[j]->apparent.norm();
+        positions[i].at.norm() * positions[j].at.norm() / legs[i]->apparent.norm() / legs[j]->apparent.norm();
     pairs.push_back({i,
                      j,
                      {normal.dot(from_head), normal.dot(between.leaves), from_head.dot(between.leaves)},
                      {-normal_there.dot(between.arrives), normal_there.dot(to_head), -between.arrives.dot(to_head)},
                      apparent - straight,
-                     legs[j]->apparent.normalized().y() - places[j].at.normalized().y(),
+                     legs[j]->apparent.normalized().y() - positions[j].at.normalized().y(),
                      legs[i]->pressure * legs[j]->pressure * between.pressure * spread});
   };
-  for (std::size_t i = 0; i < places.size(); ++i)
-    for (std::size_t j = 0; j < places.size(); ++j) {
-      const Vector3d way = places[j].at - places[i].at;
-      if (i == j || !legs[i] || !legs[j] || !(places[i].normal.dot(way) > 0) || !(places[j].normal.dot(way) < 0))
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    for (std::size_t j = 0; j < positions.size(); ++j) {
+      const Vector3d way = positions[j].at - positions[i].at;
+      if (i == j || !legs[i] || !legs[j] || !(positions[i].normal.dot(way) > 0) || !(positions[j].normal.dot(way) < 0))
         continue;
-      if (const auto between = rays.between(places[i].at, places[j].at)) add(i, j, *between, way.norm());
+      if (const auto between = rays.between(positions[i].at, positions[j].at)) add(i, j, *between, way.norm());
     }
   return pairs;
 }

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/bent_legs_internal.hpp"
 #include "acoustics/boundary_internal.hpp"
 #include "acoustics/find_legs_internal.hpp"
+#include "acoustics/refracted_legs_internal.hpp"
 #include "sampling/scatterers.hpp"
 
 // Private to acoustics: legs between a head and patches, directly and by boundaries, straight or through a profile.
@@ -40,24 +40,25 @@ class PatchLegs {
 
  private:
   /// A leg, and the reflection on it.
-  struct Way {
-    BentLeg leg;
+  struct Path {
+    RefractedLeg leg;
     std::complex<double> reflection = 1;
   };
-  std::optional<Way> bent_way_to(const Eigen::Vector3d& place, std::size_t by) const;
-  std::optional<Way> tilted_way_to(const Eigen::Vector3d& image, const Boundary& boundary) const;
+  std::optional<Path> refracted_path_to(const Eigen::Vector3d& position, std::size_t by) const;
+  std::optional<Path> path_by_tilted_mirror_to(const Eigen::Vector3d& image, const Boundary& boundary) const;
   /// Sets a leg but for its gains.
-  void set_leg(const BentLeg& way, double range, std::uint32_t surfel, const Eigen::Vector3d& normal, Leg& leg) const;
-  void set_gains(const BentLeg& way, std::complex<double> reflection, std::size_t by, Leg& leg) const;
-  /// Sets the leg to a place, or by boundary `by` to its image; false if no ray reaches it.
-  bool set_leg_to(std::uint32_t surfel, const Eigen::Vector3d& place, const Eigen::Vector3d& normal, std::size_t by,
+  void set_leg(const RefractedLeg& way, double range, std::uint32_t surfel, const Eigen::Vector3d& normal,
+               Leg& leg) const;
+  void set_gains(const RefractedLeg& way, std::complex<double> reflection, std::size_t by, Leg& leg) const;
+  /// Sets the leg to a position, or by boundary `by` to its image; false if no ray reaches it.
+  bool set_leg_to(std::uint32_t surfel, const Eigen::Vector3d& position, const Eigen::Vector3d& normal, std::size_t by,
                   Leg& leg) const;
 
   const SceneCloud& scene_;
   const std::vector<Boundary>& boundaries_;
   const EchoOptions& echo_options_;
   Eigen::Matrix3d to_head_;
-  std::vector<std::optional<BentLegs>>
+  std::vector<std::optional<RefractedLegs>>
       rays_;  // to places, 0, and to images, k by the k-th boundary; none: it is tilted
 };
 

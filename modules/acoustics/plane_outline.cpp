@@ -54,33 +54,33 @@ double area_of(const std::vector<Vector2d>& outline) {
   return area;
 }
 
-/// Mean distance to the nearest other place, times twice the root of their density: 1 at random, 2 on squares (Clark and
+/// Mean distance to the nearest other position, times twice the root of their density: 1 at random, 2 on squares (Clark and
 /// Evans 1954).
-double regularity_of(const std::vector<Vector2d>& places, double area) {
+double regularity_of(const std::vector<Vector2d>& positions, double area) {
   std::vector<Eigen::Vector3f> flat;
-  for (const Vector2d& place : places) flat.emplace_back(place.x(), place.y(), 0);
+  for (const Vector2d& position : positions) flat.emplace_back(position.x(), position.y(), 0);
   const SceneIndex index(flat);
   std::vector<Neighbour> nearest;
   double sum = 0;
-  for (const Eigen::Vector3f& place : flat) {
-    index.find_nearest(place, 2, nearest);
+  for (const Eigen::Vector3f& position : flat) {
+    index.find_nearest(position, 2, nearest);
     sum += std::sqrt(static_cast<double>(nearest.back().squared_distance));
   }
-  const auto count = static_cast<double>(places.size());
+  const auto count = static_cast<double>(positions.size());
   return 2 * sum / count * std::sqrt(count / area);
 }
 
 }  // namespace
 
-double edge_beyond_centres(const std::vector<Vector2d>& places, double area, double spacing) {
+double edge_beyond_centres(const std::vector<Vector2d>& positions, double area, double spacing) {
   constexpr double convex = 0.85, most_random = 1.25;
-  const std::vector<Vector2d> hull = convex_hull(places, 0.005 * spacing * spacing);
+  const std::vector<Vector2d> hull = convex_hull(positions, 0.005 * spacing * spacing);
   if (hull.size() < 3 || area < convex * area_of(moved_outwards(hull, 0.5 * spacing))) return 0.5 * spacing;
   // The corners of the hull say how much of a convex surface is outside it, if places are random.
-  const auto count = static_cast<double>(places.size());
-  const std::vector<Vector2d> exact = convex_hull(places, 0);
+  const auto count = static_cast<double>(positions.size());
+  const std::vector<Vector2d> exact = convex_hull(positions, 0);
   const auto corners = static_cast<double>(exact.size());
-  if (regularity_of(places, area) < most_random) area = area_of(exact) / (1 - corners / (count + 1));  // (E162)
+  if (regularity_of(positions, area) < most_random) area = area_of(exact) / (1 - corners / (count + 1));  // (E162)
   // The area of the outline grows with the distance: halve the interval that holds the one sought.
   constexpr int halvings = 40;
   double low = 0, high = spacing;
@@ -91,24 +91,24 @@ double edge_beyond_centres(const std::vector<Vector2d>& places, double area, dou
   return high;
 }
 
-Mirror mirror_of(const SurfelPart& part, const FittedPlane& plane, const Material& material) {
+Mirror mirror_of(const SurfelGroup& group, const FittedPlane& plane, const Material& material) {
   const Vector3d along = plane.normal.unitOrthogonal(), across = plane.normal.cross(along);
-  std::vector<Vector2d> places;
+  std::vector<Vector2d> positions;
   double of_surfels = 0;  // as seen along the normal of the plane, from which noise turns those of surfels
-  for (const std::uint32_t s : part.members) {
-    const Vector3d p = part.point(s) - plane.place;
-    places.emplace_back(along.dot(p), across.dot(p));
-    of_surfels += part.scene.area[s] * std::abs(part.normal(s).dot(plane.normal));
+  for (const std::uint32_t s : group.members) {
+    const Vector3d p = group.point(s) - plane.position;
+    positions.emplace_back(along.dot(p), across.dot(p));
+    of_surfels += group.scene.area[s] * std::abs(group.normal(s).dot(plane.normal));
   }
-  const double spacing = part.spacing();
-  const std::vector<Vector2d> outline =
-      moved_outwards(convex_hull(places, 0.005 * spacing * spacing), edge_beyond_centres(places, of_surfels, spacing));
+  const double spacing = group.spacing();
+  const std::vector<Vector2d> outline = moved_outwards(convex_hull(positions, 0.005 * spacing * spacing),
+                                                       edge_beyond_centres(positions, of_surfels, spacing));
   std::vector<Vector3d> corners;
-  for (const Vector2d& corner : outline) corners.push_back(plane.place + corner.x() * along + corner.y() * across);
+  for (const Vector2d& corner : outline) corners.push_back(plane.position + corner.x() * along + corner.y() * across);
   const double area = area_of(outline);
   if (of_surfels < 0.5 * area)
-    fail(ErrorKind::content, "fit_shapes: a plane of material '", material.name, "', ", part.place(), ", fills ",
-         std::round(100 * of_surfels / area),
+    fail(ErrorKind::content, "fit_shapes: a plane of material '", material.name, "', ", group.position_text(),
+         ", fills ", std::round(100 * of_surfels / area),
          " % of its outline, must fill half of it: give its convex parts materials of their own");
   Mirror mirror{material.name};
   mirror.reflection = material.reflection, mirror.rms_height = material.rms_height;

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "acoustics/bend_paths.hpp"
+#include "acoustics/refract_paths.hpp"
 
 /// Rays through layers of constant gradient, named by their steepness. With c_m the highest sound speed between the
 /// two ends, a ray of steepness Q (square of the tangent of its slope where sound speed is c_m) has at sound speed c

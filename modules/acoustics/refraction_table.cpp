@@ -43,8 +43,8 @@ std::vector<double> rows_of(const DepthBox& box, double head_depth, const std::v
   for (std::size_t i = 1; i < stations.size(); ++i) {
     if (i + 1 < stations.size() && stations[i] == rows.back()) continue;
     const double height = stations[i] - stations[i - 1];
-    const double parts = largest > 0 ? std::max(1.0, std::ceil(height / largest - 1e-9)) : 1;
-    for (double part = 1; part < parts; ++part) rows.push_back(stations[i - 1] + height * part / parts);
+    const double shares = largest > 0 ? std::max(1.0, std::ceil(height / largest - 1e-9)) : 1;
+    for (double share = 1; share < shares; ++share) rows.push_back(stations[i - 1] + height * share / shares);
     rows.push_back(stations[i]);
   }
   return rows;
@@ -65,11 +65,11 @@ FirstOrderRays::FirstOrderRays(const SoundSpeedProfile& profile, double head_dep
       head_speed_(sound_speed_at(profile, head_depth)),
       depth_(profile.depth),
       speed_(profile.sound_speed) {
-  const auto place = std::lower_bound(depth_.begin(), depth_.end(), head_depth) - depth_.begin();
-  const auto head = static_cast<std::size_t>(place);
+  const auto above = std::lower_bound(depth_.begin(), depth_.end(), head_depth) - depth_.begin();
+  const auto head = static_cast<std::size_t>(above);
   if (head == depth_.size() || depth_[head] != head_depth) {
-    depth_.insert(depth_.begin() + place, head_depth);
-    speed_.insert(speed_.begin() + place, head_speed_);
+    depth_.insert(depth_.begin() + above, head_depth);
+    speed_.insert(speed_.begin() + above, head_speed_);
   }
 
   // Outwards from the head, so that nothing cancels close to it.
@@ -205,16 +205,17 @@ void RefractionTable::decide(Patch& patch, const Frame& frame, int levels) const
 void RefractionTable::quarter(Patch& patch, const Frame& frame, const std::array<Rest, 4>& middles, int levels) const {
   patch.quarters = std::make_unique<std::array<Patch, 4>>();
   for (std::size_t q = 0; q < 4; ++q) {
-    Patch& part = (*patch.quarters)[q];
+    Patch& share = (*patch.quarters)[q];
     const Frame part_frame = frame.quarter(q);
     // Corners and middle are known, the middles of the edges are new.
     for (std::size_t i = 0; i < 9; ++i) {
       const std::size_t row = i / 3, column = i % 3;
-      part.rest[i] = i == 4       ? middles[q]
-                     : i % 2 == 0 ? patch.rest[3 * (q / 2 + row / 2) + q % 2 + column / 2]
-                                  : rest(part_frame, 0.5 * static_cast<double>(row), 0.5 * static_cast<double>(column));
+      share.rest[i] = i == 4 ? middles[q]
+                      : i % 2 == 0
+                          ? patch.rest[3 * (q / 2 + row / 2) + q % 2 + column / 2]
+                          : rest(part_frame, 0.5 * static_cast<double>(row), 0.5 * static_cast<double>(column));
     }
-    decide(part, part_frame, levels);
+    decide(share, part_frame, levels);
   }
 }
 

@@ -46,7 +46,7 @@ class RefractionTable {
   /// Without a box, or with one of few points, every ray is solved. `profile` must outlive the table.
   RefractionTable(const SoundSpeedProfile& profile, double head_depth, const DepthBox& box, int threads);
 
-  /// Returns the apparent place; none in a shadow zone.
+  /// Returns the apparent position; none in a shadow zone.
   std::optional<ApparentPosition> apparent(double depth, double horizontal) const;
 
  private:

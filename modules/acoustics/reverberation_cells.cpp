@@ -80,8 +80,8 @@ ElevationLaw::ElevationLaw(const BeamFan& fan, const EchoOptions& echo_options) 
   integral_ = sum_.back();
 }
 
-double ElevationLaw::elevation_at(double part) const {
-  const double wanted = part * integral_;
+double ElevationLaw::elevation_at(double share) const {
+  const double wanted = share * integral_;
   const auto above = std::upper_bound(sum_.begin() + 1, sum_.end() - 1, wanted);
   const double below = *(above - 1), rise = *above - below;
   const double inside = rise > 0 ? std::clamp((wanted - below) / rise, 0.0, 1.0) : 0.5;

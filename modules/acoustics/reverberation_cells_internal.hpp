@@ -37,7 +37,7 @@ class ElevationLaw {
  public:
   ElevationLaw(const BeamFan& fan, const EchoOptions& echo_options);
   double integral() const { return integral_; }   ///< [rad]
-  double elevation_at(double part) const;         ///< below which `part`, in [0, 1], of the integral lies [rad]
+  double elevation_at(double share) const;        ///< below which `share`, in [0, 1], of the integral lies [rad]
   double extent() const { return high_ - low_; }  ///< [rad]
 
  private:

@@ -29,7 +29,6 @@ constexpr std::size_t slices_per_block = 64;
 constexpr double pattern_floor = 1e-4;  // -80 dB: cells below it are left out
 constexpr double metres_per_second_per_knot = 1852.0 / 3600.0;
 
-/// A plane that scatters.
 struct ScatteringPlane {
   const char* name;
   double height;      ///< world z [m]
@@ -89,14 +88,14 @@ class PlaneEchoes {
     const auto jitter = random_uniform(echo_options_.seed, plane_.stage, counter);
     const double r = std::sqrt(r1 * r1 + jitter[2] * (r2 * r2 - r1 * r1));
     const double rho = std::sqrt(std::max(0.0, (r - distance_) * (r + distance_)));
-    const Vector3d place = to_plane_ + rho * direction((static_cast<double>(j) + jitter[3]) * step_);
-    const double v = std::clamp(place.z() / r, -1.0, 1.0);
+    const Vector3d position = to_plane_ + rho * direction((static_cast<double>(j) + jitter[3]) * step_);
+    const double v = std::clamp(position.z() / r, -1.0, 1.0);
     const double pattern = elevation_pattern(echo_options_, std::asin(v));
     if (!(std::abs(pattern) >= pattern_floor)) return;
     const double sine = distance_ / r;  // of the grazing angle
     const double sigma = plane_.strength * area + cross_section(*surface_, {sine, sine, sine * area});  // (E50, E51)
-    const double transmitted = transmit_pattern(echo_options_, std::atan2(place.y(), place.x()));
-    add_echo(out, two_over_c_ * r, place.y() / r, v,
+    const double transmitted = transmit_pattern(echo_options_, std::atan2(position.y(), position.x()));
+    add_echo(out, two_over_c_ * r, position.y() / r, v,
              source_ * std::sqrt(sigma) * pattern * transmitted / (r * r) *
                  cell_amplitude(echo_options_, plane_.stage, counter));
   }
@@ -124,11 +123,11 @@ Echoes plane_echoes(const ScatteringPlane& plane, const Pose& world_from_head, c
   return PlaneEchoes(plane, first, cells, world_from_head, sent, who).echoes();
 }
 
-/// Which bottom is under a head: its place, rounded to `step`.
-std::uint64_t place_counter(const Vector3d& place, double step) {
+/// Which bottom is under a head: its position, rounded to `step`.
+std::uint64_t counter_of_point(const Vector3d& position, double step) {
   std::uint64_t counter = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double rounded = std::nearbyint(place[axis] / step);
+    const double rounded = std::nearbyint(position[axis] / step);
     counter = counter << 21 | (static_cast<std::uint64_t>(std::fmod(rounded, 0x1p20) + 0x1p20) & 0x1fffff);
   }
   return counter;
@@ -177,8 +176,8 @@ class VolumeEchoes {
     const double cube1 = std::pow(cells_.begin(k), 3), cube2 = std::pow(cells_.end(k), 3);
     const double r = std::cbrt(cube1 + upward_outward.rest * (cube2 - cube1));
     const double azimuth = min_azimuth_ + (static_cast<double>(a) + jitter[3]) * step_;
-    const double part = (static_cast<double>(e) + upward_outward.leading) / static_cast<double>(layers_);
-    const double elevation = law_.elevation_at(part);
+    const double share = (static_cast<double>(e) + upward_outward.leading) / static_cast<double>(layers_);
+    const double elevation = law_.elevation_at(share);
     if (!sector_.in_cones(unit_vector({azimuth, elevation}))) return;
     const double size = source_ * std::sqrt((cube2 - cube1) / 3) * transmit_pattern(echo_options_, azimuth) / (r * r);
     add_echo(out, two_over_c_ * r, std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
@@ -234,8 +233,8 @@ Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head
                        0,
                        {"flat bottom", *environment.bottom->lambert_mu},
                        RandomStage::flat_bottom},
-                      world_from_head, cells, transmission, place_counter(world_from_head.translation(), cells.length),
-                      me);
+                      world_from_head, cells, transmission,
+                      counter_of_point(world_from_head.translation(), cells.length), me);
 }
 
 double chapman_harris_strength_db(double frequency, double wind_speed, double grazing) {

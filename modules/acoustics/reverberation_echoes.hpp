@@ -43,7 +43,7 @@ Echoes surface_echoes(const Environment& environment, const Pose& world_from_hea
                       const ReverberationOptions& options = {});
 
 /// Returns the echoes of the flat bottom by Lambert's law, mu sin^2(grazing) dA (E51). Cells are bound to the world's
-/// directions and to the place of the head, rounded to a range cell: a head that rests, or turns about its place, gets
+/// directions and to the position of the head, rounded to a range cell: a head that rests, or turns about its position, gets
 /// echoes of the same bottom in every ping; a head that has moved gets echoes of another bottom. Throws Error if the
 /// head is not above the bottom.
 Echoes bottom_echoes(const Environment& environment, const Pose& world_from_head, const BeamFan& fan,

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "acoustics/surfel_part_internal.hpp"
+#include "acoustics/surfel_group_internal.hpp"
 
 // Private to acoustics: planes and round bodies through surfels, and what their residuals may be (E161).
 namespace insonify {
@@ -27,20 +27,20 @@ struct SurfelNoise {
   }
 };
 /// Returns the noise of a part by at most 2000 of its neighbourhoods: the median of what their quadratics leave.
-SurfelNoise noise_of(const SurfelPart& part);
+SurfelNoise noise_of(const SurfelGroup& group);
 
 /// Returns the number of surfels of equal area that weigh as these do: (sum of areas)^2 / sum of their squares.
-double effective_count(const SurfelPart& part);
+double effective_count(const SurfelGroup& group);
 
 /// A plane by least squares: its normal on the side of those of the surfels.
 struct FittedPlane {
-  Eigen::Vector3d place, normal;
+  Eigen::Vector3d position, normal;
   double mean_square;  ///< mean square distance of the surfels, by area [m^2]
 };
-FittedPlane plane_through(const SurfelPart& part);
+FittedPlane plane_through(const SurfelGroup& group);
 /// Returns the plane of nearly all surfels of a part, and these; nothing if they are too few or noise does not explain
 /// how they stray.
-std::optional<std::pair<FittedPlane, SurfelPart>> flat_part(const SurfelPart& part, const SurfelNoise& noise);
+std::optional<std::pair<FittedPlane, SurfelGroup>> flat_group(const SurfelGroup& group, const SurfelNoise& noise);
 
 /// A sphere, or a cylinder about `axis`.
 struct RoundBody {
@@ -48,15 +48,15 @@ struct RoundBody {
   double radius = 0;
   double mean_square = 0;  ///< mean square distance of its surfels, by area [m^2]
 
-  /// Returns the vector from the centre or axis to a place, across the axis.
-  Eigen::Vector3d away(const Eigen::Vector3d& place) const {
-    const Eigen::Vector3d from = place - centre;
+  /// Returns the vector from the centre or axis to a position, across the axis.
+  Eigen::Vector3d away(const Eigen::Vector3d& position) const {
+    const Eigen::Vector3d from = position - centre;
     return from - axis * axis.dot(from);
   }
 };
 /// Returns the sphere, or the cylinder about an axis near `axis`, of nearly all surfels of a part; nothing if they do not
 /// lie on one that is convex. Gauss and Newton's method on the distances, from the linear fit of the squared ones.
-std::optional<RoundBody> round_body(const SurfelPart& part, const SurfelNoise& noise,
+std::optional<RoundBody> round_body(const SurfelGroup& group, const SurfelNoise& noise,
                                     const Eigen::Vector3d& axis = Eigen::Vector3d::Zero());
 
 }  // namespace insonify

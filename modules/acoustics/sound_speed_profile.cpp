@@ -30,8 +30,8 @@ double sound_speed_at(const SoundSpeedProfile& profile, double depth) {
   const auto below = static_cast<std::size_t>(std::upper_bound(z.begin(), z.end(), depth) - z.begin());
   if (below == 0) return c.front();
   if (below == z.size()) return c.back();
-  const double part = (depth - z[below - 1]) / (z[below] - z[below - 1]);
-  return c[below - 1] + part * (c[below] - c[below - 1]);  // (E42)
+  const double share = (depth - z[below - 1]) / (z[below] - z[below - 1]);
+  return c[below - 1] + share * (c[below] - c[below - 1]);  // (E42)
 }
 
 }  // namespace insonify

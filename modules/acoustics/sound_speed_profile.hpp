@@ -23,11 +23,11 @@ double sound_speed_at(const SoundSpeedProfile& profile, double depth);
 struct RefractionBound {
   double range = 0;      ///< error of the apparent range [m]
   double elevation = 0;  ///< error of the angle at the head [rad]
-  double level_db = 0;   ///< error of the level [dB]; only bending_in_view sets it
+  double level_db = 0;   ///< error of the level [dB]; only refraction_in_view sets it
 };
 
 /// Counts of scatterers that rays do not serve.
-struct BentPaths {
+struct RefractedPaths {
   std::size_t silenced = 0;  ///< scatterers in a shadow zone
   std::size_t focused = 0;   ///< scatterers near a caustic, whose level is limited
 };

@@ -120,9 +120,9 @@ void require_energy(const Material& material, const char* who, ErrorKind kind) {
   for (const double frequency : frequencies) {
     const auto surface = surface_of(material, frequency, sound_speed);
     for (int k = 0; k < incidences; ++k) {
-      const double incidence = k * pi / (2 * incidences), part = albedo(*surface, std::cos(incidence));
-      if (!(part <= most_albedo))
-        fail(kind, who, ": material '", material.name, "' sends back ", part, " of the power that falls in at ",
+      const double incidence = k * pi / (2 * incidences), share = albedo(*surface, std::cos(incidence));
+      if (!(share <= most_albedo))
+        fail(kind, who, ": material '", material.name, "' sends back ", share, " of the power that falls in at ",
              degrees(incidence), " deg and ", frequency * 1e-3, " kHz, must be at most 1; lower its numbers");
     }
   }

@@ -9,7 +9,7 @@ namespace insonify {
 namespace {
 
 /// Where a number stands between ascending ones: index of the left one, and how far beyond it; held at the ends.
-std::pair<std::size_t, double> place_in(const std::vector<double>& ascending, double x) {
+std::pair<std::size_t, double> position_in(const std::vector<double>& ascending, double x) {
   if (x <= ascending.front() || ascending.size() == 1) return {0, 0};
   if (x >= ascending.back()) return {ascending.size() - 2, 1};
   const auto right = std::upper_bound(ascending.begin(), ascending.end(), x);
@@ -22,15 +22,15 @@ class StrengthTable {
   StrengthTable(const TableLaw& law, double frequency) : incidence_(law.incidence), level_(law.incidence.size()) {
     std::vector<double> logs;
     for (const double f : law.frequency) logs.push_back(std::log(f));
-    const auto [row, part] = logs.empty() ? std::pair<std::size_t, double>{} : place_in(logs, std::log(frequency));
+    const auto [row, share] = logs.empty() ? std::pair<std::size_t, double>{} : position_in(logs, std::log(frequency));
     const std::size_t n = incidence_.size(), next = logs.size() > 1 ? n : 0;
     for (std::size_t i = 0; i < n; ++i)
-      level_[i] = (1 - part) * law.sigma_db[row * n + i] + part * law.sigma_db[row * n + next + i] -
+      level_[i] = (1 - share) * law.sigma_db[row * n + i] + share * law.sigma_db[row * n + next + i] -
                   20 * std::log10(std::cos(incidence_[i]));
   }
   double operator()(double cosine) const {
-    const auto [i, part] = place_in(incidence_, std::acos(std::min(1.0, cosine)));
-    return power_from_db((1 - part) * level_[i] + part * level_[i + 1]);
+    const auto [i, share] = position_in(incidence_, std::acos(std::min(1.0, cosine)));
+    return power_from_db((1 - share) * level_[i] + share * level_[i + 1]);
   }
 
  private:

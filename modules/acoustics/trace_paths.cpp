@@ -25,8 +25,8 @@ std::vector<std::size_t> loudest(const Echoes& echoes, const Medium& medium, std
   std::map<std::size_t, std::size_t> of_interval;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     if (!in_group(i)) continue;
-    const double place = std::floor(0.5 * (echoes.u[i] + 1) * static_cast<double>(count));
-    const auto interval = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
+    const double position = std::floor(0.5 * (echoes.u[i] + 1) * static_cast<double>(count));
+    const auto interval = static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(count - 1)));
     const auto [held, is_new] = of_interval.emplace(interval, i);
     if (!is_new && amplitude_of(echoes, i, medium) > amplitude_of(echoes, held->second, medium)) held->second = i;
   }
@@ -41,9 +41,9 @@ void add_path(SoundPaths& paths, std::vector<Vector3d> points, double amplitude,
   paths.bounces.push_back(bounces);
 }
 
-/// Where the leg from `head` to the image of `place` in a plane meets it.
-Vector3d bounce_of(const Vector3d& head, const Vector3d& place, const MirrorPlane& plane) {
-  const Vector3d image = mirrored_in(plane, place), &normal = plane.normal();
+/// Where the leg from `head` to the image of `position` in a plane meets it.
+Vector3d bounce_of(const Vector3d& head, const Vector3d& position, const MirrorPlane& plane) {
+  const Vector3d image = mirrored_in(plane, position), &normal = plane.normal();
   return head - plane.signedDistance(head) / (normal.dot(image) - normal.dot(head)) * (image - head);
 }
 
@@ -54,9 +54,9 @@ SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, cons
   SoundPaths paths;
   const Vector3d head = world_from_head.translation();
   for (const std::size_t i : loudest(echoes, medium, count, [](std::size_t) { return true; })) {
-    const Vector3d place =
+    const Vector3d position =
         world_from_head * Vector3d(scatterers.range[i] * unit_vector({scatterers.azimuth[i], scatterers.elevation[i]}));
-    add_path(paths, {head, place, head}, amplitude_of(echoes, i, medium), 0);
+    add_path(paths, {head, position, head}, amplitude_of(echoes, i, medium), 0);
   }
   return paths;
 }
@@ -72,11 +72,11 @@ SoundPaths multipath_paths(const Multipath& multipath, const SceneCloud& scene, 
       const LegPair legs{out, back};
       const auto in_group = [&](std::size_t i) { return multipath.legs[i] == legs; };
       for (const std::size_t i : loudest(multipath.echoes, medium, count, in_group)) {
-        const Vector3d place = scene.origin + scene.point[multipath.surfel[i]].cast<double>();
+        const Vector3d position = scene.origin + scene.point[multipath.surfel[i]].cast<double>();
         std::vector<Vector3d> points = {head};
-        if (out > 0) points.push_back(bounce_of(head, place, multipath.planes[out - 1]));
-        points.push_back(place);
-        if (back > 0) points.push_back(bounce_of(head, place, multipath.planes[back - 1]));
+        if (out > 0) points.push_back(bounce_of(head, position, multipath.planes[out - 1]));
+        points.push_back(position);
+        if (back > 0) points.push_back(bounce_of(head, position, multipath.planes[back - 1]));
         points.push_back(head);
         add_path(paths, std::move(points), amplitude_of(multipath.echoes, i, medium), legs.bounces());
       }

@@ -6,7 +6,7 @@
 namespace insonify {
 
 /// Returns the paths of the strongest direct echo in each of `count` equal intervals of u, out and back by a straight
-/// line. `echoes` are those of `scatterers`, index by index; where rays are bent, the line ends at the apparent place
+/// line. `echoes` are those of `scatterers`, index by index; where rays are bent, the line ends at the apparent position
 /// of the patch. Throws Error unless count >= 1.
 SoundPaths direct_paths(const Scatterers& scatterers, const Echoes& echoes, const Pose& world_from_head,
                         const Medium& medium, std::size_t count);

@@ -35,7 +35,7 @@ struct Engine {
   SynthesisMethod referee;  ///< slower engine of the same model; the engine itself if there is none
   double least_tolerance, most_tolerance;
   bool replaceable;                      ///< true: the plan may take an engine of true delays instead
-  bool hears_all_rows;                   ///< true: no echo is omitted from a row of beams that hardly hears it
+  bool receives_all_rows;                ///< true: no echo is omitted from a row of beams that hardly receives it
   bool (*whole_head)(const SonarHead&);  ///< returns true if one object forms all rows of the head, else one a row
   bool (*streams)(const SonarHead&);     ///< returns true if echoes of a stream need not be stored
   /// Constructs the engine for a head, medium and options.
@@ -54,6 +54,6 @@ const Engine& referee_for(ImageModel model);
 /// Returns true if images of the method are expected levels, which add up by their squares.
 inline bool gives_power(SynthesisMethod method) { return engine_of(method).model == ImageModel::expected_power; }
 /// Returns true if beams of the method receive each frequency of the pulse by its own pattern.
-inline bool hears_whole_band(SynthesisMethod method) { return engine_of(method).model == ImageModel::true_delays; }
+inline bool receives_whole_band(SynthesisMethod method) { return engine_of(method).model == ImageModel::true_delays; }
 
 }  // namespace insonify

@@ -51,9 +51,9 @@ std::vector<double> sum_over_rows(const SonarHead& head, double wavelength, cons
 
 /// Value at x of a table over x from -1 to 1.
 double between_entries(const std::vector<double>& table, double x) {
-  const double place = 0.5 * (std::clamp(x, -1.0, 1.0) + 1) * static_cast<double>(table.size() - 1);
-  const std::size_t left = std::min(static_cast<std::size_t>(place), table.size() - 2);
-  return std::lerp(table[left], table[left + 1], place - static_cast<double>(left));
+  const double position = 0.5 * (std::clamp(x, -1.0, 1.0) + 1) * static_cast<double>(table.size() - 1);
+  const std::size_t left = std::min(static_cast<std::size_t>(position), table.size() - 2);
+  return std::lerp(table[left], table[left + 1], position - static_cast<double>(left));
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double 
   if (rows.size() > 1 || head.column) rows_ = sum_over_rows(head, wavelength, rows);
 }
 
-void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double half_width, double part) {
+void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double half_width, double share) {
   std::vector<complex> terms = beam_terms(head, step);
   if (half_width > 0)
     for (std::size_t m = 1; m < terms.size(); ++m) {
@@ -98,7 +98,7 @@ void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double ha
         phase[l][1] = re * turn[l][1] + im * turn[l][0];
       }
     for (std::size_t l = 0; l < std::min(lanes, table_.size() - begin); ++l)
-      table_[begin + l] += part * std::max(0.0, sum[l]);
+      table_[begin + l] += share * std::max(0.0, sum[l]);
   }
 }
 

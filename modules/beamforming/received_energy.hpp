@@ -20,8 +20,8 @@ class ReceivedEnergy {
   double along_array(double u) const;
 
  private:
-  /// Adds the squared response of elements `step` [rad] apart in phase, times `part`.
-  void add_frequency(const SonarHead& head, double step, double half_width, double part);
+  /// Adds the squared response of elements `step` [rad] apart in phase, times `share`.
+  void add_frequency(const SonarHead& head, double step, double half_width, double share);
 
   std::vector<double> table_;  // over u from -1 to 1
   std::vector<double> rows_;   // sum over rows of their squared responses, over v from -1 to 1; empty: 1

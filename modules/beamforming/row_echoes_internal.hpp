@@ -15,7 +15,7 @@ class RowEchoes {
   /// echo. A `cutoff` of 0 omits no echo.
   RowEchoes(const Echoes& echoes, const SonarHead& head, double wavelength, const std::vector<FanRow>& rows,
             double cutoff, int threads);
-  /// Returns the echoes that a row hears, weighted by its response, in order.
+  /// Returns the echoes that a row receives, weighted by its response, in order.
   Echoes of(const FanRow& row) const;
 
  private:

@@ -18,11 +18,11 @@ std::vector<double> resampled_shading(const std::vector<double>& shading, std::s
   const double last = static_cast<double>(shading.size()) - 1;
   std::vector<double> weights(count);
   for (std::size_t j = 0; j < count; ++j) {
-    const double place =
+    const double position =
         std::clamp((static_cast<double>(j) + 0.5) / static_cast<double>(count) * (last + 1) - 0.5, 0.0, last);
-    const auto low = std::min(static_cast<std::size_t>(place), shading.size() - 2);
-    const double part = place - static_cast<double>(low);
-    weights[j] = (1 - part) * shading[low] + part * shading[low + 1];
+    const auto low = std::min(static_cast<std::size_t>(position), shading.size() - 2);
+    const double share = position - static_cast<double>(low);
+    weights[j] = (1 - share) * shading[low] + share * shading[low + 1];
   }
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (double& w : weights) w *= sum / all;

@@ -26,7 +26,6 @@ struct LineInput {
   Medium medium;
 };
 
-/// Returns the array whose response is the square of that of `array`.
 LineArray squared(const LineArray& array) {
   const std::size_t n = array.elements();
   const auto elements = static_cast<double>(n);

@@ -137,7 +137,7 @@ BeamSums::BeamSums(const SonarHead& head, double wavelength) {
   im_.resize(u_beam.size(), n);
   for (std::size_t b = 0; b < u_beam.size(); ++b)
     for (std::size_t m = 0; m < n; ++m) {
-      const double phase = -2 * pi * head.array.spacing / wavelength * element_place(m, n) * u_beam[b];
+      const double phase = -2 * pi * head.array.spacing / wavelength * element_position(m, n) * u_beam[b];
       const double w = head.array.shading[m] / static_cast<double>(n);
       re_(b, m) = w * std::cos(phase);
       im_(b, m) = w * std::sin(phase);
@@ -187,8 +187,8 @@ RowNoise::RowNoise(const SonarHead& head, double wavelength, const std::vector<F
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t k = 0; k < elements; ++k) {
       const double step = -2 * pi * head.column->spacing / wavelength * std::sin(rows[r].elevation);
-      column_(r, k) =
-          std::polar(1.0, step * element_place(k, elements)) * head.column->shading[k] / static_cast<double>(elements);
+      column_(r, k) = std::polar(1.0, step * element_position(k, elements)) * head.column->shading[k] /
+                      static_cast<double>(elements);
     }
 }
 

@@ -35,7 +35,7 @@ ComplexGrid Synthesizer::pressure(const Echoes& echoes) const {
   require_synthesis(echoes, head_, medium_, options_, "synthesize");
   if (engine_->whole_head(head_)) return kept(head_).pressure(echoes);
   const std::size_t rows = fan_rows(head_.fan).size();
-  const double cutoff = engine_->hears_all_rows ? 0 : row_cutoff(options_.tolerance, rows);
+  const double cutoff = engine_->receives_all_rows ? 0 : row_cutoff(options_.tolerance, rows);
   // One of many rows is made for this image alone.
   return image_by_rows<ComplexGrid>(
       echoes, head_, medium_, cutoff, options_.threads, [&](const Echoes& of_row, const SonarHead& row) {

@@ -108,8 +108,8 @@ double mapped(const LevelMap& map, double level) {
   if (level >= map.from.back()) return map.to.back() + (level - map.from.back());
   const auto above =
       static_cast<std::size_t>(std::upper_bound(map.from.begin(), map.from.end(), level) - map.from.begin());
-  const double part = (level - map.from[above - 1]) / (map.from[above] - map.from[above - 1]);
-  return map.to[above - 1] + part * (map.to[above] - map.to[above - 1]);
+  const double share = (level - map.from[above - 1]) / (map.from[above] - map.from[above - 1]);
+  return map.to[above - 1] + share * (map.to[above] - map.to[above - 1]);
 }
 
 }  // namespace insonify

@@ -18,16 +18,16 @@ std::vector<RangeBand> range_bands(const Grid<float>& level_db, const RangeGate&
   std::vector<RangeBand> all;
   for (std::size_t k = 0; k < bands; ++k) {
     const std::size_t first = k * bins / bands, last = (k + 1) * bins / bands;
-    const Grid<float> part =
+    const Grid<float> share =
         level_db.middleCols(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(last - first));
     RangeBand band;
     band.from = gate.min_range + static_cast<double>(first) * gate.bin_size;
     band.to = gate.min_range + static_cast<double>(last) * gate.bin_size;
     double power = 0;
-    for (const float level : part.reshaped<Eigen::RowMajor>())
+    for (const float level : share.reshaped<Eigen::RowMajor>())
       if (!std::isnan(level)) power += power_from_db(static_cast<double>(level)), ++band.pixels;
     if (band.pixels >= fewest && power > 0) {
-      const SpeckleStatistics speckle = speckle_statistics(part);
+      const SpeckleStatistics speckle = speckle_statistics(share);
       band.mean_level_db = db_from_power(power / static_cast<double>(band.pixels));
       band.amplitude_contrast = speckle.amplitude_contrast, band.deviation_db = speckle.deviation_db;
       band.width_beams = speckle.width.beams, band.width_bins = speckle.width.bins;

@@ -55,8 +55,8 @@ Grid<double> speckle_field(Eigen::Index beams, Eigen::Index bins, const FloorOpt
 // Returns the mean of whole looks and of one with less weight, so that the variance is 1 / looks.
 Grid<double> speckle_of_looks(Eigen::Index beams, Eigen::Index bins, const FloorOptions& o, double looks,
                               std::uint64_t draw) {
-  const double whole = std::floor(std::max(1.0, looks)), part = std::max(1.0, looks) - whole;
-  const double total = whole + part;
+  const double whole = std::floor(std::max(1.0, looks)), share = std::max(1.0, looks) - whole;
+  const double total = whole + share;
   const double rest =
       total > 1 ? (whole - std::sqrt(whole * whole - (total - 1) * (total * whole - whole * whole))) / (total - 1) : 0;
   Grid<double> sum = Grid<double>::Zero(beams, bins);

@@ -103,57 +103,59 @@ void require_valid(const Anchor& anchor, const char* who) {
     fail(ErrorKind::argument, who, ": heading = ", anchor.heading_deg, " deg, must be finite");
 }
 
-Eigen::Vector3d ecef_of(const GeoPlace& p) {
+Eigen::Vector3d ecef_of(const GeoPosition& p) {
   const double radius = normal_radius(p.latitude), cp = std::cos(p.latitude);  // (E90)
   return {(radius + p.height) * cp * std::cos(p.longitude), (radius + p.height) * cp * std::sin(p.longitude),
           (radius * (1 - eccentricity_squared) + p.height) * std::sin(p.latitude)};
 }
 
-GeoPlace geo_place_of(const Eigen::Vector3d& ecef) {
+GeoPosition geo_position_of(const Eigen::Vector3d& ecef) {
   const double equatorial = std::hypot(ecef.x(), ecef.y());
-  GeoPlace place{std::atan2(ecef.z(), equatorial * (1 - eccentricity_squared)), std::atan2(ecef.y(), ecef.x()), 0};
+  GeoPosition position{std::atan2(ecef.z(), equatorial * (1 - eccentricity_squared)), std::atan2(ecef.y(), ecef.x()),
+                       0};
   for (int step = 0; step < 12; ++step)  // each step divides the error by 150 or more
-    place.latitude = std::atan2(
-        ecef.z() + eccentricity_squared * normal_radius(place.latitude) * std::sin(place.latitude), equatorial);
-  const double s = std::sin(place.latitude), c = std::cos(place.latitude);
-  place.height = equatorial * c + ecef.z() * s - wgs84_semi_major_axis * std::sqrt(1 - eccentricity_squared * s * s);
-  return place;
+    position.latitude = std::atan2(
+        ecef.z() + eccentricity_squared * normal_radius(position.latitude) * std::sin(position.latitude), equatorial);
+  const double s = std::sin(position.latitude), c = std::cos(position.latitude);
+  position.height = equatorial * c + ecef.z() * s - wgs84_semi_major_axis * std::sqrt(1 - eccentricity_squared * s * s);
+  return position;
 }
 
-GeoPlace geo_from_world(const Anchor& anchor, const Eigen::Vector3d& world) {
+GeoPosition geo_from_world(const Anchor& anchor, const Eigen::Vector3d& world) {
   require_valid(anchor, "geo_from_world");
   const double latitude = radians(anchor.latitude_deg), longitude = radians(anchor.longitude_deg);
   const Eigen::Vector3d local = world_axes(radians(anchor.heading_deg)) * world;
-  return geo_place_of(ecef_of({latitude, longitude, 0}) + axes_at(latitude, longitude).transpose() * local);
+  return geo_position_of(ecef_of({latitude, longitude, 0}) + axes_at(latitude, longitude).transpose() * local);
 }
 
-Eigen::Vector3d world_from_geo(const Anchor& anchor, const GeoPlace& place) {
+Eigen::Vector3d world_from_geo(const Anchor& anchor, const GeoPosition& position) {
   require_valid(anchor, "world_from_geo");
   const double latitude = radians(anchor.latitude_deg), longitude = radians(anchor.longitude_deg);
-  const Eigen::Vector3d local = axes_at(latitude, longitude) * (ecef_of(place) - ecef_of({latitude, longitude, 0}));
+  const Eigen::Vector3d local = axes_at(latitude, longitude) * (ecef_of(position) - ecef_of({latitude, longitude, 0}));
   return world_axes(radians(anchor.heading_deg)).transpose() * local;
 }
 
-UtmZone utm_zone_of(const GeoPlace& place) {
-  const double east = degrees(std::remainder(place.longitude, 2 * pi));  // within -180 .. 180
-  return {static_cast<int>(std::floor((east + 180) / 6)) % 60 + 1, place.latitude >= 0};
+UtmZone utm_zone_of(const GeoPosition& position) {
+  const double east = degrees(std::remainder(position.longitude, 2 * pi));  // within -180 .. 180
+  return {static_cast<int>(std::floor((east + 180) / 6)) % 60 + 1, position.latitude >= 0};
 }
 
-UtmPlace utm_place_of(const GeoPlace& place, const UtmZone& zone) {
-  const double from_middle = std::remainder(place.longitude - middle_of(zone), 2 * pi);
+UtmPosition utm_position_of(const GeoPosition& position, const UtmZone& zone) {
+  const double from_middle = std::remainder(position.longitude - middle_of(zone), 2 * pi);
   if (!(std::abs(from_middle) <= radians(60)))
-    fail(ErrorKind::argument, "utm_place_of: longitude ", degrees(place.longitude),
+    fail(ErrorKind::argument, "utm_place_of: longitude ", degrees(position.longitude),
          " deg, must be within 60 deg of the ", "middle of zone ", zone.number);
-  const double t = conformal_tangent(std::tan(place.latitude)), c = std::cos(from_middle);
+  const double t = conformal_tangent(std::tan(position.latitude)), c = std::cos(from_middle);
   const Complex sphere(std::atan2(t, c), std::asinh(std::sin(from_middle) / std::hypot(t, c)));
   const Complex plane = scale_on_meridian * rectifying_radius() * (sphere + series_at(sphere));  // (E91)
   return {false_easting + plane.imag(), plane.real() + (zone.north ? 0 : false_northing)};
 }
 
-GeoPlace geo_place_of(const UtmPlace& place, const UtmZone& zone) {
+GeoPosition geo_position_of(const UtmPosition& position, const UtmZone& zone) {
   const double middle = middle_of(zone);
-  const Complex plane = Complex(place.northing - (zone.north ? 0 : false_northing), place.easting - false_easting) /
-                        (scale_on_meridian * rectifying_radius());
+  const Complex plane =
+      Complex(position.northing - (zone.north ? 0 : false_northing), position.easting - false_easting) /
+      (scale_on_meridian * rectifying_radius());
   Complex sphere = plane;
   for (int step = 0; step < 12; ++step) sphere = plane - series_at(sphere);  // each step divides the error by about 300
   const double s = std::sinh(sphere.imag()), c = std::cos(sphere.real());
@@ -169,17 +171,17 @@ std::optional<UtmZone> utm_zone_with(int epsg) {
   return UtmZone{number, family == 326};
 }
 
-GeoPlace geo_from_world(const Georeference& reference, const Eigen::Vector3d& world) {
-  if (!reference.zone && reference.system.epsg > 0) return reference.system.place_of(world);
+GeoPosition geo_from_world(const Georeference& reference, const Eigen::Vector3d& world) {
+  if (!reference.zone && reference.system.epsg > 0) return reference.system.position_of(world);
   if (!reference.zone) return geo_from_world(reference.anchor, world);
-  GeoPlace place = geo_place_of(UtmPlace{world.x(), world.y()}, *reference.zone);
-  place.height = world.z();
-  return place;
+  GeoPosition position = geo_position_of(UtmPosition{world.x(), world.y()}, *reference.zone);
+  position.height = world.z();
+  return position;
 }
 
 double heading_of(const Georeference& reference, const Eigen::Vector3d& world, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d step(direction.x(), direction.y(), 0);
-  const GeoPlace from = geo_from_world(reference, world), to = geo_from_world(reference, world + step.normalized());
+  const GeoPosition from = geo_from_world(reference, world), to = geo_from_world(reference, world + step.normalized());
   const Eigen::Vector3d way = axes_at(from.latitude, from.longitude) * (ecef_of(to) - ecef_of(from));
   const double heading = std::atan2(way.x(), way.y());
   return heading < 0 ? heading + 2 * pi : heading;

@@ -19,13 +19,13 @@ struct Anchor {
 };
 
 /// A position on WGS 84.
-struct GeoPlace {
+struct GeoPosition {
   double latitude = 0, longitude = 0;  ///< [rad], positive north and east
   double height = 0;                   ///< height above the ellipsoid [m]
 };
 
 /// A position in a UTM zone.
-struct UtmPlace {
+struct UtmPosition {
   double easting = 0, northing = 0;  ///< [m]
 };
 
@@ -41,24 +41,24 @@ struct UtmZone {
 void require_valid(const Anchor& anchor, const char* who);
 
 /// Returns the earth-centred, earth-fixed coordinates [m] of a position (E90).
-Eigen::Vector3d ecef_of(const GeoPlace& place);
+Eigen::Vector3d ecef_of(const GeoPosition& position);
 /// Returns the position of earth-centred, earth-fixed coordinates [m], within 1e-9 m; longitude in (-pi, pi].
-GeoPlace geo_place_of(const Eigen::Vector3d& ecef);
+GeoPosition geo_position_of(const Eigen::Vector3d& ecef);
 
 /// Returns the geographic position of a point of the world [m], whose plane z = 0 touches the ellipsoid at the anchor
 /// (E90): x points along the heading, y to its left, z up. Errors as require_valid.
-GeoPlace geo_from_world(const Anchor& anchor, const Eigen::Vector3d& world);
+GeoPosition geo_from_world(const Anchor& anchor, const Eigen::Vector3d& world);
 /// Returns the point of the world [m] at a position, the inverse of geo_from_world.
-Eigen::Vector3d world_from_geo(const Anchor& anchor, const GeoPlace& place);
+Eigen::Vector3d world_from_geo(const Anchor& anchor, const GeoPosition& position);
 
 /// Returns the zone of a position, by longitude alone, without the exceptions of Norway and Svalbard.
-UtmZone utm_zone_of(const GeoPlace& place);
+UtmZone utm_zone_of(const GeoPosition& position);
 /// Returns the transverse Mercator projection of a position (E91), within a micrometre to 30 degrees from the zone's
 /// middle. Throws Error(argument) for a zone that does not exist, or a position further than 60 degrees from its
 /// middle.
-UtmPlace utm_place_of(const GeoPlace& place, const UtmZone& zone);
-/// Returns the position of coordinates in a zone, at height 0, the inverse of utm_place_of.
-GeoPlace geo_place_of(const UtmPlace& place, const UtmZone& zone);
+UtmPosition utm_position_of(const GeoPosition& position, const UtmZone& zone);
+/// Returns the position of coordinates in a zone, at height 0, the inverse of utm_position_of.
+GeoPosition geo_position_of(const UtmPosition& position, const UtmZone& zone);
 /// Returns the EPSG code of the zone on WGS 84: 32601 to 32660 north, 32701 to 32760 south.
 int epsg_code(const UtmZone& zone);
 /// Returns the zone on WGS 84 with this EPSG code, the inverse of epsg_code; absent for any other code.
@@ -67,7 +67,8 @@ std::optional<UtmZone> utm_zone_with(int epsg);
 /// The projected system of a world's coordinates, other than a zone on WGS 84: x is easting, y northing, in metres.
 struct WorldSystem {
   int epsg = 0;
-  std::function<GeoPlace(const Eigen::Vector3d&)> place_of{};  ///< position of a point of the world; its height is z
+  std::function<GeoPosition(const Eigen::Vector3d&)>
+      position_of{};  ///< position of a point of the world; its height is z
 };
 
 /// Relation of the world's axes to the globe: the zone of a world in UTM, otherwise its projected system or an anchor.
@@ -80,7 +81,7 @@ struct Georeference {
   bool is_projected() const { return zone || system.epsg > 0; }
 };
 /// Returns the position of a point of the world [m]; in a zone or another projected system, the height is z.
-GeoPlace geo_from_world(const Georeference& reference, const Eigen::Vector3d& world);
+GeoPosition geo_from_world(const Georeference& reference, const Eigen::Vector3d& world);
 /// Returns the angle of a horizontal direction of the world at one of its points, clockwise from north [rad, 0 to 2
 /// pi). The angle follows from the positions of two points 1 m apart; in a zone, it includes the convergence of the
 /// meridians.

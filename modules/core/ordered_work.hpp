@@ -47,8 +47,8 @@ class OrderedWork {
   /// function; it returns each item once.
   std::optional<Item> next(const std::function<void()>& look = [] {}) try {
     std::unique_lock lock(guard_);
-    const auto settled = [&] { return given_ == count_ || made_.contains(given_); };
-    while (!changed_.wait_for(lock, std::chrono::milliseconds(100), settled)) {
+    const auto may_continue = [&] { return given_ == count_ || made_.contains(given_); };
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(100), may_continue)) {
       lock.unlock();
       look();
       lock.lock();

@@ -16,11 +16,13 @@ Pose pose_from_yaw_pitch_roll(const Eigen::Vector3d& position, double yaw, doubl
   return pose;
 }
 
-Pose pose_of(const HeadPlace& head) { return pose_from_yaw_pitch_roll(head.position, head.yaw, head.pitch, head.roll); }
+Pose pose_of(const PoseAngles& head) {
+  return pose_from_yaw_pitch_roll(head.position, head.yaw, head.pitch, head.roll);
+}
 
-HeadPlace head_place(const Pose& pose) {
+PoseAngles pose_angles(const Pose& pose) {
   const Eigen::Matrix3d r = pose.linear();
-  HeadPlace head;
+  PoseAngles head;
   head.position = pose.translation();
   const double level = std::hypot(r(0, 0), r(1, 0));
   head.pitch = std::atan2(-r(2, 0), level);

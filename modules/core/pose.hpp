@@ -12,15 +12,15 @@ using Pose = Eigen::Isometry3d;
 Pose pose_from_yaw_pitch_roll(const Eigen::Vector3d& position, double yaw, double pitch, double roll);
 
 /// The parameters of pose_from_yaw_pitch_roll.
-struct HeadPlace {
+struct PoseAngles {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
   double yaw = 0, pitch = 0, roll = 0;                 ///< [rad]
-  bool operator==(const HeadPlace&) const = default;
+  bool operator==(const PoseAngles&) const = default;
 };
 /// Returns pose_from_yaw_pitch_roll of these parameters.
-Pose pose_of(const HeadPlace& head);
+Pose pose_of(const PoseAngles& head);
 /// Inverts pose_of. Yaw and roll are in (-pi, pi], pitch in [-pi/2, pi/2]; roll is 0 for a vertical head.
-HeadPlace head_place(const Pose& pose);
+PoseAngles pose_angles(const Pose& pose);
 
 /// Returns the pose given in a north-east-down world (z down; yaw positive clockwise, pitch positive nose up, roll
 /// positive starboard down), converted to the z-up world (x, -y, -z) by a rotation of pi about x on both sides.

@@ -26,8 +26,8 @@ INSONIFY_ALWAYS_INLINE double ceil(double x) {
 
 /// Returns sine and cosine of an angle in cycles, |cycles| < 2^51; accurate to 2e-16.
 INSONIFY_ALWAYS_INLINE void sine_cosine(double cycles, double& sine, double& cosine) {
-  const double part = cycles - nearest(cycles), quarter = nearest(4 * part);  // quarter: -2 .. 2
-  const double x = 6.283185307179586477 * (part - 0.25 * quarter), q = x * x;
+  const double share = cycles - nearest(cycles), quarter = nearest(4 * share);  // quarter: -2 .. 2
+  const double x = 6.283185307179586477 * (share - 0.25 * quarter), q = x * x;
   const double s = x + x * q *
                            (-1.66666666666666324348e-01 +
                             q * (8.33333333332248946124e-03 +

@@ -75,9 +75,9 @@ std::size_t ArrayReceiver::bytes_of(std::size_t count, std::size_t size) const {
 }
 
 const char* ArrayReceiver::take(std::size_t bytes) {
-  const char* const place = memory_->start() + at_;
+  const char* const offset = memory_->start() + at_;
   at_ = std::min(aligned(at_ + bytes_of(bytes, 1), alignment), end_);
-  return place;
+  return offset;
 }
 
 void ArrayReceiver::copy(void* to, std::size_t bytes) {

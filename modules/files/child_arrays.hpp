@@ -65,7 +65,7 @@ class ArraySender {
   /// Bytes that were sent.
   std::size_t used() const { return used_; }
 
-  /// A place for bytes, at a multiple of 16. Throws std::bad_alloc.
+  /// A position for bytes, at a multiple of 16. Throws std::bad_alloc.
   char* take(std::size_t bytes);
 
   /// Values that the receiver reads one by one, as a vector.
@@ -76,7 +76,7 @@ class ArraySender {
     return reinterpret_cast<Number*>(take(count * sizeof(Number)));
   }
 
-  /// A place for a grid (core/grid.hpp) of numbers of so many bytes.
+  /// A position for a grid (core/grid.hpp) of numbers of so many bytes.
   char* take_grid(Eigen::Index rows, Eigen::Index columns, std::size_t bytes) {
     (*this)(rows, columns);
     return take(static_cast<std::size_t>(rows * columns) * bytes);

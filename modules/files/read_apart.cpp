@@ -13,7 +13,6 @@ namespace {
 
 ReaderProcess reader_process;
 
-/// Reads in this process.
 std::shared_ptr<SharedMemory> read_here(const ReadTask& task, const ReaderProcess::Send& arguments) {
   auto memory = std::make_shared<SharedMemory>(task.limits.sent);
   const std::size_t all = memory->bytes();

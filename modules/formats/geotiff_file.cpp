@@ -70,8 +70,8 @@ std::vector<TiffEntry> tiff_entries(const std::vector<GeoBand>& bands, const Geo
   const auto columns = static_cast<std::uint32_t>(bands[0].values.cols());
   const auto count = bands.size();
   const std::uint32_t band_bytes = 4 * rows * columns;
-  std::vector<std::uint32_t> places, sizes(count, band_bytes);
-  for (std::size_t i = 0; i < count; ++i) places.push_back(data + static_cast<std::uint32_t>(i) * band_bytes);
+  std::vector<std::uint32_t> offsets, sizes(count, band_bytes);
+  for (std::size_t i = 0; i < count; ++i) offsets.push_back(data + static_cast<std::uint32_t>(i) * band_bytes);
   using Shorts = std::vector<std::uint16_t>;
   using Longs = std::vector<std::uint32_t>;
   std::vector<TiffEntry> entries = {tiff_entry(256, tiff_long, Longs{columns}), tiff_entry(257, tiff_long, Longs{rows}),
@@ -79,7 +79,7 @@ std::vector<TiffEntry> tiff_entries(const std::vector<GeoBand>& bands, const Geo
                                     tiff_entry(259, tiff_short, Shorts{1}),   // uncompressed
                                     tiff_entry(262, tiff_short, Shorts{1})};  // black is zero
   if (!grid.remark.empty()) entries.push_back(tiff_text(270, grid.remark));
-  entries.push_back(tiff_entry(273, tiff_long, places));
+  entries.push_back(tiff_entry(273, tiff_long, offsets));
   entries.push_back(tiff_entry(277, tiff_short, Shorts{static_cast<std::uint16_t>(count)}));
   entries.push_back(tiff_entry(278, tiff_long, Longs{rows}));
   entries.push_back(tiff_entry(279, tiff_long, sizes));

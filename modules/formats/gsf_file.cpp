@@ -79,14 +79,14 @@ std::string profile_of(const GsfSurvey& survey) {
 }
 
 void count_ping(GsfSummary& summary, const GsfPing& ping) {
-  const double longitude = std::remainder(ping.place.longitude, 2 * pi);
+  const double longitude = std::remainder(ping.position.longitude, 2 * pi);
   const auto widen = [](bool first, double value, double& least, double& most) {
     least = first ? value : std::min(least, value);
     most = first ? value : std::max(most, value);
   };
   const bool first = summary.pings++ == 0;
   widen(first, ping.time, summary.begin, summary.end);
-  widen(first, ping.place.latitude, summary.south, summary.north);
+  widen(first, ping.position.latitude, summary.south, summary.north);
   widen(first, longitude, summary.west, summary.east);
   for (const GsfBeam& beam : ping.beams)
     if (beam.detected) widen(summary.soundings++ == 0, beam.depth, summary.least_depth, summary.greatest_depth);
@@ -129,9 +129,9 @@ void GsfFile::put_attitudes() {
   attitudes_.clear();
 }
 
-void GsfFile::add_profile(const SoundSpeedProfile& profile, const GeoPlace& place, double time) {
+void GsfFile::add_profile(const SoundSpeedProfile& profile, const GeoPosition& position, double time) {
   GsfSurvey cast;
-  cast.profile = profile, cast.place = place, cast.time = time;
+  cast.profile = profile, cast.position = position, cast.time = time;
   record(profile_record, profile_of(cast));
 }
 

@@ -36,7 +36,7 @@ struct GsfBeam {
 /// without soundings has one entry.
 struct GsfPing {
   double time = 0;                          ///< UTC, seconds since 1970
-  GeoPlace place{};                         ///< position of the head
+  GeoPosition position{};                   ///< position of the head
   double heading = 0, roll = 0, pitch = 0;  ///< ship's attitude [rad]: clockwise from north, starboard down, bow up
   double course = 0, speed = 0;             ///< course and speed over ground [rad, m/s]
   double heave = 0;                         ///< [m], not included in head_depth
@@ -81,7 +81,7 @@ struct GsfProcessing {
 struct GsfSurvey {
   GsfSensor sensor = GsfSensor::seabat_ii;
   SoundSpeedProfile profile{};  ///< profile of the first pings; depths below the water level
-  GeoPlace place{};             ///< position of the profile
+  GeoPosition position{};       ///< position of the profile
   double time = 0;              ///< time of profile, parameters, comment and history, UTC, seconds since 1970
   GsfProcessing processing{};
   std::string comment{};                             ///< names the sonar and the simulator
@@ -110,7 +110,7 @@ class GsfFile {
   /// Throws Error(file) if the file cannot be made, Error(content) for a time before 1970 or after 2106.
   GsfFile(const std::string& path, const GsfSurvey& survey);
   /// Writes a profile for the following pings, measured and applied at `time` [s, UTC since 1970].
-  void add_profile(const SoundSpeedProfile& profile, const GeoPlace& place, double time);
+  void add_profile(const SoundSpeedProfile& profile, const GeoPosition& position, double time);
   /// Writes a ping. Throws Error(content) for a ping without beams, with more bytes than a record may have (2^19), with
   /// a number that its field cannot hold, or with a time before 1970 or after 2106; the message names the ping and the
   /// quantity.

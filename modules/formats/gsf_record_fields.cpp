@@ -87,8 +87,8 @@ const GsfField<Survey> profile_fields[] = {
     {"OBS_TIME_NS", u32, 1e9, "s", "its fraction", [](const Survey& s) { return gsf_fraction(s.time); }},
     {"APP_TIME", u32, 1, "s", "as OBS_TIME", [](const Survey& s) { return gsf_seconds(s.time); }},
     {"APP_TIME_NS", u32, 1e9, "s", "its fraction", [](const Survey& s) { return gsf_fraction(s.time); }},
-    {"LONGITUDE", i32, 1e7, "deg", "of that ping", [](const Survey& s) { return gsf_longitude(s.place.longitude); }},
-    {"LATITUDE", i32, 1e7, "deg", "of that ping", [](const Survey& s) { return degrees(s.place.latitude); }},
+    {"LONGITUDE", i32, 1e7, "deg", "of that ping", [](const Survey& s) { return gsf_longitude(s.position.longitude); }},
+    {"LATITUDE", i32, 1e7, "deg", "of that ping", [](const Survey& s) { return degrees(s.position.latitude); }},
     {"NUM_POINTS", u32, 1, "", "number of the pairs that follow",
      [](const Survey& s) { return static_cast<double>(s.profile.depth.size()); }}};
 

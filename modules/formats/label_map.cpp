@@ -11,7 +11,7 @@
 namespace insonify {
 namespace {
 
-struct PartBounds {
+struct LabelBounds {
   Annotation annotation;
   int right = 0, bottom = 0;
   std::array<std::size_t, 256> pixels{};  // by category
@@ -98,14 +98,14 @@ std::vector<Annotation> annotations_of(const LabelMap& map) {
   if (map.category.rows() != map.instance.rows() || map.category.cols() != map.instance.cols())
     fail(ErrorKind::argument, "annotations_of: categories of ", map.category.rows(), " x ", map.category.cols(),
          " pixels and instances of ", map.instance.rows(), " x ", map.instance.cols(), ", must be of one size");
-  std::map<std::uint16_t, PartBounds> parts;
+  std::map<std::uint16_t, LabelBounds> parts;
   for (Eigen::Index row = 0; row < map.instance.rows(); ++row)
     for (Eigen::Index column = 0; column < map.instance.cols(); ++column) {
       const std::uint16_t number = map.instance(row, column);
       if (number == 0) continue;
       const int x = static_cast<int>(column), y = static_cast<int>(row);
-      const auto [at, first] = parts.try_emplace(number, PartBounds{{number, 0, 0, x, y, 0, 0, {}}, x, y});
-      PartBounds& part = at->second;
+      const auto [at, first] = parts.try_emplace(number, LabelBounds{{number, 0, 0, x, y, 0, 0, {}}, x, y});
+      LabelBounds& part = at->second;
       ++part.pixels[map.category(row, column)];
       ++part.annotation.area;
       part.annotation.left = std::min(part.annotation.left, x), part.right = std::max(part.right, x);

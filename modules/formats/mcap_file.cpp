@@ -123,7 +123,7 @@ void McapFile::end_chunk() {
   for (const auto& [topic, entries] : index_) {
     chunk.index_of[topic] = written_;
     std::string pairs, index;
-    for (const auto& [time, place] : entries) put_little(pairs, time), put_little(pairs, place);
+    for (const auto& [time, offset] : entries) put_little(pairs, time), put_little(pairs, offset);
     put_little(index, topic);
     put_text(index, pairs);
     write(mcap_record(mcap_message_index, index));
@@ -160,10 +160,10 @@ std::string McapFile::summary() const {
   for (const Chunk& chunk : chunks_) {
     first = &chunk == &chunks_.front() ? chunk.first : std::min(first, chunk.first);
     last = std::max(last, chunk.last);
-    std::string content, places;
+    std::string content, offsets;
     for (const std::uint64_t number : {chunk.first, chunk.last, chunk.start, chunk.length}) put_little(content, number);
-    for (const auto& [topic, place] : chunk.index_of) put_little(places, topic), put_little(places, place);
-    put_text(content, places);
+    for (const auto& [topic, offset] : chunk.index_of) put_little(offsets, topic), put_little(offsets, offset);
+    put_text(content, offsets);
     put_little(content, chunk.index_length);
     put_text(content, mcap_compression_name(compression_));
     put_little(content, chunk.packed);

@@ -38,27 +38,27 @@ constexpr ResultLayout result_1{53, 61, 0, 85, 0, 97, 98, 106, 108, 110, 114, 12
 constexpr ResultLayout result_2{89, 97, 121, 145, 153, 161, 162, 170, 172, 190, 194, 202};
 
 /// Offset and size of a message in the file.
-struct MessagePlace {
+struct MessageSpan {
   std::size_t at = 0, bytes = 0;
 };
 
-/// Sets `place` to the message at `at`. Returns true if it is a ping. Throws Error(content) for damaged messages.
-bool take_message(BinaryInput& file, const std::string& path, std::size_t at, MessagePlace& place) {
+/// Sets `offset` to the message at `at`. Returns true if it is a ping. Throws Error(content) for damaged messages.
+bool take_message(BinaryInput& file, const std::string& path, std::size_t at, MessageSpan& offset) {
   const std::string head = file.part(at, oculus_head_bytes, "the header of a message");
   if (little_at<std::uint16_t>(head, 0) != oculus_mark)
     fail(ErrorKind::content, path, ": the message at byte ", at,
          at == 0 ? " does not begin with the mark of Oculus, 0x4f53, so it is no log of that sonar"
                  : " does not begin with the mark of Oculus, 0x4f53; the file is damaged, copy it again");
-  place = {at, oculus_head_bytes + little_at<std::uint32_t>(head, oculus_payload)};
-  if (place.bytes > file.size() - at)
-    fail(ErrorKind::content, path, ": ends within the message at byte ", at, " of ", place.bytes,
+  offset = {at, oculus_head_bytes + little_at<std::uint32_t>(head, oculus_payload)};
+  if (offset.bytes > file.size() - at)
+    fail(ErrorKind::content, path, ": ends within the message at byte ", at, " of ", offset.bytes,
          " bytes; the file is truncated, copy it again");
   return little_at<std::uint16_t>(head, oculus_message) == oculus_ping_result;
 }
 
 /// Returns the ping messages that the items of a log hold.
-std::vector<MessagePlace> messages_of_items(BinaryInput& file, const std::string& path) {
-  std::vector<MessagePlace> places;
+std::vector<MessageSpan> messages_of_items(BinaryInput& file, const std::string& path) {
+  std::vector<MessageSpan> offsets;
   std::size_t at = little_at<std::uint32_t>(file.part(0, 8, "its header"), 4);
   if (at < 8 || at > file.size())
     fail(ErrorKind::content, path, ": ends within its header of ", at, " bytes; the file is truncated, copy it again");
@@ -69,25 +69,25 @@ std::vector<MessagePlace> messages_of_items(BinaryInput& file, const std::string
       fail(ErrorKind::content, path, ": the item at byte ", at, " does not begin as one; the file is damaged");
     if (head_bytes > file.size() - at || bytes > file.size() - at - head_bytes)
       fail(ErrorKind::content, path, ": ends within the item at byte ", at, "; the file is truncated, copy it again");
-    MessagePlace place;
+    MessageSpan offset;
     if (little_at<std::uint16_t>(head, 8) == oculus_sonar_item) {
       if (little_at<std::uint16_t>(head, 24) != 0)
         fail(ErrorKind::content, path, ": the item at byte ", at, " is compressed; record without compression");
-      if (take_message(file, path, at + head_bytes, place)) places.push_back(place);
+      if (take_message(file, path, at + head_bytes, offset)) offsets.push_back(offset);
     }
     at += head_bytes + bytes;
   }
-  return places;
+  return offsets;
 }
 
-std::vector<MessagePlace> ping_messages(BinaryInput& file, const std::string& path) {
+std::vector<MessageSpan> ping_messages(BinaryInput& file, const std::string& path) {
   if (little_at<std::uint32_t>(file.part(0, 4, "its header"), 0) == oculus_log_mark)
     return messages_of_items(file, path);
-  std::vector<MessagePlace> places;
-  MessagePlace place;
-  for (std::size_t at = 0; at < file.size(); at += place.bytes)
-    if (take_message(file, path, at, place)) places.push_back(place);
-  return places;
+  std::vector<MessageSpan> offsets;
+  MessageSpan offset;
+  for (std::size_t at = 0; at < file.size(); at += offset.bytes)
+    if (take_message(file, path, at, offset)) offsets.push_back(offset);
+  return offsets;
 }
 
 int bits_of(const std::string& where, std::uint8_t code) {
@@ -176,14 +176,14 @@ OculusPing ping_of(const std::string& message, const std::string& where) {
 
 OculusPing read_oculus_ping(const std::string& path, std::size_t number) {
   BinaryInput file(path);
-  const std::vector<MessagePlace> places = ping_messages(file, path);
-  if (places.empty()) fail(ErrorKind::content, path, ": has no ping of an Oculus sonar");
-  if (number >= places.size())
-    fail(ErrorKind::argument, path, ": ping ", number, ", must be below the number of pings, ", places.size());
-  const MessagePlace& place = places[number];
-  OculusPing ping =
-      ping_of(file.part(place.at, place.bytes, "a message"), path + ": the ping at byte " + std::to_string(place.at));
-  ping.pings = places.size();
+  const std::vector<MessageSpan> offsets = ping_messages(file, path);
+  if (offsets.empty()) fail(ErrorKind::content, path, ": has no ping of an Oculus sonar");
+  if (number >= offsets.size())
+    fail(ErrorKind::argument, path, ": ping ", number, ", must be below the number of pings, ", offsets.size());
+  const MessageSpan& offset = offsets[number];
+  OculusPing ping = ping_of(file.part(offset.at, offset.bytes, "a message"),
+                            path + ": the ping at byte " + std::to_string(offset.at));
+  ping.pings = offsets.size();
   return ping;
 }
 

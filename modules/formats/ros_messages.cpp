@@ -41,10 +41,10 @@ class CdrMessage {
   std::string bytes_{'\0', '\1', '\0', '\0'};
 };
 
-const std::string part_line = std::string(80, '=') + "\nMSG: ";
-const std::string header_part = part_line + "std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n" +
-                                part_line + "builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
-const std::string vector_part = part_line + "geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
+const std::string field_line = std::string(80, '=') + "\nMSG: ";
+const std::string header_fields = field_line + "std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n" +
+                                  field_line + "builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
+const std::string vector_fields = field_line + "geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n";
 constexpr std::uint32_t dtype_uint8 = 0, dtype_uint32 = 4;
 constexpr std::uint8_t uint32_field = 6, float32_field = 7;  // types in PointField
 
@@ -58,10 +58,10 @@ RosType projected_sonar_image_type() {
   return {"marine_acoustic_msgs/msg/ProjectedSonarImage",
           "std_msgs/Header header\nmarine_acoustic_msgs/PingInfo ping_info\n"
           "geometry_msgs/Vector3[] beam_directions\nfloat32[] ranges\nmarine_acoustic_msgs/SonarImageData image\n" +
-              header_part + part_line +
+              header_fields + field_line +
               "marine_acoustic_msgs/PingInfo\nfloat32 frequency\nfloat32 sound_speed\nfloat32[] tx_beamwidths\n"
               "float32[] rx_beamwidths\n" +
-              vector_part + part_line +
+              vector_fields + field_line +
               "marine_acoustic_msgs/SonarImageData\nuint32 DTYPE_UINT8=0\nuint32 DTYPE_INT8=1\nuint32 DTYPE_UINT16=2\n"
               "uint32 DTYPE_INT16=3\nuint32 DTYPE_UINT32=4\nuint32 DTYPE_INT32=5\nuint32 DTYPE_UINT64=6\n"
               "uint32 DTYPE_INT64=7\nuint32 DTYPE_FLOAT32=8\nuint32 DTYPE_FLOAT64=9\nbool is_bigendian\nuint32 dtype\n"
@@ -72,14 +72,14 @@ RosType image_type() {
   return {"sensor_msgs/msg/Image",
           "std_msgs/Header header\nuint32 height\nuint32 width\nstring encoding\nuint8 is_bigendian\nuint32 step\n"
           "uint8[] data\n" +
-              header_part};
+              header_fields};
 }
 
 RosType point_cloud_type() {
   return {"sensor_msgs/msg/PointCloud2",
           "std_msgs/Header header\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\n"
           "uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n" +
-              header_part + part_line +
+              header_fields + field_line +
               "sensor_msgs/PointField\nuint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\n"
               "uint8 UINT32=6\nuint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\n"
               "uint32 count\n"};
@@ -87,13 +87,13 @@ RosType point_cloud_type() {
 
 RosType transforms_type() {
   return {"tf2_msgs/msg/TFMessage",
-          "geometry_msgs/TransformStamped[] transforms\n" + part_line +
+          "geometry_msgs/TransformStamped[] transforms\n" + field_line +
               "geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
               "geometry_msgs/Transform transform\n" +
-              header_part + part_line +
+              header_fields + field_line +
               "geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\n"
               "geometry_msgs/Quaternion rotation\n" +
-              vector_part + part_line + "geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"};
+              vector_fields + field_line + "geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"};
 }
 
 std::string projected_sonar_image(const Ping& ping, std::uint64_t time, double frequency, double sound_speed,
@@ -156,7 +156,7 @@ RosType nav_sat_fix_type() {
       "float64 altitude\nfloat64[9] position_covariance\nuint8 COVARIANCE_TYPE_UNKNOWN=0\n"
       "uint8 COVARIANCE_TYPE_APPROXIMATED=1\nuint8 COVARIANCE_TYPE_DIAGONAL_KNOWN=2\nuint8 COVARIANCE_TYPE_KNOWN=3\n"
       "uint8 position_covariance_type\n" +
-          header_part + part_line +
+          header_fields + field_line +
           "sensor_msgs/NavSatStatus\nint8 STATUS_NO_FIX=-1\nint8 STATUS_FIX=0\nint8 STATUS_SBAS_FIX=1\n"
           "int8 STATUS_GBAS_FIX=2\nint8 status\nuint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\n"
           "uint16 SERVICE_COMPASS=4\nuint16 SERVICE_GALILEO=8\nuint16 service\n"};
@@ -221,12 +221,13 @@ std::string sonar_transform(std::uint64_t time) {
   return transform_message("head", "head_sonar", head_from_sonar, time);
 }
 
-std::string nav_sat_fix(const GeoPlace& place, std::uint64_t time) {
+std::string nav_sat_fix(const GeoPosition& position, std::uint64_t time) {
   CdrMessage message;
   message.header(time, "head");
   message.put(std::int8_t{0});    // status: fix
   message.put(std::uint16_t{1});  // service: GPS
-  for (const double number : {degrees(place.latitude), degrees(place.longitude), place.height}) message.put(number);
+  for (const double number : {degrees(position.latitude), degrees(position.longitude), position.height})
+    message.put(number);
   for (int k = 0; k < 9; ++k) message.put(0.0);
   message.put(std::uint8_t{0});  // covariance unknown
   return message.raw();

@@ -67,6 +67,6 @@ std::string head_transform(const Pose& world_from_head, const Eigen::Vector3d& o
 std::string sonar_transform(std::uint64_t time);
 
 /// Returns a NavSatFix of the head: latitude and longitude on WGS 84, altitude above the ellipsoid, without covariance.
-std::string nav_sat_fix(const GeoPlace& place, std::uint64_t time);
+std::string nav_sat_fix(const GeoPosition& position, std::uint64_t time);
 
 }  // namespace insonify

@@ -28,12 +28,12 @@ struct PingFields {
       fail(ErrorKind::content, "XTF: ", what, " of ping ", ping, " is ", value, ", must be finite");
     put_little_at(bytes, at, number);
   }
-  void put_place(std::size_t x_at, std::size_t y_at, const Eigen::Vector2d& place, const char* what) const {
-    if (!(std::abs(place.x()) <= 360 && std::abs(place.y()) <= 90))
-      fail(ErrorKind::content, "XTF: ", what, " of ping ", ping, " is at latitude ", place.y(), ", longitude ",
-           place.x(), " degrees, must be within 90 and 360");
-    put_little_at(bytes, x_at, std::remainder(place.x(), 360.0));
-    put_little_at(bytes, y_at, place.y());
+  void put_position(std::size_t x_at, std::size_t y_at, const Eigen::Vector2d& position, const char* what) const {
+    if (!(std::abs(position.x()) <= 360 && std::abs(position.y()) <= 90))
+      fail(ErrorKind::content, "XTF: ", what, " of ping ", ping, " is at latitude ", position.y(), ", longitude ",
+           position.x(), " degrees, must be within 90 and 360");
+    put_little_at(bytes, x_at, std::remainder(position.x(), 360.0));
+    put_little_at(bytes, y_at, position.y());
   }
 };
 
@@ -161,8 +161,8 @@ void put_ping(const XtfPing& ping, std::string& bytes) {
   fields.put(xtf_ship_speed_at, ping.speed / xtf_knot, "speed");
   fields.put(xtf_sensor_speed_at, ping.speed / xtf_knot, "speed");
   fields.put(xtf_ship_gyro_at, degrees(ping.ship_heading), "heading");
-  fields.put_place(xtf_ship_x_at, xtf_ship_y_at, ping.ship, "ship");
-  fields.put_place(xtf_sensor_x_at, xtf_sensor_y_at, ping.sensor, "sonar");
+  fields.put_position(xtf_ship_x_at, xtf_ship_y_at, ping.ship, "ship");
+  fields.put_position(xtf_sensor_x_at, xtf_sensor_y_at, ping.sensor, "sonar");
   fields.put(xtf_depth_at, ping.depth, "depth");
   fields.put(xtf_altitude_at, ping.altitude, "altitude");
   fields.put(xtf_pitch_at, degrees(ping.pitch), "pitch");

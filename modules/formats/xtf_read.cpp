@@ -145,22 +145,22 @@ double sound_speed_of(std::string_view packet) {
 }
 
 /// Reads the channel of a ping that begins at `at`, and moves `at` behind its samples.
-XtfTrace trace_of(std::string_view packet, std::size_t& at, std::size_t place, const XtfHeader& header,
+XtfTrace trace_of(std::string_view packet, std::size_t& at, std::size_t position, const XtfHeader& header,
                   double sound_speed, const std::string& where) {
   if (packet.size() - at < xtf_trace_bytes)
-    fail(ErrorKind::content, where, " ends within the header of channel ", place);
+    fail(ErrorKind::content, where, " ends within the header of channel ", position);
   const std::string_view head = packet.substr(at, xtf_trace_bytes);
   XtfTrace trace;
   trace.channel = little_at<std::uint16_t>(head, xtf_trace_channel_at);
-  if (trace.channel >= header.channels.size()) trace.channel = place;
+  if (trace.channel >= header.channels.size()) trace.channel = position;
   if (trace.channel >= header.channels.size())
-    fail(ErrorKind::content, where, " has a channel ", place, ", the file has ", header.channels.size());
+    fail(ErrorKind::content, where, " has a channel ", position, ", the file has ", header.channels.size());
   const XtfChannel& channel = header.channels[trace.channel];
   const std::uint64_t count = little_at<std::uint32_t>(head, xtf_samples_at);
   const std::uint64_t bytes = count * sample_bytes(channel.samples);
   at += xtf_trace_bytes;
   if (count == 0 || bytes > packet.size() - at)
-    fail(ErrorKind::content, where, " has ", count, " samples of channel ", place,
+    fail(ErrorKind::content, where, " has ", count, " samples of channel ", position,
          ", must have at least 1 and at most ", (packet.size() - at) / sample_bytes(channel.samples),
          ", as many as its packet holds");
   trace.samples = samples_of(packet.substr(at, bytes), channel, little_at<std::int16_t>(head, xtf_weight_at), where);
@@ -182,11 +182,11 @@ XtfPing ping_of(std::string_view packet, const XtfHeader& header, const std::str
   ping.number = little_at<std::uint32_t>(packet, xtf_ping_number_at);
   ping.time = time_of(packet, where);
   ping.sound_speed = sound_speed_of(packet);
-  const auto place_at = [&](std::size_t x_at, std::size_t y_at) {
-    const Eigen::Vector2d place(little_at<double>(packet, x_at), little_at<double>(packet, y_at));
-    return place.allFinite() ? place : Eigen::Vector2d(Eigen::Vector2d::Zero());
+  const auto position_at = [&](std::size_t x_at, std::size_t y_at) {
+    const Eigen::Vector2d position(little_at<double>(packet, x_at), little_at<double>(packet, y_at));
+    return position.allFinite() ? position : Eigen::Vector2d(Eigen::Vector2d::Zero());
   };
-  ping.ship = place_at(xtf_ship_x_at, xtf_ship_y_at), ping.sensor = place_at(xtf_sensor_x_at, xtf_sensor_y_at);
+  ping.ship = position_at(xtf_ship_x_at, xtf_ship_y_at), ping.sensor = position_at(xtf_sensor_x_at, xtf_sensor_y_at);
   ping.ship_heading = radians(real_at(packet, xtf_ship_gyro_at)),
   ping.heading = radians(real_at(packet, xtf_heading_at));
   ping.pitch = radians(real_at(packet, xtf_pitch_at)), ping.roll = radians(real_at(packet, xtf_roll_at));

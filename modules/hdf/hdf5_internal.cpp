@@ -27,29 +27,30 @@ std::string reported_reason() {
   return plain_reason(reason);
 }
 
-void write_scalar(const FileContext& place, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
+void write_scalar(const FileContext& context, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
                   const void* value) {
   const std::string what = std::string("attribute '") + name + "' cannot be written";
-  const Handle space(place.checked(H5Screate(H5S_SCALAR), what), H5Sclose);
-  const Handle attribute(place.checked(H5Acreate2(where, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT), what),
+  const Handle space(context.checked(H5Screate(H5S_SCALAR), what), H5Sclose);
+  const Handle attribute(context.checked(H5Acreate2(where, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT), what),
                          H5Aclose);
-  place.checked(H5Awrite(attribute, memory_type, value), what);
+  context.checked(H5Awrite(attribute, memory_type, value), what);
 }
 
-Handle open_attribute(const FileContext& place, hid_t where, const char* name, hssize_t values = 1) {
-  if (H5Aexists(where, name) <= 0) fail(place.kind, place.path, ": attribute '", name, "' is missing");
-  Handle attribute(place.checked(H5Aopen(where, name, H5P_DEFAULT), std::string("attribute '") + name + "'"), H5Aclose);
-  const Handle space(place.checked(H5Aget_space(attribute), name), H5Sclose);
+Handle open_attribute(const FileContext& context, hid_t where, const char* name, hssize_t values = 1) {
+  if (H5Aexists(where, name) <= 0) fail(context.kind, context.path, ": attribute '", name, "' is missing");
+  Handle attribute(context.checked(H5Aopen(where, name, H5P_DEFAULT), std::string("attribute '") + name + "'"),
+                   H5Aclose);
+  const Handle space(context.checked(H5Aget_space(attribute), name), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) != values)
-    fail(place.kind, place.path, ": attribute '", name, "' must hold ", values, values == 1 ? " value" : " values");
+    fail(context.kind, context.path, ": attribute '", name, "' must hold ", values, values == 1 ? " value" : " values");
   return attribute;
 }
 
 template <typename T>
-T read_scalar(const FileContext& place, hid_t where, const char* name, hid_t memory_type) {
-  const Handle attribute = open_attribute(place, where, name);
+T read_scalar(const FileContext& context, hid_t where, const char* name, hid_t memory_type) {
+  const Handle attribute = open_attribute(context, where, name);
   T value{};
-  place.checked(H5Aread(attribute, memory_type, &value), std::string("attribute '") + name + "' is not a number");
+  context.checked(H5Aread(attribute, memory_type, &value), std::string("attribute '") + name + "' is not a number");
   return value;
 }
 
@@ -75,160 +76,161 @@ void note_failed_close() {
   if (failed_to_close.empty()) failed_to_close = "it cannot be closed";
 }
 
-Handle text_type(const FileContext& place, std::size_t length) {
-  Handle type(place.checked(H5Tcopy(H5T_C_S1), "text type"), H5Tclose);
-  place.checked(H5Tset_size(type, length), "text type");
-  place.checked(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
+Handle text_type(const FileContext& context, std::size_t length) {
+  Handle type(context.checked(H5Tcopy(H5T_C_S1), "text type"), H5Tclose);
+  context.checked(H5Tset_size(type, length), "text type");
+  context.checked(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
   return type;
 }
 
-Handle complex_type(const FileContext& place, hid_t real_type) {
+Handle complex_type(const FileContext& context, hid_t real_type) {
   const std::size_t size = H5Tget_size(real_type);
-  Handle type(place.checked(H5Tcreate(H5T_COMPOUND, 2 * size), "complex type"), H5Tclose);
-  place.checked(H5Tinsert(type, "r", 0, real_type), "complex type");
-  place.checked(H5Tinsert(type, "i", size, real_type), "complex type");
+  Handle type(context.checked(H5Tcreate(H5T_COMPOUND, 2 * size), "complex type"), H5Tclose);
+  context.checked(H5Tinsert(type, "r", 0, real_type), "complex type");
+  context.checked(H5Tinsert(type, "i", size, real_type), "complex type");
   return type;
 }
 
-Extent extent_of(const FileContext& place, hid_t dataset, const std::string& name, std::size_t rank) {
-  const Handle space(place.checked(H5Dget_space(dataset), name), H5Sclose);
-  const int dimensions = place.checked(H5Sget_simple_extent_ndims(space), name);
+Extent extent_of(const FileContext& context, hid_t dataset, const std::string& name, std::size_t rank) {
+  const Handle space(context.checked(H5Dget_space(dataset), name), H5Sclose);
+  const int dimensions = context.checked(H5Sget_simple_extent_ndims(space), name);
   if (static_cast<std::size_t>(dimensions) != rank)
-    fail(place.kind, place.path, ": ", name, " has ", dimensions, " dimensions, must have ", rank);
+    fail(context.kind, context.path, ": ", name, " has ", dimensions, " dimensions, must have ", rank);
   Extent extent(rank);
-  place.checked(H5Sget_simple_extent_dims(space, extent.data(), nullptr), name);
+  context.checked(H5Sget_simple_extent_dims(space, extent.data(), nullptr), name);
   return extent;
 }
 
-Handle select_row(const FileContext& place, hid_t dataset, const Extent& extent, hsize_t first) {
-  Handle space(place.checked(H5Dget_space(dataset), "selection"), H5Sclose);
+Handle select_row(const FileContext& context, hid_t dataset, const Extent& extent, hsize_t first) {
+  Handle space(context.checked(H5Dget_space(dataset), "selection"), H5Sclose);
   Extent start(extent.size(), 0), count = extent;
   start[0] = first, count[0] = 1;
-  place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "selection");
+  context.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+                  "selection");
   return space;
 }
 
-void write_attribute(const FileContext& place, hid_t where, const char* name, double value) {
-  write_scalar(place, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+void write_attribute(const FileContext& context, hid_t where, const char* name, double value) {
+  write_scalar(context, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
 }
 
-void write_attribute(const FileContext& place, hid_t where, const char* name, std::int64_t value) {
-  write_scalar(place, where, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+void write_attribute(const FileContext& context, hid_t where, const char* name, std::int64_t value) {
+  write_scalar(context, where, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
 }
 
-void write_attribute(const FileContext& place, hid_t where, const char* name, std::uint64_t value) {
-  write_scalar(place, where, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
+void write_attribute(const FileContext& context, hid_t where, const char* name, std::uint64_t value) {
+  write_scalar(context, where, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
 }
 
-void write_attribute(const FileContext& place, hid_t where, const char* name, const std::string& value) {
-  const Handle type = text_type(place);
+void write_attribute(const FileContext& context, hid_t where, const char* name, const std::string& value) {
+  const Handle type = text_type(context);
   const char* text = value.c_str();
-  write_scalar(place, where, name, type, type, &text);
+  write_scalar(context, where, name, type, type, &text);
 }
 
-void write_attribute(const FileContext& place, hid_t where, const char* name, std::span<const double> values) {
+void write_attribute(const FileContext& context, hid_t where, const char* name, std::span<const double> values) {
   const std::string what = std::string("attribute '") + name + "' cannot be written";
   const hsize_t count = values.size();
-  const Handle space(place.checked(H5Screate_simple(1, &count, nullptr), what), H5Sclose);
-  const Handle attribute(place.checked(H5Acreate2(where, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), what),
-                         H5Aclose);
-  place.checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()), what);
+  const Handle space(context.checked(H5Screate_simple(1, &count, nullptr), what), H5Sclose);
+  const Handle attribute(
+      context.checked(H5Acreate2(where, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), what), H5Aclose);
+  context.checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()), what);
 }
 
-double read_number(const FileContext& place, hid_t where, const char* name) {
-  return read_scalar<double>(place, where, name, H5T_NATIVE_DOUBLE);
+double read_number(const FileContext& context, hid_t where, const char* name) {
+  return read_scalar<double>(context, where, name, H5T_NATIVE_DOUBLE);
 }
 
-std::int64_t read_integer(const FileContext& place, hid_t where, const char* name) {
-  return read_scalar<std::int64_t>(place, where, name, H5T_NATIVE_INT64);
+std::int64_t read_integer(const FileContext& context, hid_t where, const char* name) {
+  return read_scalar<std::int64_t>(context, where, name, H5T_NATIVE_INT64);
 }
 
-std::uint64_t read_unsigned(const FileContext& place, hid_t where, const char* name) {
-  return read_scalar<std::uint64_t>(place, where, name, H5T_NATIVE_UINT64);
+std::uint64_t read_unsigned(const FileContext& context, hid_t where, const char* name) {
+  return read_scalar<std::uint64_t>(context, where, name, H5T_NATIVE_UINT64);
 }
 
-void read_numbers(const FileContext& place, hid_t where, const char* name, std::span<double> to) {
-  const Handle attribute = open_attribute(place, where, name, static_cast<hssize_t>(to.size()));
-  place.checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, to.data()),
-                std::string("attribute '") + name + "' is not numbers");
+void read_numbers(const FileContext& context, hid_t where, const char* name, std::span<double> to) {
+  const Handle attribute = open_attribute(context, where, name, static_cast<hssize_t>(to.size()));
+  context.checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, to.data()),
+                  std::string("attribute '") + name + "' is not numbers");
 }
 
 // Reads text of fixed length (as other programs write it) or of variable length.
-std::string read_text(const FileContext& place, hid_t where, const char* name) {
-  const Handle attribute = open_attribute(place, where, name);
-  const Handle stored(place.checked(H5Aget_type(attribute), name), H5Tclose);
-  if (H5Tget_class(stored) != H5T_STRING) fail(place.kind, place.path, ": attribute '", name, "' must be text");
+std::string read_text(const FileContext& context, hid_t where, const char* name) {
+  const Handle attribute = open_attribute(context, where, name);
+  const Handle stored(context.checked(H5Aget_type(attribute), name), H5Tclose);
+  if (H5Tget_class(stored) != H5T_STRING) fail(context.kind, context.path, ": attribute '", name, "' must be text");
   if (H5Tis_variable_str(stored) <= 0) {
     std::string text(H5Tget_size(stored), '\0');
-    place.checked(H5Aread(attribute, stored, text.data()), name);
+    context.checked(H5Aread(attribute, stored, text.data()), name);
     return text.substr(0, text.find('\0'));
   }
   char* characters = nullptr;
-  place.checked(H5Aread(attribute, stored, &characters), name);
+  context.checked(H5Aread(attribute, stored, &characters), name);
   const std::string text = characters ? characters : "";
   H5free_memory(characters);
   return text;
 }
 
-Handle create_file(const FileContext& place, const std::string& name) {
-  const Handle properties(place.checked(H5Pcreate(H5P_FILE_CREATE), "file"), H5Pclose);
-  place.checked(H5Pset_obj_track_times(properties, false), "file");  // same input, same bytes
-  return {place.checked(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), "cannot be written"),
+Handle create_file(const FileContext& context, const std::string& name) {
+  const Handle properties(context.checked(H5Pcreate(H5P_FILE_CREATE), "file"), H5Pclose);
+  context.checked(H5Pset_obj_track_times(properties, false), "file");  // same input, same bytes
+  return {context.checked(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, properties, H5P_DEFAULT), "cannot be written"),
           H5Fclose};
 }
 
 namespace {
 
-void describe(const FileContext& place, hid_t dataset, const DatasetName& name) {
-  if (*name.unit) write_attribute(place, dataset, "units", std::string(name.unit));
-  if (*name.about) write_attribute(place, dataset, "long_name", std::string(name.about));
+void describe(const FileContext& context, hid_t dataset, const DatasetName& name) {
+  if (*name.unit) write_attribute(context, dataset, "units", std::string(name.unit));
+  if (*name.about) write_attribute(context, dataset, "long_name", std::string(name.about));
 }
 
 }  // namespace
 
-Handle create_dataset(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+Handle create_dataset(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk, Packing packing) {
   const Handle space(
-      place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
-  const Handle properties(place.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
-  place.checked(H5Pset_obj_track_times(properties, false), name.path);
+      context.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
+  const Handle properties(context.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
+  context.checked(H5Pset_obj_track_times(properties, false), name.path);
   if (!chunk.empty()) {
-    place.checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), name.path);
-    place.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
-                  name.path);  // no undefined bytes in edge chunks
+    context.checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), name.path);
+    context.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
+                    name.path);  // no undefined bytes in edge chunks
     if (packing == Packing::deflate) {
-      place.checked(H5Pset_shuffle(properties), name.path);
-      place.checked(H5Pset_deflate(properties, 1), name.path);
+      context.checked(H5Pset_shuffle(properties), name.path);
+      context.checked(H5Pset_deflate(properties, 1), name.path);
     }
   }
   Handle dataset(
-      place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
+      context.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
       H5Dclose);
-  describe(place, dataset, name);
+  describe(context, dataset, name);
   return dataset;
 }
 
-std::uint64_t create_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
+std::uint64_t create_plain(const FileContext& context, hid_t file, const DatasetName& name, hid_t type,
                            const Extent& extent) {
   const Handle space(
-      place.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
-  const Handle properties(place.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
-  place.checked(H5Pset_obj_track_times(properties, false), name.path);
-  place.checked(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), name.path);
-  place.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), name.path);
+      context.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
+  const Handle properties(context.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
+  context.checked(H5Pset_obj_track_times(properties, false), name.path);
+  context.checked(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), name.path);
+  context.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), name.path);
   const Handle dataset(
-      place.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
+      context.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
       H5Dclose);
-  describe(place, dataset, name);
+  describe(context, dataset, name);
   const haddr_t offset = H5Dget_offset(dataset);
   return offset == HADDR_UNDEF ? 0 : offset;
 }
 
-Handle create_ordered_group(const FileContext& place, hid_t file, const char* name) {
-  const Handle properties(place.checked(H5Pcreate(H5P_GROUP_CREATE), name), H5Pclose);
-  place.checked(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), name);
-  place.checked(H5Pset_obj_track_times(properties, false), name);
-  return {place.checked(H5Gcreate2(file, name, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Gclose};
+Handle create_ordered_group(const FileContext& context, hid_t file, const char* name) {
+  const Handle properties(context.checked(H5Pcreate(H5P_GROUP_CREATE), name), H5Pclose);
+  context.checked(H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED), name);
+  context.checked(H5Pset_obj_track_times(properties, false), name);
+  return {context.checked(H5Gcreate2(file, name, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Gclose};
 }
 
 }  // namespace insonify::hdf5

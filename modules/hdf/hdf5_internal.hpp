@@ -81,35 +81,35 @@ class Handle {
 using Extent = std::vector<hsize_t>;
 
 /// Creates a file without timestamps: same input, same bytes.
-Handle create_file(const FileContext& place, const std::string& name);
+Handle create_file(const FileContext& context, const std::string& name);
 
-/// Calls write(), which writes to the file of `place`. Throws Error(file) with the first failure, such as a full disk;
+/// Calls write(), which writes to the file of `context`. Throws Error(file) with the first failure, such as a full disk;
 /// later calls of HDF5 on the file only report its consequences.
 template <typename Write>
-void write_checked(const FileContext& place, Write&& write) {
+void write_checked(const FileContext& context, Write&& write) {
   failed_to_close.clear();
   try {
     write();
   } catch (const Error&) {
     if (failed_to_close.empty()) throw;
   }
-  if (!failed_to_close.empty()) fail(place.kind, place.path, ": cannot be written: ", failed_to_close);
+  if (!failed_to_close.empty()) fail(context.kind, context.path, ": cannot be written: ", failed_to_close);
 }
 
 /// Writes a file by body(place, file), to a temporary name that is then renamed.
 template <typename Body>
 void write_hdf5(const std::string& path, Body&& body) {
-  const FileContext place{path, ErrorKind::file};
+  const FileContext context{path, ErrorKind::file};
   PendingFile pending(path);
   {
     const QuietErrors quiet;
-    write_checked(place, [&] { body(place, create_file(place, pending.temporary())); });
+    write_checked(context, [&] { body(context, create_file(context, pending.temporary())); });
   }
   pending.commit();  // waits for the disk, without the turn
 }
 
 /// Opens an existing file for reading, within read_hdf5. Throws Error(file) if the file is missing or a folder, Error(content) if it is not HDF5.
-Handle open_file(const FileContext& place);
+Handle open_file(const FileContext& context);
 
 /// Returns what read(place, file, to, arguments...) sends, as read_apart. Throws as open_file and read do, too.
 template <typename Read, typename... Arguments>
@@ -118,9 +118,9 @@ ArrayReceiver read_hdf5(const std::string& path, Read, const Arguments&... argum
   require_regular_file(path);
   const auto open_and_read = [](ArraySender& to, const std::string& name, const auto&... values) {
     const QuietErrors quiet;
-    const FileContext place{name, ErrorKind::content};
-    const Handle file = open_file(place);
-    Read{}(place, file, to, values...);
+    const FileContext context{name, ErrorKind::content};
+    const Handle file = open_file(context);
+    Read{}(context, file, to, values...);
   };
   return read_apart(path, limits_of_file(size_of_file(path)), open_and_read, path, arguments...);
 }
@@ -130,23 +130,23 @@ enum class Packing { none, deflate };
 
 /// Creates a dataset without timestamps, with its unit and name as attributes "units" and "long_name"; chunked if
 /// `chunk` is not empty.
-Handle create_dataset(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+Handle create_dataset(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk = {}, Packing packing = Packing::none);
 
 /// Creates a dataset with contiguous values, and returns the offset of the first [bytes]; 0 for none. The values are
 /// written there without HDF5, once the file is closed, and are undefined until then.
-std::uint64_t create_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
+std::uint64_t create_plain(const FileContext& context, hid_t file, const DatasetName& name, hid_t type,
                            const Extent& extent);
 /// Returns this offset for a dataset of any file. Throws Error(content) unless its values have this type and extent and
 /// lie contiguous and unpacked in the file.
-std::uint64_t find_plain(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
+std::uint64_t find_plain(const FileContext& context, hid_t file, const DatasetName& name, hid_t type,
                          const Extent& extent);
 
 /// Creates a group that keeps the order in which its members are written.
-Handle create_ordered_group(const FileContext& place, hid_t file, const char* name);
+Handle create_ordered_group(const FileContext& context, hid_t file, const char* name);
 
 /// Returns the names in such a group in the order of writing; none if it is absent.
-std::vector<std::string> names_in(const FileContext& place, hid_t file, const char* group);
+std::vector<std::string> names_in(const FileContext& context, hid_t file, const char* group);
 
 /// Returns the HDF5 type of a number in the file (little-endian) or in memory.
 template <typename Number>
@@ -163,14 +163,14 @@ hid_t type_of(bool in_file) {
 
 /// Writes a dataset of numbers.
 template <typename Number>
-void write_numbers(const FileContext& place, hid_t file, const DatasetName& name, const Extent& extent,
+void write_numbers(const FileContext& context, hid_t file, const DatasetName& name, const Extent& extent,
                    const Number* numbers) {
-  const Handle dataset = create_dataset(place, file, name, type_of<Number>(true), extent);
-  place.checked(H5Dwrite(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), name.path);
+  const Handle dataset = create_dataset(context, file, name, type_of<Number>(true), extent);
+  context.checked(H5Dwrite(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), name.path);
 }
 
 /// Opens a dataset; throws Error(content) if it is missing.
-Handle open_dataset(const FileContext& place, hid_t file, const DatasetName& name);
+Handle open_dataset(const FileContext& context, hid_t file, const DatasetName& name);
 
 /// A selection of values of a dataset: their type, selection in memory, and selection in the dataset.
 struct Values {
@@ -178,50 +178,50 @@ struct Values {
 };
 
 /// Reads values of a dataset. Throws Error(content) that names `what`.
-void read_values(const FileContext& place, hid_t dataset, const Values& values, void* to, const std::string& what);
+void read_values(const FileContext& context, hid_t dataset, const Values& values, void* to, const std::string& what);
 
 /// Returns the type of UTF-8 text padded with zeros to `length` bytes, or of any length.
-Handle text_type(const FileContext& place, std::size_t length = H5T_VARIABLE);
+Handle text_type(const FileContext& context, std::size_t length = H5T_VARIABLE);
 /// Returns the type of complex<float> as in h5py: compound {r, i} of `real_type`.
-Handle complex_type(const FileContext& place, hid_t real_type);
+Handle complex_type(const FileContext& context, hid_t real_type);
 
 /// Returns the extent of a dataset. Throws Error(content) unless it has `rank` dimensions.
-Extent extent_of(const FileContext& place, hid_t dataset, const std::string& name, std::size_t rank);
+Extent extent_of(const FileContext& context, hid_t dataset, const std::string& name, std::size_t rank);
 
 /// Selects index `first` of the first dimension and everything of the others.
-Handle select_row(const FileContext& place, hid_t dataset, const Extent& extent, hsize_t first);
+Handle select_row(const FileContext& context, hid_t dataset, const Extent& extent, hsize_t first);
 
 /// Writes an attribute with a single value.
-void write_attribute(const FileContext& place, hid_t where, const char* name, double value);
-void write_attribute(const FileContext& place, hid_t where, const char* name, std::int64_t value);
-void write_attribute(const FileContext& place, hid_t where, const char* name, std::uint64_t value);
-void write_attribute(const FileContext& place, hid_t where, const char* name, const std::string& value);
+void write_attribute(const FileContext& context, hid_t where, const char* name, double value);
+void write_attribute(const FileContext& context, hid_t where, const char* name, std::int64_t value);
+void write_attribute(const FileContext& context, hid_t where, const char* name, std::uint64_t value);
+void write_attribute(const FileContext& context, hid_t where, const char* name, const std::string& value);
 /// Writes an attribute of several values.
-void write_attribute(const FileContext& place, hid_t where, const char* name, std::span<const double> values);
+void write_attribute(const FileContext& context, hid_t where, const char* name, std::span<const double> values);
 
 /// Reads an attribute. Throws Error(content) naming it if it is missing or of another type.
-double read_number(const FileContext& place, hid_t where, const char* name);
-std::int64_t read_integer(const FileContext& place, hid_t where, const char* name);
-std::uint64_t read_unsigned(const FileContext& place, hid_t where, const char* name);
-std::string read_text(const FileContext& place, hid_t where, const char* name);
+double read_number(const FileContext& context, hid_t where, const char* name);
+std::int64_t read_integer(const FileContext& context, hid_t where, const char* name);
+std::uint64_t read_unsigned(const FileContext& context, hid_t where, const char* name);
+std::string read_text(const FileContext& context, hid_t where, const char* name);
 /// Reads an attribute with as many values as `to` holds. Throws as read_number.
-void read_numbers(const FileContext& place, hid_t where, const char* name, std::span<double> to);
+void read_numbers(const FileContext& context, hid_t where, const char* name, std::span<double> to);
 
 /// Reads a whole dataset, which must have the expected extent.
 template <typename T>
-std::vector<T> read_all(const FileContext& place, hid_t file, const DatasetName& name, const Extent& expected,
+std::vector<T> read_all(const FileContext& context, hid_t file, const DatasetName& name, const Extent& expected,
                         hid_t type) {
-  const Handle dataset = open_dataset(place, file, name);
-  const Extent extent = extent_of(place, dataset, name.path, expected.size());
+  const Handle dataset = open_dataset(context, file, name);
+  const Extent extent = extent_of(context, dataset, name.path, expected.size());
   std::size_t values = 1;
   for (std::size_t d = 0; d < extent.size(); ++d) {
     if (extent[d] != expected[d])
-      fail(place.kind, place.path, ": ", name.path, " has ", extent[d], " entries, ", expected[d],
+      fail(context.kind, context.path, ": ", name.path, " has ", extent[d], " entries, ", expected[d],
            " expected from /pressure");
     values *= extent[d];
   }
   std::vector<T> result(values);
-  read_values(place, dataset, {type}, result.data(), name.path);
+  read_values(context, dataset, {type}, result.data(), name.path);
   return result;
 }
 

@@ -155,7 +155,7 @@ void add_pickling(py::class_<MadePing, std::shared_ptr<MadePing>>& ping);
 /// Adds arrays of what a ping keeps beside its pictures.
 void add_kept_arrays(py::class_<MadePing, std::shared_ptr<MadePing>>& ping);
 using Pings = OrderedWork<std::shared_ptr<MadePing>>;
-/// Returns the surfels of a ping: all of a cloud, those of a mesh that the beams resolve, parts at their places at that
+/// Returns the surfels of a ping: all of a cloud, those of a mesh that the beams resolve, parts at their positions at that
 /// time.
 std::shared_ptr<const PreparedScene> surfels_of(const MadePing& ping, const PingSimulator& simulator);
 

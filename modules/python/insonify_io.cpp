@@ -74,7 +74,7 @@ void complete(const py::capsule& capsule) {
   PointArrays& arrays = *capsule.get_pointer<PointArrays>();
   using Field = pcl::PCLPointField;
   struct Row {
-    double place[3];
+    double position[3];
     float normal[3], area;
     std::uint32_t id, label;
   };
@@ -139,7 +139,7 @@ ToolPing tool_ping_of(const MadePing& ping) {
   const auto pinged = surfels_of(ping, simulator);
   const bool moves = of.moving && !ping.arrangement;
   const SceneCloud& whole = moves || ping.arrangement ? pinged->scene() : of.loaded->scene;
-  PingScene scene{pinged, of.loaded->report, sampled_places(whole, event.world_from_head),
+  PingScene scene{pinged, of.loaded->report, sampled_positions(whole, event.world_from_head),
                   scene_json(of.loaded->report, pinged->scene())};
   Bounds box = bounds(whole);
   if (moves) {
@@ -157,7 +157,7 @@ std::vector<std::string> notes(const MadePing& ping) {
   const py::gil_scoped_release release;
   const ToolPing sent = tool_ping_of(ping);
   std::vector<std::string> all = sent.setup.notes;
-  for (std::string& note : ping_notes(ping.made, sent.setup, sent.scene.places)) all.push_back(std::move(note));
+  for (std::string& note : ping_notes(ping.made, sent.setup, sent.scene.positions)) all.push_back(std::move(note));
   return all;
 }
 

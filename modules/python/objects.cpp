@@ -21,7 +21,7 @@ namespace insonify::python {
 namespace {
 
 /// A ping that is still to be made, with the options of its simulator but for `keys`.
-MadePing asked(const By& by, const Of& scene, const py::kwargs& keys, const char* who) {
+MadePing requested(const By& by, const Of& scene, const py::kwargs& keys, const char* who) {
   MadePing ping{by, scene, by->setup};
   set_keywords(keywords(ping.setup.run, true), keys, who);
   if (scene->edited) ping.edited = scene->edited, ping.arrangement = scene->edited->now();
@@ -34,7 +34,7 @@ struct Decided {
   Choice detail = Choice::as_needed;
 };
 
-MadePing asked_at(MadePing ping, const py::object& position, double yaw, double pitch, double roll) {
+MadePing requested_at(MadePing ping, const py::object& position, double yaw, double pitch, double roll) {
   const Numbers at = numbers_of(position, "ping: position", 0, 3);
   const Numbers turn = numbers_of(py::make_tuple(yaw, pitch, roll), "ping: yaw, pitch, roll", 0, 3);
   ping.setup.run.placement.pose = {at.at(0), at.at(1), at.at(2), turn.at(0), turn.at(1), turn.at(2)};
@@ -62,34 +62,33 @@ std::vector<Eigen::Vector3d> vectors_for_each_pose(const py::dict& keys, const c
   return all;
 }
 
-/// Settles event and options of a ping; returns its simulator.
-PingSimulator settle(MadePing& ping, int threads) {
+PingSimulator resolve(MadePing& ping, int threads) {
   PingSetup& setup = ping.setup;
   const Placement& at = setup.run.placement;
-  setup.event = asked_event(at, pose_of(*at.pose));
+  setup.event = requested_event(at, pose_of(*at.pose));
   setup.simulation = ping.by->setup.simulation;
   setup.simulation.seed = setup.run.simulation.seed;
   setup.simulation.threads = threads;
   if (ping.detail) setup.simulation.sampling.detail = *ping.detail;
-  setup.simulation.outputs = asked_simulation(setup.run).outputs;
+  setup.simulation.outputs = requested_simulation(setup.run).outputs;
   require_valid_settings(setup.run, setup.simulation, NamedBy::keyword);
   return ping.by->simulator->with(setup.simulation);
 }
 
 /// Decides whether pings like this one merge surfels, if so many share a scene; returns SamplingSettings::detail.
 Choice detail_of(MadePing ping, std::size_t pings, int threads) {
-  const Choice asked = ping.by->setup.simulation.sampling.detail;
-  if (ping.arrangement || ping.scene->moving || ping.scene->loaded->mesh) return asked;
+  const Choice requested = ping.by->setup.simulation.sampling.detail;
+  if (ping.arrangement || ping.scene->moving || ping.scene->loaded->mesh) return requested;
   try {
-    const PingSimulator simulator = settle(ping, threads);
+    const PingSimulator simulator = resolve(ping, threads);
     return simulator.for_many(pings, *ping.scene->prepared, ping.setup.event).options().sampling.detail;
   } catch (const Error&) {
-    return asked;  // the ping itself fails with the reason
+    return requested;  // the ping itself fails with the reason
   }
 }
 
 std::shared_ptr<MadePing> make(MadePing ping, int threads) {
-  const PingSimulator simulator = settle(ping, threads);
+  const PingSimulator simulator = resolve(ping, threads);
   ping.made = simulator.ping(*surfels_of(ping, simulator), ping.setup.event);
   return std::make_shared<MadePing>(std::move(ping));
 }
@@ -144,16 +143,16 @@ std::shared_ptr<MadePing> next_of(Pings& pings) {
 
 std::shared_ptr<MadePing> ping(const By& by, const Of& scene, const py::object& position, double yaw, double pitch,
                                double roll, const py::kwargs& keys) {
-  const MadePing ping = asked_at(asked(by, scene, keys, "ping"), position, yaw, pitch, roll);
+  const MadePing ping = requested_at(requested(by, scene, keys, "ping"), position, yaw, pitch, roll);
   Pings one(1, 1, [&ping](std::size_t) { return make(ping, 0); });
   return next_of(one);
 }
 
 py::list plan(const By& by, const Of& scene, const py::object& position, double yaw, double pitch, double roll,
               const py::kwargs& keys) {
-  MadePing ping = asked_at(asked(by, scene, keys, "plan"), position, yaw, pitch, roll);
+  MadePing ping = requested_at(requested(by, scene, keys, "plan"), position, yaw, pitch, roll);
   py::list stages;
-  const PingSimulator simulator = settle(ping, 0);
+  const PingSimulator simulator = resolve(ping, 0);
   for (const PlannedStage& s : simulator.plan(*surfels_of(ping, simulator), ping.setup.event).stages) {
     using namespace py::literals;
     stages.append(py::dict("name"_a = s.name, "included"_a = s.included, "why"_a = s.why, "bound_db"_a = s.bound_db));
@@ -176,8 +175,8 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
     draw = whole_numbers<int>(given, "pings: draw", numbers.shape(0), 1e9);
   const std::vector<Eigen::Vector3d> velocity = vectors_for_each_pose(keys, "velocity", numbers.shape(0)),
                                      turn_rate = vectors_for_each_pose(keys, "turn_rate", numbers.shape(0));
-  const MadePing each = asked(by, scene, keys, "pings");
-  const auto asked_for = [each, pose, time, draw, velocity, turn_rate](std::size_t i) {
+  const MadePing each = requested(by, scene, keys, "pings");
+  const auto requested = [each, pose, time, draw, velocity, turn_rate](std::size_t i) {
     MadePing ping = each;
     Placement& at = ping.setup.run.placement;
     std::copy_n(&pose[6 * i], 6, at.pose.emplace().begin());
@@ -191,9 +190,9 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
   // The first thread that makes a ping decides by the middle one; the others wait.
   const auto decided = std::make_shared<Decided>();
   const std::size_t count = pose.size() / 6;
-  return std::make_unique<Pings>(count, thread_count(threads), [asked_for, decided, count, threads](std::size_t i) {
-    MadePing ping = asked_for(i);
-    std::call_once(decided->once, [&] { decided->detail = detail_of(asked_for(count / 2), count, threads); });
+  return std::make_unique<Pings>(count, thread_count(threads), [requested, decided, count, threads](std::size_t i) {
+    MadePing ping = requested(i);
+    std::call_once(decided->once, [&] { decided->detail = detail_of(requested(count / 2), count, threads); });
     ping.detail = decided->detail;
     record_detail(ping.by->setup.simulation.sampling.detail, decided->detail, ping.setup.run);
     return make(std::move(ping), 1);

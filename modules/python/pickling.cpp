@@ -28,8 +28,8 @@ inline void members(Archive& archive, BeamFan& fan) {
 }
 inline void members(Archive& archive, Motion& motion) { archive(motion.velocity, motion.turn_rate); }
 inline void members(Archive& archive, PartView& view) {
-  archive(view.world_from_part, view.visible_share, view.azimuth, view.elevation, view.range, view.heard, view.ahead,
-          view.port, view.scale, view.size);
+  archive(view.world_from_part, view.visible_share, view.azimuth, view.elevation, view.range, view.beam_azimuth,
+          view.ahead, view.port, view.scale, view.size);
 }
 inline void members(Archive& archive, PixelLabels& labels) {
   archive(labels.material, labels.id, labels.share, labels.names, labels.part, labels.part_names, labels.part_labels,

@@ -94,11 +94,11 @@ void take_names(const std::vector<std::string>& names, SceneOptions how, PointAr
 }  // namespace
 
 std::shared_ptr<Scene> scene_of_arrays(const py::object& points, const GivenArrays& given, const py::kwargs& keys) {
-  const Numbers places = numbers_of(points, "Scene: points", 3);
-  const py::ssize_t n = places.shape(0);
+  const Numbers positions = numbers_of(points, "Scene: points", 3);
+  const py::ssize_t n = positions.shape(0);
   if (n == 0) fail(ErrorKind::argument, "Scene: points has no row, must have one or more");
   PointArrays arrays;
-  arrays.point = vectors_of(places);
+  arrays.point = vectors_of(positions);
   if (!given.triangles.is_none()) arrays.triangle = triangles_of(given.triangles, n);
   take_vectors(given, n, arrays);
   SceneOptions how;

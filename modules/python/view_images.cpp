@@ -35,7 +35,6 @@ struct ViewForm {
   std::vector<std::string> stuff;  ///< classes that have no objects
 };
 
-/// An object of a view.
 struct SeenObject {
   Annotation where;
   std::optional<double> contrast;
@@ -83,7 +82,7 @@ GreyWindow usual_window(const Grid<float>& level_db) {
   return {max_db - 60, max_db};
 }
 
-/// Returns the elevation from which the surface of every pixel is heard; NaN where it shows none. In a fan it is that
+/// Returns the elevation from which the surface of every pixel is received; NaN where it shows none. In a fan it is that
 /// of the loudest cell of its class among those about the middle of the pixel.
 Grid<float> elevations_of(const Ping& ping, const tool::LabelledSamples& samples, const Grid<std::uint8_t>& shown,
                           const FanRaster* raster) {

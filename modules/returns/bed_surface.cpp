@@ -14,13 +14,13 @@ namespace {
 /// and rows count from the corner of the first cell.
 template <typename Cells>
 double bilinear(const Cells& cells, double column, double row) {
-  const auto place = [](double at, Eigen::Index size) {
+  const auto position = [](double at, Eigen::Index size) {
     const double inside = std::clamp(at - 0.5, 0.0, static_cast<double>(size - 1));
     const auto first = std::min(static_cast<Eigen::Index>(inside), std::max<Eigen::Index>(0, size - 2));
     return std::pair(first, inside - static_cast<double>(first));
   };
-  const auto [i, u] = place(column, cells.rows());
-  const auto [j, v] = place(row, cells.cols());
+  const auto [i, u] = position(column, cells.rows());
+  const auto [j, v] = position(row, cells.cols());
   const auto value = [&](Eigen::Index a, Eigen::Index b) {
     return static_cast<double>(cells(std::min(a, cells.rows() - 1), std::min(b, cells.cols() - 1)));
   };

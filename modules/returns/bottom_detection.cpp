@@ -20,7 +20,7 @@ namespace {
 constexpr const char* bottom_call = "detect_bottom";
 
 /// Returns the position of a sounding in the world.
-Eigen::Vector3d place_of(const Ping& ping, const BottomOptions& options, std::size_t beam, double range) {
+Eigen::Vector3d position_of(const Ping& ping, const BottomOptions& options, std::size_t beam, double range) {
   const Eigen::Vector3d axis = unit_vector({ping.fan.azimuth[beam], ping.fan.elevation[beam]});
   const Eigen::Vector3d head = ping.world_from_head.translation();
   const Eigen::Vector3d away = way_of_echo(ping, axis, range, options.sound_speed);
@@ -118,7 +118,7 @@ BottomSoundings detect_bottom(const Ping& ping, const BottomOptions& options) {
   std::vector<BottomEcho> echoes;
   for (std::size_t b = 0; b < beams; ++b)
     for (const Sounding& s : soundings[b]) {
-      all.position.push_back(place_of(ping, options, b, s.best.range));
+      all.position.push_back(position_of(ping, options, b, s.best.range));
       all.range.push_back(s.best.range);
       all.deviation.push_back(static_cast<float>(s.best.deviation));
       all.quality.push_back(static_cast<float>(std::log10(s.best.range / s.best.deviation)));

@@ -37,8 +37,8 @@ class BeamsByCosine {
   std::size_t size() const { return by_u_.size(); }
   /// Returns the first beam at or above a direction cosine; size() if there is none.
   std::size_t first_from(double cosine) const {
-    const double place = (std::clamp(cosine, -1.0, 1.0) + 1) * 0.5 * static_cast<double>(start_.size() - 1);
-    std::size_t k = start_[static_cast<std::size_t>(place)];
+    const double position = (std::clamp(cosine, -1.0, 1.0) + 1) * 0.5 * static_cast<double>(start_.size() - 1);
+    std::size_t k = start_[static_cast<std::size_t>(position)];
     while (k < by_u_.size() && u(k) < cosine) ++k;
     return k;
   }

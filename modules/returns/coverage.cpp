@@ -79,7 +79,6 @@ class Beams {
   bool has_row_response_ = false;  ///< false for one row of a line array
 };
 
-/// Contribution of one surfel to one ping.
 struct SurfelContribution {
   std::uint32_t surfel;
   Beams::Beam beam;
@@ -113,16 +112,16 @@ std::vector<SurfelContribution> surfel_contributions(const SceneCloud& scene, co
   const Medium& medium = sent.medium;
   Beams beams(head, medium);
   const ResolutionCell cell(head, medium, beams);
-  std::vector<std::uint32_t> place(scene.size(), none);
+  std::vector<std::uint32_t> position(scene.size(), none);
   std::vector<SurfelContribution> contributions;
   for (std::size_t i = 0; i < scatterers.size(); ++i) {
     const std::uint32_t surfel = scatterers.surfel[i];
-    if (place[surfel] == none) {
-      place[surfel] = static_cast<std::uint32_t>(contributions.size());
+    if (position[surfel] == none) {
+      position[surfel] = static_cast<std::uint32_t>(contributions.size());
       contributions.push_back({surfel, beams.best(echoes.u[i], echoes.v[i])});
       contributions.back().cell = cell.area(scatterers.range[i], scatterers.cos_incidence[i], echoes.u[i], echoes.v[i]);
     }
-    SurfelContribution& h = contributions[place[surfel]];
+    SurfelContribution& h = contributions[position[surfel]];
     const double range = scatterers.range[i], response = beams.intensity(h.beam, echoes.u[i], echoes.v[i]);
     const double arriving = 0.5 * std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * range);
     const double cosine = scatterers.cos_incidence[i], seen_area = scatterers.projected_area[i];

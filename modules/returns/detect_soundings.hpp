@@ -59,7 +59,7 @@ double background_factor(double false_alarm_rate, int cells);
 /// depend on options.threads. Throws Error for a rate outside (0, 1], or a resolution or reach that is not >= 0.
 Soundings detect_soundings(const Ping& ping, const EchoStream& stream, const DetectionOptions& options = {});
 
-/// Also takes double echoes (`doubles`, at apparent_places) beside the direct ones, and sets true_order.
+/// Also takes double echoes (`doubles`, at apparent_positions) beside the direct ones, and sets true_order.
 Soundings detect_soundings(const Ping& ping, const EchoStream& direct, const EchoStream& doubles,
                            const DetectionOptions& options);
 

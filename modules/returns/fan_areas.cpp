@@ -121,8 +121,8 @@ class FanAreas {
  private:
   // Returns the energy of a beam up to a range, in proportion to the area within a bin.
   double energy_before(const BeamEnergy& beam, double range) const {
-    const double place = (range - gate_.min_range) / gate_.bin_size;
-    const auto n = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(beam.before.size() - 2)));
+    const double position = (range - gate_.min_range) / gate_.bin_size;
+    const auto n = static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(beam.before.size() - 2)));
     const double near = gate_.min_range + static_cast<double>(n) * gate_.bin_size, end = near + gate_.bin_size;
     const double share = (range * range - near * near) / (end * end - near * near);
     return beam.before[n] + (beam.before[n + 1] - beam.before[n]) * share;

@@ -204,7 +204,6 @@ class Search {
     return result;
   }
 
-  /// Adds groups from `first_group` on to the pixels of a beam.
   void accumulate(std::size_t beam, std::size_t first_group, const std::vector<GroupTerms>& terms) {
     const double u = std::cos(head_.fan.elevation[beam]) * std::sin(head_.fan.azimuth[beam]);
     std::vector<double> sum;
@@ -288,9 +287,9 @@ Contributors find_contributors(const SceneCloud& scene, std::span<const SurfelEc
   require_valid(medium, "find_contributors");
   require_options(head, options);
   double doppler = 0;
-  for (const SurfelEchoes& part : echoes) {
-    require_arrivals(scene, part, "find_contributors");
-    for (const double shift : part.echoes.doppler) doppler = std::max(doppler, std::abs(shift));
+  for (const SurfelEchoes& block : echoes) {
+    require_arrivals(scene, block, "find_contributors");
+    for (const double shift : block.echoes.doppler) doppler = std::max(doppler, std::abs(shift));
   }
   const DelayBins axis(head, medium, options.floor_db, doppler);
   Search search(head, medium, sorted_arrivals(echoes, axis), axis, options);

@@ -61,8 +61,8 @@ class PingOnBed {
 
   /// Returns the samples from a position. Without samples, the head is assumed to be abeam of the position, up to
   /// `strip` further along its way.
-  Received samples_from(const Vector3d& place, const Vector3d& strip) const {
-    const Vector3d p = head_from_world_ * place;
+  Received samples_from(const Vector3d& position, const Vector3d& strip) const {
+    const Vector3d p = head_from_world_ * position;
     Received received = samples_from(p);
     const double half = strip.norm();
     if (received.samples > 0 || !(half > 0)) return received;
@@ -183,16 +183,16 @@ void ImageMosaic::add(const Ping& ping, const MosaicSource& source, const Vector
   if (!((high - low + 1).prod() * side * side <= most_mosaic_cells && low.abs().maxCoeff() < 0x1p30))
     fail(ErrorKind::content, "ImageMosaic: cell = ", cell_, " m makes more than 2^26 cells for ping ", ping.number,
          "; make the cells larger");
-  std::vector<std::pair<Place, Tile*>> touched;
+  std::vector<std::pair<Position, Tile*>> touched;
   for (auto i = static_cast<std::int32_t>(low.x()); i <= static_cast<std::int32_t>(high.x()); ++i)
     for (auto j = static_cast<std::int32_t>(low.y()); j <= static_cast<std::int32_t>(high.y()); ++j)
-      touched.emplace_back(Place{i, j}, &tiles_[{i, j}]);
+      touched.emplace_back(Position{i, j}, &tiles_[{i, j}]);
 
   parallel_for(touched.size(), threads, [&](std::size_t t) {
-    const auto& [place, into] = touched[t];
+    const auto& [position, into] = touched[t];
     for (int k = 0; k < side * side; ++k) {
-      const double x = (static_cast<double>(place.first) * side + k % side + 0.5) * cell_;
-      const double y = (static_cast<double>(place.second) * side + k / side + 0.5) * cell_;
+      const double x = (static_cast<double>(position.first) * side + k % side + 0.5) * cell_;
+      const double y = (static_cast<double>(position.second) * side + k / side + 0.5) * cell_;
       const Received received = on_bed.samples_from({x, y, bed.at(x, y)}, strip);
       if (received.samples == 0) continue;
       const auto at = static_cast<std::size_t>(k);
@@ -205,19 +205,19 @@ void ImageMosaic::add(const Ping& ping, const MosaicSource& source, const Vector
       into->samples[at] += static_cast<float>(received.samples);
     }
   });
-  for (const auto& [place, into] : touched)
-    if (std::all_of(into->samples.begin(), into->samples.end(), [](float n) { return n == 0; })) tiles_.erase(place);
+  for (const auto& [position, into] : touched)
+    if (std::all_of(into->samples.begin(), into->samples.end(), [](float n) { return n == 0; })) tiles_.erase(position);
 }
 
 MosaicMap ImageMosaic::map() const {
   if (tiles_.empty()) fail(ErrorKind::content, "ImageMosaic: no ping hears the bed");
   Eigen::AlignedBox<std::int64_t, 2> box;  // box of the cells with samples
   const auto each_cell = [&](const auto& use) {
-    for (const auto& [place, tile] : tiles_)
+    for (const auto& [position, tile] : tiles_)
       for (std::size_t k = 0; k < tile.samples.size(); ++k) {
         const auto in_tile = static_cast<std::int64_t>(k);
-        const Eigen::Vector<std::int64_t, 2> at(std::int64_t{place.first} * side + in_tile % side,
-                                                std::int64_t{place.second} * side + in_tile / side);
+        const Eigen::Vector<std::int64_t, 2> at(std::int64_t{position.first} * side + in_tile % side,
+                                                std::int64_t{position.second} * side + in_tile / side);
         if (tile.samples[k] > 0) use(at, tile, k);
       }
   };

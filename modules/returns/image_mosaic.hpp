@@ -72,11 +72,11 @@ class ImageMosaic {
     std::vector<float> samples = std::vector<float>(side * side);
     std::vector<float> width = std::vector<float>(side * side);  ///< width of the beam [m], for MosaicRule::best
   };
-  using Place = std::pair<std::int32_t, std::int32_t>;
+  using Position = std::pair<std::int32_t, std::int32_t>;
 
   double cell_;
   MosaicRule rule_;
-  std::map<Place, Tile> tiles_;  ///< only tiles with samples
+  std::map<Position, Tile> tiles_;  ///< only tiles with samples
 };
 
 }  // namespace insonify

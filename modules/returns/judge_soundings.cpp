@@ -27,13 +27,13 @@ constexpr double own_part = 0.5;             // fraction of the largest step bes
 constexpr double sure_of_relief = 2.5;       // variances that may come from errors alone
 
 /// Distance of a sounding from the plane of its neighbours [m], and the variance that errors alone give it [m^2].
-struct Bend {
+struct Curvature {
   double off, expected;
 };
 
 /// Contribution of a neighbouring beam's main lobe to a sounding: fraction of its intensity, angle between them [rad].
 struct Skirt {
-  double part = 0, away = 0;
+  double share = 0, away = 0;
 };
 
 class Judge {
@@ -44,7 +44,7 @@ class Judge {
   Skirt skirt_at(std::size_t i) const;
   std::uint8_t reject(std::size_t i, const Skirt& skirt) const;
   /// Finds the residuals of all soundings that are kept, for relief_variance.
-  void find_bends();
+  void find_curvatures();
   /// Returns the variance that the relief of the bottom adds to the range of a sounding [m^2].
   double relief_variance(std::size_t i, const Skirt& skirt) const;
 
@@ -55,23 +55,24 @@ class Judge {
   bool is_confirmed(std::size_t i) const;
   /// Returns the sounding of a beam with most energy; nothing for a beam without soundings.
   std::optional<std::size_t> sounding_of(std::ptrdiff_t beam) const;
-  std::optional<Bend> bend_at(std::ptrdiff_t beam) const;
-  const std::optional<Bend>& bend_of(std::ptrdiff_t beam) const {
-    static const std::optional<Bend> none;
-    return beam >= 0 && beam < static_cast<std::ptrdiff_t>(bends_.size()) ? bends_[static_cast<std::size_t>(beam)]
-                                                                          : none;
+  std::optional<Curvature> curvature_at(std::ptrdiff_t beam) const;
+  const std::optional<Curvature>& curvature_of(std::ptrdiff_t beam) const {
+    static const std::optional<Curvature> none;
+    return beam >= 0 && beam < static_cast<std::ptrdiff_t>(curvatures_.size())
+               ? curvatures_[static_cast<std::size_t>(beam)]
+               : none;
   }
 
   const JudgedPing& judged_;
   const BottomSoundings& soundings_;
-  std::vector<std::ptrdiff_t> first_;       ///< first sounding of each beam; -1: none
-  std::vector<float> own_;                  ///< deviations predicted from the echoes [m]
-  std::vector<double> sine_, angle_;        ///< direction cosine and angle of each beam in the plane of the fan
-  std::vector<std::optional<Bend>> bends_;  ///< one per beam
-  std::vector<double> loudness_db_;         ///< level of each sounding, compensated for its range
-  std::ptrdiff_t lag_ = 1;                  ///< number of beams in a beam's width
-  std::ptrdiff_t relief_lag_ = 1;           ///< beams in the longer side of a footprint, at most a sixteenth of all
-  double share_ = 1;                        ///< distance between two beams, in beam widths
+  std::vector<std::ptrdiff_t> first_;  ///< first sounding of each beam; -1: none
+  std::vector<float> own_;             ///< deviations predicted from the echoes [m]
+  std::vector<double> sine_, angle_;   ///< direction cosine and angle of each beam in the plane of the fan
+  std::vector<std::optional<Curvature>> curvatures_;  ///< one per beam
+  std::vector<double> loudness_db_;                   ///< level of each sounding, compensated for its range
+  std::ptrdiff_t lag_ = 1;                            ///< number of beams in a beam's width
+  std::ptrdiff_t relief_lag_ = 1;  ///< beams in the longer side of a footprint, at most a sixteenth of all
+  double share_ = 1;               ///< distance between two beams, in beam widths
 };
 
 Judge::Judge(const JudgedPing& judged, const BottomSoundings& soundings)
@@ -128,10 +129,10 @@ Skirt Judge::skirt_at(std::size_t i) const {
   Skirt most;
   for (std::size_t b = beam - std::min(beam, reach); b <= std::min(sine_.size() - 1, beam + reach); ++b) {
     const double there = strongest(b, bins);
-    if (there / here <= most.part) continue;  // too faint even on its axis
+    if (there / here <= most.share) continue;  // too faint even on its axis
     const double off = (sine_[b] - sine_[beam]) / judged_.ping.fan.beam_width;
-    const double part = there * std::exp2(-4 * off * off) / here;  // Gaussian main lobe
-    if (b != beam && part > most.part) most = {part, std::abs(angle_[b] - angle_[beam])};
+    const double share = there * std::exp2(-4 * off * off) / here;  // Gaussian main lobe
+    if (b != beam && share > most.share) most = {share, std::abs(angle_[b] - angle_[beam])};
   }
   return most;
 }
@@ -162,7 +163,7 @@ std::uint8_t Judge::reject(std::size_t i, const Skirt& skirt) const {
   const double side_lobes = side_lobes_at(i), noise = judged_.noise[soundings_.beam[i]] * power_from_db(lone_noise_db);
   std::uint8_t reasons = 0;
   if (level < side_lobes) reasons |= reject_side_lobe;
-  if (skirt.part > power_from_db(skirt_margin_db)) reasons |= reject_skirt;
+  if (skirt.share > power_from_db(skirt_margin_db)) reasons |= reject_skirt;
   if (is_faint(i)) reasons |= reject_faint;
   const BottomEcho& echo = judged_.echoes[i];
   if (is_of_grating_lobe(judged_.ping, soundings_.beam[i], soundings_.range[i], echo.half_power_reach,
@@ -174,7 +175,7 @@ std::uint8_t Judge::reject(std::size_t i, const Skirt& skirt) const {
 
 /// Returns the residual of a sounding from the plane through its neighbours a footprint to either side. On a plane 1 /
 /// r is linear in the cosine and sine of the angle.
-std::optional<Bend> Judge::bend_at(std::ptrdiff_t beam) const {
+std::optional<Curvature> Judge::curvature_at(std::ptrdiff_t beam) const {
   const auto before = sounding_of(beam - relief_lag_), here = sounding_of(beam),
              after = sounding_of(beam + relief_lag_);
   if (!before || !here || !after) return {};
@@ -185,30 +186,31 @@ std::optional<Bend> Judge::bend_at(std::ptrdiff_t beam) const {
   const double to_after = std::sin(angle(*after) - angle(*here)) / whole;
   const double from_before = std::sin(angle(*here) - angle(*before)) / whole;
   const double plane = 1 / (to_after / soundings_.range[*before] + from_before / soundings_.range[*after]);
-  return Bend{std::abs(soundings_.range[*here] - plane) / std::sqrt(1.5),
-              (variance(*here) + 0.25 * (variance(*before) + variance(*after))) / 1.5};
+  return Curvature{std::abs(soundings_.range[*here] - plane) / std::sqrt(1.5),
+                   (variance(*here) + 0.25 * (variance(*before) + variance(*after))) / 1.5};
 }
 
-void Judge::find_bends() {
+void Judge::find_curvatures() {
   for (std::ptrdiff_t& first : first_)
     if (first >= 0 && soundings_.reject[static_cast<std::size_t>(first)] != 0) first = -1;
-  for (std::size_t b = 0; b < first_.size(); ++b) bends_.push_back(bend_at(static_cast<std::ptrdiff_t>(b)));
+  for (std::size_t b = 0; b < first_.size(); ++b) curvatures_.push_back(curvature_at(static_cast<std::ptrdiff_t>(b)));
 }
 
 double Judge::relief_variance(std::size_t i, const Skirt& skirt) const {  // (E131)
   if (first_.size() == 1) return 0;  // its deviation includes the width of its echo (E171)
   const auto beam = static_cast<std::ptrdiff_t>(soundings_.beam[i]);
-  std::vector<double> bends, expected;
+  std::vector<double> curvatures, expected;
   for (std::ptrdiff_t b = beam - 2 * relief_lag_; b <= beam + 2 * relief_lag_; ++b)
-    if (const std::optional<Bend>& bend = bend_of(b)) bends.push_back(bend->off), expected.push_back(bend->expected);
-  const double aside = skirt.part > power_from_db(partly_skirt_db) ? soundings_.range[i] * skirt.away : 0;
+    if (const std::optional<Curvature>& curvature = curvature_of(b))
+      curvatures.push_back(curvature->off), expected.push_back(curvature->expected);
+  const double aside = skirt.share > power_from_db(partly_skirt_db) ? soundings_.range[i] * skirt.away : 0;
   const double other = std::pow(
       std::max(aside, deviation_along(judged_, soundings_.beam[i], soundings_.range[i], judged_.echoes[i])), 2);
-  if (bends.size() < 3) return other;
+  if (curvatures.size() < 3) return other;
   double most = 0;
   for (std::ptrdiff_t b = beam - relief_lag_; b <= beam + relief_lag_; ++b)
-    if (const std::optional<Bend>& bend = bend_of(b)) most = std::max(most, bend->off);
-  const double scatter = std::max(median_of_normal * median_of(bends), own_part * most);
+    if (const std::optional<Curvature>& curvature = curvature_of(b)) most = std::max(most, curvature->off);
+  const double scatter = std::max(median_of_normal * median_of(curvatures), own_part * most);
   return std::max({0.0, scatter * scatter - sure_of_relief * median_of(expected), other});
 }
 
@@ -234,7 +236,7 @@ void judge_soundings(const JudgedPing& judged, BottomSoundings& soundings) {
     skirts[i] = judge.skirt_at(i);
     soundings.reject[i] = judge.reject(i, skirts[i]);
   });
-  judge.find_bends();
+  judge.find_curvatures();
   std::vector<double> relief(soundings.size());
   parallel_for(soundings.size(), judged.threads,
                [&](std::size_t i) { relief[i] = judge.relief_variance(i, skirts[i]); });

@@ -11,7 +11,7 @@
 
 namespace insonify {
 
-Grid<std::uint32_t> connected_parts(const Grid<std::uint32_t>& key, std::size_t least_pixels) {
+Grid<std::uint32_t> connected_groups(const Grid<std::uint32_t>& key, std::size_t least_pixels) {
   Grid<std::uint32_t> number = Grid<std::uint32_t>::Zero(key.rows(), key.cols());
   Grid<std::uint8_t> seen = Grid<std::uint8_t>::Zero(key.rows(), key.cols());
   std::uint32_t parts = 0;
@@ -74,7 +74,7 @@ Grid<std::uint32_t> number_objects(const Grid<std::uint32_t>& kind, const Grid<s
   }
   for (std::uint32_t& number : objects.reshaped())
     if (number != 0 && pixels.at(number) < least_pixels) number = 0;
-  const Grid<std::uint32_t> connected = connected_parts(rest, least_pixels);
+  const Grid<std::uint32_t> connected = connected_groups(rest, least_pixels);
   return (connected > 0).select(connected + instances.most, objects);
 }
 

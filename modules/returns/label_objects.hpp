@@ -30,7 +30,7 @@ SceneInstances number_instances(const std::vector<std::pair<std::uint32_t, std::
 /// Returns the numbers of the connected parts of a picture. Pixels of one key that touch at sides or corners form a
 /// part. Parts are numbered from 1 in the order of their first pixels. Pixels of key 0 and parts of less than
 /// `least_pixels` get 0.
-Grid<std::uint32_t> connected_parts(const Grid<std::uint32_t>& key, std::size_t least_pixels);
+Grid<std::uint32_t> connected_groups(const Grid<std::uint32_t>& key, std::size_t least_pixels);
 
 /// Returns the objects of a picture. Pixels of any kind whose surfel `id` belongs to an instance have the number of the
 /// instance. Connected parts of one kind without instances have the numbers after instances.most, in the order of their

@@ -40,8 +40,8 @@ LoneEcho lone_echo(const BottomBeam& beam, double centre, double reach) {
   echo.mean = centre + mean;
   echo.variance = std::max(0.0, second / echo.energy - mean * mean);
   for (std::size_t n = begin; n < end; ++n) {
-    const double x = beam.range(n) - echo.mean, part = beam.compensated(n) / echo.energy;
-    echo.squares += x * x, echo.own_error += part * part * x * x;
+    const double x = beam.range(n) - echo.mean, share = beam.compensated(n) / echo.energy;
+    echo.squares += x * x, echo.own_error += share * share * x * x;
   }
   return echo;
 }

@@ -38,9 +38,9 @@ Grid<double> mean_over_cells(const Grid<double>& intensity, const RangeGate& sam
     for (Eigen::Index n = begin; n < end; ++n) {
       const double low = std::max(first, samples.min_range + static_cast<double>(n) * samples.bin_size);
       const double high = std::min(last, samples.min_range + static_cast<double>(n + 1) * samples.bin_size);
-      const double part = std::max(0.0, high * high - low * low);
-      mean.col(c) += part * intensity.col(n);
-      area += part;
+      const double share = std::max(0.0, high * high - low * low);
+      mean.col(c) += share * intensity.col(n);
+      area += share;
     }
     if (area > 0) mean.col(c) /= area;
   }

@@ -19,7 +19,6 @@ struct Bearings {
     for (const Eigen::Index b : beam) at.push_back(-fan.azimuth[static_cast<std::size_t>(b)]);
   }
 
-  // Returns the beam with the nearest bearing.
   Eigen::Index nearest(double bearing) const {
     const auto above = static_cast<std::size_t>(std::lower_bound(at.begin(), at.end(), bearing) - at.begin());
     std::size_t k = std::min(above, at.size() - 1);

@@ -22,7 +22,7 @@ struct Layer {
 };
 
 /// Direction of a scanning head: the turn of the head itself, included in the ping's pose.
-struct ScanPlace {
+struct ScanDirection {
   std::int64_t sweep = 0;  ///< number of the sweep, from 0
   double angle = 0;        ///< turn about the head's z axis [rad], positive to port
 };
@@ -44,10 +44,10 @@ struct Ping {
   Grid<float>
       split_phase{};     ///< phase between the array's halves [rad], beams x bins, positive to port (E92); or empty
   PixelLabels labels{};  ///< surface of every pixel, if contributors or labels were kept; or empty
-  std::optional<ScanPlace> scan{};  ///< for a scanning head; its turn is included in world_from_head
-  double sound_speed = 0;           ///< in the water at the head [m/s]; it converts delays to ranges; 0: not known
-  double absorption_db_per_m = 0;   ///< absorption of the water at the head, at the centre frequency
-  Motion motion{};                  ///< motion of the head from transmission on, as simulated in its echoes
+  std::optional<ScanDirection> scan{};  ///< for a scanning head; its turn is included in world_from_head
+  double sound_speed = 0;               ///< in the water at the head [m/s]; it converts delays to ranges; 0: not known
+  double absorption_db_per_m = 0;       ///< absorption of the water at the head, at the centre frequency
+  Motion motion{};                      ///< motion of the head from transmission on, as simulated in its echoes
 };
 
 /// Sets sound speed and absorption of `ping` to those of the water at the head.
@@ -77,10 +77,10 @@ struct TrackPoint {
   std::int64_t number = 0;
   double time = 0;  ///< [s]
   Pose world_from_head = Pose::Identity();
-  std::optional<ScanPlace> scan{};  ///< sweep and angle of a scanning head
-  double sound_speed = 0;           ///< see Ping::sound_speed
-  double absorption_db_per_m = 0;   ///< see Ping::absorption_db_per_m
-  Motion motion{};                  ///< see Ping::motion
+  std::optional<ScanDirection> scan{};  ///< sweep and angle of a scanning head
+  double sound_speed = 0;               ///< see Ping::sound_speed
+  double absorption_db_per_m = 0;       ///< see Ping::absorption_db_per_m
+  Motion motion{};                      ///< see Ping::motion
 };
 
 /// Returns time and pose of a ping.

@@ -28,7 +28,7 @@ struct PartView {
   /// Extent of the azimuth of the beam that receives the part [rad]. A line array resolves cones about its axis, so
   /// this differs from `azimuth` for surfaces high above or far below. `ahead` and `port` are the extents of its
   /// position in pictures in true geometry: cosine and sine of the beam's azimuth times the range [m].
-  Extent heard{}, ahead{}, port{};
+  Extent beam_azimuth{}, ahead{}, port{};
   /// Lengths over those of the part's file, and extents of the whole part along the axes of that file [m]. NaN: the
   /// part stands as captured, or is not in the scene.
   double scale = std::numeric_limits<double>::quiet_NaN();

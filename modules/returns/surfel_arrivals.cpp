@@ -19,29 +19,29 @@ DelayBins::DelayBins(const SonarHead& head, const Medium& medium, double floor_d
   length = static_cast<std::size_t>(std::min(2 * half / step + 1, static_cast<double>(bins)));
 }
 
-void require_arrivals(const SceneCloud& scene, const SurfelEchoes& part, const char* who) {
-  const std::size_t n = part.echoes.size();
-  if (part.surfel.size() != n || part.echoes.v.size() != n || !(part.legs.empty() || part.legs.size() == n) ||
-      !(part.before.empty() || part.before.size() == n))
-    fail(ErrorKind::argument, who, ": ", n, " echoes, but ", part.surfel.size(), " surfels, ", part.echoes.v.size(),
-         " directions upwards, ", part.legs.size(), " pairs of legs and ", part.before.size(),
+void require_arrivals(const SceneCloud& scene, const SurfelEchoes& block, const char* who) {
+  const std::size_t n = block.echoes.size();
+  if (block.surfel.size() != n || block.echoes.v.size() != n || !(block.legs.empty() || block.legs.size() == n) ||
+      !(block.before.empty() || block.before.size() == n))
+    fail(ErrorKind::argument, who, ": ", n, " echoes, but ", block.surfel.size(), " surfels, ", block.echoes.v.size(),
+         " directions upwards, ", block.legs.size(), " pairs of legs and ", block.before.size(),
          " surfels before; give one of each (no legs: all direct; none before: all by one surface)");
   for (std::size_t i = 0; i < n; ++i) {
-    if (part.surfel[i] >= scene.size())
-      fail(ErrorKind::argument, who, ": surfel[", i, "] = ", part.surfel[i], ", but the scene has ", scene.size());
-    const Echoes& e = part.echoes;
+    if (block.surfel[i] >= scene.size())
+      fail(ErrorKind::argument, who, ": surfel[", i, "] = ", block.surfel[i], ", but the scene has ", scene.size());
+    const Echoes& e = block.echoes;
     if (!std::isfinite(e.delay[i] + e.u[i] + e.v[i] + std::norm(e.amplitude[i]) + e.doppler_of(i)))
       fail(ErrorKind::argument, who, ": echo ", i, " is not finite (delay ", e.delay[i], " s, amplitude ",
            std::abs(e.amplitude[i]), " Pa)");
   }
 }
 
-std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> parts, const DelayBins& axis) {
+std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> blocks, const DelayBins& axis) {
   std::vector<Arrival> arrivals;
   std::size_t total = 0;
-  for (const SurfelEchoes& h : parts) total += h.echoes.size();
+  for (const SurfelEchoes& h : blocks) total += h.echoes.size();
   arrivals.reserve(total);
-  for (const SurfelEchoes& h : parts)
+  for (const SurfelEchoes& h : blocks)
     for (std::size_t i = 0; i < h.echoes.size(); ++i) {
       const Echoes& e = h.echoes;
       if (!axis.reaches(e.delay[i])) continue;

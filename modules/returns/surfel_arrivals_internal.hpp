@@ -59,10 +59,10 @@ struct Group {
 };
 
 /// Throws Error(argument) unless the echoes are complete, finite and from surfels of the scene.
-void require_arrivals(const SceneCloud& scene, const SurfelEchoes& part, const char* who);
+void require_arrivals(const SceneCloud& scene, const SurfelEchoes& block, const char* who);
 
 /// Returns all echoes that overlap a bin, grouped by contributor, by ascending surfel and legs.
-std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> parts, const DelayBins& axis);
+std::vector<Arrival> sorted_arrivals(std::span<const SurfelEchoes> blocks, const DelayBins& axis);
 
 std::vector<Group> groups_of(const std::vector<Arrival>& arrivals);
 

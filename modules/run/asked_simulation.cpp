@@ -64,18 +64,18 @@ class JudgedSettings {
 
 }  // namespace
 
-SimulationOptions asked_simulation(const Run& run) {
-  SimulationOptions asked = run.simulation;
-  OutputSettings& outputs = asked.outputs;
+SimulationOptions requested_simulation(const Run& run) {
+  SimulationOptions requested = run.simulation;
+  OutputSettings& outputs = requested.outputs;
   for (const auto& [word, flag] : kept_outputs) outputs.*flag = keeps(run, std::string(word));
   if (outputs.labels && outputs.display_bins == 0) outputs.display_bins = usual_display_bins;
   outputs.contributors = keeps(run, "contributors") ? run.contributors : 0;
   outputs.paths = keeps(run, "paths") ? drawn_paths : 0;
-  return asked;
+  return requested;
 }
 
-void record_detail(Choice asked, Choice decided, Run& run) {
-  if (asked != decided) (decided == Choice::always ? run.with : run.without).push_back("detail");
+void record_detail(Choice requested, Choice decided, Run& run) {
+  if (requested != decided) (decided == Choice::always ? run.with : run.without).push_back("detail");
 }
 
 bool keeps(const Run& run, const std::string& what) { return std::ranges::find(run.keep, what) != run.keep.end(); }
@@ -88,7 +88,7 @@ void require_valid_settings(const Run& run, const SimulationOptions& simulation,
 }
 
 void require_valid_file(const std::string& path, const Run& run) {
-  const JudgedSettings judged(run, asked_simulation(run));
+  const JudgedSettings judged(run, requested_simulation(run));
   const RunSetting* setting = judged.setting();
   if (!setting) return;
   const TomlValue document = load_toml(path);

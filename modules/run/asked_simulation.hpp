@@ -15,11 +15,11 @@ inline constexpr Named<bool OutputSettings::*> kept_outputs[] = {{"elements", &O
                                                                  {"insonification", &OutputSettings::scatterers}};
 
 /// Returns the options that a simulator is asked for; the plan of a ping decides the rest.
-SimulationOptions asked_simulation(const Run& run);
+SimulationOptions requested_simulation(const Run& run);
 
 /// Records in `run` what was decided of SamplingSettings::detail, if it is not what was asked: with or without the
 /// stage, as run.toml has it.
-void record_detail(Choice asked, Choice decided, Run& run);
+void record_detail(Choice requested, Choice decided, Run& run);
 
 /// Returns true if --keep names `what`.
 bool keeps(const Run& run, const std::string& what);

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "scene/asked_meaning.hpp"
+#include "scene/meaning_override.hpp"
 #include "simulate/simulation_options.hpp"
 
 namespace insonify {
@@ -67,7 +67,7 @@ struct Run {
   SceneOptions scene;
   HeadOptions head;
   Placement placement;
-  SimulationOptions simulation;            ///< asked_simulation adds what `keep` names
+  SimulationOptions simulation;            ///< requested_simulation adds what `keep` names
   std::vector<std::string> keep;           ///< further outputs: words of kept_outputs, "contributors", "paths"
   int contributors = 4;                    ///< surfels kept for each pixel, if `keep` names them
   double memory_limit = 0;                 ///< [GiB] for a .tiles scene or a mesh; 0: see the help

@@ -45,7 +45,7 @@ void require_time(const Placement& p) {
 }
 
 /// The motion that --velocity and --turn-rate ask for.
-Motion asked_motion(const Placement& p) {
+Motion requested_motion(const Placement& p) {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   return {p.velocity.value_or(none), p.turn_rate.value_or(none) * radians(1)};
 }
@@ -54,7 +54,7 @@ Track track_of(const Placement& p) {
   require_time(p);
   if (p.pose.has_value() != p.trajectory.empty())
     fail(ErrorKind::argument, "give either --pose or --trajectory, e.g. --pose=0,0,-3,0,10,0");
-  if (p.pose) return {pose_of(*p.pose, p.world), asked_motion(p)};
+  if (p.pose) return {pose_of(*p.pose, p.world), requested_motion(p)};
   if (p.world != WorldAxes::z_up)
     fail(ErrorKind::argument, "--world ", name_of(world_words, p.world), ": trajectories are z-up; leave --world out");
   if (p.velocity || p.turn_rate)
@@ -90,11 +90,11 @@ PingEvent event_on(const Track& track, const Placement& p) {
 
 }  // namespace
 
-PingEvent asked_event(const Placement& p) { return event_on(track_of(p), p); }
+PingEvent requested_event(const Placement& p) { return event_on(track_of(p), p); }
 
-PingEvent asked_event(const Placement& p, const Pose& vehicle) {
+PingEvent requested_event(const Placement& p, const Pose& vehicle) {
   require_time(p);
-  return event_on({vehicle, asked_motion(p)}, p);
+  return event_on({vehicle, requested_motion(p)}, p);
 }
 
 std::string number_note(const PingEvent& event, const Placement& p) {
@@ -123,7 +123,7 @@ std::vector<std::string> notes_on_track(const Placement& p) {
 
 PingSetup set_up(PingSetup head, const Run& run, const PingEvent& event, NamedBy by) {
   PingSetup setup = std::move(head);
-  setup.run = run, setup.event = event, setup.simulation = asked_simulation(run);
+  setup.run = run, setup.event = event, setup.simulation = requested_simulation(run);
   if (!run.placement.trajectory.empty())
     for (const std::string& note : notes_on_track(run.placement)) setup.notes.push_back(note);
   if (std::string note = number_note(event, run.placement); !note.empty()) setup.notes.push_back(std::move(note));
@@ -151,7 +151,7 @@ std::optional<GivenPose> given_mounting(const SonarFile& sonar) {
 }
 
 PingSetup set_up_ping(const Run& run) {
-  const PingEvent event = asked_event(run.placement);
+  const PingEvent event = requested_event(run.placement);
   return set_up(set_up_head(run.head, event.world_from_head.translation().z()), run, event);
 }
 
@@ -159,17 +159,18 @@ PingSetup set_up_any_ping(const Run& run, std::optional<double> water_level) {
   return set_up(set_up_head(run.head, std::nullopt, water_level), run);
 }
 
-std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose) {
-  std::vector<Eigen::Vector3d> places;
+std::vector<Eigen::Vector3d> sampled_positions(const SceneCloud& scene, const Pose& pose) {
+  std::vector<Eigen::Vector3d> positions;
   const std::size_t step = std::max<std::size_t>(1, scene.size() / 10000);
   for (std::size_t i = 0; i < scene.size(); i += step)
-    places.push_back(pose.linear().transpose() * (scene.origin - pose.translation() + scene.point[i].cast<double>()));
-  return places;
+    positions.push_back(pose.linear().transpose() *
+                        (scene.origin - pose.translation() + scene.point[i].cast<double>()));
+  return positions;
 }
 
-void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path) {
-  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
-  std::nth_element(places.begin(), middle, places.end(),
+void require_in_reach(std::vector<Eigen::Vector3d> positions, const RangeGate& gate, const std::string& path) {
+  const auto middle = positions.begin() + static_cast<std::ptrdiff_t>(positions.size() / 2);
+  std::nth_element(positions.begin(), middle, positions.end(),
                    [](const auto& a, const auto& b) { return a.norm() < b.norm(); });
   const double range = middle->norm();
   if (range > 10 * gate.max_range)

@@ -22,7 +22,7 @@ namespace insonify {
 struct PingSetup {
   Run run{};                       ///< run that was asked for, with decisions that its run.toml records
   PingEvent event{};               ///< place and time of the ping, if it is of one
-  SimulationOptions simulation{};  ///< asked_simulation, with stages forced in or out
+  SimulationOptions simulation{};  ///< requested_simulation, with stages forced in or out
   SonarSpec spec{};
   SonarHead head{};
   Environment environment{};
@@ -64,9 +64,9 @@ SceneOptions scene_of_run(const std::string& run);
 std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads);
 
 /// Returns where and when the head pings, and how it moves; Error(argument) names the option.
-PingEvent asked_event(const Placement& placement);
+PingEvent requested_event(const Placement& placement);
 /// Returns the event of a vehicle at a pose that is not the one given.
-PingEvent asked_event(const Placement& placement, const Pose& vehicle);
+PingEvent requested_event(const Placement& placement, const Pose& vehicle);
 
 /// Returns a sentence if the number of a ping is its time in milliseconds and the time lies between two: other pings
 /// within the millisecond have its noise. Empty otherwise.
@@ -80,11 +80,11 @@ PingSetup set_up_ping(const Run& run);
 /// Sets up pings that have poses and motion of their own. `water_level` as for set_up_head.
 PingSetup set_up_any_ping(const Run& run, std::optional<double> water_level = std::nullopt);
 
-/// Places of about 10 000 surfels in head axes [m].
-std::vector<Eigen::Vector3d> sampled_places(const SceneCloud& scene, const Pose& pose);
+/// Positions of about 10 000 surfels in head axes [m].
+std::vector<Eigen::Vector3d> sampled_positions(const SceneCloud& scene, const Pose& pose);
 
-/// Throws Error(content) if the median range of `places` is far outside the range gate: the cloud is in other units, or
+/// Throws Error(content) if the median range of `positions` is far outside the range gate: the cloud is in other units, or
 /// the pose in another frame.
-void require_in_reach(std::vector<Eigen::Vector3d> places, const RangeGate& gate, const std::string& path);
+void require_in_reach(std::vector<Eigen::Vector3d> positions, const RangeGate& gate, const std::string& path);
 
 }  // namespace insonify

@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The surfel whose middle is nearest to the head.
 struct NearestSurfel {
   std::size_t surfel = 0;
   Vector3d to_head = Vector3d::Zero();  ///< [m]

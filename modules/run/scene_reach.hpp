@@ -30,7 +30,7 @@ void end_range_with_scene(PingSetup& setup, const Bounds& box, const Pose& pose)
 /// A sentence with the remedy if the range ends far beyond the scene; empty otherwise.
 std::string far_range_note(const PingSetup& setup, double reach);
 
-/// A sentence with the remedy if the sound-speed profile ends above what a head at `head` hears of the scene; else empty.
+/// A sentence with the remedy if the sound-speed profile ends above what a head at `head` receives of the scene; else empty.
 std::string shallow_profile_note(const PingSetup& setup, const Bounds& box, const Eigen::Vector3d& head);
 
 /// Sentences with the remedy for a range far beyond the scene, a profile that ends above it, and a head within or behind its surface.

@@ -125,7 +125,7 @@ RunSetting seed_setting(std::uint64_t& seed) {
 
 namespace {
 
-/// Where the head is, and what it hears.
+/// Where the head is, and what it receives.
 std::vector<RunSetting> sent_settings(Run& run) {
   Placement& at = run.placement;
   SimulationOptions& o = run.simulation;
@@ -164,7 +164,7 @@ std::vector<RunSetting> sent_settings(Run& run) {
        "phases of the scatterers: speckle, random-phase or coherent", amplitudes},
       {"ping", "noise", "--noise", &o.effects.noise,
        "add thermal noise, and noise of wind and platform if the environment gives them"},
-      {"ping", "multipath", "--multipath", is_asked(o.effects.multipath),
+      {"ping", "multipath", "--multipath", is_requested(o.effects.multipath),
        "add echoes by way of the environment's surface and bottom, even if --accuracy-db does not need them"},
       {"ping", "double_echoes", "--double-echoes", &o.effects.double_echoes,
        "rays from each resolution cell of a surface, for echoes by way of two surfaces; 0: no such echoes; --with "

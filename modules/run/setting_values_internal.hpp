@@ -38,9 +38,9 @@ inline Shown<int> order_of(std::optional<int>& order) {
 }
 
 /// An effect that is asked for, or left to the plan.
-inline Shown<bool> is_asked(Choice& choice) {
+inline Shown<bool> is_requested(Choice& choice) {
   return {{[&choice] { return std::optional(choice == Choice::always); },
-           [&choice](bool asked) { choice = asked ? Choice::always : Choice::as_needed; }}};
+           [&choice](bool requested) { choice = requested ? Choice::always : Choice::as_needed; }}};
 }
 
 /// The level above which all bins are returns.

@@ -58,7 +58,7 @@ class SceneOfFile : public OpenScene {
     return loaded_->mesh ? sampled(simulator, event).first : overview();
   }
   PingScene ping_scene(const PingSimulator& simulator, const PingEvent& event) const override {
-    PingScene result{nullptr, loaded_->report, sampled_places(loaded_->scene, event.world_from_head), {}};
+    PingScene result{nullptr, loaded_->report, sampled_positions(loaded_->scene, event.world_from_head), {}};
     std::string note;
     if (loaded_->mesh)
       std::tie(result.scene, note) = sampled(simulator, event);
@@ -116,9 +116,9 @@ class SceneOfTiles : public OpenScene {
     const TiledSceneInfo& info = tiled_.info();
     nlohmann::ordered_json read = {{"surfels", info.surfels}, {"tiles", info.tiles}, {"bytes", info.bytes}};
     result.scene = near(simulator, event, result.report, read);
-    for (const Eigen::Vector3d& place : tiled_.places())
-      result.places.push_back(event.world_from_head.linear().transpose() *
-                              (place - event.world_from_head.translation()));
+    for (const Eigen::Vector3d& position : tiled_.positions())
+      result.positions.push_back(event.world_from_head.linear().transpose() *
+                                 (position - event.world_from_head.translation()));
     result.json = scene_json(result.report, result.scene->scene());
     result.json["tiles"] = std::move(read);
     return result;

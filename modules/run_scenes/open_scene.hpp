@@ -39,8 +39,8 @@ struct OpenSceneOptions {
 /// The surfels of one ping, and what a manifest says of them.
 struct PingScene {
   std::shared_ptr<const PreparedScene> scene;
-  LoadReport report;                    ///< what was read for the ping, with notes on it
-  std::vector<Eigen::Vector3d> places;  ///< some surfels of the whole scene, or centres of tiles, in head axes [m]
+  LoadReport report;                       ///< what was read for the ping, with notes on it
+  std::vector<Eigen::Vector3d> positions;  ///< some surfels of the whole scene, or centres of tiles, in head axes [m]
   nlohmann::ordered_json json;
 };
 
@@ -82,7 +82,7 @@ class OpenScene : public SceneSource {
   const OpenSceneOptions options_;
 };
 
-/// Opens the scene at scene.path: the one place that asks what kind of scene a path is. Throws as load_scene,
+/// Opens the scene at scene.path: the one position that asks what kind of scene a path is. Throws as load_scene,
 /// TiledScene and PartsScene; Error(argument) for options of loading beside a scene of parts.
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options = {});
 

@@ -77,7 +77,7 @@ PingScene PartsOfPings::ping_scene(const PingSimulator& simulator, const PingEve
   } else {
     result.scene = whole_at(moment);
   }
-  result.places = sampled_places(result.scene->scene(), event.world_from_head);
+  result.positions = sampled_positions(result.scene->scene(), event.world_from_head);
   result.json = scene_json(result.report, result.scene->scene());
   result.json["parts"] = scene_.parts_json(moment.time, moment.draw);
   return result;

@@ -206,7 +206,7 @@ ordered_json PartsScene::parts_json(double time, std::uint64_t draw) const {
     if (part.captured) {
       json["placed"] = "captured";
     } else {
-      const HeadPlace at = head_place(part.world_from_file());
+      const PoseAngles at = pose_angles(part.world_from_file());
       json["position_m"] = vector_json(at.position);
       json["yaw_pitch_roll_deg"] = vector_json(Vector3d(degrees(1) * Vector3d(at.yaw, at.pitch, at.roll)));
       json["scale"] = part.scale;

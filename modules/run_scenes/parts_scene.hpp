@@ -63,8 +63,9 @@ class PartsScene {
   PartsOptions options_;
   LoadReport report_;
   bool random_ = false;
-  std::map<std::string, TiledScene> tiles_;     ///< tiles of captured parts, by name
-  std::map<std::string, std::string> file_of_;  ///< path of the file by the name of a part, or of a body that is strewn
+  std::map<std::string, TiledScene> tiles_;  ///< tiles of captured parts, by name
+  std::map<std::string, std::string>
+      file_of_;  ///< path of the file by the name of a part, or of a body that is scattered
   std::shared_ptr<const SceneParts> parts_;
 };
 

@@ -17,8 +17,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// The options with which a head that hears nothing looks at the scene.
-std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const Eigen::Vector3d& centre,
+/// The options with which a head that receives nothing looks at the scene.
+std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& positions, const Eigen::Vector3d& centre,
                               const PingSetup& setup) {
   const Eigen::Vector3d way = setup.event.world_from_head.linear() * centre,
                         at = setup.event.world_from_head.translation();
@@ -28,7 +28,7 @@ std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const 
           : fmt::format("--pose={} looks at the scene", pose_text(at, std::atan2(way.y(), way.x()),
                                                                   std::atan2(-way.z(), std::hypot(way.x(), way.y()))));
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
-  for (const auto& p : places) nearest = std::min(nearest, p.norm()), farthest = std::max(farthest, p.norm());
+  for (const auto& p : positions) nearest = std::min(nearest, p.norm()), farthest = std::max(farthest, p.norm());
   const RangeGate& gate = setup.head.gate;
   if (centre.norm() <= gate.max_range) return remedy;
   // No range beyond that of the sonar itself is proposed.
@@ -41,7 +41,7 @@ std::string remedy_of_silence(const std::vector<Eigen::Vector3d>& places, const 
 }
 
 /// States that the ping is silent, where the scene lies and what to do.
-std::string silence_note(const std::vector<Eigen::Vector3d>& places, const SamplingReport& sampling,
+std::string silence_note(const std::vector<Eigen::Vector3d>& positions, const SamplingReport& sampling,
                          const PingSetup& setup) {
   if (sampling.in_gate > 0)
     return fmt::format(
@@ -49,13 +49,13 @@ std::string silence_note(const std::vector<Eigen::Vector3d>& places, const Sampl
         "move the head to the side to which the normals point, or orient the normals by --viewpoint",
         sampling.in_gate, sampling.back_facing, sampling.hidden);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const auto& p : places) centre += p / static_cast<double>(places.size());
+  for (const auto& p : positions) centre += p / static_cast<double>(positions.size());
   const Direction d = direction_of(centre);
   return fmt::format(
       "the ping is silent: no surfel is inside fan and range gate; the centre of the scene is {:.3g} m away, {:.0f} "
       "deg to {} and {:.0f} deg {} the axis of the head: {}",
       centre.norm(), std::abs(degrees(d.azimuth)), d.azimuth > 0 ? "port" : "starboard", std::abs(degrees(d.elevation)),
-      d.elevation > 0 ? "above" : "below", remedy_of_silence(places, centre, setup));
+      d.elevation > 0 ? "above" : "below", remedy_of_silence(positions, centre, setup));
 }
 
 /// JSON has no infinity: null is no bound.
@@ -121,10 +121,10 @@ std::vector<std::string> notes_before(const PingSetup& setup, const LoadReport& 
 }
 
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
-                                    const std::vector<Eigen::Vector3d>& places) {
+                                    const std::vector<Eigen::Vector3d>& positions) {
   std::vector<std::string> notes;
   for (PingNote& note : notes_of(ping, setup.environment, setup.head.gate))
-    notes.push_back(note.kind == silent_note_kind ? silence_note(places, ping.report.sampling, setup)
+    notes.push_back(note.kind == silent_note_kind ? silence_note(positions, ping.report.sampling, setup)
                                                   : std::move(note.text));
   return notes;
 }

@@ -27,9 +27,9 @@ nlohmann::ordered_json motion_json(const Motion& motion);
 /// Returns the notes on head, water, place and scene of a ping, before it is made.
 std::vector<std::string> notes_before(const PingSetup& setup, const LoadReport& report);
 
-/// Notes on the result: a silent ping, refraction, multipath without any echo. `places` as from sampled_places.
+/// Notes on the result: a silent ping, refraction, multipath without any echo. `positions` as from sampled_positions.
 std::vector<std::string> ping_notes(const SimulatedPing& ping, const PingSetup& setup,
-                                    const std::vector<Eigen::Vector3d>& places);
+                                    const std::vector<Eigen::Vector3d>& positions);
 
 /// The plan for the manifest: stages with name, included, why, bound_db, bound_relative (null: no bound), and the
 /// parameters of the synthesis.

@@ -17,9 +17,9 @@ void decide_detail(const OpenScene& scene, PingSetup& setup) {
   const PingSimulator simulator = setup.simulator();
   if (tiled->select(simulator.reach(tiled->info().whole, setup.event)).surfels < many) return;
   Choice& detail = setup.simulation.sampling.detail;
-  const Choice asked = detail;
+  const Choice requested = detail;
   detail = simulator.for_many(1, scene, setup.event).options().sampling.detail;
-  record_detail(asked, detail, setup.run);
+  record_detail(requested, detail, setup.run);
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ ReadyPing load_ping_scene(PingSetup& setup) {
   const SceneCloud& known = file ? file->scene : ready.scene.scene->scene();
   for (std::string& note : fit_notes(known, box, setup)) setup.notes.push_back(std::move(note));
   if (file || (parts && !parts->scene().has_tiles()))
-    require_in_reach(ready.scene.places, setup.head.gate, run.scene.path);
+    require_in_reach(ready.scene.positions, setup.head.gate, run.scene.path);
   return ready;
 }
 

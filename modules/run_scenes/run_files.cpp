@@ -13,11 +13,11 @@ namespace insonify {
 using nlohmann::ordered_json;
 
 std::string run_toml(const PingSetup& setup, const std::string& settings) {
-  const HeadOptions& asked = setup.run.head;
+  const HeadOptions& requested = setup.run.head;
   return fmt::format(
       "# Everything that made this run, merged.\nschema = 1\ninsonify_version = \"{}\"\n"
       "environment_file = {}\nprofile_file = {}\n{}\n{}\n[sonar]\n{}",
-      INSONIFY_VERSION, as_toml(asked.environment), as_toml(asked.profile), settings,
+      INSONIFY_VERSION, as_toml(requested.environment), as_toml(requested.profile), settings,
       environment_as_toml(setup.environment), sonar_as_toml(setup.spec));
 }
 

@@ -135,7 +135,7 @@ ordered_json RunFolder::write(SimulatedPing ping, const PingPlan& plan, const Pi
     observer_.note(note);
     manifest["notes"].push_back(note);
   };
-  for (const std::string& note : ping_notes(ping, setup_, scene.places)) note_to_user(note);
+  for (const std::string& note : ping_notes(ping, setup_, scene.positions)) note_to_user(note);
 
   observer_.step("writing " + setup_.run.output.folder);
   StopWatch watch;

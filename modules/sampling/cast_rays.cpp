@@ -12,7 +12,6 @@
 namespace insonify {
 namespace {
 
-// Result of one ray.
 struct CastRay {
   RayOutcome outcome = RayOutcome::missed;
   RayHit hit;

@@ -12,11 +12,11 @@ Projection choose_projection(const GatedSurfels& surfels, Projection wanted, std
   // Measured times [ns]: test of a wide surfel against a direction, drawing of a surfel, insertion into a tree, and
   // search.
   constexpr double wide_test = 2, draw = 120, build = 25, search = 1500;
-  const auto n = static_cast<double>(surfels.size()), asked = static_cast<double>(queries);
+  const auto n = static_cast<double>(surfels.size()), requested = static_cast<double>(queries);
   const auto wide = static_cast<double>(
       count_where(surfels.size(), threads, [&](std::size_t s) { return DirectionRaster::is_wide(surfels[s]); }));
-  const double by_raster = wide * asked * wide_test + n * draw;
-  const double by_tree = n * std::log2(n + 2) * build + asked * search;
+  const double by_raster = wide * requested * wide_test + n * draw;
+  const double by_tree = n * std::log2(n + 2) * build + requested * search;
   return by_raster <= by_tree ? Projection::raster : Projection::kdtree;
 }
 

@@ -107,27 +107,26 @@ DirectionRaster::DirectionRaster(const GatedSurfels& surfels, std::span<const Cu
 
   std::vector<std::vector<Box>> boxes((surfels.size() + directions_at_once - 1) / directions_at_once);
   parallel_blocks(surfels.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Box>& part = boxes[begin / directions_at_once];
-    part.reserve(end - begin);
-    for (std::size_t s = begin; s < end; ++s) add_boxes(surfels, static_cast<std::uint32_t>(s), footprint, part);
+    std::vector<Box>& block = boxes[begin / directions_at_once];
+    block.reserve(end - begin);
+    for (std::size_t s = begin; s < end; ++s) add_boxes(surfels, static_cast<std::uint32_t>(s), footprint, block);
   });
   wide_ = list_where(surfels.size(), threads, [&](std::size_t s) { return is_wide(surfels[s]); });
   sort_boxes(boxes, threads);
   sort_queries(queries, threads);
 }
 
-// Bounds the queries on each face.
 void DirectionRaster::bound_faces(std::span<const CubePoint> queries, int threads) {
-  std::vector<std::array<Face, 6>> parts((queries.size() + directions_at_once - 1) / directions_at_once);
+  std::vector<std::array<Face, 6>> blocks((queries.size() + directions_at_once - 1) / directions_at_once);
   parallel_blocks(queries.size(), directions_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (const CubePoint& q : queries.subspan(begin, end - begin))
-      parts[begin / directions_at_once][q.face].include(q.x, q.y);
+      blocks[begin / directions_at_once][q.face].include(q.x, q.y);
   });
-  for (const auto& part : parts)
+  for (const auto& block : blocks)
     for (std::size_t f = 0; f < faces_.size(); ++f)
-      if (part[f].x1 >= part[f].x0) {
-        faces_[f].include(part[f].x0, part[f].y0);
-        faces_[f].include(part[f].x1, part[f].y1);
+      if (block[f].x1 >= block[f].x0) {
+        faces_[f].include(block[f].x0, block[f].y0);
+        faces_[f].include(block[f].x1, block[f].y1);
       }
 }
 
@@ -224,7 +223,6 @@ void DirectionRaster::sort_boxes(const std::vector<std::vector<Box>>& boxes, int
   });
 }
 
-// Counting sort by tile.
 void DirectionRaster::sort_queries(std::span<const CubePoint> queries, int threads) {
   const auto tile_of = [this](const CubePoint& q) {
     const Face& face = faces_[q.face];

@@ -9,19 +9,19 @@
 namespace insonify {
 namespace {
 
-constexpr double most_places = 65536, most_cells = 262144;  // cells of range or of u at most, and in all
+constexpr double most_positions = 65536, most_cells = 262144;  // cells of range or of u at most, and in all
 constexpr std::size_t most_spanned = 256, sums_of_energy = 4;
 
 }  // namespace
 
 EnergyShares::EnergyShares(std::span<const ReceivedSurfel> surfels, const RangeGate& gate, const SampledCells& cells,
                            int threads)
-    : width_(std::max(cells.width_of_shares(), 2 / most_places)) {
-  const double reach = gate.max_range - gate.min_range, places = std::ceil(2 / width_);
-  length_ = std::max(cells.range_resolution(), reach / std::min(most_places, most_cells / places));
+    : width_(std::max(cells.width_of_shares(), 2 / most_positions)) {
+  const double reach = gate.max_range - gate.min_range, positions = std::ceil(2 / width_);
+  length_ = std::max(cells.range_resolution(), reach / std::min(most_positions, most_cells / positions));
   start_ = length_ * std::floor(gate.min_range / length_);
   size_ = length_ / cells.range_resolution() * width_ / cells.width_of_shares();
-  places_ = static_cast<std::size_t>(places);
+  positions_ = static_cast<std::size_t>(positions);
   ranges_ = static_cast<std::size_t>((gate.max_range - start_) / length_) + 1;
   for (std::uint8_t beyond = 0; beyond < energy_.size(); ++beyond) energy_[beyond] = sum_of(surfels, beyond, threads);
 }
@@ -31,12 +31,12 @@ std::vector<double> EnergyShares::sum_of(std::span<const ReceivedSurfel> surfels
   const auto counts = [beyond](const ReceivedSurfel& s) { return s.beyond == beyond; };
   if (std::none_of(surfels.begin(), surfels.end(), counts)) return {};
   std::vector<std::vector<double>> sums(sums_of_energy);
-  parallel_for(sums.size(), threads, [&](std::size_t part) {
-    sums[part].assign(places_ * ranges_, 0);
-    for (std::size_t s = part * surfels.size() / sums.size(); s < (part + 1) * surfels.size() / sums.size(); ++s)
-      if (counts(surfels[s])) add(surfels[s], sums[part]);
+  parallel_for(sums.size(), threads, [&](std::size_t block) {
+    sums[block].assign(positions_ * ranges_, 0);
+    for (std::size_t s = block * surfels.size() / sums.size(); s < (block + 1) * surfels.size() / sums.size(); ++s)
+      if (counts(surfels[s])) add(surfels[s], sums[block]);
   });
-  std::vector<double> all(places_ * ranges_, 0);
+  std::vector<double> all(positions_ * ranges_, 0);
   for (const std::vector<double>& sum : sums)
     std::transform(sum.begin(), sum.end(), all.begin(), all.begin(), std::plus<>());
   return all;
@@ -46,7 +46,7 @@ double EnergyShares::share(const ReceivedSurfel& surfel) const {
   const Cells cells = spanned(surfel);
   if (cells.number() > most_spanned) return HUGE_VAL;
   if (!(surfel.energy > 0)) return 0;
-  const auto heard_from = [&](std::size_t cell) {
+  const auto energy_around = [&](std::size_t cell) {
     double energy = 0;
     for (std::uint8_t beyond = 0; beyond < energy_.size(); ++beyond)
       if ((beyond & ~surfel.beyond) == 0 && !energy_[beyond].empty()) energy += energy_[beyond][cell];
@@ -55,7 +55,7 @@ double EnergyShares::share(const ReceivedSurfel& surfel) const {
   double shares = 0;
   for (std::size_t u = cells.u.first; u <= cells.u.second; ++u)
     for (std::size_t k = cells.range.first; k <= cells.range.second; ++k)
-      shares += surfel.energy / heard_from(u * ranges_ + k);
+      shares += surfel.energy / energy_around(u * ranges_ + k);
   return shares / static_cast<double>(cells.number()) * size_;  // (E127)
 }
 
@@ -68,13 +68,13 @@ void EnergyShares::add(const ReceivedSurfel& surfel, std::vector<double>& energy
 }
 
 EnergyShares::Cells EnergyShares::spanned(const ReceivedSurfel& surfel) const {
-  // The cells of which the middle is within `half` of a place, counted in cells; at least the one that it is in.
-  const auto span = [](double place, double half, std::size_t number) {
+  // The cells of which the middle is within `half` of a position, counted in cells; at least the one that it is in.
+  const auto span = [](double position, double half, std::size_t number) {
     const double most = static_cast<double>(number - 1), reach = std::max(0.0, half - 0.5);
-    return Span(std::clamp(place - reach, 0.0, most), std::clamp(place + reach, 0.0, most));
+    return Span(std::clamp(position - reach, 0.0, most), std::clamp(position + reach, 0.0, most));
   };
   return {span((surfel.range - start_) / length_, surfel.half_depth / length_, ranges_),
-          span((surfel.u + 1) / width_, surfel.half_u / width_, places_)};
+          span((surfel.u + 1) / width_, surfel.half_u / width_, positions_)};
 }
 
 }  // namespace insonify

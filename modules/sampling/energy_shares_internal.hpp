@@ -42,9 +42,9 @@ class EnergyShares {
   void add(const ReceivedSurfel& surfel, std::vector<double>& energy) const;
   std::vector<double> sum_of(std::span<const ReceivedSurfel> surfels, std::uint8_t beyond, int threads) const;
 
-  double start_, width_, length_;  // of the gate, of a cell
-  double size_;                    // of a cell, in range resolutions and widths of shares
-  std::size_t places_, ranges_;    // numbers of cells
+  double start_, width_, length_;   // of the gate, of a cell
+  double size_;                     // of a cell, in range resolutions and widths of shares
+  std::size_t positions_, ranges_;  // numbers of cells
   // Energy of the cells for each value of ReceivedSurfel::beyond, ranges of one u after those of the u before; empty
   // if no surfel has the value.
   std::array<std::vector<double>, 4> energy_;

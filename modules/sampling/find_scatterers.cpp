@@ -13,7 +13,7 @@
 #include "core/units.hpp"
 #include "sampling/cast_rays_internal.hpp"
 #include "sampling/choose_projection_internal.hpp"
-#include "sampling/count_parts_internal.hpp"
+#include "sampling/count_pieces_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "sampling/list_where_internal.hpp"
 #include "sampling/sparse_beams_internal.hpp"
@@ -114,9 +114,9 @@ SamplingReport report_of(const SceneCloud& scene, const GatedSurfels& surfels, c
 Sampling split(const SceneCloud& scene, std::span<const std::uint32_t> surfels, const View& view) {
   const SamplingOptions& options = view.options;
   const SampledCells cells(view.fan, view.gate, options);
-  const PartCounts counts = count_parts(scene, view.head, surfels, cells, view.gate, options);
+  const PieceCounts counts = count_pieces(scene, view.head, surfels, cells, view.gate, options);
   Sampling result;
-  result.scatterers = split_surfels(scene, view.head, surfels, first_parts(counts.parts, options.scatterers_per_cell),
+  result.scatterers = split_surfels(scene, view.head, surfels, first_pieces(counts.pieces, options.scatterers_per_cell),
                                     cells.range_resolution(), options.seed, options.threads);
   result.report.capped = counts.capped;
   return result;
@@ -138,9 +138,9 @@ Sampling sample(const SceneCloud& scene, const GatedSurfels& surfels, const View
     report.visible = cast.hit_surfels;
   } else {
     const auto visible = select_visible(surfels, options, report);
-    Sampling parts = split(scene, visible, view);
-    result.scatterers = std::move(parts.scatterers);
-    report.capped = parts.report.capped;
+    Sampling pieces = split(scene, visible, view);
+    result.scatterers = std::move(pieces.scatterers);
+    report.capped = pieces.report.capped;
   }
   report.scatterers = result.scatterers.size();
   return result;
@@ -165,7 +165,7 @@ double outer_scale(const PreparedScene& prepared, const SamplingOptions& options
 
 // Sorts surfels by bands of 64 bins and inside a band by u, then by index: neighbours add to the same part of an image.
 void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<std::uint32_t>& surfels,
-                   const std::vector<std::uint16_t>& parts, VisibleSurfels& sorted) {
+                   const std::vector<std::uint16_t>& pieces, VisibleSurfels& sorted) {
   struct Key {
     double u;
     std::uint32_t at;  // in surfels, which ascend
@@ -191,17 +191,17 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
   for (std::uint32_t s = 0; s < surfels.size(); ++s) keys[next[band[s]]++] = {bounds[s].u, s};
   sorted.surfel.resize(surfels.size());
   sorted.bounds.resize(surfels.size());
-  UninitializedVector<std::uint16_t> sorted_parts(surfels.size());
+  UninitializedVector<std::uint16_t> sorted_pieces(surfels.size());
   parallel_for(first.size() - 1, view.options.threads, [&](std::size_t b) {
     const auto begin = keys.begin() + static_cast<std::ptrdiff_t>(first[b]),
                end = keys.begin() + static_cast<std::ptrdiff_t>(first[b + 1]);
     std::sort(begin, end, [](const Key& a, const Key& c) { return std::tuple(a.u, a.at) < std::tuple(c.u, c.at); });
     for (std::size_t k = first[b]; k < first[b + 1]; ++k) {
       const std::uint32_t s = keys[k].at;
-      sorted.surfel[k] = surfels[s], sorted.bounds[k] = bounds[s], sorted_parts[k] = parts[s];
+      sorted.surfel[k] = surfels[s], sorted.bounds[k] = bounds[s], sorted_pieces[k] = pieces[s];
     }
   });
-  sorted.first = first_parts(sorted_parts, view.options.scatterers_per_cell);
+  sorted.first = first_pieces(sorted_pieces, view.options.scatterers_per_cell);
 }
 
 }  // namespace
@@ -243,8 +243,8 @@ VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_fro
   result.report = report_of(scene, gated, view);
   const SampledCells cells(fan, gate, options);
   const auto visible = select_visible(gated, options, result.report);
-  const PartCounts counts = count_parts(scene, view.head, visible, cells, gate, options);
-  sort_by_place(scene, view, visible, counts.parts, result);
+  const PieceCounts counts = count_pieces(scene, view.head, visible, cells, gate, options);
+  sort_by_place(scene, view, visible, counts.pieces, result);
   result.report.capped = counts.capped;
   result.report.scatterers = result.first.back();
   result.options = options;
@@ -264,24 +264,24 @@ Scatterers split_seen(const PreparedScene& prepared, const Pose& world_from_head
   return std::move(sampling.scatterers);
 }
 
-Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,
-                      std::span<const std::uint32_t> which, int threads) {
+Scatterers make_chunks(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,
+                       std::span<const std::uint32_t> which, int threads) {
   std::vector<std::uint32_t> surfels;
   std::vector<std::size_t> first{0};
   for (const std::uint32_t k : which) {
     surfels.push_back(visible.surfel[k]);
     first.push_back(first.back() + visible.first[k + 1] - visible.first[k]);
   }
-  Scatterers parts = split_surfels(scene, HeadFrame(scene, world_from_head), surfels, first,
-                                   visible.options.range_resolution, visible.options.seed, threads);
-  if (visible.relief) tilt_by_relief(scene, world_from_head, *visible.relief, threads, parts);
-  return parts;
+  Scatterers pieces = split_surfels(scene, HeadFrame(scene, world_from_head), surfels, first,
+                                    visible.options.range_resolution, visible.options.seed, threads);
+  if (visible.relief) tilt_by_relief(scene, world_from_head, *visible.relief, threads, pieces);
+  return pieces;
 }
 
-Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible) {
+Scatterers make_chunks(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible) {
   std::vector<std::uint32_t> all(visible.surfel.size());
   std::iota(all.begin(), all.end(), 0);
-  return make_parts(scene, world_from_head, visible, all, visible.options.threads);
+  return make_chunks(scene, world_from_head, visible, all, visible.options.threads);
 }
 
 }  // namespace insonify

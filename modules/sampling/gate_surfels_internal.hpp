@@ -59,7 +59,7 @@ class HeadFrame {
  public:
   HeadFrame(const SceneCloud& scene, const Pose& world_from_head);
 
-  /// A place relative to the origin of the scene, and a vector in the axes of the world.
+  /// A position relative to the origin of the scene, and a vector in the axes of the world.
   Eigen::Vector3d position(const Eigen::Vector3f& point) const {
     return world_.to_head * (world_.shift + point.cast<double>());
   }

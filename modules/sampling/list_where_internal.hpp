@@ -14,15 +14,15 @@ namespace insonify {
 template <typename Test>
 std::vector<std::uint32_t> list_where(std::size_t n, int threads, Test&& test) {
   constexpr std::size_t block = 1 << 14;
-  std::vector<std::vector<std::uint32_t>> parts((n + block - 1) / block);
+  std::vector<std::vector<std::uint32_t>> sublists((n + block - 1) / block);
   parallel_blocks(n, block, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (test(i)) parts[begin / block].push_back(static_cast<std::uint32_t>(i));
+      if (test(i)) sublists[begin / block].push_back(static_cast<std::uint32_t>(i));
   });
   std::vector<std::uint32_t> list;
-  list.reserve(std::accumulate(parts.begin(), parts.end(), std::size_t{0},
-                               [](std::size_t sum, const auto& part) { return sum + part.size(); }));
-  for (const auto& part : parts) list.insert(list.end(), part.begin(), part.end());
+  list.reserve(std::accumulate(sublists.begin(), sublists.end(), std::size_t{0},
+                               [](std::size_t sum, const auto& sublist) { return sum + sublist.size(); }));
+  for (const auto& sublist : sublists) list.insert(list.end(), sublist.begin(), sublist.end());
   return list;
 }
 

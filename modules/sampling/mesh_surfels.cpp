@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "sampling/gate_surfels_internal.hpp"
-#include "sampling/mesh_parts_internal.hpp"
+#include "sampling/mesh_pieces_internal.hpp"
 #include "sampling/sampled_cells.hpp"
 
 // Surfels of a mesh for one ping (E70): each triangle is a binary tree of parts, halved across the longest edge. The
@@ -41,7 +41,7 @@ class MeshSampler {
         head_(head),
         sector_(region.sector),
         region_(region),
-        parts_(mesh, options.seed),
+        pieces_(mesh, options.seed),
         threads_(options.threads),
         cells_(fan, region.gate, options),
         elevation_width_(fan.elevation_width) {
@@ -63,7 +63,7 @@ class MeshSampler {
   }
 
  private:
-  /// The place and size of a part, which decide whether it is divided.
+  /// The position and size of a part, which decide whether it is divided.
   struct Extent {
     Vector3d centre;               ///< in head axes [m]
     double radius = 0, reach = 0;  ///< radii of the part, and of what it may hide [m]
@@ -71,65 +71,65 @@ class MeshSampler {
     bool reaches = false;
   };
 
-  Extent extent_of(const Part& part) const {
-    const Vector3d middle = (part.corner[0] + part.corner[1] + part.corner[2]) / 3;
+  Extent extent_of(const Piece& piece) const {
+    const Vector3d middle = (piece.corner[0] + piece.corner[1] + piece.corner[2]) / 3;
     Extent extent{head_.position(middle.cast<float>()), 0, 0, 0, false};
     for (int c = 0; c < 3; ++c) {
-      extent.radius = std::max(extent.radius, (part.corner[c] - middle).norm());
-      extent.longest2 = std::max(extent.longest2, (part.corner[c] - part.corner[(c + 1) % 3]).squaredNorm());
+      extent.radius = std::max(extent.radius, (piece.corner[c] - middle).norm());
+      extent.longest2 = std::max(extent.longest2, (piece.corner[c] - piece.corner[(c + 1) % 3]).squaredNorm());
     }
-    extent.reach = extent.radius + hiding_reach * region_.footprint * std::sqrt(part.area);
+    extent.reach = extent.radius + hiding_reach * region_.footprint * std::sqrt(piece.area);
     extent.reaches =
         extent.centre.norm() <= region_.gate.max_range + extent.radius && sector_.holds(extent.centre, extent.reach);
     return extent;
   }
 
-  bool small_enough(const Part& part, const Extent& extent, std::size_t t) const {
-    if (!parts_.may_bisect(part, t)) return true;
+  bool small_enough(const Piece& piece, const Extent& extent, std::size_t t) const {
+    if (!pieces_.may_bisect(piece, t)) return true;
     const double distance = extent.centre.norm();
     const double range = std::max({distance - extent.radius, region_.gate.min_range, nearest_range});
-    const Vector3d across = (part.corner[1] - part.corner[0]).cross(part.corner[2] - part.corner[0]).normalized();
+    const Vector3d across = (piece.corner[1] - piece.corner[0]).cross(piece.corner[2] - piece.corner[0]).normalized();
     const double cosine = std::abs(head_.direction(across).dot(extent.centre)) / std::max(distance, nearest_range);
     const SampledCells::Widths lobe = cells_.widths(extent.centre, extent.reach);
     const double side = widest_surfel(lobe, elevation_width_) * range;
     const double cell = cells_.area(range, std::min(1.0, cosine), lobe);
     const double allowed = scale_ * std::min(side * side, cell);  // (E70)
-    return part.area <= allowed && extent.longest2 <= longest_squared * allowed;
+    return piece.area <= allowed && extent.longest2 <= longest_squared * allowed;
   }
 
   /// Goes down to the part of a triangle that the task stands for; a larger one belongs to the first task below it.
   void start(std::size_t task, std::vector<MeshSurfel>& found) {
     const std::size_t t = task >> task_depth_;
-    Part part = parts_.root(t);
+    Piece piece = pieces_.root(t);
     for (int level = task_depth_ - 1; level >= 0; --level) {
-      const Extent extent = extent_of(part);
+      const Extent extent = extent_of(piece);
       if (!extent.reaches) return;
-      if (small_enough(part, extent, t)) {
-        if ((task & ((std::size_t{2} << level) - 1)) == 0) add(part, t, found);
+      if (small_enough(piece, extent, t)) {
+        if ((task & ((std::size_t{2} << level) - 1)) == 0) add(piece, t, found);
         return;
       }
-      part = parts_.bisect(part, t)[task >> level & 1];
+      piece = pieces_.bisect(piece, t)[task >> level & 1];
     }
-    collect(part, t, found);
+    collect(piece, t, found);
   }
 
-  void collect(const Part& part, std::size_t t, std::vector<MeshSurfel>& found) {
-    const Extent extent = extent_of(part);
+  void collect(const Piece& piece, std::size_t t, std::vector<MeshSurfel>& found) {
+    const Extent extent = extent_of(piece);
     if (!extent.reaches || count_ > most_) return;
-    if (small_enough(part, extent, t)) return add(part, t, found);
-    for (const Part& half : parts_.bisect(part, t)) collect(half, t, found);
+    if (small_enough(piece, extent, t)) return add(piece, t, found);
+    for (const Piece& half : pieces_.bisect(piece, t)) collect(half, t, found);
   }
 
-  void add(const Part& part, std::size_t t, std::vector<MeshSurfel>& found) {
+  void add(const Piece& piece, std::size_t t, std::vector<MeshSurfel>& found) {
     if (++count_ > most_) return;
-    found.push_back(parts_.surfel_of(part, t));
+    found.push_back(pieces_.surfel_of(piece, t));
   }
 
   const SceneMesh& mesh_;
   const HeadFrame& head_;
   const SectorBounds sector_;
   const InsonifiedRegion& region_;
-  const MeshParts parts_;
+  const MeshPieces pieces_;
   const int threads_;
   const SampledCells cells_;
   const double elevation_width_;
@@ -139,9 +139,9 @@ class MeshSampler {
   std::atomic<std::size_t> count_{0};
 };
 
-std::size_t surfels_in(const std::vector<std::vector<MeshSurfel>>& parts) {
+std::size_t surfels_in(const std::vector<std::vector<MeshSurfel>>& pieces) {
   std::size_t sum = 0;
-  for (const auto& part : parts) sum += part.size();
+  for (const auto& piece : pieces) sum += piece.size();
   return sum;
 }
 
@@ -177,9 +177,9 @@ MeshSurfels mesh_surfels(const SceneMesh& mesh, const InsonifiedRegion& region, 
   while (!mesh.triangle.empty() && (found = sampler.sample(result.coarsening, most_surfels)).empty())
     result.coarsening *= 2;
   reserve(surfels_in(found), scene);
-  for (auto& part : found) {
-    append(part, scene);
-    std::vector<MeshSurfel>().swap(part);
+  for (auto& piece : found) {
+    append(piece, scene);
+    std::vector<MeshSurfel>().swap(piece);
   }
   return result;
 }
@@ -207,20 +207,20 @@ EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t se
   count_even_surfels(area, spacing, limit);
   // Halves of areas that are spread evenly over an octave have the mean 1 / (2 ln 2) of the largest.
   const double largest = 2 * std::numbers::ln2 * spacing * spacing;
-  const MeshParts parts(mesh, seed);
+  const MeshPieces pieces(mesh, seed);
   constexpr std::size_t at_once = 512;
   std::vector<std::vector<MeshSurfel>> found((mesh.triangle.size() + at_once - 1) / at_once);
   parallel_blocks(mesh.triangle.size(), at_once, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Part> open;
+    std::vector<Piece> open;
     for (std::size_t t = begin; t < end; ++t)
-      for (open = {parts.root(t)}; !open.empty();) {
-        const Part part = open.back();
+      for (open = {pieces.root(t)}; !open.empty();) {
+        const Piece piece = open.back();
         open.pop_back();
-        if (part.area <= largest || !parts.may_bisect(part, t)) {
-          found[begin / at_once].push_back(parts.surfel_of(part, t));
+        if (piece.area <= largest || !pieces.may_bisect(piece, t)) {
+          found[begin / at_once].push_back(pieces.surfel_of(piece, t));
           continue;
         }
-        const auto halves = parts.bisect(part, t);
+        const auto halves = pieces.bisect(piece, t);
         open.push_back(halves[1]), open.push_back(halves[0]);
       }
   });
@@ -230,9 +230,9 @@ EvenSurfels even_surfels(const SceneMesh& mesh, double spacing, std::uint64_t se
   even.scene.normals_oriented = mesh.normals_oriented;
   reserve(surfels_in(found), even.scene);
   even.corner.reserve(surfels_in(found));
-  for (const auto& part : found) {
-    append(part, even.scene);
-    for (const MeshSurfel& s : part) even.corner.push_back(s.place.corner);
+  for (const auto& piece : found) {
+    append(piece, even.scene);
+    for (const MeshSurfel& s : piece) even.corner.push_back(s.position.corner);
   }
   return even;
 }

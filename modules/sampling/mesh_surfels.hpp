@@ -28,7 +28,7 @@ struct MeshSurfels {
 /// its area is at most that of a resolution cell (E17), of a square half as wide as a main lobe, and a sixteenth of a
 /// main lobe, all at its range; and the square of its longest edge at most eight times that.
 ///
-/// The areas of a triangle's parts add up to its area. A part has the same place and id in every ping, so speckle is
+/// The areas of a triangle's parts add up to its area. A part has the same position and id in every ping, so speckle is
 /// bound to the mesh; of a part that is bisected, one half keeps place and id. Region and threads do not change that.
 /// The 2^32 ids are distributed by area, which limits parts to 1.2 cm on 400 m x 400 m; find_scatterers splits further.
 ///

@@ -31,7 +31,6 @@ RangeGaps gaps_within(Cell first, Cell end, const std::vector<Cell>& occupied, d
   return gaps;
 }
 
-/// The ray of a scatterer.
 std::uint32_t ray_of(const SceneCloud& scene, const Scatterers& s, std::size_t i) {
   return scene.piece_of(s.surfel[i], s.id[i]);
 }

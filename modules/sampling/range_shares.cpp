@@ -22,9 +22,9 @@ class DiscBefore {
     before_[nodes] = 1;
   }
   double operator()(double line) const {
-    const double place = std::clamp((line + 1) * half_nodes, 0.0, 2.0 * half_nodes);
-    const auto k = static_cast<std::size_t>(place);
-    return before_[k] + (place - static_cast<double>(k)) * (before_[k + 1] - before_[k]);
+    const double position = std::clamp((line + 1) * half_nodes, 0.0, 2.0 * half_nodes);
+    const auto k = static_cast<std::size_t>(position);
+    return before_[k] + (position - static_cast<double>(k)) * (before_[k + 1] - before_[k]);
   }
 
  private:
@@ -37,11 +37,11 @@ class DiscBefore {
 // Into as many buckets as there are points, which are nearly even in number.
 void RangeShares::fill_buckets(std::span<const float> along) {
   const std::size_t n = along.size();
-  const auto bucket = [half = 0.5F * static_cast<float>(n), last = n - 1](float place) {
-    return std::min(static_cast<std::size_t>(std::max(0.0F, (place + 1) * half)), last);
+  const auto bucket = [half = 0.5F * static_cast<float>(n), last = n - 1](float position) {
+    return std::min(static_cast<std::size_t>(std::max(0.0F, (position + 1) * half)), last);
   };
   next_.assign(n + 1, 0);
-  for (const float place : along) ++next_[bucket(place) + 1];
+  for (const float position : along) ++next_[bucket(position) + 1];
   for (std::size_t b = 1; b <= n; ++b) next_[b] += next_[b - 1];
   for (std::size_t i = 0; i < n; ++i) sorted_[next_[bucket(along[i])]++] = {along[i], static_cast<std::uint32_t>(i)};
 }

@@ -25,12 +25,12 @@ std::vector<std::pair<double, double>> joined_lobes(std::vector<double> axes, do
   return joined;
 }
 
-/// Distance of `place` from the nearest of the intervals; 0 inside.
-double distance_from(const std::vector<std::pair<double, double>>& intervals, double place) {
+/// Distance of `position` from the nearest of the intervals; 0 inside.
+double distance_from(const std::vector<std::pair<double, double>>& intervals, double position) {
   const auto after = std::partition_point(intervals.begin(), intervals.end(),
-                                          [place](const auto& interval) { return interval.first <= place; });
-  double distance = after == intervals.end() ? HUGE_VAL : after->first - place;
-  if (after != intervals.begin()) distance = std::min(distance, place - std::prev(after)->second);
+                                          [position](const auto& interval) { return interval.first <= position; });
+  double distance = after == intervals.end() ? HUGE_VAL : after->first - position;
+  if (after != intervals.begin()) distance = std::min(distance, position - std::prev(after)->second);
   return std::max(0.0, distance);
 }
 
@@ -74,16 +74,16 @@ double SampledCells::area(double range, double cos_incidence, const Widths& widt
   return cell;
 }
 
-double SampledCells::parts(const Eigen::Vector3d& position, double surface, double cos_incidence) const {
-  return parts(position.norm(), surface, cos_incidence, widths(position, std::sqrt(surface / pi)));
+double SampledCells::pieces(const Eigen::Vector3d& position, double surface, double cos_incidence) const {
+  return pieces(position.norm(), surface, cos_incidence, widths(position, std::sqrt(surface / pi)));
 }
 
-double SampledCells::parts(double range, double surface, double cos_incidence, const Widths& widths) const {
+double SampledCells::pieces(double range, double surface, double cos_incidence, const Widths& widths) const {
   if (!(scatterers_per_cell_ > 0)) return 1;
   return std::max(1.0, scatterers_per_cell_ * surface / area(range, cos_incidence, widths));  // (E17)
 }
 
-double SampledCells::parts_of_share(double share, const Widths& widths) const {
+double SampledCells::pieces_of_share(double share, const Widths& widths) const {
   if (one_beam_) return scatterers_per_cell_ / full_share_of_range * share;                             // (E127)
   return widths.beam > main_lobe_.beam ? HUGE_VAL : scatterers_per_cell_ / full_share_of_lobe * share;  // (E127)
 }

@@ -38,14 +38,14 @@ class SampledCells {
 
   /// Returns the number of parts of a surfel at which a cell holds scatterers_per_cell: at least 1, not rounded; 1 if
   /// scatterers_per_cell is 0. The disc of the surfel lies about `position`; surface [m^2].
-  double parts(const Eigen::Vector3d& position, double surface, double cos_incidence) const;
+  double pieces(const Eigen::Vector3d& position, double surface, double cos_incidence) const;
   /// Returns the same for cells of these widths, as widths() returns them.
-  double parts(double range, double surface, double cos_incidence, const Widths& widths) const;
+  double pieces(double range, double surface, double cos_incidence, const Widths& widths) const;
 
   /// Returns the number of parts of a surface that returns the fraction `share` of the energy of its cell (E127), not
   /// rounded. The surface needs all parts of its cells if the fraction is three tenths (fan) or an eighth (one beam).
   /// The number is infinite for cells of side lobes of a fan, since a bin adds up several of them.
-  double parts_of_share(double share, const Widths& widths) const;
+  double pieces_of_share(double share, const Widths& widths) const;
   /// Width of a cell of shares, in u: a main lobe's; 2, which is all of u, for one beam.
   double width_of_shares() const { return one_beam_ ? 2 : main_lobe_.beam; }
   /// Returns the scatterers per resolution cell that the options ask for.

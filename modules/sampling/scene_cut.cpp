@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "sampling/cut_parts_internal.hpp"
+#include "sampling/cut_pieces_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "sampling/silhouettes_internal.hpp"
 #include "scene/detail_levels.hpp"
@@ -65,7 +65,7 @@ class LevelWalk {
 
   /// Adds what stands for a root or child; `inside`: its cell is known to lie within the region; `divided`: it belongs
   /// to a node that is divided.
-  void visit(const Walked& of, std::uint32_t index, bool inside, CutPart& out, bool divided = false) const {
+  void visit(const Walked& of, std::uint32_t index, bool inside, CutPiece& out, bool divided = false) const {
     if (index < of.levels.surfels) return add_surfel(of, index, out);
     if (of.piece) of.piece->need_node(index - of.levels.surfels);
     const DetailNode& node = of.levels.node[index - of.levels.surfels];
@@ -107,11 +107,11 @@ class LevelWalk {
   /// Returns true if the cell of a node lies within the region, whatever surfels of it are loaded.
   bool holds_cell(const DetailNode& node) const {
     const double edge = node.cell, radius = half_diagonal * edge;
-    const Vector3d cell = (node.place.cast<double>() / edge).array().floor() + 0.5;
+    const Vector3d cell = (node.position.cast<double>() / edge).array().floor() + 0.5;
     const Vector3d centre = head_.position((cell * edge).cast<float>());
     return centre.norm() + radius <= max_range_ && sector_.holds(centre, -radius);
   }
-  void add_surfel(const Walked& of, std::uint32_t i, CutPart& out) const {
+  void add_surfel(const Walked& of, std::uint32_t i, CutPiece& out) const {
     if (of.piece) of.piece->need_surfel(i);
     const SceneCloud& s = of.scene;
     add(s.point[i], s.normal[i], s.area[i], s.material[i], out);
@@ -121,7 +121,7 @@ class LevelWalk {
     out.stands_for.push_back(of.piece ? s.id[i] : i);
   }
   /// Adds a node whose surfels return `factor` times the energy of a plane with the node's area and normal.
-  void add_node(const Walked& of, const DetailNode& node, double factor, CutPart& out) const {
+  void add_node(const Walked& of, const DetailNode& node, double factor, CutPiece& out) const {
     add(node.point, node.normal, static_cast<float>(factor * node.area), node.material, out);
     out.scene.unevenness.push_back(std::sqrt(node.own_area) + per_thickness * node.thickness);
     if (noisy_) out.scene.noise.push_back(node.noise);
@@ -129,7 +129,7 @@ class LevelWalk {
     out.stands_for.push_back(node.nearest);
   }
   static void add(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, float area, std::uint16_t material,
-                  CutPart& out) {
+                  CutPiece& out) {
     out.scene.point.push_back(point);
     out.scene.normal.push_back(normal);
     out.scene.area.push_back(area);
@@ -165,43 +165,43 @@ std::vector<std::uint32_t> divided_of(const SceneCloud& cut, const InsonifiedReg
 }
 
 /// Returns what stands for the surfels of a scene, block by block.
-std::vector<CutPart> walked(const LevelWalk& walk, const SceneCloud& scene, const DetailLevels& levels,
-                            const InsonifiedRegion& region, int threads) {
-  std::vector<CutPart> parts((levels.block.size() + blocks_at_once - 1) / blocks_at_once);
+std::vector<CutPiece> walked(const LevelWalk& walk, const SceneCloud& scene, const DetailLevels& levels,
+                             const InsonifiedRegion& region, int threads) {
+  std::vector<CutPiece> pieces((levels.block.size() + blocks_at_once - 1) / blocks_at_once);
   parallel_blocks(levels.block.size(), blocks_at_once, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const DetailBlock& block = levels.block[b];
       const Vector3d centre = scene.origin + block.centre.cast<double>();
       if (!may_intersect(region, centre, block.radius, block.largest_area)) continue;
       for (std::uint32_t k = block.begin; k < block.end; ++k)
-        walk.visit({scene, levels}, levels.root[k], false, parts[begin / blocks_at_once]);
+        walk.visit({scene, levels}, levels.root[k], false, pieces[begin / blocks_at_once]);
     }
   });
-  return parts;
+  return pieces;
 }
 
 /// The pieces of a source: what stands for the surfels of each, and what has been read of it, which is kept of small
 /// scenes.
 struct WalkedPieces {
-  std::vector<CutPart> parts;
+  std::vector<CutPiece> pieces;
   std::vector<std::unique_ptr<LoadedLevels>> read;
 };
 
 /// Finds what stands for the surfels of the pieces of a source; of pieces that are known already, again for those of
 /// which the walk divides a node.
 void walk_pieces(const LevelWalk& walk, const LevelSource& source, int threads, WalkedPieces& pieces) {
-  const bool first = pieces.parts.empty(), keeps = source.like().part_of->surfels < many_surfels;
-  pieces.parts.resize(source.pieces()), pieces.read.resize(source.pieces());
-  parallel_for(pieces.parts.size(), threads, [&](std::size_t p) {
-    CutPart& part = pieces.parts[p];
+  const bool first = pieces.pieces.empty(), keeps = source.like().part_of->surfels < many_surfels;
+  pieces.pieces.resize(source.pieces()), pieces.read.resize(source.pieces());
+  parallel_for(pieces.pieces.size(), threads, [&](std::size_t p) {
+    CutPiece& piece = pieces.pieces[p];
     std::unique_ptr<LoadedLevels>& levels = pieces.read[p];
-    if (!first && std::ranges::none_of(part.stands_for, [&](std::uint32_t id) { return walk.divides(id); })) return;
+    if (!first && std::ranges::none_of(piece.stands_for, [&](std::uint32_t id) { return walk.divides(id); })) return;
     if (!levels) levels = source.open(p);
     const Walked of{levels->scene, levels->levels, levels.get()};
-    CutPart found;
+    CutPiece found;
     for (const std::uint32_t root : levels->levels.root) walk.visit(of, root, false, found);
-    source.note(found.stands_for.size() - part.stands_for.size());
-    part = std::move(found);
+    source.note(found.stands_for.size() - piece.stands_for.size());
+    piece = std::move(found);
     if (!keeps) levels.reset();
   });
 }
@@ -233,7 +233,7 @@ SceneCloud cut_levels(const LevelSource& source, const InsonifiedRegion& region,
   WalkedPieces pieces;
   const auto cut_now = [&] {
     walk_pieces(walk, source, options.threads, pieces);
-    return joined_by_id(pieces.parts, source.like(), source.noisy(), options.threads);
+    return joined_by_id(pieces.pieces, source.like(), source.noisy(), options.threads);
   };
   SceneCloud cut = cut_now();
   if (has_sharp_silhouettes(options, source.noisy(), *source.like().part_of)) {

@@ -52,7 +52,7 @@ SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region
 
 /// Surfels and levels of a piece of a scene that are loaded as a cut needs them. Cells of a piece hold all their
 /// surfels. `nearest` of a node is the id of the surfel. A node without children is a surfel: its point, normal, area,
-/// material, and its place and area again.
+/// material, and its position and area again.
 struct LoadedLevels {
   SceneCloud scene;     ///< its surfels, those that were loaded
   DetailLevels levels;  ///< all roots; nodes and their children as far as they were loaded, without blocks

@@ -16,9 +16,9 @@ constexpr double min_range = 1e-6;  // [m]
 }  // namespace
 
 INSONIFY_CLONES
-bool place_parts(const PartFrame& s, const double* turn_re, const double* turn_im, std::size_t count,
-                 PartPlaces parts) {
-  const PartFrame f = s;
+bool place_pieces(const PieceFrame& s, const double* turn_re, const double* turn_im, std::size_t count,
+                  PiecePositions pieces) {
+  const PieceFrame f = s;
   int far = 0;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
@@ -44,11 +44,11 @@ bool place_parts(const PartFrame& s, const double* turn_re, const double* turn_i
     const double inward = -(f.normal[0] * x + f.normal[1] * y + f.normal[2] * z) / range;
     const double facing = f.oriented ? (inward > 0 ? inward : 0) : std::abs(inward);
     const double cosine = facing < 1 ? facing : 1;
-    parts.range[i] = range;
-    parts.azimuth[i] = wrapped;
-    parts.elevation[i] = f.elevation + vec::atan_of_small(up / forth);
-    parts.cosine[i] = static_cast<float>(cosine);
-    parts.along[i] = static_cast<float>(f.away[0] * unit_a + f.away[1] * unit_b);
+    pieces.range[i] = range;
+    pieces.azimuth[i] = wrapped;
+    pieces.elevation[i] = f.elevation + vec::atan_of_small(up / forth);
+    pieces.cosine[i] = static_cast<float>(cosine);
+    pieces.along[i] = static_cast<float>(f.away[0] * unit_a + f.away[1] * unit_b);
   }
   return far == 0;
 }

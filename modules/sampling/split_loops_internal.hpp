@@ -7,7 +7,7 @@
 namespace insonify::kernels {
 
 /// A surfel whose parts are placed, in head axes.
-struct PartFrame {
+struct PieceFrame {
   double centre[3], t1[3], t2[3], normal[3];  ///< [m]; tangents and normal are unit vectors
   double radius;                              ///< radius of the disc [m]
   double shift, turn_re, turn_im;             ///< shift and turn of the sequence of parts
@@ -18,7 +18,7 @@ struct PartFrame {
 };
 
 /// Where parts are placed.
-struct PartPlaces {
+struct PiecePositions {
   double *range, *azimuth, *elevation;
   float* cosine;
   float* along;  ///< offset in the direction `away`, in radii
@@ -27,7 +27,7 @@ struct PartPlaces {
 /// Places parts 1 .. count of a surfel (E17). turn_re, turn_im: the turn of part k at k, for any surfel. Directions
 /// come from tangents of small angles about the centre, accurate to 1e-15 rad; returns false if some part stands too
 /// far off for that, and its direction is not valid.
-bool place_parts(const PartFrame& surfel, const double* turn_re, const double* turn_im, std::size_t count,
-                 PartPlaces parts);
+bool place_pieces(const PieceFrame& surfel, const double* turn_re, const double* turn_im, std::size_t count,
+                  PiecePositions pieces);
 
 }  // namespace insonify::kernels

@@ -8,7 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
-#include "sampling/count_parts_internal.hpp"
+#include "sampling/count_pieces_internal.hpp"
 #include "sampling/range_shares_internal.hpp"
 #include "sampling/split_loops_internal.hpp"
 #include "sampling/split_surfels_internal.hpp"
@@ -26,19 +26,19 @@ double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double
   return std::min(1.0, oriented ? std::max(0.0, cosine) : std::abs(cosine));
 }
 
-// Turns of the parts of every surfel: exp(2 pi i k step_angle), k < most_parts.
+// Turns of the parts of every surfel: exp(2 pi i k step_angle), k < most_subranges.
 struct Turns {
   std::vector<double> re, im;
   Turns() {
     constexpr double step_angle = 0.56984029099805327;  // of the R2 sequence (Roberts 2018): 1 / g^2, g^3 = g + 1
-    for (std::uint32_t k = 0; k < most_parts; ++k) {
+    for (std::uint32_t k = 0; k < most_subranges; ++k) {
       const std::complex<double> turn = std::polar(1.0, 2 * pi * reduced_cycles(k * step_angle));
       re.push_back(turn.real()), im.push_back(turn.imag());
     }
   }
 };
 
-constexpr double step_radius = 0.75487766624669276;  // of the R2 sequence, as in place_parts
+constexpr double step_radius = 0.75487766624669276;  // of the R2 sequence, as in place_pieces
 
 /// Writes the parts of one surfel after the other; holds the memory for that.
 class Splitter {
@@ -46,19 +46,19 @@ class Splitter {
   Splitter(const SceneCloud& scene, const HeadFrame& head, std::uint64_t seed, double range_resolution)
       : scene_(scene), head_(head), seed_(seed), range_resolution_(range_resolution) {}
 
-  void write(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel) {
+  void write(Scatterers& out, std::size_t first, std::size_t pieces, std::uint32_t surfel) {
     const Centre centre = centre_of(surfel);
     out.range[first] = centre.range;
     out.azimuth[first] = centre.direction.azimuth;
     out.elevation[first] = centre.direction.elevation;
     out.cos_incidence[first] = static_cast<float>(centre.cosine);
     out.projected_area[first] = static_cast<float>(scene_.area[surfel] * centre.cosine);
-    for (std::size_t k = 0; k < parts; ++k) {
+    for (std::size_t k = 0; k < pieces; ++k) {
       out.material[first + k] = scene_.material[surfel];
       out.id[first + k] = scene_.piece_id(surfel, k);
       out.surfel[first + k] = surfel;
     }
-    if (parts > 1) place(out, first, parts, surfel, centre);
+    if (pieces > 1) position(out, first, pieces, surfel, centre);
   }
 
  private:
@@ -86,11 +86,11 @@ class Splitter {
   }
 
   /// Places the parts beside the centre, of a low-discrepancy sequence over the disc (E17), and shares the surface.
-  void place(Scatterers& out, std::size_t first, std::size_t parts, std::uint32_t surfel, const Centre& c) {
+  void position(Scatterers& out, std::size_t first, std::size_t pieces, std::uint32_t surfel, const Centre& c) {
     static const Turns turns;
     const Vector3d tangent = c.own_normal.unitOrthogonal();
     const Vector3d t1 = c.axes.to_head * tangent, t2 = c.axes.to_head * c.own_normal.cross(tangent);
-    kernels::PartFrame frame{};
+    kernels::PieceFrame frame{};
     const auto copy = [](const Vector3d& from, double* to) { std::copy_n(from.data(), 3, to); };
     copy(c.position, frame.centre), copy(t1, frame.t1), copy(t2, frame.t2), copy(c.normal, frame.normal);
     const auto drawn = random_uniform(seed_, RandomStage::surfel_split, {scene_.random_id(surfel), 0, 0});
@@ -107,11 +107,11 @@ class Splitter {
     frame.level[0] = across / c.range, frame.level[1] = c.position.z() / c.range;
 
     const std::size_t at = first + 1;
-    along_.assign(parts, 0);
-    const bool near = kernels::place_parts(frame, turns.re.data(), turns.im.data(), parts - 1,
-                                           {out.range.data() + at, out.azimuth.data() + at, out.elevation.data() + at,
-                                            out.cos_incidence.data() + at, along_.data() + 1});
-    if (!(near && across > min_range)) turn_far(out, at, frame, parts - 1, turns);
+    along_.assign(pieces, 0);
+    const bool near = kernels::place_pieces(frame, turns.re.data(), turns.im.data(), pieces - 1,
+                                            {out.range.data() + at, out.azimuth.data() + at, out.elevation.data() + at,
+                                             out.cos_incidence.data() + at, along_.data() + 1});
+    if (!(near && across > min_range)) turn_far(out, at, frame, pieces - 1, turns);
     share(out, first, scene_.area[surfel], 2 * frame.radius * sine);
   }
 
@@ -131,7 +131,7 @@ class Splitter {
   }
 
   /// Directions of parts that are not at a small angle to the centre.
-  static void turn_far(Scatterers& out, std::size_t at, const kernels::PartFrame& f, std::size_t count,
+  static void turn_far(Scatterers& out, std::size_t at, const kernels::PieceFrame& f, std::size_t count,
                        const Turns& turns) {
     for (std::size_t i = 0; i < count; ++i) {
       const double u = f.shift + static_cast<double>(i + 1) * step_radius;

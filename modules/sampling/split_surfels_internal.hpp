@@ -10,7 +10,7 @@
 
 namespace insonify {
 
-/// Returns the scatterers of the given surfels, `first` the number of the first part of each (first_parts), in order.
+/// Returns the scatterers of the given surfels, `first` the number of the first part of each (first_pieces), in order.
 /// Part 0 is at the surfel's centre; part k is point k of a low-discrepancy sequence over a disc of the surfel's area
 /// in its tangent plane, shifted and rotated by random numbers of (seed, surfel id): at the same position in the scene
 /// for every pose. Where a surfel is deeper than range_resolution [m], its surface is divided among the parts by range

@@ -28,7 +28,7 @@
 //                overlaps their cell; wide surfels are tested against all.
 // Cost: O(n log n) by KD-trees, O(n x cells per footprint) by the raster; parallel over surfels or tiles. The exact
 // decision is always that of `cover` and `hides`, so both methods and all thread counts give the same bytes. Of surfels
-// that coincide, as where a part of a scene stands many times in one place, one hides for all.
+// that coincide, as where a part of a scene stands many times in one position, one hides for all.
 namespace insonify {
 namespace {
 
@@ -90,8 +90,8 @@ struct LeastDepth {
 // front of it are visible; only those behind it are tested one by one.
 class DepthTile {
  public:
-  DepthTile(const GatedSurfels& surfels, std::span<const std::uint32_t> asked, std::span<const CubePoint> queries)
-      : surfels_(surfels), asked_(asked), queries_(queries) {}
+  DepthTile(const GatedSurfels& surfels, std::span<const std::uint32_t> queried, std::span<const CubePoint> queries)
+      : surfels_(surfels), queried_(queried), queries_(queries) {}
 
   void find_covers(const DirectionTile& tile, std::vector<Cover>& covers) {
     nearest_.fill(0);
@@ -110,7 +110,7 @@ class DepthTile {
         std::size_t found = 0;
         for (std::uint32_t i = first_[y * side + x0]; i < first_[y * side + x1 + 1]; ++i) {
           behind_[found] = i;
-          found += depth.before(places_[i]);
+          found += depth.before(positions_[i]);
         }
         for (std::size_t k = 0; k < found; ++k) {
           Open& behind = open_[behind_[k]];
@@ -137,7 +137,7 @@ class DepthTile {
   /// none.
   std::pair<std::size_t, std::size_t> reached_cells(const LeastDepth& least, std::size_t y, const TileBox& box) const {
     const float* const deepest = deepest_.data() + y * side;
-    std::uint64_t cells = asked_in_[y] & (~std::uint64_t{0} >> (side - 1 - box.x1)) & (~std::uint64_t{0} << box.x0);
+    std::uint64_t cells = queried_in_[y] & (~std::uint64_t{0} >> (side - 1 - box.x1)) & (~std::uint64_t{0} << box.x0);
     const auto first = [&] { return static_cast<std::size_t>(std::countr_zero(cells)); };
     const auto last = [&] { return static_cast<std::size_t>(std::bit_width(cells)) - 1; };
     const auto reached = [&](std::size_t x) { return least.inverse_at(x) * deepest[x] >= 1; };
@@ -157,19 +157,19 @@ class DepthTile {
       ++first_[cell];
     }
     deepest_.fill(0);
-    asked_in_.fill(0);
+    queried_in_.fill(0);
     std::exclusive_scan(first_.begin(), first_.end(), first_.begin(), 0U);
     std::vector<std::uint32_t> sorted(found.size());
     for (const auto& [cell, query] : found) {
       sorted[first_[cell]++] = query;
-      asked_in_[cell / side] |= std::uint64_t{1} << cell % side;
+      queried_in_[cell / side] |= std::uint64_t{1} << cell % side;
       deepest_[cell] = std::max(deepest_[cell], queries_[query].depth);
     }
     std::shift_right(first_.begin(), first_.end(), 1);
     first_[0] = 0;
     for (const std::uint32_t query : sorted) {
-      places_.push_back(queries_[query]);
-      open_.push_back({LineOfSight(surfels_[asked_[query]]), asked_[query], 0});
+      positions_.push_back(queries_[query]);
+      open_.push_back({LineOfSight(surfels_[queried_[query]]), queried_[query], 0});
     }
     behind_.resize(open_.size() + 1);
   }
@@ -184,14 +184,14 @@ class DepthTile {
           covers[open_[i].surfel] = open_[i].so_far;
           continue;
         }
-        deepest_[cell] = std::max(deepest_[cell], places_[i].depth);
-        open_[kept] = open_[i], places_[kept++] = places_[i];
+        deepest_[cell] = std::max(deepest_[cell], positions_[i].depth);
+        open_[kept] = open_[i], positions_[kept++] = positions_[i];
       }
-      if (first_[cell] == kept) asked_in_[cell / side] &= ~(std::uint64_t{1} << cell % side);
+      if (first_[cell] == kept) queried_in_[cell / side] &= ~(std::uint64_t{1} << cell % side);
     }
     first_.back() = kept, hidden_ = 0;
     open_.erase(open_.begin() + kept, open_.end());
-    places_.resize(kept);
+    positions_.resize(kept);
   }
 
   void draw(const DirectionTile& tile, const TileBox& box, const HidingDepth& depth) {
@@ -203,36 +203,36 @@ class DepthTile {
   }
 
   const GatedSurfels& surfels_;
-  std::span<const std::uint32_t> asked_;
+  std::span<const std::uint32_t> queried_;
   std::span<const CubePoint> queries_;
   std::array<float, side * side> nearest_, deepest_;  // inverse depth of occluders; depth of those open
-  std::array<std::uint64_t, side> asked_in_;          // bits of cells with open queries, by rows
+  std::array<std::uint64_t, side> queried_in_;        // bits of cells with open queries, by rows
   std::vector<HidingDepth> depths_;                   // of the boxes
   std::vector<Open> open_;                            // by cells
-  std::vector<CubePoint> places_;                     // of these
+  std::vector<CubePoint> positions_;                  // of these
   std::array<std::uint32_t, side * side + 1> first_;  // of each cell
   std::vector<std::uint32_t> behind_;
   std::size_t hidden_ = 0;  // of those open
 };
 
 std::vector<Cover> covers_by_raster(const GatedSurfels& surfels, int threads) {
-  const auto asked =
+  const auto queried =
       list_where(surfels.size(), threads, [&](std::size_t s) { return surfels[s].in_gate && surfels[s].facing; });
-  UninitializedVector<CubePoint> queries(asked.size());
-  parallel_blocks(asked.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) queries[k] = on_cube(surfels[asked[k]].position);
+  UninitializedVector<CubePoint> queries(queried.size());
+  parallel_blocks(queried.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) queries[k] = on_cube(surfels[queried[k]].position);
   });
   const DirectionRaster raster(surfels, queries, Footprint::disc, threads);
   std::vector<Cover> covers(surfels.size(), 0);
   parallel_for(raster.tiles(), threads, [&](std::size_t t) {
     const DirectionTile tile = raster.tile(t);
-    if (!tile.queries.empty()) DepthTile(surfels, asked, queries).find_covers(tile, covers);
+    if (!tile.queries.empty()) DepthTile(surfels, queried, queries).find_covers(tile, covers);
   });
   if (!raster.wide().empty())
-    parallel_blocks(asked.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(queried.size(), 2048, threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
         for (const std::uint32_t w : raster.wide())
-          if (!hides(covers[asked[k]])) covers[asked[k]] |= cover(surfels, w, LineOfSight(surfels[asked[k]]));
+          if (!hides(covers[queried[k]])) covers[queried[k]] |= cover(surfels, w, LineOfSight(surfels[queried[k]]));
     });
   return covers;
 }

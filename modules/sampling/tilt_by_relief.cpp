@@ -21,9 +21,9 @@ struct Tilter {
 
   void tilt(Scatterers& s, std::size_t i) const {
     const Vector3d outward = world_from_head.linear() * unit_vector({s.azimuth[i], s.elevation[i]});
-    const Vector3d place = world_from_head.translation() + s.range[i] * outward;
+    const Vector3d position = world_from_head.translation() + s.range[i] * outward;
     const Vector3d normal = scene.normal[s.surfel[i]].cast<double>().normalized();
-    const Vector3d facet = relief.facet_of(scene, s.surfel[i], scene.materials[s.material[i]].relief_slope, place);
+    const Vector3d facet = relief.facet_of(scene, s.surfel[i], scene.materials[s.material[i]].relief_slope, position);
 
     // A surface with unoriented normals presents the side that faces the head, with its relief.
     const double smooth = -normal.dot(outward);

@@ -51,8 +51,8 @@ void trust_lines_of_sight(const Eigen::Vector3d& viewpoint, int threads, SceneCl
       if (hides(covers)) found[begin / block].insert(found[begin / block].end(), covering.begin(), covering.end());
     }
   });
-  for (const auto& part : found)
-    for (const Contradiction& c : part) scene.noise[c.surfel] = std::max(scene.noise[c.surfel], c.noise);
+  for (const auto& sublist : found)
+    for (const Contradiction& c : sublist) scene.noise[c.surfel] = std::max(scene.noise[c.surfel], c.noise);
 }
 
 }  // namespace insonify

@@ -20,7 +20,7 @@ struct VisibleSurfels {
   std::optional<SceneRelief> relief;
 };
 
-/// Returns the visible surfels of a view. make_parts makes the scatterers of find_scatterers from them, in another
+/// Returns the visible surfels of a view. make_chunks makes the scatterers of find_scatterers from them, in another
 /// order. options.kind is ignored. Errors as find_scatterers.
 VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
                             const RangeGate& gate, const SamplingOptions& options = {});
@@ -31,9 +31,9 @@ Scatterers split_seen(const PreparedScene& prepared, const Pose& world_from_head
                       const RangeGate& gate, std::span<const std::uint32_t> surfels, const SamplingOptions& options);
 
 /// Returns the scatterers of some of the visible surfels (`which`: indices in `visible`).
-Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,
-                      std::span<const std::uint32_t> which, int threads);
+Scatterers make_chunks(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible,
+                       std::span<const std::uint32_t> which, int threads);
 /// Returns the scatterers of all visible surfels.
-Scatterers make_parts(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible);
+Scatterers make_chunks(const SceneCloud& scene, const Pose& world_from_head, const VisibleSurfels& visible);
 
 }  // namespace insonify

@@ -89,7 +89,7 @@ double half_beam(double u) { return 2.1 * std::sin(0.82 * pi * u); }  // u: 0 at
 double draught(double u) { return 1.5 + 0.3 * u; }
 double ship_x(double u) { return ship_length * (0.5 - u); }
 
-void add_ship_part(std::vector<Patch>& patches, const Vector3d& inside, Patch patch) {
+void add_ship_piece(std::vector<Patch>& patches, const Vector3d& inside, Patch patch) {
   patch.at = [at = patch.at](double u, double v) { return from_ship(at(u, v)); };
   patch.material = steel;
   patch.density = 3;
@@ -98,28 +98,28 @@ void add_ship_part(std::vector<Patch>& patches, const Vector3d& inside, Patch pa
 
 void add_box(std::vector<Patch>& patches, const Vector3d& low, const Vector3d& size) {
   const Vector3d x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z()), middle = low + size / 2;
-  add_ship_part(patches, middle, rectangle(low, y, z));
-  add_ship_part(patches, middle, rectangle(low + x, y, z));
-  add_ship_part(patches, middle, rectangle(low, x, z));
-  add_ship_part(patches, middle, rectangle(low + y, x, z));
-  add_ship_part(patches, middle, rectangle(low + z, x, y));
+  add_ship_piece(patches, middle, rectangle(low, y, z));
+  add_ship_piece(patches, middle, rectangle(low + x, y, z));
+  add_ship_piece(patches, middle, rectangle(low, x, z));
+  add_ship_piece(patches, middle, rectangle(low + y, x, z));
+  add_ship_piece(patches, middle, rectangle(low + z, x, y));
 }
 
 void add_wreck(std::vector<Patch>& patches) {
   const Vector3d inside(0, 0, -0.5);
-  add_ship_part(patches, inside, {[](double u, double v) {
-                  return Vector3d(ship_x(u), half_beam(u) * std::cos(pi * v), -draught(u) * std::sin(pi * v));
-                }});
-  add_ship_part(patches, inside, {[](double u, double v) {  // deck, cambered
-                  const double across = 2 * v - 1;
-                  return Vector3d(ship_x(u), half_beam(u) * across, 0.12 * (1 - across * across));
-                }});
-  add_ship_part(patches, inside, {[](double u, double v) {  // transom
-                  return Vector3d(ship_x(1), u * half_beam(1) * std::cos(pi * v), -u * draught(1) * std::sin(pi * v));
-                }});
-  add_box(patches, {-4.6, -1.0, 0.05}, {2.4, 2.0, 1.35});                                // wheelhouse
-  add_box(patches, {0.2, -0.9, 0.05}, {1.8, 1.8, 0.5});                                  // hatch
-  add_ship_part(patches, {3.0, 0, 1}, cylinder({3.0, 0, 0.05}, {0.9, 0.25, 2.2}, 0.1));  // mast
+  add_ship_piece(patches, inside, {[](double u, double v) {
+                   return Vector3d(ship_x(u), half_beam(u) * std::cos(pi * v), -draught(u) * std::sin(pi * v));
+                 }});
+  add_ship_piece(patches, inside, {[](double u, double v) {  // deck, cambered
+                   const double across = 2 * v - 1;
+                   return Vector3d(ship_x(u), half_beam(u) * across, 0.12 * (1 - across * across));
+                 }});
+  add_ship_piece(patches, inside, {[](double u, double v) {  // transom
+                   return Vector3d(ship_x(1), u * half_beam(1) * std::cos(pi * v), -u * draught(1) * std::sin(pi * v));
+                 }});
+  add_box(patches, {-4.6, -1.0, 0.05}, {2.4, 2.0, 1.35});                                 // wheelhouse
+  add_box(patches, {0.2, -0.9, 0.05}, {1.8, 1.8, 0.5});                                   // hatch
+  add_ship_piece(patches, {3.0, 0, 1}, cylinder({3.0, 0, 0.05}, {0.9, 0.25, 2.2}, 0.1));  // mast
 }
 
 void add_bed_objects(std::vector<Patch>& patches, const SeaBed& bed) {

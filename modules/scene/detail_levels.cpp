@@ -53,7 +53,7 @@ class FinestCells {
 };
 
 /// The result of merging one run of a level's cells.
-struct LevelPart {
+struct LevelBlock {
   std::vector<DetailNode> nodes;
   std::vector<std::uint32_t> children;
   std::vector<Entry> open, closed;  // the index of a new node is new_node + its number in `nodes`
@@ -62,8 +62,7 @@ struct LevelPart {
 constexpr std::uint32_t new_node = std::uint32_t{1} << 31;  // above all numbers of surfels and nodes
 constexpr std::size_t most_surfels = std::size_t{1} << 30;
 
-/// Merges the entries of one cell.
-void merge_cell(const MergedPieces& pieces, std::span<const Entry> cell, double edge, LevelPart& out) {
+void merge_cell(const MergedPieces& pieces, std::span<const Entry> cell, double edge, LevelBlock& out) {
   if (cell.size() == 1) return out.open.push_back(cell[0]);
   if (cell.size() > MergedPieces::most) {
     out.closed.insert(out.closed.end(), cell.begin(), cell.end());
@@ -118,16 +117,16 @@ std::vector<Entry> entries_of(const SceneCloud& scene, const FinestCells& cells,
 }
 
 /// Appends the result of one run to the levels, with the numbers of its nodes and children counted among all.
-void take(const LevelPart& part, DetailLevels& levels, std::vector<Entry>& open, std::vector<Entry>& closed) {
+void take(const LevelBlock& block, DetailLevels& levels, std::vector<Entry>& open, std::vector<Entry>& closed) {
   const auto nodes_before = static_cast<std::uint32_t>(levels.surfels + levels.node.size());
   const auto children_before = static_cast<std::uint32_t>(levels.child.size());
-  for (DetailNode node : part.nodes) {
+  for (DetailNode node : block.nodes) {
     node.first_child += children_before;
     levels.node.push_back(node);
   }
-  levels.child.insert(levels.child.end(), part.children.begin(), part.children.end());
-  closed.insert(closed.end(), part.closed.begin(), part.closed.end());
-  for (Entry e : part.open) {
+  levels.child.insert(levels.child.end(), block.children.begin(), block.children.end());
+  closed.insert(closed.end(), block.closed.begin(), block.closed.end());
+  for (Entry e : block.open) {
     if (e.index >= new_node) e.index = e.index - new_node + nodes_before;
     open.push_back(e);
   }
@@ -138,16 +137,16 @@ void merge_level(const SceneCloud& scene, int level, double edge, int threads, D
                  std::vector<Entry>& open, std::vector<Entry>& closed) {
   const int shift = 3 * level;
   const std::vector<std::size_t> begin = part_begins(open, shift);
-  std::vector<LevelPart> parts(begin.size() - 1);
+  std::vector<LevelBlock> blocks(begin.size() - 1);
   const MergedPieces pieces(scene, levels.node);
-  parallel_for(parts.size(), threads, [&](std::size_t p) {
+  parallel_for(blocks.size(), threads, [&](std::size_t p) {
     for (std::size_t k = begin[p], next; k < begin[p + 1]; k = next) {
       for (next = k + 1; next < begin[p + 1] && open[next].code >> shift == open[k].code >> shift;) ++next;
-      merge_cell(pieces, std::span(open).subspan(k, next - k), edge, parts[p]);
+      merge_cell(pieces, std::span(open).subspan(k, next - k), edge, blocks[p]);
     }
   });
   open.clear();
-  for (const LevelPart& part : parts) take(part, levels, open, closed);
+  for (const LevelBlock& block : blocks) take(block, levels, open, closed);
 }
 
 void enclose(const SceneCloud& scene, const DetailLevels& levels, DetailBlock& block) {

@@ -28,12 +28,12 @@ struct DetailNode {
   float resultant = 0;        ///< length of the area-weighted mean of the surfels' normals
   SymmetricMatrix normals{};  ///< area-weighted mean of n n^T over the surfels' normals n
   std::uint32_t nearest = 0;  ///< surfel that the child nearest to `point` stands for; the node has its id
-  Eigen::Vector3f place = Eigen::Vector3f::Zero();  ///< centre of that surfel [m], relative to the scene's origin
-  float own_area = 0;                               ///< area of that surfel [m^2]
-  std::uint32_t first_child = 0;                    ///< index into DetailLevels::child
-  std::uint16_t children = 0;                       ///< number of children
-  std::uint16_t material = 0;                       ///< material of all surfels below
-  float cell = 0;                                   ///< edge of the cubic cell that holds the children's centres [m]
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< centre of that surfel [m], relative to the scene's origin
+  float own_area = 0;                                  ///< area of that surfel [m^2]
+  std::uint32_t first_child = 0;                       ///< index into DetailLevels::child
+  std::uint16_t children = 0;                          ///< number of children
+  std::uint16_t material = 0;                          ///< material of all surfels below
+  float cell = 0;                                      ///< edge of the cubic cell that holds the children's centres [m]
 };
 
 /// Consecutive roots of the levels, and a bounding ball of the surfels below them.

@@ -74,14 +74,14 @@ EditedScene::EditedScene(std::vector<PlacedPart> parts, std::span<const Material
 PlacedPart& EditedScene::part_of(std::uint32_t id, SceneArrangement& in, const char* who) const {
   const std::size_t first = start_->parts.size(), most = first + in.parts.size() - start_->others.size();
   if (id < 1 || id > most) fail(ErrorKind::argument, who, ": no part has the id ", id, "; ids are 1 to ", most);
-  std::size_t place = id - 1 - first + start_->others.size();
+  std::size_t position = id - 1 - first + start_->others.size();
   if (id <= first) {
     if (start_->parts[id - 1].captured)
       fail(ErrorKind::argument, who, ": part ", id, ", '", start_->parts[id - 1].name,
            "', stands as captured, and is neither moved nor removed");
-    place = static_cast<std::size_t>(std::ranges::find(start_->others, id - 1) - start_->others.begin());
+    position = static_cast<std::size_t>(std::ranges::find(start_->others, id - 1) - start_->others.begin());
   }
-  PlacedPart& part = in.parts[place];
+  PlacedPart& part = in.parts[position];
   if (part.absent) fail(ErrorKind::argument, who, ": part ", id, ", '", part.name, "', is not in the scene");
   return part;
 }

@@ -30,9 +30,9 @@ void require_surfels(const PlacedPart& part, const char* who) {
 }
 
 /// Returns the square of a level's grid that holds a position.
-std::array<double, 3> square_of(const Vector2d& place, int level) {
+std::array<double, 3> square_of(const Vector2d& position, int level) {
   const double side = std::ldexp(1.0, level);
-  return {static_cast<double>(level), std::floor(place.x() / side), std::floor(place.y() / side)};
+  return {static_cast<double>(level), std::floor(position.x() / side), std::floor(position.y() / side)};
 }
 
 }  // namespace
@@ -61,16 +61,16 @@ void Ground::add(const PlacedPart& part) {
       listed.insert(std::ranges::upper_bound(listed, number, lower), number);
 }
 
-std::optional<GroundPlace> Ground::at(const Vector2d& place) const {
+std::optional<GroundPoint> Ground::at(const Vector2d& position) const {
   // If several sheets are equally high, the first one counts.
-  std::optional<GroundPlace> top;
+  std::optional<GroundPoint> top;
   std::size_t topmost = 0;
   for (const int level : levels_) {
-    const auto listed = squares_.find(square_of(place, level));
+    const auto listed = squares_.find(square_of(position, level));
     if (listed == squares_.end()) continue;
     for (const std::size_t sheet : listed->second) {
       if (top && sheets_[sheet]->highest < top->height) break;
-      const auto here = sheets_[sheet]->at(place);
+      const auto here = sheets_[sheet]->at(position);
       if (!here || (top && (here->height < top->height || (here->height == top->height && topmost < sheet)))) continue;
       top = here, topmost = sheet;
     }
@@ -97,9 +97,9 @@ std::vector<Vector3d> underside(const PlacedPart& part, double spacing) {
     const auto [at, is_new] = lowest.try_emplace(key, p);
     if (!is_new && p.z() < at->second.z()) at->second = p;
   });
-  std::vector<Vector3d> places;
-  for (const auto& [key, p] : lowest) places.push_back(p);
-  return places;
+  std::vector<Vector3d> positions;
+  for (const auto& [key, p] : lowest) positions.push_back(p);
+  return positions;
 }
 
 [[noreturn]] void refuse_hole(const PlacedPart& part, const Vector3d& at, const char* what) {
@@ -107,28 +107,28 @@ std::vector<Vector3d> underside(const PlacedPart& part, double spacing) {
        " (a hole of the scan, or beyond its end); move it, or give its height: position_m = [x, y, z]");
 }
 
-/// Returns the ground below each of `places`. Throws Error(content) without ground below the part or half its
+/// Returns the ground below each of `positions`. Throws Error(content) without ground below the part or half its
 /// footprint.
-std::vector<std::optional<GroundPlace>> ground_under(const PlacedPart& part, const Ground& ground,
-                                                     const std::vector<Vector3d>& places) {
+std::vector<std::optional<GroundPoint>> ground_under(const PlacedPart& part, const Ground& ground,
+                                                     const std::vector<Vector3d>& positions) {
   const Vector3d own = part.world_from_part.translation();
   if (!ground.at(own.head<2>())) refuse_hole(part, own, "no ground beneath it");
-  std::vector<std::optional<GroundPlace>> under;
+  std::vector<std::optional<GroundPoint>> under;
   std::size_t there = 0;
-  for (const Vector3d& p : places) there += under.emplace_back(ground.at(p.head<2>())).has_value();
-  if (static_cast<double>(there) < least_support * static_cast<double>(places.size()))
+  for (const Vector3d& p : positions) there += under.emplace_back(ground.at(p.head<2>())).has_value();
+  if (static_cast<double>(there) < least_support * static_cast<double>(positions.size()))
     refuse_hole(part, own, "no ground beneath more than half of it");
   return under;
 }
 
 /// Returns the upward normal of the plane z = a x + b y + c that is fitted to the ground under a footprint.
-Vector3d normal_under(const Ground& ground, const Vector3d& own, const std::vector<Vector3d>& places,
-                      const std::vector<std::optional<GroundPlace>>& under) {
+Vector3d normal_under(const Ground& ground, const Vector3d& own, const std::vector<Vector3d>& positions,
+                      const std::vector<std::optional<GroundPoint>>& under) {
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   Vector3d products = Vector3d::Zero();
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!under[i]) continue;
-    const Vector3d row(places[i].x() - own.x(), places[i].y() - own.y(), 1);
+    const Vector3d row(positions[i].x() - own.x(), positions[i].y() - own.y(), 1);
     squares += row * row.transpose();
     products += row * (under[i]->height - own.z());
   }
@@ -145,18 +145,18 @@ std::optional<PlacedPart> place_on_ground(PlacedPart part, const Ground& ground,
   if (!std::isfinite(bury)) fail(ErrorKind::argument, "place_on_ground: bury = ", bury, " m, must be finite");
   if (rest == PartRest::none) return part;
   if (rest == PartRest::bed) {
-    const std::vector<Vector3d> places = underside(part, ground.spacing());
+    const std::vector<Vector3d> positions = underside(part, ground.spacing());
     const Vector3d own = part.world_from_part.translation();
-    const Vector3d up = normal_under(ground, own, places, ground_under(part, ground, places));
+    const Vector3d up = normal_under(ground, own, positions, ground_under(part, ground, positions));
     part.world_from_part.linear() =
         Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), up) * part.world_from_part.linear();
   }
   // Look up heights only where the part may touch or be buried, judged by the ground below its lowest surfels.
-  const std::vector<Vector3d> places = underside(part, ground.spacing());
-  const auto under = ground_under(part, ground, places);
+  const std::vector<Vector3d> positions = underside(part, ground.spacing());
+  const auto under = ground_under(part, ground, positions);
   double least = -std::numeric_limits<double>::infinity(), top = least;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (under[i]) least = std::max(least, under[i]->height - places[i].z()), top = std::max(top, under[i]->height);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (under[i]) least = std::max(least, under[i]->height - positions[i].z()), top = std::max(top, under[i]->height);
   const double free = top + free_spacings * ground.spacing() + std::max(bury, 0.0) - least;
   std::vector<Meeting> meetings;
   double shift = least;

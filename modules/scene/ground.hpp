@@ -19,7 +19,7 @@ namespace insonify {
 enum class PartRest { none, ground, bed };
 
 /// Height and normal of the ground at one position.
-struct GroundPlace {
+struct GroundPoint {
   double height = 0;                                  ///< world z [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit vector, up
 };
@@ -37,12 +37,12 @@ class Ground {
   double spacing() const { return spacing_; }
   /// Returns the box of the captured parts [m, world]; min > max if there are none.
   const Bounds& captured_box() const { return captured_box_; }
-  /// Returns the topmost surface at `place` [m, world]. The surface is the mean of tangent planes, weighted by
+  /// Returns the topmost surface at `position` [m, world]. The surface is the mean of tangent planes, weighted by
   /// distance: those of the surfels of the topmost sheet within 1.25 spacings and twice their noise. A tangent plane
   /// counts no farther than that along itself, so that a cliff does not rise above itself. Surfels that lie more than a
   /// spacing and four times their noise below belong to another sheet. Returns nothing where no surfel lies within
   /// three spacings, i.e. in a hole of the scan.
-  std::optional<GroundPlace> at(const Eigen::Vector2d& place) const;
+  std::optional<GroundPoint> at(const Eigen::Vector2d& position) const;
 
  private:
   struct Sheet;

@@ -20,13 +20,13 @@ namespace insonify {
 template <typename Use>
 void for_each_surfel(const PlacedPart& part, const Use& use) {
   const SceneCloud& cloud = *part.cloud;
-  const auto place = [&](std::size_t i) {
+  const auto position = [&](std::size_t i) {
     return Eigen::Vector3d(part.world_from_part * (cloud.origin + cloud.point[i].cast<double>()));
   };
   if (part.surfels.empty())
-    for (std::size_t i = 0; i < cloud.size(); ++i) use(i, place(i));
+    for (std::size_t i = 0; i < cloud.size(); ++i) use(i, position(i));
   else
-    for (const std::uint32_t i : part.surfels) use(i, place(i));
+    for (const std::uint32_t i : part.surfels) use(i, position(i));
 }
 
 /// Height of the ground at a query position by the tangent plane of one surfel.
@@ -50,9 +50,9 @@ struct Ground::Sheet {
     const SceneCloud& cloud = *part.cloud;
     double area = 0;
     for_each_surfel(part, [&](std::size_t i, const Eigen::Vector3d& world) {
-      if (place.empty()) origin = world.array().round();
+      if (position.empty()) origin = world.array().round();
       const Eigen::Vector3f p = (world - origin).cast<float>();
-      place.push_back(p);
+      position.push_back(p);
       flat.emplace_back(p.x(), p.y(), 0.0f);
       low = low.cwiseMin(world.head<2>()), high = high.cwiseMax(world.head<2>());
       highest = std::max(highest, world.z());
@@ -62,7 +62,7 @@ struct Ground::Sheet {
       if (!cloud.noise.empty()) noise.push_back(cloud.noise[i]);
       area += cloud.area[i];
     });
-    mean_spacing = std::sqrt(area / static_cast<double>(place.size()));
+    mean_spacing = std::sqrt(area / static_cast<double>(position.size()));
     index = SceneIndex(flat);
     // A search from far away would visit most of the tree.
     const double beyond = 1.1 * hole_spacings * spacing_that_counts(std::ranges::max(spacing));
@@ -72,7 +72,7 @@ struct Ground::Sheet {
     highest += 1.02 * beyond + 2 * off;
   }
 
-  std::optional<GroundPlace> at(const Eigen::Vector2d& world) const {
+  std::optional<GroundPoint> at(const Eigen::Vector2d& world) const {
     if ((world.array() < low.array()).any() || (world.array() > high.array()).any()) return std::nullopt;
     thread_local std::vector<Neighbour> found;
     const Eigen::Vector3f query(static_cast<float>(world.x() - origin.x()), static_cast<float>(world.y() - origin.y()),
@@ -94,16 +94,16 @@ struct Ground::Sheet {
   /// Returns the height by the tangent plane of a surfel. A steep surfel reaches less far to the side.
   HeightHint hint_of(const Eigen::Vector3f& query, const Neighbour& neighbour) const {
     const std::uint32_t i = neighbour.index;
-    const Eigen::Vector3d d = (query - place[i]).cast<double>(), n = normal[i].cast<double>();
+    const Eigen::Vector3d d = (query - position[i]).cast<double>(), n = normal[i].cast<double>();
     const double distance = std::sqrt(static_cast<double>(neighbour.squared_distance));
     const double off = noise.empty() ? 0 : static_cast<double>(noise[i]);
     const double size = std::min(static_cast<double>(spacing[i]), most_of_mean * mean_spacing);
     const double fall = (n.x() * d.x() + n.y() * d.y()) / std::max(n.z(), least_rise);
     const bool reaches = std::hypot(distance, fall) <= reach_spacings * size + 2 * off;
-    return {static_cast<double>(place[i].z()) - fall, distance, off, n, reaches};
+    return {static_cast<double>(position[i].z()) - fall, distance, off, n, reaches};
   }
 
-  std::optional<GroundPlace> topmost(const Eigen::Vector3f& query, double spacing_here, double reach,
+  std::optional<GroundPoint> topmost(const Eigen::Vector3f& query, double spacing_here, double reach,
                                      const std::vector<Neighbour>& found) const {
     thread_local std::vector<HeightHint> hints;
     hints.clear();
@@ -114,7 +114,7 @@ struct Ground::Sheet {
     if (hints.empty())
       for (const Neighbour& neighbour : found) {
         HeightHint hint = hint_of(query, neighbour);
-        const double z = static_cast<double>(place[neighbour.index].z());
+        const double z = static_cast<double>(position[neighbour.index].z());
         hint.height = std::clamp(hint.height, z - hint.distance, z + hint.distance);
         hints.push_back(hint);
       }
@@ -134,13 +134,13 @@ struct Ground::Sheet {
       sum += weight, height += weight * hints[h].height, mean += weight * hints[h].normal;
     }
     if (!(sum > 0)) return std::nullopt;
-    return GroundPlace{origin.z() + height / sum,
+    return GroundPoint{origin.z() + height / sum,
                        mean.norm() > 0 ? Eigen::Vector3d(mean.normalized()) : Eigen::Vector3d::UnitZ()};
   }
 
   /// Returns true if both sheets give the same ground everywhere because their surfels coincide.
   bool coincides(const Sheet& other) const {
-    return origin == other.origin && place == other.place && normal == other.normal && spacing == other.spacing &&
+    return origin == other.origin && position == other.position && normal == other.normal && spacing == other.spacing &&
            noise == other.noise;
   }
   /// Returns a hash that is equal for sheets that coincide.
@@ -149,12 +149,12 @@ struct Ground::Sheet {
       return std::hash<std::string_view>{}(
           {reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list.front())});
     };
-    return of(place) ^ (3 * of(normal));
+    return of(position) ^ (3 * of(normal));
   }
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;  // box of positions with ground
-  std::vector<Eigen::Vector3f> place, normal;
+  std::vector<Eigen::Vector3f> position, normal;
   std::vector<float> spacing, noise;
   double mean_spacing = 0, highest = -std::numeric_limits<double>::infinity();  // upper bound of all heights
   SceneIndex index{std::span<const Eigen::Vector3f>{}};

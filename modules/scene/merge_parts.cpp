@@ -43,7 +43,7 @@ void add_heights(const PlacedPart& placed, std::size_t before, SceneCloud& scene
                                    : static_cast<float>(spacing(i)));
 }
 
-/// Returns the place of a part in the list of a scene, a new one unless it is among the first `numbered`.
+/// Returns the position of a part in the list of a scene, a new one unless it is among the first `numbered`.
 std::size_t part_entry(const std::string& name, std::size_t numbered, std::vector<ScenePart>& parts) {
   const auto end = parts.begin() + static_cast<std::ptrdiff_t>(numbered);
   const auto known = std::find_if(parts.begin(), end, [&](const ScenePart& part) { return part.name == name; });

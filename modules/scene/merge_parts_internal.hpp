@@ -39,7 +39,7 @@ void reserve_surfels(std::size_t more, SceneCloud& scene);
 /// Appends a part with its surfels. It takes the entry of its name among the first `numbered` parts of the scene, else
 /// a new one. Returns the number of the part.
 std::uint16_t append_part(const PlacedPart& placed, std::size_t numbered, SceneCloud& scene, const char* who);
-/// Gives surfels of a part, from `first` on, the places of its pose.
+/// Gives surfels of a part, from `first` on, the positions of its pose.
 void place_surfels(const PlacedPart& placed, std::size_t first, SceneCloud& scene);
 
 /// Returns the cloud of a list of parts, sorted by name. The table of materials begins with `materials`, the list of

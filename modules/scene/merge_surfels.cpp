@@ -30,8 +30,8 @@ MergedPieces::Piece MergedPieces::piece(std::uint32_t index) const {
   const std::size_t surfels = scene_.size();
   if (index >= surfels) {
     const DetailNode& n = nodes_[index - surfels];
-    return {n.point,     n.normal,  n.area,    n.noise, n.extent,   n.moment,  n.thickness,
-            n.resultant, n.normals, n.nearest, n.place, n.own_area, n.material};
+    return {n.point,     n.normal,  n.area,    n.noise,    n.extent,   n.moment,  n.thickness,
+            n.resultant, n.normals, n.nearest, n.position, n.own_area, n.material};
   }
   const float area = scene_.area[index];
   return {scene_.point[index],
@@ -112,7 +112,7 @@ std::optional<DetailNode> MergedPieces::merged(const Group& group, std::span<con
     node.extent = std::max(node.extent, distance + p.extent);
     node.thickness = std::max(node.thickness, std::abs(away.dot(node.normal)) + p.thickness);
     if (distance < nearest)
-      nearest = distance, node.nearest = p.nearest, node.place = p.place, node.own_area = p.own_area;
+      nearest = distance, node.nearest = p.nearest, node.position = p.position, node.own_area = p.own_area;
   }
   node.moment = static_cast<float>(moment / group.area);
   const double fill = group.area / (of_square * node.moment);

@@ -47,7 +47,7 @@ class MergedPieces {
     float area, noise, extent, moment, thickness, resultant;
     SymmetricMatrix normals;
     std::uint32_t nearest;
-    Eigen::Vector3f place;
+    Eigen::Vector3f position;
     float own_area;
     std::uint16_t material;
   };

@@ -14,12 +14,12 @@ using Eigen::Vector3d;
 
 /// A part of the body: an ellipsoid between two ends, with half width and half thickness, all in statures. Lengths of
 /// limbs are those of Drillis and Contini (1966).
-struct BodyPart {
+struct BodySegment {
   Vector3d from, to;
   double half_width, half_thickness;
 };
 
-const BodyPart body_parts[] = {
+const BodySegment body_segments[] = {
     {{0.185, 0, 0.01}, {0.315, 0, 0.03}, 0.047, 0.058},            // head
     {{-0.13, 0, 0}, {0.205, 0, 0.005}, 0.105, 0.066},              // torso
     {{-0.25, 0, 0}, {-0.04, 0, 0}, 0.09, 0.06},                    // hips
@@ -32,12 +32,12 @@ const BodyPart body_parts[] = {
     {{-0.425, 0.078, -0.05}, {-0.68, 0.09, -0.025}, 0.03, 0.032},  // lower legs
     {{-0.425, -0.078, 0.03}, {-0.68, -0.09, 0.065}, 0.03, 0.032},  //
 };
-const BodyPart fins[] = {
+const BodySegment fins[] = {
     {{-0.64, 0.088, -0.022}, {-0.98, 0.105, -0.07}, 0.055, 0.007},
     {{-0.64, -0.088, 0.062}, {-0.98, -0.105, 0.115}, 0.055, 0.007},
 };
 
-void add_body_part(ObjectMesh& mesh, const BodyPart& part, double stature) {
+void add_body_segment(ObjectMesh& mesh, const BodySegment& part, double stature) {
   const Vector3d along = (part.to - part.from).normalized(), across = Vector3d::UnitZ().cross(along).normalized();
   Pose pose = Pose::Identity();
   pose.linear() << along, across, along.cross(across);
@@ -51,9 +51,9 @@ void add_body_part(ObjectMesh& mesh, const BodyPart& part, double stature) {
 void build_diver(const ObjectSizes& sizes, ObjectMesh& mesh) {
   const double stature = sizes("stature_m"), radius = sizes("bottle_m") / 2, length = sizes("bottle_length_m");
   mesh.set_material("wet-suit");
-  for (const BodyPart& part : body_parts) add_body_part(mesh, part, stature);
+  for (const BodySegment& part : body_segments) add_body_segment(mesh, part, stature);
   mesh.set_material("rubber");
-  for (const BodyPart& fin : fins) add_body_part(mesh, fin, stature);
+  for (const BodySegment& fin : fins) add_body_segment(mesh, fin, stature);
   sizes.require_below("bottle_m", length, "bottle_length_m");
   mesh.set_material("aluminium");
   const double dome = 0.5 * radius;

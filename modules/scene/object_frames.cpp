@@ -39,13 +39,13 @@ void add_arms(ObjectMesh& mesh, double span, double bar) {
   const double radius = span / 2 / std::sin(half_angle);
   const int chords = std::max(
       6, static_cast<int>(std::ceil(half_angle / std::acos(1 - std::min(1.0, mesh.tolerance() / 2 / radius)))));
-  std::vector<BarPlace> places;
+  std::vector<BarPoint> positions;
   for (int i = 0; i <= chords; ++i) {
     const double share = 2.0 * i / chords - 1, angle = half_angle * share;
     const double c = std::cos(angle), s = std::sin(angle);
-    places.push_back({{radius * (1 - c), 0, radius * s}, {s, 0, c}, bar * (1 - 0.6 * std::abs(share))});
+    positions.push_back({{radius * (1 - c), 0, radius * s}, {s, 0, c}, bar * (1 - 0.6 * std::abs(share))});
   }
-  mesh.add_bar(places, Vector3d::UnitY());
+  mesh.add_bar(positions, Vector3d::UnitY());
   for (const double side : {-1.0, 1.0}) {
     const double angle = 0.78 * half_angle * side, c = std::cos(angle), s = std::sin(angle);
     // The palm lies along the arm, on the side of the shank.
@@ -93,8 +93,8 @@ void build_anchor(const ObjectSizes& sizes, ObjectMesh& mesh) {
   const double length = sizes("length_m"), bar = sizes("bar_m") / 2, stock = sizes("stock_m");
   sizes.require_below("bar_m", std::min(length, sizes("arms_m")) / 5, "a fifth of length_m and of arms_m");
   mesh.set_material("steel");
-  const std::array<BarPlace, 2> shank = {BarPlace{{0, 0, 0}, Vector3d::UnitX(), 1.1 * bar},
-                                         BarPlace{{length, 0, 0}, Vector3d::UnitX(), 0.6 * bar}};
+  const std::array<BarPoint, 2> shank = {BarPoint{{0, 0, 0}, Vector3d::UnitX(), 1.1 * bar},
+                                         BarPoint{{length, 0, 0}, Vector3d::UnitX(), 0.6 * bar}};
   mesh.add_bar(shank, Vector3d::UnitY());
   add_arms(mesh, sizes("arms_m"), bar);
   const double eye = 0.97 * length, thickness = 0.55 * bar;

@@ -97,10 +97,10 @@ void ObjectMesh::revolve(const std::vector<OutlinePiece>& outline) {
       constexpr double close = 1e-9;
       const bool meets = before && &p == &piece.front() && std::abs(p.along - before->along) < close &&
                          std::abs(p.radius - before->radius) < close;
-      const OutlinePoint& place = meets ? *before : p;
+      const OutlinePoint& position = meets ? *before : p;
       for (int i = 0; i < around; ++i) {
         const Vector2d way = on_circle(i, around);
-        add_corner({place.along, place.radius * way.x(), place.radius * way.y()},
+        add_corner({position.along, position.radius * way.x(), position.radius * way.y()},
                    {p.normal_along, p.normal_radius * way.x(), p.normal_radius * way.y()});
       }
     }
@@ -118,43 +118,43 @@ void ObjectMesh::add_ellipsoid(const Vector3d& half) {
   tolerance_ = tolerance;
 }
 
-void ObjectMesh::add_bar(std::span<const BarPlace> places, const Vector3d& axis, bool closed) {
+void ObjectMesh::add_bar(std::span<const BarPoint> positions, const Vector3d& axis, bool closed) {
   double thickest = 0;
-  for (const BarPlace& place : places) thickest = std::max(thickest, place.radius);
+  for (const BarPoint& position : positions) thickest = std::max(thickest, position.radius);
   const auto [sides, corner] = section_of(thickest, tolerance_ / 2);
-  require_room((places.size() + 2) * static_cast<std::size_t>(sides));
+  require_room((positions.size() + 2) * static_cast<std::size_t>(sides));
   const auto first = static_cast<std::uint32_t>(point_.size());
   std::vector<std::vector<Vector3d>> end(2);
-  for (const BarPlace& place : places) {
-    const Vector3d along = place.along.normalized(), side = axis.normalized(), across = side.cross(along);
+  for (const BarPoint& position : positions) {
+    const Vector3d along = position.along.normalized(), side = axis.normalized(), across = side.cross(along);
     for (int i = 0; i < sides; ++i) {
       const double angle = 2 * pi * i / sides;
       const Vector3d out = std::cos(angle) * across + std::sin(angle) * side;
-      add_corner(place.at + corner * place.radius * out, out);
-      if (&place == &places.front()) end[0].insert(end[0].begin(), place.at + corner * place.radius * out);
-      if (&place == &places.back()) end[1].push_back(place.at + corner * place.radius * out);
+      add_corner(position.at + corner * position.radius * out, out);
+      if (&position == &positions.front()) end[0].insert(end[0].begin(), position.at + corner * position.radius * out);
+      if (&position == &positions.back()) end[1].push_back(position.at + corner * position.radius * out);
     }
   }
-  join_rows(first, places.size(), static_cast<std::size_t>(sides), closed);
+  join_rows(first, positions.size(), static_cast<std::size_t>(sides), closed);
   if (closed) return;
   for (const std::vector<Vector3d>& polygon : end) add_polygon(polygon);
 }
 
 void ObjectMesh::add_bar(const Vector3d& from, const Vector3d& to, double radius) {
   const Vector3d along = to - from;
-  const std::array<BarPlace, 2> places = {BarPlace{from, along, radius}, BarPlace{to, along, radius}};
-  add_bar(places, along.unitOrthogonal());
+  const std::array<BarPoint, 2> positions = {BarPoint{from, along, radius}, BarPoint{to, along, radius}};
+  add_bar(positions, along.unitOrthogonal());
 }
 
 void ObjectMesh::add_ring(const Vector3d& centre, const Vector3d& axis, double radius, double bar_radius) {
   const Vector3d x = axis.unitOrthogonal(), y = axis.normalized().cross(x);
   const int around = chords_of(radius + bar_radius, tolerance_ / 2);
-  std::vector<BarPlace> places;
+  std::vector<BarPoint> positions;
   for (int i = 0; i < around; ++i) {
     const Vector2d way = on_circle(i, around);
-    places.push_back({centre + radius * (way.x() * x + way.y() * y), way.x() * y - way.y() * x, bar_radius});
+    positions.push_back({centre + radius * (way.x() * x + way.y() * y), way.x() * y - way.y() * x, bar_radius});
   }
-  add_bar(places, axis, true);
+  add_bar(positions, axis, true);
 }
 
 void ObjectMesh::add_polygon(std::span<const Vector3d> corner) {
@@ -162,7 +162,7 @@ void ObjectMesh::add_polygon(std::span<const Vector3d> corner) {
   for (std::size_t i = 1; i + 1 < corner.size(); ++i)
     normal += (corner[i] - corner[0]).cross(corner[i + 1] - corner[0]);
   const auto first = static_cast<std::uint32_t>(point_.size());
-  for (const Vector3d& place : corner) add_corner(place, normal.normalized());
+  for (const Vector3d& position : corner) add_corner(position, normal.normalized());
   for (std::uint32_t i = 1; i + 1 < corner.size(); ++i) add_triangle(first, first + i, first + i + 1);
 }
 

@@ -54,7 +54,7 @@ OutlinePiece elliptic(const Eigen::Vector2d& centre, const Eigen::Vector2d& half
 int chords_of(double radius, double tolerance);
 
 /// A point of a bar's axis, with the direction of the axis and the radius of the bar there.
-struct BarPlace {
+struct BarPoint {
   Eigen::Vector3d at, along;
   double radius;  ///< radius of a round bar [m]
 };
@@ -74,9 +74,9 @@ class ObjectMesh {
   void revolve(const std::vector<OutlinePiece>& outline);
   /// Adds an ellipsoid around the origin with these half axes.
   void add_ellipsoid(const Eigen::Vector3d& half);
-  /// Adds a bar along `places`, whose bends all turn about `axis`. Its cross-section is a polygon with the perimeter of
+  /// Adds a bar along `positions`, whose bends all turn about `axis`. Its cross-section is a polygon with the perimeter of
   /// the true circle. If `closed`, the bar is a ring without ends.
-  void add_bar(std::span<const BarPlace> places, const Eigen::Vector3d& axis, bool closed = false);
+  void add_bar(std::span<const BarPoint> positions, const Eigen::Vector3d& axis, bool closed = false);
   /// Adds a straight bar.
   void add_bar(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius);
   /// Adds a ring of round bar around a centre; `radius` is that of the bar's axis.

@@ -173,8 +173,8 @@ class FlatPolygon {
       const Vector2d &p = corners[k], &q = corners[(k + 1) % 3];
       if (std::max(p.y(), q.y()) < low || std::min(p.y(), q.y()) > high) continue;
       for (const double y : {low, high}) {
-        const double part = p.y() == q.y() ? y == high : std::clamp((y - p.y()) / (q.y() - p.y()), 0.0, 1.0);
-        const Vector2d at = p + part * (q - p);
+        const double share = p.y() == q.y() ? y == high : std::clamp((y - p.y()) / (q.y() - p.y()), 0.0, 1.0);
+        const Vector2d at = p + share * (q - p);
         from = from.cwiseMin(at), to = to.cwiseMax(at);
       }
     }

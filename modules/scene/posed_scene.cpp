@@ -27,7 +27,7 @@ bool same_surfels(const PlacedPart& a, const PlacedPart& b) {
          a.cloud == b.cloud && a.surfels == b.surfels;
 }
 
-bool same_place(const PlacedPart& a, const PlacedPart& b) {
+bool same_position(const PlacedPart& a, const PlacedPart& b) {
   return a.world_from_part.matrix() == b.world_from_part.matrix() && a.velocity == b.velocity &&
          a.turn_rate == b.turn_rate && a.file_origin == b.file_origin && a.scale == b.scale && a.size == b.size;
 }
@@ -69,7 +69,7 @@ std::shared_ptr<const PreparedScene> PosedScene::State::body_of(const PlacedPart
 
 void PosedScene::State::cut(std::size_t kept) {
   if (kept == placed.size()) return;
-  settled = false;
+  up_to_date = false;
   const Sizes& to = kept == 0 ? resting : placed[kept].from;
   SceneCloud& s = *scene;
   cut_to(s.point, to.surfels), cut_to(s.normal, to.surfels), cut_to(s.area, to.surfels);
@@ -83,7 +83,7 @@ void PosedScene::State::cut(std::size_t kept) {
 }
 
 void PosedScene::State::append(const PlacedPart& part, const char* who) {
-  settled = false;
+  up_to_date = false;
   const Sizes from{scene->size(), prepared.blocks_.size(), scene->materials.size(), scene->parts.size()};
   const std::shared_ptr<const PreparedScene> body = part.absent ? nullptr : body_of(part);
   const std::uint16_t number = append_part(part, numbered, *scene, who);
@@ -95,7 +95,7 @@ void PosedScene::State::append(const PlacedPart& part, const char* who) {
 
 void PosedScene::State::move(std::size_t k, const PlacedPart& part) {
   Placed& there = placed[k];
-  settled = false;
+  up_to_date = false;
   there.part = part;
   scene->parts[there.number] = scene_part(part);
   if (!there.body) return;
@@ -108,7 +108,7 @@ void PosedScene::State::move(std::size_t k, const PlacedPart& part) {
 }
 
 void PosedScene::State::remove(std::size_t k, const PlacedPart& absent) {
-  settled = false;
+  up_to_date = false;
   Placed& there = placed[k];
   const std::size_t first = there.from.surfels, count = there.body->scene().size(), end = first + count;
   const std::size_t first_block = there.from.blocks, blocks = there.body->blocks().size();
@@ -149,7 +149,7 @@ void PosedScene::State::pose(const PartList& list, std::span<const Material> mor
     if (k < placed.size()) {
       const PlacedPart& there = placed[k].part;
       if (same_surfels(there, part)) {
-        if (!same_place(there, part)) move(k, part);
+        if (!same_position(there, part)) move(k, part);
         continue;
       }
       if (there.name == part.name && part.absent) {
@@ -161,10 +161,10 @@ void PosedScene::State::pose(const PartList& list, std::span<const Material> mor
     append(part, who);
   }
   cut(list.size());
-  if (!settled) settle(who);
+  if (!up_to_date) update(who);
 }
 
-void PosedScene::State::settle(const char* who) {
+void PosedScene::State::update(const char* who) {
   require_distinct(scene->parts, who);
   WholeScene all = whole;
   double fastest = whole.fastest;
@@ -181,7 +181,7 @@ void PosedScene::State::settle(const char* who) {
   std::erase_if(bodies, [&](const auto& body) {
     return std::ranges::none_of(placed, [&](const Placed& there) { return there.part.cloud == body.first; });
   });
-  settled = true;
+  up_to_date = true;
 }
 
 PosedScene::PosedScene(std::span<const PlacedPart> resting, std::span<const Material> materials, int threads) {

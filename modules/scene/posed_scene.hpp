@@ -51,7 +51,7 @@ struct SceneArrangement {
 /// its number, whatever else is edited. One thread edits; any thread may ask for the scene of an arrangement.
 class EditedScene {
  public:
-  /// Begins with these parts; their ids are their places by name, from 1. The table of materials begins with
+  /// Begins with these parts; their ids are their positions by name, from 1. The table of materials begins with
   /// `materials`. Throws as merge_parts.
   explicit EditedScene(std::vector<PlacedPart> parts, std::span<const Material> materials = {}, int threads = 0);
 

@@ -54,10 +54,10 @@ struct PosedScene::State {
   /// Has the table of materials go on with `more` behind those of the resting parts.
   void set_table(std::span<const Material> more);
   /// Sets what follows from all parts.
-  void settle(const char* who);
+  void update(const char* who);
 
-  std::size_t table = 0;  ///< materials that stay
-  bool settled = true;    ///< false: the list differs from the one by which settle() set the rest
+  std::size_t table = 0;   ///< materials that stay
+  bool up_to_date = true;  ///< false: the list differs from the one by which update() set the rest
   std::map<std::shared_ptr<const SceneCloud>, std::shared_ptr<const PreparedScene>> bodies{};
 };
 

@@ -54,7 +54,6 @@ class ReefBed {
   std::array<Wave, 15> waves_{};
 };
 
-/// Returns the bed over x from `low` to `high`.
 Patch bed_patch(const ReefBed& bed, double low, double high, ReefMaterial material) {
   return {[bed, low, high](double u, double v) {
             const double x = low + (high - low) * u, y = reef_length * (v - 0.5);

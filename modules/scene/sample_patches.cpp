@@ -75,7 +75,6 @@ struct PatchSampler {
   std::size_t part;  // index of the patch, for the random counter
   std::uint64_t seed;
 
-  // Writes the surfels of one row to the scene from index `at` on.
   void sample(SceneCloud& scene, std::size_t at, const Row& row, std::size_t index, double low, double high) const {
     for (std::size_t k = 0; k < row.count; ++k, ++at) {
       const auto jitter = random_uniform(seed, RandomStage::scene_points, {part, index, k});

@@ -70,7 +70,7 @@ double area_of(const Corners& c) {
   return twice > 1e-6 * longest2 && std::isfinite(twice) ? 0.5 * twice : 0;
 }
 
-MeshPlace place_on(const SceneMesh& mesh, std::size_t triangle, const Vector3d& weights) {
+MeshPoint point_on(const SceneMesh& mesh, std::size_t triangle, const Vector3d& weights) {
   const Corners corners = corners_of(mesh, triangle);
   Eigen::Index nearest = 0;
   weights.maxCoeff(&nearest);

@@ -38,7 +38,7 @@ Corners corners_of(const SceneMesh& mesh, std::size_t triangle);
 double area_of(const Corners& corners);
 
 /// A point on a mesh.
-struct MeshPlace {
+struct MeshPoint {
   Eigen::Vector3d position;  ///< [m], relative to the origin of the mesh
   Eigen::Vector3d normal;    ///< unit vector
   std::uint16_t material;    ///< material of the nearest corner
@@ -48,7 +48,7 @@ struct MeshPlace {
 /// Returns the point with these barycentric weights in a triangle. If the normals of all three corners are on one side
 /// of the face, they are interpolated. Otherwise the normal is that of the face, on the side of the sum of the corner
 /// normals.
-MeshPlace place_on(const SceneMesh& mesh, std::size_t triangle, const Eigen::Vector3d& weights);
+MeshPoint point_on(const SceneMesh& mesh, std::size_t triangle, const Eigen::Vector3d& weights);
 
 /// Returns barycentric weights that are uniform over the triangle if `along` and `across` are uniform in [0, 1).
 Eigen::Vector3d uniform_weights(double along, double across);

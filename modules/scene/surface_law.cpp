@@ -141,8 +141,8 @@ std::vector<SurfaceLaw> laws_alike(const SurfaceLaw& law) {
   SurfaceLaw given = law;
   const Sediment* const bed = std::visit(sediment_in, given);
   for (SurfaceLaw& other : surface_laws())
-    if (Sediment* const place = std::visit(sediment_in, other); bed && place && other.index() != law.index()) {
-      *place = *bed;
+    if (Sediment* const sediment = std::visit(sediment_in, other); bed && sediment && other.index() != law.index()) {
+      *sediment = *bed;
       alike.push_back(other);
     }
   return alike;

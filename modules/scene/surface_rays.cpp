@@ -48,13 +48,13 @@ struct Query {
   float footprint;
   const SurfaceRay& ray;
   /// The first surface that is met. Surfels met beside it are added up. nullptr: not yet found.
-  struct Place {
+  struct Position {
     Vector3f at, normal;
     float radius;
     std::uint32_t nearest;
     float squared_distance;
     int surfels;
-  }* place = nullptr;
+  }* position = nullptr;
 
   float radius(std::uint32_t j) const { return footprint * std::sqrt(scene.area[j]); }
   float noise(std::uint32_t j) const { return scene.noise.empty() ? 0 : scene.noise[j]; }
@@ -70,13 +70,15 @@ struct Query {
   /// Adds surfel j, met at `distance`, if it belongs to the surface.
   void add(std::uint32_t j, float distance) const {
     const Vector3f at = ray.from + distance * ray.direction;
-    float alike = scene.normal[j].dot(place->normal);
+    float alike = scene.normal[j].dot(position->normal);
     if (!scene.normals_oriented) alike = std::abs(alike);
-    if (alike < like_normals || std::abs((at - place->at).dot(place->normal)) > cluster_height * place->radius) return;
-    if ((at - scene.point[j]).squaredNorm() <= kernel * kernel * scene.area[j]) ++place->surfels;
-    const float squared = (scene.point[j] - place->at).squaredNorm();
-    if (squared > place->squared_distance || (squared == place->squared_distance && j > place->nearest)) return;
-    place->nearest = j, place->squared_distance = squared;
+    if (alike < like_normals || std::abs((at - position->at).dot(position->normal)) > cluster_height * position->radius)
+      return;
+    if ((at - scene.point[j]).squaredNorm() <= kernel * kernel * scene.area[j]) ++position->surfels;
+    const float squared = (scene.point[j] - position->at).squaredNorm();
+    if (squared > position->squared_distance || (squared == position->squared_distance && j > position->nearest))
+      return;
+    position->nearest = j, position->squared_distance = squared;
   }
 
   /// Accepts or rejects the disc that a ray has met, for Embree.
@@ -86,8 +88,8 @@ struct Query {
     const std::uint32_t surfel = RTCHitN_primID(met->hit, met->N, 0);
     const float distance = RTCRayN_tfar(met->ray, met->N, 0);
     const bool passes = query.passes(surfel, distance);
-    if (query.place && !passes) query.add(surfel, distance);
-    if (query.place || passes) met->valid[0] = 0;
+    if (query.position && !passes) query.add(surfel, distance);
+    if (query.position || passes) met->valid[0] = 0;
   }
 
   /// Traces a ray through the discs; the filter sees each of them.
@@ -174,18 +176,18 @@ SurfaceRayEnd SurfaceRays::first_hit(const SurfaceRay& ray) const {
   if (scene.normals_oriented && scene.normal[met].dot(ray.direction) >= 0) return {};
 
   // Add up all discs of that surface along the ray.
-  Query::Place place{ray.from + distance * ray.direction,
-                     scene.normal[met],
-                     query.radius(met),
-                     met,
-                     std::numeric_limits<float>::infinity(),
-                     0};
-  query.place = &place;
-  RTCRayHit beside =
-      ray_within(ray, std::max(0.0f, distance - cluster_radii * place.radius), distance + cluster_radii * place.radius);
+  Query::Position position{ray.from + distance * ray.direction,
+                           scene.normal[met],
+                           query.radius(met),
+                           met,
+                           std::numeric_limits<float>::infinity(),
+                           0};
+  query.position = &position;
+  RTCRayHit beside = ray_within(ray, std::max(0.0f, distance - cluster_radii * position.radius),
+                                distance + cluster_radii * position.radius);
   query.send(tree_->discs.get(), beside);
-  const float share = 1 / (static_cast<float>(pi) * kernel * kernel);           // kernel area covered by a surfel
-  return {place.nearest, distance, static_cast<float>(place.surfels) * share};  // (E159)
+  const float share = 1 / (static_cast<float>(pi) * kernel * kernel);                 // kernel area covered by a surfel
+  return {position.nearest, distance, static_cast<float>(position.surfels) * share};  // (E159)
 }
 
 }  // namespace insonify

@@ -23,7 +23,7 @@ struct SurfaceRayEnd {
   std::uint32_t surfel = none;  ///< met surfel with the nearest centre; none: the ray meets no surface
   float distance = 0;           ///< distance from the start of the ray [m]
   /// Area of surface per area: a sum of kernels of radius 0.6 sqrt(area) about the surfels, where each kernel holds the
-  /// area of its surfel. The mean over a surface is 1. The integral over all places where rays can meet a piece of
+  /// area of its surfel. The mean over a surface is 1. The integral over all positions where rays can meet a piece of
   /// surface is the area of that piece, also at free edges. Where two surfaces meet in a corner, each loses about 0.13
   /// sqrt(area) behind the other.
   float density = 0;

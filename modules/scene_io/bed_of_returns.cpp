@@ -42,8 +42,8 @@ void each_return(const RowFile& file, const Take& take) {
 
 Eigen::AlignedBox2d extent_of(const RowFile& file) {
   Eigen::AlignedBox2d box;
-  each_return(file,
-              [&](const Eigen::Vector3d& place, double, double) { box.extend(Eigen::Vector2d(place.head<2>())); });
+  each_return(
+      file, [&](const Eigen::Vector3d& position, double, double) { box.extend(Eigen::Vector2d(position.head<2>())); });
   if (box.isEmpty()) fail(ErrorKind::content, file.path, ": holds no returns of surfels");
   return box;
 }
@@ -54,7 +54,7 @@ BedSurface bed_of_returns(const std::string& path, double cell) {
   const RowFile file = returns_file(path);
   const Eigen::AlignedBox2d box = extent_of(file);
   BedPoints points(box.min(), box.max(), cell);
-  each_return(file, [&](const Eigen::Vector3d& place, double, double) { points.add(place); });
+  each_return(file, [&](const Eigen::Vector3d& position, double, double) { points.add(position); });
   return points.surface();
 }
 
@@ -64,8 +64,8 @@ ReturnsMap map_of_returns(const std::string& path, int cells) {
   ReturnsMap map{box.min().x(), box.min().y(), std::max(1e-3, box.sizes().maxCoeff() / cells), {}};
   const Eigen::Array2i size = (box.sizes() / map.cell).array().floor().cast<int>() + 1;
   map.level_db.setConstant(size.x(), size.y(), std::numeric_limits<float>::quiet_NaN());
-  each_return(file, [&](const Eigen::Vector3d& place, double level_db, double range) {
-    const Eigen::Array2i at = ((place.head<2>() - box.min()) / map.cell).array().floor().cast<int>();
+  each_return(file, [&](const Eigen::Vector3d& position, double level_db, double range) {
+    const Eigen::Array2i at = ((position.head<2>() - box.min()) / map.cell).array().floor().cast<int>();
     float& level = map.level_db(at.x(), at.y());
     level = std::fmax(level, static_cast<float>(level_db + 40 * std::log10(range)));  // takes the other number for NaN
   });

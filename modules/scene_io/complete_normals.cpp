@@ -38,7 +38,7 @@ void repair(RawCloud& raw, const std::vector<std::uint32_t>& bad, const LoadOpti
   for (std::size_t b = 0; b < bad.size(); ++b) raw.normal[bad[b]] = repaired[b];
 }
 
-/// Returns true if the place is known from which each point was seen.
+/// Returns true if the position is known from which each point was seen.
 bool seen_from_somewhere(const RawCloud& raw) { return raw.viewpoint || !raw.stations.empty(); }
 
 /// Orients all normals towards where their points were seen from.

@@ -122,7 +122,7 @@ void check_options(const LoadOptions& options, const char* who) {
   check_intervals(options, who);
 }
 
-std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> points) {
+std::vector<std::uint32_t> first_at_same_position(std::span<const Eigen::Vector3f> points) {
   constexpr std::uint32_t empty = std::numeric_limits<std::uint32_t>::max();
   const std::size_t slots = std::bit_ceil(2 * points.size() + 1);
   std::vector<std::uint32_t> table(slots, empty), first(points.size());
@@ -146,7 +146,7 @@ std::size_t drop_unusable(RawCloud& raw) {
   if (!search && raw.unused() == 0) return 0;
   std::vector<std::uint32_t> first(raw.point.size());
   std::iota(first.begin(), first.end(), 0u);
-  if (search) first = first_at_same_place(raw.point);
+  if (search) first = first_at_same_position(raw.point);
   std::size_t duplicates = 0;
   std::vector<std::uint32_t> keep;
   keep.reserve(raw.point.size());

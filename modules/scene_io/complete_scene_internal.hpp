@@ -22,7 +22,7 @@ LoadReport begin_report(const RawCloud& raw);
 
 /// Returns for each point the first index with exactly the same coordinates (its own if there is no earlier one).
 /// Points that are not finite match no other point.
-std::vector<std::uint32_t> first_at_same_place(std::span<const Eigen::Vector3f> points);
+std::vector<std::uint32_t> first_at_same_position(std::span<const Eigen::Vector3f> points);
 
 /// Returns unit normals of the points listed in `wanted`: normals of the plane fitted to the `neighbours` nearest
 /// points (PCL). The sign is arbitrary; NaN where no plane can be fitted. Does not depend on `threads`.

@@ -16,7 +16,7 @@ struct SystemRecords {
 /// End of a message about coordinates in degrees.
 inline constexpr const char* if_metres = "; if the numbers are metres all the same, give --unit m";
 
-/// Returns the EPSG code of the UTM zone of a place in degrees; "326ZZ" if the numbers are no place on the earth.
+/// Returns the EPSG code of the UTM zone of a position in degrees; "326ZZ" if the numbers are no place on the earth.
 std::string utm_code(double longitude, double latitude);
 
 /// Sets unit, unit of the heights and name of `meaning` to those of a coordinate system, an OGRSpatialReferenceH; null

@@ -88,8 +88,8 @@ void add_problems(const RawCloud& raw, bool fans_out, FileDescription& file) {
 
 }  // namespace
 
-FileDescription describe_file(const std::string& path, const AskedMeaning& asked) {
-  RawCloud raw = read_cloud(path, {.meaning = asked});
+FileDescription describe_file(const std::string& path, const MeaningOverride& requested) {
+  RawCloud raw = read_cloud(path, {.meaning = requested});
   FileDescription file;
   file.path = raw.path;
   file.format = raw.format;

@@ -33,7 +33,7 @@ struct FileDescription {
   std::vector<std::string> problems;  ///< defects and doubts, each with a remedy
 };
 
-/// Returns the description of a cloud or mesh file; `asked` replaces its own meaning. Throws as load_scene.
-FileDescription describe_file(const std::string& path, const AskedMeaning& asked = {});
+/// Returns the description of a cloud or mesh file; `requested` replaces its own meaning. Throws as load_scene.
+FileDescription describe_file(const std::string& path, const MeaningOverride& requested = {});
 
 }  // namespace insonify

@@ -64,16 +64,16 @@ FileAxes FileMeaning::axes() const {
   return axes;
 }
 
-void FileMeaning::override_by(const AskedMeaning& asked) {
-  if (asked.unit) {
-    take(unit, *asked.unit, "--unit");
+void FileMeaning::override_by(const MeaningOverride& requested) {
+  if (requested.unit) {
+    take(unit, *requested.unit, "--unit");
     unit_z = {};
   }
-  if (asked.z_down) take(z_down, *asked.z_down, "--z");
-  if (asked.y_up) take(y_up, *asked.y_up, "--up");
-  if (!asked.band.empty()) take(band, asked.band, "--band");
-  if (asked.no_data) take(no_data, *asked.no_data, "--nodata"), valid = {};
-  if (asked.classes) take(classes, *asked.classes, "--classes");
+  if (requested.z_down) take(z_down, *requested.z_down, "--z");
+  if (requested.y_up) take(y_up, *requested.y_up, "--up");
+  if (!requested.band.empty()) take(band, requested.band, "--band");
+  if (requested.no_data) take(no_data, *requested.no_data, "--nodata"), valid = {};
+  if (requested.classes) take(classes, *requested.classes, "--classes");
 }
 
 std::vector<MeaningItem> FileMeaning::items() const {
@@ -108,7 +108,7 @@ void RawExtent::add(const RawExtent& part) {
   for (std::size_t k = 0; k < marked.size(); ++k) marked[k] += part.marked[k], widen(marked_box[k], part.marked_box[k]);
 }
 
-void settle_meaning(RawCloud& raw) {
+void resolve_meaning(RawCloud& raw) {
   RawExtent& extent = raw.extent;
   FileMeaning& meaning = raw.meaning;
   const bool cloud = raw.triangle.empty() && raw.bad_triangles == 0;
@@ -139,8 +139,8 @@ void settle_meaning(RawCloud& raw) {
   if (extent.box.min.x() > extent.box.max.x()) return;
   const FileAxes axes = meaning.axes();
   raw.box = Bounds{};
-  widen(raw.box, {axes.place(extent.box.min), axes.place(extent.box.min)});
-  widen(raw.box, {axes.place(extent.box.max), axes.place(extent.box.max)});
+  widen(raw.box, {axes.position(extent.box.min), axes.position(extent.box.min)});
+  widen(raw.box, {axes.position(extent.box.max), axes.position(extent.box.max)});
 }
 
 std::vector<std::string> FileMeaning::notes() const {

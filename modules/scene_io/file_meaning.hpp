@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "scene/asked_meaning.hpp"
+#include "scene/meaning_override.hpp"
 
 namespace insonify {
 
@@ -39,8 +39,8 @@ struct FileAxes {
   bool operator==(const FileAxes& other) const { return from == other.from && factor == other.factor; }
   /// Returns true if left becomes right.
   bool mirrors() const;
-  /// Returns a place in the world [m].
-  Eigen::Vector3d place(const Eigen::Vector3d& in_file) const {
+  /// Returns a position in the world [m].
+  Eigen::Vector3d position(const Eigen::Vector3d& in_file) const {
     return {factor[0] * in_file[from[0]], factor[1] * in_file[from[1]], factor[2] * in_file[from[2]]};
   }
   /// Returns a normal of a surface in the world, as long as `in_file`.
@@ -71,7 +71,7 @@ struct FileMeaning {
     return false;
   }
   /// Replaces facts by those that the caller states.
-  void override_by(const AskedMeaning& asked);
+  void override_by(const MeaningOverride& requested);
   /// Returns all facts that differ from the convention of any format, and unit and sign of z.
   std::vector<MeaningItem> items() const;
   /// Returns the sentences of facts that the file or its numbers gave.

@@ -128,18 +128,18 @@ void read_buffers(GltfDocument& document) {
   }
 }
 
-/// Returns `rows` rows of `columns` numbers of a type in the buffer view that `place` names. `who` begins messages.
-std::vector<double> numbers_at(const GltfDocument& document, const json& place, std::uint64_t code, std::uint64_t rows,
-                               std::uint64_t columns, const std::string& who) {
+/// Returns `rows` rows of `columns` numbers of a type in the buffer view that `position` names. `who` begins messages.
+std::vector<double> numbers_at(const GltfDocument& document, const json& position, std::uint64_t code,
+                               std::uint64_t rows, std::uint64_t columns, const std::string& who) {
   static const std::map<std::uint64_t, NumberType> types = {{5120, NumberType::int8},   {5121, NumberType::uint8},
                                                             {5122, NumberType::int16},  {5123, NumberType::uint16},
                                                             {5125, NumberType::uint32}, {5126, NumberType::float32}};
   const auto type = types.find(code);
   if (type == types.end()) document.refuse(who + " has no type");
-  const std::uint64_t index = document.number(place, "bufferView");
+  const std::uint64_t index = document.number(position, "bufferView");
   const json& view = document.entry("bufferViews", index);
   const std::uint64_t buffer = document.number(view, "buffer"), begin = document.number(view, "byteOffset", 0);
-  const std::uint64_t length = document.number(view, "byteLength"), offset = document.number(place, "byteOffset", 0);
+  const std::uint64_t length = document.number(view, "byteLength"), offset = document.number(position, "byteOffset", 0);
   document.entry("buffers", buffer);
   if (begin + length > document.buffers[buffer].size())
     document.refuse("buffer view " + std::to_string(index) + " ends beyond its buffer");
@@ -193,9 +193,9 @@ std::vector<double> GltfDocument::numbers(std::uint64_t index, const std::string
   std::vector<double> values = accessor.contains("bufferView") ? numbers_at(*this, accessor, code, rows, columns, who)
                                                                : std::vector<double>(rows * columns, 0.0);
   if (accessor.contains("sparse")) {
-    const json &sparse = accessor["sparse"], &places = sparse.at("indices");
+    const json &sparse = accessor["sparse"], &positions = sparse.at("indices");
     const std::uint64_t count = number(sparse, "count");
-    const std::vector<double> to = numbers_at(*this, places, number(places, "componentType"), count, 1, who);
+    const std::vector<double> to = numbers_at(*this, positions, number(positions, "componentType"), count, 1, who);
     const std::vector<double> others = numbers_at(*this, sparse.at("values"), code, count, columns, who);
     for (std::size_t i = 0; i < count; ++i) {
       if (!(to[i] >= 0 && to[i] < static_cast<double>(rows))) refuse(who + " replaces numbers beyond its end");

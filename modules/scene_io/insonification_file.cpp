@@ -48,20 +48,19 @@ class MapRows {
   std::size_t rows() const { return bytes_.size() / stride_; }
   bool wide() const { return wide_; }
   const char* row(std::size_t i) const { return bytes_.data() + i * stride_; }
-  Eigen::Vector3d place(std::size_t i) const {
+  Eigen::Vector3d position(std::size_t i) const {
     if (wide_) return Eigen::Vector3d(read_as<std::array<double, 3>>(row(i)).data());
     return Eigen::Vector3f(read_as<std::array<float, 3>>(row(i)).data()).cast<double>();
   }
 
-  /// Returns true if `other` is of the same scene: as many surfels, at the same places.
+  /// Returns true if `other` is of the same scene: as many surfels, at the same positions.
   bool same_scene(const MapRows& other) const {
     if (bytes_.size() != other.bytes_.size() || wide_ != other.wide_) return false;
-    const std::size_t place = coordinates();
+    const std::size_t position = coordinates();
     for (std::size_t i = 0; i < rows(); ++i)
-      if (std::memcmp(row(i), other.row(i), place) != 0) return false;
+      if (std::memcmp(row(i), other.row(i), position) != 0) return false;
     return true;
   }
-  /// Adds the pings of `other`.
   void add(const MapRows& other) {
     static const std::size_t hits = offset_of("scalar_hits"), range = offset_of("scalar_range");
     static const std::size_t highest[] = {offset_of("scalar_level_db"), offset_of("scalar_scattering_db"),
@@ -90,12 +89,11 @@ class MapRows {
   std::vector<char> bytes_;
 };
 
-/// Returns the rows of a map in one of the two formats.
 PackedRows rows_of(const MapRows& map, CloudFormat format) {
   PackedRows rows = rows_of(SceneCloud{}, std::vector<CoveredSurfel>{}, format);
-  PackedRows places;
-  add_places(places, map.wide() && format == CloudFormat::ply, [&map](std::size_t i) { return map.place(i); });
-  std::move(places.columns.begin(), places.columns.end(), rows.columns.begin());
+  PackedRows positions;
+  add_positions(positions, map.wide() && format == CloudFormat::ply, [&map](std::size_t i) { return map.position(i); });
+  std::move(positions.columns.begin(), positions.columns.end(), rows.columns.begin());
   rows.rows = map.rows();
   std::size_t at = map.wide() ? 24 : 12;
   for (auto column = rows.columns.begin() + 3; column != rows.columns.end(); ++column) {

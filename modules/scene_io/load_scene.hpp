@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "returns/soundings.hpp"
-#include "scene/asked_meaning.hpp"
 #include "scene/material_field.hpp"
+#include "scene/meaning_override.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene/scene_mesh.hpp"
 #include "scene_io/file_meaning.hpp"
@@ -22,7 +22,7 @@ struct LoadOptions {
   std::optional<Eigen::Vector3d> viewpoint;  ///< position of the capture [m, world]; orients normals without sides
   int normal_neighbours = 32;                ///< points in the plane of an estimated normal
   double mesh_spacing = 0;                ///< between surfels of a mesh or height field [m]; 0: see LoadedScene::mesh
-  AskedMeaning meaning;                   ///< units, axes and holes that the file does not state, or states wrongly
+  MeaningOverride meaning;                ///< units, axes and holes that the file does not state, or states wrongly
   std::vector<Material> materials;        ///< index is the label, or the name if the file has a material of this name.
                                           ///< Empty: the materials in the file, or a default one per label
   std::optional<std::uint16_t> material;  ///< gives every surfel this index into the materials
@@ -45,7 +45,7 @@ struct LoadReport {
   std::size_t dropped_not_finite = 0;      ///< points with NaN, infinite or absurd (> 1e9 m) coordinates
   std::size_t dropped_withheld = 0;        ///< points that a LAS file marks as withheld
   std::size_t dropped_classes = 0;         ///< points of classes that are not read, in LAS also noise
-  std::size_t dropped_duplicates = 0;      ///< points at exactly the place of an earlier one
+  std::size_t dropped_duplicates = 0;      ///< points at exactly the position of an earlier one
   std::size_t dropped_degenerate = 0;      ///< triangles without area, polygons with bad indices
   std::size_t repaired_normals = 0;        ///< zero or NaN normals replaced by estimates
   std::size_t dropped_without_normal = 0;  ///< points whose normal could not be estimated

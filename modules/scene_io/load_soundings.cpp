@@ -27,7 +27,6 @@ class ReturnsTable {
   std::size_t rows() const { return table_.rows; }
   bool has(const std::string& name) const { return column_named(table_.columns, name); }
 
-  /// Appends a column.
   template <typename Value>
   void append(const std::string& name, std::vector<Value>& values) const {
     const RowTable::Column* const column = column_named(table_.columns, name);
@@ -43,11 +42,11 @@ class ReturnsTable {
 };
 
 void append_soundings(const ReturnsTable& table, Soundings& soundings) {
-  std::vector<double> places[3];
+  std::vector<double> positions[3];
   const char* axes[] = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis) table.append(axes[axis], places[axis]);
+  for (int axis = 0; axis < 3; ++axis) table.append(axes[axis], positions[axis]);
   for (std::size_t i = 0; i < table.rows(); ++i)
-    soundings.position.emplace_back(places[0][i], places[1][i], places[2][i]);
+    soundings.position.emplace_back(positions[0][i], positions[1][i], positions[2][i]);
   const auto append = [&](const SoundingColumn& column, auto& values) {
     table.append(std::string("scalar_") + column.name, values);
   };

@@ -24,8 +24,7 @@ class NetcdfHeader {
     return value;
   }
   std::uint64_t count() { return number(bytes_[3] == 5 ? 8 : 4); }
-  std::uint64_t place() { return number(bytes_[3] == 1 ? 4 : 8); }
-  /// Reads a type and returns the bytes of one of its numbers.
+  std::uint64_t offset() { return number(bytes_[3] == 1 ? 4 : 8); }
   std::uint64_t bytes_of_type() {
     constexpr std::uint64_t bytes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
     const std::uint64_t type = number();
@@ -95,7 +94,7 @@ void check_netcdf(const std::string& path) {
     header.skip_attributes();
     const std::uint64_t size = values * header.bytes_of_type();
     header.count();  // skips the padded size
-    const std::uint64_t begin = header.place();
+    const std::uint64_t begin = header.offset();
     if (of_records)
       record_bytes += (size + 3) / 4 * 4, record_end = std::max(record_end, begin + size);
     else

@@ -24,9 +24,9 @@ void add_normals(PackedRows& rows, const std::string& prefix, const std::vector<
 template <typename Scene>
 void add_points(PackedRows& rows, const Scene& scene, CloudFormat format) {
   rows.rows = scene.point.size();
-  add_places(rows, format == CloudFormat::ply && !scene.origin.isZero(0), [&scene](std::size_t i) -> Eigen::Vector3d {
-    return scene.origin + scene.point[i].template cast<double>();
-  });
+  add_positions(
+      rows, format == CloudFormat::ply && !scene.origin.isZero(0),
+      [&scene](std::size_t i) -> Eigen::Vector3d { return scene.origin + scene.point[i].template cast<double>(); });
 }
 
 /// Adds the column of the materials of a scene or mesh.
@@ -62,8 +62,8 @@ PackedRows rows_of(const Soundings& soundings, bool wide, const std::string& pre
   const std::size_t n = soundings.size();
   PackedRows rows;
   rows.rows = n;
-  add_places(rows, wide,
-             [&soundings, origin](std::size_t i) -> Eigen::Vector3d { return soundings.position[i] - origin; });
+  add_positions(rows, wide,
+                [&soundings, origin](std::size_t i) -> Eigen::Vector3d { return soundings.position[i] - origin; });
   for (const char* axis : {"x", "y", "z"}) rows.comments.push_back(std::string("unit ") + axis + " m");
   each_column(
       [&](const SoundingColumn& about, const auto& column) {

@@ -75,14 +75,14 @@ void put(char*& out, T value) {
 }
 
 /// Adds the columns x y z of place(row): double if `wide`, else float32.
-template <typename Place>
-void add_places(PackedRows& rows, bool wide, const Place& place) {
+template <typename Position>
+void add_positions(PackedRows& rows, bool wide, const Position& position) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name(1, "xyz"[axis]);
     if (wide)
-      rows.add(name, [place, axis](std::size_t i) -> double { return place(i)[axis]; });
+      rows.add(name, [position, axis](std::size_t i) -> double { return position(i)[axis]; });
     else
-      rows.add(name, [place, axis](std::size_t i) { return static_cast<float>(place(i)[axis]); });
+      rows.add(name, [position, axis](std::size_t i) { return static_cast<float>(position(i)[axis]); });
   }
 }
 

@@ -105,7 +105,8 @@ LoadedScene from_typed(const pcl::PointCloud<Point>& cloud, const LoadOptions& o
   RawCloud raw = raw_from(blob, options);
   const bool posed = !cloud.sensor_origin_.template head<3>().isZero(0) ||
                      !cloud.sensor_orientation_.coeffs().isApprox(Eigen::Quaternionf::Identity().coeffs());
-  if (posed) raw.viewpoint = raw.meaning.axes().place(cloud.sensor_origin_.template head<3>().template cast<double>());
+  if (posed)
+    raw.viewpoint = raw.meaning.axes().position(cloud.sensor_origin_.template head<3>().template cast<double>());
   return complete_scene(std::move(raw), options);
 }
 

@@ -29,10 +29,9 @@ struct Survey {
   bool labels = false;
 };
 
-/// A batch of rows.
 struct Batch {
   RawCloud raw;
-  std::vector<Vector3d> places;
+  std::vector<Vector3d> positions;
 };
 
 Batch read_batch(const Survey& survey, std::size_t first) {
@@ -44,7 +43,7 @@ Batch read_batch(const Survey& survey, std::size_t first) {
   batch.raw.tags = survey.whole.tags;
   batch.raw.points_in_file = survey.file.rows;
   fill_cloud(batch.raw, table, survey.reading);
-  batch.places = read_places(batch.raw, table, survey.reading);
+  batch.positions = read_positions(batch.raw, table, survey.reading);
   return batch;
 }
 
@@ -85,12 +84,11 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     }
     report_progress(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
   }
-  settle_meaning(whole);
+  resolve_meaning(whole);
   require_usable_points(whole, survey.file.rows);
   if (survey.largest_area > largest_area(whole)) ++survey.bad_areas;
 }
 
-/// Sets the materials and returns the material index of each label.
 std::vector<std::uint16_t> plan_materials(const Survey& survey, const LoadOptions& options, LoadedScene& result) {
   // Complete the materials with one surfel per label that occurs.
   std::vector<std::uint16_t> labels;
@@ -112,22 +110,22 @@ std::vector<std::uint16_t> plan_materials(const Survey& survey, const LoadOption
 
 /// Returns the usable surfels of a batch, and counts the dropped ones.
 SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, const std::vector<std::uint16_t>& material,
-                      std::vector<Vector3d>& places, LoadedScene& result) {
+                      std::vector<Vector3d>& positions, LoadedScene& result) {
   RawCloud& raw = batch.raw;
   renormalise(raw.normal, survey.whole.tags.prepared);
   const bool turn = !survey.whole.tags.oriented && survey.whole.viewpoint;
   const Vector3d viewpoint = survey.whole.viewpoint.value_or(Vector3d::Zero()) - *survey.reading.origin;
   SceneCloud scene;
   scene.materials = result.scene.materials;
-  places.clear();
+  positions.clear();
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
     if (!raw.point[i].allFinite()) continue;
     if (!usable_normal(raw.normal[i])) {
       ++result.report.dropped_without_normal;
       continue;
     }
-    const bool away = turn && raw.normal[i].cast<double>().dot(viewpoint - batch.places[i]) < 0;
-    places.push_back(batch.places[i]);
+    const bool away = turn && raw.normal[i].cast<double>().dot(viewpoint - batch.positions[i]) < 0;
+    positions.push_back(batch.positions[i]);
     scene.point.push_back(raw.point[i]);
     scene.normal.push_back(away ? Vector3f(-raw.normal[i]) : raw.normal[i]);
     scene.area.push_back(result.report.areas_estimated ? 0 : raw.area[i]);
@@ -151,7 +149,7 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
          ") are prepared in batches, which cannot estimate them: compute normals first, or run "
          "`insonify prepare` with a .ply output, not .tiles, if memory holds the cloud");
   survey.reading.origin = whole.origin = origin_of(whole);
-  if (whole.viewpoint) whole.viewpoint = whole.meaning.axes().place(*whole.viewpoint);
+  if (whole.viewpoint) whole.viewpoint = whole.meaning.axes().position(*whole.viewpoint);
   if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
 
   LoadedScene result;
@@ -176,11 +174,11 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   writing.threads = options.load.threads;
   writing.progress = [&](double part) { report_progress(options, both_passes + (1 - both_passes) * part); };
   TileWriter writer(output, writing);
-  std::vector<Vector3d> places;
+  std::vector<Vector3d> positions;
   for (std::size_t first = 0; first < survey.file.rows; first += batch_rows) {
     Batch batch = read_batch(survey, first);
-    const SceneCloud scene = surfels_of(batch, first, survey, material, places, result);
-    writer.add(scene, places);
+    const SceneCloud scene = surfels_of(batch, first, survey, material, positions, result);
+    writer.add(scene, positions);
     report_progress(options, first_pass + (both_passes - first_pass) * static_cast<double>(first) /
                                               static_cast<double>(survey.file.rows));
   }

@@ -24,8 +24,8 @@ ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
 }
 int ProjectedSystem::epsg() const { return 0; }
 double ProjectedSystem::unit() const { return 1; }
-Eigen::Vector2d ProjectedSystem::place_of(const GeoPlace&) const { return {0, 0}; }
-GeoPlace ProjectedSystem::geo_place_of(const Eigen::Vector3d&) const { return {}; }
+Eigen::Vector2d ProjectedSystem::position_of(const GeoPosition&) const { return {0, 0}; }
+GeoPosition ProjectedSystem::geo_position_of(const Eigen::Vector3d&) const { return {}; }
 
 #else
 
@@ -119,8 +119,8 @@ ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
 int ProjectedSystem::epsg() const { return parts_->epsg; }
 double ProjectedSystem::unit() const { return parts_->unit; }
 
-Eigen::Vector2d ProjectedSystem::place_of(const GeoPlace& place) const {
-  double x = degrees(place.longitude), y = degrees(place.latitude);
+Eigen::Vector2d ProjectedSystem::position_of(const GeoPosition& position) const {
+  double x = degrees(position.longitude), y = degrees(position.latitude);
   if (!parts_->holds(x, y))
     fail(ErrorKind::argument, parts_->named, " (", parts_->area, ") does not reach to latitude ", y, ", longitude ", x,
          "; give the system of that place, or none for UTM");
@@ -132,16 +132,16 @@ Eigen::Vector2d ProjectedSystem::place_of(const GeoPlace& place) const {
   return Eigen::Vector2d(x, y) * parts_->unit;
 }
 
-GeoPlace ProjectedSystem::geo_place_of(const Eigen::Vector3d& place) const {
+GeoPosition ProjectedSystem::geo_position_of(const Eigen::Vector3d& position) const {
   const QuietGdalErrors quiet;
-  double x = place.x() / parts_->unit, y = place.y() / parts_->unit;
+  double x = position.x() / parts_->unit, y = position.y() / parts_->unit;
   if (!OCTTransform(parts_->back.get(), 1, &x, &y, nullptr) || !std::isfinite(x) || !std::isfinite(y))
-    fail(ErrorKind::content, parts_->named, " (", parts_->area, "): PROJ has no place for (", place.x(), ", ",
-         place.y(), ") m", QuietGdalErrors::reason(), "; is the world in another system?");
+    fail(ErrorKind::content, parts_->named, " (", parts_->area, "): PROJ has no place for (", position.x(), ", ",
+         position.y(), ") m", QuietGdalErrors::reason(), "; is the world in another system?");
   if (!parts_->holds(x, y))
     fail(ErrorKind::argument, parts_->named, " (", parts_->area, ") does not reach to latitude ", y, ", longitude ", x,
-         ", where it has (", place.x(), ", ", place.y(), ") m; is the world in another system?");
-  return {radians(y), radians(x), place.z()};
+         ", where it has (", position.x(), ", ", position.y(), ") m; is the world in another system?");
+  return {radians(y), radians(x), position.z()};
 }
 
 #endif
@@ -161,7 +161,7 @@ Georeference georeference_in(int epsg, const char* option) {
   reference.zone = utm_zone_with(epsg);
   if (!reference.zone)
     reference.system = {epsg, [system = ProjectedSystem(epsg, option)](const Eigen::Vector3d& world) {
-                          return system.geo_place_of(world);
+                          return system.geo_position_of(world);
                         }};
   return reference;
 }

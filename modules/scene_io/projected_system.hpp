@@ -21,13 +21,13 @@ class ProjectedSystem {
   int epsg() const;
   /// Returns the length of the system's unit [m]: 1, or that of a foot.
   double unit() const;
-  /// Returns easting and northing of a place on WGS 84, in metres for any unit of the system. The transformation is the
+  /// Returns easting and northing of a position on WGS 84, in metres for any unit of the system. The transformation is the
   /// most accurate for which this machine has the data. Throws Error(argument) more than half a degree outside the
   /// system's area of use, and Error(content) where PROJ finds no transformation.
-  Eigen::Vector2d place_of(const GeoPlace& place) const;
-  /// Returns the place on WGS 84 of easting and northing in metres, at height z: the inverse of place_of. Throws as
-  /// place_of.
-  GeoPlace geo_place_of(const Eigen::Vector3d& place) const;
+  Eigen::Vector2d position_of(const GeoPosition& position) const;
+  /// Returns the position on WGS 84 of easting and northing in metres, at height z: the inverse of position_of. Throws as
+  /// position_of.
+  GeoPosition geo_position_of(const Eigen::Vector3d& position) const;
 
  private:
   struct Parts;

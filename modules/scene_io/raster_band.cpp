@@ -69,7 +69,7 @@ int rank_as_heights(const std::string& name) {
 
 /// Returns the index of the band with the requested number or name, else of the first that fits best. Names it in
 /// `raw`, and the others in its notes.
-std::size_t choose(RawCloud& raw, const AskedMeaning& asked, const std::vector<std::string>& names) {
+std::size_t choose(RawCloud& raw, const MeaningOverride& requested, const std::vector<std::string>& names) {
   std::size_t chosen = 0;
   for (std::size_t i = 1; i < names.size(); ++i)
     if (rank_as_heights(names[i]) > rank_as_heights(names[chosen])) chosen = i;
@@ -78,13 +78,13 @@ std::size_t choose(RawCloud& raw, const AskedMeaning& asked, const std::vector<s
   };
   std::vector<std::string> all;
   for (std::size_t i = 0; i < names.size(); ++i) all.push_back(text(i));
-  if (!asked.band.empty()) {
+  if (!requested.band.empty()) {
     std::size_t number = 0;
     const auto named = std::find_if(names.begin(), names.end(),
-                                    [&](const std::string& n) { return lower_case(n) == lower_case(asked.band); });
-    const bool counted = to_number(asked.band, number) && number >= 1 && number <= names.size();
+                                    [&](const std::string& n) { return lower_case(n) == lower_case(requested.band); });
+    const bool counted = to_number(requested.band, number) && number >= 1 && number <= names.size();
     if (named == names.end() && !counted)
-      fail(ErrorKind::content, raw.path, ": has no band '", asked.band, "'; it has ", joined(all));
+      fail(ErrorKind::content, raw.path, ": has no band '", requested.band, "'; it has ", joined(all));
     chosen = named != names.end() ? static_cast<std::size_t>(named - names.begin()) : number - 1;
   } else if (names.size() > 1) {
     raw.meaning.band = {text(chosen), MeaningOrigin::guessed,
@@ -115,7 +115,7 @@ void take_attributes(RawCloud& raw, const Variable& variable, const Variable (&a
 
 /// Opens the plane of a netCDF file's variable of heights. Returns nothing for other files, and for those in which GDAL
 /// finds none with two axes.
-GdalFile open_netcdf(RawCloud& raw, const AskedMeaning& asked) {
+GdalFile open_netcdf(RawCloud& raw, const MeaningOverride& requested) {
   const GdalFile file(
       GDALOpenEx(raw.path.c_str(), GDAL_OF_MULTIDIM_RASTER | GDAL_OF_READONLY, netcdf_drivers, nullptr, nullptr));
   const Group group(file ? GDALDatasetGetRootGroup(file.get()) : nullptr);
@@ -139,7 +139,7 @@ GdalFile open_netcdf(RawCloud& raw, const AskedMeaning& asked) {
   CSLDestroy(all);
   if (names.empty()) return nullptr;
 
-  const std::string& name = names[choose(raw, asked, names)];
+  const std::string& name = names[choose(raw, requested, names)];
   const Variable variable(GDALGroupOpenMDArray(group.get(), name.c_str(), nullptr));
   std::size_t count = 0;
   GDALDimensionH* const dimensions = GDALMDArrayGetDimensions(variable.get(), &count);
@@ -186,8 +186,8 @@ void check_raster(const std::string& path, GDALDatasetH file) {
 
 }  // namespace
 
-HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
-  HeightBand heights{open_netcdf(raw, asked), nullptr, {0, 1, 0, 0, 0, 1}};
+HeightBand open_heights(RawCloud& raw, const MeaningOverride& requested) {
+  HeightBand heights{open_netcdf(raw, requested), nullptr, {0, 1, 0, 0, 0, 1}};
   const bool netcdf = heights.file != nullptr;
   if (!netcdf) heights.file = open_bands(raw);
   const GDALDatasetH file = heights.file.get();
@@ -197,7 +197,7 @@ HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked) {
   if (!netcdf) {
     std::vector<std::string> names;
     for (int b = 1; b <= GDALGetRasterCount(file); ++b) names.push_back(GDALGetDescription(GDALGetRasterBand(file, b)));
-    number = static_cast<int>(choose(raw, asked, names)) + 1;
+    number = static_cast<int>(choose(raw, requested, names)) + 1;
   }
   heights.band = GDALGetRasterBand(file, number);
   raw.format = "raster of heights, " + driver;

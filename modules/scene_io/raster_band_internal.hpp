@@ -24,8 +24,8 @@ struct HeightBand {
 };
 
 /// Opens a raster, while GDAL is kept from printing, and chooses the band or netCDF variable of its heights: the one
-/// that `asked` names, else one whose name means heights, else the first. Sets the format, field, meaning and notes of
+/// that `requested` names, else one whose name means heights, else the first. Sets the format, field, meaning and notes of
 /// `raw`. Throws Error(content) for files that GDAL does not read, cells of unknown size, and bands that do not exist.
-HeightBand open_heights(RawCloud& raw, const AskedMeaning& asked);
+HeightBand open_heights(RawCloud& raw, const MeaningOverride& requested);
 
 }  // namespace insonify

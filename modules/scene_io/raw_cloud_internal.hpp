@@ -88,7 +88,7 @@ struct RawCloud {
   std::vector<std::string> material_names;  ///< names of the materials of a mesh, by label
   std::vector<std::string> notes;
 
-  /// Returns the place from which point i was seen [m], if it is known.
+  /// Returns the position from which point i was seen [m], if it is known.
   std::optional<Eigen::Vector3d> seen_from(std::size_t i) const {
     return stations.empty() ? viewpoint : std::optional(stations[station[i]]);
   }
@@ -137,7 +137,7 @@ const RowTable::Column* column_named(const std::vector<RowTable::Column>& column
 RowTable table_of_doubles(const std::vector<std::string>& names, std::vector<double> numbers);
 
 struct ReadOptions {
-  AskedMeaning meaning{};
+  MeaningOverride meaning{};
   int threads = 0;
   MaterialField material_field{};  ///< source of the labels
   std::string extra_field{};       ///< a column that is read unchanged; empty: none
@@ -152,7 +152,7 @@ ReadOptions read_options(const LoadOptions& options);
 
 /// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, and
 /// moves its viewpoint from the axes of the file to the world. The meaning of the numbers is raw.meaning, completed by
-/// the options and settle_meaning. Throws Error(content) if x, y, z or the requested material field is missing, or no
+/// the options and resolve_meaning. Throws Error(content) if x, y, z or the requested material field is missing, or no
 /// point is finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
@@ -161,7 +161,7 @@ void add_counts(RawCloud& whole, const RawCloud& part);
 
 /// Decides from the extent which of usual_marks are holes, and whether heights called depths count downwards; sets the
 /// box. Triangles have no holes.
-void settle_meaning(RawCloud& raw);
+void resolve_meaning(RawCloud& raw);
 
 /// Throws Error(content) with the reason if none of the file's points is usable.
 void require_usable_points(const RawCloud& raw, std::size_t points);
@@ -170,7 +170,7 @@ void require_usable_points(const RawCloud& raw, std::size_t points);
 Eigen::Vector3d origin_of(const RawCloud& raw);
 
 /// Returns the coordinates of the rows in double [m], relative to raw.origin; NaN where unusable.
-std::vector<Eigen::Vector3d> read_places(const RawCloud& raw, const RowTable& table, const ReadOptions& options);
+std::vector<Eigen::Vector3d> read_positions(const RawCloud& raw, const RowTable& table, const ReadOptions& options);
 
 /// Appends a polygon as a fan of triangles; counts it as bad if a corner is not in [0, vertices).
 void add_polygon(RawCloud& raw, const std::vector<std::int64_t>& corners, std::size_t vertices);

@@ -10,7 +10,7 @@
 #include "scene_io/gltf_document_internal.hpp"
 #include "scene_io/read_apart_internal.hpp"
 
-// Meshes of glTF in the places of their nodes. The y axis points up, as the meaning says.
+// Meshes of glTF in the positions of their nodes. The y axis points up, as the meaning says.
 namespace insonify {
 namespace {
 
@@ -123,7 +123,6 @@ json roots_of(const GltfDocument& document) {
   return roots;
 }
 
-/// A mesh, and its place in the world.
 struct Placement {
   std::uint64_t mesh;
   Affine3d world;
@@ -165,14 +164,14 @@ SentRows send_meshes(const GltfDocument& document, ArraySender& to, RawCloud& ra
   expect_from_file(raw.path, document.bytes, {points + triangles, "points and triangles", 24});
   if (points == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the glTF again");
   const SentRows rows = rows_of_doubles({"x", "y", "z"}, static_cast<std::size_t>(points));
-  auto* place = reinterpret_cast<double*>(to.take_array<char>(rows.rows * rows.stride));
+  auto* position = reinterpret_cast<double*>(to.take_array<char>(rows.rows * rows.stride));
   for (const auto& [index, world] : placements) {
     const GltfMesh& mesh = meshes[index];
     const auto first = static_cast<std::uint32_t>(raw.width);
     for (std::size_t i = 0; i < mesh.points.size(); i += 3) {
       const Eigen::Vector3d local(mesh.points[i], mesh.points[i + 1], mesh.points[i + 2]), p = world * local;
       raw.float_coordinates = raw.float_coordinates || local.cwiseAbs().maxCoeff() > 1000;
-      *place++ = p.x(), *place++ = p.y(), *place++ = p.z();
+      *position++ = p.x(), *position++ = p.y(), *position++ = p.z();
     }
     // A mirror turns triangles over; exchange corners so that their outside stays outside.
     const bool mirrored = world.linear().determinant() < 0;

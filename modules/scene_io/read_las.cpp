@@ -89,7 +89,6 @@ void add_extra_columns(const Bytes& header, std::size_t begin, std::size_t lengt
   }
 }
 
-/// Adds the columns of the point format.
 void add_columns(const Bytes& header, const PointFormat& format, bool low_bits, RowFile& file) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     file.columns.push_back({std::string(1, static_cast<char>('x' + axis)), NumberType::int32, 4 * axis,

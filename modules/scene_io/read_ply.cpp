@@ -72,7 +72,6 @@ class PlyWalk {
     return number >= 0 && number < static_cast<double>(header_.vertex().count) ? static_cast<std::int64_t>(number) : -2;
   }
 
-  /// Returns the next number of this row.
   double next(NumberType type) {
     if (ascii_) {
       double number = 0;

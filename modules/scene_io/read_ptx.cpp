@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PTX: scans of laser scanners as text. Each scan begins with the numbers of its columns and rows, the place and axes of
+// PTX: scans of laser scanners as text. Each scan begins with the numbers of its columns and rows, the position and axes of
 // the scanner, and the matrix that takes its points to the world; a line for each direction follows, column by column,
 // "0 0 0 ..." where nothing came back.
 #include <cmath>
@@ -22,10 +22,10 @@ struct PtxScan {
   std::size_t columns = 0, rows = 0;
   Eigen::Isometry3d scanner = Eigen::Isometry3d::Identity();  ///< place and axes of the scanner
   Eigen::Isometry3d to_world = Eigen::Isometry3d::Identity();
-  bool posed = false;  ///< the scanner has a place or axes
+  bool posed = false;  ///< the scanner has a position or axes
 
-  /// Returns the place of the scanner in the world. Programs that write points of the world give no matrix, and others
-  /// give the place in the matrix alone.
+  /// Returns the position of the scanner in the world. Programs that write points of the world give no matrix, and others
+  /// give the position in the matrix alone.
   Eigen::Vector3d viewpoint() const { return posed ? scanner.translation() : to_world.translation(); }
 };
 
@@ -43,12 +43,12 @@ class PtxReader {
     if (scan.columns > most_points / scan.rows)
       fail(ErrorKind::content, where(), ": announces ", scan.columns, " x ", scan.rows, " directions, must be at most ",
            most_points, "; export the scan in pieces");
-    const Eigen::Vector3d place = numbers<3>("the place of the scanner");
+    const Eigen::Vector3d position = numbers<3>("the place of the scanner");
     Eigen::Matrix3d axes;
     for (int k = 0; k < 3; ++k) axes.col(k) = numbers<3>("an axis of the scanner");
     Eigen::Matrix4d matrix;
     for (int k = 0; k < 4; ++k) matrix.col(k) = numbers<4>("a row of the matrix");
-    scan.scanner = pose(axes, place, "axes of the scanner");
+    scan.scanner = pose(axes, position, "axes of the scanner");
     scan.to_world = pose(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>(), "matrix");
     scan.posed = !scan.scanner.isApprox(Eigen::Isometry3d::Identity());
     return true;
@@ -103,12 +103,12 @@ class PtxReader {
     return values;
   }
 
-  Eigen::Isometry3d pose(const Eigen::Matrix3d& axes, const Eigen::Vector3d& place, const char* what) const {
+  Eigen::Isometry3d pose(const Eigen::Matrix3d& axes, const Eigen::Vector3d& position, const char* what) const {
     if (!(axes.transpose() * axes).isIdentity(largest_shear) || axes.determinant() < 0)
       fail(ErrorKind::content, where(), ": the ", what,
            " above are no rotation; export the scan without scale and mirror");
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = axes, pose.translation() = place;
+    pose.linear() = axes, pose.translation() = position;
     return pose;
   }
 

@@ -70,14 +70,14 @@ std::size_t for_each_height(const RawCloud& raw, const HeightBand& heights, Use&
   return outside;
 }
 
-SentRows read_heights(ArraySender& to, RawCloud& raw, const AskedMeaning& asked) {
+SentRows read_heights(ArraySender& to, RawCloud& raw, const MeaningOverride& requested) {
   const GdalReading reading;
-  const HeightBand heights = open_heights(raw, asked);
+  const HeightBand heights = open_heights(raw, requested);
   const std::size_t cells = static_cast<std::size_t>(GDALGetRasterXSize(heights.file.get())) *
                             static_cast<std::size_t>(GDALGetRasterYSize(heights.file.get()));
   auto* const numbers = reinterpret_cast<double*>(to.take_array<char>(3 * sizeof(double) * cells));
   double* next = numbers;
-  if (asked.no_data) raw.meaning.valid = {};
+  if (requested.no_data) raw.meaning.valid = {};
   const std::size_t outside =
       for_each_height(raw, heights, [&](double x, double y, double z) { *next++ = x, *next++ = y, *next++ = z; });
   if (outside > 0)
@@ -99,10 +99,10 @@ RawCloud read_raster(const std::string& path, const ReadOptions& options) {
   RawCloud raw;
   raw.path = path;
   const auto read = [](ArraySender& to, RawCloud& there, const std::string& band, bool says_no_data) {
-    AskedMeaning asked;
-    asked.band = band;
-    if (says_no_data) asked.no_data.emplace();
-    return read_heights(to, there, asked);
+    MeaningOverride requested;
+    requested.band = band;
+    if (says_no_data) requested.no_data.emplace();
+    return read_heights(to, there, requested);
   };
   read_rows_apart(raw, file_size_of(path), options, read, options.meaning.band, options.meaning.no_data.has_value());
   raw.heights = true;

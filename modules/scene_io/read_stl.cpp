@@ -19,15 +19,15 @@ namespace {
 constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
 constexpr std::size_t any_vertex = std::numeric_limits<std::uint32_t>::max();
 
-/// The vertices of a file: corners at the same place are one vertex.
+/// The vertices of a file: corners at the same position are one vertex.
 struct StlVertices {
   std::vector<double> rows;  ///< x y z
   std::unordered_map<std::array<double, 3>, std::int64_t, boost::hash<std::array<double, 3>>> known;
 
-  std::int64_t vertex_at(std::array<double, 3> place) {
-    for (double& coordinate : place) coordinate += 0.0;  // -0 becomes 0
-    const auto [entry, is_new] = known.try_emplace(place, static_cast<std::int64_t>(known.size()));
-    if (is_new) rows.insert(rows.end(), place.begin(), place.end());
+  std::int64_t vertex_at(std::array<double, 3> position) {
+    for (double& coordinate : position) coordinate += 0.0;  // -0 becomes 0
+    const auto [entry, is_new] = known.try_emplace(position, static_cast<std::int64_t>(known.size()));
+    if (is_new) rows.insert(rows.end(), position.begin(), position.end());
     return entry->second;
   }
 };
@@ -53,11 +53,11 @@ void read_text_facets(const std::string& text, RawCloud& raw, StlVertices& verti
       } else if (last == "normal") {
         for (int axis = 0; axis < 3; ++axis) take_word(rest);
       } else if (last == "vertex") {
-        std::array<double, 3> place{};
-        for (double& coordinate : place)
+        std::array<double, 3> position{};
+        for (double& coordinate : position)
           if (const std::string_view number = take_word(rest); !to_number(number, coordinate))
             refuse("three numbers", number);
-        corners.push_back(vertices.vertex_at(place));
+        corners.push_back(vertices.vertex_at(position));
       } else if (last == "endfacet") {
         add_polygon(raw, corners, any_vertex);
         corners.clear();

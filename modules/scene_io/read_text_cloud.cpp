@@ -116,7 +116,7 @@ bool take_names(std::string_view line, const std::string& where, TextRows& rows)
 }
 
 /// Chooses the names of the columns by the first row, which has `cells` numbers.
-void settle_columns(TextRows& rows, std::size_t cells) {
+void choose_columns(TextRows& rows, std::size_t cells) {
   rows.columns = cells;
   if (rows.headings.empty()) return;
   for (std::vector<std::string>& names : rows.headings)
@@ -167,7 +167,7 @@ TextRows read_rows(const std::string& path, const std::string& text) {
       rows.announced += announced;
       continue;
     }
-    if (rows.columns == 0) settle_columns(rows, cells.size());
+    if (rows.columns == 0) choose_columns(rows, cells.size());
     if (cells.size() < rows.columns || (cells.size() > rows.columns && !rows.list) || cells.size() < 3)
       fail(ErrorKind::content, where(), ": expected ", std::max<std::size_t>(rows.columns, 3),
            " columns (x y z ...), found ", cells.size(), " in '", shown(line),

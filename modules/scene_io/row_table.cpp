@@ -37,17 +37,16 @@ bool too_far(const Eigen::Vector3d& position) {
 
 bool usable(const Eigen::Vector3d& position) { return position.allFinite() && !too_far(position); }
 
-/// The places of the rows of a table.
-struct Places {
+struct Positions {
   const RowTable& table;
   const Columns& found;
   const FileMeaning& meaning;
   FileAxes axes = meaning.axes();
 
-  /// Returns the place of a row [m]; NaN if it is withheld, a hole or otherwise unusable.
+  /// Returns the position of a row [m]; NaN if it is withheld, a hole or otherwise unusable.
   Eigen::Vector3d of(const char* row) const {
     if (table.marks.withheld(row) || table.marks.left_out(row, meaning.classes.value)) return nowhere;
-    const Eigen::Vector3d in_file = read_triple(found.position, row), p = axes.place(in_file);
+    const Eigen::Vector3d in_file = read_triple(found.position, row), p = axes.position(in_file);
     return usable(p) && !meaning.is_hole(in_file[axes.from[2]]) ? p : nowhere;
   }
 };
@@ -72,8 +71,8 @@ void find_extent(RawCloud& raw, const RowTable& table, const Columns& found, con
         ++block.other_classes;
       else if (raw.meaning.is_hole(height))
         ++block.holes;
-      else if (!usable(axes.place(p)))
-        ++block.not_finite, block.too_far += too_far(axes.place(p));
+      else if (!usable(axes.position(p)))
+        ++block.not_finite, block.too_far += too_far(axes.position(p));
       else if (mark < std::ssize(usual_marks))
         ++block.extent.marked[mark], add_to(block.extent.marked_box[mark], p);
       else {
@@ -92,7 +91,7 @@ void decide_meaning(RawCloud& raw, const RowTable& table, const Columns& found, 
   if (!raw.meaning.no_lengths.empty() && raw.meaning.unit.origin != MeaningOrigin::option)
     fail(ErrorKind::content, raw.path, ": ", raw.meaning.no_lengths);
   find_extent(raw, table, found, options);
-  if (!options.origin) settle_meaning(raw), require_usable_points(raw, table.rows);
+  if (!options.origin) resolve_meaning(raw), require_usable_points(raw, table.rows);
   raw.origin = options.origin ? *options.origin : origin_of(raw);
 }
 
@@ -164,12 +163,12 @@ Eigen::Vector3d origin_of(const RawCloud& raw) {
   return (0.5 * (raw.box.min + raw.box.max) + Eigen::Vector3d::Constant(0.5)).array().floor();
 }
 
-std::vector<Eigen::Vector3d> read_places(const RawCloud& raw, const RowTable& table, const ReadOptions& options) {
+std::vector<Eigen::Vector3d> read_positions(const RawCloud& raw, const RowTable& table, const ReadOptions& options) {
   const Columns found = find_columns(table, raw.path, raw.tags.name_in_file(options.material_field.name));
-  const Places places{table, found, raw.meaning};
+  const Positions positions{table, found, raw.meaning};
   std::vector<Eigen::Vector3d> all(table.rows);
   for_each_block(table, options.threads, [&](std::size_t first, std::size_t rows, const char* bytes) {
-    for (std::size_t i = 0; i < rows; ++i) all[first + i] = places.of(bytes + i * table.stride) - raw.origin;
+    for (std::size_t i = 0; i < rows; ++i) all[first + i] = positions.of(bytes + i * table.stride) - raw.origin;
   });
   return all;
 }
@@ -197,15 +196,15 @@ void fill_cloud(RawCloud& raw, const RowTable& in_file, const ReadOptions& optio
   if (table.rows == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the cloud again");
   if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1)
     fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, must be at most 4294967294; split it");
-  const std::string& asked = options.material_field.name;
+  const std::string& requested = options.material_field.name;
   const Columns found =
-      find_columns(table, raw.path, asked.empty() ? raw.tags.material_field : raw.tags.name_in_file(asked));
+      find_columns(table, raw.path, requested.empty() ? raw.tags.material_field : raw.tags.name_in_file(requested));
   raw.float_coordinates = raw.float_coordinates || found.position[0]->type == NumberType::float32;
   if (raw.points_in_file == 0) raw.points_in_file = table.rows;
   decide_meaning(raw, table, found, options);
-  const Places places{table, found, raw.meaning};
-  if (raw.viewpoint) raw.viewpoint = places.axes.place(*raw.viewpoint);
-  for (Eigen::Vector3d& place : raw.stations) place = places.axes.place(place);
+  const Positions positions{table, found, raw.meaning};
+  if (raw.viewpoint) raw.viewpoint = positions.axes.position(*raw.viewpoint);
+  for (Eigen::Vector3d& position : raw.stations) position = positions.axes.position(position);
 
   // Subtract the origin in double, then round to float.
   raw.point.resize(table.rows);
@@ -232,10 +231,11 @@ void fill_cloud(RawCloud& raw, const RowTable& in_file, const ReadOptions& optio
     for (std::size_t i = 0; i < rows; ++i) {
       const char* row = bytes + i * table.stride;
       const auto number = [&](const RowTable::Column& c) { return c.value(row); };
-      raw.point[first + i] = (places.of(row) - raw.origin).cast<float>();
+      raw.point[first + i] = (positions.of(row) - raw.origin).cast<float>();
       const Eigen::Vector3d normal = normals ? read_triple(found.normal, row) : Eigen::Vector3d::Zero();
-      if (normals) raw.normal[first + i] = places.axes.normal(normal).cast<float>();
-      if (found.area) raw.area[first + i] = static_cast<float>(number(*found.area) * places.axes.area_factor(normal));
+      if (normals) raw.normal[first + i] = positions.axes.normal(normal).cast<float>();
+      if (found.area)
+        raw.area[first + i] = static_cast<float>(number(*found.area) * positions.axes.area_factor(normal));
       if (found.noise) raw.noise[first + i] = static_cast<float>(number(*found.noise) * raw.meaning.unit.value);
       if (found.label) raw.label[first + i] = label_from(number(*found.label), options.material_field.intervals);
       if (extra) raw.extra[first + i] = number(*extra);

@@ -29,7 +29,7 @@ struct Winding {
 };
 
 Winding examine_winding(const SceneMesh& mesh) {
-  const std::vector<std::uint32_t> same = first_at_same_place(mesh.point);
+  const std::vector<std::uint32_t> same = first_at_same_position(mesh.point);
   struct Edge {
     std::uint64_t ends;
     bool forward;
@@ -112,11 +112,11 @@ std::uint32_t place_surfel(const SceneMesh& mesh, const Surface& surface, std::u
   const auto found = std::upper_bound(surface.end.begin(), surface.end.end(), at);
   const std::size_t t = static_cast<std::size_t>(found - surface.end.begin());
   const double along = std::clamp((at - (surface.end[t] - surface.area[t])) / surface.area[t], 0.0, 1.0);
-  const MeshPlace place = place_on(mesh, t, weights_at(along, i, random[1], surface.area[t] / part));
-  scene.point[i] = place.position.cast<float>();
-  scene.normal[i] = place.normal.cast<float>();
-  scene.material[i] = place.material;
-  return place.corner;
+  const MeshPoint position = point_on(mesh, t, weights_at(along, i, random[1], surface.area[t] / part));
+  scene.point[i] = position.position.cast<float>();
+  scene.normal[i] = position.normal.cast<float>();
+  scene.material[i] = position.material;
+  return position.corner;
 }
 
 /// Turns every triangle's winding towards the viewpoint [m, relative to the origin].

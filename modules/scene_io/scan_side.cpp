@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Finds the side from which a cloud was seen, if neither its file nor the options state it. Neighbours of an organised
-// scan lie at even steps of direction from the scanner, at any distance. From any other place relief and noise make
+// scan lie at even steps of direction from the scanner, at any distance. From any other position relief and noise make
 // these steps uneven, as they make the points uneven themselves.
 #include <algorithm>
 #include <cmath>
@@ -41,11 +41,12 @@ Unevenness unevenness_along(const RawCloud& raw, bool rows) {
   for (std::size_t i = step; i + step < size; i += stride) {
     const std::size_t column = i % raw.width;
     if (rows && (column == 0 || column + 1 == raw.width)) continue;
-    const auto place = [&](std::size_t at) -> Vector3d { return raw.origin + raw.point[at].cast<double>(); };
-    const Vector3d before = place(i - step), here = place(i), behind = place(i + step);
+    const auto position = [&](std::size_t at) -> Vector3d { return raw.origin + raw.point[at].cast<double>(); };
+    const Vector3d before = position(i - step), here = position(i), behind = position(i + step);
     const Vector3d a = before.normalized(), b = here.normalized(), c = behind.normalized();
     const double first = (c - a).norm(), first_of_points = (behind - before).norm();
-    if (!(first > 0 && first_of_points > 0 && here.allFinite())) continue;  // skip holes, and points at the same place
+    if (!(first > 0 && first_of_points > 0 && here.allFinite()))
+      continue;  // skip holes, and points at the same position
     const Vector3d second = a - 2 * b + c;
     found.directions.push_back(2 * (second - second.dot(b) * b).norm() / first);
     found.points.push_back(2 * (before - 2 * here + behind).norm() / first_of_points);

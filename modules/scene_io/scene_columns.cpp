@@ -29,7 +29,6 @@ NumberType written_type(const SceneColumn& column, NumberType type, CloudFormat 
   return NumberType::int32;
 }
 
-/// Returns the numbers of a column in another type.
 std::vector<char> converted(const SceneColumn& column, NumberType from, NumberType to) {
   if (from == to) return column.bytes;
   const std::size_t rows = column.bytes.size() / size_of(from);

@@ -37,7 +37,7 @@ double pattern_likeness(const LineArray& array, double wavelength, double apart)
   double like = 0, all = 0;
   for (std::size_t m = 0; m < array.shading.size(); ++m) {
     const double weight = array.shading[m] * array.shading[m];
-    like += weight * std::cos(2 * pi * array.spacing / wavelength * apart * element_place(m, array.shading.size()));
+    like += weight * std::cos(2 * pi * array.spacing / wavelength * apart * element_position(m, array.shading.size()));
     all += weight;
   }
   return like / all;
@@ -105,15 +105,15 @@ void CellPaths::add_both(const Entry& one, const Entry& other, SurfaceEchoes& to
 void CellPaths::add_surfel(const Multipath& bounced, std::size_t begin, std::size_t end, std::uint64_t kind,
                            const std::vector<Vector3d>& heads, SurfaceEchoes& to) const {
   const std::uint32_t surfel = bounced.surfel[begin];
-  const Vector3d place = scene_.origin + scene_.point[surfel].cast<double>(),
+  const Vector3d position = scene_.origin + scene_.point[surfel].cast<double>(),
                  normal = scene_.normal[surfel].cast<double>();
   const double reach = spread_of_disc * std::sqrt(static_cast<double>(scene_.area[surfel]) / pi);
-  const auto towards = [&](std::size_t leg) { return Vector3d((heads[leg] - place).normalized()); };
+  const auto towards = [&](std::size_t leg) { return Vector3d((heads[leg] - position).normalized()); };
   const auto entry = [&](std::size_t i, std::uint64_t piece) -> Entry {
     const LegPair legs = bounced.legs[i];
     const Vector3d middle = 0.5 * (towards(legs.out) + towards(legs.back));
     return {bounced.echoes, i, path_id(scene_.piece_id(surfel, piece), kind, legs),
-            reach * (middle - normal.dot(middle) * normal).norm(), reach / (heads[legs.back] - place).norm()};
+            reach * (middle - normal.dot(middle) * normal).norm(), reach / (heads[legs.back] - position).norm()};
   };
   Merged merged;
   std::uint64_t piece = 0;

@@ -23,7 +23,7 @@ class CellPaths {
   /// Returns the echoes by boundaries or mirrors: of each surfel and pair of legs the first has the energy of all
   /// patches. kind: a number that keeps their ids apart from those of other kinds.
   SurfaceEchoes of(const Multipath& bounced, std::uint64_t kind) const;
-  /// Returns the double echoes: each ray is an echo of its own, at the places that it joins.
+  /// Returns the double echoes: each ray is an echo of its own, at the positions that it joins.
   SurfaceEchoes of(const DoubleEchoes& doubles) const;
 
  private:

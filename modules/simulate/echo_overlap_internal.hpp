@@ -27,7 +27,7 @@ class EchoOverlap {
     for (std::size_t m = 0; m < array_.elements(); ++m) {
       const double energy = array_.shading[m] * array_.shading[m];
       all += energy;
-      sum += energy * std::cos(step_ * element_place(m, array_.elements()) * u);
+      sum += energy * std::cos(step_ * element_position(m, array_.elements()) * u);
     }
     return sum / all;
   }

@@ -16,7 +16,6 @@ namespace insonify {
 
 namespace {
 
-/// Turns samples into display cells.
 void average_cells(const ResolvedPing& ping, Ping& image) {
   const RangeGate cells = display_gate(ping.samples, ping.options.outputs.display_bins);
   const auto averaged = [&](const ComplexGridF& pressure) -> ComplexGridF {

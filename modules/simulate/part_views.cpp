@@ -10,14 +10,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A place of a surface in head axes.
-struct SeenPlace {
+/// A position of a surface in head axes.
+struct ViewedPoint {
   Direction direction;
-  double range;  ///< [m]
-  double heard;  ///< azimuth of the beam that hears it [rad]
+  double range;         ///< [m]
+  double beam_azimuth;  ///< azimuth of the beam that receives it [rad]
 };
 
-/// The pose of the axes of the part's file.
 Pose pose_of_file(const ScenePart& part) { return part.world_from_part * Eigen::Translation3d(part.file_origin); }
 
 /// A part of which nothing is seen.
@@ -47,12 +46,12 @@ class PartViewer {
     const bool of_discs = std::isnan(view.range.least);
     for (std::size_t k = 0; k < alone.size(); ++k) {
       if (visibility[k] != Visibility::seen) continue;
-      const Vector3d place = head_from_world_ * (alone.origin + alone.point[k].cast<double>());
-      if (!in_fan(seen_at(place))) continue;
-      const double solid_angle = solid_angle_of(alone, k, place);
+      const Vector3d position = head_from_world_ * (alone.origin + alone.point[k].cast<double>());
+      if (!in_fan(seen_at(position))) continue;
+      const double solid_angle = solid_angle_of(alone, k, position);
       all += solid_angle;
       if (seen[k]) shown += solid_angle;
-      if (of_discs) widen(place, view);
+      if (of_discs) widen(position, view);
     }
     if (all > 0) view.visible_share = shown / all;  // (E147)
     return view;
@@ -77,37 +76,37 @@ class PartViewer {
       for (const Eigen::Vector3f& corner : own.facet[k]) widen_at(corner);
     }
   }
-  double solid_angle_of(const SceneCloud& scene, std::size_t i, const Vector3d& place) const {
-    const double range = place.norm();
-    const double cosine = std::abs((head_from_world_.linear() * scene.normal[i].cast<double>()).dot(place)) / range;
+  double solid_angle_of(const SceneCloud& scene, std::size_t i, const Vector3d& position) const {
+    const double range = position.norm();
+    const double cosine = std::abs((head_from_world_.linear() * scene.normal[i].cast<double>()).dot(position)) / range;
     return cosine * static_cast<double>(scene.area[i]) / (range * range);
   }
-  SeenPlace seen_at(const Vector3d& place) const {
-    const Direction direction = direction_of(place);
-    return {direction, place.norm(), heard_azimuth(place, direction.elevation)};
+  ViewedPoint seen_at(const Vector3d& position) const {
+    const Direction direction = direction_of(position);
+    return {direction, position.norm(), beam_azimuth(position, direction.elevation)};
   }
-  /// The azimuth of the beam of the nearest row whose cone holds a place.
-  double heard_azimuth(const Eigen::Vector3d& place, double elevation) const {
+  /// The azimuth of the beam of the nearest row whose cone holds a position.
+  double beam_azimuth(const Eigen::Vector3d& position, double elevation) const {
     double row = rows_.front();
     for (const double other : rows_)
       if (std::abs(other - elevation) < std::abs(row - elevation)) row = other;
-    const double cone = std::asin(std::clamp(place.y() / (place.norm() * std::cos(row)), -1.0, 1.0));
-    return place.x() < 0 ? std::copysign(pi, cone) - cone : cone;
+    const double cone = std::asin(std::clamp(position.y() / (position.norm() * std::cos(row)), -1.0, 1.0));
+    return position.x() < 0 ? std::copysign(pi, cone) - cone : cone;
   }
-  bool in_fan(const SeenPlace& s) const {
-    return s.heard >= least_azimuth_ && s.heard <= most_azimuth_ && s.range >= ping_.head.gate.min_range &&
-           s.range <= ping_.head.gate.max_range;
+  bool in_fan(const ViewedPoint& s) const {
+    return s.beam_azimuth >= least_azimuth_ && s.beam_azimuth <= most_azimuth_ &&
+           s.range >= ping_.head.gate.min_range && s.range <= ping_.head.gate.max_range;
   }
-  /// Widens a view by a place in head axes, if the fan holds it.
-  void widen(const Vector3d& place, PartView& view) const {
-    const SeenPlace s = seen_at(place);
+  /// Widens a view by a position in head axes, if the fan holds it.
+  void widen(const Vector3d& position, PartView& view) const {
+    const ViewedPoint s = seen_at(position);
     if (!in_fan(s)) return;
     widen(view.azimuth, s.direction.azimuth);
     widen(view.elevation, s.direction.elevation);
     widen(view.range, s.range);
-    widen(view.heard, s.heard);
-    widen(view.ahead, s.range * std::cos(s.heard));
-    widen(view.port, s.range * std::sin(s.heard));
+    widen(view.beam_azimuth, s.beam_azimuth);
+    widen(view.ahead, s.range * std::cos(s.beam_azimuth));
+    widen(view.port, s.range * std::sin(s.beam_azimuth));
   }
   static void widen(PartView::Extent& extent, double value) {
     extent.least = std::fmin(extent.least, value), extent.most = std::fmax(extent.most, value);

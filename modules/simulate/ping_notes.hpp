@@ -8,7 +8,7 @@
 
 namespace insonify {
 
-/// Kind of the note of a ping that hears no surfel.
+/// Kind of the note of a ping that receives no surfel.
 inline constexpr const char* silent_note_kind = "silent";
 
 /// Returns all notes of a ping of a head with this gate: those of its report, that it is silent or sees nearly only

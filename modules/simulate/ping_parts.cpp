@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "acoustics/bend_paths.hpp"
 #include "acoustics/direct_stream.hpp"
 #include "acoustics/glints.hpp"
+#include "acoustics/refract_paths.hpp"
 #include "beamforming/engine.hpp"
 #include "simulate/cell_paths_internal.hpp"
 #include "simulate/cell_sum_internal.hpp"
@@ -22,10 +22,10 @@ MovingScene motion_of(const SceneCloud& scene, const ResolvedPing& ping) {
 }
 
 /// Bends the rays to the patches if the options say so.
-BentPaths bend(const SceneCloud& scene, const ResolvedPing& ping, Scatterers& patches) {
+RefractedPaths bend(const SceneCloud& scene, const ResolvedPing& ping, Scatterers& patches) {
   if (!ping.environment.profile || ping.options.effects.refraction != Choice::always) return {};
-  return bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, patches,
-                    {&scene, ping.sent.medium.absorption.a0, ping.options.threads});
+  return refract_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, patches,
+                       {&scene, ping.sent.medium.absorption.a0, ping.options.threads});
 }
 
 /// The same, with a report.
@@ -33,8 +33,8 @@ RefractionReport refract(const SceneCloud& scene, const ResolvedPing& ping, Scat
   if (!ping.environment.profile) return {};
   const Sector sector = insonified_sector(ping.head.fan, sampling_in_view(ping));
   const RefractionBound bound =
-      bending_in_view(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, patches,
-                      sector, ping.head.gate, ping.options.threads);
+      refraction_in_view(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, patches,
+                         sector, ping.head.gate, ping.options.threads);
   return {bound, ping.options.effects.refraction == Choice::always, bend(scene, ping, patches)};
 }
 
@@ -68,7 +68,7 @@ PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingRe
   } else {
     parts.visible = visible_surfels(prepared, ping);
     parts.sampling.report = parts.visible.report;
-    if (parts.stored) parts.sampling.scatterers = make_parts(prepared.scene(), view.world_from_head, parts.visible);
+    if (parts.stored) parts.sampling.scatterers = make_chunks(prepared.scene(), view.world_from_head, parts.visible);
   }
   if (parts.stored)
     report.refraction = refract(prepared.scene(), ping, parts.sampling.scatterers);
@@ -158,9 +158,9 @@ Soundings detect(const SceneCloud& scene, const ResolvedPing& ping, const EchoSt
   DetectionOptions detection = ping.detection;
   detection.scene = &scene;
   if (!(ping.options.effects.double_echoes > 0)) return detect_soundings(image, direct, detection);
-  const Scatterers places =
-      apparent_places(parts.doubles, scene, ping.view.world_from_head, ping.sent.medium.sound_speed, profile_of(ping));
-  return detect_soundings(image, direct, StoredEchoes(places, parts.doubles.echoes, "PingSimulator"), detection);
+  const Scatterers positions = apparent_positions(parts.doubles, scene, ping.view.world_from_head,
+                                                  ping.sent.medium.sound_speed, profile_of(ping));
+  return detect_soundings(image, direct, StoredEchoes(positions, parts.doubles.echoes, "PingSimulator"), detection);
 }
 
 }  // namespace insonify

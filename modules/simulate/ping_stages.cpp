@@ -34,9 +34,9 @@ void mark_holes(const PreparedScene& prepared, const ResolvedPing& ping, Simulat
 
 /// Finds whether surfels without a patch are hidden, face away or are missed by all rays.
 std::vector<Visibility> others_than(const Scatterers& patches, const PreparedScene& prepared, const View& view) {
-  std::vector<std::uint8_t> asked(prepared.scene().size(), 1);
-  for (const std::uint32_t surfel : patches.surfel) asked[surfel] = 0;
-  return find_visibility(prepared, view.world_from_head, view.fan, view.gate, asked, view.sampling);
+  std::vector<std::uint8_t> queried(prepared.scene().size(), 1);
+  for (const std::uint32_t surfel : patches.surfel) queried[surfel] = 0;
+  return find_visibility(prepared, view.world_from_head, view.fan, view.gate, queried, view.sampling);
 }
 
 /// Finds contributors and labels (E63, E125): of all beams at once, or band by band if the options take them so.
@@ -143,8 +143,8 @@ std::vector<PingNote> scene_notes(const SceneCloud& scene, const ResolvedPing& p
 
 /// Returns true if beams formed over the whole band hear beside their sector as in main lobes, at the upper end of the
 /// band.
-bool hears_all_ahead(const ResolvedPing& ping) {
-  if (!hears_whole_band(ping.options.synthesis.method)) return false;
+bool receives_all_ahead(const ResolvedPing& ping) {
+  if (!receives_whole_band(ping.options.synthesis.method)) return false;
   const double highest = ping.head.pulse.centre_frequency + spectrum_nodes(ping.head.pulse).back().frequency;
   return has_further_lobes(ping.head, ping.sent.medium.sound_speed / highest);
 }
@@ -156,7 +156,7 @@ std::vector<Reverberation> reverberation_echoes(const ResolvedPing& ping) {
   const auto& [pose, fan, gate, sampling] = ping.view;
   ReverberationOptions options;
   options.ping = ping.event.number;
-  options.azimuth_margin = hears_all_ahead(ping) ? pi : 0;
+  options.azimuth_margin = receives_all_ahead(ping) ? pi : 0;
   std::vector<Reverberation> parts;
   if (e.volume_scattering_db) parts.push_back({"volume", volume_echoes(e, fan, gate, ping.sent, options)});
   if (e.surface && e.surface->scattering_strength_db)

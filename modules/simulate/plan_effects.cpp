@@ -6,10 +6,10 @@
 #include <numbers>
 #include <utility>
 
-#include "acoustics/bend_paths.hpp"
 #include "acoustics/direct_stream.hpp"
 #include "acoustics/glints.hpp"
 #include "acoustics/multipath_echoes.hpp"
+#include "acoustics/refract_paths.hpp"
 #include "beamforming/received_energy.hpp"
 #include "core/units.hpp"
 #include "simulate/echo_overlap_internal.hpp"
@@ -33,10 +33,10 @@ double difference_bound(const PlanFacts& facts, const Echoes& before, const Echo
   });
 }
 
-Echoes echoes_of(const PlanFacts& facts, const Scatterers& places) {
+Echoes echoes_of(const PlanFacts& facts, const Scatterers& positions) {
   Transmission mean_power = facts.ping.sent;
   mean_power.echo_options.amplitude = SurfaceAmplitude::mean_power;
-  return direct_echoes(places, facts.scene.materials, mean_power);
+  return direct_echoes(positions, facts.scene.materials, mean_power);
 }
 
 /// Error of an echo of the centre frequency's absorption, over the pulse's spectrum.
@@ -46,7 +46,7 @@ double absorption_slope_bound(const PlanFacts& facts) {
   const Absorption full =
       absorption_about(environment.water, pulse.centre_frequency, 2, environment.absorption_formula);
   return bound_of_changed_echoes(facts, [&](std::size_t i) {
-    const double path = 2 * facts.sample.places.range[i];
+    const double path = 2 * facts.sample.positions.range[i];
     double error = 0;
     for (const SpectrumNode& node : spectrum_nodes(pulse))
       error += node.weight * std::pow(std::expm1(-path * node.frequency * (full.a1 + full.a2 * node.frequency)), 2);
@@ -54,12 +54,12 @@ double absorption_slope_bound(const PlanFacts& facts) {
   });
 }
 
-double bent_rays_bound(const PlanFacts& facts) {
+double refraction_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
-  Scatterers bent = facts.sample.places;
-  bend_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
-             {&facts.sample.scene, ping.sent.medium.absorption.a0, ping.options.threads});
-  return std::hypot(difference_bound(facts, echoes_of(facts, facts.sample.places), echoes_of(facts, bent)),
+  Scatterers bent = facts.sample.positions;
+  refract_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
+                {&facts.sample.scene, ping.sent.medium.absorption.a0, ping.options.threads});
+  return std::hypot(difference_bound(facts, echoes_of(facts, facts.sample.positions), echoes_of(facts, bent)),
                     straight_double_echoes(facts).bound);
 }
 
@@ -67,7 +67,7 @@ double bent_rays_bound(const PlanFacts& facts) {
 bool misplaces_double_echoes(const PlanFacts& facts) { return straight_double_echoes(facts).range > 0.01; }
 
 double motion_bound(const PlanFacts& facts) {
-  return difference_bound(facts, echoes_of(facts, facts.sample.places), moved_echoes(facts));
+  return difference_bound(facts, echoes_of(facts, facts.sample.positions), moved_echoes(facts));
 }
 
 /// Energy that beams receive of echoes within the gate.
@@ -98,7 +98,7 @@ double multipath_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
   const auto [sent, view] = of_sample(ping);
   const Echoes multipath =
-      multipath_echoes(facts.sample.scene, facts.sample.places, ping.environment, view, sent).echoes;
+      multipath_echoes(facts.sample.scene, facts.sample.positions, ping.environment, view, sent).echoes;
   return bound_of_added_echoes(facts, received_energy(ping, multipath));
 }
 
@@ -109,8 +109,8 @@ double mirrors_bound(const PlanFacts& facts) {
   const bool levels = has_boundary(ping.environment) && ping.options.effects.multipath != Choice::never;
   Echoes echoes = glint_echoes(facts.scene, ping.smooth, ping.environment, levels, view, sent, {.over_band = false});
   if (!ping.smooth.mirrors.empty())
-    append(echoes, mirror_echoes(facts.sample.scene, facts.sample.places, ping.environment, ping.smooth.mirrors, levels,
-                                 view, sent)
+    append(echoes, mirror_echoes(facts.sample.scene, facts.sample.positions, ping.environment, ping.smooth.mirrors,
+                                 levels, view, sent)
                        .echoes);
   return bound_of_added_echoes(facts, received_energy(ping, echoes));
 }
@@ -139,7 +139,7 @@ constexpr PlanStage effects[] = {
        return o.effects.absorption_order ? chosen(*o.effects.absorption_order > 0) : Choice::as_needed;
      }},
     {"refraction", DecidedBy::budget, [](const PlanCause& of) { return of.environment.profile.has_value(); },
-     "rays are bent: echoes arrive at other times and angles", "there is no sound-speed profile", bent_rays_bound,
+     "rays are bent: echoes arrive at other times and angles", "there is no sound-speed profile", refraction_bound,
      [](bool in, E&, O& o) { o.effects.refraction = chosen(in); }, [](const O& o) { return o.effects.refraction; },
      nullptr, false, misplaces_double_echoes},
     {"motion", DecidedBy::budget, [](const PlanCause& of) { return !of.event.motion.none() || moves(of.scene); },
@@ -189,7 +189,7 @@ constexpr PlanStage effects[] = {
 
 Echoes moved_echoes(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
-  Scatterers met = facts.sample.places;
+  Scatterers met = facts.sample.positions;
   Transmission mean_power = ping.sent;
   mean_power.echo_options.amplitude = SurfaceAmplitude::mean_power;
   return echoes_in_motion(facts.sample.scene, met, ping.view.world_from_head, {ping.event.motion, moves(facts.scene)},

@@ -46,7 +46,7 @@ double budget_share(const std::vector<PlanStage>& stages, const PlanFacts& facts
 }
 
 bool is_open(const PlanStage& stage, const SimulationOptions& options) {
-  return stage.by == DecidedBy::budget && stage.asked(options) == Choice::as_needed;
+  return stage.by == DecidedBy::budget && stage.requested(options) == Choice::as_needed;
 }
 
 /// Returns true if a stage is decided for each ping: an open one, or phases of display cells that may be drawn.
@@ -81,7 +81,7 @@ PlannedStage judge(const PlanStage& stage, const PlanFacts& facts, double share,
     Environment unchanged = facts.ping.environment;
     stage.force(judged.included, unchanged, decided);
   } else if (by_budget) {
-    judged.included = stage.asked(options) == Choice::always;
+    judged.included = stage.requested(options) == Choice::always;
     judged.why = judged.included ? "asked for" : "off by the options";
   }
   return judged;
@@ -137,7 +137,7 @@ void decide_effects(const PreparedScene& prepared, ResolvedPing& ping) {
   derive(prepared.whole(), ping);
 }
 
-SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
+SimulationOptions decided_synthesis(const Scatterers& positions, const Echoes& echoes, const SonarHead& head,
                                     const Environment& environment, const SimulationOptions& options) {
   constexpr const char* me = "decided_synthesis";
   Environment water = environment;
@@ -149,10 +149,10 @@ SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echo
   synthesis.effects.multipath = synthesis.effects.mirrors = Choice::never;
   synthesis.effects.refraction = synthesis.effects.moving = Choice::never;
   const ResolvedPing ping = resolve_ping({}, head, {}, water, synthesis, me);
-  const SimulationOptions settled = decided_by({SceneCloud{}, ping, sample_of(places, echoes, ping), {}});
+  const SimulationOptions decided = decided_by({SceneCloud{}, ping, sample_of(positions, echoes, ping), {}});
   SimulationOptions result = options;
-  result.effects.absorption_order = settled.effects.absorption_order;
-  result.synthesis = settled.synthesis;
+  result.effects.absorption_order = decided.effects.absorption_order;
+  result.synthesis = decided.synthesis;
   return result;
 }
 

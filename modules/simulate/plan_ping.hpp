@@ -29,10 +29,10 @@ namespace insonify {
 PingPlan plan_ping(const SceneCloud& scene, const SonarHead& head, const PingEvent& event,
                    const Environment& environment, const SimulationOptions& options = {});
 
-/// Returns options for the synthesis of given echoes of patches or targets at `places`. True delays and absorption over
+/// Returns options for the synthesis of given echoes of patches or targets at `positions`. True delays and absorption over
 /// the band are decided as by plan_ping; other effects are not considered. The environment's water is used unchanged,
 /// without regard to depth. Throws Error as simulate_ping does.
-SimulationOptions decided_synthesis(const Scatterers& places, const Echoes& echoes, const SonarHead& head,
+SimulationOptions decided_synthesis(const Scatterers& positions, const Echoes& echoes, const SonarHead& head,
                                     const Environment& environment, const SimulationOptions& options = {});
 
 /// Forces an effect in or out, by its name in the plan. Forcing direct-sum or true-delays out of a ping of another

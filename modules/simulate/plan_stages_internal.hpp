@@ -76,7 +76,7 @@ struct StraightDoubleEchoes {
   double bound = 0;  ///< relative error of the image by it; 0 if double echoes are not asked for
   double range = 0;  ///< largest error of the apparent range [m] of those above -40 dB of the largest
 };
-/// Returns it, by rays of all three legs (bent_pairs).
+/// Returns it, by rays of all three legs (refracted_pairs).
 StraightDoubleEchoes straight_double_echoes(const PlanFacts& facts);
 
 /// Returns the echoes of the sample by their mean power, of the moving head and parts (E44).
@@ -96,7 +96,7 @@ struct PlanStage {
   /// Sets the options, or takes the cause out of the environment, so that the stage is in or out; nullptr: it cannot.
   void (*force)(bool included, Environment&, SimulationOptions&) = nullptr;
   /// Returns the setting of the stage in the options. The budget decides on the stage if the setting is as_needed.
-  Choice (*asked)(const SimulationOptions&) = nullptr;
+  Choice (*requested)(const SimulationOptions&) = nullptr;
   /// Returns whether the stage is too expensive for the budget to include it; nullptr: never.
   bool (*only_if_forced)(const PlanFacts&) = nullptr;
   /// Takes a share of the budget only where there is a cause.

@@ -34,8 +34,9 @@ double narrow_band_bound(const PlanFacts& facts) {
   const SceneSample& sample = facts.sample;
   const bool moving = ping.options.effects.moving != Choice::never;
   const std::vector<double> doppler = moving ? moved_echoes(facts).doppler : sample.doppler;
-  const NarrowBandError::Sums inside = error.of(sample.places, sample.power, doppler, ping.options.threads),
-                              beside = error.of(sample.places, sample.power_off_azimuth, doppler, ping.options.threads);
+  const NarrowBandError::Sums inside = error.of(sample.positions, sample.power, doppler, ping.options.threads),
+                              beside =
+                                  error.of(sample.positions, sample.power_off_azimuth, doppler, ping.options.threads);
   return bound_of_added_echoes(
       facts, inside.image > 0 ? (inside.error + beside.error) / inside.image * facts.sample.in_view : 0);
 }
@@ -46,7 +47,7 @@ void force_true_delays(bool included, Environment&, SimulationOptions& options) 
   auto& [method, tolerance, true_delays, phases] = options.synthesis;
   true_delays = chosen(included);
   if (!included) {
-    if (hears_whole_band(method)) method = engine_for(ImageModel::narrow_band, tolerance).method;
+    if (receives_whole_band(method)) method = engine_for(ImageModel::narrow_band, tolerance).method;
     return;
   }
   const Engine& engine = engine_for(ImageModel::true_delays, tolerance);
@@ -55,16 +56,16 @@ void force_true_delays(bool included, Environment&, SimulationOptions& options) 
 }
 
 /// A method given by name is what it is; a replaceable one leaves it to `true_delays`.
-Choice asked_true_delays(const SimulationOptions& options) {
+Choice requested_true_delays(const SimulationOptions& options) {
   const auto& [method, tolerance, true_delays, phases] = options.synthesis;
-  return engine_of(method).replaceable ? true_delays : chosen(hears_whole_band(method));
+  return engine_of(method).replaceable ? true_delays : chosen(receives_whole_band(method));
 }
 
 constexpr double least_samples_per_cell = 4;
 constexpr double drawn_cell_error = 0.035;  // of an expected cell, in amplitude: 0.3 dB (docs/results/display.md)
 
 /// Returns true if surfels stand so near to a boundary that echoes by way of it arrive within a pulse of direct ones:
-/// at height h over it, heard at a height H and range R, a leg by way of it is longer by 2 h H / R.
+/// at height h over it, received at a height H and range R, a leg by way of it is longer by 2 h H / R.
 bool fringes_at_boundaries(const PlanCause& of) {
   const auto near_plane = [&](double height) {
     const double of_head = std::abs(of.event.world_from_head.translation().z() - height);
@@ -117,7 +118,7 @@ constexpr PlanStage stages[] = {
     {"true-delays", DecidedBy::budget,
      [](const PlanCause& of) { return sums_pressures(of.options) && !draws_cells(of.options); },
      "elements receive wide bands and near echoes at other times: one pattern does not hold",
-     "intensities have no delays across the array", narrow_band_bound, force_true_delays, asked_true_delays,
+     "intensities have no delays across the array", narrow_band_bound, force_true_delays, requested_true_delays,
      [](const PlanFacts& facts) { return facts.ping.head.column.has_value(); }},
     {"double-precision", DecidedBy::scene,
      [](const PlanCause& of) { return is_direct_sum(of.options) || !of.single_precision; }, "the tolerance needs it",

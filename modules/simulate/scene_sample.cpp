@@ -56,7 +56,6 @@ class Sorter {
   double farthest_;
 };
 
-/// The sampled surfels, kind by kind.
 struct Sampled {
   SceneCloud scene;
   std::vector<Kind> kind;
@@ -121,7 +120,7 @@ double left_in_gate(const ResolvedPing& ping, double r) {
 bool may_have_true_delays(const ResolvedPing& ping) {
   const auto& [method, tolerance, true_delays, phases] = ping.options.synthesis;
   if (engine_of(method).replaceable) return true_delays != Choice::never && !ping.head.column;
-  return hears_whole_band(method);
+  return receives_whole_band(method);
 }
 
 /// The energy that beams receive of a surfel, spread over its disc if it may be split: parts of it reach beyond the
@@ -143,10 +142,10 @@ class ReceivedOfDisc {
     const Eigen::Vector3d along = (Eigen::Vector3d::UnitY() - u * Eigen::Vector3d(ahead, u, v)) / across;
     const double tilt = (to_head_ * normal.cast<double>()).dot(along);
     const double reach = std::sqrt(area / pi) / range * across * std::sqrt(std::max(0.0, 1 - tilt * tilt));
-    constexpr double places[] = {0.4, 0.8}, chords[] = {0.917, 0.6};
+    constexpr double positions[] = {0.4, 0.8}, chords[] = {0.917, 0.6};
     double sum = middle, parts = 1;
     for (const int k : {0, 1}) {
-      for (const double side : {-reach, reach}) sum += chords[k] * received_.at(u + side * places[k], v);
+      for (const double side : {-reach, reach}) sum += chords[k] * received_.at(u + side * positions[k], v);
       parts += 2 * chords[k];
     }
     return sum / parts;
@@ -195,22 +194,22 @@ SceneSample sample_scene(const PreparedScene& prepared, const ResolvedPing& ping
     s.power.back() = power;
   }
   s.scene = std::move(sampled.scene);
-  s.places = std::move(patches);
+  s.positions = std::move(patches);
   return s;
 }
 
-SceneSample sample_of(const Scatterers& places, const Echoes& echoes, const ResolvedPing& ping) {
+SceneSample sample_of(const Scatterers& positions, const Echoes& echoes, const ResolvedPing& ping) {
   const Medium& medium = ping.sent.medium;
   const RangeGate& gate = ping.head.gate;
   ReceivedEnergy received(ping.head, medium.sound_speed / ping.head.pulse.centre_frequency);
   SceneSample s;
-  s.places = places;
+  s.positions = positions;
   s.doppler = echoes.doppler;
   for (std::size_t i = 0; i < echoes.size(); ++i) {
-    const double r = places.range[i];
-    const bool heard = r >= gate.min_range && r <= gate.max_range;
-    s.power.push_back(heard ? std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) : 0);
-    s.energy.push_back(s.power[i] * received.at(echoes.u[i], std::sin(places.elevation[i])));
+    const double r = positions.range[i];
+    const bool in_gate = r >= gate.min_range && r <= gate.max_range;
+    s.power.push_back(in_gate ? std::norm(echoes.amplitude[i]) * std::exp(-4 * medium.absorption.a0 * r) : 0);
+    s.energy.push_back(s.power[i] * received.at(echoes.u[i], std::sin(positions.elevation[i])));
     s.in_view += s.energy[i];
   }
   return s;

@@ -25,7 +25,7 @@ struct StageSeconds {
 struct RefractionReport {
   RefractionBound bound;      ///< error of straight rays, from at most some 1000 scatterers in view
   bool bent = false;          ///< true: the scatterers are at their apparent positions
-  BentPaths paths;            ///< scatterers that no ray reaches, or too many
+  RefractedPaths paths;       ///< scatterers that no ray reaches, or too many
   std::size_t unreached = 0;  ///< legs of echoes by boundaries, mirrors and two surfaces that no ray has
 };
 

@@ -20,9 +20,9 @@ class ElevationGains {
       squared_[k] = std::pow(elevation_pattern(sent, std::asin(2.0 * static_cast<double>(k) / (entries - 1) - 1)), 2);
   }
   double squared(double v) const {
-    const double place = 0.5 * (std::clamp(v, -1.0, 1.0) + 1) * (entries - 1);
-    const std::size_t left = std::min(static_cast<std::size_t>(place), squared_.size() - 2);
-    return squared_[left] + (place - static_cast<double>(left)) * (squared_[left + 1] - squared_[left]);
+    const double position = 0.5 * (std::clamp(v, -1.0, 1.0) + 1) * (entries - 1);
+    const std::size_t left = std::min(static_cast<std::size_t>(position), squared_.size() - 2);
+    return squared_[left] + (position - static_cast<double>(left)) * (squared_[left + 1] - squared_[left]);
   }
 
  private:

@@ -88,14 +88,13 @@ Peak highest_peak(const Pattern& pattern, double from, double to) {
   for (std::size_t i = 0; i <= steps; ++i) {
     const std::size_t left = i > 0 ? i - 1 : i, right = i < steps ? i + 1 : i;
     if (sample[i] < enough || sample[i] < sample[left] || sample[i] < sample[right]) continue;
-    const double place = locate_maximum([&](double x) { return pattern.at(x); }, offset(left), offset(right));
-    const double amplitude = pattern.at(place);
-    if (amplitude > best.amplitude * (1 + 1e-6)) best = {place, amplitude};
+    const double position = locate_maximum([&](double x) { return pattern.at(x); }, offset(left), offset(right));
+    const double amplitude = pattern.at(position);
+    if (amplitude > best.amplitude * (1 + 1e-6)) best = {position, amplitude};
   }
   return best;
 }
 
-/// Returns the azimuths of the grating lobes up to endfire.
 std::vector<double> find_grating_lobes(const Pattern& pattern, double u_beam) {
   std::vector<double> azimuths;
   if (pattern.array.elements() == 1) return azimuths;

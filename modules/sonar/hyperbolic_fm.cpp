@@ -62,8 +62,8 @@ class SweepTables final : public PulseTables, public std::enable_shared_from_thi
     Samples x(count_);
     for (std::size_t j = 0; j < terms_; ++j) {
       for (std::size_t k = 0; k < count_; ++k) {
-        const double place = static_cast<double>(k) - (k < count_ / 2 ? 0 : static_cast<double>(count_));
-        const double y = std::clamp(2 * place / (cycle * pulse.bandwidth), -1.0, 1.0);
+        const double position = static_cast<double>(k) - (k < count_ / 2 ? 0 : static_cast<double>(count_));
+        const double y = std::clamp(2 * position / (cycle * pulse.bandwidth), -1.0, 1.0);
         x[k] = sent[k] * std::conj(replica[k]) * (std::cos(static_cast<double>(j) * std::acos(y)) / (area * cycle));
       }
       const Samples term = transformed(x);
@@ -99,7 +99,7 @@ class SweepTables final : public PulseTables, public std::enable_shared_from_thi
   /// Returns the sum of the terms at t [s] from the delay, between six samples (Lagrange).
   std::complex<double> at(double t, const Terms& terms) const {
     constexpr double divisor[] = {-120, 24, -12, 12, -24, 120};
-    const double place = t / step_, whole = std::floor(place), x = place - whole;
+    const double position = t / step_, whole = std::floor(position), x = position - whole;
     const double from[] = {x + 2, x + 1, x, x - 1, x - 2, x - 3};
     std::complex<double> sum = 0;
     for (std::ptrdiff_t k = 0; k < 6; ++k) {

@@ -23,12 +23,12 @@ std::complex<double> array_response(const LineArray& array, double wavelength, d
   const std::size_t n = array.elements();
   const double step = 2 * pi * array.spacing / wavelength * (u - u_beam);
   double sum = 0;
-  for (std::size_t m = 0; m < n; ++m) sum += array.shading[m] * std::cos(step * element_place(m, n));
+  for (std::size_t m = 0; m < n; ++m) sum += array.shading[m] * std::cos(step * element_position(m, n));
   // The odd parts of opposite elements cancel to the last bit if the shading is symmetric.
   double odd = 0;
   for (std::size_t m = 0; 2 * m + 1 < n; ++m)
     if (const double w = array.shading[n - 1 - m] - array.shading[m]; w != 0)
-      odd += w * std::sin(step * element_place(m, n));
+      odd += w * std::sin(step * element_position(m, n));
   return {sum / static_cast<double>(n), odd / static_cast<double>(n)};  // (E10)
 }
 

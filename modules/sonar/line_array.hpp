@@ -21,7 +21,7 @@ struct LineArray {
 void require_valid(const LineArray& array, const char* who);
 
 /// Returns the position of element m along the array in units of the spacing, relative to the centre: m - (N-1)/2.
-inline double element_place(std::size_t m, std::size_t elements) {
+inline double element_position(std::size_t m, std::size_t elements) {
   return static_cast<double>(m) - 0.5 * (static_cast<double>(elements) - 1);
 }
 

@@ -69,7 +69,7 @@ std::vector<double> taylor_shading(std::size_t elements, double side_lobe_db, in
   const double sigma2 = nbar * nbar / (a * a + (nbar - 0.5) * (nbar - 0.5));
   std::vector<double> weights(elements, 1.0);
   for (std::size_t e = 0; e < elements; ++e) {
-    const double x = element_place(e, elements) / static_cast<double>(elements);
+    const double x = element_position(e, elements) / static_cast<double>(elements);
     for (int m = 1; m < nbar; ++m)
       weights[e] += 2 * taylor_coefficient(m, nbar, a * a, sigma2) * std::cos(2 * pi * m * x);  // (E11)
   }
@@ -80,7 +80,8 @@ std::vector<double> hamming_shading(std::size_t elements) {
   require_elements(elements, "hamming_shading");
   std::vector<double> weights(elements);
   for (std::size_t e = 0; e < elements; ++e)
-    weights[e] = 0.54 + 0.46 * std::cos(2 * pi * element_place(e, elements) / static_cast<double>(elements));  // (E31)
+    weights[e] =
+        0.54 + 0.46 * std::cos(2 * pi * element_position(e, elements) / static_cast<double>(elements));  // (E31)
   return scaled_to_sum(weights);
 }
 

@@ -11,6 +11,6 @@ namespace insonify {
 /// are those of the first part. Layers and maps that some parts lack are left out. The call takes as much memory as one
 /// image. The same parts give the same bytes. Throws Error(argument) without parts, Error(file) for a missing part,
 /// Error(content) for a part that is not a cube or differs in sonar or extent, naming it.
-void concatenate_cube_files(const std::string& path, const std::vector<std::string>& parts, bool copy = false);
+void concatenate_cube_files(const std::string& path, const std::vector<std::string>& sources, bool copy = false);
 
 }  // namespace insonify

@@ -23,46 +23,46 @@ constexpr DatasetName surfel_name{"/surfel", ""}, id_name{"/id", ""}, share_name
     names_name{"/material_names", ""}, before_name{"/surfel_before", ""};
 
 template <typename Number>
-void send_numbers(const FileContext& place, hid_t file, const DatasetName& name, const Extent& extent,
+void send_numbers(const FileContext& context, hid_t file, const DatasetName& name, const Extent& extent,
                   ArraySender& to) {
-  const Handle dataset = open_dataset(place, file, name);
-  if (extent_of(place, dataset, name.path, 3) != extent)
-    fail(place.kind, place.path, ": ", name.path, " differs in extent from ", surfel_name.path);
+  const Handle dataset = open_dataset(context, file, name);
+  if (extent_of(context, dataset, name.path, 3) != extent)
+    fail(context.kind, context.path, ": ", name.path, " differs in extent from ", surfel_name.path);
   Number* const numbers = to.take_array<Number>(extent[0] * extent[1] * extent[2]);
-  read_values(place, dataset, {type_of<Number>(false)}, numbers, name.path);
+  read_values(context, dataset, {type_of<Number>(false)}, numbers, name.path);
 }
 
-void write_names(const FileContext& place, hid_t file, const std::vector<std::string>& names) {
+void write_names(const FileContext& context, hid_t file, const std::vector<std::string>& names) {
   std::size_t length = 1;
   for (const std::string& name : names) length = std::max(length, name.size() + 1);
   std::string text(names.size() * length, '\0');
   for (std::size_t i = 0; i < names.size(); ++i) text.replace(i * length, names[i].size(), names[i]);
-  const Handle type = text_type(place, length);
-  const Handle dataset = create_dataset(place, file, names_name, type, {names.size()});
-  place.checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), names_name.path);
+  const Handle type = text_type(context, length);
+  const Handle dataset = create_dataset(context, file, names_name, type, {names.size()});
+  context.checked(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), names_name.path);
 }
 
-std::vector<std::string> read_names(const FileContext& place, hid_t file) {
-  const Handle dataset = open_dataset(place, file, names_name);
-  const Extent extent = extent_of(place, dataset, names_name.path, 1);
-  const Handle stored(place.checked(H5Dget_type(dataset), names_name.path), H5Tclose);
+std::vector<std::string> read_names(const FileContext& context, hid_t file) {
+  const Handle dataset = open_dataset(context, file, names_name);
+  const Extent extent = extent_of(context, dataset, names_name.path, 1);
+  const Handle stored(context.checked(H5Dget_type(dataset), names_name.path), H5Tclose);
   if (H5Tget_class(stored) != H5T_STRING || H5Tis_variable_str(stored) > 0)
-    fail(place.kind, place.path, ": ", names_name.path, " must be text of fixed length");
+    fail(context.kind, context.path, ": ", names_name.path, " must be text of fixed length");
   const std::size_t length = H5Tget_size(stored);
   std::string text(extent[0] * length, '\0');
-  read_values(place, dataset, {stored}, text.data(), names_name.path);
+  read_values(context, dataset, {stored}, text.data(), names_name.path);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < extent[0]; ++i) names.emplace_back(text.substr(i * length, length).c_str());
   return names;
 }
 
-void require_ours(const FileContext& place, hid_t file) {
-  if (H5Aexists(file, "content") <= 0 || read_text(place, file, "content") != content)
-    fail(place.kind, place.path, ": is not a contributor file of insonify: attribute 'content' is not \"", content,
+void require_ours(const FileContext& context, hid_t file) {
+  if (H5Aexists(file, "content") <= 0 || read_text(context, file, "content") != content)
+    fail(context.kind, context.path, ": is not a contributor file of insonify: attribute 'content' is not \"", content,
          "\"");
-  const std::int64_t schema = read_integer(place, file, "schema");
+  const std::int64_t schema = read_integer(context, file, "schema");
   if (schema != contributor_schema)
-    fail(place.kind, place.path, ": has contributor schema ", schema, ", this version reads schema ",
+    fail(context.kind, context.path, ": has contributor schema ", schema, ", this version reads schema ",
          contributor_schema);
 }
 
@@ -80,7 +80,7 @@ void require_named_materials(const Contributors& c, std::size_t names, const std
 }  // namespace
 
 struct ContributorFile::Open {
-  FileContext place;
+  FileContext context;
   Extent lists;
   std::size_t materials;
   PendingFile pending;
@@ -88,21 +88,21 @@ struct ContributorFile::Open {
   std::vector<Handle> datasets{};
 
   Open(const std::string& path, Extent extent, std::size_t names)
-      : place{path, ErrorKind::file},
+      : context{path, ErrorKind::file},
         lists(std::move(extent)),
         materials(names),
         pending(path),
-        file(create_file(place, pending.temporary())) {}
+        file(create_file(context, pending.temporary())) {}
 
   template <typename Number>
   void add(const DatasetName& name) {
-    datasets.push_back(create_dataset(place, file, name, type_of<Number>(true), lists,
+    datasets.push_back(create_dataset(context, file, name, type_of<Number>(true), lists,
                                       {beams_per_chunk(lists), lists[1], lists[2]}, Packing::deflate));
   }
   void begin(const std::vector<std::string>& names, bool two_surfaces) {
-    write_attribute(place, file, "schema", contributor_schema);
-    write_attribute(place, file, "content", content);
-    write_attribute(place, file, "paths",
+    write_attribute(context, file, "schema", contributor_schema);
+    write_attribute(context, file, "content", content);
+    write_attribute(context, file, "paths",
                     std::string("0 direct, 1 one bounce, 2 two bounces") + (two_surfaces ? ", 3 two surfaces" : ""));
     add<std::uint32_t>(surfel_name);
     add<std::uint32_t>(id_name);
@@ -111,17 +111,18 @@ struct ContributorFile::Open {
     add<std::uint16_t>(material_name);
     add<std::uint8_t>(path_name);
     if (two_surfaces) add<std::uint32_t>(before_name);
-    write_names(place, file, names);
+    write_names(context, file, names);
   }
   /// Writes the lists of a band of beams.
   template <typename Number>
   void write(std::size_t dataset, const DatasetName& name, std::size_t first_beam, std::size_t beams,
              const Number* numbers) {
     const Extent start = {first_beam, 0, 0}, count = {beams, lists[1], lists[2]};
-    const Handle here(place.checked(H5Screate_simple(3, count.data(), nullptr), name.path), H5Sclose);
-    const Handle there(place.checked(H5Dget_space(datasets[dataset]), name.path), H5Sclose);
-    place.checked(H5Sselect_hyperslab(there, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), name.path);
-    place.checked(H5Dwrite(datasets[dataset], type_of<Number>(false), here, there, H5P_DEFAULT, numbers), name.path);
+    const Handle here(context.checked(H5Screate_simple(3, count.data(), nullptr), name.path), H5Sclose);
+    const Handle there(context.checked(H5Dget_space(datasets[dataset]), name.path), H5Sclose);
+    context.checked(H5Sselect_hyperslab(there, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
+                    name.path);
+    context.checked(H5Dwrite(datasets[dataset], type_of<Number>(false), here, there, H5P_DEFAULT, numbers), name.path);
   }
   void write(const Contributors& band, std::size_t first_beam) {
     write(0, surfel_name, first_beam, band.beams, band.surfel.data());
@@ -138,9 +139,9 @@ struct ContributorFile::Open {
   void write_image(const DatasetName& name, const auto& image) {
     using Number = typename std::decay_t<decltype(image)>::Scalar;
     const Extent extent = {lists[0], lists[1]};
-    const Handle dataset = create_dataset(place, file, name, type_of<Number>(true), extent,
+    const Handle dataset = create_dataset(context, file, name, type_of<Number>(true), extent,
                                           {beams_per_chunk(lists), lists[1]}, Packing::deflate);
-    place.checked(H5Dwrite(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, image.data()), name.path);
+    context.checked(H5Dwrite(dataset, type_of<Number>(false), H5S_ALL, H5S_ALL, H5P_DEFAULT, image.data()), name.path);
   }
 };
 
@@ -148,7 +149,7 @@ ContributorFile::ContributorFile(const std::string& path, std::size_t beams, std
                                  const std::vector<std::string>& materials, bool two_surfaces) {
   const QuietErrors quiet;
   open_ = std::make_unique<Open>(path, Extent{beams, bins, per_pixel}, materials.size());
-  write_checked(open_->place, [&] { open_->begin(materials, two_surfaces); });
+  write_checked(open_->context, [&] { open_->begin(materials, two_surfaces); });
 }
 
 ContributorFile::~ContributorFile() {
@@ -160,23 +161,23 @@ void ContributorFile::write(const Contributors& band, std::size_t first_beam) {
   const QuietErrors quiet;
   const Extent& lists = open_->lists;
   require_valid(band, "write_contributor_file");
-  require_named_materials(band, open_->materials, open_->place.path);
+  require_named_materials(band, open_->materials, open_->context.path);
   if (band.bins != lists[1] || band.per_pixel != lists[2] || first_beam + band.beams > lists[0])
-    fail(ErrorKind::argument, "write_contributor_file: ", open_->place.path, ": beams ", first_beam, " to ",
+    fail(ErrorKind::argument, "write_contributor_file: ", open_->context.path, ": beams ", first_beam, " to ",
          first_beam + band.beams, " of ", band.bins, " x ", band.per_pixel, " entries, must be within ", lists[0],
          " beams of ", lists[1], " x ", lists[2]);
-  write_checked(open_->place, [&] { open_->write(band, first_beam); });
+  write_checked(open_->context, [&] { open_->write(band, first_beam); });
 }
 
 void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Grid<std::uint32_t>& instance_image) {
   for (const auto& [rows, columns] : {std::pair(material_image.rows(), material_image.cols()),
                                       std::pair(instance_image.rows(), instance_image.cols())})
     if (static_cast<hsize_t>(rows) != open_->lists[0] || static_cast<hsize_t>(columns) != open_->lists[1])
-      fail(ErrorKind::argument, "write_contributor_file: ", open_->place.path, ": labels of ", rows, " x ", columns,
+      fail(ErrorKind::argument, "write_contributor_file: ", open_->context.path, ": labels of ", rows, " x ", columns,
            " pixels, must be of ", open_->lists[0], " x ", open_->lists[1]);
   {
     const QuietErrors quiet;
-    write_checked(open_->place, [&] {
+    write_checked(open_->context, [&] {
       open_->write_image(material_image_name, material_image);
       open_->write_image(instance_image_name, instance_image);
       open_->datasets.clear();
@@ -201,29 +202,29 @@ void write_contributor_file(const std::string& path, const NamedContributors& na
 std::uintmax_t contributor_bytes(const std::string& path) {
   constexpr std::uintmax_t bytes_of_entry = 19;
   Extent extent;
-  read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) {
-    require_ours(place, file);
-    to(extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3));
+  read_hdf5(path, [](const FileContext& context, hid_t file, ArraySender& to) {
+    require_ours(context, file);
+    to(extent_of(context, open_dataset(context, file, surfel_name), surfel_name.path, 3));
   })(extent);
   return bytes_of_entry * extent[0] * extent[1] * extent[2];
 }
 
 NamedContributors read_contributor_file(const std::string& path) {
-  ArrayReceiver sent = read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) {
-    require_ours(place, file);
-    const Extent extent = extent_of(place, open_dataset(place, file, surfel_name), surfel_name.path, 3);
+  ArrayReceiver sent = read_hdf5(path, [](const FileContext& context, hid_t file, ArraySender& to) {
+    require_ours(context, file);
+    const Extent extent = extent_of(context, open_dataset(context, file, surfel_name), surfel_name.path, 3);
     to(extent);
-    send_numbers<std::uint32_t>(place, file, surfel_name, extent, to);
-    send_numbers<std::uint32_t>(place, file, id_name, extent, to);
-    send_numbers<float>(place, file, share_name, extent, to);
-    send_numbers<float>(place, file, elevations_name, extent, to);
-    send_numbers<std::uint16_t>(place, file, material_name, extent, to);
-    send_numbers<std::uint8_t>(place, file, path_name, extent, to);
+    send_numbers<std::uint32_t>(context, file, surfel_name, extent, to);
+    send_numbers<std::uint32_t>(context, file, id_name, extent, to);
+    send_numbers<float>(context, file, share_name, extent, to);
+    send_numbers<float>(context, file, elevations_name, extent, to);
+    send_numbers<std::uint16_t>(context, file, material_name, extent, to);
+    send_numbers<std::uint8_t>(context, file, path_name, extent, to);
     if (H5Lexists(file, before_name.path, H5P_DEFAULT) > 0)
-      send_numbers<std::uint32_t>(place, file, before_name, extent, to);
+      send_numbers<std::uint32_t>(context, file, before_name, extent, to);
     else
       to(std::vector<std::uint32_t>{});
-    to(read_names(place, file));
+    to(read_names(context, file));
   });
   NamedContributors named;
   Contributors& c = named.contributors;

@@ -19,7 +19,6 @@ struct Header {
   std::vector<std::size_t> columns;
 };
 
-// Returns the layout that shares the most columns with `fields`.
 std::size_t nearest_layout(std::span<const CsvColumns> layouts, const std::vector<std::string_view>& fields) {
   const auto shared = [&](const CsvColumns& layout) {
     return std::count_if(fields.begin(), fields.end(), [&](std::string_view field) { return holds(layout, field); });
@@ -30,21 +29,19 @@ std::size_t nearest_layout(std::span<const CsvColumns> layouts, const std::vecto
 }
 
 Header read_header(std::span<const CsvColumns> layouts, const std::vector<std::string_view>& fields,
-                   const FilePlace& place) {
+                   const FileLine& at) {
   CsvColumns known;
   for (const CsvColumns& layout : layouts) known.insert(known.end(), layout.begin(), layout.end());
   for (auto field = fields.begin(); field != fields.end(); ++field) {
-    if (!holds(known, *field))
-      place.fail_here("unknown column '", *field, "'", did_you_mean(std::string(*field), known));
-    if (std::find(fields.begin(), field, *field) != field) place.fail_here("column '", *field, "' occurs twice");
+    if (!holds(known, *field)) at.fail_here("unknown column '", *field, "'", did_you_mean(std::string(*field), known));
+    if (std::find(fields.begin(), field, *field) != field) at.fail_here("column '", *field, "' occurs twice");
   }
   Header header{nearest_layout(layouts, fields), {}};
   const CsvColumns& layout = layouts[header.layout];
   for (const std::string& column : layout)
-    if (std::find(fields.begin(), fields.end(), column) == fields.end())
-      place.fail_here("missing column '", column, "'");
+    if (std::find(fields.begin(), fields.end(), column) == fields.end()) at.fail_here("missing column '", column, "'");
   for (const std::string_view field : fields) {
-    if (!holds(layout, field)) place.fail_here("column '", field, "' cannot be combined with '", layout.back(), "'");
+    if (!holds(layout, field)) at.fail_here("column '", field, "' cannot be combined with '", layout.back(), "'");
     header.columns.push_back(static_cast<std::size_t>(std::find(layout.begin(), layout.end(), field) - layout.begin()));
   }
   return header;
@@ -61,8 +58,7 @@ void cut_fields(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
-void read_lines(const std::string& path,
-                const std::function<void(std::string_view line, const FilePlace& place)>& take) {
+void read_lines(const std::string& path, const std::function<void(std::string_view line, const FileLine& at)>& take) {
   const std::string text = read_text_file(path);
   std::string_view rest = text;
   if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // skip the byte-order mark of spreadsheets
@@ -74,9 +70,9 @@ void read_lines(const std::string& path,
   }
 }
 
-double read_number(std::string_view text, const std::string& column, const FilePlace& place) {
+double read_number(std::string_view text, const std::string& column, const FileLine& at) {
   const auto number = finite_number(text);
-  if (!number) place.fail_here(column, " = '", text, "', must be a finite number");
+  if (!number) at.fail_here(column, " = '", text, "', must be a finite number");
   return *number;
 }
 
@@ -86,18 +82,18 @@ void read_csv(const std::string& path, std::span<const CsvColumns> layouts,
   CsvRowTaker take_row;
   std::vector<std::string_view> fields;
   std::vector<double> row;
-  read_lines(path, [&](std::string_view line, const FilePlace& place) {
+  read_lines(path, [&](std::string_view line, const FileLine& at) {
     cut_fields(line, fields);
     if (!take_row) {
-      header = read_header(layouts, fields, place);
+      header = read_header(layouts, fields, at);
       row.resize(header.columns.size());
       take_row = take(header.layout);
       return;
     }
-    if (fields.size() != row.size()) place.fail_here("has ", fields.size(), " fields, the header has ", row.size());
+    if (fields.size() != row.size()) at.fail_here("has ", fields.size(), " fields, the header has ", row.size());
     for (std::size_t i = 0; i < fields.size(); ++i)
-      row[header.columns[i]] = read_number(fields[i], layouts[header.layout][header.columns[i]], place);
-    take_row(row, place);
+      row[header.columns[i]] = read_number(fields[i], layouts[header.layout][header.columns[i]], at);
+    take_row(row, at);
   });
   if (take_row) return;
   fail(ErrorKind::content, path, ": has no header, must start with ",

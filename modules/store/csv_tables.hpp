@@ -55,7 +55,7 @@ struct SoundingTable {
 /// and time_s if the table has them. Other columns are ignored; fields must not have quotes. Rules: at least one row.
 SoundingTable load_sounding_table(const std::string& path);
 
-/// A user-defined label of a place in a picture.
+/// A user-defined label of a position in a picture.
 struct Label {
   double bearing_deg = 0;  ///< positive to starboard
   double range = 0;        ///< [m]

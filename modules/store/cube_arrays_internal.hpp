@@ -52,7 +52,7 @@ struct PingRange {
 };
 
 /// Throws Error(content) unless a dataset holds complex numbers.
-void require_complex(const hdf5::FileContext& place, hid_t dataset, const std::string& name);
+void require_complex(const hdf5::FileContext& context, hid_t dataset, const std::string& name);
 
 /// Returns the name of the image of a cube: /level if it has display cells, else /pressure.
 DatasetName image_name_of(hid_t file);
@@ -65,10 +65,10 @@ Grid<std::int16_t> stored_levels(const ComplexGridF& pressure);
 ComplexGridF pressures_of(const Grid<std::int16_t>& levels);
 
 /// Writes the images of all pings: pressures or levels, layers, maps and labels.
-void write_all_images(const hdf5::FileContext& place, hid_t file, const Cube& cube);
+void write_all_images(const hdf5::FileContext& context, hid_t file, const Cube& cube);
 
 /// Sends the images of pings of a cube of `extent`: pressure, layers, maps and labels.
-void send_all_images(const hdf5::FileContext& place, hid_t file, const hdf5::Extent& extent, PingRange pings,
+void send_all_images(const hdf5::FileContext& context, hid_t file, const hdf5::Extent& extent, PingRange pings,
                      ArraySender& to);
 
 /// Fills the images of pings with the data that send_all_images sent. `path` is the path of the file.

@@ -19,16 +19,16 @@ namespace insonify {
 
 using namespace hdf5;
 
-void require_complex(const FileContext& place, hid_t dataset, const std::string& name) {
-  const Handle type(place.checked(H5Dget_type(dataset), name), H5Tclose);
+void require_complex(const FileContext& context, hid_t dataset, const std::string& name) {
+  const Handle type(context.checked(H5Dget_type(dataset), name), H5Tclose);
   for (const char* member : {"r", "i"}) {
     const int at = H5Tget_class(type) == H5T_COMPOUND ? H5Tget_member_index(type, member) : -1;
-    if (at < 0) fail(place.kind, place.path, ": ", name, " must be compound {r, i}");
-    const Handle number(place.checked(H5Tget_member_type(type, static_cast<unsigned>(at)), name), H5Tclose);
+    if (at < 0) fail(context.kind, context.path, ": ", name, " must be compound {r, i}");
+    const Handle number(context.checked(H5Tget_member_type(type, static_cast<unsigned>(at)), name), H5Tclose);
     const std::size_t size = H5Tget_size(type), begin = H5Tget_member_offset(type, static_cast<unsigned>(at));
     // HDF5 would read beyond the number.
     if (begin > size || H5Tget_size(number) > size - begin)
-      fail(place.kind, place.path, ": ", name, " has a member ", member, " at byte ", begin, " of ", size,
+      fail(context.kind, context.path, ": ", name, " has a member ", member, " at byte ", begin, " of ", size,
            "; the file is damaged: copy or export it again");
   }
 }
@@ -72,13 +72,13 @@ std::vector<Piece> pieces_of(hid_t dataset, hid_t type, const Extent& extent, hs
   return pieces;
 }
 
-// Sends one image of `type` per ping: for a large one its place in the file, from which the parent copies it, else its
+// Sends one image of `type` per ping: for a large one its position in the file, from which the parent copies it, else its
 // numbers.
-void send_images(const FileContext& place, hid_t dataset, const std::string& name, hid_t type, PingRange pings,
+void send_images(const FileContext& context, hid_t dataset, const std::string& name, hid_t type, PingRange pings,
                  ArraySender& to) {
-  const Extent extent = extent_of(place, dataset, name, 3);
+  const Extent extent = extent_of(context, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
-  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
+  const Handle memory(context.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
   for (std::size_t p = pings.begin; p < pings.end; ++p) {
     const std::vector<Piece> pieces = pieces_of(dataset, type, extent, p);
     to(pieces);
@@ -86,9 +86,9 @@ void send_images(const FileContext& place, hid_t dataset, const std::string& nam
       to(extent[1], extent[2]);
       continue;
     }
-    const Handle row = select_row(place, dataset, extent, p);
+    const Handle row = select_row(context, dataset, extent, p);
     const auto rows = static_cast<Eigen::Index>(extent[1]), columns = static_cast<Eigen::Index>(extent[2]);
-    read_values(place, dataset, {type, memory, row}, to.take_grid(rows, columns, H5Tget_size(type)), name);
+    read_values(context, dataset, {type, memory, row}, to.take_grid(rows, columns, H5Tget_size(type)), name);
   }
 }
 
@@ -113,17 +113,17 @@ void receive_image(ArrayReceiver& sent, const std::string& path, Grid<Number>& i
   if (!file) fail(ErrorKind::content, path, ": an image ends beyond the file; it is cut off: copy or export it again");
 }
 
-void require_extent(const FileContext& place, hid_t dataset, const std::string& name, const Extent& extent) {
-  if (extent_of(place, dataset, name, 3) != extent)
-    fail(place.kind, place.path, ": ", name, " differs in extent from /pressure");
+void require_extent(const FileContext& context, hid_t dataset, const std::string& name, const Extent& extent) {
+  if (extent_of(context, dataset, name, 3) != extent)
+    fail(context.kind, context.path, ": ", name, " differs in extent from /pressure");
 }
 
 // Sends an image of pressures, or of levels of display cells.
-void send_signal(const FileContext& place, hid_t dataset, const std::string& name, bool levels, PingRange pings,
+void send_signal(const FileContext& context, hid_t dataset, const std::string& name, bool levels, PingRange pings,
                  ArraySender& to) {
-  if (levels) return send_images(place, dataset, name, H5T_NATIVE_INT16, pings, to);
-  require_complex(place, dataset, name);
-  send_images(place, dataset, name, complex_type(place, H5T_NATIVE_FLOAT), pings, to);
+  if (levels) return send_images(context, dataset, name, H5T_NATIVE_INT16, pings, to);
+  require_complex(context, dataset, name);
+  send_images(context, dataset, name, complex_type(context, H5T_NATIVE_FLOAT), pings, to);
 }
 
 void receive_signal(ArrayReceiver& sent, const std::string& path, bool levels, ComplexGridF& pressure) {
@@ -133,31 +133,31 @@ void receive_signal(ArrayReceiver& sent, const std::string& path, bool levels, C
   pressure = pressures_of(stored);
 }
 
-void send_layers(const FileContext& place, hid_t file, const Extent& extent, bool levels, PingRange pings,
+void send_layers(const FileContext& context, hid_t file, const Extent& extent, bool levels, PingRange pings,
                  ArraySender& to) {
-  const std::vector<std::string> layers = names_in(place, file, layers_group);
+  const std::vector<std::string> layers = names_in(context, file, layers_group);
   to(layers);
   for (const std::string& layer : layers) {
     const std::string path = std::string(layers_group) + "/" + layer;
-    const Handle dataset = open_dataset(place, file, {path.c_str(), levels ? level_name.unit : pressure_name.unit});
-    require_extent(place, dataset, path, extent);
-    send_signal(place, dataset, path, levels, pings, to);
+    const Handle dataset = open_dataset(context, file, {path.c_str(), levels ? level_name.unit : pressure_name.unit});
+    require_extent(context, dataset, path, extent);
+    send_signal(context, dataset, path, levels, pings, to);
   }
 }
 
 // Sends true if there is an optional map, and then that of each ping; else false.
-void send_map(const FileContext& place, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+void send_map(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
               PingRange pings, ArraySender& to) {
   const bool there = H5Lexists(file, name.path, H5P_DEFAULT) > 0;
   to(there);
   if (!there) return;
-  const Handle dataset = open_dataset(place, file, name);
-  require_extent(place, dataset, name.path, extent);
-  const Handle stored(place.checked(H5Dget_type(dataset), name.path), H5Tclose);
+  const Handle dataset = open_dataset(context, file, name);
+  require_extent(context, dataset, name.path, extent);
+  const Handle stored(context.checked(H5Dget_type(dataset), name.path), H5Tclose);
   if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
-    fail(place.kind, place.path, ": ", name.path, " must be of ", H5Tget_class(type) == H5T_FLOAT ? "float" : "uint",
-         8 * H5Tget_size(type));
-  send_images(place, dataset, name.path, type, pings, to);
+    fail(context.kind, context.path, ": ", name.path, " must be of ",
+         H5Tget_class(type) == H5T_FLOAT ? "float" : "uint", 8 * H5Tget_size(type));
+  send_images(context, dataset, name.path, type, pings, to);
 }
 
 template <typename Map>
@@ -168,27 +168,27 @@ void receive_map(ArrayReceiver& sent, const std::string& path, std::vector<Ping>
   for (Ping& ping : pings) receive_image(sent, path, std::invoke(map, ping));
 }
 
-void send_labels(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+void send_labels(const FileContext& context, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
   const bool there = H5Lexists(file, label_material_name.path, H5P_DEFAULT) > 0;
   to(there);
   if (!there) return;
   for (const auto& [name, type] :
        {std::pair(label_material_name, H5T_NATIVE_UINT16), std::pair(label_id_name, H5T_NATIVE_UINT32),
         std::pair(label_share_name, H5T_NATIVE_FLOAT)}) {
-    open_dataset(place, file, name);  // throws unless all three are present
-    send_map(place, file, name, type, extent, pings, to);
+    open_dataset(context, file, name);  // throws unless all three are present
+    send_map(context, file, name, type, extent, pings, to);
   }
-  std::istringstream lines(read_text(place, file, label_names_attribute));
+  std::istringstream lines(read_text(context, file, label_names_attribute));
   std::vector<std::string> names;
   for (std::string name; std::getline(lines, name);) names.push_back(name);
   to(names);
-  send_map(place, file, label_part_name, H5T_NATIVE_UINT16, extent, pings, to);
-  send_map(place, file, label_elevation_name, H5T_NATIVE_FLOAT, extent, pings, to);
-  send_map(place, file, label_second_name, H5T_NATIVE_UINT16, extent, pings, to);
-  send_map(place, file, label_second_share_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map(context, file, label_part_name, H5T_NATIVE_UINT16, extent, pings, to);
+  send_map(context, file, label_elevation_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map(context, file, label_second_name, H5T_NATIVE_UINT16, extent, pings, to);
+  send_map(context, file, label_second_share_name, H5T_NATIVE_FLOAT, extent, pings, to);
   const bool parts = has_parts(file);
   to(parts);
-  if (parts) send_parts(place, file, extent, pings, to);
+  if (parts) send_parts(context, file, extent, pings, to);
 }
 
 /// Throws Error(content) for a pixel whose label has no name; labels from `reserved` on need none.
@@ -255,15 +255,15 @@ ComplexGridF pressures_of(const Grid<std::int16_t>& levels) {
   });
 }
 
-void send_all_images(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+void send_all_images(const FileContext& context, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
   const DatasetName image = image_name_of(file);
   const bool levels = has_levels(file);
-  send_signal(place, open_dataset(place, file, image), image.path, levels, pings, to);
-  send_layers(place, file, extent, levels, pings, to);
-  send_map(place, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, to);
-  send_map(place, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, to);
-  send_map(place, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, to);
-  send_labels(place, file, extent, pings, to);
+  send_signal(context, open_dataset(context, file, image), image.path, levels, pings, to);
+  send_layers(context, file, extent, levels, pings, to);
+  send_map(context, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map(context, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, to);
+  send_map(context, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_labels(context, file, extent, pings, to);
 }
 
 void receive_all_images(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings) {

@@ -22,7 +22,8 @@ void put_view(const PartView& view, std::vector<double>& numbers) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) numbers.push_back(view.world_from_part.matrix()(row, column));
   numbers.push_back(view.visible_share);
-  for (const PartView::Extent& extent : {view.azimuth, view.elevation, view.range, view.heard, view.ahead, view.port})
+  for (const PartView::Extent& extent :
+       {view.azimuth, view.elevation, view.range, view.beam_azimuth, view.ahead, view.port})
     numbers.push_back(extent.least), numbers.push_back(extent.most);
   numbers.push_back(view.scale);
   numbers.insert(numbers.end(), view.size.begin(), view.size.end());
@@ -33,7 +34,8 @@ PartView view_of(const double* numbers) {
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 4; ++column) view.world_from_part.matrix()(row, column) = *numbers++;
   view.visible_share = *numbers++;
-  for (PartView::Extent* extent : {&view.azimuth, &view.elevation, &view.range, &view.heard, &view.ahead, &view.port})
+  for (PartView::Extent* extent :
+       {&view.azimuth, &view.elevation, &view.range, &view.beam_azimuth, &view.ahead, &view.port})
     extent->least = *numbers++, extent->most = *numbers++;
   view.scale = *numbers++;
   for (double& size : view.size) size = *numbers++;
@@ -41,12 +43,12 @@ PartView view_of(const double* numbers) {
 }
 
 /// Returns the numbers of the views of `parts` parts in each ping; NaN for those that cubes of earlier versions lack.
-std::vector<double> read_views(const FileContext& place, hid_t file, std::size_t pings, std::size_t parts) {
-  const Extent there = extent_of(place, open_dataset(place, file, part_views_name), part_views_name.path, 3);
+std::vector<double> read_views(const FileContext& context, hid_t file, std::size_t pings, std::size_t parts) {
+  const Extent there = extent_of(context, open_dataset(context, file, part_views_name), part_views_name.path, 3);
   const bool before = there[2] == numbers_before;
   const std::size_t stored = before ? numbers_before : numbers_per_view;
   std::vector<double> numbers =
-      read_all<double>(place, file, part_views_name, {pings, parts, stored}, H5T_NATIVE_DOUBLE);
+      read_all<double>(context, file, part_views_name, {pings, parts, stored}, H5T_NATIVE_DOUBLE);
   if (!before) return numbers;
   std::vector<double> all(pings * parts * numbers_per_view, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t view = 0; view < pings * parts; ++view)
@@ -76,31 +78,31 @@ void require_same_parts(const Ping& ping, const Ping& first, const std::string& 
          first.number, "; write it to a cube of its own");
 }
 
-void write_parts(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
+void write_parts(const FileContext& context, hid_t file, const std::vector<Ping>& pings) {
   const PixelLabels& first = pings.front().labels;
   if (first.part_names.empty()) return;
   std::vector<double> numbers;
   for (const Ping& ping : pings) {
     if (ping.labels.views.size() != first.part_names.size())
-      fail(ErrorKind::argument, "write_cube: ", place.path, ": ping ", ping.number, " has views of ",
+      fail(ErrorKind::argument, "write_cube: ", context.path, ": ping ", ping.number, " has views of ",
            ping.labels.views.size(), " parts, must have ", first.part_names.size());
     for (const PartView& view : ping.labels.views) put_view(view, numbers);
   }
-  write_numbers(place, file, part_views_name, {pings.size(), first.part_names.size(), numbers_per_view},
+  write_numbers(context, file, part_views_name, {pings.size(), first.part_names.size(), numbers_per_view},
                 numbers.data());
-  write_attribute(place, file, part_names_attribute, as_lines(first.part_names));
-  write_attribute(place, file, part_labels_attribute, as_lines(first.part_labels));
+  write_attribute(context, file, part_names_attribute, as_lines(first.part_names));
+  write_attribute(context, file, part_labels_attribute, as_lines(first.part_labels));
 }
 
 bool has_parts(hid_t file) { return H5Lexists(file, part_views_name.path, H5P_DEFAULT) > 0; }
 
-void send_parts(const FileContext& place, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
-  const std::vector<std::string> names = from_lines(read_text(place, file, part_names_attribute));
-  const std::vector<std::string> labels = from_lines(read_text(place, file, part_labels_attribute));
+void send_parts(const FileContext& context, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
+  const std::vector<std::string> names = from_lines(read_text(context, file, part_names_attribute));
+  const std::vector<std::string> labels = from_lines(read_text(context, file, part_labels_attribute));
   if (labels.size() != names.size())
-    fail(place.kind, place.path, ": ", part_labels_attribute, " has ", labels.size(), " lines, but ",
+    fail(context.kind, context.path, ": ", part_labels_attribute, " has ", labels.size(), " lines, but ",
          part_names_attribute, " has ", names.size());
-  const std::vector<double> numbers = read_views(place, file, extent[0], names.size());
+  const std::vector<double> numbers = read_views(context, file, extent[0], names.size());
   const std::size_t per_ping = names.size() * numbers_per_view;
   to(names, labels,
      std::vector<double>(numbers.begin() + static_cast<std::ptrdiff_t>(pings.begin * per_ping),

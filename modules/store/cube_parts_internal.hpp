@@ -12,13 +12,13 @@ namespace insonify {
 void require_same_parts(const Ping& ping, const Ping& first, const std::string& path);
 
 /// Writes names, labels and views of the parts, if the first ping has parts.
-void write_parts(const hdf5::FileContext& place, hid_t file, const std::vector<Ping>& pings);
+void write_parts(const hdf5::FileContext& context, hid_t file, const std::vector<Ping>& pings);
 
 /// Returns true if a cube has parts.
 bool has_parts(hid_t file);
 
 /// Sends names, labels and views of the parts for some pings of a cube that has them, and receives them.
-void send_parts(const hdf5::FileContext& place, hid_t file, const hdf5::Extent& extent, PingRange pings,
+void send_parts(const hdf5::FileContext& context, hid_t file, const hdf5::Extent& extent, PingRange pings,
                 ArraySender& to);
 void receive_parts(ArrayReceiver& sent, std::vector<Ping>& pings);
 

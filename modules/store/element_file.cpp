@@ -20,19 +20,19 @@ void write_element_file(const std::string& path, const ElementSeries& series, co
     fail(ErrorKind::argument, "write_element_file: ", path, ": the series has ", series.pressure.rows(),
          " elements and ", series.pressure.cols(), " samples, must have ", head.array.elements(), " elements");
   const ComplexGridF pressure = stored_pressure(series.pressure, "write_element_file");
-  write_hdf5(path, [&](const FileContext& place, hid_t file) {
-    write_attribute(place, file, "schema", element_schema);
-    write_attribute(place, file, "start", series.start);
-    write_attribute(place, file, "step", series.step);
-    write_attribute(place, file, "spacing", head.array.spacing);
-    write_attribute(place, file, "centre_frequency", head.pulse.centre_frequency);
-    write_attribute(place, file, "sound_speed", sound_speed);
-    write_attribute(place, file, "steering", std::string("exp(+2 pi i f y u / c)"));
+  write_hdf5(path, [&](const FileContext& context, hid_t file) {
+    write_attribute(context, file, "schema", element_schema);
+    write_attribute(context, file, "start", series.start);
+    write_attribute(context, file, "step", series.step);
+    write_attribute(context, file, "spacing", head.array.spacing);
+    write_attribute(context, file, "centre_frequency", head.pulse.centre_frequency);
+    write_attribute(context, file, "sound_speed", sound_speed);
+    write_attribute(context, file, "steering", std::string("exp(+2 pi i f y u / c)"));
     const Extent extent = {static_cast<hsize_t>(pressure.rows()), static_cast<hsize_t>(pressure.cols())};
-    const Handle dataset = create_dataset(place, file, pressure_name, complex_type(place, H5T_IEEE_F32LE), extent);
-    write_attribute(place, dataset, convention_attribute, std::string(pressure_convention));
-    place.checked(
-        H5Dwrite(dataset, complex_type(place, H5T_NATIVE_FLOAT), H5S_ALL, H5S_ALL, H5P_DEFAULT, pressure.data()),
+    const Handle dataset = create_dataset(context, file, pressure_name, complex_type(context, H5T_IEEE_F32LE), extent);
+    write_attribute(context, dataset, convention_attribute, std::string(pressure_convention));
+    context.checked(
+        H5Dwrite(dataset, complex_type(context, H5T_NATIVE_FLOAT), H5S_ALL, H5S_ALL, H5P_DEFAULT, pressure.data()),
         pressure_name.path);
   });
 }

@@ -24,10 +24,10 @@ std::vector<Mirror> mirrors_in(const std::string& path, const TomlValue& tables)
     MirrorEntry entry;
     read_keys(path, table, mirror_keys(entry), "mirror");
     Mirror& mirror = entry.mirror;
-    const bool with_place = table.find("place_m") || table.find("normal");
-    if (!mirror.corners.empty() == with_place)
+    const bool with_position = table.find("place_m") || table.find("normal");
+    if (!mirror.corners.empty() == with_position)
       fail_in_file(path, table.line, "mirror '", mirror.name, "' must have either corners_m, or place_m and normal");
-    if (!entry.size.empty() && (!with_place || entry.size.size() != 2))
+    if (!entry.size.empty() && (!with_position || entry.size.size() != 2))
       fail_in_file(path, table.line, "mirror.size_m must be [width, height] beside place_m and normal");
     if (!mirror.corners.empty()) mirror = with_corners(mirror, mirror.corners);
     if (!entry.size.empty()) mirror = with_size(mirror, entry.size[0], entry.size[1]);
@@ -122,7 +122,7 @@ std::vector<Key> mirror_keys(MirrorEntry& entry) {
   const bool endless = m.corners.empty();
   return {
       {"mirror", "name", "", text(m.name), "name of the mirror in messages"},
-      {"mirror", "place_m", "m", vector_of(m.place, "x, y, z", endless),
+      {"mirror", "place_m", "m", vector_of(m.position, "x, y, z", endless),
        "a point of the plane; with `size_m`, the middle of the rectangle"},
       {"mirror", "normal", "", vector_of(m.normal, "x, y, z", endless), "direction into the water, of any length"},
       {"mirror", "size_m", "m", list(given(entry.size), positive),

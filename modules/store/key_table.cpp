@@ -52,7 +52,6 @@ std::string refusal_of_unknown(const std::vector<Key>& keys, const std::string& 
                      : "; known are " + shortened_list(known));
 }
 
-/// Returns "key = value unit, must be ...".
 std::string refusal_of_value(const Key& key, const TomlValue& value) {
   const std::string unit = value.is_number() && *key.unit ? std::string(" ") + key.unit : "";
   return full_name(key) + " = " + shortened(as_toml(value)) + unit + ", must be " + key.value.rule;

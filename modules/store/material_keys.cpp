@@ -29,7 +29,6 @@ KeyValue number_of(Material& material, const MaterialNumber& n) {
   return number(power, {.most = most, .infinite = true, .note = n.note}, in_decibels);
 }
 
-/// Returns a number of a law, in the unit of files.
 KeyValue number_of(std::optional<double>& x, const LawNumber& n) {
   if (n.in_decibels) return number(x, {.most = db_from_power(n.most), .infinite = true}, in_decibels);
   const auto get = [&x, n] { return x ? std::optional(*x * n.in_file) : std::nullopt; };

@@ -43,7 +43,7 @@ struct MissionFile {
   std::vector<MissionSonar> sonars;  ///< one for each head
 };
 
-/// The date of a survey, and its place on the globe.
+/// The date of a survey, and its position on the globe.
 struct SurveyFrame {
   std::string start_utc;         ///< date of time 0; empty: unknown
   std::optional<Anchor> anchor;  ///< place and heading of the world's axes

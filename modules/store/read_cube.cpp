@@ -14,75 +14,76 @@ using namespace hdf5;
 
 namespace {
 
-void require_schema(const FileContext& place, hid_t file) {
+void require_schema(const FileContext& context, hid_t file) {
   if (H5Aexists(file, "schema") <= 0)
-    fail(place.kind, place.path, ": is not a cube of insonify: attribute 'schema' is missing");
-  const std::int64_t schema = read_integer(place, file, "schema");
+    fail(context.kind, context.path, ": is not a cube of insonify: attribute 'schema' is missing");
+  const std::int64_t schema = read_integer(context, file, "schema");
   if (schema != cube_schema)
-    fail(place.kind, place.path, ": has cube schema ", schema, ", this version reads schema ", cube_schema);
+    fail(context.kind, context.path, ": has cube schema ", schema, ", this version reads schema ", cube_schema);
 }
 
 // Reads fan and gate, common to all pings; invalid values are errors of the file.
-void read_axes(const FileContext& place, hid_t file, CubeTable& table) {
+void read_axes(const FileContext& context, hid_t file, CubeTable& table) {
   const Extent& extent = table.extent;
-  table.fan.azimuth = read_all<double>(place, file, azimuth_name, {extent[1]}, H5T_NATIVE_DOUBLE);
-  table.fan.elevation = read_all<double>(place, file, elevation_name, {extent[1]}, H5T_NATIVE_DOUBLE);
-  table.fan.beam_width = read_number(place, file, "beam_width");
-  table.fan.elevation_width = read_number(place, file, "elevation_width");
-  if (H5Aexists(file, "row_width") > 0) table.fan.row_width = read_number(place, file, "row_width");
-  table.gate = {read_number(place, file, "min_range"), read_number(place, file, "max_range"),
-                read_number(place, file, "bin_size")};
+  table.fan.azimuth = read_all<double>(context, file, azimuth_name, {extent[1]}, H5T_NATIVE_DOUBLE);
+  table.fan.elevation = read_all<double>(context, file, elevation_name, {extent[1]}, H5T_NATIVE_DOUBLE);
+  table.fan.beam_width = read_number(context, file, "beam_width");
+  table.fan.elevation_width = read_number(context, file, "elevation_width");
+  if (H5Aexists(file, "row_width") > 0) table.fan.row_width = read_number(context, file, "row_width");
+  table.gate = {read_number(context, file, "min_range"), read_number(context, file, "max_range"),
+                read_number(context, file, "bin_size")};
   try {
     require_valid(table.fan, "cube");
     require_valid(table.gate, "cube");
   } catch (const Error& error) {
-    fail(place.kind, place.path, ": ", error.what());
+    fail(context.kind, context.path, ": ", error.what());
   }
   if (table.gate.bins() != extent[2])
-    fail(place.kind, place.path, ": /pressure has ", extent[2], " bins, but min_range, max_range and bin_size give ",
-         table.gate.bins());
-  read_all<double>(place, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
+    fail(context.kind, context.path, ": /pressure has ", extent[2],
+         " bins, but min_range, max_range and bin_size give ", table.gate.bins());
+  read_all<double>(context, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
 }
 
 // Returns a property of the water for each ping: the ping's own, or else the cube's.
-std::vector<double> water_of(const FileContext& place, hid_t file, const DatasetName& name, hsize_t pings) {
+std::vector<double> water_of(const FileContext& context, hid_t file, const DatasetName& name, hsize_t pings) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
-    return std::vector<double>(pings, read_number(place, file, name.path + 1));
-  const auto values = read_all<double>(place, file, name, {pings}, H5T_NATIVE_DOUBLE);
+    return std::vector<double>(pings, read_number(context, file, name.path + 1));
+  const auto values = read_all<double>(context, file, name, {pings}, H5T_NATIVE_DOUBLE);
   for (const double value : values)
     if (!(value >= 0 && std::isfinite(value)))
-      fail(place.kind, place.path, ": ", name.path, " = ", value, " ", name.unit, ", must be finite and >= 0");
+      fail(context.kind, context.path, ": ", name.path, " = ", value, " ", name.unit, ", must be finite and >= 0");
   return values;
 }
 
 // Returns a world vector for each ping; zero in a cube without them.
-std::vector<Eigen::Vector3d> vectors_of(const FileContext& place, hid_t file, const DatasetName& name, hsize_t pings) {
+std::vector<Eigen::Vector3d> vectors_of(const FileContext& context, hid_t file, const DatasetName& name,
+                                        hsize_t pings) {
   std::vector<Eigen::Vector3d> vectors(pings, Eigen::Vector3d::Zero());
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return vectors;
-  const auto values = read_all<double>(place, file, name, {pings, 3}, H5T_NATIVE_DOUBLE);
+  const auto values = read_all<double>(context, file, name, {pings, 3}, H5T_NATIVE_DOUBLE);
   for (std::size_t p = 0; p < pings; ++p) {
     vectors[p] = Eigen::Map<const Eigen::Vector3d>(values.data() + 3 * p);
     if (!vectors[p].allFinite())
-      fail(place.kind, place.path, ": ", name.path, " of ping ", p, " = ", vectors[p].transpose(), " ", name.unit,
+      fail(context.kind, context.path, ": ", name.path, " of ping ", p, " = ", vectors[p].transpose(), " ", name.unit,
            ", must be finite");
   }
   return vectors;
 }
 
-std::vector<TrackPoint> track_of(const FileContext& place, hid_t file, hsize_t pings) {
-  const auto pose = read_all<double>(place, file, pose_name, {pings, 4, 4}, H5T_NATIVE_DOUBLE);
-  const auto time = read_all<double>(place, file, time_name, {pings}, H5T_NATIVE_DOUBLE);
-  const auto number = read_all<std::int64_t>(place, file, ping_name, {pings}, H5T_NATIVE_INT64);
-  const auto speed = water_of(place, file, sound_speed_name, pings);
-  const auto absorption = water_of(place, file, absorption_name, pings);
-  const auto velocity = vectors_of(place, file, velocity_name, pings);
-  const auto turn_rate = vectors_of(place, file, turn_rate_name, pings);
+std::vector<TrackPoint> track_of(const FileContext& context, hid_t file, hsize_t pings) {
+  const auto pose = read_all<double>(context, file, pose_name, {pings, 4, 4}, H5T_NATIVE_DOUBLE);
+  const auto time = read_all<double>(context, file, time_name, {pings}, H5T_NATIVE_DOUBLE);
+  const auto number = read_all<std::int64_t>(context, file, ping_name, {pings}, H5T_NATIVE_INT64);
+  const auto speed = water_of(context, file, sound_speed_name, pings);
+  const auto absorption = water_of(context, file, absorption_name, pings);
+  const auto velocity = vectors_of(context, file, velocity_name, pings);
+  const auto turn_rate = vectors_of(context, file, turn_rate_name, pings);
   const bool scans = H5Lexists(file, scan_angle_name.path, H5P_DEFAULT) > 0;
   std::vector<double> angle;
   std::vector<std::int64_t> sweep;
   if (scans) {
-    angle = read_all<double>(place, file, scan_angle_name, {pings}, H5T_NATIVE_DOUBLE);
-    sweep = read_all<std::int64_t>(place, file, sweep_name, {pings}, H5T_NATIVE_INT64);
+    angle = read_all<double>(context, file, scan_angle_name, {pings}, H5T_NATIVE_DOUBLE);
+    sweep = read_all<std::int64_t>(context, file, sweep_name, {pings}, H5T_NATIVE_INT64);
   }
   std::vector<TrackPoint> track(pings);
   for (std::size_t p = 0; p < track.size(); ++p) {
@@ -91,7 +92,7 @@ std::vector<TrackPoint> track_of(const FileContext& place, hid_t file, hsize_t p
     track[p].sound_speed = speed[p];
     track[p].absorption_db_per_m = absorption[p];
     track[p].motion = {velocity[p], turn_rate[p]};
-    if (scans) track[p].scan = ScanPlace{sweep[p], angle[p]};
+    if (scans) track[p].scan = ScanDirection{sweep[p], angle[p]};
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column)
         track[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
@@ -99,15 +100,15 @@ std::vector<TrackPoint> track_of(const FileContext& place, hid_t file, hsize_t p
   return track;
 }
 
-CubeTable read_table(const FileContext& place, hid_t file) {
+CubeTable read_table(const FileContext& context, hid_t file) {
   const DatasetName image = image_name_of(file);
-  const Handle dataset = open_dataset(place, file, image);
+  const Handle dataset = open_dataset(context, file, image);
   CubeTable table;
-  table.extent = extent_of(place, dataset, image.path, 3);
+  table.extent = extent_of(context, dataset, image.path, 3);
   table.display_cells = has_levels(file);
-  if (!table.display_cells) require_complex(place, dataset, image.path);
-  table.track = track_of(place, file, table.extent[0]);
-  read_axes(place, file, table);
+  if (!table.display_cells) require_complex(context, dataset, image.path);
+  table.track = track_of(context, file, table.extent[0]);
+  read_axes(context, file, table);
   table.expected_level = H5Aexists(file, expected_level_attribute) > 0;
   return table;
 }
@@ -128,37 +129,37 @@ std::vector<Ping> pings_of(const CubeTable& table, PingRange range) {
   return pings;
 }
 
-Cube read_attributes(const FileContext& place, hid_t file) {
-  require_schema(place, file);
+Cube read_attributes(const FileContext& context, hid_t file) {
+  require_schema(context, file);
   Cube cube;
-  cube.insonify_version = read_text(place, file, "insonify_version");
-  cube.sonar = read_text(place, file, "sonar");
-  cube.sound_speed = read_number(place, file, "sound_speed");
-  cube.absorption_db_per_m = read_number(place, file, "absorption_db_per_m");
-  cube.centre_frequency = read_number(place, file, "centre_frequency");
-  cube.bandwidth = read_number(place, file, "bandwidth");
-  cube.source_level_db = read_number(place, file, "source_level_db");
-  cube.seed = read_unsigned(place, file, "seed");
-  cube.tolerance = read_number(place, file, "tolerance");
+  cube.insonify_version = read_text(context, file, "insonify_version");
+  cube.sonar = read_text(context, file, "sonar");
+  cube.sound_speed = read_number(context, file, "sound_speed");
+  cube.absorption_db_per_m = read_number(context, file, "absorption_db_per_m");
+  cube.centre_frequency = read_number(context, file, "centre_frequency");
+  cube.bandwidth = read_number(context, file, "bandwidth");
+  cube.source_level_db = read_number(context, file, "source_level_db");
+  cube.seed = read_unsigned(context, file, "seed");
+  cube.tolerance = read_number(context, file, "tolerance");
   if (H5Aexists(file, keep_bits_attribute) > 0)
-    cube.keep_bits = static_cast<int>(read_integer(place, file, keep_bits_attribute));
-  if (H5Aexists(file, head_attribute) > 0) cube.head = read_text(place, file, head_attribute);
-  if (H5Aexists(file, notes_attribute) > 0) cube.notes = notes_in(read_text(place, file, notes_attribute));
-  if (H5Aexists(file, start_utc_attribute) > 0) cube.start_utc = read_text(place, file, start_utc_attribute);
+    cube.keep_bits = static_cast<int>(read_integer(context, file, keep_bits_attribute));
+  if (H5Aexists(file, head_attribute) > 0) cube.head = read_text(context, file, head_attribute);
+  if (H5Aexists(file, notes_attribute) > 0) cube.notes = notes_in(read_text(context, file, notes_attribute));
+  if (H5Aexists(file, start_utc_attribute) > 0) cube.start_utc = read_text(context, file, start_utc_attribute);
   if (H5Aexists(file, anchor_latitude_attribute) > 0)
-    cube.anchor = {read_number(place, file, anchor_latitude_attribute),
-                   read_number(place, file, anchor_longitude_attribute),
-                   read_number(place, file, anchor_heading_attribute)};
+    cube.anchor = {read_number(context, file, anchor_latitude_attribute),
+                   read_number(context, file, anchor_longitude_attribute),
+                   read_number(context, file, anchor_heading_attribute)};
   return cube;
 }
 
 /// Sends attributes and table of a cube unless its extent is known, then as many pings from `first` on as keep memory
 /// small, or one. What is not copied from the file takes the most time.
-void send_some_pings(const FileContext& place, hid_t file, ArraySender& to, Extent extent, std::size_t first,
+void send_some_pings(const FileContext& context, hid_t file, ArraySender& to, Extent extent, std::size_t first,
                      bool one) {
   if (extent.empty()) {
-    to(read_attributes(place, file));
-    const CubeTable table = read_table(place, file);
+    to(read_attributes(context, file));
+    const CubeTable table = read_table(context, file);
     to(table);
     extent = table.extent;
   }
@@ -167,7 +168,7 @@ void send_some_pings(const FileContext& place, hid_t file, ArraySender& to, Exte
   const auto sends_more = [&] { return p < extent[0] && (p == first || (!one && to.used() < bytes_at_once)); };
   for (; sends_more(); ++p) {
     to(true);
-    send_all_images(place, file, extent, {p, p + 1}, to);
+    send_all_images(context, file, extent, {p, p + 1}, to);
   }
   to(false);
 }
@@ -175,13 +176,13 @@ void send_some_pings(const FileContext& place, hid_t file, ArraySender& to, Exte
 }  // namespace
 
 Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
-  const auto read = [](const FileContext& place, hid_t file, ArraySender& to, std::size_t from, std::size_t most) {
-    to(read_attributes(place, file));
-    const CubeTable table = read_table(place, file);
+  const auto read = [](const FileContext& context, hid_t file, ArraySender& to, std::size_t from, std::size_t most) {
+    to(read_attributes(context, file));
+    const CubeTable table = read_table(context, file);
     const std::size_t begin = std::min(from, table.track.size());
     const PingRange range{begin, begin + std::min(most, table.track.size() - begin)};
     to(table, range);
-    send_all_images(place, file, table.extent, range, to);
+    send_all_images(context, file, table.extent, range, to);
   };
   ArrayReceiver sent = read_hdf5(path, read, first, count);
   Cube cube;
@@ -194,26 +195,27 @@ Cube read_cube(const std::string& path, std::size_t first, std::size_t count) {
 }
 
 ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t count, std::size_t beam) {
-  const auto read = [](const FileContext& place, hid_t file, ArraySender& to, std::size_t from, std::size_t pings,
+  const auto read = [](const FileContext& context, hid_t file, ArraySender& to, std::size_t from, std::size_t pings,
                        std::size_t one) {
-    require_schema(place, file);
+    require_schema(context, file);
     if (has_levels(file))
-      fail(place.kind, place.path, ": holds display cells, which have no phase; make it without --display");
-    const Handle dataset = open_dataset(place, file, pressure_name);
-    const Extent extent = extent_of(place, dataset, pressure_name.path, 3);
-    require_complex(place, dataset, pressure_name.path);
+      fail(context.kind, context.path, ": holds display cells, which have no phase; make it without --display");
+    const Handle dataset = open_dataset(context, file, pressure_name);
+    const Extent extent = extent_of(context, dataset, pressure_name.path, 3);
+    require_complex(context, dataset, pressure_name.path);
     if (one >= extent[1] || from + pings > extent[0])
       fail(ErrorKind::argument, "read_beam: pings ", from, " to ", from + pings, ", beam ", one, ", must be within ",
            extent[0], " and ", extent[1]);
-    const Handle type = complex_type(place, H5T_NATIVE_FLOAT);
+    const Handle type = complex_type(context, H5T_NATIVE_FLOAT);
     char* const rows =
         to.take_grid(static_cast<Eigen::Index>(pings), static_cast<Eigen::Index>(extent[2]), H5Tget_size(type));
     if (pings == 0) return;
     const Extent start{from, one, 0}, size{pings, 1, extent[2]};
-    const Handle space(place.checked(H5Dget_space(dataset), pressure_name.path), H5Sclose);
-    place.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
-    const Handle memory(place.checked(H5Screate_simple(3, size.data(), nullptr), pressure_name.path), H5Sclose);
-    read_values(place, dataset, {type, memory, space}, rows, "/pressure");
+    const Handle space(context.checked(H5Dget_space(dataset), pressure_name.path), H5Sclose);
+    context.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr),
+                    "selection");
+    const Handle memory(context.checked(H5Screate_simple(3, size.data(), nullptr), pressure_name.path), H5Sclose);
+    read_values(context, dataset, {type, memory, space}, rows, "/pressure");
   };
   ComplexGridF rows;
   read_hdf5(path, read, first, count, beam)(rows);
@@ -221,8 +223,8 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
 }
 
 void read_cube_pings(const std::string& path, const std::function<void(const Cube&, const Ping&)>& use) {
-  const auto read_some = [](const FileContext& place, hid_t file, ArraySender& to, const auto&... how) {
-    send_some_pings(place, file, to, how...);
+  const auto read_some = [](const FileContext& context, hid_t file, ArraySender& to, const auto&... how) {
+    send_some_pings(context, file, to, how...);
   };
   Cube cube;
   CubeTable table;
@@ -252,11 +254,11 @@ void read_cube_pings(const std::string& path, const std::function<void(const Cub
 
 std::vector<TrackPoint> read_track(const std::string& path) {
   std::vector<TrackPoint> track;
-  read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) {
-    require_schema(place, file);
+  read_hdf5(path, [](const FileContext& context, hid_t file, ArraySender& to) {
+    require_schema(context, file);
     const DatasetName image = image_name_of(file);
-    const Handle dataset = open_dataset(place, file, image);
-    to(track_of(place, file, extent_of(place, dataset, image.path, 3)[0]));
+    const Handle dataset = open_dataset(context, file, image);
+    to(track_of(context, file, extent_of(context, dataset, image.path, 3)[0]));
   })(track);
   return track;
 }

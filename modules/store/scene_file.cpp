@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int scene_schema = 1;
-constexpr std::size_t most_parts = 65000;
-/// Keys that place a part. A part without any of them is captured.
+constexpr std::size_t most_subranges = 65000;
+/// Keys that position a part. A part without any of them is captured.
 constexpr const char* placing_keys[] = {"position_m", "rest",       "bury_m",       "yaw_deg",        "pitch_deg",
                                         "roll_deg",   "trajectory", "velocity_mps", "turn_deg_per_s", "scale"};
 /// Keys that a part with a trajectory must not have.
@@ -99,7 +99,7 @@ const Trajectory& Reader::trajectory_of(int line, const std::string& file) const
 }
 
 /// Sets position and motion of a part by the keys of its table.
-void place(const Reader& reader, const TomlValue& table, const SceneTables& t, PartPlacement& p) {
+void position(const Reader& reader, const TomlValue& table, const SceneTables& t, PartPlacement& p) {
   const auto given = [&](const char* key) { return table.find(key) != nullptr; };
   p.captured = std::ranges::none_of(placing_keys, given);
   if (p.captured) return;
@@ -129,7 +129,7 @@ void Reader::read_part(const TomlValue& table, SceneFile& scene) const {
   complete(t.part.file, line_in(table, "file"), "file");
   ScenePartEntry& part = t.part;
   if (part.name.empty()) part.name = fs::path(part.file.path).stem().string();
-  place(*this, table, t, part.placement);
+  position(*this, table, t, part.placement);
   if (part.label.empty() && !part.placement.captured) part.label = part.name;
   if (!t.trajectory.empty()) {
     const int line = line_in(table, "trajectory");
@@ -187,11 +187,11 @@ SceneFile Reader::read() const {
   std::size_t most = scene.parts.size();
   for (const SceneScatterEntry& s : scene.scatters) {
     most += s.files.size() * static_cast<std::size_t>(s.rule.most);
-    if (most > most_parts)
-      fail_at(s.line, "count of ", s.rule.most, " for each of ", s.files.size(), " files: more than ", most_parts,
+    if (most > most_subranges)
+      fail_at(s.line, "count of ", s.rule.most, " for each of ", s.files.size(), " files: more than ", most_subranges,
               " parts in all; ask for fewer");
   }
-  if (most > most_parts) fail_at(document.line, most, " parts, must be at most ", most_parts);
+  if (most > most_subranges) fail_at(document.line, most, " parts, must be at most ", most_subranges);
   return scene;
 }
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "scene/asked_meaning.hpp"
+#include "scene/meaning_override.hpp"
 #include "survey/part_placement.hpp"
 
 namespace insonify {

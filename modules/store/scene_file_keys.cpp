@@ -11,7 +11,6 @@ namespace {
 constexpr Named<PartRest> rest_words[] = {
     {"ground", PartRest::ground}, {"bed", PartRest::bed}, {"none", PartRest::none}};
 
-/// Returns a value of one number, or two that ascend.
 KeyValue interval(std::vector<double>& numbers, const char* rule, const NumberRule& each) {
   return list(given(numbers), each, as_it_is, {.most = 2, .bare = true, .ascending = true, .text = rule});
 }

@@ -29,7 +29,6 @@ fs::path folder_of_this_code() {
                                                                   : fs::path();
 }
 
-// Returns the names of all presets, sorted.
 std::vector<std::string> preset_names() {
   const fs::path folder = fs::path(data_folder()) / "sonars";
   std::vector<std::string> names;

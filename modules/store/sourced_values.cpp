@@ -30,7 +30,6 @@ TomlValue value_of(const std::string& path, const TomlValue& entry, SourcedNumbe
   return value;
 }
 
-/// Returns a value as `numbers` list it: all numbers with a fraction.
 std::string listed(TomlValue value) {
   for (TomlValue& item : value.items)
     if (item.is_number()) item.kind = TomlValue::Kind::number;

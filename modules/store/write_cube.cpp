@@ -87,12 +87,12 @@ void require_writable(const Cube& cube, const std::string& path) {
   }
 }
 
-void write_axes(const FileContext& place, hid_t file, const BeamFan& fan, const RangeGate& gate) {
+void write_axes(const FileContext& context, hid_t file, const BeamFan& fan, const RangeGate& gate) {
   std::vector<double> range(gate.bins());
   for (std::size_t n = 0; n < range.size(); ++n) range[n] = gate.centre(n);
-  write_numbers(place, file, range_name, {range.size()}, range.data());
-  write_numbers(place, file, azimuth_name, {fan.beams()}, fan.azimuth.data());
-  write_numbers(place, file, elevation_name, {fan.beams()}, fan.elevation.data());
+  write_numbers(context, file, range_name, {range.size()}, range.data());
+  write_numbers(context, file, azimuth_name, {fan.beams()}, fan.azimuth.data());
+  write_numbers(context, file, elevation_name, {fan.beams()}, fan.elevation.data());
 }
 
 void append_pose(std::vector<double>& numbers, const Pose& pose) {
@@ -100,7 +100,7 @@ void append_pose(std::vector<double>& numbers, const Pose& pose) {
     for (int column = 0; column < 4; ++column) numbers.push_back(pose.matrix()(row, column));
 }
 
-void write_track(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
+void write_track(const FileContext& context, hid_t file, const std::vector<Ping>& pings) {
   std::vector<double> pose, time;
   std::vector<std::int64_t> number;
   for (const Ping& ping : pings) {
@@ -108,13 +108,13 @@ void write_track(const FileContext& place, hid_t file, const std::vector<Ping>& 
     time.push_back(ping.time);
     number.push_back(ping.number);
   }
-  write_numbers(place, file, pose_name, {pings.size(), 4, 4}, pose.data());
-  write_numbers(place, file, time_name, {pings.size()}, time.data());
-  write_numbers(place, file, ping_name, {pings.size()}, number.data());
+  write_numbers(context, file, pose_name, {pings.size(), 4, 4}, pose.data());
+  write_numbers(context, file, time_name, {pings.size()}, time.data());
+  write_numbers(context, file, ping_name, {pings.size()}, number.data());
 }
 
 // Writes the water at the head of every ping, if any ping has other water than the cube.
-void write_water(const FileContext& place, hid_t file, const Cube& cube) {
+void write_water(const FileContext& context, hid_t file, const Cube& cube) {
   std::vector<double> speed, absorption;
   bool differ = false;
   for (const Ping& ping : cube.pings) {
@@ -124,24 +124,24 @@ void write_water(const FileContext& place, hid_t file, const Cube& cube) {
     differ |= speed.back() != cube.sound_speed || absorption.back() != cube.absorption_db_per_m;
   }
   if (!differ) return;
-  write_numbers(place, file, sound_speed_name, {speed.size()}, speed.data());
-  write_numbers(place, file, absorption_name, {absorption.size()}, absorption.data());
+  write_numbers(context, file, sound_speed_name, {speed.size()}, speed.data());
+  write_numbers(context, file, absorption_name, {absorption.size()}, absorption.data());
 }
 
 // Writes the motion of the head in every ping, if it moves in any.
-void write_motion(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
+void write_motion(const FileContext& context, hid_t file, const std::vector<Ping>& pings) {
   if (std::all_of(pings.begin(), pings.end(), [](const Ping& ping) { return ping.motion.none(); })) return;
   std::vector<Eigen::Vector3d> velocity, turn_rate;
   for (const Ping& ping : pings) {
     velocity.push_back(ping.motion.velocity);
     turn_rate.push_back(ping.motion.turn_rate);
   }
-  write_numbers(place, file, velocity_name, {pings.size(), 3}, velocity.front().data());
-  write_numbers(place, file, turn_rate_name, {pings.size(), 3}, turn_rate.front().data());
+  write_numbers(context, file, velocity_name, {pings.size(), 3}, velocity.front().data());
+  write_numbers(context, file, turn_rate_name, {pings.size(), 3}, turn_rate.front().data());
 }
 
 // Writes the turn of a scanning head, and time and pose of every beam.
-void write_scan(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
+void write_scan(const FileContext& context, hid_t file, const std::vector<Ping>& pings) {
   if (!pings.front().scan) return;
   const std::size_t beams = pings.front().fan.beams();
   std::vector<double> time, pose, angle;
@@ -153,55 +153,56 @@ void write_scan(const FileContext& place, hid_t file, const std::vector<Ping>& p
       append_pose(pose, ping.world_from_head);
     }
   }
-  write_numbers(place, file, scan_angle_name, {pings.size()}, angle.data());
-  write_numbers(place, file, sweep_name, {pings.size()}, sweep.data());
-  write_numbers(place, file, beam_time_name, {pings.size(), beams}, time.data());
-  write_numbers(place, file, beam_pose_name, {pings.size(), beams, 4, 4}, pose.data());
+  write_numbers(context, file, scan_angle_name, {pings.size()}, angle.data());
+  write_numbers(context, file, sweep_name, {pings.size()}, sweep.data());
+  write_numbers(context, file, beam_time_name, {pings.size(), beams}, time.data());
+  write_numbers(context, file, beam_pose_name, {pings.size(), beams, 4, 4}, pose.data());
 }
 
-void write_root_attributes(const FileContext& place, hid_t file, const Cube& cube) {
-  write_attribute(place, file, "schema", cube_schema);
-  write_attribute(place, file, "insonify_version", cube.insonify_version);
-  write_attribute(place, file, "sonar", cube.sonar);
-  write_attribute(place, file, "sound_speed", cube.sound_speed);
-  write_attribute(place, file, "absorption_db_per_m", cube.absorption_db_per_m);
-  write_attribute(place, file, "centre_frequency", cube.centre_frequency);
-  write_attribute(place, file, "bandwidth", cube.bandwidth);
-  write_attribute(place, file, "source_level_db", cube.source_level_db);
-  write_attribute(place, file, "seed", cube.seed);
-  write_attribute(place, file, "tolerance", cube.tolerance);
-  if (cube.keep_bits < Cube::all_bits) write_attribute(place, file, keep_bits_attribute, std::int64_t{cube.keep_bits});
+void write_root_attributes(const FileContext& context, hid_t file, const Cube& cube) {
+  write_attribute(context, file, "schema", cube_schema);
+  write_attribute(context, file, "insonify_version", cube.insonify_version);
+  write_attribute(context, file, "sonar", cube.sonar);
+  write_attribute(context, file, "sound_speed", cube.sound_speed);
+  write_attribute(context, file, "absorption_db_per_m", cube.absorption_db_per_m);
+  write_attribute(context, file, "centre_frequency", cube.centre_frequency);
+  write_attribute(context, file, "bandwidth", cube.bandwidth);
+  write_attribute(context, file, "source_level_db", cube.source_level_db);
+  write_attribute(context, file, "seed", cube.seed);
+  write_attribute(context, file, "tolerance", cube.tolerance);
+  if (cube.keep_bits < Cube::all_bits)
+    write_attribute(context, file, keep_bits_attribute, std::int64_t{cube.keep_bits});
   const Ping& ping = cube.pings.front();
-  write_attribute(place, file, "beam_width", ping.fan.beam_width);
-  write_attribute(place, file, "elevation_width", ping.fan.elevation_width);
-  if (ping.display_cells) write_attribute(place, file, display_cells_attribute, std::string(display_cells_text));
-  if (ping.expected_level) write_attribute(place, file, expected_level_attribute, std::string(expected_level_text));
-  if (ping.fan.row_width > 0) write_attribute(place, file, "row_width", ping.fan.row_width);
-  write_attribute(place, file, "min_range", ping.gate.min_range);
-  write_attribute(place, file, "max_range", ping.gate.max_range);
-  write_attribute(place, file, "bin_size", ping.gate.bin_size);
-  if (!cube.head.empty()) write_attribute(place, file, head_attribute, cube.head);
-  if (!cube.notes.empty()) write_attribute(place, file, notes_attribute, as_lines(cube.notes));
-  if (!cube.start_utc.empty()) write_attribute(place, file, start_utc_attribute, cube.start_utc);
+  write_attribute(context, file, "beam_width", ping.fan.beam_width);
+  write_attribute(context, file, "elevation_width", ping.fan.elevation_width);
+  if (ping.display_cells) write_attribute(context, file, display_cells_attribute, std::string(display_cells_text));
+  if (ping.expected_level) write_attribute(context, file, expected_level_attribute, std::string(expected_level_text));
+  if (ping.fan.row_width > 0) write_attribute(context, file, "row_width", ping.fan.row_width);
+  write_attribute(context, file, "min_range", ping.gate.min_range);
+  write_attribute(context, file, "max_range", ping.gate.max_range);
+  write_attribute(context, file, "bin_size", ping.gate.bin_size);
+  if (!cube.head.empty()) write_attribute(context, file, head_attribute, cube.head);
+  if (!cube.notes.empty()) write_attribute(context, file, notes_attribute, as_lines(cube.notes));
+  if (!cube.start_utc.empty()) write_attribute(context, file, start_utc_attribute, cube.start_utc);
   if (!cube.anchor) return;
-  write_attribute(place, file, anchor_latitude_attribute, cube.anchor->latitude_deg);
-  write_attribute(place, file, anchor_longitude_attribute, cube.anchor->longitude_deg);
-  write_attribute(place, file, anchor_heading_attribute, cube.anchor->heading_deg);
+  write_attribute(context, file, anchor_latitude_attribute, cube.anchor->latitude_deg);
+  write_attribute(context, file, anchor_longitude_attribute, cube.anchor->longitude_deg);
+  write_attribute(context, file, anchor_heading_attribute, cube.anchor->heading_deg);
 }
 
 }  // namespace
 
 void write_cube(const std::string& path, const Cube& cube) {
   require_writable(cube, path);
-  write_hdf5(path, [&](const FileContext& place, hid_t file) {
-    write_root_attributes(place, file, cube);
-    write_axes(place, file, cube.pings.front().fan, cube.pings.front().gate);
-    write_track(place, file, cube.pings);
-    write_water(place, file, cube);
-    write_motion(place, file, cube.pings);
-    write_scan(place, file, cube.pings);
-    write_all_images(place, file, cube);
-    name_dimensions(place, file);
+  write_hdf5(path, [&](const FileContext& context, hid_t file) {
+    write_root_attributes(context, file, cube);
+    write_axes(context, file, cube.pings.front().fan, cube.pings.front().gate);
+    write_track(context, file, cube.pings);
+    write_water(context, file, cube);
+    write_motion(context, file, cube.pings);
+    write_scan(context, file, cube.pings);
+    write_all_images(context, file, cube);
+    name_dimensions(context, file);
   });
 }
 

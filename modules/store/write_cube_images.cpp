@@ -26,29 +26,29 @@ hsize_t beams_per_chunk(hsize_t beams, hsize_t bins) {
 
 // Returns the HDF5 type of an image's values in the file or in memory.
 template <typename Number>
-Handle image_type(const FileContext& place, bool in_file) {
+Handle image_type(const FileContext& context, bool in_file) {
   if constexpr (std::is_same_v<Number, std::complex<float>>)
-    return complex_type(place, in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT);
-  return {place.checked(H5Tcopy(type_of<Number>(in_file)), "type"), H5Tclose};
+    return complex_type(context, in_file ? H5T_IEEE_F32LE : H5T_NATIVE_FLOAT);
+  return {context.checked(H5Tcopy(type_of<Number>(in_file)), "type"), H5Tclose};
 }
 
 // Writes one image per ping: the pressure, layer or map selected by `part`.
 template <typename Part>
-void write_images(const FileContext& place, hid_t file, const DatasetName& name, const std::vector<Ping>& pings,
+void write_images(const FileContext& context, hid_t file, const DatasetName& name, const std::vector<Ping>& pings,
                   Part part, Packing packing) {
   const hsize_t beams = pings[0].fan.beams(), bins = pings[0].gate.bins();
   const Extent extent = {pings.size(), beams, bins};
   using Number = typename std::decay_t<decltype(part(pings[0]))>::Scalar;
-  const Handle stored = image_type<Number>(place, true), here = image_type<Number>(place, false);
+  const Handle stored = image_type<Number>(context, true), here = image_type<Number>(context, false);
   const Handle dataset =
-      create_dataset(place, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins}, packing);
+      create_dataset(context, file, name, stored, extent, {1, beams_per_chunk(beams, bins), bins}, packing);
   if constexpr (std::is_same_v<Number, std::complex<float>>)
-    write_attribute(place, dataset, convention_attribute, std::string(pressure_convention));
+    write_attribute(context, dataset, convention_attribute, std::string(pressure_convention));
   const Extent one_ping = {1, beams, bins};
-  const Handle memory(place.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
+  const Handle memory(context.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
   for (std::size_t p = 0; p < pings.size(); ++p) {
-    const Handle row = select_row(place, dataset, extent, p);
-    place.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, part(pings[p]).data()), name.path);
+    const Handle row = select_row(context, dataset, extent, p);
+    context.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, part(pings[p]).data()), name.path);
   }
 }
 
@@ -64,54 +64,53 @@ float rounded(float value, int bits) {
 
 // Writes pressures with as many significant bits as the cube keeps.
 template <typename Part>
-void write_pressures(const FileContext& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
+void write_pressures(const FileContext& context, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
   const int bits = cube.keep_bits;
-  if (bits == Cube::all_bits) return write_images(place, file, name, cube.pings, part, Packing::none);
+  if (bits == Cube::all_bits) return write_images(context, file, name, cube.pings, part, Packing::none);
   const auto round = [bits](const std::complex<float>& p) {
     return std::complex<float>(rounded(p.real(), bits), rounded(p.imag(), bits));
   };
   write_images(
-      place, file, name, cube.pings, [&](const Ping& ping) -> ComplexGridF { return part(ping).unaryExpr(round); },
+      context, file, name, cube.pings, [&](const Ping& ping) -> ComplexGridF { return part(ping).unaryExpr(round); },
       Packing::deflate);
 }
 
 // Writes the levels of display cells, in place of pressures.
 template <typename Part>
-void write_levels(const FileContext& place, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
+void write_levels(const FileContext& context, hid_t file, const DatasetName& name, const Cube& cube, Part part) {
   // Levels with labels, which are packed and read with them, are packed as well: to three quarters.
   const Packing packing = cube.pings.front().labels.empty() ? Packing::none : Packing::deflate;
   write_images(
-      place, file, name, cube.pings, [&](const Ping& ping) -> Grid<std::int16_t> { return stored_levels(part(ping)); },
-      packing);
-  const Handle dataset = open_dataset(place, file, name);
-  write_attribute(place, dataset, scale_factor_attribute, level_step);
+      context, file, name, cube.pings,
+      [&](const Ping& ping) -> Grid<std::int16_t> { return stored_levels(part(ping)); }, packing);
+  const Handle dataset = open_dataset(context, file, name);
+  write_attribute(context, dataset, scale_factor_attribute, level_step);
 }
 
-// Writes pressures, or the levels of display cells.
 template <typename Part>
-void write_signal(const FileContext& place, hid_t file, DatasetName name, const Cube& cube, Part part) {
-  if (!cube.pings.front().display_cells) return write_pressures(place, file, name, cube, part);
+void write_signal(const FileContext& context, hid_t file, DatasetName name, const Cube& cube, Part part) {
+  if (!cube.pings.front().display_cells) return write_pressures(context, file, name, cube, part);
   name.unit = level_name.unit, name.about = level_name.about;
-  write_levels(place, file, name, cube, part);
+  write_levels(context, file, name, cube, part);
 }
 
-void write_layers(const FileContext& place, hid_t file, const Cube& cube) {
+void write_layers(const FileContext& context, hid_t file, const Cube& cube) {
   const std::vector<Layer>& layers = cube.pings.front().layers;
   if (layers.empty()) return;
-  const Handle group = create_ordered_group(place, file, layers_group);
+  const Handle group = create_ordered_group(context, file, layers_group);
   for (std::size_t l = 0; l < layers.size(); ++l) {
     const std::string path = std::string(layers_group) + "/" + layers[l].name;
-    write_signal(place, file, {path.c_str(), pressure_name.unit, pressure_name.about}, cube,
+    write_signal(context, file, {path.c_str(), pressure_name.unit, pressure_name.about}, cube,
                  [l](const Ping& ping) -> const ComplexGridF& { return ping.layers[l].pressure; });
   }
 }
 
-void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& pings) {
+void write_maps(const FileContext& context, hid_t file, const std::vector<Ping>& pings) {
   // Compression makes masks and labels smaller, but not numbers that look like noise.
   const auto write = [&](const DatasetName& name, auto map, Packing packing) {
     if ((pings.front().*map).size() > 0)
       write_images(
-          place, file, name, pings, [map](const Ping& ping) -> const auto& { return ping.*map; }, packing);
+          context, file, name, pings, [map](const Ping& ping) -> const auto& { return ping.*map; }, packing);
   };
   write(intensity_name, &Ping::intensity, Packing::none);
   write(unknown_name, &Ping::unknown, Packing::deflate);
@@ -120,7 +119,7 @@ void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& p
   if (first.empty()) return;
   const auto write_label = [&](const DatasetName& name, auto label) {
     write_images(
-        place, file, name, pings, [label](const Ping& ping) -> const auto& { return ping.labels.*label; },
+        context, file, name, pings, [label](const Ping& ping) -> const auto& { return ping.labels.*label; },
         Packing::deflate);
   };
   write_label(label_material_name, &PixelLabels::material);
@@ -132,19 +131,19 @@ void write_maps(const FileContext& place, hid_t file, const std::vector<Ping>& p
     write_label(label_second_name, &PixelLabels::second);
     write_label(label_second_share_name, &PixelLabels::second_share);
   }
-  write_parts(place, file, pings);
+  write_parts(context, file, pings);
   // If the last name is empty, it is a line of its own.
   const bool ends_empty = !first.names.empty() && first.names.back().empty();
-  write_attribute(place, file, label_names_attribute, joined(first.names, "\n") + (ends_empty ? "\n" : ""));
+  write_attribute(context, file, label_names_attribute, joined(first.names, "\n") + (ends_empty ? "\n" : ""));
 }
 
 }  // namespace
 
-void write_all_images(const FileContext& place, hid_t file, const Cube& cube) {
-  write_signal(place, file, cube.pings.front().display_cells ? level_name : pressure_name, cube,
+void write_all_images(const FileContext& context, hid_t file, const Cube& cube) {
+  write_signal(context, file, cube.pings.front().display_cells ? level_name : pressure_name, cube,
                [](const Ping& ping) -> const ComplexGridF& { return ping.pressure; });
-  write_layers(place, file, cube);
-  write_maps(place, file, cube.pings);
+  write_layers(context, file, cube);
+  write_maps(context, file, cube.pings);
 }
 
 }  // namespace insonify

@@ -61,9 +61,9 @@ NavigationErrors navigation_errors(const Trajectory& trajectory, const Navigatio
 Pose believed_pose(const NavigationErrors& errors, double time, const Pose& true_pose) {
   if (errors.nodes.empty()) return true_pose;
   const double last = static_cast<double>(errors.nodes.size() - 1);
-  const double place = std::clamp((time - errors.begin) / errors.step, 0.0, last);
-  const auto before = static_cast<std::size_t>(std::min(place, std::max(0.0, last - 1)));
-  const double share = place - static_cast<double>(before);
+  const double position = std::clamp((time - errors.begin) / errors.step, 0.0, last);
+  const auto before = static_cast<std::size_t>(std::min(position, std::max(0.0, last - 1)));
+  const double share = position - static_cast<double>(before);
   const Components e =
       (1 - share) * errors.nodes[before] + share * errors.nodes[std::min(before + 1, errors.nodes.size() - 1)];
   using Eigen::AngleAxisd, Eigen::Vector3d;

@@ -31,12 +31,12 @@ double area_of_polygon(const std::vector<Eigen::Vector2d>& corners) {
   return std::abs(twice) / 2;
 }
 
-bool is_within(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& place) {
+bool is_within(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& position) {
   bool inside = false;
   for (std::size_t a = 0, b = corners.size() - 1; a < corners.size(); b = a++) {
     const Eigen::Vector2d &p = corners[a], &q = corners[b];
-    if ((p.y() > place.y()) != (q.y() > place.y()) &&
-        place.x() < p.x() + (q.x() - p.x()) * (place.y() - p.y()) / (q.y() - p.y()))
+    if ((p.y() > position.y()) != (q.y() > position.y()) &&
+        position.x() < p.x() + (q.x() - p.x()) * (position.y() - p.y()) / (q.y() - p.y()))
       inside = !inside;
   }
   return inside;

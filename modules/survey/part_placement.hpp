@@ -58,7 +58,7 @@ std::shared_ptr<const SceneCloud> scaled(const std::shared_ptr<const SceneCloud>
 
 /// Returns the area of a polygon [m^2], 0 for fewer than three corners.
 double area_of_polygon(const std::vector<Eigen::Vector2d>& corners);
-/// Returns true if a place lies within a polygon.
-bool is_within(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& place);
+/// Returns true if a position lies within a polygon.
+bool is_within(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& position);
 
 }  // namespace insonify

@@ -25,13 +25,13 @@ std::array<double, 4> symmetric_numbers(std::uint64_t seed, const SurveyPing& pi
 constexpr std::uint64_t place_group = 3, turn_group = 4;
 constexpr std::uint64_t most_tries = 1000;
 
-// Returns true if a place is clear of the ground below it and at eight places as far around.
-bool is_clear(const Eigen::Vector3d& place, double clearance, const Ground& ground) {
+// Returns true if a position is clear of the ground below it and at eight places as far around.
+bool is_clear(const Eigen::Vector3d& position, double clearance, const Ground& ground) {
   if (clearance == 0) return true;
   for (int k = 0; k <= 8; ++k) {
     const double turn = pi / 4 * k, away = k < 8 ? clearance : 0;
-    const Eigen::Vector2d at = place.head<2>() + away * Eigen::Vector2d(std::cos(turn), std::sin(turn));
-    if (const auto below = ground.at(at); below && place.z() < below->height + clearance) return false;
+    const Eigen::Vector2d at = position.head<2>() + away * Eigen::Vector2d(std::cos(turn), std::sin(turn));
+    if (const auto below = ground.at(at); below && position.z() < below->height + clearance) return false;
   }
   return true;
 }
@@ -61,24 +61,25 @@ Pose drawn_pose(const RandomPoses& rule, std::uint64_t seed, std::int64_t number
       return random_uniform(seed, RandomStage::randomise, {static_cast<std::uint64_t>(number), k, group});
     };
     const auto u = numbers(place_group), v = numbers(turn_group);
-    const Eigen::Vector3d place =
+    const Eigen::Vector3d position =
         rule.low + (rule.high - rule.low).cwiseProduct(Eigen::Vector3d(u[0], u[1], u[2]));  // (E198)
-    if (!is_clear(place, rule.clearance, ground)) continue;
-    return pose_from_yaw_pitch_roll(place, within(rule.yaw, v[0]), within(rule.pitch, v[1]), within(rule.roll, v[2]));
+    if (!is_clear(position, rule.clearance, ground)) continue;
+    return pose_from_yaw_pitch_roll(position, within(rule.yaw, v[0]), within(rule.pitch, v[1]),
+                                    within(rule.roll, v[2]));
   }
   fail(ErrorKind::content, "ping ", number, ": none of ", most_tries, " places drawn in the box is ", rule.clearance,
        " m clear of the ground; raise the box, or lower the clearance");
 }
 
 RandomisedPing randomised(const Randomisation& spread, std::uint64_t seed, const SurveyPing& ping) {
-  const auto sonar = symmetric_numbers(seed, ping, 0), place = symmetric_numbers(seed, ping, 1),
+  const auto sonar = symmetric_numbers(seed, ping, 0), position = symmetric_numbers(seed, ping, 1),
              turn = symmetric_numbers(seed, ping, 2);
   RandomisedPing by;
   by.source_level_db = spread.source_level_db * sonar[0];
   by.noise_db = spread.noise_db * sonar[1];
   by.temperature_c = spread.temperature_c * sonar[2];
   by.salinity_psu = spread.salinity_psu * sonar[3];
-  by.position = spread.position * Eigen::Vector3d(place[0], place[1], place[2]);
+  by.position = spread.position * Eigen::Vector3d(position[0], position[1], position[2]);
   by.angles = {spread.heading * turn[0], spread.attitude * turn[1], spread.attitude * turn[2]};
   return by;
 }

@@ -44,7 +44,7 @@ struct RandomPoses {
 void require_valid(const RandomPoses& rule, const char* who);
 
 /// Returns the pose of the vehicle at a ping, in world axes: the first of up to 1000 draws that is clear of the ground
-/// (E198). It depends on rule, seed, number and ground alone. Where there is no ground, a place is clear. Throws
+/// (E198). It depends on rule, seed, number and ground alone. Where there is no ground, a position is clear. Throws
 /// Error(content) naming the ping if no draw is clear.
 Pose drawn_pose(const RandomPoses& rule, std::uint64_t seed, std::int64_t number, const Ground& ground);
 

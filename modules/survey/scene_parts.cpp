@@ -83,15 +83,15 @@ Setting set_down(const Draws& draws, std::uint64_t number, const ScatterRule& ru
   for (const Vector2d& corner : rule.area) low = low.cwiseMin(corner), high = high.cwiseMax(corner);
   for (std::uint64_t t = 0; t < most_tries; ++t) {
     const auto u = draws.of(number, 2 + t);
-    const Vector2d place(between(u[0], low.x(), high.x()), between(u[1], low.y(), high.y()));
+    const Vector2d position(between(u[0], low.x(), high.x()), between(u[1], low.y(), high.y()));
     const auto is_near = [&](const Taken& other) {
-      return (place - other.centre).norm() < rule.min_distance.value_or(body.radius + other.radius);
+      return (position - other.centre).norm() < rule.min_distance.value_or(body.radius + other.radius);
     };
-    if (!is_within(rule.area, place) || std::ranges::any_of(taken, is_near) || !ground.at(place)) continue;
-    body.part.world_from_part.translation() << place, 0;
+    if (!is_within(rule.area, position) || std::ranges::any_of(taken, is_near) || !ground.at(position)) continue;
+    body.part.world_from_part.translation() << position, 0;
     try {
       Setting setting{true, place_on_ground(body.part, ground, rule.rest, body.bury)};
-      taken.push_back({place, body.radius});
+      taken.push_back({position, body.radius});
       return setting;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::content) throw;  // the body is beside a hole: try the next
@@ -108,7 +108,7 @@ SceneParts::SceneParts(std::vector<PartDefinition> parts, std::vector<SceneScatt
   number_classes(parts, scatters);
   for (PartDefinition& part : parts) {
     names_.push_back(part.body.name);
-    place(part);
+    position(part);
   }
   for (const SceneScatter& scatter : scatters) prepare_scatter(scatter);
   std::set<std::string> unique;
@@ -144,7 +144,7 @@ void SceneParts::number_classes(const std::vector<PartDefinition>& parts, const 
   std::ranges::for_each(all, add);
 }
 
-void SceneParts::place(const PartDefinition& part) {
+void SceneParts::position(const PartDefinition& part) {
   const SceneBody& body = part.body;
   require_area(body);
   const PartPlacement& p = part.placement;

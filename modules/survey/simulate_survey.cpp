@@ -106,7 +106,7 @@ PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const 
     Motion& motion = outcome.ping.motion;
     motion = {moved.linear() * motion.velocity, moved.linear() * motion.turn_rate};
   }
-  if (mission.heads[ping.head].scan) outcome.ping.scan = ScanPlace{ping.sweep, ping.scan_angle};
+  if (mission.heads[ping.head].scan) outcome.ping.scan = ScanDirection{ping.sweep, ping.scan_angle};
   return outcome;
 }
 

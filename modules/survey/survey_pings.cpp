@@ -114,7 +114,6 @@ struct Sweep {
   }
 };
 
-/// Adds the pings of a head on one leg.
 void add_pings(const Mission& mission, std::size_t h, const MissionLeg& leg, std::vector<SurveyPing>& pings,
                std::size_t first) {
   const MissionHead& head = mission.heads[h];
@@ -170,7 +169,6 @@ const Pose& random_pose_of(const Mission& mission, const SurveyPing& ping) {
   return mission.poses[i];
 }
 
-/// Returns the pose of the ping's head on a vehicle.
 Pose on_vehicle(const Mission& mission, const SurveyPing& ping, const Pose& vehicle) {
   return vehicle * mission.heads.at(ping.head).vehicle_from_head *
          Eigen::AngleAxisd(ping.scan_angle, Eigen::Vector3d::UnitZ());

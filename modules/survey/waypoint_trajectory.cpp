@@ -13,16 +13,16 @@ namespace {
 using Eigen::Vector3d;
 
 /// The route: positions, and the direction of travel at each.
-struct Way {
-  std::vector<Vector3d> place, ahead;
+struct SampledPath {
+  std::vector<Vector3d> position, ahead;
   void add(const Vector3d& at, const Vector3d& direction) {
-    if (!place.empty() && (at - place.back()).norm() < 1e-9) return;
-    place.push_back(at), ahead.push_back(direction);
+    if (!position.empty() && (at - position.back()).norm() < 1e-9) return;
+    position.push_back(at), ahead.push_back(direction);
   }
 };
 
 /// Adds the arc about corner `i` that takes at most half of both legs.
-void add_turn(const Waypoints& w, std::size_t i, Way& way) {
+void add_turn(const Waypoints& w, std::size_t i, SampledPath& path) {
   const Vector3d in = w.points[i] - w.points[i - 1], out = w.points[i + 1] - w.points[i];
   const Vector3d a = in.normalized(), b = out.normalized();
   const double turn = std::acos(std::clamp(a.dot(b), -1.0, 1.0));
@@ -36,8 +36,8 @@ void add_turn(const Waypoints& w, std::size_t i, Way& way) {
   const int steps = static_cast<int>(std::ceil(turn / radians(2)));
   for (int s = 0; s <= steps; ++s) {
     const double angle = turn * s / steps;
-    way.add(begin + radius * (std::sin(angle) * a + (1 - std::cos(angle)) * inward),
-            std::cos(angle) * a + std::sin(angle) * inward);
+    path.add(begin + radius * (std::sin(angle) * a + (1 - std::cos(angle)) * inward),
+             std::cos(angle) * a + std::sin(angle) * inward);
   }
 }
 
@@ -56,8 +56,8 @@ void require_valid(const Waypoints& w) {
 }
 
 /// Returns the first direction that is not vertical.
-Vector3d first_level(const Way& way) {
-  for (const Vector3d& ahead : way.ahead)
+Vector3d first_level(const SampledPath& path) {
+  for (const Vector3d& ahead : path.ahead)
     if (std::hypot(ahead.x(), ahead.y()) > 1e-6) return ahead;
   return Vector3d::UnitX();
 }
@@ -66,19 +66,19 @@ Vector3d first_level(const Way& way) {
 
 Trajectory waypoint_trajectory(const Waypoints& w) {
   require_valid(w);
-  Way way;
-  way.add(w.points.front(), (w.points[1] - w.points[0]).normalized());
-  for (std::size_t i = 1; i + 1 < w.points.size(); ++i) add_turn(w, i, way);
-  way.add(w.points.back(), (w.points.back() - w.points[w.points.size() - 2]).normalized());
+  SampledPath path;
+  path.add(w.points.front(), (w.points[1] - w.points[0]).normalized());
+  for (std::size_t i = 1; i + 1 < w.points.size(); ++i) add_turn(w, i, path);
+  path.add(w.points.back(), (w.points.back() - w.points[w.points.size() - 2]).normalized());
 
   Trajectory t;
   double gone = 0;
-  Vector3d level = first_level(way);
-  for (std::size_t i = 0; i < way.place.size(); ++i) {
-    if (i > 0) gone += (way.place[i] - way.place[i - 1]).norm();
-    if (std::hypot(way.ahead[i].x(), way.ahead[i].y()) > 1e-6) level = way.ahead[i];
+  Vector3d level = first_level(path);
+  for (std::size_t i = 0; i < path.position.size(); ++i) {
+    if (i > 0) gone += (path.position[i] - path.position[i - 1]).norm();
+    if (std::hypot(path.ahead[i].x(), path.ahead[i].y()) > 1e-6) level = path.ahead[i];
     t.time.push_back(w.start_time + gone / w.speed);
-    t.pose.push_back(pose_from_yaw_pitch_roll(way.place[i], std::atan2(level.y(), level.x()), 0, 0));
+    t.pose.push_back(pose_from_yaw_pitch_roll(path.position[i], std::atan2(level.y(), level.x()), 0, 0));
   }
   return t;
 }

@@ -15,7 +15,7 @@ DetailNode unpacked(const TileNode& n, const Vector3d& offset) {
     const Vector3f p(xyz[0], xyz[1], xyz[2]);
     return offset.isZero(0) ? p : Vector3f((p.cast<double>() + offset).cast<float>());
   };
-  to.point = moved(n.point), to.place = moved(n.place);
+  to.point = moved(n.point), to.position = moved(n.position);
   to.normal = {n.normal[0], n.normal[1], n.normal[2]};
   std::copy_n(n.normals, to.normals.size(), to.normals.begin());
   to.area = n.area, to.extent = n.extent, to.thickness = n.thickness, to.cell = n.cell, to.own_area = n.own_area;

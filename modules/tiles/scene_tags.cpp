@@ -26,7 +26,6 @@ std::string exact(double value) {
   return std::string(text.data(), end);
 }
 
-/// Returns true if `json` is a text, and sets `text` to it.
 bool is_json_text(std::string_view json, std::string& text) {
   const nlohmann::json value = nlohmann::json::parse(json, nullptr, false);
   if (value.is_string()) text = value.get<std::string>();

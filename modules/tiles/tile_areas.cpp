@@ -48,7 +48,6 @@ void append_halo(const ColumnFile& columns, const std::vector<TileEntry>& tiles,
   }
 }
 
-// Writes areas to the file and updates `tile`.
 void write_areas(ColumnFile& columns, std::span<const float> areas, TileEntry& tile) {
   SceneCloud rows;
   resize(rows, tile.count, columns.noisy());

@@ -77,7 +77,7 @@ void require_values(const TileDirectory& directory, std::uint64_t number, const 
     if (!(value >= 0 && value <= most)) refuse(name, {&value, 1}, ">= 0 and at most 1e30");
   };
   if (!node.point.allFinite()) refuse("point", {node.point.data(), 3}, "finite");
-  if (!node.place.allFinite()) refuse("place", {node.place.data(), 3}, "finite");
+  if (!node.position.allFinite()) refuse("place", {node.position.data(), 3}, "finite");
   if (!(std::abs(node.normal.squaredNorm() - 1.0F) <= 2e-3F))
     refuse("normal", {node.normal.data(), 3}, "a unit vector");
   require_size("area", node.area);

@@ -57,47 +57,49 @@ TypeMember member(const char* name, Value Entry::*value) {
 
 /// Returns a compound type that is the same in the file and in memory.
 template <typename Entry>
-Handle compound(const FileContext& place, std::initializer_list<TypeMember> members) {
-  Handle type(place.checked(H5Tcreate(H5T_COMPOUND, sizeof(Entry)), "type"), H5Tclose);
+Handle compound(const FileContext& context, std::initializer_list<TypeMember> members) {
+  Handle type(context.checked(H5Tcreate(H5T_COMPOUND, sizeof(Entry)), "type"), H5Tclose);
   for (const TypeMember& m : members) {
-    const Handle array(place.checked(H5Tarray_create2(m.type, 1, &m.count), m.name), H5Tclose);
-    place.checked(H5Tinsert(type, m.name, m.offset, m.count == 1 ? m.type : hid_t{array}), m.name);
+    const Handle array(context.checked(H5Tarray_create2(m.type, 1, &m.count), m.name), H5Tclose);
+    context.checked(H5Tinsert(type, m.name, m.offset, m.count == 1 ? m.type : hid_t{array}), m.name);
   }
   return type;
 }
 
-Handle tile_type(const FileContext& place) {
+Handle tile_type(const FileContext& context) {
   using T = TileEntry;
-  return compound<T>(place, {member("reference", &T::reference), member("centre", &T::centre),
-                             member("radius", &T::radius), member("largest_area", &T::largest_area),
-                             member("first", &T::first), member("count", &T::count), member("checksum", &T::checksum)});
+  return compound<T>(context,
+                     {member("reference", &T::reference), member("centre", &T::centre), member("radius", &T::radius),
+                      member("largest_area", &T::largest_area), member("first", &T::first), member("count", &T::count),
+                      member("checksum", &T::checksum)});
 }
 
-Handle forest_type(const FileContext& place) {
+Handle forest_type(const FileContext& context) {
   using F = TileForest;
   return compound<F>(
-      place, {member("reference", &F::reference), member("centre", &F::centre), member("radius", &F::radius),
-              member("largest_area", &F::largest_area), member("first_row", &F::first_row), member("rows", &F::rows),
-              member("first_tile", &F::first_tile), member("tiles", &F::tiles), member("first_node", &F::first_node),
-              member("first_child", &F::first_child), member("loose", &F::loose), member("node_end", &F::node_end),
-              member("child_end", &F::child_end), member("checksum", &F::checksum)});
+      context, {member("reference", &F::reference), member("centre", &F::centre), member("radius", &F::radius),
+                member("largest_area", &F::largest_area), member("first_row", &F::first_row), member("rows", &F::rows),
+                member("first_tile", &F::first_tile), member("tiles", &F::tiles), member("first_node", &F::first_node),
+                member("first_child", &F::first_child), member("loose", &F::loose), member("node_end", &F::node_end),
+                member("child_end", &F::child_end), member("checksum", &F::checksum)});
 }
 
-Handle node_type(const FileContext& place) {
+Handle node_type(const FileContext& context) {
   using N = TileNode;
   return compound<N>(
-      place,
+      context,
       {member("point", &N::point), member("normal", &N::normal), member("area", &N::area), member("extent", &N::extent),
        member("thickness", &N::thickness), member("normals", &N::normals), member("cell", &N::cell),
-       member("place", &N::place), member("own_area", &N::own_area), member("id", &N::id),
+       member("place", &N::position), member("own_area", &N::own_area), member("id", &N::id),
        member("first_child", &N::first_child), member("children", &N::children), member("material", &N::material)});
 }
 
 template <typename Entry>
-void write_table(const FileContext& place, hid_t file, const DatasetName& name, hid_t type,
+void write_table(const FileContext& context, hid_t file, const DatasetName& name, hid_t type,
                  const std::vector<Entry>& entries) {
-  const Handle table = create_dataset(place, file, name, type, {entries.size()});
-  if (!entries.empty()) place.checked(H5Dwrite(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entries.data()), name.path);
+  const Handle table = create_dataset(context, file, name, type, {entries.size()});
+  if (!entries.empty())
+    context.checked(H5Dwrite(table, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, entries.data()), name.path);
 }
 
 /// The attributes of the file, in this order.
@@ -139,34 +141,34 @@ void pass(Stream& stream, Found& f) {
   stream(f.facts, f.surfels, f.tiles, f.forests, f.nodes, f.children, f.node_noise, f.begin);
 }
 
-Found find_all(const FileContext& place, hid_t file) {
-  if (H5Aexists(file, "format") <= 0 || read_text(place, file, "format") != format_text)
-    fail(place.kind, place.path, ": is an HDF5 file, but not a .tiles file; make one by: insonify prepare SCENE -o ",
-         place.path);
-  if (const std::int64_t version = read_integer(place, file, "version"); version > newest_version)
-    fail(place.kind, place.path, ": is of version ", version, " of the format, this version reads up to ",
+Found find_all(const FileContext& context, hid_t file) {
+  if (H5Aexists(file, "format") <= 0 || read_text(context, file, "format") != format_text)
+    fail(context.kind, context.path,
+         ": is an HDF5 file, but not a .tiles file; make one by: insonify prepare SCENE -o ", context.path);
+  if (const std::int64_t version = read_integer(context, file, "version"); version > newest_version)
+    fail(context.kind, context.path, ": is of version ", version, " of the format, this version reads up to ",
          newest_version, "; update insonify, or prepare the scene with this one");
   Found found;
   Facts& facts = found.facts;
-  read_numbers(place, file, "origin", facts.origin);
-  read_numbers(place, file, "low", facts.low);
-  read_numbers(place, file, "high", facts.high);
-  facts.total_area = read_number(place, file, "total_area");
-  facts.scene = read_text(place, file, "scene");
-  facts.wide = read_unsigned(place, file, "wide");
-  facts.checksum = read_unsigned(place, file, "checksum");
-  found.surfels = extent_of(place, open_dataset(place, file, column_names[0]), "/point", 2)[0];
+  read_numbers(context, file, "origin", facts.origin);
+  read_numbers(context, file, "low", facts.low);
+  read_numbers(context, file, "high", facts.high);
+  facts.total_area = read_number(context, file, "total_area");
+  facts.scene = read_text(context, file, "scene");
+  facts.wide = read_unsigned(context, file, "wide");
+  facts.checksum = read_unsigned(context, file, "checksum");
+  found.surfels = extent_of(context, open_dataset(context, file, column_names[0]), "/point", 2)[0];
   const bool noisy = H5Lexists(file, column_names[noise_column].path, H5P_DEFAULT) > 0;
   for (std::size_t c = 0; c < (noisy ? tile_columns : noise_column); ++c) {
-    found.begin[c] = find_plain(place, file, column_names[c], type_of_column(c), extent_of_column(c, found.surfels));
+    found.begin[c] = find_plain(context, file, column_names[c], type_of_column(c), extent_of_column(c, found.surfels));
   }
   const auto table = [&](const DatasetName& name, hid_t type) {
-    const std::uint64_t count = extent_of(place, open_dataset(place, file, name), name.path, 1)[0];
-    return Found::Table{count, find_plain(place, file, name, type, {count})};
+    const std::uint64_t count = extent_of(context, open_dataset(context, file, name), name.path, 1)[0];
+    return Found::Table{count, find_plain(context, file, name, type, {count})};
   };
-  found.tiles = table(tile_name, tile_type(place));
-  found.forests = table(forest_name, forest_type(place));
-  found.nodes = table(node_name, node_type(place));
+  found.tiles = table(tile_name, tile_type(context));
+  found.forests = table(forest_name, forest_type(context));
+  found.nodes = table(node_name, node_type(context));
   found.children = table(child_name, H5T_STD_U32LE);
   if (noisy) found.node_noise = table(node_noise_name, H5T_IEEE_F32LE);
   return found;
@@ -185,12 +187,12 @@ void require_new_format(const std::string& path) {
 
 ColumnOffsets create_columns(const std::string& path, const std::string& name, std::uint64_t rows, bool noisy) {
   const QuietErrors quiet;
-  const FileContext place{path, ErrorKind::file};
+  const FileContext context{path, ErrorKind::file};
   ColumnOffsets begin{};
-  write_checked(place, [&] {
-    const Handle file = create_file(place, name);
+  write_checked(context, [&] {
+    const Handle file = create_file(context, name);
     for (std::size_t c = 0; c < (noisy ? tile_columns : noise_column); ++c)
-      begin[c] = create_plain(place, file, column_names[c], type_of_column(c), extent_of_column(c, rows));
+      begin[c] = create_plain(context, file, column_names[c], type_of_column(c), extent_of_column(c, rows));
   });
   return begin;
 }
@@ -198,7 +200,7 @@ ColumnOffsets create_columns(const std::string& path, const std::string& name, s
 void add_directory(const std::string& path, const std::string& name, const TileDirectory& directory,
                    const LevelFiles& levels) {
   const QuietErrors quiet;
-  const FileContext place{path, ErrorKind::file};
+  const FileContext context{path, ErrorKind::file};
   std::uint64_t nodes = 0, children = 0, noise = 0;
   const TiledSceneInfo& info = directory.info;
   SceneCloud facts_of_scene;
@@ -208,22 +210,22 @@ void add_directory(const std::string& path, const std::string& name, const TileD
   Facts facts{
       array_of(info.origin), array_of(info.box.min), array_of(info.box.max), info.total_area, {}, directory.wide, 0};
   for (const std::string& line : tag_lines(facts_of_scene, info.system)) facts.scene += line + "\n";
-  write_checked(place, [&] {
-    const Handle file(place.checked(H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "cannot be written"), H5Fclose);
-    write_table(place, file, tile_name, tile_type(place), directory.tiles);
-    write_table(place, file, forest_name, forest_type(place), directory.forests);
-    nodes = create_plain(place, file, node_name, node_type(place), {levels.node_count});
-    children = create_plain(place, file, child_name, H5T_STD_U32LE, {levels.child_count});
-    if (info.noisy) noise = create_plain(place, file, node_noise_name, H5T_IEEE_F32LE, {levels.node_count});
-    write_attribute(place, file, "format", std::string(format_text));
-    write_attribute(place, file, "version", newest_version);
-    write_attribute(place, file, "origin", facts.origin);
-    write_attribute(place, file, "low", facts.low);
-    write_attribute(place, file, "high", facts.high);
-    write_attribute(place, file, "total_area", facts.total_area);
-    write_attribute(place, file, "scene", facts.scene);
-    write_attribute(place, file, "wide", facts.wide);
-    write_attribute(place, file, "checksum", facts.checksum_with(directory.tiles, directory.forests));
+  write_checked(context, [&] {
+    const Handle file(context.checked(H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "cannot be written"), H5Fclose);
+    write_table(context, file, tile_name, tile_type(context), directory.tiles);
+    write_table(context, file, forest_name, forest_type(context), directory.forests);
+    nodes = create_plain(context, file, node_name, node_type(context), {levels.node_count});
+    children = create_plain(context, file, child_name, H5T_STD_U32LE, {levels.child_count});
+    if (info.noisy) noise = create_plain(context, file, node_noise_name, H5T_IEEE_F32LE, {levels.node_count});
+    write_attribute(context, file, "format", std::string(format_text));
+    write_attribute(context, file, "version", newest_version);
+    write_attribute(context, file, "origin", facts.origin);
+    write_attribute(context, file, "low", facts.low);
+    write_attribute(context, file, "high", facts.high);
+    write_attribute(context, file, "total_area", facts.total_area);
+    write_attribute(context, file, "scene", facts.scene);
+    write_attribute(context, file, "wide", facts.wide);
+    write_attribute(context, file, "checksum", facts.checksum_with(directory.tiles, directory.forests));
   });
   BinaryFile bytes(name, BinaryFile::Mode::update);
   bytes.copy(nodes, levels.nodes, 0, levels.node_count * sizeof(TileNode));
@@ -234,7 +236,7 @@ void add_directory(const std::string& path, const std::string& name, const TileD
 TileDirectory read_directory(const std::string& path) {
   require_new_format(path);
   Found found;
-  read_hdf5(path, [](const FileContext& place, hid_t file, ArraySender& to) { to(find_all(place, file)); })(found);
+  read_hdf5(path, [](const FileContext& context, hid_t file, ArraySender& to) { to(find_all(context, file)); })(found);
   const Facts& facts = found.facts;
   TileDirectory directory;
   const BinaryFile file(path, BinaryFile::Mode::read);

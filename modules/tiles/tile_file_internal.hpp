@@ -30,7 +30,7 @@ static_assert(sizeof(TileEntry) == 80);
 /// A node of the levels of detail (DetailNode).
 struct TileNode {
   float point[3], normal[3], area, extent, thickness, normals[6], cell;
-  float place[3], own_area;          ///< surfel nearest to the point
+  float position[3], own_area;       ///< surfel nearest to the point
   std::uint32_t id, first_child;     ///< id: of that surfel; first_child: index in the children of the forest
   std::uint16_t children, material;  ///< no children: the node is that surfel
 };

@@ -17,8 +17,8 @@ constexpr int leaves_from = 6;                 // doublings of the smallest cell
 constexpr std::size_t rows_per_leaf = 8;       // a forest with more roots that are surfels keeps them as rows
 constexpr std::uint32_t not_in_file = ~std::uint32_t{0};
 
-std::array<std::int64_t, 3> cube_of(const Vector3d& place, double edge) {
-  const Vector3d cell = (place / edge).array().floor();
+std::array<std::int64_t, 3> cube_of(const Vector3d& position, double edge) {
+  const Vector3d cell = (position / edge).array().floor();
   return {static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
           static_cast<std::int64_t>(cell.z())};
 }
@@ -72,7 +72,7 @@ TileNode packed(const DetailNode& n, std::uint32_t id) {
   TileNode to{};
   Eigen::Map<Vector3f>(to.point) = n.point;
   Eigen::Map<Vector3f>(to.normal) = n.normal;
-  Eigen::Map<Vector3f>(to.place) = n.place;
+  Eigen::Map<Vector3f>(to.position) = n.position;
   std::copy(n.normals.begin(), n.normals.end(), to.normals);
   to.area = n.area, to.extent = n.extent, to.thickness = n.thickness, to.cell = n.cell, to.own_area = n.own_area;
   to.id = id, to.first_child = n.first_child, to.children = n.children, to.material = n.material;
@@ -89,7 +89,7 @@ class LevelPacker {
     std::sort(row_.begin(), row_.end(), [&](std::uint32_t a, std::uint32_t b) { return rows.id[a] < rows.id[b]; });
     surfels_ = subset(rows, row_);
     levels_ = detail_levels(surfels_, spacing, 1);
-    place_.assign(levels_.node.size(), not_in_file);
+    position_.assign(levels_.node.size(), not_in_file);
     if (spacing > 0) finest_ = std::ilogb(finest_cell(spacing));
   }
 
@@ -102,7 +102,7 @@ class LevelPacker {
     std::uint32_t next = 0;
     for (const std::vector<std::uint32_t>& group : group_)
       for (const std::uint32_t index : group)
-        (index < levels_.surfels ? leaf_[index] : place_[index - levels_.surfels]) = next++;
+        (index < levels_.surfels ? leaf_[index] : position_[index - levels_.surfels]) = next++;
     for (std::size_t g = 0; g < level_groups; ++g) write_group(g, forest);
     return std::move(packed_);
   }
@@ -151,7 +151,7 @@ class LevelPacker {
   }
   void write_leaf(std::uint32_t i) {
     DetailNode node;
-    node.point = node.place = surfels_.point[i];
+    node.point = node.position = surfels_.point[i];
     node.normal = surfels_.normal[i];
     node.area = node.own_area = surfels_.area[i];
     node.material = surfels_.material[i];
@@ -166,12 +166,12 @@ class LevelPacker {
   /// Returns the number of a child in the file.
   std::uint32_t number_of(std::uint32_t index) const {
     const auto rows = static_cast<std::uint32_t>(levels_.surfels);
-    if (index >= rows) return rows + place_[index - rows];
+    if (index >= rows) return rows + position_[index - rows];
     return leaf_[index] == not_in_file ? row_[index] : rows + leaf_[index];
   }
 
-  std::vector<std::uint32_t> row_;           // row of each surfel, by id
-  std::vector<std::uint32_t> leaf_, place_;  // number in the file of each surfel that is a node, and of each node
+  std::vector<std::uint32_t> row_;              // row of each surfel, by id
+  std::vector<std::uint32_t> leaf_, position_;  // number in the file of each surfel that is a node, and of each node
   SceneCloud surfels_;
   DetailLevels levels_;
   int finest_ = 0;

@@ -18,12 +18,12 @@ constexpr std::size_t sorted_at_once = 1 << 14;  // records that one thread sort
 /// Aligned cells over a box, numbered along the curve.
 class Cells {
  public:
-  void enclose(const CurvePlace& place) {
+  void enclose(const CurvePosition& position) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      low_[axis] = std::min(low_[axis], place[axis]), high_[axis] = std::max(high_[axis], place[axis]);
+      low_[axis] = std::min(low_[axis], position[axis]), high_[axis] = std::max(high_[axis], position[axis]);
   }
   bool is_one_place() const { return low_ == high_; }
-  /// Numbers the cells, after all places are enclosed.
+  /// Numbers the cells, after all positions are enclosed.
   void number() {
     const auto wide = [&](std::size_t axis) {
       return (high_[axis] >> shift_) - (low_[axis] >> shift_) >= cells_per_axis;
@@ -35,21 +35,21 @@ class Cells {
               [&](std::size_t a, std::size_t b) { return MortonCurve::before(corner(a), corner(b)); });
     for (std::size_t k = 0; k < cells; ++k) number_[order[k]] = static_cast<std::uint32_t>(k);
   }
-  std::size_t cell(const CurvePlace& place) const {
+  std::size_t cell(const CurvePosition& position) const {
     std::size_t index = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      index = index * cells_per_axis + ((place[axis] >> shift_) - (low_[axis] >> shift_));
+      index = index * cells_per_axis + ((position[axis] >> shift_) - (low_[axis] >> shift_));
     return number_[index];
   }
 
  private:
-  CurvePlace corner(std::size_t index) const {
+  CurvePosition corner(std::size_t index) const {
     return {(low_[0] >> shift_) + index / (cells_per_axis * cells_per_axis),
             (low_[1] >> shift_) + index / cells_per_axis % cells_per_axis,
             (low_[2] >> shift_) + index % cells_per_axis};
   }
 
-  CurvePlace low_{~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}}, high_{};
+  CurvePosition low_{~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}}, high_{};
   int shift_ = 0;
   std::array<std::uint32_t, cells> number_{};
 };
@@ -63,27 +63,28 @@ template <typename Body>
 void for_each_record(const RecordFile& file, Segment segment, const CurveSort& sort, const Body& body) {
   for (std::uint64_t done = 0; done < segment.count; done += chunk) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(chunk, segment.count - done));
-    for (const TileRecord& record : file.read(segment.first + done, count)) body(record, sort.curve.at(record.place));
+    for (const TileRecord& record : file.read(segment.first + done, count))
+      body(record, sort.curve.at(record.position));
     sort.moved(count);
   }
 }
 
 /// Groups runs of cells with at most `most` records in total, or single cells with more. Sets the group of each cell.
 std::vector<Segment> plan_parts(const std::array<std::uint64_t, cells>& counts, std::size_t most,
-                                std::array<std::uint32_t, cells>& part_of_cell) {
+                                std::array<std::uint32_t, cells>& block_of_cell) {
   std::vector<Segment> parts;
   for (std::size_t c = 0; c < cells; ++c) {
     if (parts.empty() || (parts.back().count > 0 && parts.back().count + counts[c] > most))
       parts.push_back({parts.empty() ? 0 : parts.back().first + parts.back().count, 0});
     parts.back().count += counts[c];
-    part_of_cell[c] = static_cast<std::uint32_t>(parts.size() - 1);
+    block_of_cell[c] = static_cast<std::uint32_t>(parts.size() - 1);
   }
   return parts;
 }
 
 /// Copies a segment into `to`, each record to its group.
 void distribute(const RecordFile& from, Segment segment, const Cells& grid, const CurveSort& sort,
-                const std::array<std::uint32_t, cells>& part_of_cell, std::vector<Segment> parts, RecordFile& to) {
+                const std::array<std::uint32_t, cells>& block_of_cell, std::vector<Segment> parts, RecordFile& to) {
   const std::size_t room = std::max<std::size_t>(16, std::min(chunk, sort.most / parts.size()));
   std::vector<std::vector<TileRecord>> waiting(parts.size());
   const auto write_out = [&](std::size_t p) {
@@ -91,8 +92,8 @@ void distribute(const RecordFile& from, Segment segment, const Cells& grid, cons
     parts[p].first += waiting[p].size();
     waiting[p].clear();
   };
-  for_each_record(from, segment, sort, [&](const TileRecord& record, const CurvePlace& at) {
-    const std::size_t p = part_of_cell[grid.cell(at)];
+  for_each_record(from, segment, sort, [&](const TileRecord& record, const CurvePosition& at) {
+    const std::size_t p = block_of_cell[grid.cell(at)];
     waiting[p].push_back(record);
     if (waiting[p].size() == room) write_out(p);
   });
@@ -103,7 +104,7 @@ void distribute(const RecordFile& from, Segment segment, const Cells& grid, cons
 std::vector<PlacedRecord> sorted(const RecordFile& file, Segment segment, const CurveSort& sort) {
   std::vector<PlacedRecord> group;
   group.reserve(segment.count);
-  for_each_record(file, segment, sort, [&](const TileRecord& record, const CurvePlace& at) {
+  for_each_record(file, segment, sort, [&](const TileRecord& record, const CurvePosition& at) {
     group.push_back({at, record});
   });
   const auto before = [](const PlacedRecord& a, const PlacedRecord& b) {
@@ -123,7 +124,7 @@ void visit(std::shared_ptr<const RecordFile> file, Segment segment, const CurveS
   if (segment.count == 0) return;
   if (segment.count <= sort.most) return sort.take(sorted(*file, segment, sort));
   Cells grid;
-  for_each_record(*file, segment, sort, [&](const TileRecord&, const CurvePlace& at) { grid.enclose(at); });
+  for_each_record(*file, segment, sort, [&](const TileRecord&, const CurvePosition& at) { grid.enclose(at); });
   if (grid.is_one_place()) {
     for (std::uint64_t done = 0; done < segment.count; done += sort.most)
       sort.take(sorted(*file, {segment.first + done, std::min<std::uint64_t>(sort.most, segment.count - done)}, sort));
@@ -131,11 +132,11 @@ void visit(std::shared_ptr<const RecordFile> file, Segment segment, const CurveS
   }
   grid.number();
   std::array<std::uint64_t, cells> counts{};
-  for_each_record(*file, segment, sort, [&](const TileRecord&, const CurvePlace& at) { ++counts[grid.cell(at)]; });
-  std::array<std::uint32_t, cells> part_of_cell{};
-  const std::vector<Segment> parts = plan_parts(counts, sort.most, part_of_cell);
+  for_each_record(*file, segment, sort, [&](const TileRecord&, const CurvePosition& at) { ++counts[grid.cell(at)]; });
+  std::array<std::uint32_t, cells> block_of_cell{};
+  const std::vector<Segment> parts = plan_parts(counts, sort.most, block_of_cell);
   const auto divided = std::make_shared<RecordFile>(file->path());
-  distribute(*file, segment, grid, sort, part_of_cell, parts, *divided);
+  distribute(*file, segment, grid, sort, block_of_cell, parts, *divided);
   file.reset();  // releases the disk space after the last use
   for (const Segment& part : parts) visit(divided, part, sort);
 }
@@ -167,17 +168,17 @@ void RecordFile::write(std::uint64_t first, std::span<const TileRecord> records)
 MortonCurve::MortonCurve(double largest, bool single)
     : cells_per_metre_(std::ldexp(1.0, 51 - std::ilogb(std::max(largest, 1e-3)))), single_(single) {}
 
-CurvePlace MortonCurve::at(const double (&place)[3]) const {
+CurvePosition MortonCurve::at(const double (&position)[3]) const {
   constexpr double middle = 0x1p52;
-  CurvePlace result{};
+  CurvePosition result{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double p = single_ ? static_cast<double>(static_cast<float>(place[axis])) : place[axis];
+    const double p = single_ ? static_cast<double>(static_cast<float>(position[axis])) : position[axis];
     result[axis] = static_cast<std::uint64_t>(std::floor(p * cells_per_metre_) + middle);
   }
   return result;
 }
 
-std::size_t MortonCurve::highest(const CurvePlace& a, const CurvePlace& b) {
+std::size_t MortonCurve::highest(const CurvePosition& a, const CurvePosition& b) {
   std::size_t axis = 2;
   for (const std::size_t other : {std::size_t{1}, std::size_t{0}}) {
     const std::uint64_t most = a[axis] ^ b[axis], bits = a[other] ^ b[other];

@@ -15,7 +15,7 @@ namespace insonify {
 
 /// One surfel before it is stored in a tile.
 struct TileRecord {
-  double place[3];  ///< [m], relative to the file's origin
+  double position[3];  ///< [m], relative to the file's origin
   float normal[3];
   float area, noise;
   std::uint32_t id;
@@ -42,28 +42,28 @@ class RecordFile {
 };
 
 /// A position in whole numbers: places in one aligned cubic cell, of any power of two metres, have equal leading bits.
-using CurvePlace = std::array<std::uint64_t, 3>;
+using CurvePosition = std::array<std::uint64_t, 3>;
 
-/// The Morton curve through all places of a scene.
+/// The Morton curve through all positions of a scene.
 class MortonCurve {
  public:
   /// Sets up the curve for coordinates of at most `largest` in magnitude [m]. With `single`, coordinates count as
   /// rounded to single precision.
   MortonCurve(double largest, bool single);
-  CurvePlace at(const double (&place)[3]) const;
+  CurvePosition at(const double (&position)[3]) const;
   /// Returns true if `a` lies before `b` on the curve: by the highest bit in which they differ, z before y before x.
-  static bool before(const CurvePlace& a, const CurvePlace& b) { return a[highest(a, b)] < b[highest(a, b)]; }
+  static bool before(const CurvePosition& a, const CurvePosition& b) { return a[highest(a, b)] < b[highest(a, b)]; }
   /// Returns the axis of that bit.
-  static std::size_t highest(const CurvePlace& a, const CurvePlace& b);
+  static std::size_t highest(const CurvePosition& a, const CurvePosition& b);
 
  private:
   double cells_per_metre_;
   bool single_;
 };
 
-/// A record and its place on the curve.
+/// A record and its position on the curve.
 struct PlacedRecord {
-  CurvePlace at;
+  CurvePosition at;
   TileRecord record;
 };
 
@@ -75,7 +75,7 @@ struct CurveSort {
   std::function<void(std::uint64_t)> moved = [](auto) {};  ///< receives the number of records just read or written
 };
 
-/// Passes all records to `take` in the order of the curve; records at one place by their ids. Records at one place are
+/// Passes all records to `take` in the order of the curve; records at one position by their ids. Records at one position are
 /// in one group; if they are more than `most`, they are in several groups and need not be in order. Needs twice the
 /// disk space of the file.
 void sort_along_curve(std::unique_ptr<RecordFile> file, const CurveSort& sort);

@@ -39,14 +39,14 @@ constexpr double moves_of_a_record = 5;        // approximate number of reads an
 
 constexpr double reference_step = 256;  // [m]; float32 steps are below 0.02 mm within it
 
-Vector3d place_of(const PlacedRecord& r) { return Eigen::Map<const Vector3d>(r.record.place); }
+Vector3d position_of(const PlacedRecord& r) { return Eigen::Map<const Vector3d>(r.record.position); }
 
-/// Halves consecutive records at the highest bit in which their places differ, until each part holds at most `most`.
+/// Halves consecutive records at the highest bit in which their positions differ, until each part holds at most `most`.
 /// Dense regions get small tiles, distant clusters are separated first, and each part lies in a cell of its own.
 void divide(std::span<const PlacedRecord> records, std::size_t most,
             std::vector<std::span<const PlacedRecord>>& parts) {
   while (records.size() > most) {
-    const CurvePlace &first = records.front().at, &last = records.back().at;
+    const CurvePosition &first = records.front().at, &last = records.back().at;
     const std::size_t axis = MortonCurve::highest(first, last);
     std::size_t count = most;  // all at one position
     if (const std::uint64_t bits = first[axis] ^ last[axis]; bits > 0) {
@@ -64,7 +64,7 @@ void divide(std::span<const PlacedRecord> records, std::size_t most,
 /// Copies the records of one tile to the rows of a cloud from `first` on; sets all of `tile` but its first row.
 void pack_tile(std::span<const PlacedRecord> records, bool wide, SceneCloud& rows, std::size_t first, TileEntry& tile) {
   Bounds box;
-  for (const PlacedRecord& r : records) box = {box.min.cwiseMin(place_of(r)), box.max.cwiseMax(place_of(r))};
+  for (const PlacedRecord& r : records) box = {box.min.cwiseMin(position_of(r)), box.max.cwiseMax(position_of(r))};
   const Vector3d centre = box.min + (box.max - box.min) / 2;
   const Vector3d reference =
       wide ? Vector3d(reference_step * (centre / reference_step).array().round()) : Vector3d::Zero();
@@ -72,7 +72,7 @@ void pack_tile(std::span<const PlacedRecord> records, bool wide, SceneCloud& row
   tile = {};
   for (std::size_t k = 0; k < records.size(); ++k) {
     const TileRecord& r = records[k].record;
-    rows.point[first + k] = (place_of(records[k]) - reference).cast<float>();
+    rows.point[first + k] = (position_of(records[k]) - reference).cast<float>();
     rows.normal[first + k] = Eigen::Map<const Vector3f>(r.normal);
     rows.area[first + k] = r.area;
     rows.id[first + k] = r.id;
@@ -106,7 +106,6 @@ struct TileWriter::State {
   }
   /// Writes a group of neighbours as tiles.
   void write_group(std::span<const PlacedRecord> group, ColumnFile& columns);
-  /// Writes all columns of the file `name`, and the levels to `files`.
   void write_columns(const std::string& name, LevelFiles& files);
 };
 
@@ -126,17 +125,18 @@ TileWriter::~TileWriter() = default;
 
 void TileWriter::add(const SceneCloud& batch) {
   const Vector3d shift = batch.origin - state_->options.origin;
-  std::vector<Vector3d> places(batch.size());
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] = shift + batch.point[i].cast<double>();
-  add(batch, places);
+  std::vector<Vector3d> positions(batch.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = shift + batch.point[i].cast<double>();
+  add(batch, positions);
 }
 
-void TileWriter::add(const SceneCloud& batch, std::span<const Vector3d> places) {
+void TileWriter::add(const SceneCloud& batch, std::span<const Vector3d> positions) {
   State& s = *state_;
   if (!s.waiting) fail(ErrorKind::argument, "TileWriter: add() after finish(), make another writer");
   require_valid(batch, "TileWriter");
-  if (places.size() != batch.size())
-    fail(ErrorKind::argument, "TileWriter: ", places.size(), " places for ", batch.size(), " surfels, must be as many");
+  if (positions.size() != batch.size())
+    fail(ErrorKind::argument, "TileWriter: ", positions.size(), " places for ", batch.size(),
+         " surfels, must be as many");
   if (s.waiting->size() + batch.size() > std::numeric_limits<std::uint32_t>::max())
     fail(ErrorKind::content, s.path, ": more than 4294967295 surfels; divide the scene");
   s.noisy = s.noisy || !batch.noise.empty();
@@ -145,15 +145,15 @@ void TileWriter::add(const SceneCloud& batch, std::span<const Vector3d> places) 
       fail(ErrorKind::content, "TileWriter: batch.material[", i, "] = ", batch.material[i],
            ", must be below the number of the writer's materials, ", s.options.materials.size());
     TileRecord r{};
-    Eigen::Map<Vector3d>(r.place) = places[i];
+    Eigen::Map<Vector3d>(r.position) = positions[i];
     Eigen::Map<Vector3f>(r.normal) = batch.normal[i];
     r.area = batch.area[i];
     r.noise = batch.noise.empty() ? 0 : batch.noise[i];
     r.id = batch.id[i];
     r.material = batch.material[i];
     s.waiting->append(r);
-    s.box.min = s.box.min.cwiseMin(places[i]);
-    s.box.max = s.box.max.cwiseMax(places[i]);
+    s.box.min = s.box.min.cwiseMin(positions[i]);
+    s.box.max = s.box.max.cwiseMax(positions[i]);
     s.total_area += r.area;
   }
 }

@@ -47,8 +47,8 @@ class TileWriter {
   /// Adds a batch. Batches may differ in origin; material indices refer to the writer's materials. Throws as
   /// require_valid, and Error(content) for more than 2^32 - 1 surfels in total.
   void add(const SceneCloud& batch);
-  /// Adds a batch whose positions are `places` instead of batch.point: double [m], relative to the writer's origin.
-  void add(const SceneCloud& batch, std::span<const Eigen::Vector3d> places);
+  /// Adds a batch whose positions are `positions` instead of batch.point: double [m], relative to the writer's origin.
+  void add(const SceneCloud& batch, std::span<const Eigen::Vector3d> positions);
 
   /// Completes the file and returns its counts; call it once. Throws Error(file) if the file cannot be written.
   TileReport finish();

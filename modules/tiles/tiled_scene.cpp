@@ -56,9 +56,9 @@ struct TiledScene::State {
   const std::vector<TileEntry>& tiles() const { return directory.tiles; }
   const TiledSceneInfo& info() const { return directory.info; }
 
-  Vector3d origin_near(const Vector3d& place) const {
+  Vector3d origin_near(const Vector3d& position) const {
     if (!directory.wide) return info().origin;
-    return info().origin + origin_step * ((place - info().origin) / origin_step).array().round().matrix();
+    return info().origin + origin_step * ((position - info().origin) / origin_step).array().round().matrix();
   }
 
   /// Returns a cloud without surfels that has all other properties of the scene.
@@ -129,10 +129,10 @@ TiledCut TiledScene::cut(const InsonifiedRegion& region, const BeamFan& fan, con
   return cut;
 }
 
-std::vector<Vector3d> TiledScene::places() const {
-  std::vector<Vector3d> places;
-  for (const TileEntry& tile : state_->tiles()) places.push_back(state_->info().origin + vector_in(tile.centre));
-  return places;
+std::vector<Vector3d> TiledScene::positions() const {
+  std::vector<Vector3d> positions;
+  for (const TileEntry& tile : state_->tiles()) positions.push_back(state_->info().origin + vector_in(tile.centre));
+  return positions;
 }
 
 void require_memory(const TileSelection& selection, double bytes_per_surfel, double memory, const std::string& path) {

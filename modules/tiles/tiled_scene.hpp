@@ -92,7 +92,7 @@ class TiledScene {
                double most_surfels = std::numeric_limits<double>::infinity()) const;
 
   /// Returns the centres of the tiles (world, [m]).
-  std::vector<Eigen::Vector3d> places() const;
+  std::vector<Eigen::Vector3d> positions() const;
 
  private:
   struct State;

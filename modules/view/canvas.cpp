@@ -148,7 +148,7 @@ Canvas::Canvas(const PictureOptions& options, const char* who)
 void Canvas::set_origin(Point2 origin) { origin_ = {std::round(origin.x), std::round(origin.y)}; }
 
 // Cells are drawn as one texture, a texel per cell, on a mesh with one column of quads per beam. Along a quad
-// the range is linear and the beam constant, so every cell has its true place and edges, and a picture of
+// the range is linear and the beam constant, so every cell has its true position and edges, and a picture of
 // millions of cells costs a few hundred polygons and one upload.
 void Canvas::add_cells(const CellPatch& patch, const std::vector<double>& beam_edges, const ColourScale& scale,
                        const PlaneProjection& projection, double largest_step) {
@@ -219,8 +219,8 @@ void Canvas::add_quads(const std::vector<Point2>& corners, double height, const 
   renderer_->AddActor(actor);
 }
 
-void Canvas::add_text(const PlacedText& asked) {
-  PlacedText& text = texts_.emplace_back(asked);
+void Canvas::add_text(const PlacedText& requested) {
+  PlacedText& text = texts_.emplace_back(requested);
   text.centre = {text.centre.x + origin_.x, text.centre.y + origin_.y};
   renderer_->AddActor2D(text_actor(text, theme_, window_ ? VTK_DISPLAY : VTK_WORLD));  // the caller's camera may move
 }

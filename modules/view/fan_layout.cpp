@@ -150,8 +150,8 @@ Point2 FanLayout::at(double bearing, double range) const {
   return {apex.x + p.x, downwards ? apex.y - p.y : apex.y + p.y};
 }
 
-Point2 FanLayout::from_apex(Point2 place) const {
-  return {place.x - apex.x, downwards ? apex.y - place.y : place.y - apex.y};
+Point2 FanLayout::from_apex(Point2 position) const {
+  return {position.x - apex.x, downwards ? apex.y - position.y : position.y - apex.y};
 }
 
 int font_size_for(int width, int height) {
@@ -164,7 +164,7 @@ int font_size_for(const PictureOptions& options) {
 
 double line_width_for(int font_size) { return std::max(1.0, font_size / 15.0); }
 
-std::optional<PlacedText> place_title(const PictureOptions& options) {
+std::optional<PlacedText> put_title(const PictureOptions& options) {
   if (options.title.empty()) return {};
   const int font = font_size_for(options);
   const FittedText fitted = fit_text(options.title, (5 * font) / 4, options.width - 2.0 * font);
@@ -184,7 +184,7 @@ struct FanRoom {
 FanRoom lay_out_room(FanLayout& layout, const FanOutline& fan, const PictureOptions& options, const ColourScale& scale,
                      const std::string& unit) {
   const int font = font_size_for(options);
-  layout.title = place_title(options);
+  layout.title = put_title(options);
 
   // Try the bar at the right and below.
   const double margin = font;
@@ -248,7 +248,7 @@ CellFrame lay_out_cell_frame(const CellAxis& across, const CellAxis& up, const C
   // The cells fill the space left by title, labels and colour bar.
   CellFrame frame;
   frame.font_size = font_size_for(options);
-  frame.title = place_title(options);
+  frame.title = put_title(options);
   const double margin = 0.8 * frame.font_size, bottom = margin + room_below(frame.font_size);
   const double top = (frame.title ? frame.title->box().bottom : options.height) - frame.font_size;
   frame.bar = upright_colour_bar(scale, unit, frame.font_size, options.width - margin, bottom, top);

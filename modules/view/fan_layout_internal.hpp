@@ -32,7 +32,7 @@ struct FanLayout {
 
   Point2 at(double bearing, double range) const;
   /// Returns the vector from the apex to a position, as in a picture with forward up [pixels].
-  Point2 from_apex(Point2 place) const;
+  Point2 from_apex(Point2 position) const;
 };
 
 /// Returns the size of ordinary text for a picture of width x height pixels.
@@ -45,7 +45,7 @@ int font_size_for(const PictureOptions& options);
 double line_width_for(int font_size);
 
 /// Returns the title, centred at the top of the picture and fitted to its width; none if it is empty.
-std::optional<PlacedText> place_title(const PictureOptions& options);
+std::optional<PlacedText> put_title(const PictureOptions& options);
 
 /// Fits the fan and its labels into the picture as large as possible, with the colour bar at the right or below,
 /// whichever leaves more space. Texts neither overlap nor leave the picture.

@@ -192,12 +192,12 @@ Axes lay_out_axes(const LineChart& chart, const PictureOptions& options, double 
 
 }  // namespace
 
-Axes draw_line_chart(Canvas& canvas, const LineChart& asked, const PictureOptions& options) {
+Axes draw_line_chart(Canvas& canvas, const LineChart& requested, const PictureOptions& options) {
   // Lay out everything, then draw it.
-  const LineChart chart = with_logarithms_taken(asked);
+  const LineChart chart = with_logarithms_taken(requested);
   PictureOptions titled = options;
   titled.title = chart.title;
-  const auto title = place_title(titled);
+  const auto title = put_title(titled);
   const int font = font_size_for(options);
   const std::vector<ChartLine>& lines = chart.lines;
   const double title_bottom = title ? title->box().bottom : options.height;

@@ -24,7 +24,7 @@ struct LevelImage {
 };
 
 /// Returns true if a head looks down by more than 45 degrees; for a scanning head, at its scan angle zero.
-inline bool looks_down(const Pose& world_from_head, const std::optional<ScanPlace>& scan) {
+inline bool looks_down(const Pose& world_from_head, const std::optional<ScanDirection>& scan) {
   const double turn = scan ? scan->angle : 0;
   return (world_from_head.linear() * Eigen::Vector3d(std::cos(turn), -std::sin(turn), 0)).z() < -0.7072;
 }

@@ -62,12 +62,12 @@ SweepImage sweep_image(const BeamRecord& record, const BeamFan& fan, std::size_t
                         [&](double known) { return std::abs(std::remainder(known - angle, 2 * pi)) < same_bearing; }) -
            azimuth.begin();
   };
-  const auto add = [&](std::size_t from, bool heard) {
+  const auto add = [&](std::size_t from, bool is_insonified) {
     const double angle = record.pings[from].scan->angle;
     const auto beam = beam_at(angle);
     const bool is_new = beam == std::ssize(azimuth);
     if (is_new) azimuth.push_back(std::remainder(angle, 2 * pi)), sweep.ping.push_back(from);
-    if (!heard || (!is_new && sweep.ping[static_cast<std::size_t>(beam)] <= shown && from < first)) return;
+    if (!is_insonified || (!is_new && sweep.ping[static_cast<std::size_t>(beam)] <= shown && from < first)) return;
     sweep.ping[static_cast<std::size_t>(beam)] = from;
     level_db.row(beam) = record.level_db.row(static_cast<Eigen::Index>(from));
   };

@@ -41,7 +41,9 @@ struct Box {
     return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
   }
   /// Returns true if a position lies inside, or on the left or lower edge.
-  bool holds(Point2 place) const { return place.x >= left && place.x < right && place.y >= bottom && place.y < top; }
+  bool holds(Point2 position) const {
+    return position.x >= left && position.x < right && position.y >= bottom && position.y < top;
+  }
   /// Returns true if `other` lies inside, edges included.
   bool contains(const Box& other) const {
     return left <= other.left && other.right <= right && bottom <= other.bottom && other.top <= top;

@@ -42,10 +42,10 @@ constexpr std::size_t most_normals = 4000;
 constexpr double normal_length = 0.012;  // fraction of the diagonal; or three spacings, if longer
 
 Polyline normal_of(const SceneCloud& scene, std::uint32_t i, double least) {
-  const Eigen::Vector3d place = scene.point[i].cast<double>();
+  const Eigen::Vector3d position = scene.point[i].cast<double>();
   const Eigen::Vector3d tip =
       std::max(least, 3 * std::sqrt(static_cast<double>(scene.area[i]))) * scene.normal[i].cast<double>();
-  return {scene.normals_oriented ? place : Eigen::Vector3d(place - tip), place + tip};
+  return {scene.normals_oriented ? position : Eigen::Vector3d(position - tip), position + tip};
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void SceneActors::make_lines() {
   track_ = line_actor(track_colour, 2 * thin());
   if (look_.track.size() > 1) {
     Polyline way = look_.track;
-    for (Eigen::Vector3d& place : way) place -= scene_.origin;
+    for (Eigen::Vector3d& position : way) position -= scene_.origin;
     set_lines(track_, {way});
   }
   arcs_ = line_actor(blue, 0.8 * thin());
@@ -180,16 +180,16 @@ void SceneActors::highlight(std::span<const std::uint32_t> surfels) {
 void SceneActors::show_soundings(const Soundings& soundings) {
   require_valid(soundings, who_);
   look_.soundings = soundings;
-  sounding_places_.clear();
+  sounding_positions_.clear();
   std::vector<Rgb> colour;
   if (soundings.size() > 0) {
     const ColourScale scale = level_scale(look_, options_, who_);
     for (std::size_t i = 0; i < soundings.size(); ++i) {
-      sounding_places_.push_back((soundings.position[i] - scene_.origin).cast<float>());
+      sounding_positions_.push_back((soundings.position[i] - scene_.origin).cast<float>());
       colour.push_back(scale.colour(soundings.level_db[i]));
     }
   }
-  sounding_arrays_ = point_arrays(sounding_places_, std::vector<float>(soundings.size()));
+  sounding_arrays_ = point_arrays(sounding_positions_, std::vector<float>(soundings.size()));
   set_colours(sounding_arrays_.colours, colour);
   set_points(soundings_, sounding_arrays_, counted(soundings.size()));
   if (look_.colour == SceneColour::level && !look_.level_db.empty())
@@ -217,12 +217,12 @@ void SceneActors::make_marks() {
   normals_ = line_actor(options_.dark ? Colour{0.5, 0.9, 0.6} : Colour{0.1, 0.45, 0.2}, 0.8 * thin());
 }
 
-void SceneActors::show_holes(const std::vector<Eigen::Vector3d>& places) {
-  hole_places_.clear();
-  for (const Eigen::Vector3d& place : places) hole_places_.push_back((place - scene_.origin).cast<float>());
-  look_.holes = places;
-  hole_arrays_ = point_arrays(hole_places_, std::vector<float>(places.size()));
-  set_points(holes_, hole_arrays_, counted(places.size()));
+void SceneActors::show_holes(const std::vector<Eigen::Vector3d>& positions) {
+  hole_positions_.clear();
+  for (const Eigen::Vector3d& position : positions) hole_positions_.push_back((position - scene_.origin).cast<float>());
+  look_.holes = positions;
+  hole_arrays_ = point_arrays(hole_positions_, std::vector<float>(positions.size()));
+  set_points(holes_, hole_arrays_, counted(positions.size()));
   if (look_.colour == SceneColour::visibility) recolour();  // the legend names them
 }
 

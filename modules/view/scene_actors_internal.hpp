@@ -50,9 +50,9 @@ class SceneActors {
   void set_level_range(double min_db, double max_db);       ///< range of the level colours; NaN: automatic
   void set_colour_map(const std::string& name);             ///< colour map of the level colours
 
-  void highlight(std::span<const std::uint32_t> surfels);       ///< replaces the highlighted surfels
-  void show_soundings(const Soundings& soundings);              ///< replaces the soundings; empty: none
-  void show_holes(const std::vector<Eigen::Vector3d>& places);  ///< world [m]; replaces the holes
+  void highlight(std::span<const std::uint32_t> surfels);          ///< replaces the highlighted surfels
+  void show_soundings(const Soundings& soundings);                 ///< replaces the soundings; empty: none
+  void show_holes(const std::vector<Eigen::Vector3d>& positions);  ///< world [m]; replaces the holes
   void show_normals(bool on);
   void show_head(const Pose& world_from_head, const BeamFan& fan, const RangeGate& gate);
 
@@ -95,10 +95,10 @@ class SceneActors {
   std::size_t moving_drawn_ = 0;
   vtkSmartPointer<vtkActor> still_, moving_, footprint_, marks_;
 
-  std::vector<Eigen::Vector3f> sounding_places_;
+  std::vector<Eigen::Vector3f> sounding_positions_;
   PointCloudArrays sounding_arrays_;
   vtkSmartPointer<vtkActor> soundings_;
-  std::vector<Eigen::Vector3f> hole_places_;
+  std::vector<Eigen::Vector3f> hole_positions_;
   PointCloudArrays hole_arrays_;
   vtkSmartPointer<vtkActor> holes_, normals_;
 

@@ -49,10 +49,10 @@ void SceneActors::update_axes(vtkRenderer* renderer) {
 void SceneActors::place_camera(vtkRenderer* renderer, ScenePreset preset) const {
   const int* size = renderer->GetSize();
   const double narrow = std::min(size[0], size[1]);
-  const auto place = [&](const std::vector<Eigen::Vector3d>& points, double margin) {
+  const auto position = [&](const std::vector<Eigen::Vector3d>& points, double margin) {
     return place_view(scene_, look_, preset, points, size[0], size[1], margin);
   };
-  CameraView view = place(interest_, 0.04 * narrow);
+  CameraView view = position(interest_, 0.04 * narrow);
 
   // The view determines which edges carry the axes; the labels are then placed in it.
   if (axes_shown_) {
@@ -60,10 +60,10 @@ void SceneActors::place_camera(vtkRenderer* renderer, ScenePreset preset) const 
     double widest = 0;
     const int font = font_size_for(options_);
     for (const AxisLabel& label : lay_out_axes(box(), scene_.origin, view).labels) {
-      points.push_back(label.place);
+      points.push_back(label.position);
       widest = std::max(widest, text_size(label.text, font).width);
     }
-    view = place(points, std::min(widest + 1.2 * font, 0.16 * narrow));
+    view = position(points, std::min(widest + 1.2 * font, 0.16 * narrow));
   }
   vtkCamera* eye = renderer->GetActiveCamera();
   eye->ParallelProjectionOff();

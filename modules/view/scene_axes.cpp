@@ -54,15 +54,15 @@ double tick_step(double length) { return round_step(std::max(length, 1e-6) / 6);
 
 void add_axis(SceneAxes& axes, const AxisEdge& edge, double step, double origin, double tick) {
   const int axis = edge.axis;
-  const auto place_of = [&](double world) {
-    Vector3d place = edge.low;
-    place[axis] = world - origin;
-    return place;
+  const auto position_of = [&](double world) {
+    Vector3d position = edge.low;
+    position[axis] = world - origin;
+    return position;
   };
   for (const double value : multiples(step, edge.low[axis] + origin, edge.high[axis] + origin)) {
-    const Vector3d place = place_of(value);
-    axes.ticks.push_back({place, place + tick * edge.outward});
-    axes.labels.push_back({number_text(value, step), place + tick * edge.outward, edge.outward, false});
+    const Vector3d position = position_of(value);
+    axes.ticks.push_back({position, position + tick * edge.outward});
+    axes.labels.push_back({number_text(value, step), position + tick * edge.outward, edge.outward, false});
   }
   const Vector3d middle = (edge.low + edge.high) / 2;
   axes.labels.push_back({std::string(1, "xyz"[axis]) + " [m]", middle + tick * edge.outward, edge.outward, true});
@@ -73,9 +73,9 @@ class OutwardText {
  public:
   OutwardText(const AxisLabel& label, const CameraView& view, const Box& frame, int font_size)
       : text_(label.text, {}, font_size) {
-    const ShownPoint at = show_point(view, label.place, frame.width(), frame.height());
+    const ShownPoint at = show_point(view, label.position, frame.width(), frame.height());
     const ShownPoint out =
-        show_point(view, label.place + 1e-3 * at.distance * label.outward, frame.width(), frame.height());
+        show_point(view, label.position + 1e-3 * at.distance * label.outward, frame.width(), frame.height());
     text_.on_plate = true;
     visible_ = at.distance > 0 && out.distance > 0;
     start_ = {frame.left + at.at.x, frame.bottom + at.at.y};

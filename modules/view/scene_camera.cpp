@@ -14,7 +14,6 @@ using Eigen::Vector3d;
 
 constexpr std::size_t most_points = 20000;
 
-// Right, up and forward of a camera.
 struct ViewAxes {
   Vector3d right, up, forward;
 };
@@ -27,8 +26,8 @@ ViewAxes view_axes(const Vector3d& forward, const Vector3d& up) {
 // horizontal plane; for a vertical head, the upward direction of its picture.
 Vector3d heading(const SceneLook& look) {
   if (!look.head) return Vector3d::UnitX();
-  for (const Vector3d& place : look.track) {
-    const Vector3d way = place - look.track.front();
+  for (const Vector3d& position : look.track) {
+    const Vector3d way = position - look.track.front();
     if (std::hypot(way.x(), way.y()) > 1e-3) return Vector3d(way.x(), way.y(), 0).normalized();
   }
   const auto turn = look.head->world_from_head.linear();
@@ -119,13 +118,13 @@ std::vector<Vector3d> points_of_interest(const SceneCloud& scene, const SceneLoo
   std::vector<Vector3d> heads;
   if (look.head) heads = way_of(scene, look);
   if (look.head && heads.size() < 2) heads = {look.head->world_from_head.translation() - scene.origin};
-  const auto is_heard = [&](const Vector3d& point) {
+  const auto is_insonified = [&](const Vector3d& point) {
     return std::any_of(heads.begin(), heads.end(),
                        [&](const Vector3d& head) { return (point - head).norm() <= look.head->gate.max_range; });
   };
   for (std::size_t i = 0; i < scene.size(); i += step) {
     all.push_back(scene.point[i].cast<double>());
-    if (is_heard(all.back())) points.push_back(all.back());
+    if (is_insonified(all.back())) points.push_back(all.back());
   }
   // Show a scene whole if it is not much larger.
   if (10 * points.size() > 3 * all.size() || points.empty()) points = std::move(all);

@@ -23,7 +23,7 @@ constexpr VisibilityColour visibility_colours[] = {{Visibility::seen, "seen", {2
                                                    {Visibility::hidden, "hidden: in shadow", {42, 66, 138}},
                                                    {Visibility::turned_away, "turned away", {140, 92, 58}},
                                                    {Visibility::outside, "outside the fan or gate", {172, 174, 178}},
-                                                   {Visibility::not_asked, "not evaluated", {205, 207, 210}}};
+                                                   {Visibility::not_queried, "not evaluated", {205, 207, 210}}};
 
 // Light from behind, starboard and above for a head along x, so that faces differ in brightness and ripples show.
 const Eigen::Vector3f to_light = Eigen::Vector3f(-0.45F, -0.42F, 0.79F).normalized();

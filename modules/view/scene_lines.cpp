@@ -17,10 +17,9 @@
 namespace insonify {
 namespace {
 
-// Adds a line's points and returns the number of the first.
 vtkIdType add_points(vtkPoints* points, const Polyline& line) {
   const vtkIdType first = points->GetNumberOfPoints();
-  for (const Eigen::Vector3d& place : line) points->InsertNextPoint(place.data());
+  for (const Eigen::Vector3d& position : line) points->InsertNextPoint(position.data());
   return first;
 }
 
@@ -55,24 +54,24 @@ class Placer {
   Placer(const SceneHead& head, const Eigen::Vector3d& origin)
       : turn_(head.world_from_head.linear()), at_(head.world_from_head.translation() - origin) {}
 
-  Eigen::Vector3d place(const Eigen::Vector3d& in_head) const { return turn_ * in_head + at_; }
-  Eigen::Vector3d place(double azimuth, double elevation, double range) const {
-    return place(range * unit_vector({azimuth, elevation}));
+  Eigen::Vector3d position(const Eigen::Vector3d& in_head) const { return turn_ * in_head + at_; }
+  Eigen::Vector3d position(double azimuth, double elevation, double range) const {
+    return position(range * unit_vector({azimuth, elevation}));
   }
   Polyline across(const FanSector& sector, double elevation, double range) const {
     Polyline line;
     for (const double azimuth : steps_between(sector.low_azimuth, sector.high_azimuth))
-      line.push_back(place(azimuth, elevation, range));
+      line.push_back(position(azimuth, elevation, range));
     return line;
   }
   Polyline upwards(double azimuth, const FanSector& sector, double range) const {
     Polyline line;
     for (const double elevation : steps_between(sector.low_elevation, sector.high_elevation))
-      line.push_back(place(azimuth, elevation, range));
+      line.push_back(position(azimuth, elevation, range));
     return line;
   }
   Polyline ray(double azimuth, double elevation, const RangeGate& gate) const {
-    return {place(azimuth, elevation, gate.min_range), place(azimuth, elevation, gate.max_range)};
+    return {position(azimuth, elevation, gate.min_range), position(azimuth, elevation, gate.max_range)};
   }
 
  private:
@@ -193,12 +192,12 @@ HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin,
     lines.arcs.push_back(at.across(sector, sector.rows[sector.rows.size() / 2], range));
 
   for (int i = 0; i < 3; ++i)
-    lines.axes[static_cast<std::size_t>(i)] = {at.place(Eigen::Vector3d::Zero()),
-                                               at.place(2 * size * Eigen::Vector3d::Unit(i))};
+    lines.axes[static_cast<std::size_t>(i)] = {at.position(Eigen::Vector3d::Zero()),
+                                               at.position(2 * size * Eigen::Vector3d::Unit(i))};
   for (int i = 0; i < ring_corners; ++i) {
     const double angle = 2 * pi * i / ring_corners, y = std::cos(angle), z = std::sin(angle);
-    lines.body_rings[0].push_back(at.place(size * Eigen::Vector3d(-1, 0.3 * y, 0.3 * z)));
-    lines.body_rings[1].push_back(at.place(size * Eigen::Vector3d(0.1, 0.42 * y, 0.42 * z)));
+    lines.body_rings[0].push_back(at.position(size * Eigen::Vector3d(-1, 0.3 * y, 0.3 * z)));
+    lines.body_rings[1].push_back(at.position(size * Eigen::Vector3d(0.1, 0.42 * y, 0.42 * z)));
   }
   return lines;
 }
@@ -212,11 +211,11 @@ std::vector<std::uint32_t> footprint_outline(const SceneCloud& scene, const Scen
   // Measure the distance of a surfel inside each pair of walls [m]. On the outline it is small for one pair.
   const auto on_outline = [&](std::size_t i) {
     const Eigen::Vector3d normal = scene.normal[i].cast<double>();
-    const Eigen::Vector3d place = head_from_world * (scene.origin + scene.point[i].cast<double>());
-    const double range = place.norm(), reach = 0.7 * std::sqrt(static_cast<double>(scene.area[i]));
+    const Eigen::Vector3d position = head_from_world * (scene.origin + scene.point[i].cast<double>());
+    const double range = position.norm(), reach = 0.7 * std::sqrt(static_cast<double>(scene.area[i]));
     if (!(range > 0) || range > head.gate.max_range + reach) return false;
-    if (scene.normals_oriented && (head_from_world.linear() * normal).dot(place) > 0) return false;
-    const Direction towards = direction_of(place);
+    if (scene.normals_oriented && (head_from_world.linear() * normal).dot(position) > 0) return false;
+    const Direction towards = direction_of(position);
     const double turned = std::abs(unwrapped(towards.azimuth, middle) - middle);
     const double level_range = range * std::cos(towards.elevation);
     const double inside_sides = sector.full_circle ? 1e300 : level_range * (half_azimuth - turned);

@@ -47,10 +47,10 @@ HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin,
 /// their spacing sqrt(area), and, if normals are oriented, facing the head.
 std::vector<std::uint32_t> footprint_outline(const SceneCloud& scene, const SceneHead& head);
 
-/// A number or name beside an axis, at `place`; `outward` is a unit vector away from the box.
+/// A number or name beside an axis, at `position`; `outward` is a unit vector away from the box.
 struct AxisLabel {
   std::string text;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero(), outward = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(), outward = Eigen::Vector3d::UnitX();
   bool is_name = false;  ///< true: name of the axis, placed beyond its numbers
 };
 

@@ -102,16 +102,16 @@ void SquareMapper::RenderPieceDraw(vtkRenderer* renderer, vtkActor* actor) {
 PointCloudArrays point_arrays(std::span<const Eigen::Vector3f> position, const std::vector<float>& side) {
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
   const auto count = static_cast<vtkIdType>(position.size());
-  vtkNew<vtkFloatArray> places;
-  places->SetNumberOfComponents(3);
-  places->SetArray(const_cast<float*>(position.empty() ? nullptr : position.front().data()), 3 * count, 1);
+  vtkNew<vtkFloatArray> positions;
+  positions->SetNumberOfComponents(3);
+  positions->SetArray(const_cast<float*>(position.empty() ? nullptr : position.front().data()), 3 * count, 1);
 
   vtkNew<vtkFloatArray> sides;
   sides->SetName(side_name);
   sides->SetNumberOfTuples(count);
   std::copy(side.begin(), side.end(), sides->GetPointer(0));
 
-  PointCloudArrays arrays{places, sides, vtkSmartPointer<vtkUnsignedCharArray>::New()};
+  PointCloudArrays arrays{positions, sides, vtkSmartPointer<vtkUnsignedCharArray>::New()};
   arrays.colours->SetNumberOfComponents(4);  // VTK uses four components directly but copies three
   arrays.colours->SetNumberOfTuples(count);
   return arrays;

@@ -47,7 +47,7 @@ void draw_facts(Canvas& canvas, const std::vector<Fact>& facts, const PictureOpt
 }  // namespace
 
 void draw_panels(Canvas& canvas, const Panels& panels, const PictureOptions& options) {
-  const auto title = place_title(options);
+  const auto title = put_title(options);
   const int font = std::max(9, static_cast<int>(std::lround(smaller_font * font_size_for(options))));
   const double top = std::floor(title ? title->box().bottom - 0.3 * font : options.height);
   const double across = std::round(left_share * options.width), up = std::round(lower_share * top);

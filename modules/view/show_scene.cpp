@@ -56,7 +56,7 @@ SceneFrame lay_out_frame(const SceneKey& key, const std::optional<SceneKey>& sou
   const int font = font_size_for(options);
   const double margin = font;
   SceneFrame frame;
-  frame.title = place_title(options);
+  frame.title = put_title(options);
   frame.scene = {0, static_cast<double>(options.width), 0,
                  frame.title ? frame.title->box().bottom - 0.5 * font : static_cast<double>(options.height)};
   const double inset = 0.1 * frame.scene.top;

@@ -15,14 +15,14 @@ namespace insonify {
 namespace {
 
 constexpr float no_level = -200;
-constexpr std::array<Colour, 6> way_colours = {
+constexpr std::array<Colour, 6> track_colours = {
     {{0.1, 0.75, 0.95}, {1, 0.35, 0.3}, {0.45, 0.9, 0.35}, {1, 0.8, 0.2}, {0.8, 0.5, 1}, {1, 0.6, 0.8}}};
 
 /// Returns the box of the map: tracks with a margin, and the levels.
 Eigen::AlignedBox2d extent_of(const TrackMap& map) {
   Eigen::AlignedBox2d box;
-  for (const TrackMap::Way& way : map.ways)
-    for (const Eigen::Vector2d& place : way.places) box.extend(place);
+  for (const TrackMap::HeadTrack& head_track : map.tracks)
+    for (const Eigen::Vector2d& position : head_track.positions) box.extend(position);
   if (map.level_db.size() > 0) {
     box.extend(Eigen::Vector2d(map.x, map.y));
     const Eigen::Vector2d cells(static_cast<double>(map.level_db.rows()), static_cast<double>(map.level_db.cols()));
@@ -66,16 +66,18 @@ void draw_levels(Canvas& canvas, const TrackMap& map, const Axes& axes, const Co
       [&](double y, double x) { return axes.at(x, y); }, rows.edges.back() - rows.edges.front());
 }
 
-void draw_way(Canvas& canvas, const TrackMap::Way& way, const Axes& axes, const Colour& colour, int font) {
+void draw_head_track(Canvas& canvas, const TrackMap::HeadTrack& head_track, const Axes& axes, const Colour& colour,
+                     int font) {
   const auto at = [&](const Eigen::Vector2d& p) { return axes.at(p.x(), p.y()); };
   const double thin = line_width_for(font);
   Path line;
-  for (const Eigen::Vector2d& place : way.places) line.push_back(at(place));
+  for (const Eigen::Vector2d& position : head_track.positions) line.push_back(at(position));
   std::vector<Path> strokes;
-  const std::size_t step = std::max<std::size_t>(1, way.places.size() / 20);
-  for (std::size_t i = 0; i < way.ahead.size(); i += step)
+  const std::size_t step = std::max<std::size_t>(1, head_track.positions.size() / 20);
+  for (std::size_t i = 0; i < head_track.ahead.size(); i += step)
     strokes.push_back(
-        {line[i], {line[i].x + 1.5 * font * way.ahead[i].x(), line[i].y + 1.5 * font * way.ahead[i].y()}});
+        {line[i],
+         {line[i].x + 1.5 * font * head_track.ahead[i].x(), line[i].y + 1.5 * font * head_track.ahead[i].y()}});
   canvas.add_lines({line, ring(line.back(), 0.4 * font, 24)}, 2.5 * thin, colour, 1);
   canvas.add_lines(strokes, 1.5 * thin, colour, 0.8);
 }
@@ -83,10 +85,10 @@ void draw_way(Canvas& canvas, const TrackMap::Way& way, const Axes& axes, const 
 /// Draws names beside the beginnings of the tracks, one below the other where they would meet.
 void draw_names(Canvas& canvas, const TrackMap& map, const Axes& axes, int font) {
   std::vector<Box> taken;
-  for (const TrackMap::Way& way : map.ways) {
-    if (way.places.empty()) continue;
-    const Point2 begin = axes.at(way.places.front().x(), way.places.front().y());
-    PlacedText name(way.name, begin, font);
+  for (const TrackMap::HeadTrack& head_track : map.tracks) {
+    if (head_track.positions.empty()) continue;
+    const Point2 begin = axes.at(head_track.positions.front().x(), head_track.positions.front().y());
+    PlacedText name(head_track.name, begin, font);
     name.on_plate = true;
     const auto put = [&](double x, double y) {
       const double half = name.extent.width / 2 + 2, tall = name.extent.height;
@@ -117,9 +119,9 @@ void show_track(const TrackMap& map, const PictureOptions& options, const std::s
     const CellFrame frame =
         frame_about(widened(extent, first.width() / first.height()), scale, map.unit, options, font);
     if (map.level_db.size() > 0) draw_levels(canvas, map, frame.axes, scale);
-    for (std::size_t w = 0; w < map.ways.size(); ++w)
-      if (!map.ways[w].places.empty())
-        draw_way(canvas, map.ways[w], frame.axes, way_colours[w % way_colours.size()], font);
+    for (std::size_t w = 0; w < map.tracks.size(); ++w)
+      if (!map.tracks[w].positions.empty())
+        draw_head_track(canvas, map.tracks[w], frame.axes, track_colours[w % track_colours.size()], font);
     draw_names(canvas, map, frame.axes, font);
     draw_cell_frame(canvas, frame, scale);
   });

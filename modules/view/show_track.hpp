@@ -13,12 +13,12 @@ namespace insonify {
 /// A survey from above.
 struct TrackMap {
   /// The track of a head.
-  struct Way {
+  struct HeadTrack {
     std::string name;
-    std::vector<Eigen::Vector2d> places;  ///< positions of the pings, x, y [m]
-    std::vector<Eigen::Vector2d> ahead;   ///< horizontal part of the head's unit vector ahead, of length 1 when level
+    std::vector<Eigen::Vector2d> positions;  ///< positions of the pings, x, y [m]
+    std::vector<Eigen::Vector2d> ahead;  ///< horizontal part of the head's unit vector ahead, of length 1 when level
   };
-  std::vector<Way> ways;
+  std::vector<HeadTrack> tracks;
   double x = 0, y = 0, cell = 1;  ///< corner of cell (0, 0) of the levels, and size of the cells [m]
   Grid<float> level_db;           ///< columns along x, rows along y; NaN or -inf: nothing; empty: none
   std::string unit;               ///< unit of the colour bar

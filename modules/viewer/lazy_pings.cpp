@@ -7,8 +7,8 @@
 
 namespace insonify {
 
-LazyPings::LazyPings(std::vector<TrackPoint> places, PingSource source)
-    : places_(std::move(places)), source_(std::move(source)) {}
+LazyPings::LazyPings(std::vector<TrackPoint> positions, PingSource source)
+    : positions_(std::move(positions)), source_(std::move(source)) {}
 
 std::shared_ptr<const Ping> LazyPings::ping(std::size_t i) const {
   constexpr const char* who = "show_viewer";

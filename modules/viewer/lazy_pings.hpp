@@ -26,16 +26,16 @@ class LazyPings {
  public:
   LazyPings() = default;
   /// `source.ping` and `source.beam` must be given.
-  LazyPings(std::vector<TrackPoint> places, PingSource source);
+  LazyPings(std::vector<TrackPoint> positions, PingSource source);
 
   /// Returns the number of pings.
-  std::size_t size() const { return places_.size(); }
+  std::size_t size() const { return positions_.size(); }
   /// Returns true if there is no ping.
-  bool empty() const { return places_.empty(); }
+  bool empty() const { return positions_.empty(); }
   /// Returns time and pose of ping `i`.
-  const TrackPoint& place(std::size_t i) const { return places_[i]; }
+  const TrackPoint& position(std::size_t i) const { return positions_[i]; }
   /// Returns time and pose of all pings.
-  const std::vector<TrackPoint>& places() const { return places_; }
+  const std::vector<TrackPoint>& positions() const { return positions_; }
 
   /// Returns the fan of every ping, read with the first one.
   const BeamFan& fan() const { return frame().fan; }
@@ -58,7 +58,7 @@ class LazyPings {
   };
   const Frame& frame() const;
 
-  std::vector<TrackPoint> places_;
+  std::vector<TrackPoint> positions_;
   PingSource source_;
   mutable std::optional<Frame> frame_;
   mutable std::shared_ptr<const Ping> last_;

@@ -6,14 +6,14 @@
 
 namespace insonify {
 
-Point2 ViewerWindow::on_panel(ViewerPanelName name, Point2 place) const {
+Point2 ViewerWindow::on_panel(ViewerPanelName name, Point2 position) const {
   const Box& box = box_of(layout_, name);
-  return {place.x - box.left, place.y - box.bottom};
+  return {position.x - box.left, position.y - box.bottom};
 }
 
 // Converts a position in the window to the fan's plane, since its camera may have moved.
-Point2 ViewerWindow::on_fan(Point2 place) const {
-  const Point2 own = on_panel(ViewerPanelName::fan, place);
+Point2 ViewerWindow::on_fan(Point2 position) const {
+  const Point2 own = on_panel(ViewerPanelName::fan, position);
   vtkCamera* camera = panel(ViewerPanelName::fan).content->GetActiveCamera();
   const double per_pixel = 2 * camera->GetParallelScale() / layout_.fan.height();
   const double* focus = camera->GetFocalPoint();
@@ -21,8 +21,8 @@ Point2 ViewerWindow::on_fan(Point2 place) const {
           focus[1] + (own.y - layout_.fan.height() / 2) * per_pixel};
 }
 
-Point2 ViewerWindow::pixel_of(PixelPlace place) const {
-  const Point2 at = fan_layout_.at(-image_->fan.azimuth[place.beam], image_->gate.centre(place.bin));
+Point2 ViewerWindow::pixel_of(PixelPosition position) const {
+  const Point2 at = fan_layout_.at(-image_->fan.azimuth[position.beam], image_->gate.centre(position.bin));
   vtkCamera* camera = panel(ViewerPanelName::fan).content->GetActiveCamera();
   const double per_pixel = 2 * camera->GetParallelScale() / layout_.fan.height();
   const double* focus = camera->GetFocalPoint();
@@ -35,8 +35,8 @@ std::optional<Point2> ViewerWindow::pixel_of_point(const Eigen::Vector3d& world)
   return scene_->pixel_of(world);
 }
 
-PanelMotion ViewerWindow::motion_at(Point2 place) const {
-  const auto panel = panel_at(layout_, place);
+PanelMotion ViewerWindow::motion_at(Point2 position) const {
+  const auto panel = panel_at(layout_, position);
   if (panel == ViewerPanelName::scene) return PanelMotion::turn;
   return panel == ViewerPanelName::fan ? PanelMotion::slide : PanelMotion::none;
 }
@@ -48,17 +48,17 @@ std::optional<Point2> ViewerWindow::pixel_of_button(const std::string& key) cons
   return {};
 }
 
-void ViewerWindow::click(Point2 place) {
+void ViewerWindow::click(Point2 position) {
   for (const PlacedButton& button : buttons_)
-    if (button.box.holds(place)) return press_key(std::string(button.key));
-  const auto name = panel_at(layout_, place);
+    if (button.box.holds(position)) return press_key(std::string(button.key));
+  const auto name = panel_at(layout_, position);
   if (!name) return;
-  if (const auto act = panels_[static_cast<std::size_t>(*name)].click) (this->*act)(place);
+  if (const auto act = panels_[static_cast<std::size_t>(*name)].click) (this->*act)(position);
 }
 
-void ViewerWindow::click_fan(Point2 place) {
-  if (picture_ == ViewerPicture::waterfall) return select_on_waterfall(picture_axes_, picture_page_, on_fan(place));
-  const FanPlace at = fan_place(fan_layout_, on_fan(place));
+void ViewerWindow::click_fan(Point2 position) {
+  if (picture_ == ViewerPicture::waterfall) return select_on_waterfall(picture_axes_, picture_page_, on_fan(position));
+  const FanPosition at = fan_position(fan_layout_, on_fan(position));
   const LevelImage& shown = picture_ == ViewerPicture::sweep ? sweep_.image : *image_;
   const auto pixel = pixel_at(shown, at);
   if (!pixel) return;
@@ -67,30 +67,31 @@ void ViewerWindow::click_fan(Point2 place) {
   say(explanation_);
 }
 
-void ViewerWindow::click_history(Point2 place) {
-  if (extent_.pings > 1) select_on_waterfall(history_axes_, history_page_, on_panel(ViewerPanelName::history, place));
+void ViewerWindow::click_history(Point2 position) {
+  if (extent_.pings > 1)
+    select_on_waterfall(history_axes_, history_page_, on_panel(ViewerPanelName::history, position));
 }
 
-void ViewerWindow::select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 place) {
-  const auto row = row_at(axes, place);
-  const auto bin = bin_at(*image_, axes, place);
+void ViewerWindow::select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 position) {
+  const auto row = row_at(axes, position);
+  const auto bin = bin_at(*image_, axes, position);
   if (!row || !bin) return;
   notice_.clear();
   change(select_ping(state_, page.first + *row, {page.beam, *bin}, extent_));
   say(explanation_);
 }
 
-void ViewerWindow::click_scene(Point2 place) {
+void ViewerWindow::click_scene(Point2 position) {
   if (state_.mode == ViewerMode::inspect) {
     ViewerState next = state_;
-    next.surfel = scene_->surfel_at(place);
+    next.surfel = scene_->surfel_at(position);
     change(next);
     if (state_.surfel) say(explanation_);
     return;
   }
-  const auto world = scene_->world_at(place);
+  const auto world = scene_->world_at(position);
   if (!world) return;
-  const auto pixel = place_of(*data_.pings.ping(state_.ping), *world);
+  const auto pixel = position_of(*data_.pings.ping(state_.ping), *world);
   if (!pixel) {
     notice_ = "this point lies outside the fan or the range";
     return draw();
@@ -99,19 +100,19 @@ void ViewerWindow::click_scene(Point2 place) {
   select(*pixel, metres_on_fan({bearing, image_->gate.centre(pixel->bin)}));
 }
 
-void ViewerWindow::click_ascan(Point2 place) {
-  const auto bin = bin_at(*image_, ascan_axes_, on_panel(ViewerPanelName::ascan, place));
+void ViewerWindow::click_ascan(Point2 position) {
+  const auto bin = bin_at(*image_, ascan_axes_, on_panel(ViewerPanelName::ascan, position));
   if (!bin) return;
   ViewerState next = state_;
-  next.selected = PixelPlace{shown_place().beam, *bin};
+  next.selected = PixelPosition{shown_position().beam, *bin};
   change(next);
   say(explanation_);
 }
 
-void ViewerWindow::select(PixelPlace place, const Eigen::Vector2d& at) {
+void ViewerWindow::select(PixelPosition position, const Eigen::Vector2d& at) {
   const bool measures = state_.measure.active;
   notice_.clear();
-  change(select_pixel(state_, place, at, extent_));
+  change(select_pixel(state_, position, at, extent_));
   if (!measures) say(explanation_);
 }
 

@@ -45,10 +45,10 @@ std::shared_ptr<const SceneCloud> scene_at(const ViewerData& data, std::size_t p
   return {std::shared_ptr<const void>(), &data.scene};
 }
 
-HeadPlace vehicle_place(const ViewerData& data, const HeadPlace& head) {
+PoseAngles vehicle_position(const ViewerData& data, const PoseAngles& head) {
   const Pose& mount = data.vehicle_from_head;
   if (mount.isApprox(Pose::Identity(), 0)) return head;
-  return head_place(pose_of(head) * mount.inverse());
+  return pose_angles(pose_of(head) * mount.inverse());
 }
 
 View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate) {
@@ -58,7 +58,7 @@ View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const
 
 ViewerPicture picture_of(const ViewerData& data) {
   if (data.pings.size() < 2 || data.pings.fan().beams() > 1) return ViewerPicture::fan;
-  return data.pings.place(0).scan ? ViewerPicture::sweep : ViewerPicture::waterfall;
+  return data.pings.position(0).scan ? ViewerPicture::sweep : ViewerPicture::waterfall;
 }
 
 std::string unit_of(const ViewerData& data, bool tvg) {

@@ -62,7 +62,7 @@ void require_viewable(const ViewerData& data, ViewerMode mode);
 View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const RangeGate& gate);
 
 /// Returns the pose of the vehicle of a head to inspect: the one that `ping` takes, which mounts the head.
-HeadPlace vehicle_place(const ViewerData& data, const HeadPlace& head);
+PoseAngles vehicle_position(const ViewerData& data, const PoseAngles& head);
 
 /// Returns the unit of levels, with or without range compensation.
 std::string unit_of(const ViewerData& data, bool tvg);

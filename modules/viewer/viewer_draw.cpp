@@ -33,13 +33,13 @@ PictureOptions ViewerWindow::options_for(const Box& box) const {
 
 // Returns the sample whose beam and range the charts show: the selected one, otherwise the strongest of the middle
 // beam.
-PixelPlace ViewerWindow::shown_place() const {
+PixelPosition ViewerWindow::shown_position() const {
   if (state_.selected) return *state_.selected;
-  PixelPlace place{middle_beam(image_->fan), 0};
+  PixelPosition position{middle_beam(image_->fan), 0};
   Eigen::Index bin = 0;
-  image_->level_db.row(static_cast<Eigen::Index>(place.beam)).maxCoeff(&bin);
-  place.bin = static_cast<std::size_t>(bin);
-  return place;
+  image_->level_db.row(static_cast<Eigen::Index>(position.beam)).maxCoeff(&bin);
+  position.bin = static_cast<std::size_t>(bin);
+  return position;
 }
 
 // Updates the data selected by the state where it has changed.
@@ -56,8 +56,9 @@ void ViewerWindow::update_data() {
   if (!image_ || new_ping || drawn_->tvg != state_.tvg) image_ = levels_of(data_, state_.ping, state_.tvg);
   if (new_ping) head_view_.reset();
   if (state_.scene_colour == SceneColour::visibility && !head_view_ && has_scene(data_))
-    head_view_ = look_from(*scene_at(data_, state_.ping), view_at(data_, data_.pings.place(state_.ping).world_from_head,
-                                                                  data_.pings.fan(), data_.pings.gate()));
+    head_view_ = look_from(
+        *scene_at(data_, state_.ping),
+        view_at(data_, data_.pings.position(state_.ping).world_from_head, data_.pings.fan(), data_.pings.gate()));
   if (!new_ping && drawn_->selected == state_.selected) return;
   facts_.reset();
   explanation_.clear();
@@ -78,9 +79,9 @@ void ViewerWindow::draw() {
   if (drawn_ && drawn_->show_colour_bars != state_.show_colour_bars) lay_out();
   buttons_.clear();
   update_data();
-  for (const ViewerPanelPlace& place : viewer_panels)
-    if (const Box& box = layout_.*place.box; box.width() > 0 && box.height() > 0)
-      (this->*panels_[static_cast<std::size_t>(place.value)].draw)(panel(place.value), options_for(box));
+  for (const ViewerPanelBox& position : viewer_panels)
+    if (const Box& box = layout_.*position.box; box.width() > 0 && box.height() > 0)
+      (this->*panels_[static_cast<std::size_t>(position.value)].draw)(panel(position.value), options_for(box));
   draw_over();
   if (sliders_) sliders_->set(state_.gain_db, state_.window_db, static_cast<double>(state_.ping));
   drawn_ = state_;
@@ -93,8 +94,8 @@ bool ViewerWindow::levels_stay() const {
 }
 
 // Draws the first panel: fan or sweep of the ping, or the page of the waterfall that shows it.
-void ViewerWindow::draw_picture(ViewerPanel& panel, const PictureOptions& asked) {
-  PictureOptions options = asked;
+void ViewerWindow::draw_picture(ViewerPanel& panel, const PictureOptions& requested) {
+  PictureOptions options = requested;
   options.title = data_.title;
   if (picture_ == ViewerPicture::waterfall) {
     const PageOfPings page = page_of(data_.pings, state_.ping);
@@ -105,12 +106,12 @@ void ViewerWindow::draw_picture(ViewerPanel& panel, const PictureOptions& asked)
       picture_axes_ = draw_waterfall(canvas, history_of(record_of(data_, picture_page_, state_.tvg)), options);
     }
   } else if (!levels_stay()) {
-    if (extent_.pings > 1) options.title += ", ping " + std::to_string(data_.pings.place(state_.ping).number);
+    if (extent_.pings > 1) options.title += ", ping " + std::to_string(data_.pings.position(state_.ping).number);
     if (picture_ == ViewerPicture::sweep) sweep_ = sweep_at(data_, state_.ping, state_.tvg, picture_page_);
     Canvas canvas = fresh_canvas(panel.content, options, drawn_.has_value());
     fan_layout_ = draw_fan(canvas, picture_ == ViewerPicture::sweep ? sweep_.image : *image_, options);
   }
-  mark_picture(panel, asked);
+  mark_picture(panel, requested);
 }
 
 void ViewerWindow::mark_picture(ViewerPanel& panel, const PictureOptions& options) {
@@ -125,39 +126,38 @@ void ViewerWindow::mark_picture(ViewerPanel& panel, const PictureOptions& option
   mark_fan(panel, fan_layout_, marks, options);
 }
 
-// Draws the levels of a beam.
 void ViewerWindow::draw_beam(ViewerPanel& panel, const PictureOptions& options) {
-  const PixelPlace place = shown_place();
+  const PixelPosition position = shown_position();
   if (!levels_stay() || drawn_->selected != state_.selected) {
     PictureOptions own = options;
     own.min_db = own.max_db = std::numeric_limits<double>::quiet_NaN();  // automatic limits for this beam
     Canvas canvas = fresh_canvas(panel.content, own, false);
-    ascan_axes_ = draw_ascan(canvas, *image_, place.beam, own);
+    ascan_axes_ = draw_ascan(canvas, *image_, position.beam, own);
   }
-  mark_ascan(panel, *image_, ascan_axes_, place, options);
+  mark_ascan(panel, *image_, ascan_axes_, position, options);
 }
 
 // Draws one beam ping after ping with the row of the ping, or, for a single ping, the levels across its beams.
-void ViewerWindow::draw_history(ViewerPanel& panel, const PictureOptions& asked) {
-  PictureOptions options = asked;
-  const PixelPlace place = shown_place();
+void ViewerWindow::draw_history(ViewerPanel& panel, const PictureOptions& requested) {
+  PictureOptions options = requested;
+  const PixelPosition position = shown_position();
   if (extent_.pings < 2) {
     if (levels_stay() && drawn_->selected == state_.selected) return;
     Canvas canvas = fresh_canvas(panel.content, options, false);
-    draw_line_chart(canvas, bearing_chart(*image_, place, options), options);
+    draw_line_chart(canvas, bearing_chart(*image_, position, options), options);
     return;
   }
   const PageOfPings page = page_of(data_.pings, state_.ping);
-  const bool stays =
-      drawn_ && same_colours(*drawn_, state_) && page.first == history_page_.first && place.beam == history_page_.beam;
-  turn_page(history_page_, data_.pings, page.first, page.count, place.beam);
-  options.title = "Beam " + std::to_string(place.beam) + ", ping after ping";
+  const bool stays = drawn_ && same_colours(*drawn_, state_) && page.first == history_page_.first &&
+                     position.beam == history_page_.beam;
+  turn_page(history_page_, data_.pings, page.first, page.count, position.beam);
+  options.title = "Beam " + std::to_string(position.beam) + ", ping after ping";
   if (!stays) {
     Canvas canvas = fresh_canvas(panel.content, options, false);
     history_axes_ = draw_waterfall(canvas, history_of(record_of(data_, history_page_, state_.tvg)), options);
   }
   std::optional<double> range;
-  if (state_.selected) range = image_->gate.centre(place.bin);
+  if (state_.selected) range = image_->gate.centre(position.bin);
   mark_waterfall(panel, history_axes_, static_cast<double>(state_.ping - history_page_.first), range, options, false);
 }
 
@@ -176,12 +176,12 @@ void ViewerWindow::draw_scene(ViewerPanel&, const PictureOptions& options) {
 std::string ViewerWindow::status_text() const {
   if (!notice_.empty()) return notice_;
   if (state_.mode == ViewerMode::inspect)
-    return pose_option(vehicle_place(data_, state_.head)) +
+    return pose_option(vehicle_position(data_, state_.head)) +
            "   p prints it   arrows, PageUp, PageDown move, with shift they turn   h help";
-  const TrackPoint& place = data_.pings.place(state_.ping);
+  const TrackPoint& position = data_.pings.position(state_.ping);
   std::string text = "ping " + std::to_string(state_.ping + 1) + " of " + std::to_string(extent_.pings);
-  if (extent_.pings > 1) text += " at " + number_text(place.time, 0.01) + " s";
-  if (place.scan) text += ", sweep " + std::to_string(place.scan->sweep);
+  if (extent_.pings > 1) text += " at " + number_text(position.time, 0.01) + " s";
+  if (position.scan) text += ", sweep " + std::to_string(position.scan->sweep);
   if (state_.playing) text += ", playing " + number_text(state_.pings_per_second, 0.01) + " pings a second";
   text += "   gain " + number_text(state_.gain_db, 1) + " dB   window " + number_text(state_.window_db, 1) + " dB";
   text += state_.tvg ? "   range compensated" : "   as received";

@@ -38,12 +38,12 @@ BeamReach reach_of(const BeamFan& fan, std::size_t beam) {
 }
 
 // Returns the surfels whose centre lies in the beam's cell and in the bin.
-std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping, PixelPlace place) {
+std::vector<std::uint32_t> surfels_at(const SceneCloud& scene, const Ping& ping, PixelPosition position) {
   const HeadFrame head(scene, ping.world_from_head);
-  const double elevation = ping.fan.elevation[place.beam];
-  const double cone = cone_azimuth(unit_vector({ping.fan.azimuth[place.beam], elevation}));
-  const BeamReach reach = reach_of(ping.fan, place.beam);
-  const double range = ping.gate.centre(place.bin), half_bin = ping.gate.bin_size / 2;
+  const double elevation = ping.fan.elevation[position.beam];
+  const double cone = cone_azimuth(unit_vector({ping.fan.azimuth[position.beam], elevation}));
+  const BeamReach reach = reach_of(ping.fan, position.beam);
+  const double range = ping.gate.centre(position.bin), half_bin = ping.gate.bin_size / 2;
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const Eigen::Vector3d p = head.position(scene.point[i]);
@@ -111,21 +111,21 @@ std::string most_common_material(const ViewerData& data, const SceneCloud& scene
 }
 
 /// Returns the part that a sample shows: the ping's label, otherwise that of most surfels seen here; empty: none.
-std::string part_at(const Ping& ping, PixelPlace place, const SceneCloud& scene,
+std::string part_at(const Ping& ping, PixelPosition position, const SceneCloud& scene,
                     const std::vector<std::uint32_t>& seen) {
   if (const Grid<std::uint16_t> parts = part_image(ping.labels); parts.size() > 0) {
-    const std::uint16_t part = parts(static_cast<Eigen::Index>(place.beam), static_cast<Eigen::Index>(place.bin));
+    const std::uint16_t part = parts(static_cast<Eigen::Index>(position.beam), static_cast<Eigen::Index>(position.bin));
     return part < ping.labels.part_names.size() ? ping.labels.part_names[part] : "";
   }
   if (seen.empty() || scene.part.empty()) return {};
   return scene.parts[commonest(seen, scene.parts.size(), [&](std::uint32_t i) { return scene.part[i]; })].name;
 }
 
-std::vector<Contribution> contributions_of(const Contributors& list, PixelPlace place, const ViewerData& data,
+std::vector<Contribution> contributions_of(const Contributors& list, PixelPosition position, const ViewerData& data,
                                            const SceneCloud& scene) {
   std::vector<Contribution> found;
   for (std::size_t k = 0; k < list.per_pixel; ++k) {
-    const std::size_t at = list.at(place.beam, place.bin, k);
+    const std::size_t at = list.at(position.beam, position.bin, k);
     if (list.surfel[at] == Contributors::none) break;
     found.push_back({list.surfel[at], list.id[at], material_name(data, scene, list.material[at]),
                      static_cast<double>(list.share[at]), static_cast<double>(list.elevation[at]), list.path[at],
@@ -165,15 +165,16 @@ std::string visibility_lines(const PixelVisibility& visibility, const std::strin
 
 }  // namespace
 
-PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, const Ping& ping, PixelPlace place) {
+PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, const Ping& ping,
+                              PixelPosition position) {
   PixelVisibility visibility;
-  const std::vector<std::uint32_t> here = surfels_at(scene, ping, place);
+  const std::vector<std::uint32_t> here = surfels_at(scene, ping, position);
   if (here.empty()) return visibility;
-  std::vector<std::uint8_t> asked(scene.size(), 0);
-  for (const std::uint32_t i : here) asked[i] = 1;
+  std::vector<std::uint8_t> queried(scene.size(), 0);
+  for (const std::uint32_t i : here) queried[i] = 1;
   const View view = view_at(data, ping.world_from_head, ping.fan, ping.gate);
   const std::vector<Visibility> answer =
-      find_visibility(scene, view.world_from_head, view.fan, view.gate, asked, view.sampling);
+      find_visibility(scene, view.world_from_head, view.fan, view.gate, queried, view.sampling);
   for (const std::uint32_t i : here) {
     if (answer[i] == Visibility::seen) visibility.seen.push_back(i);
     if (answer[i] == Visibility::hidden) visibility.hidden.push_back(i);
@@ -183,43 +184,43 @@ PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, c
   return visibility;
 }
 
-PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, PixelPlace place) {
+PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping_index, PixelPosition position) {
   const ViewerExtent extent = extent_of(data);
-  if (ping_index >= extent.pings || place.beam >= extent.beams || place.bin >= extent.bins)
-    fail(ErrorKind::argument, "find_pixel_facts: ping ", ping_index, ", beam ", place.beam, ", bin ", place.bin,
+  if (ping_index >= extent.pings || position.beam >= extent.beams || position.bin >= extent.bins)
+    fail(ErrorKind::argument, "find_pixel_facts: ping ", ping_index, ", beam ", position.beam, ", bin ", position.bin,
          ", must be below ", extent.pings, ", ", extent.beams, ", ", extent.bins);
   const auto shown = data.pings.ping(ping_index);
   const Ping& ping = *shown;
   const std::shared_ptr<const SceneCloud> of_ping = scene_at(data, ping_index);
   const SceneCloud& scene = *of_ping;
   PixelFacts facts;
-  facts.place = place;
+  facts.position = position;
   facts.ping_number = ping.number;
-  facts.range = ping.gate.centre(place.bin);
-  facts.azimuth = ping.fan.azimuth[place.beam];
-  facts.elevation = ping.fan.elevation[place.beam];
+  facts.range = ping.gate.centre(position.bin);
+  facts.azimuth = ping.fan.azimuth[position.beam];
+  facts.elevation = ping.fan.elevation[position.beam];
   if (ping.scan) facts.scan_angle = ping.scan->angle;
-  const auto row = static_cast<Eigen::Index>(place.beam), column = static_cast<Eigen::Index>(place.bin);
+  const auto row = static_cast<Eigen::Index>(position.beam), column = static_cast<Eigen::Index>(position.bin);
   facts.level_db = pressure_level_db(static_cast<double>(std::abs(ping.pressure(row, column))));  // (E6)
   facts.unit = unit_of(data, false);
   facts.compensated_level_db =
       facts.level_db + 40 * std::log10(facts.range) + 2 * ping.absorption_db_per_m * facts.range;  // (E20)
   if (!data.contributors.empty() && !data.contributors[ping_index].empty()) {
     facts.contributions_known = true;
-    facts.contributions = contributions_of(data.contributors[ping_index], place, data, scene);
+    facts.contributions = contributions_of(data.contributors[ping_index], position, data, scene);
   }
   if (ping.unknown.size() > 0) facts.unknown = ping.unknown(row, column) != 0;
   if (scene.size() > 0) {
-    facts.visibility = look_at_pixel(data, scene, ping, place);
+    facts.visibility = look_at_pixel(data, scene, ping, position);
     facts.seen_material = most_common_material(data, scene, facts.visibility->seen);
   }
-  facts.part = part_at(ping, place, scene, facts.visibility ? facts.visibility->seen : std::vector<std::uint32_t>{});
+  facts.part = part_at(ping, position, scene, facts.visibility ? facts.visibility->seen : std::vector<std::uint32_t>{});
   return facts;
 }
 
 std::string explain_pixel(const PixelFacts& facts) {
   std::string text = printed("Ping %lld, beam %zu, bin %zu\n", static_cast<long long>(facts.ping_number),
-                             facts.place.beam, facts.place.bin);
+                             facts.position.beam, facts.position.bin);
   text += printed("Range %.3f m\n", facts.range);
   text += "Bearing " + bearing_words(std::remainder(facts.azimuth + facts.scan_angle.value_or(0), 2 * pi)) + "\n";
   if (facts.scan_angle) text += "  Turn of the head " + bearing_words(std::remainder(*facts.scan_angle, 2 * pi)) + "\n";
@@ -244,7 +245,7 @@ std::vector<std::uint32_t> surfels_behind(const PixelFacts& facts) {
   return surfels;
 }
 
-std::optional<PixelPlace> place_of(const Ping& ping, const Eigen::Vector3d& world_position) {
+std::optional<PixelPosition> position_of(const Ping& ping, const Eigen::Vector3d& world_position) {
   const Eigen::Vector3d p = ping.world_from_head.inverse() * world_position;
   const double range = p.norm(), bin = std::floor((range - ping.gate.min_range) / ping.gate.bin_size);
   if (!(bin >= 0 && bin < static_cast<double>(ping.gate.bins()))) return {};
@@ -262,7 +263,7 @@ std::optional<PixelPlace> place_of(const Ping& ping, const Eigen::Vector3d& worl
   const BeamReach reach = reach_of(fan, nearest);
   const double off = std::remainder(direction.azimuth - fan.azimuth[nearest], 2 * pi);
   if (off > reach.left || -off > reach.right) return {};
-  return PixelPlace{nearest, static_cast<std::size_t>(bin)};
+  return PixelPosition{nearest, static_cast<std::size_t>(bin)};
 }
 
 }  // namespace insonify

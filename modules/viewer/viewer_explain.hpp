@@ -32,11 +32,12 @@ struct PixelVisibility {
   std::optional<std::uint32_t> occluder_surfel;  ///< index of this surfel
 };
 /// Returns the visibility at a sample of a ping. `scene` is the scene of the ping; empty for an empty scene.
-PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, const Ping& ping, PixelPlace place);
+PixelVisibility look_at_pixel(const ViewerData& data, const SceneCloud& scene, const Ping& ping,
+                              PixelPosition position);
 
 /// Facts about one sample.
 struct PixelFacts {
-  PixelPlace place;
+  PixelPosition position;
   std::int64_t ping_number = 0;
   double range = 0;                         ///< range of the bin's centre [m]
   double azimuth = 0;                       ///< azimuth of the beam [rad], positive to port
@@ -53,7 +54,7 @@ struct PixelFacts {
   std::string seen_material;                  ///< most frequent material of the visible surfels; empty: none visible
 };
 /// Throws Error(argument) if ping, beam or bin is not in the data.
-PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping, PixelPlace place);
+PixelFacts find_pixel_facts(const ViewerData& data, std::size_t ping, PixelPosition position);
 
 /// Returns the facts in sentences, one per line; bearings are positive to starboard, angles in degrees.
 std::string explain_pixel(const PixelFacts& facts);
@@ -64,7 +65,7 @@ std::vector<std::uint32_t> surfels_behind(const PixelFacts& facts);
 
 /// Returns the sample that contains a point of the world: its beam (nearest in azimuth, then in elevation) and its bin.
 /// Returns nothing outside fan and gate.
-std::optional<PixelPlace> place_of(const Ping& ping, const Eigen::Vector3d& world_position);
+std::optional<PixelPosition> position_of(const Ping& ping, const Eigen::Vector3d& world_position);
 
 /// Visibility of a scene from a head, without simulating a ping.
 struct HeadView {
@@ -82,6 +83,6 @@ std::string explain_view(const HeadView& view, const ViewerState& state);
 
 /// Returns the description of one surfel: material, id, position, area, range, bearing (positive to starboard),
 /// incidence, visibility. Throws Error(argument) if it is not in the scene.
-std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const HeadPlace& head, std::uint32_t surfel);
+std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const PoseAngles& head, std::uint32_t surfel);
 
 }  // namespace insonify

@@ -77,11 +77,11 @@ std::array<double, 2> common_max_db(const ViewerData& data) {
   return highest;
 }
 
-LineChart bearing_chart(const LevelImage& image, PixelPlace place, const PictureOptions& options) {
+LineChart bearing_chart(const LevelImage& image, PixelPosition position, const PictureOptions& options) {
   constexpr double same_row = 1e-6;  // [rad]
   std::vector<std::size_t> order;
   for (std::size_t b = 0; b < image.fan.beams(); ++b)
-    if (image.fan.row_width == 0 || std::abs(image.fan.elevation[b] - image.fan.elevation[place.beam]) < same_row)
+    if (image.fan.row_width == 0 || std::abs(image.fan.elevation[b] - image.fan.elevation[position.beam]) < same_row)
       order.push_back(b);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return image.fan.azimuth[a] > image.fan.azimuth[b]; });
@@ -89,7 +89,7 @@ LineChart bearing_chart(const LevelImage& image, PixelPlace place, const Picture
   ChartLine& line = chart.lines[0];
   double highest = -200;
   for (const std::size_t b : order) {
-    const double level = image.level_db(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(place.bin));
+    const double level = image.level_db(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(position.bin));
     line.x.push_back(-degrees(image.fan.azimuth[b]));
     line.y.push_back(std::isfinite(level) ? level : -200);
     highest = std::max(highest, line.y.back());
@@ -99,9 +99,9 @@ LineChart bearing_chart(const LevelImage& image, PixelPlace place, const Picture
   chart.high_y = next_five(highest);
   chart.low_y = chart.high_y - options.window_db;
   for (double& y : line.y) y = std::max(y, chart.low_y - options.window_db);
-  chart.title = "Across the beams at " + number_text(image.gate.centre(place.bin), 0.01) + " m";
+  chart.title = "Across the beams at " + number_text(image.gate.centre(position.bin), 0.01) + " m";
   if (image.fan.row_width > 0)
-    chart.title += ", row at " + bearing_text(degrees(image.fan.elevation[place.beam]), 0.1) + " elevation";
+    chart.title += ", row at " + bearing_text(degrees(image.fan.elevation[position.beam]), 0.1) + " elevation";
   chart.x_title = "Bearing [°], positive to starboard";
   chart.y_title = "Level, " + image.unit;
   return chart;
@@ -131,7 +131,7 @@ void mark_waterfall(ViewerPanel& panel, const Axes& axes, double row, std::optio
   canvas.add_lines({ring({x, y}, 0.55 * options.font_size, ring_sides)}, 2, mark_colour, 1);
 }
 
-void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPlace> selected,
+void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPosition> selected,
                 const PictureOptions& options) {
   Canvas canvas = fresh_canvas(panel.marks, options, false);
   if (!selected) return;
@@ -139,36 +139,36 @@ void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, s
   canvas.add_lines({{{x, axes.frame.bottom}, {x, axes.frame.top}}}, 1.5, mark_colour, 0.8);
 }
 
-FanPlace fan_place(const FanLayout& layout, Point2 place) {
-  const auto [x, y] = layout.from_apex(place);
+FanPosition fan_position(const FanLayout& layout, Point2 position) {
+  const auto [x, y] = layout.from_apex(position);
   return {std::atan2(x, y), std::hypot(x, y) / layout.pixels_per_metre};
 }
 
-Eigen::Vector2d metres_on_fan(FanPlace place) {
-  return place.range * Eigen::Vector2d(std::sin(place.bearing), std::cos(place.bearing));
+Eigen::Vector2d metres_on_fan(FanPosition position) {
+  return position.range * Eigen::Vector2d(std::sin(position.bearing), std::cos(position.bearing));
 }
 
-std::optional<PixelPlace> pixel_at(const LevelImage& image, FanPlace place) {
-  const double bin = std::floor((place.range - image.gate.min_range) / image.gate.bin_size);
+std::optional<PixelPosition> pixel_at(const LevelImage& image, FanPosition position) {
+  const double bin = std::floor((position.range - image.gate.min_range) / image.gate.bin_size);
   if (!(bin >= 0 && bin < static_cast<double>(image.level_db.cols()))) return {};
-  const auto beam = strongest_at(image, place.bearing, static_cast<Eigen::Index>(bin));
+  const auto beam = strongest_at(image, position.bearing, static_cast<Eigen::Index>(bin));
   if (!beam) return {};
-  return PixelPlace{*beam, static_cast<std::size_t>(bin)};
+  return PixelPosition{*beam, static_cast<std::size_t>(bin)};
 }
 
-std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 place) {
+std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 position) {
   const Box& frame = axes.frame;
-  if (!frame.contains({place.x, place.x, place.y, place.y})) return {};
-  const double range = axes.low_x + (axes.high_x - axes.low_x) * (place.x - frame.left) / frame.width();
+  if (!frame.contains({position.x, position.x, position.y, position.y})) return {};
+  const double range = axes.low_x + (axes.high_x - axes.low_x) * (position.x - frame.left) / frame.width();
   const double bin = std::floor((range - image.gate.min_range) / image.gate.bin_size);
   if (!(bin >= 0 && bin < static_cast<double>(image.level_db.cols()))) return {};
   return static_cast<std::size_t>(bin);
 }
 
-std::optional<std::size_t> row_at(const Axes& axes, Point2 place) {
+std::optional<std::size_t> row_at(const Axes& axes, Point2 position) {
   const Box& frame = axes.frame;
-  if (!frame.contains({place.x, place.x, place.y, place.y})) return {};
-  const double row = axes.low_y + (axes.high_y - axes.low_y) * (place.y - frame.bottom) / frame.height();
+  if (!frame.contains({position.x, position.x, position.y, position.y})) return {};
+  const double row = axes.low_y + (axes.high_y - axes.low_y) * (position.y - frame.bottom) / frame.height();
   return static_cast<std::size_t>(std::clamp(std::floor(row), 0.0, std::max(0.0, axes.high_y - 1)));
 }
 

@@ -25,7 +25,7 @@ LevelImage levels_of(const ViewerData& data, std::size_t ping, bool tvg);
 std::array<double, 2> common_max_db(const ViewerData& data);
 
 /// Returns a chart of the levels at the range of a sample, by bearing; for a head with rows of beams, those of its row.
-LineChart bearing_chart(const LevelImage& image, PixelPlace place, const PictureOptions& options);
+LineChart bearing_chart(const LevelImage& image, PixelPosition position, const PictureOptions& options);
 
 /// Marks on a fan.
 struct FanMarks {
@@ -37,26 +37,26 @@ void mark_fan(ViewerPanel& panel, const FanLayout& layout, const FanMarks& marks
 void mark_waterfall(ViewerPanel& panel, const Axes& axes, double row, std::optional<double> range,
                     const PictureOptions& options, bool keep_camera);
 /// Draws a vertical line at the range of the selected bin.
-void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPlace> selected,
+void mark_ascan(ViewerPanel& panel, const LevelImage& image, const Axes& axes, std::optional<PixelPosition> selected,
                 const PictureOptions& options);
 
 /// Polar coordinates on a fan picture: bearing [rad], positive to starboard, and range [m].
-struct FanPlace {
+struct FanPosition {
   double bearing = 0, range = 0;
 };
 /// Inverts FanLayout::at; bearings in (-pi, pi].
-FanPlace fan_place(const FanLayout& layout, Point2 place);
+FanPosition fan_position(const FanLayout& layout, Point2 position);
 /// Returns the position in metres to starboard and forward of the head.
-Eigen::Vector2d metres_on_fan(FanPlace place);
+Eigen::Vector2d metres_on_fan(FanPosition position);
 
 /// Returns the sample drawn at a position: the nearest beam in azimuth and the bin; of beams that share a cell the
 /// strongest, which is the one drawn. Returns nothing outside the fan.
-std::optional<PixelPlace> pixel_at(const LevelImage& image, FanPlace place);
+std::optional<PixelPosition> pixel_at(const LevelImage& image, FanPosition position);
 
 /// Returns the row at a position on a waterfall; nothing outside its frame.
-std::optional<std::size_t> row_at(const Axes& axes, Point2 place);
+std::optional<std::size_t> row_at(const Axes& axes, Point2 position);
 
 /// Returns the bin at a position on a chart of levels against range; nothing outside its frame.
-std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 place);
+std::optional<std::size_t> bin_at(const LevelImage& image, const Axes& axes, Point2 position);
 
 }  // namespace insonify

@@ -48,7 +48,7 @@ HeadView look_from(const SceneCloud& scene, const View& from) {
 }
 
 std::string explain_view(const HeadView& view, const ViewerState& state) {
-  const HeadPlace& head = state.head;
+  const PoseAngles& head = state.head;
   std::string text = printed("Head at %.2f, %.2f, %.2f m\n", head.position.x(), head.position.y(), head.position.z());
   text += printed("Yaw %.1f°, pitch %.1f°, roll %.1f°\n", degrees(head.yaw), degrees(head.pitch), degrees(head.roll));
   text += printed("A key moves the head by %g m\nor turns it by %g°\n\n", state.stride, 10 * state.stride);
@@ -64,11 +64,11 @@ std::string explain_view(const HeadView& view, const ViewerState& state) {
   return text;
 }
 
-std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const HeadPlace& place,
+std::string explain_surfel(const SceneCloud& scene, const HeadView& view, const PoseAngles& position,
                            std::uint32_t surfel) {
   if (surfel >= scene.size())
     fail(ErrorKind::argument, "explain_surfel: surfel = ", surfel, ", must be below ", scene.size());
-  const HeadFrame head(scene, pose_of(place));
+  const HeadFrame head(scene, pose_of(position));
   const Eigen::Vector3d p = head.position_of(surfel);
   const Eigen::Vector3d world = scene.origin + scene.point[surfel].cast<double>();
   const Direction direction = direction_of(p);

@@ -42,8 +42,8 @@ int tenth_of(E& extent) { return std::max(1, static_cast<int>(extent.pings / 10)
 
 void select_next(S& s, int beams, int bins, E& extent) {
   if (extent.beams == 0 || extent.bins == 0) return;
-  const PixelPlace from = s.selected.value_or(PixelPlace{extent.beams / 2, extent.bins / 2});
-  s.selected = PixelPlace{moved(from.beam, beams, extent.beams), moved(from.bin, bins, extent.bins)};
+  const PixelPosition from = s.selected.value_or(PixelPosition{extent.beams / 2, extent.bins / 2});
+  s.selected = PixelPosition{moved(from.beam, beams, extent.beams), moved(from.bin, bins, extent.bins)};
 }
 
 // Moves the head horizontally along and across its heading, then up.
@@ -54,7 +54,7 @@ void move_head(S& state, double forward, double port, double up) {
 
 void turn_head(S& state, double yaw, double pitch, double roll) {
   const double turn = turn_per_metre * state.stride;
-  HeadPlace& head = state.head;
+  PoseAngles& head = state.head;
   head.yaw = std::remainder(head.yaw + turn * yaw, 2 * pi);
   head.pitch = std::clamp(head.pitch + turn * pitch, -pi / 2, pi / 2);
   head.roll = std::remainder(head.roll + turn * roll, 2 * pi);

@@ -70,7 +70,7 @@ void add_text_lines(Canvas& canvas, const std::string& text, const Box& box, int
   }
 }
 
-ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const ViewerParts& parts) {
+ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const ViewerPanels& parts) {
   if (width < min_width || height < min_height || width > largest || height > largest)
     fail(ErrorKind::argument, "show_viewer: window of ", width, " x ", height, " pixels, must be ", min_width, " x ",
          min_height, " to ", largest, " either way");
@@ -99,9 +99,9 @@ ViewerLayout lay_out_viewer(int width, int height, ViewerMode mode, const Viewer
   return layout;
 }
 
-std::optional<ViewerPanelName> panel_at(const ViewerLayout& layout, Point2 place) {
-  for (const ViewerPanelPlace& panel : viewer_panels)
-    if ((layout.*panel.box).holds(place)) return panel.value;
+std::optional<ViewerPanelName> panel_at(const ViewerLayout& layout, Point2 position) {
+  for (const ViewerPanelBox& panel : viewer_panels)
+    if ((layout.*panel.box).holds(position)) return panel.value;
   return {};
 }
 

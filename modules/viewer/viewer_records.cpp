@@ -12,10 +12,9 @@ namespace {
 constexpr std::size_t pings_of_a_page = 600;
 constexpr std::size_t longest_sweep = 4000;
 
-// Returns the pings of the sweep that contains `ping`.
 PageOfPings sweep_of(const LazyPings& pings, std::size_t ping) {
   const auto in_sweep = [&](std::size_t i) {
-    return pings.place(i).scan && pings.place(i).scan->sweep == pings.place(ping).scan->sweep;
+    return pings.position(i).scan && pings.position(i).scan->sweep == pings.position(ping).scan->sweep;
   };
   std::size_t first = ping, end = ping + 1;
   while (first > 0 && in_sweep(first - 1) && ping - first < longest_sweep) --first;
@@ -43,9 +42,9 @@ BeamRecord record_of(const ViewerData& data, const BeamPage& page, bool tvg) {
     return static_cast<float>(std::max(silence_db, pressure_level_db(static_cast<double>(std::abs(pressure)))));
   });
   for (std::size_t i = page.first; i < page.end(); ++i) {
-    const TrackPoint& place = record.pings.emplace_back(data.pings.place(i));
+    const TrackPoint& position = record.pings.emplace_back(data.pings.position(i));
     auto row = record.level_db.row(std::ssize(record.pings) - 1);
-    if (tvg) row = apply_tvg(row, record.gate, {40, place.absorption_db_per_m});
+    if (tvg) row = apply_tvg(row, record.gate, {40, position.absorption_db_per_m});
   }
   return record;
 }

@@ -25,10 +25,10 @@ SceneCloud scene_of_returns(const Soundings& returns) {
 // Selects the returns of one ping, range compensated (E20). Pings are matched by number, or, if none matches, by index.
 Soundings returns_of(const ViewerData& data, std::size_t ping) {
   const Soundings all = data.pings.has_returns() ? data.pings.returns(ping) : data.returns;
-  const TrackPoint& place = data.pings.place(ping);
-  const bool by_number = std::count(all.ping.begin(), all.ping.end(), place.number) > 0;
-  return soundings_of_ping(all, by_number ? place.number : static_cast<std::int64_t>(ping),
-                           Tvg{40, place.absorption_db_per_m});
+  const TrackPoint& position = data.pings.position(ping);
+  const bool by_number = std::count(all.ping.begin(), all.ping.end(), position.number) > 0;
+  return soundings_of_ping(all, by_number ? position.number : static_cast<std::int64_t>(ping),
+                           Tvg{40, position.absorption_db_per_m});
 }
 
 // Words for colours, in the order of SceneColour.
@@ -61,7 +61,8 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
   look.point_size = state.point_size;
   look.head = head_of(state);
   look.level_unit = level_unit(Tvg{});
-  for (const TrackPoint& place : data.pings.places()) look.track.emplace_back(place.world_from_head.translation());
+  for (const TrackPoint& position : data.pings.positions())
+    look.track.emplace_back(position.world_from_head.translation());
   if (!data.pings.empty()) look.soundings = returns_of(data, state.ping);
   options_.colour_map = state.colour_map;
   actors_ = std::make_unique<SceneActors>(shown(), look, options_, viewer_caller);
@@ -99,10 +100,9 @@ void ViewerScene::move_camera(const Eigen::Vector3d& by) {
 
 SceneHead ViewerScene::head_of(const ViewerState& state) const {
   if (state.mode == ViewerMode::inspect) return {pose_of(state.head), data_.fan, data_.gate};
-  return {data_.pings.place(state.ping).world_from_head, data_.pings.fan(), data_.pings.gate()};
+  return {data_.pings.position(state.ping).world_from_head, data_.pings.fan(), data_.pings.gate()};
 }
 
-// Moves the camera along with the head.
 void ViewerScene::follow_head(const ViewerState& state) {
   move_camera(head_of(state).world_from_head.translation() - head_of(drawn_).world_from_head.translation());
 }
@@ -148,7 +148,7 @@ void ViewerScene::draw_key(const PictureOptions& options, double scene_width, co
   titled.title = std::string(own_ ? "Returns (scene missing)" : "Scene") + " by " +
                  colour_texts[static_cast<std::size_t>(actors_->look().colour)] +
                  (has_returns && !own_ ? ", returns by level" : "");
-  auto title = place_title(titled);
+  auto title = put_title(titled);
   if (title) title->on_plate = true;
   if (scene_width < options.width)
     canvas.add_plate({scene_width, 1.0 * options.width, 0, 1.0 * options.height}, canvas.colours().background, 1);
@@ -194,13 +194,13 @@ Point2 ViewerScene::pixel_of(const Eigen::Vector3d& world) const {
   return {at[0], at[1]};
 }
 
-std::optional<std::uint32_t> ViewerScene::surfel_at(Point2 place) const {
+std::optional<std::uint32_t> ViewerScene::surfel_at(Point2 position) const {
   if (own_) return {};
-  return actors_->surfel_at(panel_.content, place.x, place.y);
+  return actors_->surfel_at(panel_.content, position.x, position.y);
 }
 
-std::optional<Eigen::Vector3d> ViewerScene::world_at(Point2 place) const {
-  const auto surfel = actors_->surfel_at(panel_.content, place.x, place.y);
+std::optional<Eigen::Vector3d> ViewerScene::world_at(Point2 position) const {
+  const auto surfel = actors_->surfel_at(panel_.content, position.x, position.y);
   if (!surfel) return {};
   return shown().origin + shown().point[*surfel].cast<double>();
 }

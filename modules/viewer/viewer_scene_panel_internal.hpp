@@ -28,8 +28,8 @@ class ViewerScene {
   void set_moving(bool moving);
   void follow_camera();  ///< call before drawing if the camera has moved
   /// Returns the surfel of the scene of the ping, or the world position, at a position in the window.
-  std::optional<std::uint32_t> surfel_at(Point2 place) const;
-  std::optional<Eigen::Vector3d> world_at(Point2 place) const;
+  std::optional<std::uint32_t> surfel_at(Point2 position) const;
+  std::optional<Eigen::Vector3d> world_at(Point2 position) const;
 
   /// Returns the position in the window where a point of the world is drawn [pixels].
   Point2 pixel_of(const Eigen::Vector3d& world) const;

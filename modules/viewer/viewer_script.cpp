@@ -34,7 +34,7 @@ std::string word_in(std::istringstream& words, const std::string& event, const c
 }
 
 ViewerPanelName panel_in(std::istringstream& words, const std::string& event) {
-  const std::string names = joined(viewer_panels, ", ", &ViewerPanelPlace::name);
+  const std::string names = joined(viewer_panels, ", ", &ViewerPanelBox::name);
   const std::string name = word_in(words, event, ("a panel: " + names).c_str());
   if (const ViewerPanelName* panel = find_named(viewer_panels, name)) return *panel;
   refuse(event, "no panel is called '" + name + "'; there are " + names);
@@ -59,8 +59,8 @@ ViewerEvent parse_event(const std::string& text) {
     event.text = word_in(words, text, "the name of a key, e.g. m, Left, shift+Up");
   } else if (verb == "select") {
     event.kind = ViewerEvent::Kind::select;
-    event.place.beam = index_in(words, text, "the beam");
-    event.place.bin = index_in(words, text, "the bin");
+    event.position.beam = index_in(words, text, "the beam");
+    event.position.bin = index_in(words, text, "the bin");
   } else if (verb == "wait") {
     event.kind = ViewerEvent::Kind::wait;
     event.seconds = number_in(words, text, "seconds");

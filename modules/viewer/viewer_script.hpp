@@ -13,10 +13,10 @@ struct ViewerEvent {
   enum class Kind { click, drag, key, select, wait, screenshot, quit };
   Kind kind = Kind::quit;
   ViewerPanelName panel = ViewerPanelName::fan;  ///< panel of click and drag
-  Point2 from, by;     ///< click, or begin and displacement of a drag [pixels], from the panel's lower left corner
-  PixelPlace place;    ///< sample of select
-  double seconds = 0;  ///< duration of wait
-  std::string text;    ///< name of the key, or file of the screenshot
+  Point2 from, by;         ///< click, or begin and displacement of a drag [pixels], from the panel's lower left corner
+  PixelPosition position;  ///< sample of select
+  double seconds = 0;      ///< duration of wait
+  std::string text;        ///< name of the key, or file of the screenshot
 };
 
 /// Returns the events of a text. Semicolons or line ends separate them; # starts a comment:

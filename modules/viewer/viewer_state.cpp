@@ -19,7 +19,7 @@ std::string short_number(double value) {
 
 }  // namespace
 
-std::string pose_option(const HeadPlace& head) {
+std::string pose_option(const PoseAngles& head) {
   std::string text = "--pose=";
   for (const double metres : {head.position.x(), head.position.y(), head.position.z()})
     text += short_number(metres) + ",";
@@ -27,10 +27,11 @@ std::string pose_option(const HeadPlace& head) {
          short_number(degrees(head.roll));
 }
 
-ViewerState select_pixel(ViewerState state, PixelPlace place, const Eigen::Vector2d& at, const ViewerExtent& extent) {
-  if (place.beam >= extent.beams || place.bin >= extent.bins) return state;
+ViewerState select_pixel(ViewerState state, PixelPosition position, const Eigen::Vector2d& at,
+                         const ViewerExtent& extent) {
+  if (position.beam >= extent.beams || position.bin >= extent.bins) return state;
   if (!state.measure.active) {
-    state.selected = place;
+    state.selected = position;
     return state;
   }
   state.measure.points.push_back(at);
@@ -38,11 +39,11 @@ ViewerState select_pixel(ViewerState state, PixelPlace place, const Eigen::Vecto
   return state;
 }
 
-ViewerState select_ping(ViewerState state, std::size_t ping, PixelPlace place, const ViewerExtent& extent) {
-  if (ping >= extent.pings || place.beam >= extent.beams || place.bin >= extent.bins) return state;
+ViewerState select_ping(ViewerState state, std::size_t ping, PixelPosition position, const ViewerExtent& extent) {
+  if (ping >= extent.pings || position.beam >= extent.beams || position.bin >= extent.bins) return state;
   state.playing = false;
   state.ping = ping;
-  state.selected = place;
+  state.selected = position;
   return state;
 }
 

@@ -17,9 +17,9 @@ namespace insonify {
 enum class ViewerMode { run, inspect };
 
 /// One sample of a ping.
-struct PixelPlace {
+struct PixelPosition {
   std::size_t beam = 0, bin = 0;
-  bool operator==(const PixelPlace&) const = default;
+  bool operator==(const PixelPosition&) const = default;
 };
 
 /// Extent of the data: every index of a ViewerState is below these.
@@ -28,7 +28,7 @@ struct ViewerExtent {
 };
 
 /// Returns "--pose=x,y,z,yaw,pitch,roll" in metres and degrees, rounded to a millimetre and a thousandth of a degree.
-std::string pose_option(const HeadPlace& head);
+std::string pose_option(const PoseAngles& head);
 
 /// A distance measured on the fan by two clicks.
 struct Measure {
@@ -42,7 +42,7 @@ struct Measure {
 struct ViewerState {
   ViewerMode mode = ViewerMode::run;
   std::size_t ping = 0;
-  std::optional<PixelPlace> selected;
+  std::optional<PixelPosition> selected;
   std::optional<std::uint32_t> surfel;  ///< inspection: the clicked surfel, by index in the scene
 
   double gain_db = 0;     ///< brightness: subtracted from the automatic top of the colour scale
@@ -60,7 +60,7 @@ struct ViewerState {
   bool show_normals = false;                                          ///< true: draws the normals of the scene
   bool follow = false;                                                ///< true: the scene's camera follows the head
 
-  HeadPlace head;       ///< pose of the head to inspect
+  PoseAngles head;      ///< pose of the head to inspect
   double stride = 0.5;  ///< step of the head per key [m]; turns are 10 degrees per metre of it
 };
 
@@ -101,11 +101,12 @@ KeyAnswer apply_key(ViewerState state, const std::string& key, const ViewerExten
 /// Returns the state after a click on a sample. The click selects the sample, or adds a point to an active measurement.
 /// The second point ends the measurement; its length stays until the next measurement or Escape. Samples outside
 /// `extent` change nothing. `at` is the same position on the fan [m], starboard and forward.
-ViewerState select_pixel(ViewerState state, PixelPlace place, const Eigen::Vector2d& at, const ViewerExtent& extent);
+ViewerState select_pixel(ViewerState state, PixelPosition position, const Eigen::Vector2d& at,
+                         const ViewerExtent& extent);
 
 /// Returns the state after a click on a waterfall or a sweep: goes to a ping and selects its sample; playing stops.
 /// Samples outside `extent` change nothing.
-ViewerState select_ping(ViewerState state, std::size_t ping, PixelPlace place, const ViewerExtent& extent);
+ViewerState select_ping(ViewerState state, std::size_t ping, PixelPosition position, const ViewerExtent& extent);
 
 /// Returns the state after `seconds` of playing, with the ping that is due; the first ping follows the last.
 /// `carried` holds the remaining fraction of a ping between calls.

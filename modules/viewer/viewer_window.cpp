@@ -68,9 +68,9 @@ ViewerWindow::ViewerWindow(const ViewerData& data, const ViewerOptions& options,
           ViewerState next = state_;
           next.gain_db = gain_db;
           next.window_db = window_db;
-          const auto asked = static_cast<std::size_t>(std::lround(std::max(0.0, ping)));
-          if (asked != state_.ping) next.playing = false;
-          next.ping = std::min(asked, extent_.pings - 1);
+          const auto requested = static_cast<std::size_t>(std::lround(std::max(0.0, ping)));
+          if (requested != state_.ping) next.playing = false;
+          next.ping = std::min(requested, extent_.pings - 1);
           guarded([&] { change(next); });
         });
   over_ = add_panel(window_);
@@ -110,8 +110,8 @@ void ViewerWindow::open(const ViewerOptions& options) {
 
 void ViewerWindow::connect_style() {
   style_ = vtkSmartPointer<ViewerStyle>::New();
-  style_->motion_at = [this](Point2 place) { return motion_at(place); };
-  style_->on_click = [this](Point2 place) { guarded([&] { click(place); }); };
+  style_->motion_at = [this](Point2 position) { return motion_at(position); };
+  style_->on_click = [this](Point2 position) { guarded([&] { click(position); }); };
   style_->on_key = [this](const std::string& key) { guarded([&] { press_key(key); }); };
   style_->on_moving = [this](bool moving) {
     if (!scene_) return;
@@ -140,7 +140,7 @@ void ViewerWindow::say(const std::string& text) const {
   if (say_) say_(text);
 }
 
-ViewerParts ViewerWindow::parts() const {
+ViewerPanels ViewerWindow::parts() const {
   return {ViewerScene::has_content(data_), picture_ != ViewerPicture::waterfall, extent_.pings > 1,
           state_.show_colour_bars};
 }
@@ -148,16 +148,16 @@ ViewerParts ViewerWindow::parts() const {
 void ViewerWindow::lay_out() {
   const int* size = window_->GetSize();
   layout_ = lay_out_viewer(std::max(size[0], 800), std::max(size[1], 600), state_.mode, parts());
-  for (const ViewerPanelPlace& each : viewer_panels) place_panel(panel(each.value), layout_.*each.box, size);
+  for (const ViewerPanelBox& each : viewer_panels) place_panel(panel(each.value), layout_.*each.box, size);
   if (const Box& view = layout_.scene_view; view.width() > 0)
     panel(ViewerPanelName::scene)
         .content->SetViewport(view.left / size[0], view.bottom / size[1], view.right / size[0], view.top / size[1]);
   if (over_.content) place_panel(over_, {0, layout_.facts.right, 0, layout_.facts.top}, size);
   const double font = layout_.font_size;
   if (sliders_)
-    sliders_->place({layout_.facts.left + 2 * font, layout_.facts.right - 2 * font, layout_.facts.bottom + 0.5 * font,
-                     layout_.facts.bottom + 12 * font},
-                    layout_.timeline, size, layout_.font_size);
+    sliders_->position({layout_.facts.left + 2 * font, layout_.facts.right - 2 * font,
+                        layout_.facts.bottom + 0.5 * font, layout_.facts.bottom + 12 * font},
+                       layout_.timeline, size, layout_.font_size);
 }
 
 void ViewerWindow::resized() {
@@ -185,7 +185,7 @@ void ViewerWindow::answer(const KeyAnswer& answer) {
       break;
     }
     case ViewerRequest::print_pose:
-      say(pose_option(vehicle_place(data_, state_.head)));
+      say(pose_option(vehicle_position(data_, state_.head)));
       break;
     case ViewerRequest::reset_cameras:
       if (scene_) scene_->reset_camera();
@@ -234,7 +234,7 @@ void ViewerWindow::play(const ViewerEvent& event) {
       return press_key(event.text);
     case ViewerEvent::Kind::select: {
       ViewerState next = state_;
-      next.selected = event.place;
+      next.selected = event.position;
       require_start(next, extent_);
       change(next);
       return say(explanation_);

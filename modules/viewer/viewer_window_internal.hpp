@@ -37,7 +37,7 @@ class ViewerWindow {
   const ViewerLayout& layout() const { return layout_; }
   const std::string& explanation() const { return explanation_; }
   /// Returns the centre of a sample's cell on the fan, in pixels of the window.
-  Point2 pixel_of(PixelPlace place) const;
+  Point2 pixel_of(PixelPosition position) const;
   /// Returns the centre of the button of a key; nothing if it is not shown.
   std::optional<Point2> pixel_of_button(const std::string& key) const;
   /// Returns the position in the window of a point of the world [m]; nothing without a 3-D panel.
@@ -46,7 +46,7 @@ class ViewerWindow {
 
   /// Apply user actions; each draws the new state.
   void press_key(const std::string& key);
-  void click(Point2 place);
+  void click(Point2 position);
   void play(const ViewerEvent& event);
 
   /// Plays the events, then processes user input until the window is closed.
@@ -70,25 +70,25 @@ class ViewerWindow {
   /// The functions of a panel: it draws from the state, and handles a click; null: nothing.
   struct Panel {
     void (ViewerWindow::*draw)(ViewerPanel& panel, const PictureOptions& options);
-    void (ViewerWindow::*click)(Point2 place) = nullptr;
+    void (ViewerWindow::*click)(Point2 position) = nullptr;
   };
   static const Panel panels_[std::size(viewer_panels)];  ///< in the order of viewer_panels
 
-  Point2 on_panel(ViewerPanelName name, Point2 place) const;
-  Point2 on_fan(Point2 place) const;
-  PanelMotion motion_at(Point2 place) const;
-  void click_fan(Point2 place);
-  void click_scene(Point2 place);
-  void click_ascan(Point2 place);
-  void click_history(Point2 place);
-  void select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 place);
-  void select(PixelPlace place, const Eigen::Vector2d& at);
+  Point2 on_panel(ViewerPanelName name, Point2 position) const;
+  Point2 on_fan(Point2 position) const;
+  PanelMotion motion_at(Point2 position) const;
+  void click_fan(Point2 position);
+  void click_scene(Point2 position);
+  void click_ascan(Point2 position);
+  void click_history(Point2 position);
+  void select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 position);
+  void select(PixelPosition position, const Eigen::Vector2d& at);
 
   ViewerPanel& panel(ViewerPanelName name) { return shown_[static_cast<std::size_t>(name)]; }
   const ViewerPanel& panel(ViewerPanelName name) const { return shown_[static_cast<std::size_t>(name)]; }
   PictureOptions options_for(const Box& box) const;
-  ViewerParts parts() const;
-  PixelPlace shown_place() const;
+  ViewerPanels parts() const;
+  PixelPosition shown_position() const;
   void update_data();
   bool levels_stay() const;
   void draw_picture(ViewerPanel& panel, const PictureOptions& options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares the effect of bending on echoes by two surfaces with rays that are integrated.
-#include "acoustics/bent_bench.hpp"
 #include "acoustics/double_echoes.hpp"
+#include "acoustics/refracted_bench.hpp"
 #include "core/random.hpp"
 #include "core/text.hpp"
 #include "scene/surface_rays.hpp"
@@ -21,7 +21,7 @@ void add_plate(SceneCloud& scene, const Vector3d& middle, const Vector3d& normal
                normal, 36.0 / (cells * cells));
 }
 
-/// A ray between two places [m from the head]: time, unit vectors along it at both ends, and intensity.
+/// A ray between two positions [m from the head]: time, unit vectors along it at both ends, and intensity.
 struct TracedLeg {
   double time, intensity;
   Vector3d leaves, arrives;

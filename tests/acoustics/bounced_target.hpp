@@ -32,10 +32,10 @@ struct Setting {
 inline const Vector3d target(20, 0, -3);
 inline constexpr double mu = 0.1, target_area = 1e-4;
 
-inline Setting one_target(const Vector3d& place = target, const Vector3d& normal = {-1, 0, 0}) {
+inline Setting one_target(const Vector3d& position = target, const Vector3d& normal = {-1, 0, 0}) {
   Setting s;
   s.scene.materials = {{"m", mu}};
-  add_surfel(s.scene, place, normal, target_area);
+  add_surfel(s.scene, position, normal, target_area);
   return s;
 }
 

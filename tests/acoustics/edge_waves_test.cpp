@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares plates and cylinders off their broadside with Kirchhoff's integral over their surface, at one frequency and
-// in time: levels, and the places of edges and corners.
+// in time: levels, and the positions of edges and corners.
 #include <random>
 
 #include "acoustics/glints.hpp"
@@ -61,7 +61,7 @@ struct EdgeBench {
   }
   void add_cylinder(const Vector3d& middle, const Vector3d& axis, double length, double radius) {
     SmoothTarget target;
-    target.surface.place = head * middle, target.axis = head.linear() * axis;
+    target.surface.position = head * middle, target.axis = head.linear() * axis;
     target.length = length, target.radius = radius;
     shapes.targets.push_back(target);
   }
@@ -243,24 +243,25 @@ TEST(EdgeWaves, come_from_corners_and_the_nearest_places_of_edges) {
     const auto corners = plate_corners(range * sight, normal, width, 0.7 * width, draw.within(0, 6), 0.1);
     EdgeBench bench(draw);
     bench.add_plate(corners, false);
-    std::vector<Vector3d> places = corners;
-    places.push_back(normal.dot(corners[0]) * normal);
+    std::vector<Vector3d> positions = corners;
+    positions.push_back(normal.dot(corners[0]) * normal);
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector3d along = (corners[(k + 1) % 4] - corners[k]).normalized();
-      places.push_back(corners[k] - along.dot(corners[k]) * along);
+      positions.push_back(corners[k] - along.dot(corners[k]) * along);
     }
     const Echoes e = bench.echoes(900e3);
     EXPECT_GE(e.size(), 1u);
     for (std::size_t s = 0; s < e.size(); ++s) {
       const double ahead = std::sqrt(std::max(0.0, 1 - e.u[s] * e.u[s] - e.v[s] * e.v[s]));
-      std::size_t best = places.size();
-      for (std::size_t p = 0; p < places.size(); ++p) {
-        const Vector3d towards = places[p].normalized();
-        const Vector3d heard(std::copysign(ahead, towards.x()), e.u[s], e.v[s]);
-        if (std::abs(750 * e.delay[s] - places[p].norm()) < 0.01 && heard.cross(towards).norm() < radians(0.1))
+      std::size_t best = positions.size();
+      for (std::size_t p = 0; p < positions.size(); ++p) {
+        const Vector3d towards = positions[p].normalized();
+        const Vector3d beam_azimuth(std::copysign(ahead, towards.x()), e.u[s], e.v[s]);
+        if (std::abs(750 * e.delay[s] - positions[p].norm()) < 0.01 &&
+            beam_azimuth.cross(towards).norm() < radians(0.1))
           best = p;
       }
-      EXPECT_LT(best, places.size()) << n << ": " << 750 * e.delay[s];
+      EXPECT_LT(best, positions.size()) << n << ": " << 750 * e.delay[s];
       edges += best > 4, corners_heard += best < 4;
     }
   }
@@ -302,7 +303,7 @@ TEST(EdgeWaves, of_a_small_plate_are_one_echo_from_its_middle) {
   EXPECT_NEAR(std::abs(e.amplitude[0]), 0.06 * 0.04 * edge_frequency / 1500 / 900, 1e-3 * 2.7e-4);
 }
 
-// Patterns of the head and the reflection of the wall hold at the place and the angle of each echo.
+// Patterns of the head and the reflection of the wall hold at the position and the angle of each echo.
 TEST(EdgeWaves, have_patterns_and_reflection_of_their_places) {
   Draws draw;
   EdgeBench bench(draw);
@@ -312,13 +313,13 @@ TEST(EdgeWaves, have_patterns_and_reflection_of_their_places) {
   bench.add_plate(corners, false);
   const Echoes plain = bench.echoes();
   bench.patterns.elevation_width = radians(30), bench.patterns.transmit_width = radians(40);
-  Echoes heard = bench.echoes();
-  ASSERT_EQ(heard.size(), plain.size());
-  ASSERT_GT(heard.size(), 3u);
-  for (std::size_t k = 0; k < heard.size(); ++k) {
-    const double up = std::asin(heard.v[k]), aside = std::asin(heard.u[k] / std::cos(up));
+  Echoes beam_azimuth = bench.echoes();
+  ASSERT_EQ(beam_azimuth.size(), plain.size());
+  ASSERT_GT(beam_azimuth.size(), 3u);
+  for (std::size_t k = 0; k < beam_azimuth.size(); ++k) {
+    const double up = std::asin(beam_azimuth.v[k]), aside = std::asin(beam_azimuth.u[k] / std::cos(up));
     const double pattern = std::exp2(-2 * std::pow(up / radians(30), 2) - 2 * std::pow(aside / radians(40), 2));
-    EXPECT_NEAR(std::abs(heard.amplitude[k] / plain.amplitude[k]), pattern, 1e-3 * pattern);
+    EXPECT_NEAR(std::abs(beam_azimuth.amplitude[k] / plain.amplitude[k]), pattern, 1e-3 * pattern);
   }
   bench.patterns = {};
   bench.shapes = {};
@@ -326,13 +327,13 @@ TEST(EdgeWaves, have_patterns_and_reflection_of_their_places) {
   Mirror rough;
   rough.solid = concrete, rough.rms_height = 2e-4;
   bench.add_plate(corners, false, rough);
-  heard = bench.echoes();
-  ASSERT_EQ(heard.size(), plain.size());
-  for (std::size_t k = 0; k < heard.size(); ++k) {
-    const double sine = std::abs(normal.dot(corners[0])) / (750 * heard.delay[k]);
+  beam_azimuth = bench.echoes();
+  ASSERT_EQ(beam_azimuth.size(), plain.size());
+  for (std::size_t k = 0; k < beam_azimuth.size(); ++k) {
+    const double sine = std::abs(normal.dot(corners[0])) / (750 * beam_azimuth.delay[k]);
     const complex left = coherent_reflection_loss(edge_wavenumber, 2e-4, std::asin(sine)) *
                          reflection_coefficient(concrete, sine, sea_water_density, 1500);
-    EXPECT_LT(std::abs(heard.amplitude[k] / plain.amplitude[k] - left),
+    EXPECT_LT(std::abs(beam_azimuth.amplitude[k] / plain.amplitude[k] - left),
               2e-3);  // two of three are 1 / k off their place
   }
 }

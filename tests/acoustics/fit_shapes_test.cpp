@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fits random scanned bodies: the result is the right shape with its place and size, or a refusal.
+// Fits random scanned bodies: the result is the right shape with its position and size, or a refusal.
 #include "acoustics/fit_shapes.hpp"
 
 #include "acoustics/sampled_bodies.hpp"
@@ -62,7 +62,7 @@ TEST(FittedBodies, plates_are_plates_where_they_are_and_as_large_as_they_are) {
     EXPECT_LT((plate.surface.normal.normalized() - normal).norm(),
               1e-5 + 16 * scan.noise / height / std::sqrt(scan.points))
         << k << ": " << name_of(scan);
-    EXPECT_LT(std::abs(normal.dot(plate.surface.place - body.world_from_body.translation())),
+    EXPECT_LT(std::abs(normal.dot(plate.surface.position - body.world_from_body.translation())),
               1e-5 + 4 * scan.noise / std::sqrt(scan.points));
     // Face on and far away its level is that of its area.
     const double off_db = db_from_amplitude(polygon_area(plate.surface.corners) / (width * height));
@@ -93,7 +93,7 @@ TEST(FittedBodies, cylinders_are_cylinders) {
     EXPECT_NEAR(side.radius, radius, 1e-5 + 0.003 * radius + off_by_noise) << what;
     EXPECT_NEAR(side.length, length, 0.01 * length + 0.2 * std::sqrt(total_area(body.cloud) / scan.points)) << what;
     const Vector3d axis = body.world_from_body.linear().col(2),
-                   off = side.surface.place - body.world_from_body.translation();
+                   off = side.surface.position - body.world_from_body.translation();
     EXPECT_LT(side.axis.cross(axis).norm(), 1e-5 + 0.003) << what;
     EXPECT_LT((off - axis * axis.dot(off)).norm(), 1e-5 + 0.003 * radius + off_by_noise) << what;
     EXPECT_LT(std::abs(axis.dot(off)), 0.01 * length) << what;
@@ -112,7 +112,7 @@ TEST(FittedBodies, spheres_are_spheres) {
     EXPECT_EQ(found.targets[0].length, 0) << what;
     EXPECT_NEAR(found.targets[0].radius, radius, 1e-5 + 0.003 * radius + 4 * scan.noise / std::sqrt(scan.points))
         << what;
-    EXPECT_LT((found.targets[0].surface.place - body.world_from_body.translation()).norm(), 1e-5 + 0.005 * radius)
+    EXPECT_LT((found.targets[0].surface.position - body.world_from_body.translation()).norm(), 1e-5 + 0.005 * radius)
         << what;
   }
 }

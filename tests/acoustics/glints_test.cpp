@@ -47,7 +47,7 @@ struct Bench {
 /// Returns a mirror with these corners that faces `inside`.
 Mirror facing(std::vector<Vector3d> corners, const Vector3d& inside) {
   const Mirror mirror = with_corners({}, corners);
-  if (mirror.normal.dot(inside - mirror.place) > 0) return mirror;
+  if (mirror.normal.dot(inside - mirror.position) > 0) return mirror;
   std::reverse(corners.begin(), corners.end());
   return with_corners({}, corners);
 }
@@ -176,7 +176,7 @@ TEST(Glints, of_a_tank_stand_at_their_images_with_their_levels) {
 TEST(Glints, of_a_box_are_the_lattice_of_its_images) {
   const Vector3d size(6, 4, 3), head(1.1, 1.7, 1.3);
   struct Image {
-    Vector3d place;
+    Vector3d position;
     int order;
   };
   std::vector<Image> lattice;
@@ -187,14 +187,14 @@ TEST(Glints, of_a_box_are_the_lattice_of_its_images) {
         const int n[] = {i, j, k};
         Image image{Vector3d::Zero(), 0};
         for (int a = 0; a < 3; ++a) {
-          image.place[a] = n[a] * size[a] + (n[a] % 2 == 0 ? head[a] : size[a] - head[a]);
+          image.position[a] = n[a] * size[a] + (n[a] % 2 == 0 ? head[a] : size[a] - head[a]);
           image.order += std::abs(n[a]);
         }
         lattice.push_back(image);
       }
   double energy = 0;
   for (const Image& image : lattice) {
-    const double r = (image.place - head).norm();
+    const double r = (image.position - head).norm();
     if (r > 80 && r < 160) energy += 1 / (r * r);
   }
   EXPECT_NEAR(energy, 4 * pi * 80 / size.prod(), 2e-3);
@@ -211,7 +211,7 @@ TEST(Glints, of_a_box_are_the_lattice_of_its_images) {
       const double length = 1500 * e.delay[k];
       double nearest = 1;
       for (const Image& image : lattice)
-        if (image.order <= order) nearest = std::min(nearest, std::abs((image.place - head).norm() - length));
+        if (image.order <= order) nearest = std::min(nearest, std::abs((image.position - head).norm() - length));
       EXPECT_LT(nearest, 1e-9);
       EXPECT_NEAR(std::abs(e.amplitude[k]) * length / source_pressure(pulse_900k), 1, 1e-5) << length;
     }
@@ -228,7 +228,7 @@ TEST(Glints, of_a_room_follow_the_heads_pattern_and_are_absent_behind_it) {
   b.sent.echo_options.elevation_width = lobe, b.sent.echo_options.transmit_width = shot;
   b.shapes.mirrors = mirrors_of(Tank{size, {0, 0, 0}, 1});
   b.shapes.mirrors.back().reflection = 1;
-  std::size_t heard = 0, absent = 0;
+  std::size_t beam_azimuth = 0, absent = 0;
   for (int step = 0; step < 36; ++step) {
     const double tilt = radians(step % 3 == 0 ? 4 : step % 3 == 1 ? 23 : -37), roll = radians(7 * (step % 5) + 1);
     const Eigen::Matrix3d turn =
@@ -267,11 +267,11 @@ TEST(Glints, of_a_room_follow_the_heads_pattern_and_are_absent_behind_it) {
             EXPECT_NEAR(db_from_amplitude(amplitude / level), 0, 0.1);
           }
           EXPECT_EQ(is_there, ahead && level > 1e-4) << step << ": " << out.transpose();
-          ++(is_there ? heard : absent);
+          ++(is_there ? beam_azimuth : absent);
         }
     EXPECT_EQ(std::count(found.begin(), found.end(), 0), 0) << step;
   }
-  EXPECT_GT(heard, 300u);
+  EXPECT_GT(beam_azimuth, 300u);
   EXPECT_GT(absent, 800u);
 }
 
@@ -316,7 +316,7 @@ TEST(Glints, refuse_a_head_on_or_behind_a_mirror) {
   b.shapes.mirrors = {{"quay", {0.0005, 0, 0}, {-1, 0, 0}}};
   expect_error(ErrorKind::argument, {"glint_echoes", "quay", "stands on"}, [&] { b.echoes(); });
   b.shapes.mirrors[0].normal = {1, 0, 0};
-  b.shapes.mirrors[0].place = {2, 0, 0};
+  b.shapes.mirrors[0].position = {2, 0, 0};
   expect_error(ErrorKind::argument, {"quay", "2 m behind", "must be in front of it"}, [&] { b.echoes(); });
   // A plate may be passed and may face away; in its plane, beside it, it does nothing.
   b.shapes.mirrors = {with_size({"plate", {2, 0, 0}, {1, 0, 0}}, 1, 1)};

@@ -37,7 +37,7 @@ struct GhostBench {
   /// Returns the cosine at the patch of a leg to the image of the head in `mirror`, or of the direct leg.
   double cosine(const Mirror* mirror) const {
     Vector3d from = view.world_from_head.translation();
-    if (mirror) from -= 2 * mirror->normal.dot(from - mirror->place) * mirror->normal;
+    if (mirror) from -= 2 * mirror->normal.dot(from - mirror->position) * mirror->normal;
     const Vector3d p = scene.origin + scene.point[0].cast<double>();
     return std::abs((from - p).normalized().dot(scene.normal[0].cast<double>()));
   }
@@ -64,7 +64,7 @@ struct GhostBench {
 
 }  // namespace
 
-// A wall beside the line of sight: one ghost at its place behind the wall, two halfway, one in the direction of each
+// A wall beside the line of sight: one ghost at its position behind the wall, two halfway, one in the direction of each
 // leg.
 TEST(MirrorEchoes, of_a_wall_are_three_ghosts) {
   GhostBench b({0, 0, 0}, {10, 1, 0}, {-1, 0.3, 0});
@@ -134,9 +134,9 @@ TEST(MirrorEchoes, of_a_small_plate_are_those_of_its_edges) {
   expect(with_size(wall, 0.05, 0.03),
          edge(-0.025 * slant * scale, 0.025 * slant * scale) * edge(-.015 * scale, .015 * scale));
   Mirror half = wall;
-  half.place.x() = 5005;
+  half.position.x() = 5005;
   expect(with_size(half, 1e4, 1e4), 0.5);
-  half.place.x() = 5005.05;  // the bounce lies beyond the edge: what is bent round it
+  half.position.x() = 5005.05;  // the bounce lies beyond the edge: what is bent round it
   expect(with_size(half, 1e4, 1e4), edge(0.05 * slant * scale, 1e6));
 }
 
@@ -161,7 +161,7 @@ TEST(MirrorEchoes, leave_out_the_surfels_of_the_mirror_and_what_stands_behind_it
   EXPECT_EQ(b.compute().echoes.size(), 0u);
   b.mirrors[0].thickness = 0.01;
   EXPECT_GT(b.compute().echoes.size(), 0u);
-  b.mirrors[0].place.y() = 2.9;
+  b.mirrors[0].position.y() = 2.9;
   EXPECT_EQ(b.compute().echoes.size(), 0u);
 }
 

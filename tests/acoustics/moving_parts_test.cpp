@@ -56,12 +56,12 @@ PlacedPart sphere_at(const Vector3d& at, const Vector3d& velocity, const Vector3
 
 /// Returns all surfels of a scene as scatterers of a head.
 Scatterers patches_of(const SceneCloud& scene, const Pose& pose) {
-  std::vector<Vector3d> places;
+  std::vector<Vector3d> positions;
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const ScenePart& part = *scene.part_of_surfel(i);
-    places.push_back(pose.inverse() * (part.world_from_part * world(*part.own, scene.id[i])));
+    positions.push_back(pose.inverse() * (part.world_from_part * world(*part.own, scene.id[i])));
   }
-  Scatterers s = scatterers_at(places);
+  Scatterers s = scatterers_at(positions);
   for (std::uint32_t i = 0; i < s.size(); ++i) s.surfel[i] = i;
   return s;
 }
@@ -87,9 +87,9 @@ TEST(MovingParts, arrive_when_and_with_the_pitch_that_the_ways_of_sound_have) {
     const Echoes echoes = echoes_in_motion(scene, met, pose, {{c.head, c.head_turn}, moves(scene)}, sent);
     for (std::size_t i = 0; i < scene.size(); i += 7) {
       const ScenePart& part = scene.parts.front();
-      const Vector3d place = part.world_from_part * world(*part.own, scene.id[i]);
-      const Vector3d speed = c.part + c.turn_rate.cross(Vector3d(place - part.world_from_part.translation()));
-      const Ways ways{c.head.cast<long double>(), (place - pose.translation()).cast<long double>(),
+      const Vector3d position = part.world_from_part * world(*part.own, scene.id[i]);
+      const Vector3d speed = c.part + c.turn_rate.cross(Vector3d(position - part.world_from_part.translation()));
+      const Ways ways{c.head.cast<long double>(), (position - pose.translation()).cast<long double>(),
                       speed.cast<long double>()};
       const auto [there, back] = ways.times(0);
       EXPECT_NEAR(0.5 * c0 * (echoes.delay[i] - static_cast<double>(back)), 0, 1e-8) << c.name;  // 0.01 mm asked
@@ -130,10 +130,10 @@ TEST(MovingParts, have_edges_that_come_and_go_when_a_plate_turns) {
   const Echoes e = echoes_in_motion(scene, s, Pose::Identity(), {{}, true}, sent);
   for (std::size_t i = 0; i < scene.size(); ++i) {
     // The surfel at y comes at 2 y [m/s] on the port side, and goes on the other.
-    const Vector3d place = world(scene, i);
-    const double closing = 2 * place.y() * 20 / place.norm();
+    const Vector3d position = world(scene, i);
+    const double closing = 2 * position.y() * 20 / position.norm();
     EXPECT_NEAR(e.doppler[i], 2 * frequency / c0 * closing, 2.5);  // of (v/c)^2 f: 0.4 Hz, and what it moves meanwhile
-    EXPECT_GE(std::abs(e.doppler[i]), 2200 * std::abs(place.y()));
+    EXPECT_GE(std::abs(e.doppler[i]), 2200 * std::abs(position.y()));
   }
 }
 

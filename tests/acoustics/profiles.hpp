@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "acoustics/bend_paths.hpp"
+#include "acoustics/refract_paths.hpp"
 #include "support/test.hpp"
 
 namespace insonify::bent {

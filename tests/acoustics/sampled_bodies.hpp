@@ -17,7 +17,7 @@ namespace insonify::sampled {
 
 using Eigen::Vector3d;
 
-/// A piece of a surface: its place over u and v within 0 and 1. du x dv looks outwards.
+/// A piece of a surface: its position over u and v within 0 and 1. du x dv looks outwards.
 using Patch = std::function<Vector3d(double u, double v)>;
 
 inline Vector3d normal_by_area(const Patch& patch, double u, double v) {
@@ -78,7 +78,7 @@ struct Scan {
   bool rounded = true;     ///< true: coordinates are float32 of the world; false: of a local origin
 };
 
-/// The scan, with the rotation and the place of the body by `seed`.
+/// The scan, with the rotation and the position of the body by `seed`.
 struct Scanned {
   SceneCloud cloud;
   Eigen::Isometry3d world_from_body;
@@ -112,8 +112,8 @@ inline Scanned scanned(const std::vector<Patch>& body, const Scan& scan, unsigne
         const double u = scan.lattice ? (i + 0.5 + moved()) / columns : uniform(random),
                      v = scan.lattice ? (j + 0.5 + moved()) / rows : uniform(random);
         const Vector3d across = normal_by_area(patch, u, v), n_body = across.normalized();
-        const Vector3d place = made.world_from_body * (patch(u, v) + scan.noise * normal(random) * n_body);
-        cloud.point.push_back((place - cloud.origin).cast<float>());
+        const Vector3d position = made.world_from_body * (patch(u, v) + scan.noise * normal(random) * n_body);
+        cloud.point.push_back((position - cloud.origin).cast<float>());
         cloud.normal.push_back((made.world_from_body.linear() * n_body).cast<float>());
         cloud.area.push_back(static_cast<float>(across.norm() / (columns * rows)));
         cloud.id.push_back(static_cast<std::uint32_t>(cloud.id.size()));

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "acoustics/bend_paths.hpp"
+#include "acoustics/refract_paths.hpp"
 #include "support/test.hpp"
 
 namespace {

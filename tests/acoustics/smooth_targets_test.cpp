@@ -90,14 +90,14 @@ TEST(FitShapes, finds_sphere_cylinder_and_plate) {
   EXPECT_TRUE(shapes.mirrors.empty());
   const SmoothTarget &sphere = shapes.targets[0], &cylinder = shapes.targets[1], &plate = shapes.targets[4];
   EXPECT_NEAR(sphere.radius, 0.3, 1e-6);
-  EXPECT_LT(sphere.surface.place.norm(), 1e-6);
+  EXPECT_LT(sphere.surface.position.norm(), 1e-6);
   EXPECT_NEAR(cylinder.radius, 0.2, 1e-6);
   EXPECT_NEAR(cylinder.length, 0.8, 1e-3);
-  EXPECT_LT((cylinder.surface.place - Vector3d(3, 1, 0)).norm(), 1e-4);
+  EXPECT_LT((cylinder.surface.position - Vector3d(3, 1, 0)).norm(), 1e-4);
   ASSERT_EQ(plate.surface.corners.size(), 4u);
-  EXPECT_LT((plate.surface.place - Vector3d(-2.5, 0.25, 0)).norm(), 1e-5);
+  EXPECT_LT((plate.surface.position - Vector3d(-2.5, 0.25, 0)).norm(), 1e-5);
   for (const Vector3d& corner : plate.surface.corners)
-    EXPECT_NEAR((corner - plate.surface.place).norm(), std::hypot(0.5, 0.25), 1e-4);
+    EXPECT_NEAR((corner - plate.surface.position).norm(), std::hypot(0.5, 0.25), 1e-4);
   EXPECT_GT(plate.surface.normal.z(), 0.999);
 }
 

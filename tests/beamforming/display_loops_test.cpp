@@ -17,19 +17,20 @@ namespace {
 /// Looks of a beam at node `at` by the formula (E182).
 double looks_by_formula(const std::vector<std::vector<double>>& energy, const kernels::CellEnergies& cell,
                         std::size_t at) {
-  std::vector<double> heard(cell.parts, cell.noise);
+  std::vector<double> beam_azimuth(cell.subranges, cell.noise);
   for (std::size_t j = 0; j < energy.size(); ++j) {
     const std::size_t away = j > at ? j - at : at - j;
-    for (std::size_t n = 0; n < cell.parts; ++n)
-      heard[n] += energy[j][n] * ((away < cell.lobe_reach ? cell.lobe[away] : 0) + cell.beside);
+    for (std::size_t n = 0; n < cell.subranges; ++n)
+      beam_azimuth[n] += energy[j][n] * ((away < cell.lobe_reach ? cell.lobe[away] : 0) + cell.beside);
   }
   double products = 0;
-  for (std::size_t k = 0; k < cell.parts; ++k)
-    for (std::size_t n = 0; n < cell.parts; ++n) {
+  for (std::size_t k = 0; k < cell.subranges; ++k)
+    for (std::size_t n = 0; n < cell.subranges; ++n) {
       const std::size_t away = k > n ? k - n : n - k;
-      if (away < cell.reach) products += heard[k] * heard[n] * static_cast<double>(cell.correlation[away]);
+      if (away < cell.reach)
+        products += beam_azimuth[k] * beam_azimuth[n] * static_cast<double>(cell.correlation[away]);
     }
-  return std::pow(std::accumulate(heard.begin(), heard.end(), 0.0), 2) / products;
+  return std::pow(std::accumulate(beam_azimuth.begin(), beam_azimuth.end(), 0.0), 2) / products;
 }
 
 std::vector<std::complex<double>> display_normals(std::uint64_t seed, std::size_t count) {
@@ -46,29 +47,29 @@ TEST(DisplayLoops, looks_are_those_of_the_formula) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<float> uniform(0, 1);
   const std::vector<float> lobe = {1, 0.6f, 0.1f}, correlation = {0.7f, 0.3f, 0.05f};
-  for (const std::size_t parts : {4, 16, 17, 32}) {
+  for (const std::size_t subranges : {4, 16, 17, 32}) {
     constexpr std::size_t nodes = 40;
-    const std::size_t row = kernels::row_length(parts);
-    std::vector<std::vector<double>> energy(nodes, std::vector<double>(parts, 0));
+    const std::size_t row = kernels::row_length(subranges);
+    std::vector<std::vector<double>> energy(nodes, std::vector<double>(subranges, 0));
     std::vector<float> differences((nodes + 1) * row, 0);
     for (int k = 0; k < 30; ++k) {
       const auto pick = [&](std::size_t n) {
         return static_cast<std::size_t>(uniform(engine) * static_cast<float>(n));
       };
-      const std::size_t first = pick(nodes), last = first + pick(nodes - first), n = pick(parts);
+      const std::size_t first = pick(nodes), last = first + pick(nodes - first), n = pick(subranges);
       const float more = uniform(engine);
       for (std::size_t j = first; j <= last; ++j) energy[j][n] += static_cast<double>(more);
       differences[first * row + n] += more, differences[(last + 1) * row + n] -= more;
     }
-    const kernels::CellEnergies cell{differences.data(), nodes, parts, lobe.data(),
-                                     lobe.size(),        1e-3f, 1e-2f, correlation.data(),
+    const kernels::CellEnergies cell{differences.data(), nodes, subranges, lobe.data(),
+                                     lobe.size(),        1e-3f, 1e-2f,     correlation.data(),
                                      correlation.size()};
     const std::vector<std::size_t> at = {0, 1, 7, 20, 38, 39};
     std::vector<double> looks(at.size());
     kernels::count_looks(cell, at.data(), at.size(), looks.data());
     for (std::size_t k = 0; k < at.size(); ++k) {
       const double exact = std::max(1.0, looks_by_formula(energy, cell, at[k]));
-      EXPECT_NEAR(looks[k], exact, 1e-4 * exact) << parts << " parts, node " << at[k];
+      EXPECT_NEAR(looks[k], exact, 1e-4 * exact) << subranges << " parts, node " << at[k];
     }
   }
 }

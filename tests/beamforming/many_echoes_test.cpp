@@ -71,24 +71,24 @@ TEST(TenMillionEchoes, ten_million_echoes_take_no_more_memory_than_lists_image_a
 
 // A million echoes of one bin at 48 positions: direct sum over the positions with the sum of their amplitudes.
 TEST(ManyEchoes, a_million_echoes_in_one_bin_keep_the_tolerance_in_single_precision) {
-  constexpr std::size_t count = sanitized ? 50000 : 1000000, places = 48;
+  constexpr std::size_t count = sanitized ? 50000 : 1000000, positions = 48;
   const SonarHead head = modest_head();
   Medium medium;
   medium.sound_speed = sound;
   for (const bool alike : {true, false}) {
-    Echoes e, sums = crowd(head, 0, places);
-    for (std::size_t k = 0; k < places; ++k) {
-      const double bin = 250 + 0.9 * static_cast<double>(k) / places;
+    Echoes e, sums = crowd(head, 0, positions);
+    for (std::size_t k = 0; k < positions; ++k) {
+      const double bin = 250 + 0.9 * static_cast<double>(k) / positions;
       sums.delay[k] = 2 * (head.gate.centre(0) + bin * head.gate.bin_size) / sound;
       sums.amplitude[k] = 0;
     }
     for (std::size_t i = 0; i < count; ++i) {
       const auto at = random_uniform(12, RandomStage::noise, {i, 0, 0});
       const std::complex<double> a = alike ? 1.0 : std::complex<double>(at[0] - 0.5, at[1] - 0.5);
-      e.delay.push_back(sums.delay[i % places]);
-      e.u.push_back(sums.u[i % places]);
+      e.delay.push_back(sums.delay[i % positions]);
+      e.u.push_back(sums.u[i % positions]);
       e.amplitude.push_back(a);
-      sums.amplitude[i % places] += a;
+      sums.amplitude[i % positions] += a;
     }
     const GriddedEngine plan(head, medium, {1e-4, 0});
     ASSERT_TRUE(plan.choice().single_precision);

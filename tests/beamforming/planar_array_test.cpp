@@ -70,7 +70,7 @@ TEST(PlanarArray, response_is_the_double_sum_over_all_elements) {
       for (std::size_t m = 0; m < ny; ++m)
         for (std::size_t k = 0; k < nz; ++k)
           sum += head.array.shading[m] * head.column->shading[k] *
-                 std::polar(1.0, pi * (element_place(m, ny) * (u - u_b) + element_place(k, nz) * (v - v_b)));
+                 std::polar(1.0, pi * (element_position(m, ny) * (u - u_b) + element_position(k, nz) * (v - v_b)));
       EXPECT_LT(std::abs(p(b, 100) - gain * sum / static_cast<double>(ny * nz)), 1e-13) << "beam " << b;
     }
   }

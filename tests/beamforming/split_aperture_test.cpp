@@ -46,12 +46,12 @@ TEST(SplitAperture, halves_are_sums_over_their_own_elements) {
         std::complex<double> of_half = 0, of_all = 0;
         for (std::size_t m = 0; m < elements; ++m)
           of_all += head.array.shading[m] / static_cast<double>(elements) *
-                    std::polar(1.0, k * head.array.spacing * element_place(m, elements) * (u_b - 0.11));
+                    std::polar(1.0, k * head.array.spacing * element_position(m, elements) * (u_b - 0.11));
         const std::size_t first = side == ApertureSide::port ? elements - 24 : 0;
         for (std::size_t m = 0; m < elements; ++m) {
           EXPECT_EQ(half_head.array.shading[m] != 0, m >= first && m < first + 24) << m;
           of_half += half_head.array.shading[m] / static_cast<double>(elements) *
-                     std::polar(1.0, k * head.array.spacing * element_place(m, elements) * (u_b - 0.11));
+                     std::polar(1.0, k * head.array.spacing * element_position(m, elements) * (u_b - 0.11));
         }
         const std::complex<double> expected = at_echo(whole, head, b) / of_all * of_half;
         EXPECT_LT(std::abs(at_echo(half, head, b) - expected), 1e-7 * std::abs(at_echo(whole, head, 3))) << b;

@@ -43,7 +43,7 @@ void grid_tile(benchmark::State& state) {
   AlignedArray<Real, Real> re(tile_rows * stride), im(tile_rows * stride);
   for (auto _ : state) {
     kernels::grid_samples(
-        kernels::GaussianPlaces<Real>{pulses.row.data(), pulses.column.data(), pulses.column_offset.data()}, echoes,
+        kernels::GaussianPositions<Real>{pulses.row.data(), pulses.column.data(), pulses.column_offset.data()}, echoes,
         pulses.re.data(), pulses.im.data(), rows, {across.coefficient.data(), across.degree, across.lanes}, re.data(),
         im.data(), stride);
     benchmark::ClobberMemory();

@@ -32,7 +32,7 @@ int main() {
   std::vector<fftw_complex> numbers(4096);
   for (int length = 64; length <= 4096; ++length)
     fftw_destroy_plan(fftw_plan_dft_1d(length, numbers.data(), numbers.data(), FFTW_FORWARD, FFTW_ESTIMATE));
-  bool heard = true;
-  for (auto& peak : peaks) heard = peak.get() > 0 && heard;
-  return heard ? 0 : 1;
+  bool beam_azimuth = true;
+  for (auto& peak : peaks) beam_azimuth = peak.get() > 0 && beam_azimuth;
+  return beam_azimuth ? 0 : 1;
 }

@@ -33,7 +33,7 @@ TEST(Geodesy, earth_centred_coordinates_of_known_places) {
   EXPECT_LT((ecef_of({pi / 2, 0, 1000}) - Vector3d(0, 0, 6356752.314245 + 1000)).norm(), 1e-6);
   for (const double latitude : {-89.99, -37.0, 0.0, 12.5, 54.1, 89.0})
     for (const double height : {-11000.0, 0.0, 9000.0}) {
-      const GeoPlace back = geo_place_of(ecef_of({radians(latitude), radians(-122), height}));
+      const GeoPosition back = geo_position_of(ecef_of({radians(latitude), radians(-122), height}));
       EXPECT_NEAR(degrees(back.latitude), latitude, 1e-13);
       EXPECT_NEAR(degrees(back.longitude), -122, 1e-13);
       EXPECT_NEAR(back.height, height, 1e-8);
@@ -43,7 +43,7 @@ TEST(Geodesy, earth_centred_coordinates_of_known_places) {
 TEST(Geodesy, the_world_lies_along_the_anchors_heading) {
   // x axis 30 degrees east of north: 100 m ahead are 86.6 m north and 50 m east; y is to the left of it.
   const Anchor anchor{54.1, 7.9, 30};
-  const GeoPlace ahead = geo_from_world(anchor, {100, 0, 0}), port = geo_from_world(anchor, {0, 100, 0});
+  const GeoPosition ahead = geo_from_world(anchor, {100, 0, 0}), port = geo_from_world(anchor, {0, 100, 0});
   const double m_per_deg_north = (meridian_arc(radians(54.6)) - meridian_arc(radians(53.6)));
   const double m_per_deg_east = Vector3d(ecef_of({radians(54.1), radians(7.9), 0})).head<2>().norm() * radians(1);
   const double long_leg = 50 * std::sqrt(3.0), short_leg = 50;
@@ -79,10 +79,10 @@ TEST(Geodesy, worlds_far_from_their_anchor_and_heights_beyond_mountains_are_refu
 
 TEST(Geodesy, the_middle_of_a_zone_is_a_scaled_meridian) {
   for (const double latitude : {-80.0, -1.0, 0.0, 33.0, 54.1, 84.0}) {
-    const UtmPlace north = utm_place_of({radians(latitude), radians(9), 0}, zone_32n);
+    const UtmPosition north = utm_position_of({radians(latitude), radians(9), 0}, zone_32n);
     EXPECT_NEAR(north.easting, 500000, 1e-8);
     EXPECT_NEAR(north.northing, 0.9996 * meridian_arc(radians(latitude)), 1e-6);
-    EXPECT_NEAR(utm_place_of({radians(latitude), radians(9), 0}, {32, false}).northing - north.northing, 1e7, 1e-6);
+    EXPECT_NEAR(utm_position_of({radians(latitude), radians(9), 0}, {32, false}).northing - north.northing, 1e7, 1e-6);
   }
 }
 
@@ -91,11 +91,11 @@ TEST(Geodesy, the_projection_is_conformal) {
   // scaled alike, everywhere.
   for (const double latitude : {-60.0, 10.0, 54.0})
     for (const double longitude : {6.0, 7.3, 12.0, 25.0}) {
-      const GeoPlace at{radians(latitude), radians(longitude), 0};
+      const GeoPosition at{radians(latitude), radians(longitude), 0};
       const double step = 1e-5;
       const auto difference = [&](double dp, double dl) {
-        const UtmPlace a = utm_place_of({at.latitude + dp, at.longitude + dl, 0}, zone_32n);
-        const UtmPlace b = utm_place_of({at.latitude - dp, at.longitude - dl, 0}, zone_32n);
+        const UtmPosition a = utm_position_of({at.latitude + dp, at.longitude + dl, 0}, zone_32n);
+        const UtmPosition b = utm_position_of({at.latitude - dp, at.longitude - dl, 0}, zone_32n);
         const double ground =
             (ecef_of({at.latitude + dp, at.longitude + dl, 0}) - ecef_of({at.latitude - dp, at.longitude - dl, 0}))
                 .norm();
@@ -109,10 +109,10 @@ TEST(Geodesy, the_projection_is_conformal) {
 
 TEST(Geodesy, a_published_place_in_its_zone) {
   // The CN Tower of Toronto: 43 38' 33.24" N, 79 23' 13.7" W is 630 084 m E, 4 833 438 m N of zone 17 (whole metres).
-  const GeoPlace tower{radians(43 + 38 / 60.0 + 33.24 / 3600), -radians(79 + 23 / 60.0 + 13.7 / 3600), 0};
+  const GeoPosition tower{radians(43 + 38 / 60.0 + 33.24 / 3600), -radians(79 + 23 / 60.0 + 13.7 / 3600), 0};
   EXPECT_EQ(utm_zone_of(tower), (UtmZone{17, true}));
   EXPECT_EQ(epsg_code(utm_zone_of(tower)), 32617);
-  const UtmPlace utm = utm_place_of(tower, {17, true});
+  const UtmPosition utm = utm_position_of(tower, {17, true});
   EXPECT_NEAR(utm.easting, 630084, 1);
   EXPECT_NEAR(utm.northing, 4833438, 1);
 }
@@ -121,10 +121,10 @@ TEST(Geodesy, utm_and_back) {
   for (std::uint64_t i = 0; i < 500; ++i) {
     const auto [a, b, unused, none] = random_uniform(7, RandomStage::noise, {i, 0, 0});
     const UtmZone zone{19, i % 2 == 0};
-    const GeoPlace place{radians(-80 + 164 * a), radians(-69 + 20 * (2 * b - 1)), 0};
-    const GeoPlace back = geo_place_of(utm_place_of(place, zone), zone);
-    EXPECT_NEAR(back.latitude, place.latitude, 1e-13);
-    EXPECT_NEAR(back.longitude, place.longitude, 1e-13);
+    const GeoPosition position{radians(-80 + 164 * a), radians(-69 + 20 * (2 * b - 1)), 0};
+    const GeoPosition back = geo_position_of(utm_position_of(position, zone), zone);
+    EXPECT_NEAR(back.latitude, position.latitude, 1e-13);
+    EXPECT_NEAR(back.longitude, position.longitude, 1e-13);
   }
   EXPECT_EQ(utm_zone_of({0, pi, 0}).number, 1);
   EXPECT_EQ(utm_zone_of({-0.1, -pi, 0}), (UtmZone{1, false}));
@@ -132,9 +132,9 @@ TEST(Geodesy, utm_and_back) {
 
 TEST(Geodesy, convergence_turns_the_headings_of_a_zone) {
   // East of its middle grid north lies east of true north by atan(tan(longitude from the middle) sin(latitude)).
-  const UtmPlace place = utm_place_of({radians(54), radians(12), 0}, zone_32n);
+  const UtmPosition position = utm_position_of({radians(54), radians(12), 0}, zone_32n);
   const double gamma = std::atan(std::tan(radians(3)) * std::sin(radians(54)));
-  EXPECT_NEAR(heading_of({zone_32n, {}}, {place.easting, place.northing, -5}, {0, 1, 0}), gamma, 2e-6);
+  EXPECT_NEAR(heading_of({zone_32n, {}}, {position.easting, position.northing, -5}, {0, 1, 0}), gamma, 2e-6);
 }
 
 TEST(Geodesy, refuses_what_is_no_place) {
@@ -152,5 +152,5 @@ TEST(Geodesy, refuses_what_is_no_place) {
   EXPECT_THAT(error_of([] { parse_utm_zone("12T", "--utm"); }), HasSubstr("T is a band of MGRS"));
   EXPECT_THAT(error_of([] { parse_utm_zone("12T", "--utm"); }), HasSubstr("zone 12N"));
   EXPECT_THAT(error_of([] { parse_utm_zone("19k", "--utm"); }), HasSubstr("zone 19S"));
-  EXPECT_THAT(error_of([] { utm_place_of({0.5, 2.0, 0}, zone_32n); }), HasSubstr("must be within 60 deg"));
+  EXPECT_THAT(error_of([] { utm_position_of({0.5, 2.0, 0}, zone_32n); }), HasSubstr("must be within 60 deg"));
 }

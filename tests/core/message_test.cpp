@@ -19,7 +19,7 @@ TEST(Message, longer_texts_are_cut_in_the_middle) {
 }
 
 TEST(Message, characters_of_utf_8_are_not_split) {
-  // One to four bytes each, at all places relative to the cuts.
+  // One to four bytes each, at all positions relative to the cuts.
   for (const std::string character : {"a", "ü", "€", "\xf0\x9f\x90\x9f"})
     for (std::size_t shift = 0; shift < 4; ++shift) {
       std::string text(shift, '.');

@@ -21,10 +21,11 @@ TEST(PathStatus, names_the_path_of_which_nothing_can_be_told) {
   fs::create_symlink("loop", own_path("loop"));
   const std::string loop = own_path("loop"), below = own_path("loop/cube.h5"), longer = own_path(std::string(300, 'a'));
   for (const std::string& path : {loop, below, longer}) {
-    const std::vector<std::function<void()>> asked = {[&] { path_exists(path); }, [&] { is_folder(path); },
-                                                      [&] { is_file(path); },     [&] { size_of_file(path); },
-                                                      [&] { real_path(path); },   [&] { require_regular_file(path); }};
-    for (const auto& ask : asked) expect_error(ErrorKind::file, {path + ": cannot be read: ", "check the path"}, ask);
+    const std::vector<std::function<void()>> requested = {
+        [&] { path_exists(path); },  [&] { is_folder(path); }, [&] { is_file(path); },
+        [&] { size_of_file(path); }, [&] { real_path(path); }, [&] { require_regular_file(path); }};
+    for (const auto& ask : requested)
+      expect_error(ErrorKind::file, {path + ": cannot be read: ", "check the path"}, ask);
   }
   expect_error(ErrorKind::file, {own_path("none") + ": cannot be read: No such file"},
                [] { size_of_file(own_path("none")); });

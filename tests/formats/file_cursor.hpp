@@ -8,7 +8,7 @@
 
 namespace insonify::decode {
 
-/// A place in a file.
+/// A position in a file.
 class Cursor {
  public:
   explicit Cursor(const std::string& bytes, std::size_t at = 0) : bytes_(&bytes), at_(at) {}

@@ -32,7 +32,7 @@ void expect_golden(const std::string& written, const std::string& name) {
 /// Returns a ball to port, ahead of the head and above the bed: two beams, and one without an echo.
 GsfPing golden_swath(double time) {
   GsfPing ping;
-  ping.time = time, ping.place = {radians(54.1), radians(7.9), 0};
+  ping.time = time, ping.position = {radians(54.1), radians(7.9), 0};
   ping.heading = radians(70), ping.course = radians(71.5), ping.speed = 1.5, ping.number = 12;
   ping.pitch = radians(2), ping.roll = radians(-3), ping.head_depth = 1.5, ping.tide = -0.25;
   ping.surface_sound_speed = 1490.2, ping.range = 50;
@@ -60,7 +60,7 @@ TEST(GoldenBytes, of_gsf) {
   const std::string path = own_path("swaths.gsf");
   GsfSurvey survey;
   survey.profile = {{0, 25}, {1490.25, 1481}};
-  survey.place = {radians(54.1), radians(7.9), 0}, survey.time = 1777624200;
+  survey.position = {radians(54.1), radians(7.9), 0}, survey.time = 1777624200;
   survey.comment = "sonar seabat-t50, simulated by insonify 1";
   survey.history_command = "insonify export --to gsf", survey.history_comment = "soundings found in each ping";
   survey.processing.mounting = GsfMounting{{0.5, 0.25, 1}, 0, radians(1.5), 0};

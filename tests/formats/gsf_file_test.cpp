@@ -11,7 +11,7 @@ namespace {
 /// Returns a beam to port and one to starboard, each unlike the other in everything, and one without a sounding.
 GsfPing two_sided_ping() {
   GsfPing ping;
-  ping.time = 1777624200.25, ping.place = {radians(54.1234567), radians(-7.7654321), 3.0625};
+  ping.time = 1777624200.25, ping.position = {radians(54.1234567), radians(-7.7654321), 3.0625};
   ping.heading = radians(301.25), ping.roll = radians(-2.5), ping.pitch = radians(1.75), ping.course = radians(-10);
   ping.speed = 2, ping.heave = -0.12, ping.head_depth = 1.57, ping.ship_depth = 1.25, ping.tide = -0.34;
   ping.separation = 44.125, ping.number = 70000, ping.period = 0.25, ping.surface_sound_speed = 1487.3, ping.range = 75;
@@ -27,7 +27,7 @@ GsfPing two_sided_ping() {
 GsfSurvey two_point_survey() {
   GsfSurvey survey;
   survey.profile = {{0, 12.5}, {1490.25, 1481}};
-  survey.place = {radians(-33.1234567), radians(-71.5), 0}, survey.time = 1777624200.125;
+  survey.position = {radians(-33.1234567), radians(-71.5), 0}, survey.time = 1777624200.125;
   survey.comment = "sonar any, simulated by insonify 1";
   survey.history_command = "insonify export", survey.history_comment = "soundings found";
   return survey;
@@ -240,8 +240,8 @@ TEST(GsfFile, sums_up_attitudes_and_extent) {
   for (std::size_t p = 0; p < 5; ++p) {
     pings[p].time = std::vector<double>{1000.25, 1059.5, 1060.25, 1061, 1010}[p];
     pings[p].heading = radians(10.0 * static_cast<double>(p));
-    pings[p].place.latitude = radians(-1.0 - static_cast<double>(p));
-    pings[p].place.longitude = radians(-70.0 + static_cast<double>(p));
+    pings[p].position.latitude = radians(-1.0 - static_cast<double>(p));
+    pings[p].position.longitude = radians(-70.0 + static_cast<double>(p));
   }
   pings[3].beams[0].depth = -1.5;
   const decode::GsfContent read = written(pings);

@@ -10,7 +10,7 @@
 namespace insonify::decode {
 
 struct LasRow {
-  std::array<double, 3> place;
+  std::array<double, 3> position;
   double time;  ///< UTC, seconds since 1970; for files of 2017 or later, with 18 leap seconds
   unsigned intensity, classification, return_number, returns, source;
   bool withheld;
@@ -40,7 +40,7 @@ inline std::vector<LasRow> read_las(const std::string& bytes) {
     Cursor c = at(data + stride * i);
     LasRow row{};
     for (std::size_t axis = 0; axis < 3; ++axis)
-      row.place[axis] = offset[axis] + scale[axis] * static_cast<double>(c.signed_little(4));
+      row.position[axis] = offset[axis] + scale[axis] * static_cast<double>(c.signed_little(4));
     row.intensity = static_cast<unsigned>(c.unsigned_little(2));
     const auto numbers = static_cast<unsigned>(c.unsigned_little(1));
     row.return_number = numbers & (modern ? 15U : 7U), row.returns = modern ? numbers >> 4 : numbers >> 3 & 7U;

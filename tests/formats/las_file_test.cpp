@@ -100,16 +100,16 @@ TEST(LasFile, flags_withheld_points_and_has_a_remark) {
 TEST(LasFile, is_read_as_a_scene_in_its_own_coordinates) {
   const std::string path = own_path("scene.las");
   LasFile file(path, las_zone, {565400, 5995100, -20});
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> positions;
   for (int i = 0; i < 400; ++i) {
-    places.emplace_back(565400 + 0.25 * (i % 20), 5995100 + 0.25 * (i / 20), -20 + 0.01 * (i % 7));
-    file.add({places.back(), 1777624200, 100, 0.01F, 1, static_cast<std::uint16_t>(i)});
+    positions.emplace_back(565400 + 0.25 * (i % 20), 5995100 + 0.25 * (i / 20), -20 + 0.01 * (i % 7));
+    file.add({positions.back(), 1777624200, 100, 0.01F, 1, static_cast<std::uint16_t>(i)});
   }
   file.finish();
   const LoadedScene scene = load_scene(path);
-  ASSERT_EQ(scene.scene.size(), places.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
-    EXPECT_LT((scene.scene.origin + scene.scene.point[i].cast<double>() - places[i]).norm(), 1e-3);
+  ASSERT_EQ(scene.scene.size(), positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    EXPECT_LT((scene.scene.origin + scene.scene.point[i].cast<double>() - positions[i]).norm(), 1e-3);
   const std::string bytes = file_bytes(path);
   for (std::size_t size = 0; size < bytes.size(); size += size < 1700 ? 1 : 7)  // every byte of the header
     EXPECT_THAT(error_of_file([](const std::string& p) { load_scene(p); }, "cut.las", bytes.substr(0, size)),
@@ -152,7 +152,7 @@ TEST(LasFile, of_version_2_holds_the_same_points) {
   const std::vector<decode::LasRow> rows = decode::read_las(bytes);
   ASSERT_EQ(rows.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(rows[i].place[0], las_points[i].position.x(), 5.1e-5);
+    EXPECT_NEAR(rows[i].position[0], las_points[i].position.x(), 5.1e-5);
     EXPECT_NEAR(rows[i].time, las_points[i].time, 1e-6);
     EXPECT_EQ(rows[i].classification, 2U);
     EXPECT_EQ(rows[i].level_db, las_points[i].level_db);

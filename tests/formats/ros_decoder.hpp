@@ -233,8 +233,8 @@ inline McapContent read_mcap(const std::string& bytes, const Unpack& unpack = {}
         throw std::runtime_error("chunk index says another compression");
       content.compressions.insert(compression);
       if (crc != reference_crc(records)) throw std::runtime_error("CRC of a chunk");
-      for (const auto& [channel, place] : indexes) {
-        Cursor index(bytes, place);
+      for (const auto& [channel, offset] : indexes) {
+        Cursor index(bytes, offset);
         expect(index, 7);
         if (index.unsigned_little(2) != channel) throw std::runtime_error("index of another channel");
         for (std::uint64_t n = index.unsigned_little(4) / 16; n > 0; --n) {
@@ -261,10 +261,10 @@ inline McapContent read_mcap(const std::string& bytes, const Unpack& unpack = {}
 }
 
 /// Returns soundings at places with levels, of beams from 0.
-inline BottomSoundings soundings_at(const std::vector<Eigen::Vector3d>& places, const std::vector<float>& level_db) {
+inline BottomSoundings soundings_at(const std::vector<Eigen::Vector3d>& offsets, const std::vector<float>& level_db) {
   BottomSoundings found;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    found.position.push_back(places[i]);
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    found.position.push_back(offsets[i]);
     found.level_db.push_back(level_db[i]);
     found.range.push_back(12.5 + static_cast<double>(i));
     found.deviation.push_back(0.25F);

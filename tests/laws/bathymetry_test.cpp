@@ -133,8 +133,9 @@ namespace {
 struct RegionErrors {
   std::string name;
   double count = 0, sum = 0, squares = 0, normalised = 0;
-  void add(double distance, const Eigen::Vector3d& normal, const Eigen::Vector3d& place, float deviation) {
-    const double off = distance / std::abs(normal.normalized().dot(place.normalized()));  // the head is at the origin
+  void add(double distance, const Eigen::Vector3d& normal, const Eigen::Vector3d& position, float deviation) {
+    const double off =
+        distance / std::abs(normal.normalized().dot(position.normalized()));  // the head is at the origin
     count += 1, sum += off, squares += off * off;
     normalised += std::pow(off / static_cast<double>(deviation), 2);
   }

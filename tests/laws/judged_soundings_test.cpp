@@ -38,22 +38,22 @@ BottomSoundings soundings_below(const SceneCloud& scene, const SonarHead& head, 
 class Surface {
  public:
   explicit Surface(const SceneCloud& scene) : scene_(scene), index_(scene.point) {}
-  double distance(const Eigen::Vector3d& place) const { return (place - nearest(place).first).norm(); }
-  /// Returns the distance along a beam from `head` by which a place lies off the surface: off the plane of the nearest
+  double distance(const Eigen::Vector3d& position) const { return (position - nearest(position).first).norm(); }
+  /// Returns the distance along a beam from `head` by which a position lies off the surface: off the plane of the nearest
   /// surfel, or off the surfel if that is farther away than surfels stand apart.
-  double range_error(const Eigen::Vector3d& place, const Eigen::Vector3d& head) const {
-    const auto [point, normal] = nearest(place);
-    const double away = (place - point).norm();
+  double range_error(const Eigen::Vector3d& position, const Eigen::Vector3d& head) const {
+    const auto [point, normal] = nearest(position);
+    const double away = (position - point).norm();
     const double off =
-        std::abs(normal.dot(place - point)) / std::max(0.17, std::abs(normal.dot((place - head).normalized())));
+        std::abs(normal.dot(position - point)) / std::max(0.17, std::abs(normal.dot((position - head).normalized())));
     return away > spacing ? std::max(off, away) : off;
   }
 
  private:
   static constexpr double spacing = 0.08;
-  std::pair<Eigen::Vector3d, Eigen::Vector3d> nearest(const Eigen::Vector3d& place) const {
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> nearest(const Eigen::Vector3d& position) const {
     std::vector<Neighbour> found;
-    index_.find_nearest((place - scene_.origin).cast<float>(), 1, found);
+    index_.find_nearest((position - scene_.origin).cast<float>(), 1, found);
     const std::size_t i = found.at(0).index;
     return {scene_.origin + scene_.point[i].cast<double>(), scene_.normal[i].cast<double>()};
   }
@@ -158,7 +158,7 @@ TEST(JudgedSoundings, of_a_reef) {
 }
 // A quay lies to port, 18 m beside the head and beyond the fan. Elements half a wavelength apart receive it in beams of
 // the other side, at frequencies beside the pulse's. It is louder there than the bed, which is found nevertheless.
-// Where both echoes coincide, the place is right and the echo is not.
+// Where both echoes coincide, the position is right and the echo is not.
 TEST(JudgedSoundings, of_a_harbour_with_a_quay_beside_the_fan) {
   const SceneCloud harbour = make_built_in_scene("harbour", {.points = 200000});
   const SceneCloud dense = make_built_in_scene("harbour", {.points = 1000000});

@@ -69,8 +69,8 @@ struct SoundingError {
 std::optional<SoundingError> error_of_ping(const PingSimulator& sounder, const PreparedScene& scene,
                                            const SounderBed& bed, double altitude, std::size_t number) {
   std::mt19937 draw(static_cast<unsigned>(number) + 7);
-  std::uniform_real_distribution<double> place(-1, 1), tilt(radians(-5), radians(5)), heading(0, 2 * pi);
-  const double x = place(draw), y = place(draw), slope = std::tan(radians(bed.slope_deg));
+  std::uniform_real_distribution<double> position(-1, 1), tilt(radians(-5), radians(5)), heading(0, 2 * pi);
+  const double x = position(draw), y = position(draw), slope = std::tan(radians(bed.slope_deg));
   const Eigen::Vector3d at(x, y, x * slope + altitude), up(-slope, 0, 1);
   const Pose pose = pose_from_yaw_pitch_roll(at, heading(draw), pi / 2 + tilt(draw), tilt(draw));
   SimulationOptions o = sounder.options();

@@ -27,7 +27,7 @@ SimulatedPing ping_of_one_patch(const Environment& environment) {
   return simulate_ping(scene, head, pose, environment, options);
 }
 
-/// Peak within 0.1 m of `range` by the parabola through three levels [dB], and its place [m].
+/// Peak within 0.1 m of `range` by the parabola through three levels [dB], and its position [m].
 struct Arrival {
   double range, level_db;
 };
@@ -38,8 +38,8 @@ Arrival arrival_near(const ComplexGridF& pressure, const SimulatedPing& p, doubl
   n += first;
   const auto db = [&](Eigen::Index k) { return pressure_level_db(std::abs(Complex(pressure(0, k)))); };
   const double l = db(n - 1), m = db(n), h = db(n + 1), at = 0.5 * (l - h) / (l - 2 * m + h);
-  const double place = p.ping.gate.centre(static_cast<std::size_t>(n)) + at * p.ping.gate.bin_size;
-  return {place, m - 0.25 * (l - h) * at};
+  const double position = p.ping.gate.centre(static_cast<std::size_t>(n)) + at * p.ping.gate.bin_size;
+  return {position, m - 0.25 * (l - h) * at};
 }
 
 Environment shallow_water() {

@@ -46,7 +46,7 @@ struct Groups {
   std::vector<double> patch_power;  ///< mean intensity of one patch in that bin [Pa^2]
 };
 
-/// Returns number[g] patches in group g, all alike and at one place. `first_id` distinguishes the groups of several
+/// Returns number[g] patches in group g, all alike and at one position. `first_id` distinguishes the groups of several
 /// calls.
 inline Groups make_groups(const std::vector<int>& number, std::uint64_t first_id = 0) {
   constexpr int bins_apart = 8;  // 8 pulse lengths: the envelope is below 1e-70

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "returns/bottom_detection.hpp"
 
-#include "acoustics/bend_paths.hpp"
+#include "acoustics/refract_paths.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
 #include "returns/bottom_fits_internal.hpp"
@@ -205,7 +205,7 @@ TEST(DetectBottom, takes_the_zero_of_the_phase_of_short_echoes) {
   }
 }
 
-// A sounding at the apparent place of a target stands where the target is: bend_paths puts it there.
+// A sounding at the apparent position of a target stands where the target is: refract_paths puts it there.
 TEST(DetectBottom, unbends_the_ray_of_a_profile) {
   const SoundSpeedProfile profile{{0, 5, 12, 30}, {1520, 1505, 1480, 1478}};
   const double head_depth = 1, c = sound_speed_at(profile, head_depth);

@@ -18,7 +18,7 @@ struct Heard {
 };
 
 /// Solves the definition of a delay by bisection: sound leaves the head, and meets it again where it is then.
-Heard heard(const Eigen::Vector3d& to_scatterer, const Motion& motion) {
+Heard beam_azimuth(const Eigen::Vector3d& to_scatterer, const Motion& motion) {
   Heard h;
   h.ping.world_from_head = pose_from_yaw_pitch_roll({530000, -20, -7}, 2.1, 0.7, -0.3);
   h.ping.motion = motion;
@@ -42,7 +42,7 @@ TEST(EchoPlace, is_where_a_moving_and_turning_head_hears_it_from) {
   for (const Motion& motion : {Motion{}, Motion{{0.3, -4, 1.2}, Eigen::Vector3d::Zero()},
                                Motion{Eigen::Vector3d::Zero(), {0.4, -0.1, 0.2}}, Motion{{9, 5, -8}, {2, 1, -3}}})
     for (const Eigen::Vector3d& to : {Eigen::Vector3d(60, -5, -20), Eigen::Vector3d(0.01, 0.3, 0.2)}) {
-      const Heard h = heard(to, motion);
+      const Heard h = beam_azimuth(to, motion);
       const Eigen::Vector3d way = way_of_echo(h.ping, h.direction, h.range, water);
       EXPECT_LT((way - to).norm() / to.norm(), 1e-12) << motion.velocity.transpose();
       const Eigen::Vector3d sent = h.ping.world_from_head.linear().transpose() * to.normalized();

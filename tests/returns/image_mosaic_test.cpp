@@ -27,7 +27,7 @@ BeamFan side_beam() { return make_fan(1, 0, radians(2), radians(60)); }
 
 const MosaicSource side_scan_source{200, 0.1, bin_length};
 
-/// Returns the value of the cell at a place; NaN where the map does not reach.
+/// Returns the value of the cell at a position; NaN where the map does not reach.
 double strength_at(const MosaicMap& map, double x, double y) {
   const auto i = static_cast<Eigen::Index>(std::floor((x - map.x) / map.cell));
   const auto j = static_cast<Eigen::Index>(std::floor((y - map.y) / map.cell));
@@ -105,7 +105,7 @@ TEST(ImageMosaic, takes_the_elevation_pattern_out_of_the_levels) {
 }
 
 TEST(ImageMosaic, a_ping_stands_for_the_strip_half_way_to_its_neighbours) {
-  const auto heard = [](const Eigen::Vector3d& strip) {
+  const auto beam_azimuth = [](const Eigen::Vector3d& strip) {
     ImageMosaic mosaic(0.1, MosaicRule::mean);
     mosaic.add(even_ping(mosaic_head(), side_beam(), [](double) { return 1e-4; }), side_scan_source, strip,
                flat_bed(0));
@@ -115,10 +115,10 @@ TEST(ImageMosaic, a_ping_stands_for_the_strip_half_way_to_its_neighbours) {
     return cells;
   };
   // Two degrees at 5 m are 0.17 m.
-  EXPECT_NEAR(heard({0, 0, 0}), 2, 1);
-  EXPECT_NEAR(heard({0.5, 0, 0}), 12, 1);
+  EXPECT_NEAR(beam_azimuth({0, 0, 0}), 2, 1);
+  EXPECT_NEAR(beam_azimuth({0.5, 0, 0}), 12, 1);
   // A head that looks along its way sweeps none.
-  EXPECT_NEAR(heard({0, 0.5, 0}), 2, 1);
+  EXPECT_NEAR(beam_azimuth({0, 0.5, 0}), 2, 1);
 }
 
 TEST(ImageMosaic, takes_the_mean_of_all_pings_or_the_ping_with_the_narrowest_beam) {

@@ -23,8 +23,8 @@ TEST(LabelObjects, parts_are_connected_by_sides_and_corners) {
       0, 1, 0, 2, 0,          //
       0, 0, 0, 0, 0,          //
       3, 3, 0, 0, 4;
-  EXPECT_TRUE((connected_parts(three_parts_of_two(), 1) == expected).all());
-  const Grid<std::uint32_t> large = connected_parts(three_parts_of_two(), 2);
+  EXPECT_TRUE((connected_groups(three_parts_of_two(), 1) == expected).all());
+  const Grid<std::uint32_t> large = connected_groups(three_parts_of_two(), 2);
   EXPECT_EQ(large.maxCoeff(), 3U);
   EXPECT_EQ(large(3, 4), 0U);
   EXPECT_EQ(large(3, 0), 3U);
@@ -53,7 +53,7 @@ TEST(LabelObjects, keep_the_ids_of_the_scene_and_connected_parts_come_above_all_
       42, 102, 0, 0, 103;
   const SceneInstances instances = number_instances({{10, 42}, {11, 42}, {12, 7}, {13, 100}});
   EXPECT_TRUE((number_objects(three_parts_of_two(), id, instances) == expected).all());
-  EXPECT_TRUE((number_objects(three_parts_of_two(), id, {}) == connected_parts(three_parts_of_two(), 1)).all());
+  EXPECT_TRUE((number_objects(three_parts_of_two(), id, {}) == connected_groups(three_parts_of_two(), 1)).all());
   const Grid<std::uint32_t> large = number_objects(three_parts_of_two(), id, instances, 3);
   EXPECT_EQ(large.maxCoeff(), 42U);  // of three pixels
   EXPECT_EQ(large(0, 2), 0U);

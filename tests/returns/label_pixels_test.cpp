@@ -29,22 +29,22 @@ class PixelLabelling : public testing::Test {
     scene.materials[0].name = "sand", scene.materials[1].name = "steel";
   }
   double range_of(Eigen::Index n) const { return head.gate.centre(static_cast<std::size_t>(n)); }
-  std::uint32_t place(double range, double u, std::uint16_t material, double area = 1e-6) {
+  std::uint32_t position(double range, double u, std::uint16_t material, double area = 1e-6) {
     scene.point.emplace_back(range * Eigen::Vector3d(std::sqrt(1 - u * u), u, 0).cast<float>());
     scene.normal.emplace_back(-1, 0, 0), scene.area.push_back(static_cast<float>(area));
     scene.material.push_back(material), scene.id.push_back(100 + static_cast<std::uint32_t>(scene.size() - 1));
-    others.push_back(Visibility::not_asked);
+    others.push_back(Visibility::not_queried);
     return static_cast<std::uint32_t>(scene.size() - 1);
   }
   /// Adds an echo of power 1 from `metres` behind the middle of bin `n`.
   void hear(Eigen::Index n, double metres, double u, std::uint16_t material, double power = 1, double area = 1e-6) {
     const double range = range_of(n) + metres;
-    surfel.push_back(place(range, u, material, area)), legs.push_back({});
+    surfel.push_back(position(range, u, material, area)), legs.push_back({});
     echoes.delay.push_back(2 * range / medium.sound_speed), echoes.u.push_back(u), echoes.v.push_back(0);
     echoes.amplitude.emplace_back(std::sqrt(power), 0);
   }
   void hide(Eigen::Index n, double metres, double u, double area = 1e-6) {
-    others[place(range_of(n) + metres, u, 1, area)] = Visibility::hidden;
+    others[position(range_of(n) + metres, u, 1, area)] = Visibility::hidden;
   }
   Contributors found() const {
     const SurfelEchoes all[] = {{echoes, surfel, legs}};
@@ -207,7 +207,7 @@ TEST_F(PixelLabelling, refuses_other_extents_and_scenes) {
   c.total.clear();
   expect_error(ErrorKind::argument, {"total energy of 0 pixels", "4200"}, label);
   c = found();
-  others.push_back(Visibility::not_asked);
+  others.push_back(Visibility::not_queried);
   expect_error(ErrorKind::argument, {"visibilities have 2 entries", "(1)"}, label);
   others.pop_back();
   surfel[0] = 7;

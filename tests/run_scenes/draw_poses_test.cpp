@@ -72,7 +72,7 @@ TEST(DrawPoses, are_those_of_the_pings_at_rest) {
   }
 }
 
-// Balls lie strewn anew for each ping, in a field that is hardly wider than they are.
+// Balls lie scattered anew for each ping, in a field that is hardly wider than they are.
 TEST(DrawPoses, are_clear_of_the_bodies_of_their_draw) {
   save_scene(own_path("bed.ply"), make_built_in_scene("plane", {.points = 20000, .size = {10, 10}}));
   SceneCloud ball = make_built_in_scene("sphere", {.points = 2000, .radius = 0.5});

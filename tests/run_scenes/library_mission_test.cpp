@@ -104,13 +104,13 @@ TEST(LibraryMission, a_ping_gives_the_plan_that_it_follows) {
   const PingEvent event{.world_from_head = Pose(Eigen::Translation3d(0, 0, -3)), .motion = {.velocity = {1, 0, 0}}};
   PingPlan plan;
   const SimulatedPing planned = head.ping(scene, event, plan), alone = head.ping(scene, event);
-  const PingPlan asked = head.plan(scene, event);
+  const PingPlan requested = head.plan(scene, event);
   EXPECT_TRUE((planned.ping.pressure == alone.ping.pressure).all());
   EXPECT_EQ(planned.soundings.size(), alone.soundings.size());
-  EXPECT_EQ(plan.left_out_db, asked.left_out_db);
-  ASSERT_EQ(plan.stages.size(), asked.stages.size());
+  EXPECT_EQ(plan.left_out_db, requested.left_out_db);
+  ASSERT_EQ(plan.stages.size(), requested.stages.size());
   for (std::size_t i = 0; i < plan.stages.size(); ++i) {
-    EXPECT_EQ(plan.stages[i].included, asked.stages[i].included) << plan.stages[i].name;
-    EXPECT_EQ(plan.stages[i].bound_db, asked.stages[i].bound_db) << plan.stages[i].name;
+    EXPECT_EQ(plan.stages[i].included, requested.stages[i].included) << plan.stages[i].name;
+    EXPECT_EQ(plan.stages[i].bound_db, requested.stages[i].bound_db) << plan.stages[i].name;
   }
 }

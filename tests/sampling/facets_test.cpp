@@ -98,15 +98,15 @@ TEST(Facets, hide_exactly_what_is_behind_them) {
   }
   EXPECT_EQ(found[1], found[0]);
   EXPECT_EQ(found[2], found[0]);
-  std::size_t asked = 0, hidden = 0, wrong = 0;
+  std::size_t queried = 0, hidden = 0, wrong = 0;
   for (std::size_t i = 0; i < scene.size(); ++i) {
     if (found[0][i] != Visibility::seen && found[0][i] != Visibility::hidden) continue;
-    ++asked;
+    ++queried;
     hidden += !wanted[i];
     wrong += (found[0][i] == Visibility::seen) != (wanted[i] == 1);
   }
-  EXPECT_GT(hidden, asked / 10);
-  EXPECT_LE(wrong, asked / 5000);  // on edges
+  EXPECT_GT(hidden, queried / 10);
+  EXPECT_LE(wrong, queried / 5000);  // on edges
 }
 
 TEST(Facets, are_met_by_rays_in_their_planes_and_at_no_other_place) {

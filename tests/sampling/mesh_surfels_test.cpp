@@ -134,7 +134,7 @@ TEST(MeshSurfels, stand_where_they_stand_for_every_head_and_thread_count) {
   EXPECT_GT(both, a.size() / 2);
 }
 
-// A finer sampling keeps every place of a coarser one, and adds others.
+// A finer sampling keeps every position of a coarser one, and adds others.
 TEST(MeshSurfels, are_nested) {
   const SceneMesh mesh = square(8);
   Look near(0, 6), far(0, 12);
@@ -164,7 +164,7 @@ TEST(MeshSurfels, move_with_the_world) {
   EXPECT_EQ(here.area, there.area);
 }
 
-// Uniform: the mean place of many is the middle of the square, and its variance that of a uniform law.
+// Uniform: the mean position of many is the middle of the square, and its variance that of a uniform law.
 TEST(MeshSurfels, are_uniform_over_a_triangle) {
   Look look;
   look.region = region_around({0, 0, 10}, 30);

@@ -151,7 +151,7 @@ TEST(PartShares, leave_parts_where_they_are_and_are_the_same_for_listed_and_stre
     }
     const PreparedScene prepared(scene);
     const VisibleSurfels visible = find_visible(prepared, Pose::Identity(), one_beam, fine_gate, options);
-    std::vector<std::uint64_t> ids = make_parts(scene, Pose::Identity(), visible).id, expected = fewer.id;
+    std::vector<std::uint64_t> ids = make_chunks(scene, Pose::Identity(), visible).id, expected = fewer.id;
     std::sort(ids.begin(), ids.end()), std::sort(expected.begin(), expected.end());
     EXPECT_EQ(ids, expected);
   }

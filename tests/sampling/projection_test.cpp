@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-struct Place {
+struct Position {
   std::string name;
   SceneCloud scene;
   Pose pose = Pose::Identity();
@@ -33,8 +33,8 @@ void add_pole(SceneCloud& scene, double x, double y, double radius, double spaci
     }
 }
 
-std::vector<Place> places() {
-  std::vector<Place> all(11);
+std::vector<Position> positions() {
+  std::vector<Position> all(11);
   all[0].name = "wall with a hole";
   add_wall(all[0].scene, 4, 3, 2, 0.08, 0.4);
   punch_hole(all[0].scene, 0.5);
@@ -114,24 +114,24 @@ constexpr SamplingKind kinds[] = {SamplingKind::surfels, SamplingKind::rays};
 }  // namespace
 
 TEST(Projection, changes_no_byte_of_the_result) {
-  for (const Place& place : places())
+  for (const Position& position : positions())
     for (const SamplingKind kind : kinds) {
       const auto look = [&](Projection projection) {
-        return find_scatterers(place.scene, place.pose, place.fan, long_gate(), options_for(kind, projection));
+        return find_scatterers(position.scene, position.pose, position.fan, long_gate(), options_for(kind, projection));
       };
       const Sampling plain = look(Projection::brute_force);
-      EXPECT_GT(plain.scatterers.size(), 50u) << place.name;
+      EXPECT_GT(plain.scatterers.size(), 50u) << position.name;
       if (kind == SamplingKind::surfels) {
-        EXPECT_EQ(plain.report.hidden > 30, place.hides_something) << place.name;
+        EXPECT_EQ(plain.report.hidden > 30, position.hides_something) << position.name;
       }
       for (const Projection projection : {Projection::kdtree, Projection::raster, Projection::automatic}) {
         const Sampling fast = look(projection);
         const char* const of = kind == SamplingKind::rays ? "rays" : "surfels";
         EXPECT_TRUE(equal(fast.scatterers, plain.scatterers))
-            << place.name << ", " << of << ", " << static_cast<int>(projection);
-        EXPECT_EQ(fast.report.hidden, plain.report.hidden) << place.name;
-        EXPECT_EQ(fast.report.rays_missed, plain.report.rays_missed) << place.name;
-        EXPECT_EQ(fast.report.rays_unknown, plain.report.rays_unknown) << place.name;
+            << position.name << ", " << of << ", " << static_cast<int>(projection);
+        EXPECT_EQ(fast.report.hidden, plain.report.hidden) << position.name;
+        EXPECT_EQ(fast.report.rays_missed, plain.report.rays_missed) << position.name;
+        EXPECT_EQ(fast.report.rays_unknown, plain.report.rays_unknown) << position.name;
         if (projection != Projection::automatic) {
           EXPECT_EQ(fast.report.projection, projection);
         }
@@ -155,24 +155,24 @@ TEST(Projection, chosen_automatically_is_the_raster_unless_most_surfels_are_wide
 }
 
 TEST(PreparedScene, gives_the_bytes_of_the_scene_itself) {
-  auto all = places();
+  auto all = positions();
   all.push_back({"harbour", make_built_in_scene("harbour", {.points = 20000}), at(0, 0, -3, 0, 10)});
   all.push_back({"rough harbour far from zero", all.back().scene, at(0, 0, -3, 0, 10)});
   all.back().scene.origin = {5e5, -4e6, 10};
   all.back().pose.translation() += all.back().scene.origin;
   for (auto& material : all.back().scene.materials) material.relief_slope = 0.2;
-  for (const Place& place : all) {
-    const PreparedScene prepared(place.scene);
+  for (const Position& position : all) {
+    const PreparedScene prepared(position.scene);
     for (const SamplingKind kind : kinds)
       for (const double max_range : {3.0, 12.0, 80.0}) {
         SamplingOptions options = options_for(kind, Projection::automatic);
         options.scatterers_per_cell = 0.1;
         const RangeGate gate{0.1, max_range, 0.05};
-        const Sampling plain = find_scatterers(place.scene, place.pose, place.fan, gate, options);
-        const Sampling fast = find_scatterers(prepared, place.pose, place.fan, gate, options);
-        EXPECT_TRUE(equal(fast.scatterers, plain.scatterers)) << place.name << " to " << max_range << " m";
-        EXPECT_EQ(fast.report.in_gate, plain.report.in_gate) << place.name;
-        EXPECT_EQ(fast.report.surfels, plain.report.surfels) << place.name;
+        const Sampling plain = find_scatterers(position.scene, position.pose, position.fan, gate, options);
+        const Sampling fast = find_scatterers(prepared, position.pose, position.fan, gate, options);
+        EXPECT_TRUE(equal(fast.scatterers, plain.scatterers)) << position.name << " to " << max_range << " m";
+        EXPECT_EQ(fast.report.in_gate, plain.report.in_gate) << position.name;
+        EXPECT_EQ(fast.report.surfels, plain.report.surfels) << position.name;
       }
   }
 }
@@ -292,9 +292,9 @@ TEST(Splitting, directions_of_parts_are_good_to_1e_12) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     const Vector3d centre = scene.point[s.surfel[i]].cast<double>();
     const Vector3d normal = scene.normal[s.surfel[i]].cast<double>().normalized();
-    const Vector3d place = s.range[i] * unit_vector({s.azimuth[i], s.elevation[i]});
-    ASSERT_NEAR(normal.dot(place - centre), 0, 1e-12 * s.range[i]);
-    ASSERT_LE((place - centre).squaredNorm(), scene.area[s.surfel[i]] / pi * (1 + 1e-9));
+    const Vector3d position = s.range[i] * unit_vector({s.azimuth[i], s.elevation[i]});
+    ASSERT_NEAR(normal.dot(position - centre), 0, 1e-12 * s.range[i]);
+    ASSERT_LE((position - centre).squaredNorm(), scene.area[s.surfel[i]] / pi * (1 + 1e-9));
     ASSERT_LE(std::abs(s.azimuth[i]), pi);
   }
 }

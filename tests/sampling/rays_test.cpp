@@ -83,8 +83,8 @@ TEST(Rays, that_meet_a_back_give_no_echo_and_are_not_missed) {
 
 TEST(Rays, that_meet_a_back_just_before_a_face_are_blocked) {
   const auto surfel = [](float x, float y, bool facing) {
-    const Eigen::Vector3f place(x, y, 0);
-    return GatedSurfel{place, place.norm(), {1, 0, 0}, x, 0.2f, 0.065f, 0.1f, 0.1f, 0, 0, true, facing};
+    const Eigen::Vector3f position(x, y, 0);
+    return GatedSurfel{position, position.norm(), {1, 0, 0}, x, 0.2f, 0.065f, 0.1f, 0.1f, 0, 0, true, facing};
   };
   const auto fate = [](const GatedSurfels& surfels) {
     std::vector<std::uint32_t> both = {0, 1};

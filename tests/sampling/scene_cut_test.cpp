@@ -250,9 +250,9 @@ struct PlateBeforeAWall {
     add_rectangle(scene, {8, -4, -1.5}, {0, 8, 0}, {0, 0, 3}, {-1, 0, 0}, 0.01);
     add_rectangle(scene, corner, along, up, normal, 0.01);
   }
-  /// Returns the distance from the plate's outline of the direction to a place, in the plane of the plate [m].
-  double from_outline(const Eigen::Vector3d& place) const {
-    const Eigen::Vector3d meets = place * corner.dot(normal) / place.dot(normal) - corner;
+  /// Returns the distance from the plate's outline of the direction to a position, in the plane of the plate [m].
+  double from_outline(const Eigen::Vector3d& position) const {
+    const Eigen::Vector3d meets = position * corner.dot(normal) / position.dot(normal) - corner;
     const Eigen::Array2d at(meets.dot(along) / side, meets.dot(up) / side);
     const Eigen::Array2d beyond = (at - side / 2).abs() - side / 2;
     return beyond.maxCoeff() < 0 ? -beyond.maxCoeff() : beyond.max(0.0).matrix().norm();
@@ -263,12 +263,12 @@ struct PlateBeforeAWall {
     const SceneCloud& s = cut.scene.scene();
     std::array<std::size_t, 3> count{};
     for (std::size_t i = 0; i < s.size(); ++i) {
-      const Eigen::Vector3d place = world(s, i);
-      const double scale = corner.dot(normal) / place.dot(normal), half = scale * std::sqrt(s.area[i]) / 2;
+      const Eigen::Vector3d position = world(s, i);
+      const double scale = corner.dot(normal) / position.dot(normal), half = scale * std::sqrt(s.area[i]) / 2;
       if (s.area[i] > 1.5 * of.area[cut.stands_for[i]])
-        ++count[from_outline(place) < 0.8 * half ? 0 : 1];
+        ++count[from_outline(position) < 0.8 * half ? 0 : 1];
       else
-        count[2] += from_outline(place) < half;
+        count[2] += from_outline(position) < half;
     }
     return count;
   }

@@ -42,13 +42,13 @@ TEST(FindVisibility, surfels_not_queried_still_occlude) {
   SceneCloud scene;
   add_surfel(scene, {10, 0, 0}, {-1, 0, 0}, 1e-4);
   add_wall(scene, 5, 1, 1, 0.1);
-  std::vector<std::uint8_t> asked(scene.size(), 0);
-  asked[0] = 1;
-  const auto visibility = find_visibility(scene, Pose::Identity(), wide_fan(), long_gate(), asked, unsplit());
-  EXPECT_EQ(find_visibility(PreparedScene(scene), Pose::Identity(), wide_fan(), long_gate(), asked, unsplit()),
+  std::vector<std::uint8_t> queried(scene.size(), 0);
+  queried[0] = 1;
+  const auto visibility = find_visibility(scene, Pose::Identity(), wide_fan(), long_gate(), queried, unsplit());
+  EXPECT_EQ(find_visibility(PreparedScene(scene), Pose::Identity(), wide_fan(), long_gate(), queried, unsplit()),
             visibility);
   EXPECT_EQ(visibility[0], Visibility::hidden);
-  EXPECT_EQ(std::count(visibility.begin(), visibility.end(), Visibility::not_asked), scene.size() - 1);
+  EXPECT_EQ(std::count(visibility.begin(), visibility.end(), Visibility::not_queried), scene.size() - 1);
 }
 
 TEST(FindVisibility, refuses_a_list_of_another_length) {

@@ -33,15 +33,15 @@ TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell) {
   // At 45 degrees, range 10 m: a cell is 0.02 sqrt(2) m by 0.2 m, so 1 m^2 holds 176.8 cells (E17).
   const SampledCells cells(make_fan(1, 0, 0.02, 1), {0.1, 50, 1},
                            {.scatterers_per_cell = 10, .range_resolution = 0.02});
-  EXPECT_NEAR(cells.parts(ten_ahead, 1, std::sqrt(0.5)), 1767.8, 0.1);
+  EXPECT_NEAR(cells.pieces(ten_ahead, 1, std::sqrt(0.5)), 1767.8, 0.1);
   // At normal incidence a plane within dr is 2 sqrt(2 r dr) = 1.2649 m long.
-  EXPECT_NEAR(cells.parts(ten_ahead, 1, 1), 39.53, 0.01);
-  EXPECT_EQ(cells.parts(ten_ahead, 1e-6, 0.5), 1);
+  EXPECT_NEAR(cells.pieces(ten_ahead, 1, 1), 39.53, 0.01);
+  EXPECT_EQ(cells.pieces(ten_ahead, 1e-6, 0.5), 1);
   const SampledCells none(make_fan(1, 0, 0.02, 1), {0.1, 50, 0.01}, {.scatterers_per_cell = 0});
-  EXPECT_EQ(none.parts(ten_ahead, 1, 0.5), 1);
+  EXPECT_EQ(none.pieces(ten_ahead, 1, 0.5), 1);
   // Without a resolution it is two bins.
   const SampledCells bins(make_fan(1, 0, 0.02, 1), {0.1, 50, 0.01}, {.scatterers_per_cell = 10});
-  EXPECT_EQ(bins.parts(ten_ahead, 1, 0.5), cells.parts(ten_ahead, 1, 0.5));
+  EXPECT_EQ(bins.pieces(ten_ahead, 1, 0.5), cells.pieces(ten_ahead, 1, 0.5));
 }
 
 // A planar array at range 10 m with beams of 0.02 rad both ways: the cross-section of 0.2 x 0.2 m at 45 degrees is
@@ -51,14 +51,14 @@ TEST(Splitting, puts_the_requested_number_of_parts_in_a_cell_of_a_planar_array) 
   BeamFan fan = make_fan(1, 0, 0.02, 1);
   fan.row_width = 0.02;
   const SamplingOptions ten{.scatterers_per_cell = 10};
-  EXPECT_NEAR(SampledCells(fan, gate, ten).parts(ten_ahead, 1, std::sqrt(0.5)), 1767.8, 0.1);
-  EXPECT_NEAR(SampledCells(fan, gate, ten).parts(ten_ahead, 0.1, 1), 25, 1e-9);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).pieces(ten_ahead, 1, std::sqrt(0.5)), 1767.8, 0.1);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).pieces(ten_ahead, 0.1, 1), 25, 1e-9);
   fan.row_width = 0.005;
-  EXPECT_NEAR(SampledCells(fan, gate, ten).parts(ten_ahead, 0.25, std::sqrt(0.5)), 1767.8, 0.1);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).pieces(ten_ahead, 0.25, std::sqrt(0.5)), 1767.8, 0.1);
   // A tenth of a radian beyond the ends of the lobes both ways the cell is 0.05 rad x 0.05 rad.
   const double u = 1.5 * 0.02 + 0.1, v = 1.5 * 0.005 + 0.1;
   const Vector3d beside(10 * std::sqrt(1 - u * u - v * v), 10 * u, 10 * v);
-  EXPECT_NEAR(SampledCells(fan, gate, ten).parts(beside, 1e-3, 1), std::max(1.0, 10 * 1e-3 / (0.5 * 0.5)), 1e-9);
+  EXPECT_NEAR(SampledCells(fan, gate, ten).pieces(beside, 1e-3, 1), std::max(1.0, 10 * 1e-3 / (0.5 * 0.5)), 1e-9);
   EXPECT_NEAR(SampledCells(fan, gate, ten).widths(beside, 0).beam, 0.05, 1e-12);
   EXPECT_NEAR(SampledCells(fan, gate, ten).widths(beside, 0).row, 0.05, 1e-12);
 }
@@ -80,7 +80,7 @@ TEST(Splitting, takes_cells_half_as_wide_as_they_are_off_the_nearest_main_lobe) 
   EXPECT_EQ(cells.widths(at_u(0.23), 1.7).beam, 0.02);
   EXPECT_NEAR(cells.widths(at_u(0.23), 1).beam, 0.05, 1e-12);
   // The fewer parts of a surfel, the wider its cell: here 0.1 less half of what it reaches towards the lobe.
-  EXPECT_NEAR(cells.parts(at_u(-0.23), 0.01 * pi, 0.5) / cells.parts(at_u(0), 0.01 * pi, 0.5), 0.02 / 0.095, 1e-6);
+  EXPECT_NEAR(cells.pieces(at_u(-0.23), 0.01 * pi, 0.5) / cells.pieces(at_u(0), 0.01 * pi, 0.5), 0.02 / 0.095, 1e-6);
   const SampledCells wider(fan, gate, {.lobe_margin = 0.1}), everywhere(fan, gate, {.lobe_margin = 2});
   EXPECT_NEAR(wider.widths(at_u(0.73), 0).beam, 0.05, 1e-12);
   EXPECT_EQ(everywhere.widths(at_u(-1), 0).beam, 0.02);
@@ -89,13 +89,13 @@ TEST(Splitting, takes_cells_half_as_wide_as_they_are_off_the_nearest_main_lobe) 
 TEST(Splitting, keeps_the_projected_area_and_gives_unique_ids) {
   const SceneCloud scene = small_wall();
   const Scatterers whole = find_scatterers(scene, at(0, 0, 0), split_fan, split_gate, unsplit()).scatterers;
-  const Scatterers parts =
+  const Scatterers pieces =
       find_scatterers(scene, at(0, 0, 0), split_fan, split_gate, {.scatterers_per_cell = 200}).scatterers;
   EXPECT_EQ(whole.size(), scene.size());
-  EXPECT_GT(parts.size(), 5 * whole.size());
-  EXPECT_NEAR(total(parts.projected_area), total(whole.projected_area), 1e-4 * total(whole.projected_area));
-  EXPECT_EQ(std::set(parts.id.begin(), parts.id.end()).size(), parts.size());
-  for (std::size_t i = 0; i < parts.size(); ++i) ASSERT_EQ(parts.id[i] >> 32, scene.id[parts.surfel[i]]);
+  EXPECT_GT(pieces.size(), 5 * whole.size());
+  EXPECT_NEAR(total(pieces.projected_area), total(whole.projected_area), 1e-4 * total(whole.projected_area));
+  EXPECT_EQ(std::set(pieces.id.begin(), pieces.id.end()).size(), pieces.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) ASSERT_EQ(pieces.id[i] >> 32, scene.id[pieces.surfel[i]]);
 }
 
 TEST(Splitting, leaves_an_unsplit_surfel_at_its_centre) {
@@ -110,17 +110,17 @@ TEST(Splitting, puts_every_part_at_the_same_place_for_every_pose) {
   const SceneCloud scene = small_wall();
   const SamplingOptions options{.scatterers_per_cell = 300};
   const Pose poses[] = {at(0, 0, 0), at(-20, 3, 1, -7, 4), at(2, -1, 0.5, 15, 0)};
-  std::map<std::uint64_t, Vector3d> places;
+  std::map<std::uint64_t, Vector3d> positions;
   std::size_t shared = 0;
   std::set<std::size_t> sizes;
   for (const Pose& pose : poses) {
     const Scatterers s = find_scatterers(scene, pose, split_fan, split_gate, options).scatterers;
     sizes.insert(s.size());
     for (std::size_t i = 0; i < s.size(); ++i) {
-      const auto [place, is_new] = places.emplace(s.id[i], world_position(s, i, pose));
+      const auto [position, is_new] = positions.emplace(s.id[i], world_position(s, i, pose));
       if (is_new) continue;
       ++shared;
-      ASSERT_LT((place->second - world_position(s, i, pose)).norm(), 1e-9);
+      ASSERT_LT((position->second - world_position(s, i, pose)).norm(), 1e-9);
     }
   }
   EXPECT_EQ(sizes.size(), 3u);  // split into different numbers of parts

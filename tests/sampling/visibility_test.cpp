@@ -164,8 +164,8 @@ TEST(Visibility, flipped_normals_of_an_unoriented_cloud_change_nothing) {
 // Before a surfel at x = 6 m stand others in the plane x = 3 m, which its line of sight crosses at y = 0.
 TEST(Visibility, takes_cover_from_more_than_one_side) {
   const auto surfel = [](float x, float y, float z = 0, float noise = 0) {
-    const Eigen::Vector3f place(x, y, z);
-    return GatedSurfel{place, place.norm(), {1, 0, 0}, x, 0.12f, 0.065f, 0.1f, 0.1f, noise, 0, true, true};
+    const Eigen::Vector3f position(x, y, z);
+    return GatedSurfel{position, position.norm(), {1, 0, 0}, x, 0.12f, 0.065f, 0.1f, 0.1f, noise, 0, true, true};
   };
   const GatedSurfel far = surfel(6, 0);
   const LineOfSight line(far);

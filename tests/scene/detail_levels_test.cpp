@@ -63,7 +63,7 @@ TEST(DetailLevels, hold_every_surfel_once_within_blocks_and_nodes) {
   EXPECT_LT(levels.root.size(), scene.size() / 4);
 }
 
-// In a view from one place noise is raised where lines of sight pass an edge: nodes do not spread it, and do not lose
+// In a view from one position noise is raised where lines of sight pass an edge: nodes do not spread it, and do not lose
 // it.
 TEST(DetailLevels, keep_surfels_of_uneven_noise_apart) {
   SceneCloud scene;

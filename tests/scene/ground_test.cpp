@@ -87,14 +87,14 @@ TEST(Ground, averages_the_noise_of_a_scan) {
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> along(-4, 4);
   double worst = 0, squares = 0;
-  constexpr int places = 500;
-  for (int k = 0; k < places; ++k) {
+  constexpr int positions = 500;
+  for (int k = 0; k < positions; ++k) {
     const Vector2d p(along(generator), along(generator));
     const double off = ground.at(p).value().height - p.x() * std::tan(radians(20));
     worst = std::max(worst, std::abs(off)), squares += off * off;
   }
   EXPECT_LT(worst, 0.02) << "a spacing, or two deviations of the noise";
-  EXPECT_LT(std::sqrt(squares / places), 0.006) << "it is a mean of several surfels";
+  EXPECT_LT(std::sqrt(squares / positions), 0.006) << "it is a mean of several surfels";
 }
 
 TEST(Ground, is_the_topmost_sheet_and_passes_over_strays_and_holes) {
@@ -249,16 +249,16 @@ TEST(Ground, of_many_parts_is_that_of_the_highest_one) {
   }
   std::size_t found = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Vector2d place(any(generator) + (i % 20 == 0 ? 1e5 : 0), any(generator));
-    std::optional<GroundPlace> expected;
+    const Vector2d position(any(generator) + (i % 20 == 0 ? 1e5 : 0), any(generator));
+    std::optional<GroundPoint> expected;
     for (const Ground& one : alone)
-      if (const auto here = one.at(place); here && !(expected && expected->height >= here->height)) expected = here;
-    const auto here = all.at(place);
-    ASSERT_EQ(here.has_value(), expected.has_value()) << place.transpose();
+      if (const auto here = one.at(position); here && !(expected && expected->height >= here->height)) expected = here;
+    const auto here = all.at(position);
+    ASSERT_EQ(here.has_value(), expected.has_value()) << position.transpose();
     if (!here) continue;
     ++found;
-    ASSERT_EQ(here->height, expected->height) << place.transpose();
-    ASSERT_EQ(here->normal, expected->normal) << place.transpose();
+    ASSERT_EQ(here->height, expected->height) << position.transpose();
+    ASSERT_EQ(here->normal, expected->normal) << position.transpose();
   }
   EXPECT_GT(found, 500u);
 }

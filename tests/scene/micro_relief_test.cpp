@@ -81,10 +81,10 @@ TEST(MicroRelief, slopes_are_the_gradient_of_a_height) {
 
 TEST(MicroRelief, depends_on_position_and_seed) {
   const ReliefField field({1, 0.05}), again({1, 0.05}), other({2, 0.05});
-  const Vector3d place(12.3, -4.5, 6.7);
-  EXPECT_EQ(field.gradient(place), again.gradient(place));
-  EXPECT_NE(field.gradient(place), other.gradient(place));
-  EXPECT_NE(field.gradient(place), field.gradient(place + Vector3d(0.001, 0, 0)));
+  const Vector3d position(12.3, -4.5, 6.7);
+  EXPECT_EQ(field.gradient(position), again.gradient(position));
+  EXPECT_NE(field.gradient(position), other.gradient(position));
+  EXPECT_NE(field.gradient(position), field.gradient(position + Vector3d(0.001, 0, 0)));
 }
 
 // The shortest wave is 0.05 m / 2^5 = 1.6 mm: over a micrometre slopes change by at most 2 pi / 1.6 mm x 1 um = 0.4 %
@@ -95,8 +95,8 @@ TEST(MicroRelief, is_smooth_a_thousand_kilometres_from_zero) {
   const double largest = 30 * std::sqrt(1.0 / 10);
   double most = 0, square = 0;
   for (int i = 0; i < 10000; ++i) {
-    const Vector3d place = far + Vector3d(i * 1e-6, 0, 0);
-    const Vector3d step = field.gradient(place + Vector3d(1e-6, 0, 0)) - field.gradient(place);
+    const Vector3d position = far + Vector3d(i * 1e-6, 0, 0);
+    const Vector3d step = field.gradient(position + Vector3d(1e-6, 0, 0)) - field.gradient(position);
     most = std::max(most, step.norm());
     square += field.gradient(far + Vector3d(i * 0.1, 0, 0)).squaredNorm() / 10000;
   }
@@ -114,9 +114,9 @@ TEST(MicroRelief, decorrelates_within_the_outer_scale) {
     std::uniform_real_distribution<double> along(-25, 25);
     double product = 0, square = 0;
     for (int i = 0; i < 50000; ++i) {
-      const Vector3d place(along(random), along(random), 0);
-      const Vector3d a = field.gradient(place);
-      product += a.head<2>().dot(field.gradient(place + Vector3d(distance, 0, 0)).head<2>());
+      const Vector3d position(along(random), along(random), 0);
+      const Vector3d a = field.gradient(position);
+      product += a.head<2>().dot(field.gradient(position + Vector3d(distance, 0, 0)).head<2>());
       square += a.head<2>().squaredNorm();
     }
     return product / square;

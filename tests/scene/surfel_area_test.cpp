@@ -273,7 +273,7 @@ TEST(SurfelShapes, of_a_raster_of_heights_do_not_depend_on_the_viewpoint) {
             estimate_surfel_shapes(points, base).area);
 }
 
-// A plane seen aslant from one place, in steps of range of two to four spacings: its area, not that of the steps.
+// A plane seen aslant from one position, in steps of range of two to four spacings: its area, not that of the steps.
 TEST(SurfelShapes, of_points_seen_at_once_are_those_of_their_solid_angles) {
   const Eigen::Vector3d across = Eigen::Vector3d(-1, 0.7, 0.3).normalized();
   const double step = radians(0.25), quantum = 0.05;

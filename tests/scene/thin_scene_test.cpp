@@ -55,14 +55,14 @@ TEST(ThinScene, leaves_surfels_as_far_apart_as_asked) {
 
 TEST(ThinScene, keeps_all_other_fields_of_kept_surfels) {
   const SceneCloud scene = dense_plane(), thinned = thin_scene(scene, 0.2);
-  std::map<std::uint32_t, std::size_t> place;
-  for (std::size_t i = 0; i < scene.size(); ++i) place[scene.id[i]] = i;
+  std::map<std::uint32_t, std::size_t> position;
+  for (std::size_t i = 0; i < scene.size(); ++i) position[scene.id[i]] = i;
   for (std::size_t k = 0; k < thinned.size(); ++k) {
-    const std::size_t i = place.at(thinned.id[k]);
+    const std::size_t i = position.at(thinned.id[k]);
     ASSERT_EQ(thinned.point[k], scene.point[i]);
     ASSERT_EQ(thinned.normal[k], scene.normal[i]);
     ASSERT_GE(thinned.area[k], scene.area[i]);
-    ASSERT_TRUE(k == 0 || place.at(thinned.id[k - 1]) < i);
+    ASSERT_TRUE(k == 0 || position.at(thinned.id[k - 1]) < i);
   }
   EXPECT_EQ(area_by_id(thin_scene(scene, 0.001)), area_by_id(scene));
 }

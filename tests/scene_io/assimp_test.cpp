@@ -76,9 +76,9 @@ class AssimpFile : public testing::Test {
   }
   // Corners of the only triangle, in the order of its winding, in the world.
   static std::array<Vector3d, 3> corners(const SceneMesh& mesh) {
-    std::array<Vector3d, 3> places;
-    for (int k = 0; k < 3; ++k) places[k] = mesh.origin + mesh.point[mesh.triangle.at(0)[k]].cast<double>();
-    return places;
+    std::array<Vector3d, 3> positions;
+    for (int k = 0; k < 3; ++k) positions[k] = mesh.origin + mesh.point[mesh.triangle.at(0)[k]].cast<double>();
+    return positions;
   }
   static Vector3d normal(const std::array<Vector3d, 3>& c) { return (c[1] - c[0]).cross(c[2] - c[0]).normalized(); }
 };

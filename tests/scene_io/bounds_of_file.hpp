@@ -36,8 +36,8 @@ inline bool has_bounds_of_other_reader(const std::string& path) {
     EXPECT_TRUE(loaded.mesh) << path;
     box = {};
     for (const Eigen::Vector3f& p : loaded.mesh->point) {
-      const Eigen::Vector3d place = loaded.mesh->origin + p.cast<double>();
-      box = {box.min.cwiseMin(place), box.max.cwiseMax(place)};
+      const Eigen::Vector3d position = loaded.mesh->origin + p.cast<double>();
+      box = {box.min.cwiseMin(position), box.max.cwiseMax(position)};
     }
     EXPECT_NEAR(area_of_mesh(loaded), found->area, 1e-6 * found->area) << path;
   }

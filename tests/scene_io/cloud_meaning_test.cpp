@@ -8,26 +8,26 @@
 namespace {
 
 /// Positions of a cloud with upright normals.
-using Places = std::vector<Eigen::Vector3d>;
+using Positions = std::vector<Eigen::Vector3d>;
 
-Places level_bed(double x, double y, double step, double z, int side = 32) {
-  Places all;
+Positions level_bed(double x, double y, double step, double z, int side = 32) {
+  Positions all;
   for (int i = 0; i < side * side; ++i)
     all.emplace_back(x + step * (i % side), y + step * (i / side), z - 0.125 * ((7 * i) % 11));
   return all;
 }
 
-std::string rows_as_text(const Places& places, const std::string& heading) {
+std::string rows_as_text(const Positions& positions, const std::string& heading) {
   std::ostringstream text;
   text.precision(12);
   text << heading;
-  for (const Eigen::Vector3d& p : places) text << p.transpose() << " 0 0 1\n";
+  for (const Eigen::Vector3d& p : positions) text << p.transpose() << " 0 0 1\n";
   return text.str();
 }
 
-std::string rows_as_binary(const Places& places) {
+std::string rows_as_binary(const Positions& positions) {
   std::string rows;
-  for (const Eigen::Vector3d& p : places) {
+  for (const Eigen::Vector3d& p : positions) {
     for (int axis = 0; axis < 3; ++axis) rows += bytes_of(p[axis]);
     rows += bytes_of(0.0F) + bytes_of(0.0F) + bytes_of(1.0F);
   }
@@ -35,31 +35,31 @@ std::string rows_as_binary(const Places& places) {
 }
 
 /// Writes the cloud in each format that can be read in batches, and as text. Returns the paths.
-std::vector<std::string> files_of(const Places& places) {
-  const std::string count = std::to_string(places.size());
+std::vector<std::string> files_of(const Positions& positions) {
+  const std::string count = std::to_string(positions.size());
   std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex " + count + "\n";
   for (const char* name : {"x", "y", "z"}) ply += std::string("property double ") + name + "\n";
   for (const char* name : {"nx", "ny", "nz"}) ply += std::string("property float ") + name + "\n";
   LasFile las{.normals = true};
   las.scale = 1e-4;
-  las.offset = places[0].array().round();
+  las.offset = positions[0].array().round();
   las.offset.z() = 0;
-  return {own_file("a.xyz", rows_as_text(places, "x y z nx ny nz\n")),
-          own_file("a.ply", ply + "end_header\n" + rows_as_binary(places)),
+  return {own_file("a.xyz", rows_as_text(positions, "x y z nx ny nz\n")),
+          own_file("a.ply", ply + "end_header\n" + rows_as_binary(positions)),
           own_file("a.pcd",
                    "FIELDS x y z normal_x normal_y normal_z\nSIZE 8 8 8 4 4 4\nTYPE F F F F F F\n"
                    "COUNT 1 1 1 1 1 1\nWIDTH " +
-                       count + "\nHEIGHT 1\nPOINTS " + count + "\nDATA binary\n" + rows_as_binary(places)),
-          own_file("a.las", las.bytes(places))};
+                       count + "\nHEIGHT 1\nPOINTS " + count + "\nDATA binary\n" + rows_as_binary(positions)),
+          own_file("a.las", las.bytes(positions))};
 }
 
 /// Checks the reports of load_scene, prepare_tiles in batches and describe_file for each of these files.
-void expect_of_all(const Places& places, const AskedMeaning& asked,
+void expect_of_all(const Positions& positions, const MeaningOverride& requested,
                    const std::function<void(const LoadReport&, const Bounds&, std::size_t points)>& check) {
-  for (const std::string& path : files_of(places)) {
+  for (const std::string& path : files_of(positions)) {
     SCOPED_TRACE(path);
     LoadOptions options;
-    options.meaning = asked;
+    options.meaning = requested;
     const LoadedScene loaded = load_scene(path, options);
     check(loaded.report, bounds(loaded.scene), loaded.scene.size());
     PrepareTilesOptions tiles;
@@ -69,7 +69,7 @@ void expect_of_all(const Places& places, const AskedMeaning& asked,
     EXPECT_EQ(prepared.streamed, !path.ends_with(".xyz"));
     const TiledScene scene(own_path("a.tiles"));
     check(prepared.report, scene.info().box, scene.info().surfels);
-    const FileDescription file = describe_file(path, asked);
+    const FileDescription file = describe_file(path, requested);
     EXPECT_LT((file.min - bounds(loaded.scene).min).norm(), 1e-3);
     EXPECT_LT((file.max - bounds(loaded.scene).max).norm(), 1e-3);
   }
@@ -79,16 +79,16 @@ void expect_of_all(const Places& places, const AskedMeaning& asked,
 
 TEST(CloudMeaning, undeclared_marks_are_holes) {
   for (const double mark : {-9999.0, -32768.0, -99999.0}) {
-    Places places = level_bed(500000, 6000000, 0.25, -12);
-    for (std::size_t i = 100; i < 116; ++i) places[i].z() = mark;
-    expect_of_all(places, {}, [&](const LoadReport& report, const Bounds& box, std::size_t points) {
-      EXPECT_EQ(points, places.size() - 16);
+    Positions positions = level_bed(500000, 6000000, 0.25, -12);
+    for (std::size_t i = 100; i < 116; ++i) positions[i].z() = mark;
+    expect_of_all(positions, {}, [&](const LoadReport& report, const Bounds& box, std::size_t points) {
+      EXPECT_EQ(points, positions.size() - 16);
       EXPECT_NEAR(box.min.z(), -13.25, 1e-3);
       EXPECT_TRUE(has_note(report, "16 heights are " + std::to_string(static_cast<int>(mark)))) << mark;
     });
-    expect_of_all(places, asked_meaning(&MeaningText::no_data, "none"),
+    expect_of_all(positions, meaning_override(&MeaningText::no_data, "none"),
                   [&](const LoadReport& report, const Bounds& box, std::size_t points) {
-                    EXPECT_EQ(points, places.size());
+                    EXPECT_EQ(points, positions.size());
                     EXPECT_NEAR(box.min.z(), mark, 1e-2);
                     EXPECT_FALSE(has_note(report, ": holes"));
                   });
@@ -96,16 +96,16 @@ TEST(CloudMeaning, undeclared_marks_are_holes) {
 }
 
 TEST(CloudMeaning, a_declared_mark_is_a_hole_and_an_odd_height_stays) {
-  Places places = level_bed(500000, 6000000, 0.25, -12);
-  places[40].z() = -500;
-  expect_of_all(places, {}, [&](const LoadReport& report, const Bounds& box, std::size_t points) {
-    EXPECT_EQ(points, places.size());
+  Positions positions = level_bed(500000, 6000000, 0.25, -12);
+  positions[40].z() = -500;
+  expect_of_all(positions, {}, [&](const LoadReport& report, const Bounds& box, std::size_t points) {
+    EXPECT_EQ(points, positions.size());
     EXPECT_NEAR(box.min.z(), -500, 1e-3);
     EXPECT_TRUE(has_note(report, "heights reach -500 m"));
   });
-  expect_of_all(places, asked_meaning(&MeaningText::no_data, "-500,7"),
+  expect_of_all(positions, meaning_override(&MeaningText::no_data, "-500,7"),
                 [&](const LoadReport&, const Bounds& box, std::size_t points) {
-                  EXPECT_EQ(points, places.size() - 1);
+                  EXPECT_EQ(points, positions.size() - 1);
                   EXPECT_NEAR(box.min.z(), -13.25, 1e-3);
                 });
 }
@@ -120,30 +120,30 @@ TEST(CloudMeaning, numbers_like_degrees_are_noted) {
 }
 
 TEST(CloudMeaning, unit_and_sign_of_the_caller_count_in_batches_too) {
-  AskedMeaning asked = asked_meaning(&MeaningText::unit, "ft");
-  asked.z_down = true;
-  const Places places = level_bed(400, 300, 0.25, 40);
-  expect_of_all(places, asked, [&](const LoadReport&, const Bounds& box, std::size_t points) {
-    EXPECT_EQ(points, places.size());
+  MeaningOverride requested = meaning_override(&MeaningText::unit, "ft");
+  requested.z_down = true;
+  const Positions positions = level_bed(400, 300, 0.25, 40);
+  expect_of_all(positions, requested, [&](const LoadReport&, const Bounds& box, std::size_t points) {
+    EXPECT_EQ(points, positions.size());
     EXPECT_LT((box.min - 0.3048 * Eigen::Vector3d(400, 300, -40)).norm(), 2e-3);
     EXPECT_LT((box.max - 0.3048 * Eigen::Vector3d(407.75, 307.75, -38.75)).norm(), 2e-3);
   });
 }
 
 TEST(CloudMeaning, classes_concern_files_of_classes_alone) {
-  const Places places = level_bed(100, 200, 0.25, -12);
-  for (const std::string& path : files_of(places)) {
+  const Positions positions = level_bed(100, 200, 0.25, -12);
+  for (const std::string& path : files_of(positions)) {
     if (path.ends_with(".las")) continue;
     LoadOptions options;
-    options.meaning = asked_meaning(&MeaningText::classes, "2,9");
-    EXPECT_EQ(load_scene(path, options).scene.size(), places.size()) << path;
+    options.meaning = meaning_override(&MeaningText::classes, "2,9");
+    EXPECT_EQ(load_scene(path, options).scene.size(), positions.size()) << path;
   }
 }
 
 // Fields of a binary file may have headings as well.
 TEST(CloudMeaning, fields_of_depths_and_other_units_are_known_in_batches) {
-  const Places places = level_bed(100, 200, 0.25, 12);
-  for (const std::string& path : files_of(places)) {
+  const Positions positions = level_bed(100, 200, 0.25, 12);
+  for (const std::string& path : files_of(positions)) {
     if (!path.ends_with(".ply") && !path.ends_with(".pcd")) continue;
     const bool ply = path.ends_with(".ply");
     std::string bytes = file_bytes(path);
@@ -174,7 +174,7 @@ TEST(CloudMeaning, a_mesh_on_its_side_is_noted_and_can_be_set_up) {
   const std::string path = own_file("bed.obj", obj.str());
   EXPECT_TRUE(has_note(load_scene(path).report, "give --up y"));
   LoadOptions options;
-  options.meaning = asked_meaning(&MeaningText::up, "y");
+  options.meaning = meaning_override(&MeaningText::up, "y");
   const LoadedScene loaded = load_scene(path, options);
   EXPECT_FALSE(has_note(loaded.report, "give --up y"));
   const Bounds box = bounds(loaded.scene);

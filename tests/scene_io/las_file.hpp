@@ -60,7 +60,7 @@ struct LasFile {
     return las_record("LASF_Spec", 4, body);
   }
 
-  std::string bytes(const std::vector<Eigen::Vector3d>& places) const {
+  std::string bytes(const std::vector<Eigen::Vector3d>& positions) const {
     const std::size_t header_size = minor == 4 ? 375 : 227;
     std::string described = extra_record();
     const auto count_of_records = static_cast<std::uint32_t>(records.size() + (described.empty() ? 0 : 1));
@@ -74,7 +74,7 @@ struct LasFile {
     put(100, bytes_of(count_of_records));
     put(104, std::string(1, static_cast<char>(format)));
     put(105, bytes_of(static_cast<std::uint16_t>(stride())));
-    const auto count = static_cast<std::uint32_t>(places.size() + static_cast<std::size_t>(points));
+    const auto count = static_cast<std::uint32_t>(positions.size() + static_cast<std::size_t>(points));
     if (minor == 4)
       put(247, bytes_of(std::uint64_t{count}));
     else
@@ -82,18 +82,18 @@ struct LasFile {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<int>(axis);
       const auto less = [&](const auto& a, const auto& b) { return a[at] < b[at]; };
-      const auto [low, high] = std::minmax_element(places.begin(), places.end(), less);
+      const auto [low, high] = std::minmax_element(positions.begin(), positions.end(), less);
       put(179 + 16 * axis, bytes_of((*high)[at]));
       put(187 + 16 * axis, bytes_of((*low)[at]));
       put(131 + 8 * axis, bytes_of(scale));
       put(155 + 8 * axis, bytes_of(offset[static_cast<int>(axis)]));
     }
     std::string rows;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
       std::string row(stride(), '\0');
       for (int axis = 0; axis < 3; ++axis)
         row.replace(4 * static_cast<std::size_t>(axis), 4,
-                    bytes_of(static_cast<std::int32_t>(std::lround((places[i] - offset)[axis] / scale))));
+                    bytes_of(static_cast<std::int32_t>(std::lround((positions[i] - offset)[axis] / scale))));
       // Up to format 5 the upper bits of the class are flags.
       row[format < 6 ? 15 : 16] = static_cast<char>(class_of(i) | (format < 6 ? 0x20 : 0));
       // A synthetic point, as above, is not withheld.

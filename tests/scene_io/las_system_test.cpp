@@ -41,7 +41,7 @@ std::vector<std::string> geo_keys(const std::vector<std::pair<int, int>>& keys) 
   return {las_record("LASF_Projection", 34735, body)};
 }
 
-std::vector<Eigen::Vector3d> places_in(double plane, double height) {
+std::vector<Eigen::Vector3d> positions_in(double plane, double height) {
   std::vector<Eigen::Vector3d> all;
   for (int i = 0; i < 64; ++i)
     all.emplace_back((500 + 0.25 * (i % 8)) / plane, (1200 + 0.25 * (i / 8)) / plane,
@@ -62,7 +62,7 @@ LasFile las_of(const SystemCase& with) {
   LasFile las{.minor = 4, .format = 6, .normals = true};
   las.scale = 1e-6;
   las.offset = {0, 0, 0};
-  if (with.plane < 10) las.offset = places_in(with.plane, with.height)[0];
+  if (with.plane < 10) las.offset = positions_in(with.plane, with.height)[0];
   las.records = with.records;
   las.extended = with.extended;
   return las;
@@ -95,11 +95,11 @@ TEST(LasSystem, units_of_the_plane_and_of_heights_become_metres) {
        las_record("LASF_Projection", 2112, plane_wkt(us_ft), true)},
   };
   for (const SystemCase& with : cases) {
-    const std::string path = own_file("a.las", las_of(with).bytes(places_in(with.plane, with.height)));
+    const std::string path = own_file("a.las", las_of(with).bytes(positions_in(with.plane, with.height)));
     const LoadedScene loaded = load_scene(path);
     ASSERT_EQ(loaded.scene.size(), 64u) << with.name;
     for (std::size_t i = 0; i < 64; ++i)
-      EXPECT_LT((world(loaded.scene, i) - places_in(1, 1)[i]).norm(), 2e-3) << with.name << i;
+      EXPECT_LT((world(loaded.scene, i) - positions_in(1, 1)[i]).norm(), 2e-3) << with.name << i;
     EXPECT_TRUE(with.note.empty() ? !has_note(loaded.report, "become metres") : has_note(loaded.report, with.note))
         << with.name;
     PrepareTilesOptions options;
@@ -112,7 +112,7 @@ TEST(LasSystem, units_of_the_plane_and_of_heights_become_metres) {
 
 TEST(LasSystem, has_a_name_and_its_unit_can_be_overridden) {
   const SystemCase utm{"", geo_keys({{1024, 1}, {1025, 1}, {3072, 32632}}), 1, 1, ""};
-  const std::string path = own_file("a.las", las_of(utm).bytes(places_in(1, 1)));
+  const std::string path = own_file("a.las", las_of(utm).bytes(positions_in(1, 1)));
   const auto system_of = [](const FileDescription& file) {
     for (const MeaningItem& item : file.meaning)
       if (item.name == "system") return item.value + "|" + item.origin;
@@ -121,17 +121,17 @@ TEST(LasSystem, has_a_name_and_its_unit_can_be_overridden) {
   EXPECT_EQ(system_of(describe_file(path)), "EPSG:32632 (WGS 84 / UTM zone 32N)|file");
   const SystemCase feet{"", wkt_records(compound_wkt(us_ft, ft)), 1, 1, ""};
   LoadOptions options;
-  options.meaning = asked_meaning(&MeaningText::unit, "m");
-  const LoadedScene metres = load_scene(own_file("b.las", las_of(feet).bytes(places_in(1, 1))), options);
-  EXPECT_LT((world(metres.scene, 0) - places_in(1, 1)[0]).norm(), 2e-3);
+  options.meaning = meaning_override(&MeaningText::unit, "m");
+  const LoadedScene metres = load_scene(own_file("b.las", las_of(feet).bytes(positions_in(1, 1))), options);
+  EXPECT_LT((world(metres.scene, 0) - positions_in(1, 1)[0]).norm(), 2e-3);
 }
 
 TEST(LasSystem, depths_of_the_vertical_axis_are_turned) {
-  std::vector<Eigen::Vector3d> places = places_in(1, 1);
-  for (Eigen::Vector3d& p : places) p.z() = -p.z();
+  std::vector<Eigen::Vector3d> positions = positions_in(1, 1);
+  for (Eigen::Vector3d& p : positions) p.z() = -p.z();
   const SystemCase with{"", wkt_records(compound_wkt(metre, metre, "DOWN")), 1, 1, ""};
-  const LoadedScene loaded = load_scene(own_file("a.las", las_of(with).bytes(places)));
-  EXPECT_LT((world(loaded.scene, 0) - places_in(1, 1)[0]).norm(), 2e-3);
+  const LoadedScene loaded = load_scene(own_file("a.las", las_of(with).bytes(positions)));
+  EXPECT_LT((world(loaded.scene, 0) - positions_in(1, 1)[0]).norm(), 2e-3);
   EXPECT_TRUE(has_note(loaded.report, "heights count downwards by the coordinate system"));
 }
 
@@ -150,12 +150,12 @@ TEST(LasSystem, degrees_are_refused_in_any_record_with_the_zone_to_project_to) {
     tiles.whole_points = 0;
     expect_error(ErrorKind::content, {"degrees"}, [&] { prepare_tiles(path, own_path("a.tiles"), tiles); });
     LoadOptions options;
-    options.meaning = asked_meaning(&MeaningText::unit, "m");
+    options.meaning = meaning_override(&MeaningText::unit, "m");
     EXPECT_EQ(load_scene(path, options).scene.size(), 64u);
   }
 }
 
-// Run the command that the message proposes, on the places as text.
+// Run the command that the message proposes, on the positions as text.
 TEST(LasSystem, degrees_are_projected_by_the_proposed_command) {
   if (std::system("command -v gdaltransform >/dev/null") != 0) GTEST_SKIP() << "gdal-bin is not installed";
   const std::vector<Eigen::Vector3d> degrees = {{7.9, 54.1, -20}, {7.9001, 54.1, -20}, {7.9, 54.1001, -21}};
@@ -168,7 +168,7 @@ TEST(LasSystem, degrees_are_projected_by_the_proposed_command) {
   const LoadedScene loaded = load_scene(own_path("out.xyz"));
   ASSERT_EQ(loaded.scene.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    const UtmPlace utm = utm_place_of({radians(degrees[i].y()), radians(degrees[i].x()), 0}, {32, true});
+    const UtmPosition utm = utm_position_of({radians(degrees[i].y()), radians(degrees[i].x()), 0}, {32, true});
     EXPECT_LT((world(loaded.scene, i) - Eigen::Vector3d(utm.easting, utm.northing, degrees[i].z())).norm(), 1e-3);
   }
 }
@@ -176,7 +176,7 @@ TEST(LasSystem, degrees_are_projected_by_the_proposed_command) {
 TEST(LasSystem, one_that_cannot_be_read_is_named) {
   for (const std::vector<std::string>& records :
        {wkt_records("rubbish"), wkt_records(""), geo_keys({}), {las_record("LASF_Projection", 34735, "abc")}}) {
-    const LoadedScene loaded = load_scene(own_file("a.las", las_of({"", records, 1, 1, ""}).bytes(places_in(1, 1))));
+    const LoadedScene loaded = load_scene(own_file("a.las", las_of({"", records, 1, 1, ""}).bytes(positions_in(1, 1))));
     EXPECT_EQ(loaded.scene.size(), 64u);
   }
   EXPECT_TRUE(has_note(load_scene(own_path("a.las")).report, "the coordinate system of the file cannot be read"));

@@ -27,7 +27,7 @@ struct Drawing {
   unsigned seed = 1;
 };
 
-// Height over the sloping bed [m] at a place [cells].
+// Height over the sloping bed [m] at a position [cells].
 using Shape = std::function<double(const Eigen::Vector2d&)>;
 
 struct Heights {
@@ -42,10 +42,10 @@ Heights draw_heights(const Drawing& d, const Shape& shape) {
   Heights heights;
   for (int j = 0; j < d.side; ++j)
     for (int i = 0; i < d.side; ++i) {
-      const Eigen::Vector2d cells(i + off(random), j + off(random)), place = d.cell * cells;
+      const Eigen::Vector2d cells(i + off(random), j + off(random)), position = d.cell * cells;
       heights.over.push_back(shape({i, j}));
-      heights.truth.push_back(d.level + d.slope.dot(place) + heights.over.back());
-      heights.file.emplace_back(place.x(), place.y(), heights.truth.back() + d.noise * noise(random));
+      heights.truth.push_back(d.level + d.slope.dot(position) + heights.over.back());
+      heights.file.emplace_back(position.x(), position.y(), heights.truth.back() + d.noise * noise(random));
     }
   return heights;
 }

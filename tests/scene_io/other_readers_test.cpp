@@ -149,11 +149,11 @@ TEST(OtherReaders, find_the_bounds_of_a_pcd_and_of_text) {
 
 TEST(OtherReaders, find_the_bounds_of_a_las) {
   LasFile file;
-  std::vector<Vector3d> places;
-  for (const Eigen::Vector3f& p : cloud_points()) places.push_back(file.offset + p.cast<double>());
+  std::vector<Vector3d> positions;
+  for (const Eigen::Vector3f& p : cloud_points()) positions.push_back(file.offset + p.cast<double>());
   for (const int format : {0, 3, 5}) {
     file.format = format;
-    expect_bounds(own_file("a.las", file.bytes(places)));
+    expect_bounds(own_file("a.las", file.bytes(positions)));
   }
 }
 

@@ -113,9 +113,9 @@ bool cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector
 
 /// Returns random points in a random order, in which crossing edges are reversed until none is left.
 Polygon tangle_free(int n, std::mt19937& random) {
-  std::uniform_real_distribution<double> place(0, 10);
+  std::uniform_real_distribution<double> position(0, 10);
   Polygon p;
-  for (int i = 0; i < n; ++i) p.emplace_back(place(random), place(random));
+  for (int i = 0; i < n; ++i) p.emplace_back(position(random), position(random));
   for (bool crossing = true; crossing;) {
     crossing = false;
     for (int i = 0; i < n; ++i)

@@ -33,14 +33,14 @@ std::string header(int columns, int rows, const Pose& scanner) {
   return text + line_of(scanner.translation()) + " 1\n";
 }
 
-Pose scanner_at(const Vector3d& place, double turn) {
+Pose scanner_at(const Vector3d& position, double turn) {
   Pose pose = Pose::Identity();
   pose.rotate(Eigen::AngleAxisd(turn, Vector3d::UnitZ()) * Eigen::AngleAxisd(0.1, Vector3d::UnitX()));
-  pose.pretranslate(place);
+  pose.pretranslate(position);
   return pose;
 }
 
-// Returns the range from a place to a floor at z = -2, a ball and a wall at x = 9, along a unit vector; 0: none.
+// Returns the range from a position to a floor at z = -2, a ball and a wall at x = 9, along a unit vector; 0: none.
 double range_from(const Vector3d& from, const Vector3d& d) {
   double range = d.z() < 0 ? (-2 - from.z()) / d.z() : 1e9;
   if (d.x() > 0) range = std::min(range, (9 - from.x()) / d.x());
@@ -65,7 +65,7 @@ std::string scan_from(const Pose& scanner, double noise, unsigned seed) {
   return text;
 }
 
-// Returns the share of the surfels of a station, by their ids, that a head at its place sees, and the share of the
+// Returns the share of the surfels of a station, by their ids, that a head at its position sees, and the share of the
 // energy that comes from them [dB].
 std::pair<double, double> seen_again(const SceneCloud& scene, const Pose& from, std::size_t begin, std::size_t end) {
   const BeamFan fan = make_fan(64, radians(70), radians(1.5), radians(60));
@@ -108,7 +108,7 @@ TEST(PtxFile, one_scan_is_an_organised_cloud_with_its_viewpoint) {
   EXPECT_EQ(off, 0u);
 }
 
-// A vehicle's yaw turns a head, but a scanner at the same place saw the same: nothing may hide anything.
+// A vehicle's yaw turns a head, but a scanner at the same position saw the same: nothing may hide anything.
 TEST(PtxFile, of_two_stations_is_whole_from_each_of_them) {
   const Pose left = scanner_at({0, 0, 0}, 0.1), right = scanner_at({1, 3.5, 0.5}, -0.3);
   own_file("two.ptx", scan_from(left, 0.03, 1) + scan_from(right, 0.03, 2));

@@ -12,9 +12,9 @@
 
 namespace {
 
-using insonify::AskedMeaning;
 using insonify::LoadedScene;
 using insonify::LoadOptions;
+using insonify::MeaningOverride;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -120,13 +120,13 @@ std::string write_netcdf(const NetcdfFile& file) {
     GDALMDArrayRelease(array);
   };
   for (const int axis : {0, 1}) {
-    std::vector<double> places;
+    std::vector<double> positions;
     for (int i = 0; i < (axis == 0 ? deep : wide); ++i)
-      places.push_back((axis == 0 ? 6000 : 600) * file.step + file.step * i);
+      positions.push_back((axis == 0 ? 6000 : 600) * file.step + file.step * i);
     const GDALMDArrayH array =
         GDALGroupCreateMDArray(root, axis == 0 ? file.y : file.x, 1, &axes[axis], number, nullptr);
     set_attributes(array, file.of_axes);
-    write(array, places, {places.size()});
+    write(array, positions, {positions.size()});
   }
   std::vector<double> heights;
   for (int row = 0; row < deep; ++row)
@@ -148,9 +148,9 @@ std::string write_netcdf(const NetcdfFile& file) {
   return path;
 }
 
-LoadedScene load_as(const std::string& path, const AskedMeaning& asked = {}) {
+LoadedScene load_as(const std::string& path, const MeaningOverride& requested = {}) {
   LoadOptions options;
-  options.meaning = asked;
+  options.meaning = requested;
   options.scan_noise = 0;
   return insonify::load_scene(path, options);
 }
@@ -175,7 +175,7 @@ TEST(RasterMeaning, marks_of_holes_are_holes_though_undeclared) {
 }
 
 TEST(RasterMeaning, marks_of_holes_are_heights_if_asked_for_or_among_others) {
-  AskedMeaning none;
+  MeaningOverride none;
   none.no_data.emplace();
   const std::string marked = write_raster({.name = "marked.tif", .bands = {{.mark = -9999}}});
   expect_heights(load_as(marked, none), wide * deep, -9999, bed_high);
@@ -185,9 +185,9 @@ TEST(RasterMeaning, marks_of_holes_are_heights_if_asked_for_or_among_others) {
 }
 
 TEST(RasterMeaning, marks_that_are_given_are_holes) {
-  AskedMeaning asked;
-  asked.no_data = {{7.5}};
-  expect_heights(load_as(write_raster({.name = "seven.tif", .bands = {{.mark = 7.5}}}), asked), cells_with_height,
+  MeaningOverride requested;
+  requested.no_data = {{7.5}};
+  expect_heights(load_as(write_raster({.name = "seven.tif", .bands = {{.mark = 7.5}}}), requested), cells_with_height,
                  bed_low, bed_high);
 }
 
@@ -230,9 +230,9 @@ TEST(RasterMeaning, feet_become_metres) {
   expect_heights(load_as(write_raster({.name = "high.tif", .bands = {{.unit = "ft"}}, .system = "EPSG:32632"})),
                  wide * deep, 0.3048 * bed_low, 0.3048 * bed_high);
   // The caller knows better.
-  AskedMeaning asked;
-  asked.unit = 1;
-  expect_heights(load_as(write_raster({.name = "feet.tif", .system = "EPSG:2227"}), asked), wide * deep, bed_low,
+  MeaningOverride requested;
+  requested.unit = 1;
+  expect_heights(load_as(write_raster({.name = "feet.tif", .system = "EPSG:2227"}), requested), wide * deep, bed_low,
                  bed_high);
 }
 
@@ -257,10 +257,10 @@ TEST(RasterMeaning, kilometres_of_axes_become_metres) {
 }
 
 TEST(RasterMeaning, depths_are_turned_if_they_are_called_so) {
-  const auto turned = [](const std::string& path, const AskedMeaning& asked = {}) {
-    const LoadedScene loaded = load_as(path, asked);
+  const auto turned = [](const std::string& path, const MeaningOverride& requested = {}) {
+    const LoadedScene loaded = load_as(path, requested);
     expect_heights(loaded, wide * deep, bed_low, bed_high);
-    if (!asked.z_down) {
+    if (!requested.z_down) {
       EXPECT_THAT(loaded.report.notes, Contains(HasSubstr("depths"))) << path;
     }
   };
@@ -277,7 +277,7 @@ TEST(RasterMeaning, depths_are_turned_if_they_are_called_so) {
   const LoadedScene loaded = load_as(plain);
   expect_heights(loaded, wide * deep, -bed_high, -bed_low);
   EXPECT_THAT(loaded.report.notes, Contains(HasSubstr("--z down")));
-  AskedMeaning down;
+  MeaningOverride down;
   down.z_down = true;
   turned(plain, down);
 }
@@ -295,14 +295,14 @@ TEST(RasterMeaning, bands_are_chosen_by_name) {
   expect_heights(loaded, wide * deep, bed_low, bed_high);
   EXPECT_THAT(loaded.report.notes, Contains(HasSubstr("band 2 (elevation)")));
   for (const char* name : {"1", "uncertainty"}) {
-    AskedMeaning asked;
-    asked.band = name;
-    expect_heights(load_as(path, asked), wide * deep, 0.01 * bed_low, 0.01 * bed_high);
+    MeaningOverride requested;
+    requested.band = name;
+    expect_heights(load_as(path, requested), wide * deep, 0.01 * bed_low, 0.01 * bed_high);
   }
-  AskedMeaning asked;
-  asked.band = "backscatter";
+  MeaningOverride requested;
+  requested.band = "backscatter";
   insonify::expect_error(insonify::ErrorKind::content, {"no band 'backscatter'", "2 (elevation)"},
-                         [&] { load_as(path, asked); });
+                         [&] { load_as(path, requested); });
 }
 
 TEST(RasterMeaning, grids_without_attributes_of_axes_are_read) {
@@ -351,7 +351,7 @@ TEST(RasterMeaning, numbers_outside_the_valid_range_of_a_netcdf_are_holes_and_ar
     const LoadedScene loaded = load_as(path);
     expect_heights(loaded, cells_with_height, bed_low, bed_high);
     EXPECT_THAT(loaded.report.notes, Contains(HasSubstr(counted)));
-    AskedMeaning all;
+    MeaningOverride all;
     all.no_data.emplace();
     EXPECT_EQ(load_as(path, all).scene.size(), static_cast<std::size_t>(wide * deep));
   }

@@ -90,16 +90,16 @@ Grid<double> net_hidden(const LoadedScene& loaded) {
   Grid<double> net = Grid<double>::Zero(1, bands), to_see = net;
   const Medium medium = medium_of(Water{}, 450e3);
   for (std::size_t i = 0; i < all.size(); i += 5) {
-    Eigen::Vector3d place = scene.origin + scene.point[all.surfel[i]].cast<double>();
-    place.z() = bed().at(place.head<2>());
-    if (!std::isfinite(place.z()) || !(all.projected_area[i] > 0)) continue;
-    const double heard =
+    Eigen::Vector3d position = scene.origin + scene.point[all.surfel[i]].cast<double>();
+    position.z() = bed().at(position.head<2>());
+    if (!std::isfinite(position.z()) || !(all.projected_area[i] > 0)) continue;
+    const double beam_azimuth =
         heard_by_definition(all.range[i] * unit_vector({all.azimuth[i], all.elevation[i]}), all.cos_incidence[i],
                             all.projected_area[i] / all.cos_incidence[i], 1, head(), medium);
     const auto band = std::min(bands - 1, static_cast<Eigen::Index>((all.range[i] - 0.6) / 2.5 * bands));
-    const bool open = bed().in_view(place, pose().translation());
-    to_see(band) += open ? heard : 0;
-    net(band) += heard * ((open ? 1 : 0) - shown[all.surfel[i]]);
+    const bool open = bed().in_view(position, pose().translation());
+    to_see(band) += open ? beam_azimuth : 0;
+    net(band) += beam_azimuth * ((open ? 1 : 0) - shown[all.surfel[i]]);
   }
   return net / to_see;
 }
@@ -160,8 +160,8 @@ TEST(RoughGround, with_noise_of_a_spacing_is_as_rough_as_it_is) {
 
 TEST(RoughGround, is_heard_as_it_is_by_a_head_5_cm_above_it_at_a_degree_of_grazing) {
   const HeightField smooth = rough_field({.half = 1.5, .shortest = 0.5, .boulders = 0, .terraces = false});
-  const Eigen::Vector2d place(-1.3, 0.2);
-  const Pose low = pose_from_yaw_pitch_roll({place.x(), place.y(), smooth.at(place) + 0.05}, 0, radians(1), 0);
+  const Eigen::Vector2d position(-1.3, 0.2);
+  const Pose low = pose_from_yaw_pitch_roll({position.x(), position.y(), smooth.at(position) + 0.05}, 0, radians(1), 0);
   const LoadedScene raster = load_scene(own_file("low.xyz", text_of(draw_points(smooth))), from_above());
   const LoadedScene points =
       load_scene(own_file("low.xyz", text_of(draw_points(smooth, {.jitter = 0.35}))), from_above());

@@ -26,8 +26,8 @@ double range_along(const Vector3d& d) {
 }
 
 /// Returns the text of an organised PCD of so many columns and rows; `viewpoint` is a line of the header, or empty.
-template <typename Place>
-std::string organised(int columns, int rows, const std::string& viewpoint, Place&& place) {
+template <typename Position>
+std::string organised(int columns, int rows, const std::string& viewpoint, Position&& position) {
   std::ostringstream text;
   text << "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " << columns << "\nHEIGHT " << rows
        << "\n"
@@ -35,7 +35,7 @@ std::string organised(int columns, int rows, const std::string& viewpoint, Place
   text.precision(9);
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
-      const Vector3d p = place(column, row);
+      const Vector3d p = position(column, row);
       text << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
     }
   return text.str();
@@ -80,9 +80,9 @@ bool described(const std::string& path, const std::string& part) {
 
 TEST(ScanSide, of_an_organised_scan_is_that_of_the_origin_that_it_fans_out_from) {
   int scans = 0;
-  for (const auto& place : {turning, pictured}) {
+  for (const auto& position : {turning, pictured}) {
     const std::string path =
-        own_file("scan.pcd", organised(scan_columns, scan_rows, "VIEWPOINT 0 0 0 1 0 0 0\n", place));
+        own_file("scan.pcd", organised(scan_columns, scan_rows, "VIEWPOINT 0 0 0 1 0 0 0\n", position));
     const LoadedScene found = load_scene(path);
     ASSERT_TRUE(found.report.viewpoint) << scans;
     EXPECT_EQ(*found.report.viewpoint, Vector3d::Zero());

@@ -33,7 +33,7 @@ inline double area_of_mesh(const LoadedScene& loaded) {
 }
 
 /// Returns a caller's statement about one item of a file's meaning.
-inline AskedMeaning asked_meaning(std::string MeaningText::*item, const std::string& text) {
+inline MeaningOverride meaning_override(std::string MeaningText::*item, const std::string& text) {
   MeaningText said;
   said.*item = text;
   return parse_meaning(said);

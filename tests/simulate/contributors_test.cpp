@@ -155,9 +155,9 @@ TEST(SimulatedContributors, of_the_harbour_stand_where_the_pixel_looks) {
     const std::size_t at = p.outputs.contributors.at(p.soundings.beam[i], p.soundings.bin[i]);
     ASSERT_NE(p.outputs.contributors.surfel[at], Contributors::none);
     const std::uint32_t s = p.outputs.contributors.surfel[at];
-    const Eigen::Vector3d place = pose.inverse() * (scene.origin + scene.point[s].cast<double>());
-    const double off = direction_of(place).azimuth - contributing_head.fan.azimuth[p.soundings.beam[i]];
-    near += std::abs(place.norm() - static_cast<double>(p.soundings.range[i])) < 0.3 && std::abs(off) < radians(4);
+    const Eigen::Vector3d position = pose.inverse() * (scene.origin + scene.point[s].cast<double>());
+    const double off = direction_of(position).azimuth - contributing_head.fan.azimuth[p.soundings.beam[i]];
+    near += std::abs(position.norm() - static_cast<double>(p.soundings.range[i])) < 0.3 && std::abs(off) < radians(4);
   }
   ASSERT_GT(of_surfels, 100U);
   EXPECT_GT(near, 0.9 * static_cast<double>(of_surfels));

@@ -186,10 +186,10 @@ TEST(DisplayPing, of_few_samples_is_formed_as_well_as_a_display_shows) {
   // Settings of the caller stay.
   EXPECT_EQ(decided(display(true)).sampling.scatterers_per_cell, SamplingOptions{}.scatterers_per_cell);
   EXPECT_EQ(decided(display(true)).synthesis.tolerance, SynthesisSettings{}.tolerance);
-  SimulationOptions asked = display(false);
-  asked.sampling.scatterers_per_cell = 5, asked.synthesis.tolerance = 1e-5;
-  EXPECT_EQ(decided(asked).sampling.scatterers_per_cell, 5);
-  EXPECT_EQ(decided(asked).synthesis.tolerance, 1e-5);
+  SimulationOptions requested = display(false);
+  requested.sampling.scatterers_per_cell = 5, requested.synthesis.tolerance = 1e-5;
+  EXPECT_EQ(decided(requested).sampling.scatterers_per_cell, 5);
+  EXPECT_EQ(decided(requested).synthesis.tolerance, 1e-5);
 
   // Level and contrast are those of all scatterers at the usual tolerance.
   Moments coarse, all;

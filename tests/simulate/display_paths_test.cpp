@@ -13,7 +13,7 @@ namespace insonify::display_path_tests {
 constexpr int cells = 24;
 
 /// A head that looks along a bed at z = 0 from x = -5, in an environment.
-struct Place {
+struct Position {
   SceneCloud scene = make_built_in_scene("plane", {.points = 40000, .size = {20, 24}});
   SonarHead head = small_head({.beams = 24,
                                .field_of_view_deg = 60,
@@ -25,7 +25,7 @@ struct Place {
   SimulationOptions options{};
   Pose pose = pose_from_yaw_pitch_roll({-5, 0, 3}, 0.1, 0.3, 0);
 
-  Place() { options.outputs.display_bins = cells, options.outputs.layers = true; }
+  Position() { options.outputs.display_bins = cells, options.outputs.layers = true; }
   SimulatedPing ping(bool phases, std::uint64_t seed = 1) const {
     SimulationOptions o = options;
     o.seed = seed, o.synthesis.phases = phases;
@@ -45,15 +45,15 @@ struct Place {
 };
 
 /// Returns a free surface a metre above the head: paths by it are nearly as loud as direct ones.
-Place below_a_surface() {
-  Place place;
-  place.environment.surface = SeaSurface{4, 1e-4};
-  place.options.effects.multipath = Choice::always;
-  return place;
+Position below_a_surface() {
+  Position position;
+  position.environment.surface = SeaSurface{4, 1e-4};
+  position.options.effects.multipath = Choice::always;
+  return position;
 }
 
-void expect_same_levels(const Place& place, const std::string& name, int seeds, double total_db, double band_db) {
-  const Grid<double> drawn = place.layer(name, false, seeds), samples = place.layer(name, true, seeds);
+void expect_same_levels(const Position& position, const std::string& name, int seeds, double total_db, double band_db) {
+  const Grid<double> drawn = position.layer(name, false, seeds), samples = position.layer(name, true, seeds);
   ASSERT_GT(samples.sum(), 0);
   EXPECT_NEAR(db_from_power(drawn.sum() / samples.sum()), 0, total_db);
   for (int band = 0; band + 4 <= cells; band += 4) {
@@ -68,53 +68,53 @@ TEST(DisplayPaths, both_senses_by_a_boundary_add_up_as_pressures) {
 }
 
 TEST(DisplayPaths, both_senses_add_less_where_a_beam_hears_one) {
-  Place place = below_a_surface();
+  Position position = below_a_surface();
   // Rolled, directions out and back differ along the array by about half the width of a beam.
-  place.pose = pose_from_yaw_pitch_roll({-5, 0, 3}, 0.1, 0.3, 0.12);
-  expect_same_levels(place, "multipath", 10, 0.15, 0.5);
+  position.pose = pose_from_yaw_pitch_roll({-5, 0, 3}, 0.1, 0.3, 0.12);
+  expect_same_levels(position, "multipath", 10, 0.15, 0.5);
 }
 
 TEST(DisplayPaths, layers_are_of_their_own_echoes_and_the_sum_of_all) {
-  Place place = below_a_surface();
-  place.options.effects.noise = true;
-  const SimulatedPing all = place.ping(false);
+  Position position = below_a_surface();
+  position.options.effects.noise = true;
+  const SimulatedPing all = position.ping(false);
   ASSERT_EQ(all.ping.layers.size(), 3u);
   EXPECT_EQ(all.ping.layers[1].name, "multipath");
   EXPECT_EQ(all.ping.layers[2].name, "noise");
   double energy = 0;
   for (const Layer& layer : all.ping.layers) energy += layer.pressure.cast<std::complex<double>>().abs2().sum();
   EXPECT_NEAR(db_from_power(all.ping.pressure.cast<std::complex<double>>().abs2().sum() / energy), 0, 0.3);
-  place.options.effects.multipath = Choice::never, place.options.effects.noise = false;
-  const SimulatedPing direct = place.ping(false);
+  position.options.effects.multipath = Choice::never, position.options.effects.noise = false;
+  const SimulatedPing direct = position.ping(false);
   EXPECT_TRUE((direct.ping.pressure == all.ping.layers[0].pressure).all());
   EXPECT_TRUE((direct.ping.layers[0].pressure == direct.ping.pressure).all());
 }
 
 TEST(DisplayPaths, mirrors_show_ghosts_and_glints) {
-  Place place;
-  place.environment.mirrors = {with_size({.name = "wall", .place = {5, 0, 3}, .normal = {-1, 0, 0}}, 30, 6)};
-  place.options.effects.mirrors = Choice::always;
-  place.pose = pose_from_yaw_pitch_roll({-5, 0, 3}, 0, 0.1, 0);
-  expect_same_levels(place, "mirrors", 4, 0.3, 0.5);
+  Position position;
+  position.environment.mirrors = {with_size({.name = "wall", .position = {5, 0, 3}, .normal = {-1, 0, 0}}, 30, 6)};
+  position.options.effects.mirrors = Choice::always;
+  position.pose = pose_from_yaw_pitch_roll({-5, 0, 3}, 0, 0.1, 0);
+  expect_same_levels(position, "mirrors", 4, 0.3, 0.5);
 }
 
 TEST(DisplayPaths, double_echoes_add_up_as_pressures) {
   if (!SurfaceRays::available()) GTEST_SKIP() << "built without Embree";
-  Place place;
-  place.scene = SceneCloud{};
-  place.scene.materials = {{"bed", 0.1}};
+  Position position;
+  position.scene = SceneCloud{};
+  position.scene.materials = {{"bed", 0.1}};
   // A bed of 4 m that ends at a wall.
   for (const bool wall : {false, true})
     for (std::uint64_t i = 0; i < 10000; ++i) {
-      const auto at = random_uniform(3, RandomStage::scene_points, {place.scene.size(), 0, 0});
+      const auto at = random_uniform(3, RandomStage::scene_points, {position.scene.size(), 0, 0});
       const double a = 0.04 * (static_cast<double>(i % 100) + at[0]),
                    b = 0.04 * (static_cast<double>(i / 100) + at[1]) - 2;
-      add_surfel(place.scene, wall ? Eigen::Vector3d(5, b, a) : Eigen::Vector3d(5 - a, b, 0),
+      add_surfel(position.scene, wall ? Eigen::Vector3d(5, b, a) : Eigen::Vector3d(5 - a, b, 0),
                  Eigen::Vector3d(wall ? -1 : 0, 0, wall ? 0 : 1), 1.6e-3, 0);
     }
-  place.pose = pose_from_yaw_pitch_roll({-3, 0, 2}, 0, 0.15, 0);
-  place.options.effects.double_echoes = 4;
-  expect_same_levels(place, "double-echoes", 10, 0.3, 0.8);
+  position.pose = pose_from_yaw_pitch_roll({-3, 0, 2}, 0, 0.15, 0);
+  position.options.effects.double_echoes = 4;
+  expect_same_levels(position, "double-echoes", 10, 0.3, 0.8);
 }
 
 }  // namespace insonify::display_path_tests

@@ -117,7 +117,7 @@ TEST(EdgeBeams, of_a_wide_band_hear_all_the_water_that_further_lobes_do) {
 
   // Energy of a steered beam from all directions ahead, at a part f of the carrier.
   const std::vector<double>& shading = head.array.shading;
-  const auto heard = [&](std::size_t beam, double f) {
+  const auto beam_azimuth = [&](std::size_t beam, double f) {
     double sum = 0;
     for (int k = 0; k < 720; ++k)
       for (int j = -8; j <= 8; ++j) {
@@ -136,9 +136,9 @@ TEST(EdgeBeams, of_a_wide_band_hear_all_the_water_that_further_lobes_do) {
     for (int n = -12; n <= 12; ++n) {
       const double x = 0.25 * n, part = std::exp(-0.5 * x * x),
                    deviation = spec.bandwidth / std::sqrt(8 * std::numbers::ln2);
-      expected += part * heard(beam, 1 + x * deviation / spec.centre_frequency), parts += part;
+      expected += part * beam_azimuth(beam, 1 + x * deviation / spec.centre_frequency), parts += part;
     }
-    const double closed = db_from_power(expected / parts / heard(beam, 1));
+    const double closed = db_from_power(expected / parts / beam_azimuth(beam, 1));
     const std::size_t other = 23 - beam;
     const double found = db_from_power((wide[beam] + wide[other]) / (narrow[beam] + narrow[other]));
     EXPECT_NEAR(found, closed, 0.3) << beam;

@@ -67,7 +67,7 @@ TEST(ForMany, follows_from_neither_threads_nor_the_display) {
   EXPECT_EQ(detail_for(100, large_harbour(), {}, 50), Choice::always);
 }
 
-// Nodes as wide as the strips of a fence are heard as a whole or not at all.
+// Nodes as wide as the strips of a fence are received as a whole or not at all.
 TEST(ForMany, leaves_surfels_where_nodes_are_off_in_a_band) {
   const PingSimulator decided = simulator_for_many().for_many(100, wall_behind_a_fence(), {Pose::Identity()});
   EXPECT_EQ(decided.options().sampling.detail, Choice::never);
@@ -75,8 +75,8 @@ TEST(ForMany, leaves_surfels_where_nodes_are_off_in_a_band) {
 
 TEST(ForMany, merges_as_where_it_is_asked_for) {
   const PingSimulator decided = simulator_for_many().for_many(100, large_harbour(), {over_many}),
-                      asked = simulator_for_many({.sampling = {.detail_width = usual_detail_width}});
-  const SimulatedPing a = decided.ping(large_harbour(), {over_many}), b = asked.ping(large_harbour(), {over_many});
+                      requested = simulator_for_many({.sampling = {.detail_width = usual_detail_width}});
+  const SimulatedPing a = decided.ping(large_harbour(), {over_many}), b = requested.ping(large_harbour(), {over_many});
   EXPECT_GT(a.report.sampling.merged_to, 0U);
   EXPECT_TRUE((a.ping.pressure == b.ping.pressure).all());
 }

@@ -68,7 +68,7 @@ TEST(LikeWithLike, no_stage_splits_what_is_in_view_in_another_way) {
       std::size_t others = 0;
       for (const auto& [id, area] : alone) {
         const auto same = with.find(id);
-        // Bent rays change what comes back from a patch, not its place in the list.
+        // Refracted rays change what comes back from a patch, not its position in the list.
         others += same == with.end() || (std::string(stage) != "refraction" && same->second != area);
       }
       EXPECT_EQ(others, 0U) << stage << ", " << beams << " beams, of " << alone.size();

@@ -65,12 +65,12 @@ TEST(MirrorsPing, a_post_before_a_wall_has_a_ghost_at_the_range_of_its_image) {
 TEST(MirrorsPing, the_walls_own_echo_has_the_level_of_the_heads_image) {
   GhostCase c;
   c.head = small_head({.beams = 31, .field_of_view_deg = 30, .min_range = 15, .max_range = 35}, 1500);
-  const double place = c.head.gate.centre(c.head.gate.bins() / 2);  // where a beam and a bin are
-  c.environment.mirrors[0].place.x() = place;
+  const double position = c.head.gate.centre(c.head.gate.bins() / 2);  // where a beam and a bin are
+  c.environment.mirrors[0].position.x() = position;
   const SimulatedPing p = c.ping();
   const double peak = layer_of(p, "mirrors").abs().maxCoeff();
-  const double expected = c.head.pulse.source_level_db + db_from_amplitude(0.7 / (2 * place)) -
-                          2 * place * p.report.medium.absorption.a0 / nepers_per_db;
+  const double expected = c.head.pulse.source_level_db + db_from_amplitude(0.7 / (2 * position)) -
+                          2 * position * p.report.medium.absorption.a0 / nepers_per_db;
   EXPECT_NEAR(pressure_level_db(peak), expected, 0.2);
 }
 

@@ -102,10 +102,10 @@ TEST(PartLabels, have_the_places_where_a_fan_draws_a_sphere) {
   PartView::Extent ahead{1e9, -1e9}, port{1e9, -1e9};
   for (int i = 0; i < 200000; ++i) {
     const double z = 1 - (i + 0.5) / 100000, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
-    const Vector3d normal(r * std::cos(turn), r * std::sin(turn), z), place = middle + 0.3 * normal;
-    if (normal.dot(place) > 0) continue;
+    const Vector3d normal(r * std::cos(turn), r * std::sin(turn), z), position = middle + 0.3 * normal;
+    if (normal.dot(position) > 0) continue;
     // The picture draws the cone of the beam: at the range of the sphere, and as far to port.
-    const Eigen::Vector2d drawn(std::sqrt(place.squaredNorm() - place.y() * place.y()), place.y());
+    const Eigen::Vector2d drawn(std::sqrt(position.squaredNorm() - position.y() * position.y()), position.y());
     ahead = {std::min(ahead.least, drawn.x()), std::max(ahead.most, drawn.x())};
     port = {std::min(port.least, drawn.y()), std::max(port.most, drawn.y())};
   }
@@ -115,7 +115,7 @@ TEST(PartLabels, have_the_places_where_a_fan_draws_a_sphere) {
   EXPECT_NEAR(view.port.most, port.most, 0.02);
   // The sector of its ranges and azimuths reaches further.
   EXPECT_GT(view.range.most * std::sin(view.azimuth.most), port.most + 0.05);
-  EXPECT_LT(view.heard.most, view.azimuth.most - 0.005);
+  EXPECT_LT(view.beam_azimuth.most, view.azimuth.most - 0.005);
 }
 
 /// Returns a body between two corners, as a mesh and surfels 5 cm apart.
@@ -144,7 +144,7 @@ TEST(PartLabels, bound_a_mesh_by_faces_that_are_nearly_edge_on) {
     EXPECT_NEAR(view.ahead.most, std::hypot(6.5, below), 1e-3) << below;
     EXPECT_NEAR(view.port.most, 0.3, 1e-3) << below;
     EXPECT_NEAR(view.port.least, -0.3, 1e-3) << below;
-    EXPECT_NEAR(view.heard.most, std::asin(0.3 / std::hypot(5.5, 0.3, below)), 1e-3) << below;
+    EXPECT_NEAR(view.beam_azimuth.most, std::asin(0.3 / std::hypot(5.5, 0.3, below)), 1e-3) << below;
     EXPECT_NEAR(view.elevation.least, -std::atan2(0.3, 5.5), 1e-3) << below;
     EXPECT_EQ(view.visible_share, 1) << below;
   }

@@ -6,9 +6,9 @@
 
 namespace insonify::ping_limits {
 
-SceneCloud one_surfel(const Eigen::Vector3d& place, const Eigen::Vector3d& normal, double area = 0.01) {
+SceneCloud one_surfel(const Eigen::Vector3d& position, const Eigen::Vector3d& normal, double area = 0.01) {
   SceneCloud scene;
-  add_surfel(scene, place, normal, area);
+  add_surfel(scene, position, normal, area);
   return scene;
 }
 

@@ -29,7 +29,7 @@ class ShadowOnABed : public testing::Test {
   }
   void make_steel() { std::fill(scene.material.begin() + static_cast<std::ptrdiff_t>(bed), scene.material.end(), 1); }
 
-  SimulatedPing heard(SynthesisMethod method) const {
+  SimulatedPing beam_azimuth(SynthesisMethod method) const {
     SimulationOptions options;
     options.synthesis.method = method;
     options.outputs.contributors = 1;
@@ -104,7 +104,7 @@ TEST_F(ShadowOnABed, of_a_wall_is_as_long_as_its_height_says) {
   const auto wall = [&](double range, double u) {
     return range > top - 0.05 && range < base + 0.05 && std::abs(u) < 0.2;
   };
-  const SimulatedPing expected = heard(SynthesisMethod::incoherent);
+  const SimulatedPing expected = beam_azimuth(SynthesisMethod::incoherent);
   const Counted c = count(expected.ping.labels, hidden, wall);
   EXPECT_GT(c.shadow, 1000U);
   EXPECT_EQ(c.shadow_amiss, 0U);
@@ -118,7 +118,9 @@ TEST_F(ShadowOnABed, of_a_wall_is_as_long_as_its_height_says) {
   }
   EXPECT_EQ(expected.ping.labels.material(24, static_cast<Eigen::Index>((top + 0.05 - 5) / head.gate.bin_size)), 1);
   EXPECT_LT(shadow_level(expected, hidden, base + 0.2, std::hypot(end, head_height) - 0.1), -20);
-  EXPECT_LT(shadow_level(heard(SynthesisMethod::gridded), hidden, base + 0.2, std::hypot(end, head_height) - 0.1), -18);
+  EXPECT_LT(
+      shadow_level(beam_azimuth(SynthesisMethod::gridded), hidden, base + 0.2, std::hypot(end, head_height) - 0.1),
+      -18);
 }
 
 // A sphere hides what lies beyond it on the lines that meet it.
@@ -136,7 +138,7 @@ TEST_F(ShadowOnABed, of_a_sphere_is_where_lines_of_sight_meet_it) {
   const auto sphere = [&](double range, double u) {
     return range > far - radius - 0.05 && range < far + radius + 0.05 && std::abs(u - 0.1 / far) < 0.1;
   };
-  const SimulatedPing expected = heard(SynthesisMethod::incoherent);
+  const SimulatedPing expected = beam_azimuth(SynthesisMethod::incoherent);
   const Counted c = count(expected.ping.labels, hidden, sphere);
   EXPECT_GT(c.shadow, 300U);
   EXPECT_EQ(c.shadow_amiss, 0U);
@@ -150,7 +152,7 @@ TEST_F(ShadowOnABed, of_rays_is_that_of_surfels) {
   const Eigen::Vector3d centre(6, 0.1, 0.6);
   add_sphere(scene, centre, 0.35, 6000);
   make_steel();
-  const PixelLabels surfels = heard(SynthesisMethod::incoherent).ping.labels;
+  const PixelLabels surfels = beam_azimuth(SynthesisMethod::incoherent).ping.labels;
   SimulationOptions options;
   options.outputs.contributors = 1;
   options.sampling.kind = SamplingKind::rays, options.sampling.rays_per_beam = 64;

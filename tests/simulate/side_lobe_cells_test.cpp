@@ -70,7 +70,7 @@ TEST(SideLobeCells, have_the_speckle_of_many_scatterers) {
   EXPECT_NEAR(squares / (mean * mean), 2, 0.2);  // <I^2> of an exponential distribution
 }
 
-// Bent rays come from other directions, a turning head receives elsewhere, a sparse array has further lobes: whether
+// Refracted rays come from other directions, a turning head receives elsewhere, a sparse array has further lobes: whether
 // the stages that say so are in or out. Bounces have scatterers of their own.
 TEST(SideLobeCells, are_those_of_main_lobes_where_echoes_may_be_as_loud) {
   const auto margin_of = [](const SonarHead& head, const SimulationOptions& options, const Environment& environment,

@@ -42,7 +42,7 @@ double energy_of_ping(const OneSurfel& surfel, const SonarHead& head = single_be
   return p.ping.pressure.cast<std::complex<double>>().abs2().sum();
 }
 
-double heard_of(const OneSurfel& surfel, const SonarHead& head = single_beam) {
+double received_from(const OneSurfel& surfel, const SonarHead& head = single_beam) {
   const SceneCloud scene = scene_of(surfel);
   const ResolvedPing ping = resolve_ping(PreparedScene(scene).whole(), head, {}, {}, all_directions());
   return surfel_energy(ping, scene.materials)
@@ -56,11 +56,11 @@ TEST(SurfelEnergy, is_the_energy_of_echoes_up_to_a_factor) {
   // Whole bins apart, since a sum over bins depends on where between two of them an echo lies.
   const double bins = std::round(3.5 / single_beam.gate.bin_size) * single_beam.gate.bin_size;
   for (const SonarHead& head : {single_beam, fan}) {
-    const double factor = energy_of_ping({}, head) / heard_of({}, head);
+    const double factor = energy_of_ping({}, head) / received_from({}, head);
     for (const OneSurfel& surfel :
          {OneSurfel{.range = 6 - bins}, OneSurfel{.range = 6 + bins}, OneSurfel{.elevation = radians(20)},
           OneSurfel{.elevation = radians(-35)}, OneSurfel{.tilt = radians(60)}, OneSurfel{.material = 1}})
-      EXPECT_NEAR(energy_of_ping(surfel, head) / heard_of(surfel, head), factor, 1e-4 * factor)
+      EXPECT_NEAR(energy_of_ping(surfel, head) / received_from(surfel, head), factor, 1e-4 * factor)
           << head.fan.beams() << " beams, " << surfel.range << " m, elevation " << surfel.elevation << ", tilt "
           << surfel.tilt;
   }
@@ -68,16 +68,16 @@ TEST(SurfelEnergy, is_the_energy_of_echoes_up_to_a_factor) {
 
 TEST(SurfelEnergy, is_a_mean_over_a_beam_width_to_either_side) {
   const auto mean_of = [](double u, const auto& energy) {
-    constexpr int places = 41;
+    constexpr int positions = 41;
     double sum = 0;
-    for (int k = 0; k < places; ++k)
-      sum += energy(OneSurfel{.u = u + single_beam.fan.beam_width * (2.0 * k / (places - 1) - 1)}) / places;
+    for (int k = 0; k < positions; ++k)
+      sum += energy(OneSurfel{.u = u + single_beam.fan.beam_width * (2.0 * k / (positions - 1) - 1)}) / positions;
     return sum;
   };
   const auto of_ping = [](const OneSurfel& surfel) { return energy_of_ping(surfel); };
-  const double factor = mean_of(0, of_ping) / heard_of({});
+  const double factor = mean_of(0, of_ping) / received_from({});
   for (const double u : {0.1, -0.3, 0.6})
-    EXPECT_NEAR(mean_of(u, of_ping) / heard_of({.u = u}), factor, 0.1 * factor) << u;
+    EXPECT_NEAR(mean_of(u, of_ping) / received_from({.u = u}), factor, 0.1 * factor) << u;
 }
 
 TEST(SurfelEnergy, is_left_open_where_parts_must_be_as_many_as_cells_ask_for) {

@@ -28,10 +28,10 @@ NamedContributors make_contributors() {
 
 // Returns the connected parts of the material of the strongest contributors.
 Grid<std::uint32_t> objects_of(const Contributors& c) {
-  return connected_parts(material_image(c).unaryExpr([](std::uint16_t material) {
+  return connected_groups(material_image(c).unaryExpr([](std::uint16_t material) {
     return material == Contributors::no_material ? 0 : std::uint32_t{material} + 1;
   }),
-                         1);
+                          1);
 }
 
 std::string write(const NamedContributors& named, const std::string& name = "c.h5") {

@@ -38,7 +38,7 @@ Cube full_cube() {
     ping.labels.second = Grid<std::uint16_t>::Zero(rows, columns);
     ping.labels.part = Grid<std::uint16_t>::Zero(rows, columns);
     ping.labels.part_names = {"bed"}, ping.labels.part_labels = {""}, ping.labels.views.resize(1);
-    ping.scan = ScanPlace{0, 0.5};
+    ping.scan = ScanDirection{0, 0.5};
     ping.expected_level = true;
     ping.fan.row_width = 0.02;
   }

@@ -27,7 +27,7 @@ PixelLabels labels_like(const Ping& ping) {
   PartView& tyre = labels.views[2];
   tyre.world_from_part = pose_from_yaw_pitch_roll({1, 2, static_cast<double>(ping.number)}, 0.1, 0.2, 0.3);
   tyre.visible_share = 0.25, tyre.azimuth = {-0.1, 0.2}, tyre.elevation = {0.3, 0.4}, tyre.range = {5, 6};
-  tyre.heard = {-0.09, 0.19}, tyre.ahead = {4.5, 5.5}, tyre.port = {-0.5, 1}, tyre.scale = 1.25,
+  tyre.beam_azimuth = {-0.09, 0.19}, tyre.ahead = {4.5, 5.5}, tyre.port = {-0.5, 1}, tyre.scale = 1.25,
   tyre.size = {0.6, 0.6, 0.2};
   return labels;
 }
@@ -55,7 +55,8 @@ void expect_parts(const Ping& ping) {
   EXPECT_EQ(a.world_from_part.matrix(), b.world_from_part.matrix());
   EXPECT_EQ(a.visible_share, b.visible_share);
   EXPECT_EQ(std::tie(a.azimuth, a.elevation, a.range), std::tie(b.azimuth, b.elevation, b.range));
-  EXPECT_EQ(std::tie(a.heard, a.ahead, a.port, a.scale, a.size), std::tie(b.heard, b.ahead, b.port, b.scale, b.size));
+  EXPECT_EQ(std::tie(a.beam_azimuth, a.ahead, a.port, a.scale, a.size),
+            std::tie(b.beam_azimuth, b.ahead, b.port, b.scale, b.size));
 }
 
 TEST(CubeOfParts, comes_back_bit_for_bit) {

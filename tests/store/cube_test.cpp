@@ -44,7 +44,7 @@ TEST(Cube, is_read_ping_by_ping_as_it_is_as_a_whole) {
     ping.layers = {{"direct", ping.pressure * 0.5F}, {"noise", ping.pressure * 0.25F}};
     ping.split_phase = ping.pressure.real();
     ping.intensity = ping.pressure.abs2();
-    ping.scan = ScanPlace{ping.number / 2, 0.1 * static_cast<double>(ping.number)};
+    ping.scan = ScanDirection{ping.number / 2, 0.1 * static_cast<double>(ping.number)};
   }
   const std::string path = write(cube);
   std::size_t p = 0;

@@ -145,14 +145,14 @@ TEST(MissionFile, reads_trajectories_of_other_programs) {
   own_file("way.tum", "# time x y z qx qy qz qw\n100 1 2 3 0 0 0.70710678 0.70710678\n110 5 2 3 0 0 1 0\n");
   const Trajectory tum = with_trajectory("file = \"way.tum\"\ntime_offset_s = -100").mission.trajectory;
   EXPECT_EQ(tum.time, (std::vector<double>{0, 10}));
-  EXPECT_NEAR(head_place(tum.pose[0]).yaw, pi / 2, 1e-7);
+  EXPECT_NEAR(pose_angles(tum.pose[0]).yaw, pi / 2, 1e-7);
 }
 
 TEST(MissionFile, turns_from_179_to_181_degrees_by_the_short_way) {
   own_file("way.csv", "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,0,0,0,179,0,0\n10,0,0,0,-177,0,0\n");
   const Trajectory t = with_trajectory("file = \"way.csv\"").mission.trajectory;
-  EXPECT_NEAR(degrees(head_place(pose_at(t, 2)).yaw), 179.8, 1e-9);
-  EXPECT_NEAR(degrees(head_place(pose_at(t, 5)).yaw), -179, 1e-9);
+  EXPECT_NEAR(degrees(pose_angles(pose_at(t, 2)).yaw), 179.8, 1e-9);
+  EXPECT_NEAR(degrees(pose_angles(pose_at(t, 5)).yaw), -179, 1e-9);
 }
 
 TEST(MissionFile, names_line_key_and_rule) {

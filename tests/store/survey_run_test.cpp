@@ -38,7 +38,7 @@ Cube cube_of(float value, std::size_t pings, std::vector<std::string> layers, bo
     ping.pressure = ComplexGridF::Constant(3, 10, static_cast<float>(ping.number));
     ping.unknown = Grid<std::uint8_t>::Constant(3, 10, 1);
     for (const auto& layer : layers) ping.layers.push_back({layer, ping.pressure});
-    if (scan) ping.scan = ScanPlace{ping.number / 2, 0.25 * static_cast<double>(ping.number)};
+    if (scan) ping.scan = ScanDirection{ping.number / 2, 0.25 * static_cast<double>(ping.number)};
     cube.pings.push_back(ping);
   }
   return cube;

@@ -70,7 +70,7 @@ std::optional<Shot> shot_while(const Water& water, double depth, Shot s, const B
   return std::nullopt;
 }
 
-std::optional<Shot> shot(const Water& water, double depth, std::span<const Plane> planes, const Vector3d& place,
+std::optional<Shot> shot(const Water& water, double depth, std::span<const Plane> planes, const Vector3d& position,
                          const Vector3d& launch) {
   std::optional<Shot> s = Shot{Vector3d::Zero(), launch, 0};
   for (const Plane& plane : planes) {
@@ -78,33 +78,33 @@ std::optional<Shot> shot(const Water& water, double depth, std::span<const Plane
     if (!s) return s;
     s->along -= 2 * plane.normal.dot(s->along) * plane.normal;
   }
-  return shot_while(water, depth, *s, [&](const Shot& at) { return (place - at.at).dot(at.along) > 0; });
+  return shot_while(water, depth, *s, [&](const Shot& at) { return (position - at.at).dot(at.along) > 0; });
 }
 
 }  // namespace
 
 std::optional<BouncedArrival> arrival_by_planes(const Water& water, double depth, std::span<const Plane> planes,
-                                                const Vector3d& place) {
-  Vector3d image = place;
+                                                const Vector3d& position) {
+  Vector3d image = position;
   for (std::size_t k = planes.size(); k > 0; --k)
     image -= 2 * (planes[k - 1].normal.dot(image) - planes[k - 1].offset) * planes[k - 1].normal;
   Vector3d launch = image.normalized();
   for (int stride = 0; stride < 60; ++stride) {
-    const auto s = shot(water, depth, planes, place, launch);
+    const auto s = shot(water, depth, planes, position, launch);
     if (!s) return std::nullopt;
     const Vector3d across = launch.unitOrthogonal(), other = launch.cross(across);
     const Vector3d e1 = s->along.unitOrthogonal(), e2 = s->along.cross(e1);
-    const auto miss = [&](const Vector3d& at) { return Eigen::Vector2d(e1.dot(at - place), e2.dot(at - place)); };
+    const auto miss = [&](const Vector3d& at) { return Eigen::Vector2d(e1.dot(at - position), e2.dot(at - position)); };
     constexpr double turn = 1e-5;
     Eigen::Matrix2d by_angle;
     for (int k = 0; k < 2; ++k) {
       const Vector3d& sideways = k == 0 ? across : other;
-      const auto ahead = shot(water, depth, planes, place, (launch + turn * sideways).normalized());
-      const auto behind = shot(water, depth, planes, place, (launch - turn * sideways).normalized());
+      const auto ahead = shot(water, depth, planes, position, (launch + turn * sideways).normalized());
+      const auto behind = shot(water, depth, planes, position, (launch - turn * sideways).normalized());
       if (!ahead || !behind) return std::nullopt;
       by_angle.col(k) = (miss(ahead->at) - miss(behind->at)) / (2 * turn);
     }
-    const double ratio = water.speed_at(depth - place.z()) / water.speed_at(depth);
+    const double ratio = water.speed_at(depth - position.z()) / water.speed_at(depth);
     if (miss(s->at).norm() < 1e-6)
       return BouncedArrival{s->time, launch, s->along, ratio / std::abs(by_angle.determinant())};
     constexpr double farthest_turn = 0.03;  // [rad]

@@ -23,10 +23,10 @@ struct BouncedArrival {
 };
 
 /// Returns the ray that leaves the origin at `depth`, is reflected by all planes one after the other, and meets
-/// `place`. It is shot in three dimensions by steps of at most 1 cm (Runge and Kutta), aimed by Newton's method from
+/// `position`. It is shot in three dimensions by steps of at most 1 cm (Runge and Kutta), aimed by Newton's method from
 /// the straight way. The intensity is that of the solid angle of neighbouring rays. Returns nothing if the ray does not
 /// arrive.
 std::optional<BouncedArrival> arrival_by_planes(const Water& water, double depth, std::span<const Plane> planes,
-                                                const Eigen::Vector3d& place);
+                                                const Eigen::Vector3d& position);
 
 }  // namespace insonify::traced

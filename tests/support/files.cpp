@@ -52,9 +52,9 @@ std::string file_bytes(const std::string& path) {
 bool file_exists(const std::string& path) { return fs::exists(path); }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto place = text.find(from);
-  EXPECT_NE(place, std::string::npos) << from << " is not in: " << text;
-  return place == std::string::npos ? text : text.replace(place, from.size(), to);
+  const auto position = text.find(from);
+  EXPECT_NE(position, std::string::npos) << from << " is not in: " << text;
+  return position == std::string::npos ? text : text.replace(position, from.size(), to);
 }
 
 }  // namespace insonify

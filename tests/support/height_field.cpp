@@ -17,7 +17,8 @@ namespace {
 double beam_power(const LineArray& array, double wavelength, double du) {
   double sum = 0;
   for (std::size_t m = 0; m < array.elements(); ++m)
-    sum += array.shading[m] * std::cos(2 * pi * array.spacing / wavelength * element_place(m, array.elements()) * du);
+    sum +=
+        array.shading[m] * std::cos(2 * pi * array.spacing / wavelength * element_position(m, array.elements()) * du);
   return std::pow(sum / static_cast<double>(array.elements()), 2);
 }
 

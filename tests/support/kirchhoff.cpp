@@ -62,9 +62,9 @@ KirchhoffEcho KirchhoffEcho::of_polygon(const std::vector<Vector3d>& corners, do
     const double out = std::max(steepest(b), steepest(b + c)), across = steepest(c);
     on_nodes(0, 1, out, [&](double x, double wx) {
       on_nodes(0, 1, across * x, [&](double y, double wy) {
-        const Vector3d place = a + x * (b + y * c);
-        const double range = place.norm();
-        echo.add(range, twice_area * x * wx * wy * std::abs(normal.dot(place)) / range);
+        const Vector3d position = a + x * (b + y * c);
+        const double range = position.norm();
+        echo.add(range, twice_area * x * wx * wy * std::abs(normal.dot(position)) / range);
       });
     });
   }
@@ -82,9 +82,9 @@ KirchhoffEcho KirchhoffEcho::of_cylinder(const Vector3d& middle, const Vector3d&
     const Vector3d normal = std::cos(turn) * towards + std::sin(turn) * aside;
     const Vector3d start = middle + radius * normal;
     on_nodes(-half, half, slope * length, [&](double s, double ws) {
-      const Vector3d place = start + s * axis;
-      const double range = place.norm();
-      echo.add(range, radius * wt * ws * std::max(0.0, -normal.dot(place)) / range);
+      const Vector3d position = start + s * axis;
+      const double range = position.norm();
+      echo.add(range, radius * wt * ws * std::max(0.0, -normal.dot(position)) / range);
     });
   });
   return echo;

@@ -33,15 +33,15 @@ inline Scatterers targets_at(const std::vector<double>& range, double azimuth = 
 }
 
 /// Returns scatterers at places in the axes of the head, each seen head on with this area [m^2].
-inline Scatterers scatterers_at(const std::vector<Eigen::Vector3d>& places, float area = 1) {
+inline Scatterers scatterers_at(const std::vector<Eigen::Vector3d>& positions, float area = 1) {
   Scatterers s;
-  for (const Eigen::Vector3d& place : places) {
-    const Direction d = direction_of(place);
-    s.range.push_back(place.norm()), s.azimuth.push_back(d.azimuth), s.elevation.push_back(d.elevation);
+  for (const Eigen::Vector3d& position : positions) {
+    const Direction d = direction_of(position);
+    s.range.push_back(position.norm()), s.azimuth.push_back(d.azimuth), s.elevation.push_back(d.elevation);
     s.id.push_back(s.id.size());
   }
-  s.cos_incidence.assign(places.size(), 1), s.projected_area.assign(places.size(), area);
-  s.material.assign(places.size(), 0), s.surfel.assign(places.size(), 0);
+  s.cos_incidence.assign(positions.size(), 1), s.projected_area.assign(positions.size(), area);
+  s.material.assign(positions.size(), 0), s.surfel.assign(positions.size(), 0);
   return s;
 }
 

@@ -57,10 +57,10 @@ class Boulders {
   };
   // Each square has random numbers of its own, drawn once.
   const Sphere& in_square(double column, double row) {
-    const auto [place, is_new] = spheres_.try_emplace({static_cast<int>(column), static_cast<int>(row)});
-    Sphere& s = place->second;
+    const auto [position, is_new] = spheres_.try_emplace({static_cast<int>(column), static_cast<int>(row)});
+    Sphere& s = position->second;
     if (is_new) {
-      std::seed_seq seed{place->first.first + 1000, place->first.second + 1000};
+      std::seed_seq seed{position->first.first + 1000, position->first.second + 1000};
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> uniform;
       s.x = (column + uniform(random)) * side_, s.y = (row + uniform(random)) * side_;
@@ -115,11 +115,11 @@ std::vector<Eigen::Vector3d> draw_points(const HeightField& field, const DrawOpt
   const auto columns = std::lround(size.x() / dx), rows = std::lround(size.y() / dy);
   for (long j = 0; j <= rows; ++j)
     for (long i = 0; i <= columns; ++i) {
-      const Eigen::Vector2d place = field.corner + Eigen::Vector2d((static_cast<double>(i) + off(random)) * dx,
-                                                                   (static_cast<double>(j) + off(random)) * dy);
-      double z = field.at(place.cwiseMin(field.corner + size * (1 - 1e-9)).cwiseMax(field.corner));
+      const Eigen::Vector2d position = field.corner + Eigen::Vector2d((static_cast<double>(i) + off(random)) * dx,
+                                                                      (static_cast<double>(j) + off(random)) * dy);
+      double z = field.at(position.cwiseMin(field.corner + size * (1 - 1e-9)).cwiseMax(field.corner));
       if (o.noise > 0) z += o.noise * o.spacing * noise(random);
-      if (std::isfinite(z)) points.emplace_back(place.x(), place.y(), z);
+      if (std::isfinite(z)) points.emplace_back(position.x(), position.y(), z);
     }
   return points;
 }

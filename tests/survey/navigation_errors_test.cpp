@@ -40,7 +40,7 @@ TEST(NavigationErrors, depend_on_the_seed_alone_and_move_and_turn_the_pose) {
   EXPECT_NE(errors.nodes[77], navigation_errors(long_way, noise, 4).nodes[77]);
   const Pose truth = pose_from_yaw_pitch_roll({100, 5, -3}, radians(40), 0, 0);
   const auto e = errors.nodes[50];
-  const HeadPlace believed = head_place(believed_pose(errors, 100, truth));
+  const PoseAngles believed = pose_angles(believed_pose(errors, 100, truth));
   EXPECT_LT((believed.position - truth.translation() - e.head<3>()).norm(), 1e-12);
   EXPECT_NEAR(believed.yaw, radians(40) + e[3], 1e-3);
   EXPECT_NEAR(std::abs(believed.pitch), std::abs(e[4]), 1e-9);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mission becomes a list of pings, and each ping a place.
+// A mission becomes a list of pings, and each ping a position.
 #include "survey/survey_pings.hpp"
 
 #include "core/pose.hpp"
@@ -97,13 +97,13 @@ TEST(SurveyPings, stand_where_the_mounting_is_and_move_with_its_lever_arm) {
   m.trajectory = {{0, 2},
                   {pose_from_yaw_pitch_roll({1, 2, 3}, 0, 0, 0), pose_from_yaw_pitch_roll({1, 2, 3}, pi / 2, 0, 0)}};
   m.heads[0].vehicle_from_head = pose_from_yaw_pitch_roll({2, 0, 0}, -pi / 2, 0, 0);
-  const PingEvent place = event_of(m, {0, 0, 1, 0, radians(30)});
-  const HeadPlace at = head_place(place.world_from_head);
+  const PingEvent position = event_of(m, {0, 0, 1, 0, radians(30)});
+  const PoseAngles at = pose_angles(position.world_from_head);
   const double r = 2 * std::sqrt(0.5);
   EXPECT_TRUE(at.position.isApprox(Eigen::Vector3d(1 + r, 2 + r, 3), 1e-12)) << at.position.transpose();
   EXPECT_NEAR(at.yaw, radians(45 - 90 + 30), 1e-12);
-  EXPECT_TRUE(place.motion.turn_rate.isApprox(Eigen::Vector3d(0, 0, pi / 4), 1e-12));
-  EXPECT_TRUE(place.motion.velocity.isApprox(pi / 4 * Eigen::Vector3d(-r, r, 0), 1e-12));
+  EXPECT_TRUE(position.motion.turn_rate.isApprox(Eigen::Vector3d(0, 0, pi / 4), 1e-12));
+  EXPECT_TRUE(position.motion.velocity.isApprox(pi / 4 * Eigen::Vector3d(-r, r, 0), 1e-12));
 }
 
 TEST(SurveyPings, have_random_numbers_of_their_own) {
@@ -209,10 +209,10 @@ TEST(WaypointTrajectory, keeps_its_speed_and_blends_its_corners) {
       EXPECT_LT(std::acos(std::min(1.0, step.normalized().dot(t.pose[i].linear().col(0)))), pi / 2);
     }
   }
-  const HeadPlace middle = head_place(pose_at(t, 5 + (16 + pi * 4 / 4) / 2));
+  const PoseAngles middle = pose_angles(pose_at(t, 5 + (16 + pi * 4 / 4) / 2));
   EXPECT_NEAR(degrees(middle.yaw), 45, 0.1);
   EXPECT_LT((middle.position - Eigen::Vector3d(16 + 4 * std::sin(pi / 4), 4 - 4 * std::cos(pi / 4), -3)).norm(), 2e-3);
-  EXPECT_NEAR(degrees(head_place(t.pose.back()).yaw), 90, 1e-6) << "an upright leg keeps the yaw";
+  EXPECT_NEAR(degrees(pose_angles(t.pose.back()).yaw), 90, 1e-6) << "an upright leg keeps the yaw";
 }
 
 TEST(WaypointTrajectory, refuses_ways_that_nobody_can_go) {

@@ -171,15 +171,15 @@ TEST(TiledLevels, a_ping_of_them_is_the_ping_of_the_whole_scene) {
 TEST(TiledLevels, of_a_scene_100_km_wide_are_those_of_a_small_one) {
   const SceneCloud plane = make_built_in_scene("plane", {.points = 100000, .size = {20, 20}});
   const Eigen::Vector3d far(51200, 0, 0);
-  std::vector<Eigen::Vector3d> places;
-  for (const Eigen::Vector3f& p : plane.point) places.push_back(p.cast<double>() + far);
-  places.push_back(-far);
+  std::vector<Eigen::Vector3d> positions;
+  for (const Eigen::Vector3f& p : plane.point) positions.push_back(p.cast<double>() + far);
+  positions.push_back(-far);
   SceneCloud batch = plane;
   add_surfel(batch, {0, 0, 0}, Eigen::Vector3d::UnitZ(), 0.004);
   TileWriterOptions options;
   options.materials = plane.materials;
   TileWriter writer(own_path("wide.tiles"), options);
-  writer.add(batch, places);
+  writer.add(batch, positions);
   writer.finish();
   save_tiles(own_path("small.tiles"), plane);
   const TiledScene wide(own_path("wide.tiles")), small(own_path("small.tiles"));
@@ -263,7 +263,7 @@ TEST(TiledLevels, whose_nodes_have_values_of_no_surfel_are_refused) {
   expect_same_surfels(finest_cut(own_path("again.tiles")), finest_cut(own_path("plane.tiles")));
   const std::vector<std::pair<std::string, std::function<void(TileNode&)>>> damages = {
       {"point = (nan, ", [](TileNode& n) { n.point[0] = NAN; }},
-      {"place = (", [](TileNode& n) { n.place[2] = INFINITY; }},
+      {"place = (", [](TileNode& n) { n.position[2] = INFINITY; }},
       {"normal = (0, 0, 0), must be a unit vector", [](TileNode& n) { std::fill_n(n.normal, 3, 0.0F); }},
       {"area = -1, must be", [](TileNode& n) { n.area = -1; }},
       {"own_area = 1e+38, must be", [](TileNode& n) { n.own_area = 1e38F; }},

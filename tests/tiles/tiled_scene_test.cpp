@@ -101,17 +101,17 @@ TEST(TiledScene, tiles_near_a_place_hold_every_surfel_near_it) {
 
 TEST(TiledScene, a_scene_100_km_wide_keeps_its_millimetres) {
   // Two plates 100 km apart in double coordinates; float32 has steps of 8 mm at that distance.
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> positions;
   SceneCloud batch;
   for (int i = 0; i < 20000; ++i) {
     const auto u = random_uniform(7, RandomStage::scene_points, {static_cast<std::uint64_t>(i), 0, 0});
-    places.push_back({(i % 2 ? 1 : -1) * 50e3 + 5 * u[0], 5 * u[1], u[2]});
+    positions.push_back({(i % 2 ? 1 : -1) * 50e3 + 5 * u[0], 5 * u[1], u[2]});
     add_surfel(batch, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), 0.001);
   }
   TileWriterOptions options = small_tiles();
   options.origin = {400000, 5400000, 0};
   TileWriter writer(own_path("a.tiles"), options);
-  writer.add(batch, places);
+  writer.add(batch, positions);
   writer.finish();
   const TiledScene tiled(own_path("a.tiles"));
   const Eigen::Vector3d near = options.origin + Eigen::Vector3d(50e3, 0, 0);
@@ -119,7 +119,7 @@ TEST(TiledScene, a_scene_100_km_wide_keeps_its_millimetres) {
   ASSERT_EQ(part.size(), 10000U);
   for (std::size_t i = 0; i < part.size(); ++i) {
     const Eigen::Vector3d world = part.origin + part.point[i].cast<double>();
-    EXPECT_LT((world - options.origin - places[part.id[i]]).norm(), 1e-4);
+    EXPECT_LT((world - options.origin - positions[part.id[i]]).norm(), 1e-4);
   }
 }
 
@@ -341,9 +341,9 @@ TEST(TiledScene, rows_follow_the_curve_and_tiles_are_aligned_with_the_origin) {
   save_tiles(own_path("a.tiles"), harbour(), {.tile_surfels = 1});
   const TiledScene tiled(own_path("a.tiles"));
   const MortonCurve curve(100, true);
-  std::optional<CurvePlace> before;
-  for (const Eigen::Vector3d& place : tiled.places()) {
-    const CurvePlace at = curve.at({place.x(), place.y(), place.z()});
+  std::optional<CurvePosition> before;
+  for (const Eigen::Vector3d& position : tiled.positions()) {
+    const CurvePosition at = curve.at({position.x(), position.y(), position.z()});
     EXPECT_FALSE(before && MortonCurve::before(at, *before));
     before = at;
   }

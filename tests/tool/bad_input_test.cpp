@@ -123,9 +123,9 @@ TEST_F(BadInput, settings_out_of_range_name_their_option) {
   expect_refused(ping + " --velocity 100,0,0", 2, {"--velocity = 100 m/s", "a hundredth of the sound speed"});
 
   // No setting that is a number has a value far out of its range that is refused by another name.
-  insonify::Run asked;
+  insonify::Run requested;
   int refused = 0;
-  for (const RunSetting& setting : all_settings(asked))
+  for (const RunSetting& setting : all_settings(requested))
     if (std::holds_alternative<double*>(setting.value) || std::holds_alternative<int*>(setting.value)) {
       const bool whole = std::holds_alternative<int*>(setting.value);
       const ToolResult result = run("plan plane.ply --sonar p900-45 --pose=0,0,3,0,15,0 --range 2:10 " +

@@ -40,11 +40,12 @@ class ExportProducts : public ToolTest {
     const std::vector<decode::LasRow> rows = decode::read_las(read_bytes(name));
     const auto best = std::max_element(rows.begin(), rows.end(),
                                        [](const auto& a, const auto& b) { return a.level_db < b.level_db; });
-    return {best->place[0], best->place[1], best->place[2]};
+    return {best->position[0], best->position[1], best->position[2]};
   }
-  /// A place in zone 32N in the world.
+  /// A position in zone 32N in the world.
   static Eigen::Vector3d in_world(const Eigen::Vector3d& utm) {
-    const Eigen::Vector3d world = world_from_geo(ball_anchor, geo_place_of(UtmPlace{utm.x(), utm.y()}, {32, true}));
+    const Eigen::Vector3d world =
+        world_from_geo(ball_anchor, geo_position_of(UtmPosition{utm.x(), utm.y()}, {32, true}));
     return {world.x(), world.y(), utm.z()};
   }
 

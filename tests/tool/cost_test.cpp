@@ -55,7 +55,7 @@ std::string ones(const char* word) {
   return text;
 }
 
-// Puts an empty dataset of so many pings in the place of /pressure.
+// Puts an empty dataset of so many pings in the position of /pressure.
 void announce_pings(hid_t file, hsize_t pings) {
   const hid_t old = H5Dopen2(file, "/pressure", H5P_DEFAULT), type = H5Dget_type(old), space = H5Dget_space(old);
   hsize_t extent[3];
@@ -199,7 +199,7 @@ TEST_F(Cost, of_many_parts_of_one_file) {
       "");
 }
 
-// Boxes of 150 surfels, which stand and which move, all in one place; on the first of them others rest.
+// Boxes of 150 surfels, which stand and which move, all in one position; on the first of them others rest.
 TEST_F(Cost, of_many_parts_in_one_place) {
   write("box.obj",
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"

@@ -17,7 +17,7 @@ std::vector<nlohmann::json> json_lines(const std::string& text) {
   return all;
 }
 
-/// Pots and drums strewn over a plane, seen by eight pings of a head that stands still.
+/// Pots and drums scattered over a plane, seen by eight pings of a head that stands still.
 class DatasetOfParts : public DatasetRun {
  protected:
   void SetUp() override {
@@ -119,11 +119,11 @@ TEST_F(DatasetOfParts, has_the_box_of_the_drawn_outline_and_the_size_of_a_ball) 
       double low[2] = {1e9, 1e9}, high[2] = {-1e9, -1e9};  // columns and rows
       for (int i = 0; i < 20000; ++i) {
         const double z = 1 - (i + 0.5) / 10000, turn = 2.399963 * i, r = std::sqrt(1 - z * z);
-        const Eigen::Vector3d normal(r * std::cos(turn), r * std::sin(turn), z), place = middle + radius * normal;
-        if (normal.dot(place) > 0) continue;
-        // A line array hears cones: the range and the way to port are those of the place.
+        const Eigen::Vector3d normal(r * std::cos(turn), r * std::sin(turn), z), position = middle + radius * normal;
+        if (normal.dot(position) > 0) continue;
+        // A line array receives cones: the range and the way to port are those of the position.
         const Eigen::Vector2d drawn =
-            Eigen::Vector2d(std::sqrt(place.squaredNorm() - place.y() * place.y()), place.y()) / metres;
+            Eigen::Vector2d(std::sqrt(position.squaredNorm() - position.y() * position.y()), position.y()) / metres;
         const double at[2] = {column - drawn.y(), row - drawn.x()};
         for (int k : {0, 1}) low[k] = std::min(low[k], at[k]), high[k] = std::max(high[k], at[k]);
       }

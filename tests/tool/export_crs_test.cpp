@@ -53,13 +53,13 @@ class ExportCrs : public ToolTest {
       found.emplace_back(std::stod(row.at(first)), std::stod(row.at(second)));
     return found;
   }
-  /// Every sounding is counted in the cell that holds its place [m], and no other is.
-  static void expect_counted(const decode::GeotiffContent& map, const std::vector<Eigen::Vector2d>& places,
+  /// Every sounding is counted in the cell that holds its position [m], and no other is.
+  static void expect_counted(const decode::GeotiffContent& map, const std::vector<Eigen::Vector2d>& positions,
                              double unit) {
     std::vector<float> expected(map.bands.at(2).size(), 0);
-    for (const Eigen::Vector2d& place : places) {
-      const auto column = static_cast<std::size_t>(std::floor((place.x() / unit - map.west) / map.cell));
-      const auto row = static_cast<std::size_t>(std::floor((map.north - place.y() / unit) / map.cell));
+    for (const Eigen::Vector2d& position : positions) {
+      const auto column = static_cast<std::size_t>(std::floor((position.x() / unit - map.west) / map.cell));
+      const auto row = static_cast<std::size_t>(std::floor((map.north - position.y() / unit) / map.cell));
       ASSERT_LT(column, map.columns);
       ASSERT_LT(row, map.rows);
       expected[row * map.columns + column] += 1;
@@ -72,10 +72,10 @@ class ExportCrs : public ToolTest {
     const decode::GeotiffContent map = decode::read_geotiff(read("m.tif"));
     EXPECT_EQ(map.epsg, epsg);
     EXPECT_NEAR(map.cell, 0.7 / unit, 1e-12);
-    std::vector<Eigen::Vector2d> places = soundings(anchor, "latitude_deg", "longitude_deg");
-    ASSERT_GT(places.size(), 40U);
-    for (Eigen::Vector2d& place : places) place = system(place.x(), place.y());
-    expect_counted(map, places, unit);
+    std::vector<Eigen::Vector2d> positions = soundings(anchor, "latitude_deg", "longitude_deg");
+    ASSERT_GT(positions.size(), 40U);
+    for (Eigen::Vector2d& position : positions) position = system(position.x(), position.y());
+    expect_counted(map, positions, unit);
   }
 };
 
@@ -133,7 +133,7 @@ TEST_F(ExportCrs, refuses_systems_that_cannot_work_with_a_remedy) {
   EXPECT_FALSE(std::filesystem::exists(path("no.tif")));
 }
 
-// Each cell of the GeoTIFF is the cell of the mosaic at the place of its middle in the world, whose x axis points to the
+// Each cell of the GeoTIFF is the cell of the mosaic at the position of its middle in the world, whose x axis points to the
 // north-west here.
 TEST_F(ExportCrs, mosaics_are_north_up_where_the_mission_has_an_anchor) {
   write("line.toml", text_of({.survey = "anchor = { latitude_deg = 54.1, longitude_deg = 7.9, heading_deg = -50 }",
@@ -149,12 +149,12 @@ TEST_F(ExportCrs, mosaics_are_north_up_where_the_mission_has_an_anchor) {
   EXPECT_EQ(map.cell, 0.2);
   ASSERT_EQ(map.bands.size(), 2U);
   const Grid<float>& strength = mosaic.fields.at(0).values;  // columns x rows
-  std::size_t heard = 0, edges = 0;
+  std::size_t beam_azimuth = 0, edges = 0;
   for (std::size_t row = 0; row < map.rows; ++row)
     for (std::size_t column = 0; column < map.columns; ++column) {
-      const UtmPlace middle{map.west + 0.2 * (static_cast<double>(column) + 0.5),
-                            map.north - 0.2 * (static_cast<double>(row) + 0.5)};
-      const Eigen::Vector3d at = world_from_geo({54.1, 7.9, -50}, geo_place_of(middle, {32, true}));
+      const UtmPosition middle{map.west + 0.2 * (static_cast<double>(column) + 0.5),
+                               map.north - 0.2 * (static_cast<double>(row) + 0.5)};
+      const Eigen::Vector3d at = world_from_geo({54.1, 7.9, -50}, geo_position_of(middle, {32, true}));
       const double x = (at.x() - mosaic.x) / 0.2, y = (at.y() - mosaic.y) / 0.2;
       const float value = map.bands[0][row * map.columns + column];
       if (std::abs(x - std::round(x)) < 1e-4 || std::abs(y - std::round(y)) < 1e-4) {
@@ -169,13 +169,13 @@ TEST_F(ExportCrs, mosaics_are_north_up_where_the_mission_has_an_anchor) {
         EXPECT_TRUE(std::isnan(value));
       } else {
         EXPECT_EQ(value, expected);
-        ++heard;
+        ++beam_azimuth;
       }
     }
   EXPECT_LT(edges, 50U);
   // None is lost: turned by 50 degrees, the map has as many cells on the same ground.
-  EXPECT_NEAR(static_cast<double>(heard), static_cast<double>((strength.isFinite()).count()),
-              0.05 * static_cast<double>(heard));
+  EXPECT_NEAR(static_cast<double>(beam_azimuth), static_cast<double>((strength.isFinite()).count()),
+              0.05 * static_cast<double>(beam_azimuth));
 
   succeed("merge -q run --mosaic 0.2 --crs local");
   const decode::GeotiffContent local = decode::read_geotiff(read("run/mosaic.tif"));

@@ -22,11 +22,11 @@ struct Ship {
   double yaw_deg() const { return way_deg() + drift; }  // to port
   double bow_down_deg() const { return -2 + 4.9 * std::sin(1.3 * time); }
   double roll_deg() const { return 8 * std::sin(2.1 * time + 0.4); }
-  Eigen::Vector3d place() const {
+  Eigen::Vector3d position() const {
     return {-3 + radius * std::sin(turn_rate * time), radius * (1 - std::cos(turn_rate * time)) - 3, -1.5};
   }
   Pose pose() const {
-    return pose_from_yaw_pitch_roll(place(), radians(yaw_deg()), radians(bow_down_deg()), radians(roll_deg()));
+    return pose_from_yaw_pitch_roll(position(), radians(yaw_deg()), radians(bow_down_deg()), radians(roll_deg()));
   }
 };
 
@@ -44,7 +44,7 @@ class ExportGsf : public ToolTest {
     way << "time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n" << std::setprecision(12);
     for (int i = 0; i <= 32; ++i) {
       const Ship ship{entry_step * i};
-      const Eigen::Vector3d at = ship.place();
+      const Eigen::Vector3d at = ship.position();
       way << ship.time << ',' << at.x() << ',' << at.y() << ',' << at.z() << ',' << ship.yaw_deg() << ','
           << ship.bow_down_deg() << ',' << ship.roll_deg() << '\n';
     }
@@ -177,7 +177,7 @@ TEST_F(ExportGsf, beams_are_those_of_the_cube_from_the_other_side) {
   EXPECT_GT(soundings, 100U);
 }
 
-// A single ping has the course and speed of its trajectory or of its velocity, though it has one place only.
+// A single ping has the course and speed of its trajectory or of its velocity, though it has one position only.
 TEST_F(ExportGsf, single_pings_have_the_course_and_speed_of_their_trajectory) {
   write("sea.toml", "[surface]\nheight_m = 0.5\n");
   const std::string ping = "ping bed.obj --sonar em2040 --environment sea.toml --range 6:20 --set sonar.beams=8 -q ";
@@ -313,7 +313,7 @@ TEST_F(ExportGsf, of_a_scanning_head_has_the_attitude_of_its_ship) {
     EXPECT_NEAR(s.roll_deg, 0, 0.006);
     EXPECT_NEAR(s.pitch_deg, 0, 0.006);
     ASSERT_EQ(s.flags, std::vector<int>{0});
-    // The beam looks abeam of where the ship is when it hears, 2 v / c ahead of where it sent.
+    // The beam looks abeam of where the ship is when it receives, 2 v / c ahead of where it sent.
     const double beam = radians(-40 + 20 * static_cast<double>(p));
     EXPECT_NEAR(s.arrays.at(5)[0], degrees(std::atan(std::hypot(std::sin(beam), 2 / 1500.0) / std::cos(beam))), 0.003);
   }

@@ -21,7 +21,7 @@ TEST_F(ExportProducts, gsf_has_the_ball_to_port_ahead_and_at_its_depth) {
   ASSERT_EQ(read.swaths.size(), 1U);
   const decode::GsfSwath& s = read.swaths[0];
   EXPECT_NEAR(s.time, 1777624200, 1e-6);
-  const GeoPlace head = geo_from_world(ball_anchor, pose.translation());
+  const GeoPosition head = geo_from_world(ball_anchor, pose.translation());
   EXPECT_NEAR(s.latitude_deg, degrees(head.latitude), 0.6e-7);
   EXPECT_NEAR(s.longitude_deg, degrees(head.longitude), 0.6e-7);
   EXPECT_NEAR(s.heading_deg, 70, 0.011);
@@ -77,11 +77,11 @@ TEST_F(ExportProducts, las_and_geotiff_have_it_at_its_place_in_utm) {
   EXPECT_EQ(static_cast<std::size_t>(counted), rows.size());
   std::vector<double> heights(map.bands[0].size(), 0);
   for (const decode::LasRow& row : rows) {
-    const double column = std::floor((row.place[0] - map.west) / map.cell);
-    const double line = std::floor((map.north - row.place[1]) / map.cell);
+    const double column = std::floor((row.position[0] - map.west) / map.cell);
+    const double line = std::floor((map.north - row.position[1]) / map.cell);
     ASSERT_TRUE(column >= 0 && column < static_cast<double>(map.columns) && line >= 0 &&
                 line < static_cast<double>(map.rows));
-    heights[static_cast<std::size_t>(line) * map.columns + static_cast<std::size_t>(column)] += row.place[2];
+    heights[static_cast<std::size_t>(line) * map.columns + static_cast<std::size_t>(column)] += row.position[2];
   }
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double count = static_cast<double>(map.bands[2][i]);
@@ -121,19 +121,19 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
     ASSERT_EQ(table[i].size(), 14U);
     const Eigen::Vector3d at(number("x_m"), number("y_m"), number("z_m"));
     const decode::LasRow& las = rows[i];
-    EXPECT_LT((at - in_world({las.place[0], las.place[1], las.place[2]})).norm(), 1e-3);
+    EXPECT_LT((at - in_world({las.position[0], las.position[1], las.position[2]})).norm(), 1e-3);
     EXPECT_EQ(table[i].at("time_s"), "1777624200.000000");
     EXPECT_EQ(number("beam"), las.beam);
     EXPECT_NEAR(number("range_m"), (at - pose.translation()).norm(), 2e-4);
     EXPECT_NEAR(number("deviation_m"), static_cast<double>(las.deviation), 1e-5);
     EXPECT_NEAR(number("level_db"), static_cast<double>(las.level_db), 0.006);
     EXPECT_NEAR(number("quality"), std::log10(number("range_m") / number("deviation_m")), 0.01);
-    const GeoPlace place = geo_from_world(ball_anchor, at);
+    const GeoPosition position = geo_from_world(ball_anchor, at);
     EXPECT_EQ(table[i].at("reject"), "0");
-    EXPECT_NEAR(number("latitude_deg"), degrees(place.latitude), 2e-9);
-    EXPECT_NEAR(number("longitude_deg"), degrees(place.longitude), 2e-9);
+    EXPECT_NEAR(number("latitude_deg"), degrees(position.latitude), 2e-9);
+    EXPECT_NEAR(number("longitude_deg"), degrees(position.longitude), 2e-9);
   }
-  // Without a place on the globe the columns of the world remain.
+  // Without a position on the globe the columns of the world remain.
   succeed("export out --to csv -o world.csv -q");
   EXPECT_THAT(read("world.csv"),
               testing::StartsWith("ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,"
@@ -158,8 +158,8 @@ TEST_F(ExportProducts, png_shows_it_to_port_at_its_range) {
   EXPECT_NEAR(size[1] * metre, 14, 1e-9);
   EXPECT_NEAR(std::atan2(y, x), radians(beam_deg), radians(1.5));
   EXPECT_NEAR(std::hypot(x, y) / sum * metre, ball_range, ball_radius + 0.1);
-  const auto& place = manifest["pings"][0]["world_from_head"];
-  EXPECT_NEAR(place[3].get<double>(), pose.translation().x(), 1e-9);
+  const auto& position = manifest["pings"][0]["world_from_head"];
+  EXPECT_NEAR(position[3].get<double>(), pose.translation().x(), 1e-9);
   expect_refused("export out --to png -o pictures", 4, {"pictures", "--force"});
 }
 
@@ -210,18 +210,18 @@ TEST(ExportUtm, keeps_the_coordinates_of_its_scene) {
   tool.succeed("export out --to las --utm 32N -o ball.las -q");
   tool.succeed("export out --to gsf --utm 32N -o ball.gsf -q");
 
-  // In LAS: on the axis of its beam at its range, to a millimetre; in all the same place.
+  // In LAS: on the axis of its beam at its range, to a millimetre; in all the same position.
   const std::vector<decode::LasRow> rows = decode::read_las(tool.read("ball.las"));
   const auto row = std::find_if(rows.begin(), rows.end(), [](const auto& r) { return r.beam == 44; });
   ASSERT_NE(row, rows.end());
-  const Eigen::Vector3d point(row->place[0], row->place[1], row->place[2]);
+  const Eigen::Vector3d point(row->position[0], row->position[1], row->position[2]);
   const double range = (point - at).norm();
   EXPECT_NEAR(range, ball_range, radius + 0.01);
   EXPECT_LT((point - pose * (range * unit_vector({radians(beam_deg), 0}))).norm(), 1e-3);
   EXPECT_LT((point - ball).norm(), radius + 0.01);
   // In GSF: the head's latitude and longitude, from which across and along lead to the sounding.
   const decode::GsfSwath s = decode::read_gsf(tool.read("ball.gsf")).swaths.at(0);
-  const GeoPlace head = geo_place_of(UtmPlace{at.x(), at.y()}, {32, true});
+  const GeoPosition head = geo_position_of(UtmPosition{at.x(), at.y()}, {32, true});
   EXPECT_NEAR(s.latitude_deg, degrees(head.latitude), 0.6e-7);
   EXPECT_NEAR(s.longitude_deg, degrees(head.longitude), 0.6e-7);
   std::size_t beam = 0;
@@ -232,8 +232,8 @@ TEST(ExportUtm, keeps_the_coordinates_of_its_scene) {
       beam = b;
   EXPECT_NEAR(s.arrays.at(1)[beam], -point.z(), 1e-3);
   const Anchor here{degrees(head.latitude), degrees(head.longitude), s.heading_deg};
-  const GeoPlace found = geo_from_world(here, {s.arrays.at(3)[beam], -s.arrays.at(2)[beam], 0});
-  const GeoPlace expected = geo_place_of(UtmPlace{point.x(), point.y()}, {32, true});
+  const GeoPosition found = geo_from_world(here, {s.arrays.at(3)[beam], -s.arrays.at(2)[beam], 0});
+  const GeoPosition expected = geo_position_of(UtmPosition{point.x(), point.y()}, {32, true});
   EXPECT_NEAR(degrees(found.latitude), degrees(expected.latitude), 1e-7);
   EXPECT_NEAR(degrees(found.longitude), degrees(expected.longitude), 1e-7);
   // Its PCD keeps its digits.

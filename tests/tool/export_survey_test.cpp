@@ -11,7 +11,7 @@
 #include "tool/mission_text.hpp"
 #include "tool/tool_runner.hpp"
 
-// A survey of two blocks over a level bed: each product has all its pings, at the place and time that the mission gives.
+// A survey of two blocks over a level bed: each product has all its pings, at the position and time that the mission gives.
 class ExportSurvey : public ToolTest {
  protected:
   static constexpr double bed_depth = 4;
@@ -46,7 +46,7 @@ TEST_F(ExportSurvey, has_all_pings_in_every_product) {
     if (p > 0) {
       EXPECT_NEAR(s.speed_knots, 1 / 0.514444, 0.02);
     }
-    const GeoPlace head = geo_from_world(anchor, {-1 + 0.5 * static_cast<double>(p), 0, 0});
+    const GeoPosition head = geo_from_world(anchor, {-1 + 0.5 * static_cast<double>(p), 0, 0});
     EXPECT_NEAR(s.latitude_deg, degrees(head.latitude), 0.6e-7);
     EXPECT_NEAR(s.longitude_deg, degrees(head.longitude), 0.6e-7);
     for (std::size_t b = 0; b < s.flags.size(); ++b)
@@ -64,11 +64,11 @@ TEST_F(ExportSurvey, has_all_pings_in_every_product) {
   EXPECT_EQ(decode::Cursor(read("product.las"), 90).unsigned_little(2), 121U);  // 1 May
   EXPECT_EQ(decode::Cursor(read("product.las"), 92).unsigned_little(2), 2026U);
   for (const decode::LasRow& row : las) {
-    EXPECT_NEAR(row.place[2], -bed_depth, 0.1);
+    EXPECT_NEAR(row.position[2], -bed_depth, 0.1);
     EXPECT_EQ(row.source, row.ping < 2 ? 1U : 2U);
     EXPECT_EQ(row.returns, 1U);
     const Eigen::Vector3d world =
-        world_from_geo(anchor, geo_place_of(UtmPlace{row.place[0], row.place[1]}, {32, true}));
+        world_from_geo(anchor, geo_position_of(UtmPosition{row.position[0], row.position[1]}, {32, true}));
     EXPECT_NEAR(row.scan_angle_deg, degrees(std::atan2(-world.y(), bed_depth)), 1);  // positive to starboard
   }
   succeed("export run -q --to las --las-version 1.2 --per-beam 3 -o old.las");

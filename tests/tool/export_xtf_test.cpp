@@ -113,7 +113,7 @@ TEST_F(ExportXtf, has_the_ship_where_it_is) {
   const decode::XtfContent read = exported("line");
   for (const decode::XtfSonarPacket& p : read.pings) {
     const double x = -1.5 + seconds_of(p);
-    const GeoPlace ship = geo_from_world(north_sea, {x, 0, 0}), sonar = geo_from_world(north_sea, {x, 0.5, -0.25});
+    const GeoPosition ship = geo_from_world(north_sea, {x, 0, 0}), sonar = geo_from_world(north_sea, {x, 0.5, -0.25});
     EXPECT_NEAR(p.ship_y, degrees(ship.latitude), 1e-7);  // times are of 0.01 s
     EXPECT_NEAR(p.ship_x, degrees(ship.longitude), 1e-7);
     EXPECT_NEAR(p.sensor_y - p.ship_y, degrees(sonar.latitude - ship.latitude), 1e-9);

@@ -50,7 +50,7 @@ TEST_F(FirstHour, info_proposes_commands_that_run_as_they_stand) {
 }
 
 TEST_F(FirstHour, info_proposes_the_place_of_the_camera_for_a_cloud_in_its_axes) {
-  // A wall 3 m ahead of a camera, and the same points below a place from which a scanner saw them.
+  // A wall 3 m ahead of a camera, and the same points below a position from which a scanner saw them.
   const auto scan = [&](const char* name, double z) {
     std::string text =
         "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 40\nHEIGHT 30\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Objects from the command line: lists, meshes with their materials, what a ping hears of them.
+// Objects from the command line: lists, meshes with their materials, what a ping receives of them.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -95,8 +95,8 @@ TEST_F(MakeObject, is_prepared_and_pinged_by_material) {
       "ping diver.ply --sonar p900-45 --pose=-6,0,0.3,0,0,0 --range 3:9 --keep contributors --no-picture -q -o out");
   const NamedContributors named = read_contributor_file(path("out/contributors.h5"));
   EXPECT_EQ(named.materials, (std::vector<std::string>{"wet-suit", "rubber", "aluminium"}));
-  std::set<int> heard(named.contributors.material.begin(), named.contributors.material.end());
-  EXPECT_TRUE(heard.contains(0) && heard.contains(2));  // fins are behind the legs
+  std::set<int> beam_azimuth(named.contributors.material.begin(), named.contributors.material.end());
+  EXPECT_TRUE(beam_azimuth.contains(0) && beam_azimuth.contains(2));  // fins are behind the legs
 }
 
 // A Lambert sphere has mu cos^2 over its half that faces the head: sigma = 2/3 pi mu a^2, here of a = 5 cm and steel.

@@ -32,10 +32,10 @@ TEST_F(Meaning, is_told_by_info_with_the_commands_that_go_on) {
   EXPECT_NEAR(lowest(plain), 20, 1e-6);
   EXPECT_THAT(plain["problems"].dump(), HasSubstr("--z down"));
 
-  const nlohmann::json asked = json_of("info bed.xyz --z down --unit 0.1");
-  EXPECT_NEAR(lowest(asked), -(20 + 0.5 * 39 + 0.01 * 39) / 10, 1e-6);
-  EXPECT_THAT(asked["meaning"].dump(), testing::AllOf(HasSubstr("\"down\""), HasSubstr("option")));
-  const std::string next = asked["next"][0].get<std::string>();
+  const nlohmann::json requested = json_of("info bed.xyz --z down --unit 0.1");
+  EXPECT_NEAR(lowest(requested), -(20 + 0.5 * 39 + 0.01 * 39) / 10, 1e-6);
+  EXPECT_THAT(requested["meaning"].dump(), testing::AllOf(HasSubstr("\"down\""), HasSubstr("option")));
+  const std::string next = requested["next"][0].get<std::string>();
   EXPECT_THAT(next, testing::AllOf(HasSubstr("prepare bed.xyz --unit 0.1 --z down"), HasSubstr("prepared.ply")));
   EXPECT_THAT(succeed("info bed.xyz --z down"), HasSubstr("meaning    z: down (option)"));
   expect_refused("info bed.xyz --z sideways", 2, {"--z = 'sideways'", "down or up"});

@@ -26,7 +26,7 @@ TEST_F(DoorsToParts, the_scene_of_a_ping_of_a_survey_is_that_which_was_pinged) {
   scene.path = path(scene.path);
   const auto parts = insonify::open_scene_of_run(scene, path("run/fls"), 0);
   std::size_t drawn = 0;
-  std::set<std::pair<double, double>> places;
+  std::set<std::pair<double, double>> positions;
   for (const Ping& ping : cube.pings) {
     const auto cloud = parts->cloud_at(parts->moment_of(ping.time, ping.number));
     const PixelLabels& labels = ping.labels;
@@ -37,13 +37,13 @@ TEST_F(DoorsToParts, the_scene_of_a_ping_of_a_survey_is_that_which_was_pinged) {
       if (std::count(cloud->part.begin(), cloud->part.end(), p) == 0) continue;  // not in this draw
       EXPECT_TRUE(was.isApprox(is, 1e-12)) << cloud->parts[p].name << " at ping " << ping.number;
       if (cloud->parts[p].label != "pot") continue;
-      places.insert({is.translation().x(), is.translation().y()}), ++drawn;
+      positions.insert({is.translation().x(), is.translation().y()}), ++drawn;
     }
     const auto same = parts->cloud_at(parts->moment_of(ping.time, ping.number));
     EXPECT_EQ(same, cloud) << "placed once while it is in use";
   }
-  EXPECT_GT(places.size(), 4U) << "of several draws";
-  EXPECT_GT(drawn, places.size());
+  EXPECT_GT(positions.size(), 4U) << "of several draws";
+  EXPECT_GT(drawn, positions.size());
 }
 
 // Two pings of one draw differ by nothing but a millimetre of the head, those of two draws by where bodies lie.
@@ -108,14 +108,14 @@ TEST_F(DoorsToParts, soundings_are_compared_with_parts_where_they_were) {
 
 TEST_F(DoorsToParts, a_ping_has_the_draw_that_is_asked_for) {
   succeed("ping drawn.toml -o a --time 1 --draw 4" + parts_head);
-  const auto places = [&](const std::string& run) { return manifest_of(run)["scene"]["parts"]; };
+  const auto positions = [&](const std::string& run) { return manifest_of(run)["scene"]["parts"]; };
   mission_over("drawn.toml", "keep = [\"contributors\"]\n[randomise]\nscene = \"ping\"\n");
   write("m.toml", replaced(read("m.toml"), "seed = 7", "seed = 1"));
   survey("run");
   merged_cubes("run", {"fls"});
   const PixelLabels labels = read_cube(path("run/fls/cube.h5")).pings.at(4).labels;
   const auto pot = std::find(labels.part_names.begin(), labels.part_names.end(), "pot-1") - labels.part_names.begin();
-  EXPECT_NEAR(named(places("a"), "pot-1")["position_m"][0].get<double>(),
+  EXPECT_NEAR(named(positions("a"), "pot-1")["position_m"][0].get<double>(),
               labels.views[static_cast<std::size_t>(pot)].world_from_part.translation().x(), 1e-9);
   succeed("ping --run a/run.toml -o again -q --no-picture");
   EXPECT_EQ(read("a/cube.h5"), read("again/cube.h5"));

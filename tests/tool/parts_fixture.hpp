@@ -2,7 +2,7 @@
 #pragma once
 #include "tool/survey_fixture.hpp"
 
-/// Scenes of parts for tests: a harbour with a crate and a diver, and pots strewn over it.
+/// Scenes of parts for tests: a harbour with a crate and a diver, and pots scattered over it.
 inline const std::string parts_head =
     " --sonar p900-45 --set sonar.beams=64 --range 2:15 --scatterers-per-cell 3 --no-picture -q --pose=0,0,-3,0,10,0";
 

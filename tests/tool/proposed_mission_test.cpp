@@ -18,9 +18,10 @@ class RiverBed {
  public:
   explicit RiverBed(Eigen::Vector3d at) : at_(std::move(at)) {
     for (std::uint64_t k = 0; k < 40; ++k) {
-      const auto place = random_complex_normal(11, RandomStage::noise, {k, 0, 0}),
+      const auto position = random_complex_normal(11, RandomStage::noise, {k, 0, 0}),
                  size = random_complex_normal(11, RandomStage::noise, {k, 1, 0});
-      stones_.push_back({length * (0.5 + 0.3 * place.real()), 4.5 + 0.8 * place.imag(), 0.2 + 0.2 * std::abs(size)});
+      stones_.push_back(
+          {length * (0.5 + 0.3 * position.real()), 4.5 + 0.8 * position.imag(), 0.2 + 0.2 * std::abs(size)});
     }
   }
   static constexpr double length = 20, half_width = 6;
@@ -36,7 +37,7 @@ class RiverBed {
     }
     return at_.z() + z;
   }
-  /// Distance of a place from the surface [m]: over a grid of 2 cm about it, within 0.7 m.
+  /// Distance of a position from the surface [m]: over a grid of 2 cm about it, within 0.7 m.
   double distance(const Eigen::Vector3d& p) const {
     double least = std::abs(p.z() - height(p.x(), p.y()));
     const int reach = static_cast<int>(std::ceil(std::min(0.7, least) / 0.02));
@@ -182,8 +183,8 @@ TEST_F(ProposedMission, of_a_cloud_in_the_axes_of_a_camera_is_a_ping_from_its_pl
   const Soundings returns = load_soundings(path("first/returns.ply"));
   ASSERT_GT(returns.size(), 100U);
   std::size_t near = 0;
-  for (const Eigen::Vector3d& place : returns.position) {
-    const Eigen::Vector3d p = place - camera;
+  for (const Eigen::Vector3d& position : returns.position) {
+    const Eigen::Vector3d p = position - camera;
     near += std::abs(p.z() - ahead(p.x(), p.y())) < 0.1;
   }
   EXPECT_GT(near, returns.size() * 98 / 100);

@@ -93,13 +93,13 @@ TEST(RunSettings, rows_set_the_options_of_the_simulator) {
     std::ofstream(path) << "schema = 1\ninsonify_version = \"1\"\n[ping]\n" << key << " = " << value << "\n";
     return load_ping_settings(path);
   };
-  EXPECT_EQ(asked_simulation(set("detail_width", "0.5")).sampling.detail_width, 0.5);
-  EXPECT_EQ(asked_simulation(set("multipath", "true")).effects.multipath, Choice::always);
-  EXPECT_EQ(asked_simulation(set("absorption_order", "1")).effects.absorption_order, 1);
-  EXPECT_EQ(asked_simulation(set("amplitude", "\"coherent\"")).amplitude, SurfaceAmplitude::coherent);
-  EXPECT_EQ(asked_simulation(set("all_bins_above", "60.5")).detection.above_db, 60.5);
-  EXPECT_TRUE(asked_simulation(set("keep", "[\"labels\"]")).outputs.labels);
-  EXPECT_EQ(asked_simulation(set("keep", "[\"labels\"]")).outputs.display_bins, usual_display_bins);
+  EXPECT_EQ(requested_simulation(set("detail_width", "0.5")).sampling.detail_width, 0.5);
+  EXPECT_EQ(requested_simulation(set("multipath", "true")).effects.multipath, Choice::always);
+  EXPECT_EQ(requested_simulation(set("absorption_order", "1")).effects.absorption_order, 1);
+  EXPECT_EQ(requested_simulation(set("amplitude", "\"coherent\"")).amplitude, SurfaceAmplitude::coherent);
+  EXPECT_EQ(requested_simulation(set("all_bins_above", "60.5")).detection.above_db, 60.5);
+  EXPECT_TRUE(requested_simulation(set("keep", "[\"labels\"]")).outputs.labels);
+  EXPECT_EQ(requested_simulation(set("keep", "[\"labels\"]")).outputs.display_bins, usual_display_bins);
 }
 
 // Numbers in files are text, as insonify writes them, or a list.
@@ -146,7 +146,7 @@ TEST_F(RunAgain, options_beside_it_override_it) {
       "--no-picture -q");
   succeed(again_head + pose + " --seed 8 --keep paths --without motion --range 6:8 -o expected");
   expect_same("expected", "other");
-  // A trajectory takes the place of a pose and its motion, and a pose that of a trajectory.
+  // A trajectory takes the position of a pose and its motion, and a pose that of a trajectory.
   succeed(again_head + gate + pose + " --velocity=1,0,0 --world ned -o moving");
   succeed("ping --run moving/run.toml --trajectory track.csv --time 1.5 -o track --no-picture -q");
   succeed("ping --run track/run.toml" + pose + " -o still --no-picture -q");

@@ -22,7 +22,7 @@ ImageRun sweep_before_wall(double speed) {
   for (int k = 0; k < beams; ++k) {
     const double angle = 2 * pi * k / beams, time = 16.0 * k / beams, x = speed * time;
     Ping ping;
-    ping.number = k, ping.time = time, ping.scan = ScanPlace{0, angle};
+    ping.number = k, ping.time = time, ping.scan = ScanDirection{0, angle};
     ping.world_from_head = pose_from_yaw_pitch_roll({x, 0, 0}, angle, 0, 0);
     ping.fan = make_fan(1, radians(2), radians(2), radians(20));
     ping.gate = {0.5, 12, 0.05};
@@ -34,23 +34,24 @@ ImageRun sweep_before_wall(double speed) {
   return {"run", cube};
 }
 
-/// Places of the loud cells, in metres.
+/// Positions of the loud cells, in metres.
 std::vector<Eigen::Vector2d> loud_places(const LevelImage& image) {
-  std::vector<Eigen::Vector2d> places;
+  std::vector<Eigen::Vector2d> positions;
   for (Eigen::Index b = 0; b < image.level_db.rows(); ++b)
     for (Eigen::Index n = 0; n < image.level_db.cols(); ++n)
       if (image.level_db(b, n) > 0)
-        places.push_back(image.gate.centre(static_cast<std::size_t>(n)) *
-                         Eigen::Rotation2Dd(image.fan.azimuth[static_cast<std::size_t>(b)]).toRotationMatrix().col(0));
-  return places;
+        positions.push_back(
+            image.gate.centre(static_cast<std::size_t>(n)) *
+            Eigen::Rotation2Dd(image.fan.azimuth[static_cast<std::size_t>(b)]).toRotationMatrix().col(0));
+  return positions;
 }
 
-/// Standard deviation of the places about the line that fits them best.
-double off_the_line(const std::vector<Eigen::Vector2d>& places) {
+/// Standard deviation of the positions about the line that fits them best.
+double off_the_line(const std::vector<Eigen::Vector2d>& positions) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const auto& p : places) mean += p / static_cast<double>(places.size());
+  for (const auto& p : positions) mean += p / static_cast<double>(positions.size());
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const auto& p : places) spread += (p - mean) * (p - mean).transpose() / static_cast<double>(places.size());
+  for (const auto& p : positions) spread += (p - mean) * (p - mean).transpose() / static_cast<double>(positions.size());
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvalues()[0]);
 }
 
@@ -83,10 +84,10 @@ TEST(ScanImage, compensates_turns_of_the_vehicle) {
   const Pose middle = turning.cube.pings[100].world_from_head;
   const double yaw = std::atan2(middle(1, 0), middle(0, 0)) - turning.cube.pings[100].scan->angle;
   EXPECT_GT(off_the_line(loud_places(sweep_of_head(turning, raw(), 0))), 0.3);
-  std::vector<Eigen::Vector2d> places = loud_places(sweep_in_world(turning, raw(), 0));
-  EXPECT_LT(off_the_line(places), 0.15);
+  std::vector<Eigen::Vector2d> positions = loud_places(sweep_in_world(turning, raw(), 0));
+  EXPECT_LT(off_the_line(positions), 0.15);
   const Eigen::Rotation2Dd to_world(yaw);
-  for (const auto& p : places) EXPECT_NEAR((to_world * p).x(), 6, 0.4);
+  for (const auto& p : positions) EXPECT_NEAR((to_world * p).x(), 6, 0.4);
 }
 
 TEST(ScanImage, needs_a_scanning_head) {

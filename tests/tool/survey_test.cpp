@@ -188,10 +188,10 @@ TEST_F(Survey, knows_where_on_the_globe_and_when_it_was) {
   EXPECT_EQ(fls["properties"]["time"][5], "2026-05-01T08:30:02.500Z");
   ASSERT_EQ(fls["geometry"]["coordinates"].size(), 13U);
   // x is east: 2.5 m on, the longitude has grown by that over the radius of the parallel of 54 degrees, 3757214 m.
-  const auto& place = fls["geometry"]["coordinates"][5];
-  EXPECT_NEAR(radians(place[0].get<double>() - 8) * 3757214, 2.5, 1e-3);
-  EXPECT_NEAR(place[1].get<double>(), 54, 1e-8);
-  EXPECT_NEAR(place[2].get<double>(), -3, 1e-3);
+  const auto& position = fls["geometry"]["coordinates"][5];
+  EXPECT_NEAR(radians(position[0].get<double>() - 8) * 3757214, 2.5, 1e-3);
+  EXPECT_NEAR(position[1].get<double>(), 54, 1e-8);
+  EXPECT_NEAR(position[2].get<double>(), -3, 1e-3);
   write("m.toml", survey_mission);
   survey("plain");
   merged("plain");

@@ -84,7 +84,7 @@ TEST_F(ProjectedWorld, rasters_lie_in_any_system_of_the_world) {
   ASSERT_EQ(own.bands.size(), local.bands.size());
   for (std::size_t k = 0; k < own.bands.size(); ++k)
     EXPECT_THAT(own.bands[k], testing::Pointwise(testing::NanSensitiveFloatEq(), local.bands[k]));
-  // ETRS89 and WGS 84 agree to a metre: the place of easting and northing by the equations of UTM.
+  // ETRS89 and WGS 84 agree to a metre: the position of easting and northing by the equations of UTM.
   succeed("export out --to geotiff --cell 0.5 --crs EPSG:32632 -q -o utm.tif");
   EXPECT_NEAR(insonify::decode::read_geotiff(read("utm.tif")).west, own.west, 1.5);
 }

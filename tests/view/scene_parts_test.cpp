@@ -211,9 +211,9 @@ TEST(HeadLines, reach_from_the_first_range_to_the_last) {
   const Eigen::Vector3d at = pose.translation() - Eigen::Vector3d(5, 5, 0);
   double nearest = 1e9, farthest = 0;
   for (const Polyline& line : lines.outline)
-    for (const Eigen::Vector3d& place : line) {
-      nearest = std::min(nearest, (place - at).norm());
-      farthest = std::max(farthest, (place - at).norm());
+    for (const Eigen::Vector3d& position : line) {
+      nearest = std::min(nearest, (position - at).norm());
+      farthest = std::max(farthest, (position - at).norm());
     }
   EXPECT_NEAR(nearest, 1, 1e-9);
   EXPECT_NEAR(farthest, 15, 1e-9);
@@ -230,9 +230,9 @@ TEST(FootprintOutline, lies_where_the_walls_meet_the_floor) {
   ASSERT_GT(outline.size(), 300u);
   const Eigen::Matrix3d turn = head.world_from_head.linear().transpose();
   for (const std::uint32_t i : outline) {
-    const Eigen::Vector3d place = turn * scene.point[i].cast<double>();
-    const Direction towards = direction_of(place);
-    const double range = place.norm(), across = range * std::cos(towards.elevation);
+    const Eigen::Vector3d position = turn * scene.point[i].cast<double>();
+    const Direction towards = direction_of(position);
+    const double range = position.norm(), across = range * std::cos(towards.elevation);
     const double to_sides = std::abs(across * (std::abs(towards.azimuth) - radians(45)));
     const double to_cones = std::abs(range * (std::abs(towards.elevation) - radians(10)));
     const double to_end = std::abs(range - 15);
@@ -270,7 +270,7 @@ TEST(SceneAxes, are_labelled_in_world_metres) {
   for (const char* text : {"500000", "5000000", "-20", "x [m]", "y [m]", "z [m]"}) EXPECT_TRUE(has(text)) << text;
   for (const AxisLabel& label : axes.labels)
     if (label.text == "500000") {
-      EXPECT_NEAR(label.place.x(), 0, 1e-6);
+      EXPECT_NEAR(label.position.x(), 0, 1e-6);
     }
 }
 

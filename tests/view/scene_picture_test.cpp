@@ -26,8 +26,8 @@ class ShowScene : public JetPictureTest {
 struct ThreeSpheres {
   explicit ThreeSpheres(const Pose& world_from_head, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero()) {
     scene.origin = origin;
-    const Eigen::Vector3d places[] = {{6, 3, 0}, {9, -3, 0}, {8, 0, 3}};
-    for (const Eigen::Vector3d& place : places) add_sphere(scene, world_from_head * place, 0.5, 3000);
+    const Eigen::Vector3d positions[] = {{6, 3, 0}, {9, -3, 0}, {8, 0, 3}};
+    for (const Eigen::Vector3d& position : positions) add_sphere(scene, world_from_head * position, 0.5, 3000);
     look.colour = SceneColour::level;
     for (const float level : {port_db, starboard_db, above_db}) look.level_db.insert(look.level_db.end(), 3000, level);
     look.head = head_at(world_from_head);

@@ -13,7 +13,7 @@ class ShowTrack : public PictureTest {
  protected:
   /// Sets a track of 20 m along x, 5 m above the middle of a square of 20 m of levels, whose right half is loud.
   ShowTrack() {
-    map.ways = {{"fls", {{0, 5}, {20, 5}}, {}}};
+    map.tracks = {{"fls", {{0, 5}, {20, 5}}, {}}};
     map.x = 0, map.y = -10, map.cell = 1;
     map.level_db.setConstant(20, 20, 60);
     map.level_db.bottomRows(10).setConstant(100);
@@ -43,25 +43,25 @@ ColouredPixels near_colour(const ReadPicture& picture, const Rgb& colour) {
 TEST_F(ShowTrack, draws_the_way_to_the_scale_of_the_levels) {
   show_track(map, options, path);
   const ReadPicture picture = read_png(path);
-  const ColouredPixels way = near_colour(picture, {26, 191, 242});
-  ASSERT_GT(way.count, 100);
+  const ColouredPixels head_track = near_colour(picture, {26, 191, 242});
+  ASSERT_GT(head_track.count, 100);
   // The way of 20 m is as long as the square is wide: its loud half is half as long, and lies under the right half of
   // it.
-  const int length = way.right - way.left, middle = (way.left + way.right) / 2,
-            below = (way.low + way.high) / 2 - length / 8;
+  const int length = head_track.right - head_track.left, middle = (head_track.left + head_track.right) / 2,
+            below = (head_track.low + head_track.high) / 2 - length / 8;
   EXPECT_LT(colour_difference(picture.at(middle + length / 4, below), {255, 255, 255}), 20);
   EXPECT_GT(colour_difference(picture.at(middle - length / 4, below), {255, 255, 255}), 60);
   // A quarter of its length from the top of the square, three quarters from the bottom.
-  EXPECT_LT(colour_difference(picture.at(middle + length / 4, way.low - 0.7 * length), {255, 255, 255}), 20);
-  EXPECT_GT(colour_difference(picture.at(middle - length / 4, way.low - 0.7 * length), {255, 255, 255}), 60);
+  EXPECT_LT(colour_difference(picture.at(middle + length / 4, head_track.low - 0.7 * length), {255, 255, 255}), 20);
+  EXPECT_GT(colour_difference(picture.at(middle - length / 4, head_track.low - 0.7 * length), {255, 255, 255}), 60);
 }
 
 TEST_F(ShowTrack, is_the_same_in_utm) {
   show_track(map, options, path);
   const int near = near_colour(read_png(path), {26, 191, 242}).count;
   map.x += 5e5, map.y += 5.4e6;
-  for (TrackMap::Way& way : map.ways)
-    for (Eigen::Vector2d& place : way.places) place += Eigen::Vector2d(5e5, 5.4e6);
+  for (TrackMap::HeadTrack& head_track : map.tracks)
+    for (Eigen::Vector2d& position : head_track.positions) position += Eigen::Vector2d(5e5, 5.4e6);
   show_track(map, options, path);
   EXPECT_NEAR(near_colour(read_png(path), {26, 191, 242}).count, near, 0.1 * near);
 }
@@ -70,7 +70,7 @@ TEST_F(ShowTrack, draws_ways_without_levels_and_refuses_nothing_at_all) {
   map.level_db.resize(0, 0);
   show_track(map, options, path);
   EXPECT_GT(near_colour(read_png(path), {26, 191, 242}).count, 100);
-  map.ways.clear();
+  map.tracks.clear();
   EXPECT_THAT(error_of([&] { show_track(map, options, path); }), HasSubstr("no way has a place"));
 }
 

@@ -19,14 +19,15 @@ void add_plate(SceneCloud& scene, const Pose& pose, const Eigen::Vector3d& middl
 
 void add_echo(std::vector<Ping>& pings, const Target& target) {
   for (Ping& ping : pings)
-    ping.pressure(static_cast<Eigen::Index>(target.place.beam), static_cast<Eigen::Index>(target.place.bin)) = loud;
+    ping.pressure(static_cast<Eigen::Index>(target.position.beam), static_cast<Eigen::Index>(target.position.bin)) =
+        loud;
 }
 
 }  // namespace
 
 LazyPings reel_in_memory(std::vector<Ping> pings) {
-  std::vector<TrackPoint> places;
-  for (const Ping& ping : pings) places.push_back(track_point_of(ping));
+  std::vector<TrackPoint> positions;
+  for (const Ping& ping : pings) positions.push_back(track_point_of(ping));
   const auto held = std::make_shared<const std::vector<Ping>>(std::move(pings));
   PingSource source;
   source.ping = [held](std::size_t i) { return (*held)[i]; };
@@ -36,7 +37,7 @@ LazyPings reel_in_memory(std::vector<Ping> pings) {
       rows.row(static_cast<Eigen::Index>(i)) = (*held)[first + i].pressure.row(static_cast<Eigen::Index>(beam));
     return rows;
   };
-  return {std::move(places), std::move(source)};
+  return {std::move(positions), std::move(source)};
 }
 
 TargetData three_targets(std::size_t pings, bool with_contributors) {
@@ -58,7 +59,7 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
   data.scene.origin = {8, 22, 0};
   data.scene.materials.clear();
   for (const char* name : {"iron", "wood", "rubber"}) data.scene.materials.push_back({name});
-  const auto place = [&](const char* name, std::size_t beam, std::size_t bin, std::uint16_t material) {
+  const auto position = [&](const char* name, std::size_t beam, std::size_t bin, std::uint16_t material) {
     Target target{name, ping.fan.azimuth[beam], ping.gate.centre(bin), {beam, bin}, {}};
     target.position = ping.world_from_head * (target.range * unit_vector({target.azimuth, 0}));
     add_plate(data.scene, ping.world_from_head, target.position, material);
@@ -66,9 +67,9 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
     return target;
   };
   const bool port_last = ping.fan.azimuth[0] < 0;  // for either numbering of the fan
-  made.port = place("iron", port_last ? 33 : 7, 40, 0);
-  made.starboard = place("wood", port_last ? 7 : 33, 40, 1);
-  made.far = place("rubber", 20, 100, 2);
+  made.port = position("iron", port_last ? 33 : 7, 40, 0);
+  made.starboard = position("wood", port_last ? 7 : 33, 40, 1);
+  made.far = position("rubber", 20, 100, 2);
   data.pings = reel_in_memory(made.pings);
   if (!with_contributors) return made;
 
@@ -82,7 +83,7 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
   list.material.assign(entries, Contributors::no_material);
   list.path.assign(entries, PathKind::direct);
   for (const std::uint32_t k : {0U, 1U}) {
-    const std::size_t at = list.at(made.port.place.beam, made.port.place.bin, k);
+    const std::size_t at = list.at(made.port.position.beam, made.port.position.bin, k);
     list.surfel[at] = 12 - 5 * k;
     list.id[at] = data.scene.id[12 - 5 * k];
     list.share[at] = k == 0 ? 0.75F : 0.2F;

@@ -61,12 +61,12 @@ TEST(ViewerHead, place_is_the_inverse_of_pose) {
     for (const double pitch : {-90.0, -40.0, 0.0, 90.0})
       for (const double roll : {-120.0, 0.0, 30.0}) {
         const Pose pose = pose_from_yaw_pitch_roll({1, 2, 3}, radians(yaw), radians(pitch), radians(roll));
-        EXPECT_TRUE(pose_of(head_place(pose)).isApprox(pose, 1e-9)) << yaw << " " << pitch << " " << roll;
+        EXPECT_TRUE(pose_of(pose_angles(pose)).isApprox(pose, 1e-9)) << yaw << " " << pitch << " " << roll;
       }
 }
 
 TEST(ViewerHead, its_option_reads_as_a_person_writes_it) {
-  HeadPlace head;
+  PoseAngles head;
   head.position = {-1, 4.25, -2.2};
   head.pitch = radians(15);
   head.yaw = -1e-9;
@@ -76,9 +76,9 @@ TEST(ViewerHead, its_option_reads_as_a_person_writes_it) {
 TEST(ViewerHead, of_a_mounted_sonar_says_the_pose_of_the_vehicle) {
   const Pose vehicle = pose_from_yaw_pitch_roll({1, 2, -3}, radians(30), radians(5), radians(-4));
   ViewerData data;
-  EXPECT_EQ(vehicle_place(data, head_place(vehicle)), head_place(vehicle));
+  EXPECT_EQ(vehicle_position(data, pose_angles(vehicle)), pose_angles(vehicle));
   data.vehicle_from_head = pose_from_yaw_pitch_roll({0.5, 0, -0.2}, 0, radians(90), radians(7));
-  const HeadPlace said = vehicle_place(data, head_place(vehicle * data.vehicle_from_head));
+  const PoseAngles said = vehicle_position(data, pose_angles(vehicle * data.vehicle_from_head));
   EXPECT_TRUE(pose_of(said).isApprox(vehicle, 1e-9));
 }
 

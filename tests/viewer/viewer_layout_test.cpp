@@ -85,13 +85,13 @@ TEST_F(FanPicking, every_cell_is_found_at_its_middle) {
   for (std::size_t beam = 0; beam < 41; ++beam)
     for (std::size_t bin = 0; bin < 120; ++bin) {
       const Point2 middle = layout_.at(-image_.fan.azimuth[beam], image_.gate.centre(bin));
-      ASSERT_EQ(pixel_at(image_, fan_place(layout_, middle)), (PixelPlace{beam, bin})) << beam << " " << bin;
+      ASSERT_EQ(pixel_at(image_, fan_position(layout_, middle)), (PixelPosition{beam, bin})) << beam << " " << bin;
     }
 }
 
 TEST_F(FanPicking, starboard_is_right_and_far_is_up) {
   const auto at = [&](double x, double y) {
-    return pixel_at(image_, fan_place(layout_, {layout_.apex.x + x, layout_.apex.y + y}));
+    return pixel_at(image_, fan_position(layout_, {layout_.apex.x + x, layout_.apex.y + y}));
   };
   const auto left = at(-40, 200), right = at(40, 200), above = at(0, 300);
   ASSERT_TRUE(left && right && above);
@@ -115,10 +115,10 @@ TEST_F(FanPicking, of_beams_one_above_another_the_strongest_is_found) {
   image_.fan.azimuth[11] = image_.fan.azimuth[10];
   image_.fan.elevation[11] = radians(10);
   image_.level_db(11, 50) = 80;
-  const FanPlace at{-image_.fan.azimuth[10], image_.gate.centre(50)};
-  EXPECT_EQ(pixel_at(image_, at), (PixelPlace{11, 50}));
+  const FanPosition at{-image_.fan.azimuth[10], image_.gate.centre(50)};
+  EXPECT_EQ(pixel_at(image_, at), (PixelPosition{11, 50}));
   image_.level_db(10, 50) = 90;
-  EXPECT_EQ(pixel_at(image_, at), (PixelPlace{10, 50}));
+  EXPECT_EQ(pixel_at(image_, at), (PixelPosition{10, 50}));
 }
 
 TEST_F(FanPicking, metres_are_to_starboard_and_forward) {
@@ -144,7 +144,7 @@ TEST(ViewerScript, reads_every_event) {
   EXPECT_EQ(events[0].panel, ViewerPanelName::fan);
   EXPECT_EQ(events[0].from.y, 300);
   EXPECT_EQ(events[1].text, "shift+Up");
-  EXPECT_EQ(events[2].place, (PixelPlace{3, 4}));
+  EXPECT_EQ(events[2].position, (PixelPosition{3, 4}));
   EXPECT_EQ(events[3].panel, ViewerPanelName::scene);
   EXPECT_EQ(events[3].by.x, -5);
   EXPECT_EQ(events[4].seconds, 0.5);

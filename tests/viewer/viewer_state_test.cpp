@@ -65,28 +65,28 @@ TEST(ViewerKeys, a_switch_pressed_twice_is_as_before) {
 }
 
 TEST(ViewerKeys, ask_for_what_is_not_a_state) {
-  const auto asked = [](const char* key) { return apply_key({}, key, extent).request; };
-  EXPECT_EQ(asked("q"), ViewerRequest::quit);
-  EXPECT_EQ(asked("e"), ViewerRequest::quit);
-  EXPECT_EQ(asked("j"), ViewerRequest::screenshot);
-  EXPECT_EQ(asked("r"), ViewerRequest::reset_cameras);
-  EXPECT_EQ(asked("p"), ViewerRequest::none);
+  const auto requested = [](const char* key) { return apply_key({}, key, extent).request; };
+  EXPECT_EQ(requested("q"), ViewerRequest::quit);
+  EXPECT_EQ(requested("e"), ViewerRequest::quit);
+  EXPECT_EQ(requested("j"), ViewerRequest::screenshot);
+  EXPECT_EQ(requested("r"), ViewerRequest::reset_cameras);
+  EXPECT_EQ(requested("p"), ViewerRequest::none);
   EXPECT_EQ(apply_key(inspecting(), "p", {}).request, ViewerRequest::print_pose);
-  EXPECT_EQ(asked("Right"), ViewerRequest::none);
+  EXPECT_EQ(requested("Right"), ViewerRequest::none);
 }
 
 TEST(ViewerKeys, shift_and_arrows_move_the_selection_from_sample_to_sample) {
   ViewerState state;
-  state.selected = PixelPlace{10, 20};
-  EXPECT_EQ(after(state, {"shift+Right", "shift+Up", "shift+Up"}).selected, (PixelPlace{11, 22}));
-  state.selected = PixelPlace{0, 199};
-  EXPECT_EQ(after(state, {"shift+Left", "shift+Up"}).selected, (PixelPlace{0, 199}));
+  state.selected = PixelPosition{10, 20};
+  EXPECT_EQ(after(state, {"shift+Right", "shift+Up", "shift+Up"}).selected, (PixelPosition{11, 22}));
+  state.selected = PixelPosition{0, 199};
+  EXPECT_EQ(after(state, {"shift+Left", "shift+Up"}).selected, (PixelPosition{0, 199}));
   EXPECT_TRUE(after({}, {"shift+Right"}).selected.has_value());  // starts in the middle
 }
 
 TEST(ViewerKeys, escape_lets_go_of_everything) {
   ViewerState state = after({}, {"d", "h"});
-  state.selected = PixelPlace{1, 1};
+  state.selected = PixelPosition{1, 1};
   state.measure.points = {{0, 1}};
   state = after(state, {"Escape"});
   EXPECT_FALSE(state.selected);
@@ -164,7 +164,7 @@ TEST(ViewerKeys, help_names_keys_that_work) {
       "f",    "Prior",       "Next"};
   ViewerState busy;
   busy.ping = 2;
-  busy.selected = PixelPlace{5, 5};
+  busy.selected = PixelPosition{5, 5};
   busy.scene_colour = SceneColour::visibility;
   const auto print = [](const KeyAnswer& a) {
     const ViewerState& s = a.state;
@@ -216,9 +216,9 @@ TEST(ViewerPlay, shows_every_ping_for_as_long) {
 
 TEST(ViewerSelect, a_click_selects_and_a_click_outside_does_not) {
   ViewerState state = select_pixel({}, {3, 4}, {1, 2}, extent);
-  EXPECT_EQ(state.selected, (PixelPlace{3, 4}));
-  EXPECT_EQ(select_pixel(state, {64, 4}, {0, 0}, extent).selected, (PixelPlace{3, 4}));
-  EXPECT_EQ(select_pixel(state, {3, 200}, {0, 0}, extent).selected, (PixelPlace{3, 4}));
+  EXPECT_EQ(state.selected, (PixelPosition{3, 4}));
+  EXPECT_EQ(select_pixel(state, {64, 4}, {0, 0}, extent).selected, (PixelPosition{3, 4}));
+  EXPECT_EQ(select_pixel(state, {3, 200}, {0, 0}, extent).selected, (PixelPosition{3, 4}));
 }
 
 TEST(ViewerSelect, two_clicks_measure_a_distance_and_leave_the_selection) {
@@ -228,11 +228,11 @@ TEST(ViewerSelect, two_clicks_measure_a_distance_and_leave_the_selection) {
   EXPECT_EQ(state.measure.length(), 0);
   state = select_pixel(state, {7, 8}, {4, 5}, extent);
   EXPECT_DOUBLE_EQ(state.measure.length(), 5);  // 3-4-5
-  EXPECT_EQ(state.selected, (PixelPlace{3, 4}));
+  EXPECT_EQ(state.selected, (PixelPosition{3, 4}));
   // The second click ends it: the next one selects, and the length stays.
   EXPECT_FALSE(state.measure.active);
   state = select_pixel(state, {7, 8}, {0, 0}, extent);
-  EXPECT_EQ(state.selected, (PixelPlace{7, 8}));
+  EXPECT_EQ(state.selected, (PixelPosition{7, 8}));
   EXPECT_DOUBLE_EQ(state.measure.length(), 5);
   state = after(state, {"d"});
   EXPECT_TRUE(state.measure.active && state.measure.points.empty());  // a new measurement
@@ -243,7 +243,7 @@ TEST(ViewerSelect, a_click_on_a_waterfall_goes_to_its_ping) {
   state.playing = true;
   state = select_ping(state, 3, {0, 7}, extent);
   EXPECT_EQ(state.ping, 3U);
-  EXPECT_EQ(state.selected, (PixelPlace{0, 7}));
+  EXPECT_EQ(state.selected, (PixelPosition{0, 7}));
   EXPECT_FALSE(state.playing);
   EXPECT_EQ(select_ping(state, 5, {0, 7}, extent).ping, 3U);  // there are five
 }

@@ -21,8 +21,8 @@ Ping one_beam_ping(std::size_t i, bool scans) {
   ping.time = 0.5 * static_cast<double>(i);
   ping.world_from_head = pose_from_yaw_pitch_roll({0.1 * static_cast<double>(i), 0, -3}, 0, 0, 0);
   if (scans)
-    ping.scan = ScanPlace{static_cast<std::int64_t>(i / pings_per_sweep),
-                          radians(30.0 * static_cast<double>(i % pings_per_sweep))};
+    ping.scan = ScanDirection{static_cast<std::int64_t>(i / pings_per_sweep),
+                              radians(30.0 * static_cast<double>(i % pings_per_sweep))};
   ping.fan = make_fan(1, 0, radians(2), radians(20));
   ping.gate = {1, 9, 0.1};
   ping.pressure = ComplexGridF::Constant(1, 80, std::pow(10.0F, static_cast<float>(i) / 20));
@@ -35,10 +35,10 @@ struct CountedReel {
   std::shared_ptr<int> read = std::make_shared<int>(0), beams_read = std::make_shared<int>(0);
 
   LazyPings reel(std::size_t count, bool scans) const {
-    std::vector<TrackPoint> places;
+    std::vector<TrackPoint> positions;
     for (std::size_t i = 0; i < count; ++i) {
       const Ping ping = one_beam_ping(i, scans);
-      places.push_back({ping.number, ping.time, ping.world_from_head, ping.scan});
+      positions.push_back({ping.number, ping.time, ping.world_from_head, ping.scan});
     }
     PingSource source;
     source.ping = [scans, read = read](std::size_t i) { return ++*read, one_beam_ping(i, scans); };
@@ -50,7 +50,7 @@ struct CountedReel {
             one_beam_ping(first + i, scans).pressure.row(static_cast<Eigen::Index>(beam));
       return rows;
     };
-    return {std::move(places), std::move(source)};
+    return {std::move(positions), std::move(source)};
   }
 };
 
@@ -117,10 +117,10 @@ TEST(ViewerRecords, a_sweep_shows_every_bearing_as_it_was_heard_last) {
   const SweepImage sweep = sweep_at(data, 14, false, page);
   ASSERT_EQ(sweep.ping.size(), pings_per_sweep);
   for (std::size_t beam = 0; beam < pings_per_sweep; ++beam) {
-    const std::size_t heard = beam <= 2 ? 12 + beam : beam;
-    EXPECT_EQ(sweep.ping[beam], heard);
+    const std::size_t beam_azimuth = beam <= 2 ? 12 + beam : beam;
+    EXPECT_EQ(sweep.ping[beam], beam_azimuth);
     EXPECT_NEAR(sweep.image.level_db(static_cast<Eigen::Index>(beam), 70),
-                120 - 20 * std::log10(std::sqrt(2)) + static_cast<double>(heard), 1e-3);
+                120 - 20 * std::log10(std::sqrt(2)) + static_cast<double>(beam_azimuth), 1e-3);
     EXPECT_NEAR(std::remainder(sweep.image.fan.azimuth[beam] - radians(30.0 * static_cast<double>(beam)), 2 * pi), 0,
                 1e-12);
   }
@@ -261,10 +261,10 @@ TEST_F(ViewSurvey, has_moving_parts_where_they_are_at_each_ping) {
     for (const std::size_t at : {0U, 1U}) {
       // The face of the ball towards the head.
       const Eigen::Vector3d centre(3.5, 1 - 2.0 * static_cast<double>(at), -3), head(0, 0, -3);
-      const auto place = place_of(cube.pings[ping], centre - 0.38 * (centre - head).normalized());
-      ASSERT_TRUE(place);
+      const auto position = position_of(cube.pings[ping], centre - 0.38 * (centre - head).normalized());
+      ASSERT_TRUE(position);
       const std::string said = shown("run --ping " + std::to_string(ping) + " --events 'select " +
-                                     std::to_string(place->beam) + " " + std::to_string(place->bin) + "'");
+                                     std::to_string(position->beam) + " " + std::to_string(position->bin) + "'");
       EXPECT_THAT(said, ping == at ? testing::Matcher<std::string>(HasSubstr("Part ball"))
                                    : testing::Not(HasSubstr("Part ball")))
           << ping << " at " << at;

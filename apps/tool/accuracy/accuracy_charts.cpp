@@ -140,8 +140,8 @@ bool draw_promise(const Rows& rows, const std::string& path) {
     if (r.method != "gridded" || r.error == 0) continue;
     worst[r.tolerance] = std::max(worst[r.tolerance], r.error);
     local[r.tolerance] = std::max(local[r.tolerance], r.local_error);
-    const auto place = least.try_emplace(r.tolerance, r.error).first;
-    place->second = std::min(place->second, r.error);
+    const auto entry = least.try_emplace(r.tolerance, r.error).first;
+    entry->second = std::min(entry->second, r.error);
   }
   for (const auto& [tolerance, error] : worst) plot.add("worst image", tolerance, error);
   for (const auto& [tolerance, error] : local) plot.add("worst eighth of a range axis", tolerance, error);

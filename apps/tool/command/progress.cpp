@@ -123,14 +123,14 @@ void Progress::draw_bar() {
   constexpr double shown_from = 0.7;  // seconds that a loop runs before it is worth a word
   const WorkProgress work = work_progress();
   std::string text = what_;
-  double part = part_;
+  double share = part_;
   if (shows_loops_ && work.total > 1 && work.loop_seconds > shown_from) {
     const double of_loop = static_cast<double>(work.done) / static_cast<double>(work.total);
-    part += of_loop / steps_;
+    share += of_loop / steps_;
     text += fmt::format(": {}{:.0f} %", *work.stage ? std::string(work.stage) + " " : "", 100 * of_loop);
     if (of_loop > 0.02) text += fmt::format(", {} left", time_text(work.loop_seconds * (1 / of_loop - 1)));
   }
-  const auto filled = static_cast<std::size_t>(width * std::min(1.0, part));
+  const auto filled = static_cast<std::size_t>(width * std::min(1.0, share));
   fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(filled, '#'), std::string(width - filled, '.'), text);
   std::fflush(stderr);
   bar_shown_ = true;
@@ -152,9 +152,9 @@ void Progress::step(const std::string& what) {
   if (bar_) draw_bar();
 }
 
-void Progress::show(double part, const std::string& what) {
+void Progress::show(double share, const std::string& what) {
   const std::scoped_lock lock(guard_);
-  part_ = part;
+  part_ = share;
   what_ = what;
   shows_loops_ = false;
   if (bar_) draw_bar();

@@ -57,8 +57,8 @@ class Progress : public RunObserver {
 
   /// Starts the next step.
   void step(const std::string& what) override;
-  /// Moves the bar of a terminal to `part` (0 to 1) of the whole work; else nothing.
-  void show(double part, const std::string& what);
+  /// Moves the bar of a terminal to `share` (0 to 1) of the whole work; else nothing.
+  void show(double share, const std::string& what);
   /// Takes the bar away for good.
   void finish();
   /// Shows a sentence unless quiet.

@@ -15,7 +15,6 @@
 namespace insonify::tool {
 namespace {
 
-/// A picture of the page.
 struct PagePicture {
   std::string file, shows;
 };

@@ -134,7 +134,6 @@ class ScenePoints {
   std::map<HeightCell, std::pair<double, double>> cells_;
 };
 
-/// The differences of soundings from a scene.
 struct SoundingDifferences {
   std::vector<double> distance;  ///< [m] of each from the nearest point of the scene
   std::map<HeightCell, std::pair<double, double>>

@@ -72,7 +72,6 @@ ComparedFile compared_side_scan(const std::string& path, int channel) {
   return file;
 }
 
-/// All pings of a run of one beam.
 ComparedFile compared_waterfall(const std::string& path) {
   const RunPings run = find_run_pings(path, "");
   ComparedFile file;
@@ -157,13 +156,14 @@ double strength_db(double value, const std::string& unit) {
 }
 
 /// The strength of the nearest point of another cloud; NaN if that is too far.
-std::vector<double> repeated_strengths(const std::vector<Eigen::Vector3d>& places, const CompareOptions& o) {
+std::vector<double> repeated_strengths(const std::vector<Eigen::Vector3d>& positions, const CompareOptions& o) {
   const CloudField again = load_cloud_field(o.repeat, o.strength);
-  std::vector<double> strengths(places.size());
-  parallel_for(places.size(), o.common.threads, [&](std::size_t i) {
+  std::vector<double> strengths(positions.size());
+  parallel_for(positions.size(), o.common.threads, [&](std::size_t i) {
     double least = repeat_within * repeat_within, value = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t k = 0; k < again.position.size(); ++k)
-      if (const double d = (again.position[k] - places[i]).squaredNorm(); d <= least) least = d, value = again.value[k];
+      if (const double d = (again.position[k] - positions[i]).squaredNorm(); d <= least)
+        least = d, value = again.value[k];
     strengths[i] = strength_db(value, o.unit);
   });
   return strengths;
@@ -228,7 +228,7 @@ ComparedPoints compared_points(const ComparedFile& a, const CompareOptions& o) {
   const CloudField cloud = load_cloud_field(o.b, o.strength);
   const Pose head_from_world = a.world_from_head->inverse();
   ComparedPoints points;
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> positions;
   points.in_cloud = cloud.value.size();
   for (std::size_t i = 0; i < cloud.value.size(); ++i) {
     const Eigen::Vector3d p = head_from_world * cloud.position[i];
@@ -243,12 +243,13 @@ ComparedPoints compared_points(const ComparedFile& a, const CompareOptions& o) {
     points.predicted_db.push_back(level);
     points.measured_db.push_back(strength);
     points.range.push_back(p.norm());
-    places.push_back(cloud.position[i]);
+    positions.push_back(cloud.position[i]);
   }
-  if (places.size() < 3)
-    fail(ErrorKind::content, o.b, ": ", places.size(), " of ", cloud.value.size(), " points with a strength lie where ",
-         o.a, " has a level, must be 3 at least; were cloud and run made in one frame?");
-  if (!o.repeat.empty()) points.repeated_db = repeated_strengths(places, o);
+  if (positions.size() < 3)
+    fail(ErrorKind::content, o.b, ": ", positions.size(), " of ", cloud.value.size(),
+         " points with a strength lie where ", o.a,
+         " has a level, must be 3 at least; were cloud and run made in one frame?");
+  if (!o.repeat.empty()) points.repeated_db = repeated_strengths(positions, o);
   return points;
 }
 

@@ -86,13 +86,13 @@ std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs)
 
 void for_each_labelled_ping(const DatasetSource& source,
                             const std::function<void(const Cube&, const Ping&, std::size_t)>& body) {
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (const std::string& path : source.cubes)
     read_cube_pings(path, [&](const Cube& cube, const Ping& ping) {
       if (ping.labels.empty())
         fail(ErrorKind::content, path, ": ping ", ping.number,
              " has no labels: make it with --keep labels, in a mission keep = [\"labels\"] under [ping]");
-      body(cube, ping, place++);
+      body(cube, ping, index++);
     });
 }
 

@@ -152,10 +152,10 @@ void split_by_draw(std::vector<DatasetSource>& sources, const std::vector<double
 }
 
 using Cell = std::array<std::int64_t, 3>;
-Cell split_cell_of(const Eigen::Vector3d& place, double size) {
+Cell split_cell_of(const Eigen::Vector3d& position, double size) {
   Cell cell{};
   for (int axis = 0; axis < 3; ++axis)
-    cell[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::floor(place[axis] / size));
+    cell[static_cast<std::size_t>(axis)] = static_cast<std::int64_t>(std::floor(position[axis] / size));
   return cell;
 }
 
@@ -185,9 +185,9 @@ void split_pings(std::vector<DatasetSource>& sources, const std::string& unit, c
   unit == "ping" ? split_by(sources, shares, true, drawn) : split_by(sources, shares, true, scene);
 }
 
-void SplitTally::add(const std::string& split, const std::string& scene_digest, const Eigen::Vector3d& place,
+void SplitTally::add(const std::string& split, const std::string& scene_digest, const Eigen::Vector3d& position,
                      double max_range) {
-  images_[split].push_back({scene_digest, place, max_range});
+  images_[split].push_back({scene_digest, position, max_range});
 }
 
 std::map<std::string, std::size_t> SplitTally::images() const {
@@ -203,15 +203,15 @@ std::size_t SplitTally::near_train(const std::string& split) const {
   for (const Image& image : others->second) size = std::max(size, image.max_range);
   std::map<std::pair<std::string, Cell>, std::vector<Eigen::Vector3d>> cells;
   for (const Image& image : train->second)
-    cells[{image.scene, split_cell_of(image.place, size)}].push_back(image.place);
+    cells[{image.scene, split_cell_of(image.position, size)}].push_back(image.position);
   const auto is_near = [&](const Image& image) {
-    const Cell middle = split_cell_of(image.place, size);
+    const Cell middle = split_cell_of(image.position, size);
     for (std::int64_t k = 0; k < 27; ++k) {
       const Cell cell{middle[0] + k % 3 - 1, middle[1] + k / 3 % 3 - 1, middle[2] + k / 9 - 1};
       const auto at = cells.find({image.scene, cell});
       if (at == cells.end()) continue;
-      for (const Eigen::Vector3d& place : at->second)
-        if ((place - image.place).norm() <= image.max_range) return true;
+      for (const Eigen::Vector3d& position : at->second)
+        if ((position - image.position).norm() <= image.max_range) return true;
     }
     return false;
   };

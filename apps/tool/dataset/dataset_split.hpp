@@ -34,7 +34,8 @@ void split_pings(std::vector<DatasetSource>& sources, const std::string& unit, c
 class SplitTally {
  public:
   /// Notes an image of a part of the data set: where the head was and how far it heard.
-  void add(const std::string& split, const std::string& scene_digest, const Eigen::Vector3d& place, double max_range);
+  void add(const std::string& split, const std::string& scene_digest, const Eigen::Vector3d& position,
+           double max_range);
 
   /// Images of each part that has one.
   std::map<std::string, std::size_t> images() const;
@@ -47,7 +48,7 @@ class SplitTally {
  private:
   struct Image {
     std::string scene;
-    Eigen::Vector3d place;
+    Eigen::Vector3d position;
     double max_range;
   };
   std::map<std::string, std::vector<Image>> images_;  ///< images of each part

@@ -19,9 +19,9 @@ Grid<std::uint8_t> samples_within(const PartView& view, const Ping& ping) {
   };
   const std::vector<double>& azimuth = ping.fan.azimuth;
   // Cubes of earlier versions lack the beams.
-  const PartView::Extent& heard = std::isnan(view.heard.least) ? view.azimuth : view.heard;
+  const PartView::Extent& beam_azimuth = std::isnan(view.beam_azimuth.least) ? view.azimuth : view.beam_azimuth;
   const auto off = [&](std::size_t beam) {
-    return std::max({0.0, heard.least - azimuth[beam], azimuth[beam] - heard.most});
+    return std::max({0.0, beam_azimuth.least - azimuth[beam], azimuth[beam] - beam_azimuth.most});
   };
   double nearest = off(0);
   for (std::size_t b = 1; b < azimuth.size(); ++b) nearest = std::min(nearest, off(b));
@@ -46,15 +46,15 @@ std::optional<PixelBox> box_of_marks(const Grid<std::uint8_t>& shown) {
   return PixelBox{left, top, right - left + 1, bottom - top + 1};
 }
 
-/// The pixels from the first to the last one, of `count`: two places in pixels from the first one's side. None: beyond.
+/// The pixels from the first to the last one, of `count`: two positions in pixels from the first one's side. None: beyond.
 std::optional<std::pair<int, int>> pixels_between(double low, double high, Eigen::Index count) {
   const double most = static_cast<double>(count) - 1, first = std::floor(low), last = std::floor(high);
   if (!(last >= 0 && first <= most)) return std::nullopt;
   return std::pair(static_cast<int>(std::max(first, 0.0)), static_cast<int>(std::min(last, most)));
 }
 
-/// The box about the places where a fan draws a part; empty beyond the picture, and for cubes without these places.
-std::optional<PixelBox> box_of_places(const PartView& view, const FanRaster& fan) {
+/// The box about the positions where a fan draws a part; empty beyond the picture, and for cubes without these positions.
+std::optional<PixelBox> box_of_positions(const PartView& view, const FanRaster& fan) {
   const double m = fan.metres_per_pixel;
   const auto across = pixels_between(fan.head_column - view.port.most / m, fan.head_column - view.port.least / m,
                                      fan.beam.cols()),
@@ -75,7 +75,7 @@ ordered_json numbers_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z(
 
 std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture) {
   if (!(view.visible_share >= 0)) return std::nullopt;
-  if (picture.fan) return box_of_places(view, *picture.fan);
+  if (picture.fan) return box_of_positions(view, *picture.fan);
   return box_of_marks(polar_picture(samples_within(view, picture.ping), picture.ping.fan));
 }
 

@@ -121,9 +121,9 @@ CommonOfImages survey_images(std::vector<DatasetSource>& sources, const DatasetO
   std::vector<std::string>& classes = common.classes;
   LevelCounts levels;
   for (DatasetSource& source : sources)
-    for_each_labelled_ping(source, [&](const Cube&, const Ping& ping, std::size_t place) {
+    for_each_labelled_ping(source, [&](const Cube&, const Ping& ping, std::size_t index) {
       for (const std::string& name : ping.labels.names)
-        if (place == 0 && std::ranges::find(classes, name) == classes.end()) classes.push_back(name);
+        if (index == 0 && std::ranges::find(classes, name) == classes.end()) classes.push_back(name);
       std::set<std::string>& shown = source.shows.emplace_back();
       for (const std::size_t row : chosen_rows(ping, o)) {
         const bool whole = rows_of(ping) == 1;
@@ -169,9 +169,9 @@ void dataset(const DatasetOptions& o) {
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const DatasetSource& source = sources[s];
     progress.step("writing images of " + source.run + (source.head.empty() ? "" : ", head " + source.head));
-    for_each_labelled_ping(source, [&](const Cube& cube, const Ping& ping, std::size_t place) {
+    for_each_labelled_ping(source, [&](const Cube& cube, const Ping& ping, std::size_t index) {
       const std::string name = fmt::format("{:03}_{:06}", s, ping.number);
-      const std::string& split = source.split.at(place);
+      const std::string& split = source.split.at(index);
       if (rows_of(ping) == 1 && o.row.empty()) return writer.add(source, cube, ping, {name, split});
       for (const std::size_t row : chosen_rows(ping, o))
         writer.add(source, cube, row_of(ping, row), {name + fmt::format("_row{:02}", row), split, row});

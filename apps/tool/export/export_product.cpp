@@ -22,16 +22,16 @@ constexpr double shown_span_db = 80;  // of images in 8 bits
 
 /// Where the world is, if options, mission or scene say so. What needs no place is written without a system that GDAL
 /// cannot serve.
-std::optional<Georeference> place_of_run(const ProductOptions& o, const RunPings& pings, bool needed) {
+std::optional<Georeference> georeference_of_run(const ProductOptions& o, const RunPings& pings, bool needed) {
   try {
-    return georeference_of(o.place, {o.run, pings.system, pings.anchor}, ends_of(pings));
+    return georeference_of(o.world, {o.run, pings.system, pings.anchor}, ends_of(pings));
   } catch (const Error&) {
-    if (needed || !o.place.empty()) throw;
+    if (needed || !o.world.empty()) throw;
     return {};
   }
 }
 
-/// A product: its writer, and whether it needs a place on the globe.
+/// A product: its writer, and whether it needs a position on the globe.
 struct Product {
   const char* name;
   bool placed;
@@ -70,9 +70,9 @@ void export_folder(const PlacedRun& run, const CommonOptions& common, Progress& 
 UtmWorld::UtmWorld(const Georeference& from)
     : reference(from), zone(from.zone.value_or(utm_zone_of(geo_from_world(from, Eigen::Vector3d::Zero())))) {}
 
-Eigen::Vector3d UtmWorld::place(const Eigen::Vector3d& world) const {
+Eigen::Vector3d UtmWorld::from_world(const Eigen::Vector3d& world) const {
   if (reference.zone) return world;
-  const UtmPlace utm = utm_place_of(geo_from_world(reference, world), zone);
+  const UtmPosition utm = utm_position_of(geo_from_world(reference, world), zone);
   return {utm.easting, utm.northing, world.z()};
 }
 
@@ -132,14 +132,14 @@ void export_product(const ProductOptions& o, const CommonOptions& common) {
   if (!o.crs.empty() && !raster)
     fail(ErrorKind::argument, "--crs goes with --to geotiff; --to ", o.to, " is in ",
          product.placed ? "the UTM zone or the degrees of its place" : "the axes of the world", ": leave --crs out");
-  run.place = place_of_run(o, run.pings, product.placed && !RasterPlane::is_local(o.crs));
-  if (product.placed && !run.place && !RasterPlane::is_local(o.crs))
+  run.georeference = georeference_of_run(o, run.pings, product.placed && !RasterPlane::is_local(o.crs));
+  if (product.placed && !run.georeference && !RasterPlane::is_local(o.crs))
     fail(ErrorKind::argument, o.run, ": does not say where on the globe it is, which --to ", o.to,
          " needs; give --anchor LAT,LON[,HEADING] of the origin and x axis of its world, anchor in the mission, or ",
          "--utm ZONE of a world in UTM, or --system EPSG:N of one in another projected system",
          raster ? "; or --crs local for a grid of the world's own plane" : "");
   require_free_file(o.output, o.force, {o.run});
-  if (const std::string note = utm_note(o.place, {o.run, run.pings.system}); !note.empty()) progress.note(note);
+  if (const std::string note = utm_note(o.world, {o.run, run.pings.system}); !note.empty()) progress.note(note);
   progress.step("writing " + o.output);
   const SoundingCount count = product.write(run);
   for (const std::string& note : count.notes) progress.note(note);

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "tool/command/common_options.hpp"
-#include "tool/run/world_place.hpp"
+#include "tool/run/world_reference.hpp"
 
 namespace insonify::tool {
 
@@ -12,7 +12,7 @@ namespace insonify::tool {
 struct ProductOptions {
   std::string to = "vtk", run, output;
   std::string head;  ///< name of the head, of a survey with several
-  AskedPlace place;
+  WorldOptions world;
   std::string start_utc;       ///< empty: as the mission says
   std::string crs;             ///< system of a raster: EPSG:N, local, or empty: that of the world, else UTM
   double cell = 0.5;           ///< size of a raster's cells [m]

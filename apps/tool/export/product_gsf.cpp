@@ -103,16 +103,16 @@ GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, con
   const double water = water_level(run.pings).value_or(0);
   GsfPing out;
   out.time = run.start + ping.time;
-  out.place = geo_from_world(run.reference(), head);
+  out.position = geo_from_world(run.reference(), head);
   out.heading = heading_of(run.reference(), head, ship.ahead);
   out.pitch = ship.pitch, out.roll = ship.roll;
   out.head_depth = water - head.z();
   out.ship_depth = water - vehicle_pose(run.pings, ping).value_or(ping.world_from_head).translation().z();
   out.tide = -water;
-  out.separation = out.place.height - head.z();
+  out.separation = out.position.height - head.z();
   add_sonar(cube, ping, out);
   add_motion(run, way, ping, out);
-  const Anchor here{degrees(out.place.latitude), degrees(out.place.longitude), degrees(out.heading)};
+  const Anchor here{degrees(out.position.latitude), degrees(out.position.longitude), degrees(out.heading)};
   out.beams = beams_of(run, ping, found, ship, here);
   return out;
 }
@@ -137,7 +137,7 @@ SoundSpeedProfile whole_profile(const PlacedRun& run, const Ping& ping) {
 std::string command_of(const ProductOptions& o) {
   std::string command = "insonify export --to gsf";
   for (const auto& [option, value] :
-       {std::pair("--anchor", o.place.anchor), std::pair("--utm", o.place.utm), std::pair("--system", o.place.system),
+       {std::pair("--anchor", o.world.anchor), std::pair("--utm", o.world.utm), std::pair("--system", o.world.system),
         std::pair("--start-utc", o.start_utc), std::pair("--head", o.head)})
     if (!value.empty()) command += fmt::format(" {} {}", option, value);
   if (o.per_beam > 1) command += fmt::format(" --per-beam {}", o.per_beam);
@@ -153,7 +153,7 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProf
   GsfSurvey survey;
   survey.sensor = gsf_sensor_of(cube.sonar);
   survey.profile = profile;
-  survey.place = first.place;
+  survey.position = first.position;
   survey.time = first.time;
   survey.processing.draft = first.head_depth;
   survey.processing.submersible = first.ship_depth > 0;
@@ -189,7 +189,7 @@ SoundingCount gsf_product(const PlacedRun& run) {
     if (!file)
       file = std::make_unique<GsfFile>(run.options.output, survey_of(run, cube, profile, swath));
     else if (other)
-      file->add_profile(profile, swath.place, swath.time);
+      file->add_profile(profile, swath.position, swath.time);
     if (other) speed = profile.sound_speed.front();
     file->add(swath);
   });

@@ -37,9 +37,9 @@ std::vector<std::pair<std::uint8_t, std::uint8_t>> returns_of_beams(const Bottom
   return numbers;
 }
 
-/// Angle of a place from straight down [rad], positive to the starboard of a head.
-double angle_from_nadir(const Pose& world_from_head, const Eigen::Vector3d& place) {
-  const Eigen::Vector3d away = place - world_from_head.translation();
+/// Angle of a position from straight down [rad], positive to the starboard of a head.
+double angle_from_nadir(const Pose& world_from_head, const Eigen::Vector3d& position) {
+  const Eigen::Vector3d away = position - world_from_head.translation();
   const Eigen::Vector2d port = world_from_head.linear().col(1).head<2>();
   const double across = port.norm() > 0 ? -port.normalized().dot(away.head<2>()) : 0;
   return std::atan2(across, -away.z());
@@ -53,12 +53,12 @@ SoundingCount las_product(const PlacedRun& run) {
   const LasOptions options{run.options.las_version == "1.2" ? 2 : 4, run.start, profile_remark(run.options)};
   const auto count = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     if (!file)
-      file = std::make_unique<LasFile>(run.options.output, world.zone, world.place(ping.world_from_head.translation()),
-                                       options);
+      file = std::make_unique<LasFile>(run.options.output, world.zone,
+                                       world.from_world(ping.world_from_head.translation()), options);
     const auto returns = returns_of_beams(found);
     const auto line = static_cast<std::uint16_t>(leg_at(run.pings.legs, ping.time));
     for (std::size_t i = 0; i < found.size(); ++i)
-      file->add({world.place(found.position[i]), run.start + ping.time, found.level_db[i], found.deviation[i],
+      file->add({world.from_world(found.position[i]), run.start + ping.time, found.level_db[i], found.deviation[i],
                  static_cast<std::uint32_t>(ping.number), static_cast<std::uint16_t>(found.beam[i]), line,
                  returns[i].first, returns[i].second, angle_from_nadir(ping.world_from_head, found.position[i]),
                  found.reject[i] != 0});
@@ -69,15 +69,15 @@ SoundingCount las_product(const PlacedRun& run) {
 
 SoundingCount geotiff_product(const PlacedRun& run) {
   if (!(run.options.cell > 0)) fail(ErrorKind::argument, "--cell = ", run.options.cell, " m, must be > 0");
-  const RasterPlane plane(run.options.crs, run.place);
+  const RasterPlane plane(run.options.crs, run.georeference);
   SoundingMap map(run.options.cell);
   const auto count = each_swath(run, [&](const Cube&, const Ping&, const BottomSoundings& found) {
     for (std::size_t i = 0; i < found.size(); ++i) {
-      const Eigen::Vector3d place = plane.place(found.position[i]);
+      const Eigen::Vector3d position = plane.from_world(found.position[i]);
       if (found.reject[i] != 0)
-        map.add_rejected(place);
+        map.add_rejected(position);
       else
-        map.add(place, power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i])));
+        map.add(position, power_from_db(static_cast<double>(found.level_db[i]) + 30 * std::log10(found.range[i])));
     }
   });
   if (map.empty()) fail(ErrorKind::content, run.options.run, ": has no soundings, so there is nothing to map");
@@ -92,7 +92,7 @@ SoundingCount csv_product(const PlacedRun& run) {
   std::ofstream out(pending.temporary(), std::ios::binary);
   if (const std::string remark = profile_remark(run.options); !remark.empty()) out << "# " << remark << '\n';
   const std::span columns(csv_columns);
-  out << joined(run.place ? columns : columns.first(columns.size() - 2), ",", &BandMeaning::name) << '\n';
+  out << joined(run.georeference ? columns : columns.first(columns.size() - 2), ",", &BandMeaning::name) << '\n';
   const auto count = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     std::string rows;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -101,9 +101,9 @@ SoundingCount csv_product(const PlacedRun& run) {
                           run.start + ping.time, found.beam[i], at.x(), at.y(), at.z(), found.range[i],
                           found.deviation[i], found.level_db[i], found.quality[i],
                           found.method[i] == BottomMethod::phase ? "phase" : "amplitude", found.reject[i]);
-      if (run.place) {
-        const GeoPlace place = geo_from_world(run.reference(), at);
-        rows += fmt::format(",{:.9f},{:.9f}", degrees(place.latitude), degrees(place.longitude));
+      if (run.georeference) {
+        const GeoPosition position = geo_from_world(run.reference(), at);
+        rows += fmt::format(",{:.9f},{:.9f}", degrees(position.latitude), degrees(position.longitude));
       }
       rows += '\n';
     }

@@ -45,7 +45,7 @@ void require_even_fan(const std::string& run, const BeamFan& fan) {
          degrees(least), " to ", degrees(most), " degrees");
 }
 
-/// Places of the columns among the beams in the order of their azimuths: the beam below, and how much of the next one.
+/// Positions of the columns among the beams in the order of their azimuths: the beam below, and how much of the next one.
 /// Column j looks to -h / 2 + j h / W, so W is one less than the beams, and the last beam is left out.
 std::vector<std::pair<std::size_t, double>> columns_of(const std::vector<double>& azimuth) {
   constexpr double rounding = 1e-6;  // of the distance of two beams

@@ -37,7 +37,7 @@ struct RobotLog {
   SonarImageScale scale;
   Eigen::Vector3d origin;
   std::uint16_t image, fan, points, transforms, fixed_transforms;
-  std::optional<std::uint16_t> fix{};  ///< channel of fixes, of a run with a place on the globe
+  std::optional<std::uint16_t> fix{};  ///< channel of fixes, of a run with a position on the globe
 
   RobotLog(const PlacedRun& run, const std::string& sonar, const Ping& ping)
       : file(run.options.output, compression_of(run.options)), grey(ping), origin(ping.world_from_head.translation()) {
@@ -57,19 +57,19 @@ struct RobotLog {
     file.add_metadata("insonify", of_file);
     const std::map<std::string, std::string> numbers = {{"full_scale_pa", fmt::format("{}", scale.full_scale)},
                                                         {"law", "amplitude = value / 4294967295 full_scale_pa"}};
-    const std::map<std::string, std::string> place = {
+    const std::map<std::string, std::string> metadata = {
         {"origin_m", fmt::format("{},{},{}", origin.x(), origin.y(), origin.z())}};
     const auto add = [&](const char* topic, const RosType& type, const std::map<std::string, std::string>& about) {
       return file.add_topic(topic, type.name, type.text, about);
     };
     image = add("/sonar/image", projected_sonar_image_type(), o.linear ? numbers : greys);
     fan = add("/sonar/fan", image_type(), greys);
-    std::map<std::string, std::string> of_points = place;
+    std::map<std::string, std::string> of_points = metadata;
     if (!o.processing_profile.empty()) of_points["processing_profile"] = profile_name(o);
     points = add("/sonar/points", point_cloud_type(), of_points);
-    transforms = add("/tf", transforms_type(), place);
+    transforms = add("/tf", transforms_type(), metadata);
     fixed_transforms = add("/tf_static", transforms_type(), {{"offered_qos_profiles", kept_for_late_listeners}});
-    if (run.place) fix = add("/sonar/fix", nav_sat_fix_type(), {{"frame_id", "head"}});
+    if (run.georeference) fix = add("/sonar/fix", nav_sat_fix_type(), {{"frame_id", "head"}});
   }
 };
 

@@ -11,17 +11,17 @@
 
 namespace insonify::tool {
 
-/// A run with its place and time.
+/// A run with its position and time.
 struct PlacedRun {
   const ProductOptions& options;
   RunPings pings;
-  std::vector<RunPings> others{};       ///< further heads of its survey, in an xtf
-  std::optional<Georeference> place{};  ///< where its world is; csv, mcap and png need none
-  double start = 0;                     ///< seconds since 1970 of time 0
+  std::vector<RunPings> others{};              ///< further heads of its survey, in an xtf
+  std::optional<Georeference> georeference{};  ///< where its world is; csv, mcap and png need none
+  double start = 0;                            ///< seconds since 1970 of time 0
   std::optional<SoundSpeedProfile>
       processing_profile{};  ///< profile by which soundings are placed; absent: the true one
 
-  const Georeference& reference() const { return *place; }
+  const Georeference& reference() const { return *georeference; }
 };
 
 /// The UTM zone of a product, and places in it.
@@ -29,8 +29,8 @@ struct UtmWorld {
   const Georeference& reference;
   UtmZone zone;
   explicit UtmWorld(const Georeference& from);
-  /// Easting, northing [m] and height of a place in the world.
-  Eigen::Vector3d place(const Eigen::Vector3d& world) const;
+  /// Easting, northing [m] and height of a position in the world.
+  Eigen::Vector3d from_world(const Eigen::Vector3d& world) const;
 };
 
 /// How many soundings a product has, and how many were rejected, whether it has them or not; of an xtf its pings.

@@ -26,22 +26,21 @@ class HeadPings {
   explicit HeadPings(const RunPings& run) : run_(run) {
     for (std::size_t c = 0; c < run.cubes.size(); ++c) {
       const std::vector<TrackPoint> track = read_track(run.cubes[c]);
-      for (std::size_t p = 0; p < track.size(); ++p) places_.push_back({c, p, track[p].time});
+      for (std::size_t p = 0; p < track.size(); ++p) positions_.push_back({c, p, track[p].time});
     }
   }
-  std::size_t size() const { return places_.size(); }
-  double time(std::size_t i) const { return places_[i].time; }
+  std::size_t size() const { return positions_.size(); }
+  double time(std::size_t i) const { return positions_[i].time; }
   const RunPings& run() const { return run_; }
-  /// The cube of a ping, with that ping alone.
-  Cube cube(std::size_t i) const { return read_cube(run_.cubes[places_[i].cube], places_[i].ping, 1); }
+  Cube cube(std::size_t i) const { return read_cube(run_.cubes[positions_[i].cube], positions_[i].ping, 1); }
 
  private:
-  struct Place {
+  struct Position {
     std::size_t cube, ping;
     double time;
   };
   const RunPings& run_;
-  std::vector<Place> places_;
+  std::vector<Position> positions_;
 };
 
 /// Pings of the heads that are one of the file: their indices by head, -1 for a head that did not ping then.
@@ -92,7 +91,6 @@ double largest_amplitude(const std::vector<HeadPings>& heads) {
   return largest > 0 ? largest : 1;
 }
 
-/// The direction of the beam in the world.
 Eigen::Vector3d beam_axis(const Ping& ping) {
   return ping.world_from_head.linear() * unit_vector({ping.fan.azimuth[0], ping.fan.elevation[0]});
 }
@@ -137,12 +135,12 @@ double altitude_of(const RunPings& run, const Ping& ping) {
 }
 
 /// Where ship and sonar are and how they are turned, by a ping of one of the heads.
-void add_place(const PlacedRun& run, const RunPings& head, const std::optional<Trajectory>& way, const Ping& ping,
-               XtfPing& out) {
+void add_position(const PlacedRun& run, const RunPings& head, const std::optional<Trajectory>& way, const Ping& ping,
+                  XtfPing& out) {
   const Eigen::Vector3d sonar = ping.world_from_head.translation();
   const Eigen::Vector3d ship = vehicle_pose(head, ping).value_or(ping.world_from_head).translation();
-  const auto degrees_of = [&](const Eigen::Vector3d& place) {
-    const GeoPlace geo = geo_from_world(run.reference(), place);
+  const auto degrees_of = [&](const Eigen::Vector3d& position) {
+    const GeoPosition geo = geo_from_world(run.reference(), position);
     return Eigen::Vector2d(degrees(geo.longitude), degrees(geo.latitude));
   };
   const ShipAxes axes = ship_axes(head, ping);
@@ -214,13 +212,13 @@ SoundingCount xtf_product(const PlacedRun& run) {
     for (std::size_t h = 0; h < heads.size(); ++h) {
       if (together[h] < 0) continue;
       const Cube cube = heads[h].cube(static_cast<std::size_t>(together[h]));
-      const Ping& heard = cube.pings.front();
+      const Ping& pulse_ping = cube.pings.front();
       if (ping.traces.empty()) {
-        ping.time = run.start + heard.time;
-        ping.sound_speed = heard.sound_speed;
-        add_place(run, heads[h].run(), way, heard, ping);
+        ping.time = run.start + pulse_ping.time;
+        ping.sound_speed = pulse_ping.sound_speed;
+        add_position(run, heads[h].run(), way, pulse_ping, ping);
       }
-      const double altitude = altitude_of(heads[h].run(), heard);
+      const double altitude = altitude_of(heads[h].run(), pulse_ping);
       if (altitude > 0) ping.altitude = ping.altitude > 0 ? std::min(ping.altitude, altitude) : altitude;
       ping.traces.push_back(trace_of(cube, h, run.options.linear, full));
     }

@@ -20,36 +20,37 @@ int epsg_of_crs(const std::string& crs) {
 
 }  // namespace
 
-RasterPlane::RasterPlane(const std::string& crs, const std::optional<Georeference>& place) : reference_(place) {
+RasterPlane::RasterPlane(const std::string& crs, const std::optional<Georeference>& georeference)
+    : reference_(georeference) {
   if (is_local(crs)) return;
   const int code = crs.empty() ? 0 : epsg_of_crs(crs);
-  if (!place)
+  if (!georeference)
     fail(ErrorKind::argument,
          "a raster needs a place on the globe; give --anchor LAT,LON[,HEADING] of the origin and x "
          "axis of its world, --utm ZONE or --system EPSG:N of a world in projected coordinates, or --crs local");
-  const int own = place->zone ? 0 : place->system.epsg;
+  const int own = georeference->zone ? 0 : georeference->system.epsg;
   if (code > 0 || own > 0)
     system_ = ProjectedSystem(code > 0 ? code : own, "--crs");
   else
-    system_ = place->zone.value_or(utm_zone_of(geo_from_world(*place, Eigen::Vector3d::Zero())));
+    system_ = georeference->zone.value_or(utm_zone_of(geo_from_world(*georeference, Eigen::Vector3d::Zero())));
 }
 
-Eigen::Vector3d RasterPlane::place(const Eigen::Vector3d& world) const {
+Eigen::Vector3d RasterPlane::from_world(const Eigen::Vector3d& world) const {
   if (const auto* system = std::get_if<ProjectedSystem>(&system_)) {
     if (!reference_->zone && reference_->system.epsg == system->epsg()) return world;
-    const Eigen::Vector2d at = system->place_of(geo_from_world(*reference_, world));
+    const Eigen::Vector2d at = system->position_of(geo_from_world(*reference_, world));
     return {at.x(), at.y(), world.z()};
   }
   const auto* zone = std::get_if<UtmZone>(&system_);
   if (!zone || reference_->zone) return world;
-  const UtmPlace utm = utm_place_of(geo_from_world(*reference_, world), *zone);
+  const UtmPosition utm = utm_position_of(geo_from_world(*reference_, world), *zone);
   return {utm.easting, utm.northing, world.z()};
 }
 
 Eigen::Vector2d RasterPlane::world_of(const Eigen::Vector2d& wanted) const {
   if (std::holds_alternative<std::monostate>(system_)) return wanted;
   const auto level = [&](const Eigen::Vector2d& world) {
-    return Eigen::Vector2d(place({world.x(), world.y(), 0}).head<2>());
+    return Eigen::Vector2d(from_world({world.x(), world.y(), 0}).head<2>());
   };
   constexpr double step = 100, good_enough = 1e-6;  // [m]
   Eigen::Vector2d world(0, 0);

@@ -22,16 +22,16 @@ class RasterPlane {
  public:
   /// crs    as --crs: EPSG:N, local, or "" for the projected system of the world, else UTM
   /// place  where the world is on the globe; only the local plane needs none
-  /// Throws Error(argument) for another crs, or without a place, and as ProjectedSystem.
-  RasterPlane(const std::string& crs, const std::optional<Georeference>& place);
+  /// Throws Error(argument) for another crs, or without a position, and as ProjectedSystem.
+  RasterPlane(const std::string& crs, const std::optional<Georeference>& georeference);
 
   /// Returns true if `crs` means the plane of the world, which needs no place on the globe.
   static bool is_local(const std::string& crs) { return crs == "local"; }
 
-  /// Easting, northing [m] and height of a place in the world.
-  Eigen::Vector3d place(const Eigen::Vector3d& world) const;
+  /// Easting, northing [m] and height of a position in the world.
+  Eigen::Vector3d from_world(const Eigen::Vector3d& world) const;
   /// The inverse of place() at z = 0 of the world, to a micrometre.
-  Eigen::Vector2d world_of(const Eigen::Vector2d& place) const;
+  Eigen::Vector2d world_of(const Eigen::Vector2d& georeference) const;
   /// Returns the grid with code and unit of the system.
   GeoGrid in_system(GeoGrid grid) const;
 

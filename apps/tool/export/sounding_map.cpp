@@ -19,13 +19,13 @@ std::int64_t cell_of(double coordinate, double cell) {
   return static_cast<std::int64_t>(std::floor((coordinate + on_edge) / cell));
 }
 
-SoundingMap::Cell& SoundingMap::cell_at(const Eigen::Vector3d& place) {
-  return cells_[{cell_of(place.y(), cell_), cell_of(place.x(), cell_)}];
+SoundingMap::Cell& SoundingMap::cell_at(const Eigen::Vector3d& position) {
+  return cells_[{cell_of(position.y(), cell_), cell_of(position.x(), cell_)}];
 }
 
-void SoundingMap::add(const Eigen::Vector3d& place, double intensity) {
-  Cell& cell = cell_at(place);
-  const double z = place.z();
+void SoundingMap::add(const Eigen::Vector3d& position, double intensity) {
+  Cell& cell = cell_at(position);
+  const double z = position.z();
   cell.least = cell.count == 0 ? z : std::min(cell.least, z);
   cell.most = cell.count == 0 ? z : std::max(cell.most, z);
   cell.count += 1;
@@ -35,10 +35,10 @@ void SoundingMap::add(const Eigen::Vector3d& place, double intensity) {
   cell.intensity += intensity;
 }
 
-void SoundingMap::add_rejected(const Eigen::Vector3d& place) {
-  Cell& cell = cell_at(place);
+void SoundingMap::add_rejected(const Eigen::Vector3d& position) {
+  Cell& cell = cell_at(position);
   cell.rejected += 1;
-  cell.rejected_mean += (place.z() - cell.rejected_mean) / cell.rejected;
+  cell.rejected_mean += (position.z() - cell.rejected_mean) / cell.rejected;
 }
 
 SoundingMap::Extent SoundingMap::extent() const {

@@ -33,7 +33,7 @@ inline constexpr BandMeaning sounding_bands[] = {
     {"rejected_height", "m", "with --keep-rejected: their mean height; NaN if there are none"}};
 inline constexpr std::size_t rejected_bands = 2;  ///< how many of them are of rejected soundings
 
-/// The columns of soundings as CSV, in the order of the file; the last two only with a place on the globe.
+/// The columns of soundings as CSV, in the order of the file; the last two only with a position on the globe.
 inline constexpr BandMeaning csv_columns[] = {
     {"ping", "", "number of the ping, from 0"},
     {"time_s", "s", "time since 1970 (UTC), or since the begin of the run"},
@@ -57,9 +57,9 @@ class SoundingMap {
   explicit SoundingMap(double cell) : cell_(cell) {}
 
   /// Adds a sounding at easting, northing and height [m], of an intensity [Pa^2 at 1 m].
-  void add(const Eigen::Vector3d& place, double intensity);
+  void add(const Eigen::Vector3d& position, double intensity);
   /// Adds a rejected sounding, which counts in bands of its own alone.
-  void add_rejected(const Eigen::Vector3d& place);
+  void add_rejected(const Eigen::Vector3d& position);
   bool empty() const { return cells_.empty(); }
 
   /// The bands of a raster (sounding_bands), those of rejected soundings on request, and where it lies, without its
@@ -74,7 +74,7 @@ class SoundingMap {
     double least = 0, most = 0;
     double rejected = 0, rejected_mean = 0;
   };
-  Cell& cell_at(const Eigen::Vector3d& place);
+  Cell& cell_at(const Eigen::Vector3d& position);
   struct Extent {
     std::int64_t west, south, columns, rows;
   };

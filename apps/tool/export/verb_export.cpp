@@ -42,7 +42,7 @@ void add_options(OptionList list, ExportOptions& o) {
       "images with poses for "
       "reconstruction, and the scene",
       {.words = {"vtk", "gsf", "las", "geotiff", "csv", "mcap", "png", "xtf", "neusis"}});
-  add_place_options(list, p.place);
+  add_world_options(list, p.world);
   list.add("--start-utc", &p.start_utc,
            "time of day at time 0, as 2026-05-01T08:30:00Z; default: that of the mission, else 1970");
   list.add("--head", &p.head, "name of the head, in a survey of several heads; an xtf takes both heads of two");

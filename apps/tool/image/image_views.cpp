@@ -59,8 +59,8 @@ BeamRecord beam_record(const ImageRun& run, const ImageOptions& o, const std::ve
 }
 
 const ViewSpec& view_of(const ImageOptions& o) {
-  const auto is_asked_for = [&](const ViewSpec& view) { return o.view == view.name; };
-  return *std::find_if(all_views().begin(), all_views().end(), is_asked_for);
+  const auto is_requested = [&](const ViewSpec& view) { return o.view == view.name; };
+  return *std::find_if(all_views().begin(), all_views().end(), is_requested);
 }
 
 ChosenBeam choose_beam(const ImageOptions& o, const BeamFan& fan) {

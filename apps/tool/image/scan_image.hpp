@@ -9,7 +9,7 @@ namespace insonify::tool {
 /// beam.
 LevelImage sweep_of_head(const ImageRun& run, const ImageOptions& options, std::size_t ping);
 
-/// Draws that sweep where it was in the world, seen from the middle of the sweep: every sample at the place and bearing
+/// Draws that sweep where it was in the world, seen from the middle of the sweep: every sample at the position and bearing
 /// that its beam had, the strongest of those that meet in a cell. Cells are half a step of the head wide and a bin
 /// long; those that no beam saw are silent. Errors as sweep_of_head.
 LevelImage sweep_in_world(const ImageRun& run, const ImageOptions& options, std::size_t ping);

@@ -29,7 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of the views that take an option.
 std::vector<std::string> views_with(const std::string& option) {
   std::vector<std::string> names;
   for (const ViewSpec& view : all_views())
@@ -132,7 +131,6 @@ PictureAddition read_annotation(const ImageOptions& o) {
   return annotation;
 }
 
-/// Draws one ping with its marks.
 void draw_ping(const ImageRun& run, const ImageOptions& o, PictureOptions picture, const PictureAddition& annotation,
                std::size_t ping, const std::string& path) {
   picture.marks = annotation.labels;

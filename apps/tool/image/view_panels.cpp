@@ -25,7 +25,7 @@ std::string position_text(const Pose& pose) {
 
 /// Angles as --pose takes them.
 std::string attitude_text(const Pose& pose) {
-  const HeadPlace head = head_place(pose);
+  const PoseAngles head = pose_angles(pose);
   return fmt::format("yaw {:.1f}°, pitch {:.1f}°, roll {:.1f}°", rounded(degrees(head.yaw), 0.1),
                      rounded(degrees(head.pitch), 0.1), rounded(degrees(head.roll), 0.1));
 }

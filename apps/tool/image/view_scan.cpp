@@ -11,7 +11,6 @@
 namespace insonify::tool {
 namespace {
 
-/// Indices of the pings of the sweep that `ping` is of.
 std::vector<std::size_t> pings_of_sweep(const ImageRun& run, std::size_t ping) {
   const std::vector<Ping>& pings = run.cube.pings;
   if (!pings[ping].scan || pings[ping].fan.beams() != 1)
@@ -110,9 +109,9 @@ void draw_scan(const PictureRequest& job) {
   const bool in_world = job.options.frame == "world";
   PictureOptions picture = job.picture;
   if (job.options.picture.title.empty())
-    picture.title =
-        fmt::format("{}, sweep {}{}", job.run.cube.sonar, job.run.cube.pings[job.ping].scan.value_or(ScanPlace{}).sweep,
-                    in_world ? ", motion compensated" : "");
+    picture.title = fmt::format("{}, sweep {}{}", job.run.cube.sonar,
+                                job.run.cube.pings[job.ping].scan.value_or(ScanDirection{}).sweep,
+                                in_world ? ", motion compensated" : "");
   show_fan((in_world ? sweep_in_world : sweep_of_head)(job.run, job.options, job.ping), picture, job.path);
 }
 

@@ -26,7 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Words of --colour and --camera.
 constexpr Named<SceneColour> colour_words[] = {
     {"height", SceneColour::height},         {"material", SceneColour::material}, {"part", SceneColour::part},
     {"visibility", SceneColour::visibility}, {"level", SceneColour::level},       {"grazing", SceneColour::grazing},
@@ -115,10 +114,10 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
   drawing.look.colour = o.sonar.empty() ? SceneColour::height : SceneColour::visibility;
   std::optional<PingSetup> setup;
   if (!o.sonar.empty()) {
-    HeadOptions asked;
-    asked.sonar = o.sonar;
-    if (!o.range.empty()) asked.range = parse_range(o.range);
-    setup = set_up_head(asked);
+    HeadOptions requested;
+    requested.sonar = o.sonar;
+    if (!o.range.empty()) requested.range = parse_range(o.range);
+    setup = set_up_head(requested);
     const SonarHead& head = setup->head;
     drawing.look.head = SceneHead{parse_pose(o.pose, o.world) * setup->mount, head.fan, head.gate};
     drawing.title = head.name + " before " + drawing.title;

@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TrackMap::Way way_of(const std::string& name, const std::vector<TrackPoint>& track) {
-  TrackMap::Way way{name, {}, {}};
+TrackMap::HeadTrack head_track_of(const std::string& name, const std::vector<TrackPoint>& track) {
+  TrackMap::HeadTrack head_track{name, {}, {}};
   for (const TrackPoint& point : track) {
-    way.places.emplace_back(point.world_from_head.translation().head<2>());
-    way.ahead.emplace_back(point.world_from_head.linear().col(0).head<2>());
+    head_track.positions.emplace_back(point.world_from_head.translation().head<2>());
+    head_track.ahead.emplace_back(point.world_from_head.linear().col(0).head<2>());
   }
-  return way;
+  return head_track;
 }
 
 /// The mosaic, or the returns; nothing if there are none.
@@ -55,8 +55,8 @@ void draw_track(const ImageOptions& o) {
     const fs::path cube = fs::path(o.run) / head.name / "cube.h5";
     if (!path_exists(cube))
       fail(ErrorKind::content, o.run, ": holds no ", head.name, "/cube.h5; run insonify merge ", o.run);
-    map.ways.push_back(way_of(head.name, read_track(cube.string())));
-    pings += map.ways.back().places.size();
+    map.tracks.push_back(head_track_of(head.name, read_track(cube.string())));
+    pings += map.tracks.back().positions.size();
   }
   add_levels(o.run, map);
   PictureOptions picture = o.picture;

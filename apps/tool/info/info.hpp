@@ -22,9 +22,9 @@ nlohmann::ordered_json info_of_folder(const std::string& path);
 /// environment or a sonar. Throws as the reader of each.
 nlohmann::ordered_json info_of_toml(const std::string& path);
 
-/// Returns facts of a cloud, mesh, raster or tiles. `asked` overrules the meaning of the file; tiles are prepared and
+/// Returns facts of a cloud, mesh, raster or tiles. `requested` overrules the meaning of the file; tiles are prepared and
 /// ignore it.
-nlohmann::ordered_json info_of_scene(const std::string& path, MeaningText asked);
+nlohmann::ordered_json info_of_scene(const std::string& path, MeaningText requested);
 
 /// Commands that go on from a scene with this box: a ping from before and above it that looks at its middle, and a
 /// mission of two lines or more over it.

@@ -64,16 +64,16 @@ ordered_json notes_json(const std::vector<PingNote>& notes, const std::string& h
   return json;
 }
 
-/// The option of `export` by which a run gets its place, with a blank before it: none if mission or scene say it, that
+/// The option of `export` by which a run gets its position, with a blank before it: none if mission or scene say it, that
 /// of projected coordinates far from the origin, else an anchor.
 std::string place_option(const std::string& run, const std::string& head) {
   try {
     const RunPings pings = find_run_pings(run, head);
     if (pings.anchor || epsg_of_system(pings.system) > 0) return "";
-    for (const Eigen::Vector3d& place : ends_of(pings))
-      if (place.head<2>().norm() > farthest_from_anchor) return " --utm ZONE";
+    for (const Eigen::Vector3d& position : ends_of(pings))
+      if (position.head<2>().norm() > farthest_from_anchor) return " --utm ZONE";
   } catch (const Error&) {
-    // Where files of its mission are gone, its place is unknown.
+    // Where files of its mission are gone, its position is unknown.
   }
   return " --anchor LAT,LON,HEADING";
 }
@@ -150,7 +150,6 @@ ordered_json head_info(const std::string& run, const SurveyRun& survey, const Su
             "insonify info " + word}}};
 }
 
-/// The survey of whose heads `folder` is one, and which.
 std::optional<std::pair<std::string, SurveyRunHead>> head_of_survey(const fs::path& folder) {
   fs::path run = (folder / "..").lexically_normal();
   if (!run.has_filename()) run = run.parent_path();

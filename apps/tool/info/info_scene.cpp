@@ -63,16 +63,15 @@ bool is_of_camera(const FileDescription& d) {
   return d.min.z() > d.viewpoint->z() && ahead.head<2>().norm() < ahead.z();
 }
 
-/// A ping from the place of the camera.
 std::string next_of_camera(const FileDescription& d) {
   return fmt::format("insonify ping {} --sonar oculus-m750d --pose={} -o first  # where the camera was",
                      shell_word(d.path), pose_text(*d.viewpoint, pi / 2, -pi / 2));
 }
 
 /// The commands that go on from a cloud. With options they prepare it first, so that the next ones need none.
-std::vector<std::string> next_of_cloud(const FileDescription& d, MeaningText& asked) {
+std::vector<std::string> next_of_cloud(const FileDescription& d, MeaningText& requested) {
   std::string options;
-  for (const RunSetting& setting : meaning_settings(asked))
+  for (const RunSetting& setting : meaning_settings(requested))
     if (const std::string& value = *std::get<std::string*>(setting.value); !value.empty())
       options += fmt::format(" {} {}", setting.option, shell_word(value));
   const bool sided = d.has_normals || d.triangles > 0 || d.viewpoint || !d.stations.empty();
@@ -88,8 +87,8 @@ std::vector<std::string> next_of_cloud(const FileDescription& d, MeaningText& as
   return next;
 }
 
-ordered_json cloud_info(const std::string& path, MeaningText& asked) {
-  const FileDescription d = describe_file(path, parse_meaning(asked));
+ordered_json cloud_info(const std::string& path, MeaningText& requested) {
+  const FileDescription d = describe_file(path, parse_meaning(requested));
   ordered_json fields = ordered_json::array();
   for (const auto& f : d.fields) fields.push_back({{"name", f.name}, {"type", f.type}});
   ordered_json meaning = ordered_json::array();
@@ -114,8 +113,8 @@ ordered_json cloud_info(const std::string& path, MeaningText& asked) {
                        {"material_shares", shares_json(d.materials)},
                        {"problems", d.problems}};
   if (d.viewpoint) json["viewpoint"] = point(*d.viewpoint);
-  for (const Eigen::Vector3d& place : d.stations) json["stations"].push_back(point(place));
-  json["next"] = next_of_cloud(d, asked);
+  for (const Eigen::Vector3d& position : d.stations) json["stations"].push_back(point(position));
+  json["next"] = next_of_cloud(d, requested);
   return json;
 }
 
@@ -149,14 +148,14 @@ ordered_json tiles_info(const std::string& path, const TiledScene& tiled) {
 
 }  // namespace
 
-ordered_json info_of_scene(const std::string& path, MeaningText asked) {
+ordered_json info_of_scene(const std::string& path, MeaningText requested) {
   const std::optional<TiledScene> tiled = find_tiles(path);
-  return tiled ? tiles_info(path, *tiled) : cloud_info(path, asked);
+  return tiled ? tiles_info(path, *tiled) : cloud_info(path, requested);
 }
 
 void print_scene(const ordered_json& d) {
   const auto text = [](const ordered_json& value) { return value.get<std::string>(); };
-  const auto place = [&](const char* corner) {
+  const auto corner_of = [&](const char* corner) {
     const ordered_json& at = d["bounds"][corner];
     return Eigen::Vector3d(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
   };
@@ -171,7 +170,7 @@ void print_scene(const ordered_json& d) {
   for (const auto& m : d["meaning"])
     fmt::print("\n  meaning    {}: {} ({}){}{}", text(m["item"]), text(m["value"]), text(m["origin"]),
                text(m["sentence"]).empty() ? "" : ": ", text(m["sentence"]));
-  const Eigen::Vector3d min = place("min"), max = place("max"), size = max - min;
+  const Eigen::Vector3d min = corner_of("min"), max = corner_of("max"), size = max - min;
   // To a tenth of the spacing, in plain digits: a northing has seven before the point.
   const double spacing = d["median_spacing"].get<double>();
   const int digits = spacing > 0 ? std::clamp(static_cast<int>(std::ceil(1 - std::log10(spacing))), 0, 9) : 3;

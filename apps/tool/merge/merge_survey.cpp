@@ -20,7 +20,7 @@
 #include "store/survey_run.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/merge/survey_mosaic.hpp"
-#include "tool/merge/survey_places.hpp"
+#include "tool/merge/survey_positions.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -28,7 +28,6 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-/// A finished block.
 struct Finished {
   const SurveyRunHead* head;
   BlockFiles files;
@@ -75,7 +74,6 @@ struct JoinedHeads {
   std::vector<HeadCube> joined_cubes;
 };
 
-/// Joins the cubes of each head.
 JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const std::vector<Finished>& finished,
                        bool copy, Progress& progress) {
   JoinedHeads all;
@@ -110,14 +108,14 @@ JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const st
 
 /// Where the world is: as asked, else as mission or scene say; absent if none says it. Without a mosaic, a system that
 /// GDAL cannot serve gives none.
-std::optional<Georeference> place_of_survey(const std::string& folder, const SurveyFrame& frame,
-                                            const MosaicOptions& mosaic, const std::vector<Finished>& finished) {
-  std::vector<Eigen::Vector3d> places;
+std::optional<Georeference> georeference_of_survey(const std::string& folder, const SurveyFrame& frame,
+                                                   const MosaicOptions& mosaic, const std::vector<Finished>& finished) {
+  std::vector<Eigen::Vector3d> positions;
   for (const Finished& block : finished)
-    if (places.empty() && !block.mark.cube_sha256.empty())
-      places.push_back(read_track(block.files.cube).front().world_from_head.translation());
+    if (positions.empty() && !block.mark.cube_sha256.empty())
+      positions.push_back(read_track(block.files.cube).front().world_from_head.translation());
   try {
-    return georeference_of(mosaic.place, {folder, frame.system, frame.anchor}, places);
+    return georeference_of(mosaic.world, {folder, frame.system, frame.anchor}, positions);
   } catch (const Error&) {
     if (mosaic.cell > 0) throw;
     return {};
@@ -132,9 +130,9 @@ SurveyFrame frame_of(const std::string& folder) {
 }
 
 /// The plane of mosaic.tif; absent if none is made.
-std::optional<RasterPlane> plane_of(const MosaicOptions& mosaic, const std::optional<Georeference>& place) {
-  if (mosaic.cell == 0 || (mosaic.crs.empty() && !place)) return {};
-  return RasterPlane(mosaic.crs, place);
+std::optional<RasterPlane> plane_of(const MosaicOptions& mosaic, const std::optional<Georeference>& georeference) {
+  if (mosaic.cell == 0 || (mosaic.crs.empty() && !georeference)) return {};
+  return RasterPlane(mosaic.crs, georeference);
 }
 
 }  // namespace
@@ -143,8 +141,8 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
   const SurveyRun run = load_survey_run(folder);
   const std::vector<Finished> finished = finished_blocks(folder, run);
   const SurveyFrame frame = frame_of(folder);
-  const std::optional<Georeference> place = place_of_survey(folder, frame, mosaic, finished);
-  const std::optional<RasterPlane> plane = plane_of(mosaic, place);
+  const std::optional<Georeference> georeference = georeference_of_survey(folder, frame, mosaic, finished);
+  const std::optional<RasterPlane> plane = plane_of(mosaic, georeference);
   Progress progress(common, 2 + static_cast<int>(run.heads.size()) + (mosaic.cell > 0));
   progress.step("checking " + folder);
   parallel_for(finished.size(), common.threads,
@@ -160,9 +158,9 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
                            {"blocks", finished.size()},
                            {"heads", heads}};
   manifest.update(frame_json(frame));
-  if (place)
+  if (georeference)
     write_file((fs::path(folder) / "track.geojson").string(),
-               track_geojson(*place, frame.start_utc, joined_cubes).dump(1) + "\n");
+               track_geojson(*georeference, frame.start_utc, joined_cubes).dump(1) + "\n");
   if (!clouds.empty()) {
     join_clouds(returns, clouds);
     if (mosaic.cell > 0) {

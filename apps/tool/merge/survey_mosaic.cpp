@@ -73,9 +73,10 @@ RasterFrame raster_frame(const MosaicMap& map, const RasterPlane& plane) {
   const auto columns = map.strength_db.rows(), rows = map.strength_db.cols();
   Eigen::AlignedBox2d box;
   const auto extend = [&](Eigen::Index row, Eigen::Index column) {
-    box.extend(
-        plane.place({map.x + map.cell * static_cast<double>(column), map.y + map.cell * static_cast<double>(row), 0})
-            .head<2>());
+    box.extend(plane
+                   .from_world(
+                       {map.x + map.cell * static_cast<double>(column), map.y + map.cell * static_cast<double>(row), 0})
+                   .head<2>());
   };
   for (Eigen::Index row = 0; row <= rows; ++row) extend(row, 0), extend(row, columns);
   for (Eigen::Index column = 0; column <= columns; ++column) extend(0, column), extend(rows, column);

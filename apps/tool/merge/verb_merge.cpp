@@ -17,7 +17,7 @@
 #include "tool/merge/merge_companions.hpp"
 #include "tool/merge/merge_survey.hpp"
 #include "tool/run/run_pings.hpp"
-#include "tool/run/world_place.hpp"
+#include "tool/run/world_reference.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -49,7 +49,7 @@ void add_options(OptionList list, MergeOptions& o) {
            "value of a cell: mean of all pings that hear it, or best: that of the ping with the narrowest beam there",
            {.words = {"mean", "best"}});
   list.add("--crs", &o.mosaic.crs, crs_help);
-  add_place_options(list, o.mosaic.place);
+  add_world_options(list, o.mosaic.world);
   list.add("--force", &o.force, "replace an existing run directory");
   add_common(list, o.common);
 }
@@ -101,9 +101,9 @@ std::vector<std::string> merging_notes(const std::vector<NamedCube>& cubes, cons
 
 void merge(const MergeOptions& o) {
   if (o.mosaic.cell == 0 &&
-      (!o.mosaic.bottom.empty() || o.mosaic.by != "mean" || !o.mosaic.crs.empty() || !o.mosaic.place.empty()))
+      (!o.mosaic.bottom.empty() || o.mosaic.by != "mean" || !o.mosaic.crs.empty() || !o.mosaic.world.empty()))
     fail(ErrorKind::argument,
-         !o.mosaic.place.empty()   ? "a place of the world (--anchor, --utm, --system)"
+         !o.mosaic.world.empty()   ? "a place of the world (--anchor, --utm, --system)"
          : !o.mosaic.crs.empty()   ? "--crs"
          : o.mosaic.bottom.empty() ? "--mosaic-by"
                                    : "--bottom",

@@ -25,7 +25,6 @@ std::string share_text(const PlannedStage& stage, const PingPlan& plan) {
   return stage.by == DecidedBy::budget ? fmt::format("{:.2g} dB", plan.share_db) : decided_by_name(stage.by);
 }
 
-/// Prints the plan as a table.
 void print_plan(const PingPlan& plan) {
   fmt::print("{:<18} {:<4} {:<10} {:<9} {}\n", "stage", "", "bound", "share", "why");
   for (const PlannedStage& s : plan.stages)

@@ -72,10 +72,10 @@ void synthesize(const SynthesizeOptions& o) {
   const EchoOptions echo_options =
       with_patterns({.amplitude = SurfaceAmplitude::coherent, .threads = run.simulation.threads}, head);
   const Echoes echoes = target_echoes(table.scatterers, table.sigma, table.xi, head.pulse, setup.medium, echo_options);
-  const SimulationOptions settled =
+  const SimulationOptions decided =
       decided_synthesis(table.scatterers, echoes, head, setup.environment, run.simulation);
-  const auto& [method, tolerance, true_delays, phases] = settled.synthesis;
-  const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, *settled.effects.absorption_order);
+  const auto& [method, tolerance, true_delays, phases] = decided.synthesis;
+  const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, *decided.effects.absorption_order);
   const ComplexGrid pressure = synthesize(echoes, head, medium, method, {tolerance, run.simulation.threads});
   Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   ping.expected_level = gives_power(method);
@@ -88,7 +88,7 @@ void synthesize(const SynthesizeOptions& o) {
       {"insonify_version", INSONIFY_VERSION},
       {"seed", run.simulation.seed},
       {"scatterers", {{"path", o.scatterers}, {"count", table.scatterers.size()}}},
-      {"synthesis", {{"method", engine_of(method).word}, {"absorption_order", *settled.effects.absorption_order}}},
+      {"synthesis", {{"method", engine_of(method).word}, {"absorption_order", *decided.effects.absorption_order}}},
       {"notes", nlohmann::ordered_json::array()}};
   for (const std::string& note : setup.notes) {
     progress.note(note);

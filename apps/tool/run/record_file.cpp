@@ -24,7 +24,6 @@ constexpr double most_growth = 16;  // of samples, to bring ranges and channels 
 /// The pressure whose level is that of an amplitude [dB re 1].
 float pressure_of(double amplitude) { return static_cast<float>(std::numbers::sqrt2 * micropascal * amplitude); }
 
-/// Pressures whose levels are these.
 ComplexGridF pressures_of(const Grid<float>& level_db) {
   return level_db.unaryExpr([](float level) {
     const double decibels = static_cast<double>(level);
@@ -57,13 +56,13 @@ RangeGate gate_of(const std::string& path, const XtfRecord& record) {
   return shown_gate(begin, static_cast<std::size_t>(bins), bin);
 }
 
-/// Places of the sonar in a world whose origin is its first known place: x east, y north, z up from the water level.
+/// Positions of the sonar in a world whose origin is its first known position: x east, y north, z up from the water level.
 class SideScanTrack {
  public:
   SideScanTrack(const XtfRecord& record) : in_degrees_(record.header.in_degrees) {
     for (const XtfPing& ping : record.pings)
-      if (place_of(ping)) {
-        origin_ = *place_of(ping);
+      if (position_of(ping)) {
+        origin_ = *position_of(ping);
         break;
       }
   }
@@ -72,17 +71,19 @@ class SideScanTrack {
     return Anchor{origin_.y(), origin_.x(), 90};
   }
   Pose pose_of(const XtfPing& ping) const {
-    const Eigen::Vector2d place = place_of(ping).value_or(origin_);
-    Eigen::Vector2d at = place - origin_;
-    if (const auto here = anchor()) at = world_from_geo(*here, {radians(place.y()), radians(place.x()), 0}).head<2>();
+    const Eigen::Vector2d position = position_of(ping).value_or(origin_);
+    Eigen::Vector2d at = position - origin_;
+    if (const auto here = anchor())
+      at = world_from_geo(*here, {radians(position.y()), radians(position.x()), 0}).head<2>();
     return pose_from_yaw_pitch_roll({at.x(), at.y(), -ping.depth}, pi / 2 - ping.heading, -ping.pitch, ping.roll);
   }
 
  private:
-  std::optional<Eigen::Vector2d> place_of(const XtfPing& ping) const {
-    const Eigen::Vector2d& place = ping.sensor.isZero() ? ping.ship : ping.sensor;
-    if (place.isZero() || (in_degrees_ && !(std::abs(place.y()) <= 90 && std::abs(place.x()) <= 360))) return {};
-    return place;
+  std::optional<Eigen::Vector2d> position_of(const XtfPing& ping) const {
+    const Eigen::Vector2d& position = ping.sensor.isZero() ? ping.ship : ping.sensor;
+    if (position.isZero() || (in_degrees_ && !(std::abs(position.y()) <= 90 && std::abs(position.x()) <= 360)))
+      return {};
+    return position;
   }
 
   bool in_degrees_;
@@ -195,7 +196,6 @@ Record record_of_oculus(const std::string& path, std::size_t first, std::size_t 
 
 std::string ending_of(const std::string& path) { return lower_case(std::filesystem::path(path).extension().string()); }
 
-/// The readers, by ending.
 struct RecordReader {
   const char* ending;
   Record (*read)(const std::string& path, std::size_t first, std::size_t count);

@@ -16,7 +16,7 @@
 #include "store/environment_file.hpp"
 #include "store/survey_run.hpp"
 #include "store/toml_tree.hpp"
-#include "tool/run/world_place.hpp"
+#include "tool/run/world_reference.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -61,11 +61,11 @@ Pose mounting_of_ping(const std::string& settings) {
   return mount.empty() ? Pose::Identity() : parse_pose(mount, "z-up", "mount");
 }
 
-/// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their places; adds
+/// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their positions; adds
 /// a note if it is there and does not.
 std::optional<Trajectory> named_way(const std::string& settings, const Pose& vehicle_from_head,
-                                    const Trajectory& places, std::vector<std::string>& notes) {
-  constexpr double same_place = 1e-3;  // [m]
+                                    const Trajectory& positions, std::vector<std::string>& notes) {
+  constexpr double same_position = 1e-3;  // [m]
   const std::string path = path_named_in(settings, ping_setting(settings, "trajectory"));
   if (!is_file(path)) return {};
   const auto refused = [&](const std::string& why) {
@@ -75,10 +75,10 @@ std::optional<Trajectory> named_way(const std::string& settings, const Pose& veh
   };
   try {
     const Trajectory way = load_trajectory(path);
-    for (std::size_t i = 0; i < places.time.size(); ++i)
-      if (!((pose_at(way, places.time[i]) * vehicle_from_head.translation() - places.pose[i].translation()).norm() <
-            same_place))
-        return refused(printed("it is elsewhere at %g s", places.time[i]));
+    for (std::size_t i = 0; i < positions.time.size(); ++i)
+      if (!((pose_at(way, positions.time[i]) * vehicle_from_head.translation() - positions.pose[i].translation())
+                .norm() < same_position))
+        return refused(printed("it is elsewhere at %g s", positions.time[i]));
     return way;
   } catch (const Error& error) {
     return refused(error.what());
@@ -86,14 +86,14 @@ std::optional<Trajectory> named_way(const std::string& settings, const Pose& veh
 }
 
 /// The way of a single ping by its velocity, if its run.toml has one.
-std::optional<Trajectory> straight_way(const std::string& settings, const Trajectory& places) {
+std::optional<Trajectory> straight_way(const std::string& settings, const Trajectory& positions) {
   const std::string velocity = ping_setting(settings, "velocity");
-  if (velocity.empty() || places.time.size() != 1) return {};
+  if (velocity.empty() || positions.time.size() != 1) return {};
   const Eigen::Vector3d in_a_second = parse_vector("velocity", velocity, "vx,vy,vz in m/s");
   Trajectory way;
   for (const double second : {-1.0, 1.0}) {
-    way.time.push_back(places.time[0] + second);
-    way.pose.push_back(places.pose[0]);
+    way.time.push_back(positions.time[0] + second);
+    way.pose.push_back(positions.pose[0]);
     way.pose.back().pretranslate(second * in_a_second);
   }
   return way;

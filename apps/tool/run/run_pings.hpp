@@ -61,11 +61,11 @@ std::optional<double> water_level(const RunPings& run);
 /// mounted.
 std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping);
 
-/// Places of the head at the begin and the end of its first and last cube [m].
+/// Positions of the head at the begin and the end of its first and last cube [m].
 std::vector<Eigen::Vector3d> ends_of(const RunPings& run);
 
 /// The way of the vehicle: that of the mission; else of the trajectory or velocity that the run.toml of a ping names,
-/// if it leads through all pings; else through the places of the pings, head by head as they are stored, in the order
+/// if it leads through all pings; else through the positions of the pings, head by head as they are stored, in the order
 /// of time. Absent for a single ping at rest. Adds to `notes` why a trajectory that is named is not taken.
 std::optional<Trajectory> way_of(const RunPings& run, std::vector<std::string>& notes);
 

@@ -53,7 +53,6 @@ const ObjectKind& kind_of(const std::string& name) {
   return *kind;
 }
 
-/// "key=value" of --set.
 ObjectSettings settings_of(const ObjectKind& kind, const std::vector<std::string>& set) {
   std::vector<std::string> keys;
   for (const ObjectOption& option : options_of(kind)) keys.emplace_back(option.key);

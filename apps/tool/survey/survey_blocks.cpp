@@ -20,7 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Appends the soundings of `from` that belong to ping `number`.
 void append(Soundings& to, const Soundings& from, std::uint32_t number) {
   for (std::size_t i = 0; i < from.size(); ++i)
     if (from.ping[i] == number) append_row(to, from, i);

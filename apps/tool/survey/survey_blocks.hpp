@@ -9,7 +9,7 @@ namespace insonify::tool {
 /// Reads and writes the blocks of a survey in its folder.
 class SurveyBlocks {
  public:
-  /// `observer` hears what cannot be kept, or taken up again.
+  /// `observer` receives what cannot be kept, or taken up again.
   SurveyBlocks(const SurveySetup& setup, std::string folder, RunObserver& observer)
       : setup_(setup), folder_(std::move(folder)), observer_(observer) {}
 

@@ -14,7 +14,7 @@
 #include "run_scenes/scene_source_of.hpp"
 #include "store/environment_file.hpp"
 #include "store/material_library.hpp"
-#include "tool/run/world_place.hpp"
+#include "tool/run/world_reference.hpp"
 
 namespace insonify::tool {
 namespace {

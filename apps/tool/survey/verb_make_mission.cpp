@@ -125,7 +125,7 @@ MissionShape tunnel(const Eigen::Vector3d& centre, const std::vector<double>& si
 /// Returns true if a sonar is mounted to look down: a swath, or an echo sounder of one beam.
 bool is_sounder(const SonarFile& sonar) { return sonar.mounting.x() == 0 && sonar.mounting.y() > radians(45); }
 
-/// Returns a place over the middle of a scene [m].
+/// Returns a position over the middle of a scene [m].
 Eigen::Vector3d centre_over(const std::optional<Bounds>& box) {
   constexpr double below_surface = -3;
   if (!box) return {0, 0, below_surface};

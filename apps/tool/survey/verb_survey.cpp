@@ -21,7 +21,7 @@
 #include "store/csv_tables.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/run/world_place.hpp"
+#include "tool/run/world_reference.hpp"
 #include "tool/survey/survey_blocks.hpp"
 #include "tool/survey/survey_status.hpp"
 
@@ -51,7 +51,6 @@ void add_options(OptionList list, SurveyOptions& o) {
            {.within = std::pair(0, 1024)});
 }
 
-/// --shard.
 struct Shard {
   std::size_t index = 0, of = 1;
 };
@@ -83,7 +82,7 @@ struct HeadTrial {
   double cpu = 0, first_cpu = 0, scatterers = 0, soundings = 0, image_bytes = 0;
 
   /// All pings over those tried, by a number of their plans.
-  double part(double PlannedPing::*number) const {
+  double share(double PlannedPing::*number) const {
     double all = 0, made = 0;
     for (std::size_t k = 0; k < planned.size(); ++k)
       all += planned[k].*number, made += k < tried ? planned[k].*number : 0;
@@ -97,7 +96,7 @@ struct HeadTrial {
   double cpu_of_all() const {
     double later = 0;
     for (std::size_t k = 1; k < tried; ++k) later += planned[k].work;
-    if (!(later > 0)) return cpu * part(&PlannedPing::work);
+    if (!(later > 0)) return cpu * share(&PlannedPing::work);
     double mean = 0;
     for (const PlannedPing& p : planned) mean += p.work / static_cast<double>(planned.size());
     const double rate = (cpu - first_cpu) / later;
@@ -114,10 +113,10 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const OpenScene& scene) {
     std::copy_if(s.survey->pings().begin(), s.survey->pings().end(), std::back_inserter(pings),
                  [h](const auto& p) { return p.head == h; });
     trial.pings = pings.size();
-    const std::size_t places = std::min(most, pings.size());
+    const std::size_t positions = std::min(most, pings.size());
     double mean = 0;
-    for (std::size_t k = 0; k < places; ++k) {
-      PlannedPing planned{pings[(2 * k + 1) * pings.size() / (2 * places)]};
+    for (std::size_t k = 0; k < positions; ++k) {
+      PlannedPing planned{pings[(2 * k + 1) * pings.size() / (2 * positions)]};
       if (scene.shared()) {
         const PingSimulator simulator = s.survey->simulator_of(planned.ping);
         const PingEvent event = s.survey->event_of(planned.ping);
@@ -125,7 +124,7 @@ std::vector<HeadTrial> trials_of(const SurveySetup& s, const OpenScene& scene) {
         planned.scatterers = static_cast<double>(simulator.count(*scene.scene_for(simulator, event), event).scatterers);
         planned.work = planned.scatterers + static_cast<double>(head.fan.beams() * head.gate.bins());
       }
-      mean += planned.work / static_cast<double>(places);
+      mean += planned.work / static_cast<double>(positions);
       trial.planned.push_back(planned);
     }
     const auto off = [mean](const PlannedPing& p) { return std::abs(p.work - mean); };
@@ -173,16 +172,16 @@ void try_pings(const SurveySetup& s, const OpenScene& scene, int cores, double b
 
 ordered_json cost_of_head(const SurveySetup& s, const HeadTrial& trial, std::size_t h) {
   constexpr double row_bytes = 76;  // of returns.ply
-  const double n = static_cast<double>(trial.pings), part = trial.part(&PlannedPing::scatterers);
+  const double n = static_cast<double>(trial.pings), share = trial.share(&PlannedPing::scatterers);
   const double images = trial.image_bytes > 0  // else the pings failed
                             ? trial.image_bytes / static_cast<double>(trial.tried)
                             : static_cast<double>(image_bytes(s.heads[h]));
   return {{"name", s.file.mission.heads[h].name},
           {"pings", trial.pings},
           {"pings_tried", trial.tried},
-          {"echoes", std::llround(trial.scatterers * part)},
-          {"returns", std::llround(trial.soundings * part)},
-          {"bytes", std::llround(n * images + trial.soundings * part * row_bytes)},
+          {"echoes", std::llround(trial.scatterers * share)},
+          {"returns", std::llround(trial.soundings * share)},
+          {"bytes", std::llround(n * images + trial.soundings * share * row_bytes)},
           {"cpu_hours", trial.cpu_of_all() / 3600}};
 }
 

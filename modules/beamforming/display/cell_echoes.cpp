@@ -28,14 +28,14 @@ double below_deviations(double away) {
   }();
   if (!(away > -reach_of_pulse)) return 0;
   if (!(away < reach_of_pulse)) return 1;
-  const double place = (away + reach_of_pulse) / step;
-  const auto left = std::min(static_cast<std::size_t>(place), entries - 2);
-  return table[left] + (place - static_cast<double>(left)) * (table[left + 1] - table[left]);
+  const double position = (away + reach_of_pulse) / step;
+  const auto left = std::min(static_cast<std::size_t>(position), entries - 2);
+  return table[left] + (position - static_cast<double>(left)) * (table[left + 1] - table[left]);
 }
 
 /// Part of an echo's energy between two ranges: its surface is a box, and so is the pulse with it where the surface is
 /// deeper than the pulse; else both are a normal law.
-double part_between(const CellEcho& echo, double sigma, double low, double high) {
+double share_between(const CellEcho& echo, double sigma, double low, double high) {
   const double range = echo.range, depth = echo.half_depth;
   if (depth > sigma) {
     const double half = std::sqrt(depth * depth + 3 * sigma * sigma);
@@ -72,8 +72,8 @@ class EchoMaker {
       cells[i] = cells_of(metres_per_s_ * (is_surface ? surface_.echoes.delay[i] : fixed_.delay[i - surfaces]), depth);
     }
   }
-  /// Sets those of echoes begin .. end - 1 that have a place in the list; `place` beyond it: none.
-  void make(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& place,
+  /// Sets those of echoes begin .. end - 1 that have a position in the list; `position` beyond it: none.
+  void make(std::size_t begin, std::size_t end, const std::vector<std::uint32_t>& slot,
             UninitializedVector<CellEcho>& echoes) const {
     const std::size_t surfaces = surface_.id.size(), drawn = begin < surfaces ? std::min(end, surfaces) - begin : 0;
     std::array<std::vector<double>, 2> re, im;
@@ -85,13 +85,13 @@ class EchoMaker {
       kernels::draw_normals(options_.seed, id, drawn, re[1].data(), im[1].data());  // (E187)
     }
     for (std::size_t i = begin; i < end; ++i) {
-      if (place[i] >= echoes.size()) continue;
+      if (slot[i] >= echoes.size()) continue;
       if (i >= surfaces) {
-        echoes[place[i]] = of_target(i - surfaces);
+        echoes[slot[i]] = of_target(i - surfaces);
         continue;
       }
       const std::size_t k = i - begin;
-      echoes[place[i]] = of_surface(i, {Complex(re[0][k], im[0][k]), Complex(re[1][k], im[1][k])});
+      echoes[slot[i]] = of_surface(i, {Complex(re[0][k], im[0][k]), Complex(re[1][k], im[1][k])});
     }
   }
 
@@ -175,21 +175,21 @@ class EchoMaker {
   double metres_per_s_, per_cell_length_, per_node_;
 };
 
-/// Returns the place of each echo among those that are in a cell, by their first cells: what a cell holds stands side by
-/// side. Those in no cell stand beyond. source: gets the echo at each place.
-std::vector<std::uint32_t> places_by_cell(const std::vector<CellSpan>& cells, std::size_t count,
-                                          std::vector<std::uint32_t>& source) {
-  std::vector<std::uint32_t> first(count + 1, 0), place(cells.size(), std::numeric_limits<std::uint32_t>::max());
+/// Returns the position of each echo among those that are in a cell, by their first cells: what a cell holds stands side by
+/// side. Those in no cell stand beyond. source: gets the echo at each position.
+std::vector<std::uint32_t> slots_by_cell(const std::vector<CellSpan>& cells, std::size_t count,
+                                         std::vector<std::uint32_t>& source) {
+  std::vector<std::uint32_t> first(count + 1, 0), slot(cells.size(), std::numeric_limits<std::uint32_t>::max());
   for (const CellSpan& span : cells)
     if (span.first <= span.last) ++first[span.first + 1];
   for (std::size_t c = 0; c < count; ++c) first[c + 1] += first[c];
   source.resize(first[count]);
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     if (cells[i].first > cells[i].last) continue;
-    place[i] = first[cells[i].first]++;
-    source[place[i]] = i;
+    slot[i] = first[cells[i].first]++;
+    source[slot[i]] = i;
   }
-  return place;
+  return slot;
 }
 
 /// Sets the parts of the energies in cells begin .. end - 1.
@@ -199,12 +199,12 @@ void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, Echo
     const double first = plan.first_range + static_cast<double>(cell) * plan.cell_length,
                  last = first + plan.cell_length, per_middle = 2 / (first + last);
     for (std::size_t k = lists.first[cell]; k < lists.first[cell + 1]; ++k) {
-      EchoInCell& in = lists.part[k];
+      EchoInCell& in = lists.piece[k];
       const CellEcho& echo = lists.echoes[in.echo];
       // The mean is over area, which grows with range.
       const double range = echo.range, weight = std::clamp(range, first, last) * per_middle;
-      const double part = echo.energy > 0 ? part_between(echo, deviation, first, last) : 0;
-      in.energy = static_cast<float>(static_cast<double>(echo.energy) * (weight * part));
+      const double piece = echo.energy > 0 ? share_between(echo, deviation, first, last) : 0;
+      in.energy = static_cast<float>(static_cast<double>(echo.energy) * (weight * piece));
       in.field = static_cast<float>(static_cast<double>(echo.strength) *
                                     (weight * overlap(range - half, range + half, first, last) * per_pulse));
     }
@@ -221,19 +221,19 @@ EchoesByCell echoes_by_cell(const DisplayPlan& plan, const SurfaceEchoes& surfac
   const EchoMaker maker(plan, surface, fixed, medium, options);
   parallel_blocks(count, echoes_at_once, options.threads,
                   [&](std::size_t begin, std::size_t end) { maker.find_cells(begin, end, cells); });
-  const std::vector<std::uint32_t> place = places_by_cell(cells, plan.cells, lists.source);
+  const std::vector<std::uint32_t> slot = slots_by_cell(cells, plan.cells, lists.source);
   lists.echoes.resize(lists.source.size());
   parallel_blocks(count, echoes_at_once, options.threads,
-                  [&](std::size_t begin, std::size_t end) { maker.make(begin, end, place, lists.echoes); });
+                  [&](std::size_t begin, std::size_t end) { maker.make(begin, end, slot, lists.echoes); });
   // The echoes of each cell, in the order in which they were given.
   lists.first.assign(plan.cells + 1, 0);
   for (const CellSpan& span : cells)
     for (std::size_t c = span.first; c <= span.last; ++c) ++lists.first[c + 1];
   for (std::size_t c = 0; c < plan.cells; ++c) lists.first[c + 1] += lists.first[c];
-  lists.part.resize(lists.first.back());
+  lists.piece.resize(lists.first.back());
   std::vector<std::size_t> next(lists.first.begin(), lists.first.end() - 1);
   for (std::uint32_t i = 0; i < count; ++i)
-    for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) lists.part[next[c]++].echo = place[i];
+    for (std::size_t c = cells[i].first; c <= cells[i].last; ++c) lists.piece[next[c]++].echo = slot[i];
   parallel_blocks(plan.cells, cells_at_once, options.threads,
                   [&](std::size_t begin, std::size_t end) { set_parts(plan, begin, end, lists); });
   return lists;

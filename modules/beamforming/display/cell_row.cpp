@@ -21,15 +21,16 @@ std::uint64_t noise_seed(const CellOptions& options) {
   return (options.seed ^ stage_seed) + static_cast<std::uint64_t>(options.ping) * ping_seed;
 }
 
-/// Looks at a place between two nodes.
-double looks_at(double place, const std::vector<double>& looks) {
-  const auto left = static_cast<std::size_t>(place);
-  return std::lerp(looks[left], looks[left + 1], place - static_cast<double>(left));
+/// Looks at a position between two nodes.
+double looks_at(double position, const std::vector<double>& looks) {
+  const auto left = static_cast<std::size_t>(position);
+  return std::lerp(looks[left], looks[left + 1], position - static_cast<double>(left));
 }
 
 }  // namespace
 
-CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const HeardByRow& row, const CellOptions& options)
+CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowReception& row,
+                 const CellOptions& options)
     : plan_(plan),
       lists_(lists),
       row_(row),
@@ -39,7 +40,7 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const Heard
       all_samples_(plan.all_samples),
       power_(plan.period_samples + guards),
       power_at_(plan.period),
-      energy_((plan.broad + 1) * kernels::row_length(plan.parts)),
+      energy_((plan.broad + 1) * kernels::row_length(plan.subranges)),
       noise_id_(plan.shading.size()),
       noise_re_(plan.shading.size()),
       noise_im_(plan.shading.size()) {
@@ -61,7 +62,7 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
   const std::size_t sides = std::min<std::size_t>(2, plan_.cells - cell);
   double loudest = 0;
   for (std::size_t s = 0; s < sides; ++s) {
-    list_parts(cell + s, side_[s]);
+    list_pieces(cell + s, side_[s]);
     loudest = std::max(loudest, side_[s].energy);
   }
   for (std::size_t s = 0; s < sides; ++s)
@@ -77,7 +78,7 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
   std::fill(power_at_.begin(), power_at_.end(), Complex(0));
   for (std::size_t s = 0; s < sides; ++s) {
     Side& side = side_[s];
-    part_strong(side);
+    partition_strong(side);
     sum_strong(side);
     count_looks(cell + s, side);
     sum_fields(cell + s, s);
@@ -90,11 +91,11 @@ void CellRow::form(std::size_t cell, Grid<double>& image) {
   }
 }
 
-void CellRow::list_parts(std::size_t cell, Side& side) {
+void CellRow::list_pieces(std::size_t cell, Side& side) {
   side.even.clear(), side.strong.clear();
   side.energy = 0;
   for (std::size_t k = lists_.first[cell]; k < lists_.first[cell + 1]; ++k) {
-    const EchoInCell& in = lists_.part[k];
+    const EchoInCell& in = lists_.piece[k];
     const double response = row_.response.empty() ? 1 : row_.response[in.echo];
     if (response == 0) continue;
     const auto square = static_cast<float>(response * response);
@@ -117,7 +118,7 @@ void CellRow::form_means(std::size_t cell, std::size_t sides) {
 
 void CellRow::label(std::size_t cell, Side& side) {
   labels_->start(cell);
-  for (const Part& part : side.even) labels_->add(*part.echo, part.energy);
+  for (const Piece& piece : side.even) labels_->add(*piece.echo, piece.energy);
   labels_->finish(side.mean, row_.element_noise * plan_.lag[0]);
 }
 
@@ -126,14 +127,14 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
   std::fill(all_.begin(), all_.end(), Complex(0));
   const double per_node = 1 / plan_.node_width;
   for (std::size_t s = 0; s < sides; ++s)
-    for (const Part& part : side_[s].even) {
-      const CellEcho& echo = *part.echo;
-      if (part.energy == 0 || (!with_water && labels_->of_water(echo))) continue;
+    for (const Piece& piece : side_[s].even) {
+      const CellEcho& echo = *piece.echo;
+      if (piece.energy == 0 || (!with_water && labels_->of_water(echo))) continue;
       const double half = std::max(echo.half_width * per_node, 0.5);
-      const double place = std::clamp((echo.u + 1) * per_node, 0.0, static_cast<double>(plan_.nodes));
-      const double low = std::max(place - half, -0.5) + 1,
-                   high = std::min(place + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
-      const double density = part.energy / (high - low);
+      const double position = std::clamp((echo.u + 1) * per_node, 0.0, static_cast<double>(plan_.nodes));
+      const double low = std::max(position - half, -0.5) + 1,
+                   high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
+      const double density = piece.energy / (high - low);
       // The first and the last node are met in part.
       const auto first = static_cast<std::size_t>(low), last = static_cast<std::size_t>(high);
       double* const at = reinterpret_cast<double*>(all_.data()) + s;
@@ -160,18 +161,18 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
 void CellRow::sum_fields(std::size_t cell, std::size_t s) {
   Side& side = side_[s];
   for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), Complex(0));
-  for (const Part& part : side.even) {
-    const CellEcho& echo = *part.echo;
-    if (!(part.field > 0)) continue;
-    std::size_t place = echo.node;
-    while (place >= plan_.period) place -= plan_.period;
-    Complex turn = static_cast<double>(part.sign * std::sqrt(part.field));
-    if (plan_.half_places) turn = turn.real() * plan_.turn[echo.node];
+  for (const Piece& piece : side.even) {
+    const CellEcho& echo = *piece.echo;
+    if (!(piece.field > 0)) continue;
+    std::size_t position = echo.node;
+    while (position >= plan_.period) position -= plan_.period;
+    Complex turn = static_cast<double>(piece.sign * std::sqrt(piece.field));
+    if (plan_.half_positions) turn = turn.real() * plan_.turn[echo.node];
     for (std::size_t q = 0; q < 2; ++q) {
       const double re = echo.pressure[q].real(), im = echo.pressure[q].imag();
-      nodes_[q][place] += Complex(turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re);
+      nodes_[q][position] += Complex(turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re);
     }
-    reinterpret_cast<double*>(&power_at_[place])[s] += part.field;
+    reinterpret_cast<double*>(&power_at_[position])[s] += piece.field;
   }
   for (std::size_t q = 0; q < 2; ++q) plan_.to_elements.run(nodes_[q].data());
   add_noise(cell, side);
@@ -232,20 +233,20 @@ void CellRow::sum_powers(std::size_t sides) {
 
 void CellRow::count_looks(std::size_t cell, Side& side) {
   // Energies by range, for broad nodes of u, each beyond those of the node before.
-  const std::size_t parts = plan_.parts, row = kernels::row_length(parts);
+  const std::size_t subranges = plan_.subranges, row = kernels::row_length(subranges);
   std::fill(energy_.begin(), energy_.end(), 0.f);
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
-  const double per_length = static_cast<double>(parts) / plan_.cell_length, unit = side.energy + side.noise;
-  const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(parts);
-  for (const Part& part : side.even) {
-    const CellEcho& echo = *part.echo;
-    if (part.energy == 0) continue;
-    const auto place = static_cast<float>((echo.range - first) * per_length),
+  const double per_length = static_cast<double>(subranges) / plan_.cell_length, unit = side.energy + side.noise;
+  const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(subranges);
+  for (const Piece& piece : side.even) {
+    const CellEcho& echo = *piece.echo;
+    if (piece.energy == 0) continue;
+    const auto position = static_cast<float>((echo.range - first) * per_length),
                reach = static_cast<float>(echo.reach * per_length);
-    const float low = std::max(0.f, place - reach), high = std::min(length, place + reach);
+    const float low = std::max(0.f, position - reach), high = std::min(length, position + reach);
     if (!(high > low)) continue;
     const std::uint32_t port = echo.port, starboard = echo.starboard;
-    const float density = part.energy * per_unit / ((high - low) * static_cast<float>(port - starboard + 1));
+    const float density = piece.energy * per_unit / ((high - low) * static_cast<float>(port - starboard + 1));
     // The first and the last range are met in part.
     const auto k = static_cast<std::uint32_t>(low), whole = static_cast<std::uint32_t>(high);
     const std::uint32_t last = whole - (static_cast<float>(whole) == high ? 1 : 0);
@@ -256,17 +257,17 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
     for (std::size_t n = k; n <= last; ++n) more[n] += density, less[n] -= density;
     more[k] -= before, more[last] -= beyond, less[k] += before, less[last] += beyond;
   }
-  kernels::CellEnergies of{energy_.data(),     plan_.broad,       parts, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
+  kernels::CellEnergies of{energy_.data(),     plan_.broad,       subranges, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
                            plan_.looks.data(), plan_.looks.size()};
   of.beside = static_cast<float>(plan_.beside_lobe);
-  of.noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(parts)) : 0;
+  of.noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(subranges)) : 0;
   kernels::count_looks(of, beams_.broad_used.data(), beams_.broad_used.size(), side.looks.data());
 }
 
 void CellRow::draw(const Side& side) {
   for (std::size_t b = 0; b < drawn_.size(); ++b) {
-    const BetweenFour& place = beams_.in_period[b];
-    const Complex f = place.of(side.field[0].data()), g = place.of(side.field[1].data());
+    const BetweenFour& position = beams_.in_period[b];
+    const Complex f = position.of(side.field[0].data()), g = position.of(side.field[1].data());
     const double power = std::max({side.power[b], side.noise, std::numeric_limits<double>::min()});
     even_.variate[b] = (std::norm(f) + std::norm(g)) / (2 * power);
     even_.from[b] = 2, even_.looks[b] = looks_at(beams_.broad_of[b], side.looks);

@@ -55,16 +55,16 @@ struct EchoesByCell {
   UninitializedVector<CellEcho> echoes;  ///< those that are in a cell, by their first cells
   std::vector<std::uint32_t> source{};   ///< number of each echo here among those of the surface, then those fixed
   std::vector<std::size_t> first;
-  UninitializedVector<EchoInCell> part;
+  UninitializedVector<EchoInCell> piece;
 };
 
 struct LabelledRow;
 class LabelRow;
 
-/// The echoes that a row of beams hears: its response to each echo, 0 where it hears nothing; empty: 1. Its beams, its
+/// The echoes that a row of beams receives: its response to each echo, 0 where it receives nothing; empty: 1. Its beams, its
 /// first element's number among those of the head, and the mean noise power at one of its elements [Pa^2].
-struct HeardByRow {
-  BeamPlaces beams;
+struct RowReception {
+  BeamPositions beams;
   std::vector<double> response;
   std::size_t first_element = 0;
   double element_noise = 0;
@@ -75,7 +75,7 @@ struct HeardByRow {
 class CellRow {
  public:
   /// Keeps references to all arguments, which must outlive it.
-  CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const HeardByRow& row, const CellOptions& options);
+  CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowReception& row, const CellOptions& options);
   ~CellRow();
 
   /// Writes the intensities of cell `cell` and, if there is one, of the next, to these columns of `image` (beams x
@@ -86,7 +86,7 @@ class CellRow {
   using Complex = std::complex<double>;
 
   /// An echo in a cell, with the part of its energy there.
-  struct Part {
+  struct Piece {
     const CellEcho* echo;
     float energy;  ///< [Pa^2]
     float field;   ///< its energy there, were it an echo from its middle [Pa^2]
@@ -94,24 +94,24 @@ class CellRow {
   };
   /// One of the two cells: its echoes, and the sums over them.
   struct Side {
-    std::vector<Part> even, strong;  ///< echoes that are part of even ground, and those that are added as pressures
-    double energy = 0;               ///< energy of all echoes [Pa^2]
-    double noise = 0;                ///< power of the noise in the fields of the beams [Pa^2]
-    std::vector<double> mean;        ///< expected intensity of each beam [Pa^2]
-    std::vector<double> power;       ///< expected power of the field of each beam [Pa^2]
-    std::vector<double> looks;       ///< number of looks at each broad node in use (E182)
+    std::vector<Piece> even, strong;  ///< echoes that are part of even ground, and those that are added as pressures
+    double energy = 0;                ///< energy of all echoes [Pa^2]
+    double noise = 0;                 ///< power of the noise in the fields of the beams [Pa^2]
+    std::vector<double> mean;         ///< expected intensity of each beam [Pa^2]
+    std::vector<double> power;        ///< expected power of the field of each beam [Pa^2]
+    std::vector<double> looks;        ///< number of looks at each broad node in use (E182)
     std::array<std::vector<Complex>, 2> field;       ///< sums over echoes at a period of u, with guards (E183)
     std::vector<std::vector<Complex>> strong_field;  ///< field of the strong echoes, by groups that interfere
     std::size_t groups = 0;
   };
 
-  void list_parts(std::size_t cell, Side& side);
+  void list_pieces(std::size_t cell, Side& side);
   void sum_means(std::size_t cell, std::size_t sides, bool with_water = true);
   void form_means(std::size_t cell, std::size_t sides);
   void label(std::size_t cell, Side& side);
-  void part_strong(Side& side);
+  void partition_strong(Side& side);
   void sum_strong(Side& side);
-  void add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const;
+  void add_strong(const Piece& piece, std::vector<Complex>& elements, std::vector<double>& mean) const;
   void sum_fields(std::size_t cell, std::size_t s);
   void sum_powers(std::size_t sides);
   void count_looks(std::size_t cell, Side& side);
@@ -124,8 +124,8 @@ class CellRow {
 
   const DisplayPlan& plan_;
   const EchoesByCell& lists_;
-  const HeardByRow& row_;
-  const BeamPlaces& beams_;
+  const RowReception& row_;
+  const BeamPositions& beams_;
   const CellOptions& options_;
   std::array<Side, 2> side_;
   std::vector<Complex> all_, all_samples_, power_, power_at_;
@@ -133,7 +133,7 @@ class CellRow {
   std::vector<float> energy_;
   std::vector<std::uint64_t> noise_id_;
   std::vector<double> noise_re_, noise_im_;
-  /// Even ground as each beam hears it (kernels::EvenGround).
+  /// Even ground as each beam receives it (kernels::EvenGround).
   struct {
     std::vector<double> variate, from, looks, mean, strong;
   } even_;

@@ -16,7 +16,7 @@ constexpr std::size_t least_parts_of_a_cell = 4;
 constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
 constexpr double least_beside = 1e-12;
 
-/// Place of `at` >= 1 among samples: of the four about it the second is at or before it.
+/// Position of `at` >= 1 among samples: of the four about it the second is at or before it.
 BetweenFour between_four(double at) {
   const double whole = std::floor(at), t = at - whole;
   return {static_cast<std::size_t>(whole) - 1,
@@ -47,7 +47,7 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
       period_samples(2 * period),
       all_length(fft_length(2 * nodes + 4)),
       all_samples(2 * all_length),
-      half_places(head.array.elements() % 2 == 0),
+      half_positions(head.array.elements() % 2 == 0),
       response(head.array, wavelength_of(head, medium)),
       pulse(head.pulse, medium, head.gate),
       cell_length(head.gate.bin_size),
@@ -66,16 +66,16 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
     lag.push_back(pairs / (n * n));  // (E65)
   }
   first_element = (period - head.array.elements() / 2) % period;
-  if (half_places)
+  if (half_positions)
     for (std::size_t i = 0; i < nodes; ++i)
       turn.push_back(std::polar(1.0, -pi * (static_cast<double>(i) + 0.5) / static_cast<double>(period)));
   fill_kernels(head, medium);
   fill_looks(head);
 }
 
-BeamPlaces DisplayPlan::places_of(const BeamFan& fan) const {
+BeamPositions DisplayPlan::positions_of(const BeamFan& fan) const {
   constexpr double samples_per_node = 2;
-  BeamPlaces at;
+  BeamPositions at;
   at.u_beam = beam_cosines(fan);
   for (const double u : at.u_beam) {
     const double node = (u + 1) / node_width - 0.5;  // centres of nodes are whole numbers
@@ -88,7 +88,7 @@ BeamPlaces DisplayPlan::places_of(const BeamFan& fan) const {
   const auto [least, most] = std::minmax_element(at.broad_of.begin(), at.broad_of.end());
   const auto begin = static_cast<std::size_t>(*least), end = static_cast<std::size_t>(*most) + 1;
   for (std::size_t k = begin; k <= end; ++k) at.broad_used.push_back(std::min(2 * k, broad - 1));
-  for (double& place : at.broad_of) place -= static_cast<double>(begin);
+  for (double& position : at.broad_of) position -= static_cast<double>(begin);
 
   at.beam_near.assign(nodes, -1);
   const double reach = main_lobe_reach * fan.beam_width;
@@ -116,7 +116,7 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
   const std::size_t count = std::clamp<std::size_t>(steps, 9, 401);
   const Absorption& a = medium.absorption;
   const std::size_t blocks = a.a1 != 0 || a.a2 != 0 ? std::min(blocks_of_range, cells) : 1;
-  double outside = 0, places = 0;
+  double outside = 0, positions = 0;
   for (std::size_t block = 0; block < blocks; ++block) {
     const double middle = (static_cast<double>(block) + 0.5) * static_cast<double>(cells) / static_cast<double>(blocks);
     const auto spectrum = pulse.spectrum(first_range + middle * cell_length, count);
@@ -128,7 +128,7 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
       of_band[k] = mean;  // (E181)
       if (k > 0) of_band[all_length - k] = mean;
       if (block == 0 && static_cast<double>(k) * node_width > main_lobe_reach * head.fan.beam_width)
-        outside += mean, places += 1;
+        outside += mean, positions += 1;
     }
     to_all.run(of_band.data());
     std::vector<double>& filled = kernel.emplace_back(all_length);
@@ -137,7 +137,7 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
       filled[q] = of_band[q].real() / static_cast<double>(all_length) / std::pow(sinc(cycles), 2);
     }
   }
-  beside_lobe = places > 0 ? std::max(outside / places, least_beside) : least_beside;
+  beside_lobe = positions > 0 ? std::max(outside / positions, least_beside) : least_beside;
 }
 
 void DisplayPlan::fill_looks(const SonarHead& head) {
@@ -146,11 +146,11 @@ void DisplayPlan::fill_looks(const SonarHead& head) {
     lobe.push_back(static_cast<float>(response_at(2 * static_cast<double>(k) * node_width)));
 
   const double resolved = std::max(2 * pulse.half_length(), 1e-9);
-  parts = std::clamp(static_cast<std::size_t>(std::ceil(cell_length / resolved)), least_parts_of_a_cell,
-                     kernels::most_parts);
-  const double length = cell_length / static_cast<double>(parts);
+  subranges = std::clamp(static_cast<std::size_t>(std::ceil(cell_length / resolved)), least_parts_of_a_cell,
+                         kernels::most_subranges);
+  const double length = cell_length / static_cast<double>(subranges);
   constexpr int steps = 32;
-  for (std::size_t d = 0; d < parts; ++d) {
+  for (std::size_t d = 0; d < subranges; ++d) {
     double mean = 0;
     for (int k = -steps; k < steps; ++k) {
       const double s = (k + 0.5) / steps;

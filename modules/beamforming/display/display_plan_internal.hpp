@@ -13,7 +13,7 @@
 
 namespace insonify {
 
-/// A place between four neighbouring samples, and their weights (cubic interpolation).
+/// A position between four neighbouring samples, and their weights (cubic interpolation).
 struct BetweenFour {
   std::size_t first;
   std::array<double, 4> weight;
@@ -25,9 +25,9 @@ struct BetweenFour {
 };
 
 /// Where the beams of a row stand among the nodes and samples of a DisplayPlan.
-struct BeamPlaces {
+struct BeamPositions {
   std::vector<double> u_beam;           ///< directions
-  std::vector<std::int32_t> beam_near;  ///< the beam that hears each node best; -1: none has it in its lobe
+  std::vector<std::int32_t> beam_near;  ///< the beam that receives each node best; -1: none has it in its lobe
   std::vector<double> broad_of;         ///< place of each beam among broad_used: index, and part of the way to the next
   std::vector<std::size_t> broad_used;  ///< every other broad node as far as beams go, ascending
   std::vector<BetweenFour> in_period;   ///< place of each beam among the samples of a transformed period
@@ -45,8 +45,8 @@ struct DisplayPlan {
   std::size_t nodes, period, broad;
   double node_width, beam_width;
   std::size_t node_of(double u) const {
-    const double place = (u + 1) / node_width;
-    return place <= 0 ? 0 : std::min(static_cast<std::size_t>(place), nodes - 1);
+    const double position = (u + 1) / node_width;
+    return position <= 0 ? 0 : std::min(static_cast<std::size_t>(position), nodes - 1);
   }
 
   std::size_t period_samples, all_length, all_samples;
@@ -54,15 +54,15 @@ struct DisplayPlan {
   std::vector<double> lag;                 ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
   std::vector<double> shading;             ///< w_m / N
   std::size_t first_element;               ///< index of element 0 in a transformed period
-  bool half_places;                        ///< elements stand at half-integers
-  std::vector<std::complex<double>> turn;  ///< factor of the pressure of an echo at each node, if half_places
+  bool half_positions;                     ///< elements stand at half-integers
+  std::vector<std::complex<double>> turn;  ///< factor of the pressure of an echo at each node, if half_positions
 
   std::vector<std::vector<double>> kernel;  ///< spectra of the band's mean pattern, by blocks of range
   std::size_t kernel_of(std::size_t cell) const { return cell * kernel.size() / cells; }
 
   std::vector<float> lobe;   ///< weights of broad nodes at distances 0, 1, .. within the main lobe
   double beside_lobe;        ///< mean response outside of it
-  std::size_t parts;         ///< ranges of a cell whose energies are kept apart
+  std::size_t subranges;     ///< ranges of a cell whose energies are kept apart
   std::vector<float> looks;  ///< R_d of parts d apart (E182)
 
   ResponseTable response;
@@ -72,8 +72,8 @@ struct DisplayPlan {
 
   Fft<double> to_elements, to_period, to_all, from_all;
 
-  /// Returns the places of the beams of a fan of one elevation.
-  BeamPlaces places_of(const BeamFan& fan) const;
+  /// Returns the positions of the beams of a fan of one elevation.
+  BeamPositions positions_of(const BeamFan& fan) const;
 
  private:
   double response_at(double offset) const;  // of any size

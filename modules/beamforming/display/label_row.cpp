@@ -8,10 +8,10 @@
 namespace insonify {
 namespace {
 
-double half_of_widest_step(std::vector<double> places) {
-  std::sort(places.begin(), places.end());
+double half_of_widest_step(std::vector<double> positions) {
+  std::sort(positions.begin(), positions.end());
   double widest = 0;
-  for (std::size_t i = 1; i < places.size(); ++i) widest = std::max(widest, places[i] - places[i - 1]);
+  for (std::size_t i = 1; i < positions.size(); ++i) widest = std::max(widest, positions[i] - positions[i - 1]);
   return 0.5 * widest;
 }
 
@@ -49,7 +49,7 @@ LabelLobes::LabelLobes(const DisplayPlan& plan, const SonarHead& head, const std
     }
   }
   const double width_up = fan.row_width > 0 ? fan.row_width : rows.size() > 1 ? fan.elevation_width : 0;
-  if (width_up == 0) return;  // one row hears all elevations
+  if (width_up == 0) return;  // one row receives all elevations
   std::vector<double> elevations;
   for (const FanRow& each : rows) elevations.push_back(each.elevation);
   const Extents up = extents_of(width_up, half_of_widest_step(elevations));
@@ -99,8 +99,8 @@ void LabelRow::add(const CellEcho& echo, double energy) {
                        sine <= lobes.cell_heights.high + echo.half_width;
   Sums& sums = sums_of(row_.echoes.label[i]);
   const double half_width = echo.half_width, half = std::max(half_width, 0.5 * plan_.node_width) / plan_.node_width;
-  const double place = (echo.u + 1) / plan_.node_width, last_node = static_cast<double>(plan_.nodes - 1);
-  const double low = place - half, high = place + half, density = energy / (high - low);
+  const double position = (echo.u + 1) / plan_.node_width, last_node = static_cast<double>(plan_.nodes - 1);
+  const double low = position - half, high = position + half, density = energy / (high - low);
   const auto first = static_cast<std::size_t>(std::clamp(low, 0.0, last_node)),
              last = static_cast<std::size_t>(std::clamp(high, 0.0, last_node));
   sums.first = std::min(sums.first, first), sums.last = std::max(sums.last, last);
@@ -114,15 +114,15 @@ void LabelRow::add(const CellEcho& echo, double energy) {
   }
 }
 
-LabelRow::Heard LabelRow::heard_of(const Sums& sums, const LabelLobes::Lobe& lobe) const {
-  Heard heard{&sums};
+LabelRow::Received LabelRow::received_from(const Sums& sums, const LabelLobes::Lobe& lobe) const {
+  Received received{&sums};
   const std::size_t end = std::min<std::size_t>(lobe.first + lobe.count, sums.last + 1);
   for (std::size_t node = std::max<std::size_t>(lobe.first, sums.first); node < end; ++node) {
     const std::size_t k = lobe.at + node - lobe.first;
-    heard.lobe += row_.lobes.lobe[k] * sums.lobe[node];
-    heard.cell += row_.lobes.cell[k] * sums.cell[node];
+    received.lobe += row_.lobes.lobe[k] * sums.lobe[node];
+    received.cell += row_.lobes.cell[k] * sums.cell[node];
   }
-  return heard;
+  return received;
 }
 
 std::uint32_t LabelRow::strongest_of(const Sums& sums, const LabelLobes::Lobe& lobe) const {
@@ -138,19 +138,19 @@ std::uint32_t LabelRow::strongest_of(const Sums& sums, const LabelLobes::Lobe& l
 
 void LabelRow::label_beam(std::size_t beam, double all) {
   const LabelLobes::Lobe& lobe = row_.lobes.of_beam[beam];
-  Heard best, second;
+  Received best, second;
   for (std::size_t k = 0; k < used_; ++k) {
-    const Heard heard = heard_of(sums_[k], lobe);
-    if (heard.cell > best.cell) best = heard;  // (E194)
+    const Received received = received_from(sums_[k], lobe);
+    if (received.cell > best.cell) best = received;  // (E194)
   }
   if (!best.of) return;
   for (std::size_t k = 0; k < used_ && used_ > 1; ++k) {
     if (&sums_[k] == best.of) continue;
-    const Heard heard = heard_of(sums_[k], lobe);
-    if (heard.lobe > second.lobe) second = heard;
+    const Received received = received_from(sums_[k], lobe);
+    if (received.lobe > second.lobe) second = received;
   }
-  const auto share_of = [all](const Heard& heard) {
-    return all > 0 ? static_cast<float>(std::min(1.0, static_cast<double>(heard.lobe) / all)) : 0.f;  // (E195)
+  const auto share_of = [all](const Received& received) {
+    return all > 0 ? static_cast<float>(std::min(1.0, static_cast<double>(received.lobe) / all)) : 0.f;  // (E195)
   };
   const auto row = static_cast<Eigen::Index>(row_.beams[beam]), column = static_cast<Eigen::Index>(cell_);
   CellLabels& to = row_.labels;

@@ -50,7 +50,7 @@ class LabelRow {
   void start(std::size_t cell);
   /// Adds an echo with its energy in the cell [Pa^2].
   void add(const CellEcho& echo, double energy);
-  /// Sets the labels of all beams in the cell. mean: what each hears of all surfaces and of noise [Pa^2].
+  /// Sets the labels of all beams in the cell. mean: what each receives of all surfaces and of noise [Pa^2].
   void finish(const std::vector<double>& mean, double noise);
 
   /// Returns true if an echo is of the water or a boundary.
@@ -67,8 +67,8 @@ class LabelRow {
     std::vector<float> lobe, cell, strongest;
     std::vector<std::uint32_t> by;  ///< the echo that is the strongest
   };
-  /// The energy of a label that a beam hears.
-  struct Heard {
+  /// The energy of a label that a beam receives.
+  struct Received {
     const Sums* of = nullptr;
     float cell = 0, lobe = 0;
   };
@@ -76,7 +76,7 @@ class LabelRow {
   /// Returns the number of an echo in the order in which echoes were given.
   std::size_t index_of(const CellEcho& echo) const { return lists_.source[&echo - lists_.echoes.data()]; }
   Sums& sums_of(std::uint16_t label);
-  Heard heard_of(const Sums& sums, const LabelLobes::Lobe& lobe) const;
+  Received received_from(const Sums& sums, const LabelLobes::Lobe& lobe) const;
   std::uint32_t strongest_of(const Sums& sums, const LabelLobes::Lobe& lobe) const;
   void label_beam(std::size_t beam, double all);
 

@@ -26,7 +26,7 @@ INSONIFY_ALWAYS_INLINE double uniform(std::uint64_t bits) {
 }
 
 /// Ranges side by side, in registers.
-using Lanes = float __attribute__((vector_size(part_lanes * sizeof(float))));
+using Lanes = float __attribute__((vector_size(subrange_lanes * sizeof(float))));
 
 INSONIFY_ALWAYS_INLINE void load(const float* from, Lanes& lanes) { __builtin_memcpy(&lanes, from, sizeof(lanes)); }
 INSONIFY_ALWAYS_INLINE void store(const Lanes& lanes, float* to) { __builtin_memcpy(to, &lanes, sizeof(lanes)); }
@@ -37,7 +37,7 @@ INSONIFY_ALWAYS_INLINE void sum_differences(const CellEnergies& cell, Lanes (&ev
   Lanes sum[rows] = {};
   for (std::size_t j = 0; j < cell.nodes; ++j)
     for (std::size_t r = 0; r < rows; ++r) {
-      float* const at = cell.energy + (j * rows + r) * part_lanes;
+      float* const at = cell.energy + (j * rows + r) * subrange_lanes;
       Lanes difference;
       load(at, difference);
       sum[r] += difference, everywhere[r] += sum[r];
@@ -49,32 +49,32 @@ INSONIFY_ALWAYS_INLINE void sum_differences(const CellEnergies& cell, Lanes (&ev
 template <std::size_t rows>
 INSONIFY_ALWAYS_INLINE void count_looks_of(const CellEnergies& cell, const std::size_t* at, std::size_t count,
                                            double* looks) {
-  constexpr std::size_t whole = rows * part_lanes;
+  constexpr std::size_t whole = rows * subrange_lanes;
   Lanes everywhere[rows] = {};
   sum_differences<rows>(cell, everywhere);
   // Side lobes hear all nodes; of ranges beyond the cell nothing.
   for (std::size_t n = 0; n < whole; ++n) {
-    float heard = everywhere[n / part_lanes][n % part_lanes];
-    everywhere[n / part_lanes][n % part_lanes] = n < cell.parts ? cell.noise + cell.beside * heard : 0;
+    float received = everywhere[n / subrange_lanes][n % subrange_lanes];
+    everywhere[n / subrange_lanes][n % subrange_lanes] = n < cell.subranges ? cell.noise + cell.beside * received : 0;
   }
   float padded[2 * whole] = {};  // what lies beyond is 0
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t j = at[k], reach = cell.lobe_reach - 1;
-    Lanes heard[rows], other, sum = {}, product = {};
-    for (std::size_t r = 0; r < rows; ++r) heard[r] = everywhere[r];
+    Lanes received[rows], other, sum = {}, product = {};
+    for (std::size_t r = 0; r < rows; ++r) received[r] = everywhere[r];
     for (std::size_t i = j > reach ? j - reach : 0; i <= std::min(j + reach, cell.nodes - 1); ++i) {
       const float weight = cell.lobe[i > j ? i - j : j - i];
       for (std::size_t r = 0; r < rows; ++r)
-        load(cell.energy + i * whole + r * part_lanes, other), heard[r] += weight * other;
+        load(cell.energy + i * whole + r * subrange_lanes, other), received[r] += weight * other;
     }
-    for (std::size_t r = 0; r < rows; ++r) store(heard[r], padded + r * part_lanes), sum += heard[r];
+    for (std::size_t r = 0; r < rows; ++r) store(received[r], padded + r * subrange_lanes), sum += received[r];
     for (std::size_t d = 0; d < cell.reach; ++d) {
       const float weight = (d > 0 ? 2 : 1) * cell.correlation[d];
       for (std::size_t r = 0; r < rows; ++r)
-        load(padded + r * part_lanes + d, other), product += weight * heard[r] * other;
+        load(padded + r * subrange_lanes + d, other), product += weight * received[r] * other;
     }
     float sums = 0, products = 0;
-    for (std::size_t l = 0; l < part_lanes; ++l) sums += sum[l], products += product[l];
+    for (std::size_t l = 0; l < subrange_lanes; ++l) sums += sum[l], products += product[l];
     looks[k] = products > 0 ? std::max(1.0, static_cast<double>(sums / products * sums)) : 1;  // (E182)
   }
 }
@@ -82,8 +82,8 @@ INSONIFY_ALWAYS_INLINE void count_looks_of(const CellEnergies& cell, const std::
 }  // namespace
 
 INSONIFY_CLONES void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks) {
-  static_assert(most_parts == 2 * part_lanes);
-  if (cell.parts <= part_lanes) return count_looks_of<1>(cell, at, count, looks);
+  static_assert(most_subranges == 2 * subrange_lanes);
+  if (cell.subranges <= subrange_lanes) return count_looks_of<1>(cell, at, count, looks);
   count_looks_of<2>(cell, at, count, looks);
 }
 

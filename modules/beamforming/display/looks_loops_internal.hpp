@@ -8,16 +8,18 @@
 namespace insonify::kernels {
 
 /// Ranges of a cell whose energies are kept apart, at most, and numbers that are summed side by side.
-constexpr std::size_t most_parts = 32, part_lanes = 16;
+constexpr std::size_t most_subranges = 32, subrange_lanes = 16;
 
 /// Returns the length of a row of so many ranges, in whole lanes.
-constexpr std::size_t row_length(std::size_t parts) { return (parts + part_lanes - 1) / part_lanes * part_lanes; }
+constexpr std::size_t row_length(std::size_t subranges) {
+  return (subranges + subrange_lanes - 1) / subrange_lanes * subrange_lanes;
+}
 
 /// Energies in a cell: of range n by how much more node j of u has than the one before, at j row_length(parts) + n, 0
 /// for n >= parts; and the pattern of a beam.
 struct CellEnergies {
   float* energy;
-  std::size_t nodes, parts;
+  std::size_t nodes, subranges;
   const float* lobe;  ///< weight of nodes at distances 0, 1, .. below `lobe_reach`
   std::size_t lobe_reach;
   float beside, noise;       ///< weight of all nodes; energy that each range has besides

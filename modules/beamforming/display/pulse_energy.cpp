@@ -70,10 +70,10 @@ void PulseEnergy::fill_energies(const RangeGate& gate, double metres_per_s) {
 }
 
 double PulseEnergy::correlation(double distance) const {
-  const double place = std::abs(distance) / correlation_step_;
-  const auto left = static_cast<std::size_t>(place);
+  const double position = std::abs(distance) / correlation_step_;
+  const auto left = static_cast<std::size_t>(position);
   if (left + 1 >= correlation_.size()) return 0;
-  return std::lerp(correlation_[left], correlation_[left + 1], place - static_cast<double>(left));
+  return std::lerp(correlation_[left], correlation_[left + 1], position - static_cast<double>(left));
 }
 
 std::vector<SpectrumNode> PulseEnergy::spectrum(double range, std::size_t count) const {

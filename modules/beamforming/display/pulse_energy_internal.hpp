@@ -20,9 +20,9 @@ class PulseEnergy {
   /// Returns the integral of |G|^2 over range [m] for an echo from `range` [m].
   double energy(double range) const {
     const double last = static_cast<double>(energy_.size() - 1);
-    const double place = std::clamp((range - first_range_) * entries_per_metre_, 0.0, last);
-    const auto left = std::min(static_cast<std::size_t>(place), energy_.size() - 2);
-    return energy_[left] + (place - static_cast<double>(left)) * (energy_[left + 1] - energy_[left]);
+    const double position = std::clamp((range - first_range_) * entries_per_metre_, 0.0, last);
+    const auto left = std::min(static_cast<std::size_t>(position), energy_.size() - 2);
+    return energy_[left] + (position - static_cast<double>(left)) * (energy_[left + 1] - energy_[left]);
   }
   /// Returns half the length [m] of the box with the variance of |G|^2 in range, in the middle of the gate.
   double half_length() const { return half_length_; }

@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr double strong_part = 0.1;       // of a cell, from which on an echo is added as a pressure (E184)
+constexpr double strong_share = 0.1;      // of a cell, from which on an echo is added as a pressure (E184)
 constexpr double spread_of_disc = 0.866;  // half width of the box with the variance of a disc, in its radius
 constexpr double half_maximum_of_box =
     0.68;                              // length at half maximum of a Gaussian, in that of the box of its variance
@@ -27,14 +27,14 @@ double pieces_of(const CellEcho& echo, const DisplayPlan& plan) {
 
 }  // namespace
 
-void CellRow::part_strong(Side& side) {
-  const auto strong = [&](const Part& part) {
-    const CellEcho& echo = *part.echo;
+void CellRow::partition_strong(Side& side) {
+  const auto strong = [&](const Piece& piece) {
+    const CellEcho& echo = *piece.echo;
     if (echo.together == 0) return true;
-    const double energy = part.energy * echo.together;
+    const double energy = piece.energy * echo.together;
     const std::int32_t beam = beams_.beam_near[echo.node];
-    const double heard = beam < 0 ? side.energy : std::min(side.energy, side.mean[static_cast<std::size_t>(beam)]);
-    return energy > strong_part * heard && energy > strong_part * heard * pieces_of(echo, plan_);
+    const double reception = beam < 0 ? side.energy : std::min(side.energy, side.mean[static_cast<std::size_t>(beam)]);
+    return energy > strong_share * reception && energy > strong_share * reception * pieces_of(echo, plan_);
   };
   const auto first = std::stable_partition(side.even.begin(), side.even.end(), [&](auto& p) { return !strong(p); });
   side.strong.assign(first, side.even.end());
@@ -46,7 +46,7 @@ void CellRow::sum_strong(Side& side) {
   if (side.strong.empty()) return;
   // Echoes within a pulse of each other add up as pressures, others as intensities.
   std::stable_sort(side.strong.begin(), side.strong.end(),
-                   [](const Part& a, const Part& b) { return a.echo->range < b.echo->range; });
+                   [](const Piece& a, const Piece& b) { return a.echo->range < b.echo->range; });
   std::vector<Complex>& elements = nodes_[0];
   for (auto first = side.strong.begin(); first != side.strong.end();) {
     const double last = first->echo->range + 2 * plan_.pulse.half_length();
@@ -58,17 +58,18 @@ void CellRow::sum_strong(Side& side) {
   for (double& mean : side.mean) mean = std::max(mean, row_.element_noise * plan_.lag[0]);
 }
 
-void CellRow::add_strong(const Part& part, std::vector<Complex>& elements, std::vector<double>& mean) const {
-  const CellEcho& echo = *part.echo;
+void CellRow::add_strong(const Piece& piece, std::vector<Complex>& elements, std::vector<double>& mean) const {
+  const CellEcho& echo = *piece.echo;
   const double step = 2 * pi / (plan_.node_width * static_cast<double>(plan_.period));
   const double u = echo.u, away = u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
   const std::size_t count = plan_.shading.size();
   const Complex turn = std::polar(1.0, -step * away);
-  Complex at = static_cast<double>(part.sign * std::sqrt(part.energy)) * Complex(echo.pressure[0]) *
-               std::polar(1.0, -step * away * element_place(0, count));
+  Complex at = static_cast<double>(piece.sign * std::sqrt(piece.energy)) * Complex(echo.pressure[0]) *
+               std::polar(1.0, -step * away * element_position(0, count));
   for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
   // The mean of even ground excludes it.
-  for (std::size_t b = 0; b < mean.size(); ++b) mean[b] -= part.energy * plan_.response.intensity(u - beams_.u_beam[b]);
+  for (std::size_t b = 0; b < mean.size(); ++b)
+    mean[b] -= piece.energy * plan_.response.intensity(u - beams_.u_beam[b]);
 }
 
 }  // namespace insonify

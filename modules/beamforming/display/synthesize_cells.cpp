@@ -51,20 +51,19 @@ struct CellSynthesizer::Plan {
   Medium medium;
   std::vector<FanRow> rows;
   DisplayPlan display;
-  std::vector<BeamPlaces> beams{};  ///< places of the beams of each row
+  std::vector<BeamPositions> beams{};  ///< places of the beams of each row
 
   Plan(const SonarHead& of, const Medium& water)
       : head(of), medium(water), rows(fan_rows(of.fan)), display(line_head(of, rows.front()), water) {
-    for (const FanRow& row : rows) beams.push_back(display.places_of(line_head(head, row).fan));
+    for (const FanRow& row : rows) beams.push_back(display.positions_of(line_head(head, row).fan));
   }
   bool one_line() const { return rows.size() == 1 && !head.column; }
 
-  /// Adds the cells of a row to those of all.
-  void form_row(const FanRow& of, const HeardByRow& heard, const EchoesByCell& lists, const CellOptions& options,
+  void form_row(const FanRow& of, const RowReception& reception, const EchoesByCell& lists, const CellOptions& options,
                 Grid<double>& cells) const {
     Grid<double> image(of.beams.size(), display.cells);
     parallel_blocks((display.cells + 1) / 2, 4, options.threads, [&](std::size_t begin, std::size_t end) {
-      CellRow row(display, lists, heard, options);
+      CellRow row(display, lists, reception, options);
       for (std::size_t pair = begin; pair < end; ++pair) row.form(2 * pair, image);
     });
     for (std::size_t k = 0; k < of.beams.size(); ++k)
@@ -100,8 +99,8 @@ Grid<double> CellSynthesizer::formed(const SurfaceEchoes& surface, const Echoes&
   require_finite(fixed, me);
   const EchoesByCell lists = echoes_by_cell(plan_->display, surface, fixed, plan_->medium, options);
   Grid<double> cells(head.fan.beams(), head.gate.bins());
-  HeardByRow heard;
-  heard.element_noise = noise_of_element(head, options);
+  RowReception reception;
+  reception.element_noise = noise_of_element(head, options);
   std::optional<RowWeights> weights;
   if (!plan_->one_line()) {
     require_elevations(surface.echoes);
@@ -110,18 +109,18 @@ Grid<double> CellSynthesizer::formed(const SurfaceEchoes& surface, const Echoes&
                     row_cutoff(row_tolerance, plan_->rows.size()), surface, fixed, lists.source, options.threads);
   }
   for (std::size_t r = 0; r < plan_->rows.size(); ++r) {
-    heard.beams = plan_->beams[r];
-    heard.first_element = r * head.array.elements();
-    if (weights) heard.response = weights->of(plan_->rows[r]);
+    reception.beams = plan_->beams[r];
+    reception.first_element = r * head.array.elements();
+    if (weights) reception.response = weights->of(plan_->rows[r]);
     std::optional<LabelledRow> labelled;
     if (labels)
-      labelled.emplace(LabelledRow{{plan_->display, head, plan_->rows, r, heard.beams.u_beam},
+      labelled.emplace(LabelledRow{{plan_->display, head, plan_->rows, r, reception.beams.u_beam},
                                    *labels,
                                    surface.echoes.v,
                                    plan_->rows[r].beams,
                                    *shown});
-    heard.labelled = labelled ? &*labelled : nullptr;
-    plan_->form_row(plan_->rows[r], heard, lists, options, cells);
+    reception.labelled = labelled ? &*labelled : nullptr;
+    plan_->form_row(plan_->rows[r], reception, lists, options, cells);
   }
   return cells;  // (E180)
 }

@@ -24,12 +24,13 @@ ColumnPlan<Real>::ColumnPlan(const SonarHead& head, const Medium& medium, const 
   const auto steps = static_cast<double>(cycle);
   AlignedArray<std::complex<double>, double> response(cycle * rows.size());  // cycle x rows
   for (std::size_t m = 0; m < n; ++m) {
-    const double place = element_place(m, n);
-    const auto frequency = static_cast<std::ptrdiff_t>(std::floor(place)), wrap = static_cast<std::ptrdiff_t>(cycle);
+    const double position = element_position(m, n);
+    const auto frequency = static_cast<std::ptrdiff_t>(std::floor(position)), wrap = static_cast<std::ptrdiff_t>(cycle);
     const auto at = static_cast<std::size_t>(frequency < 0 ? frequency + wrap : frequency);
-    const double factor = column.shading[m] / (static_cast<double>(n) * kernel.transform(place / steps));
+    const double factor = column.shading[m] / (static_cast<double>(n) * kernel.transform(position / steps));
     for (std::size_t r = 0; r < rows.size(); ++r)
-      response[at * rows.size() + r] = std::polar(factor, -2 * pi * place * cycles_per_v * std::sin(rows[r].elevation));
+      response[at * rows.size() + r] =
+          std::polar(factor, -2 * pi * position * cycles_per_v * std::sin(rows[r].elevation));
   }
   Fft<double>({cycle, rows.size(), rows.size(), 1}, FFTW_BACKWARD).run(response.data());
   weight.resize(rows.size() * lines);

@@ -23,11 +23,11 @@ struct SweepColumns {
   double sign;
 
   SweepColumns(const GriddingPlan<Real>& plan, double u) {
-    const auto place = plan.place_of(u);
-    const double low = place.step - 0.5 * static_cast<double>(plan.kernel.width()), column = std::ceil(low);
+    const auto position = plan.position_of(u);
+    const double low = position.step - 0.5 * static_cast<double>(plan.kernel.width()), column = std::ceil(low);
     first = static_cast<std::size_t>(column + static_cast<double>(grid_pad));
     offset = static_cast<Real>(2 * (column - low) - 1);
-    sign = place.sign;
+    sign = position.sign;
   }
 };
 

@@ -34,7 +34,7 @@ kernels::GaussianGrid gaussian_grid(const GriddingPlan<Real>& plan, std::size_t 
           .grid = static_cast<double>(plan.grid),
           .half_width = 0.5 * static_cast<double>(plan.kernel.width()),
           .pad = static_cast<double>(grid_pad),
-          .half_places = plan.element_offset != 0,
+          .half_positions = plan.element_offset != 0,
           .a_sent = plan.shapes.of(0).a,
           .range_per_delay = 0.5 * plan.medium.sound_speed,
           .a0 = absorption.a0,
@@ -128,7 +128,7 @@ void GridTile<Real>::add_gaussians(const Echoes& echoes, List list, std::size_t 
 template <typename Real>
 void GridTile<Real>::add_to_line(std::size_t count) {
   Brick& brick = brick_at(0, 0);
-  kernels::grid_samples(pulses_.places(), count, pulses_.re.data(), pulses_.im.data(), plan_.longest_rows,
+  kernels::grid_samples(pulses_.positions(), count, pulses_.re.data(), pulses_.im.data(), plan_.longest_rows,
                         pieces_of(plan_.columns), brick.sum.data(), brick.sum.data() + plane_, stride_);
   brick.since_flush += count;
 }

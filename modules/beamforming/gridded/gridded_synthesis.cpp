@@ -46,7 +46,7 @@ class Slab final : public EchoSink {
         reach_(reach),
         first_(first_bin),
         last_(std::min(first_ + tiles * plan.tile_bins, plan.axis.bins)) {
-    for (std::size_t bin = first_; bin < last_; bin += plan.tile_bins) places_.push_back({bin});
+    for (std::size_t bin = first_; bin < last_; bin += plan.tile_bins) positions_.push_back({bin});
     // Pulses lengthen with range: those from beyond the slab are as long as at its end, and half as much again.
     const double end = plan.axis.time_of(last_), half = 1.5 * reach.at(end) + 2 * plan.axis.step;
     min_range_ = 0.5 * plan.medium.sound_speed * (plan.axis.time_of(first_) - half);
@@ -58,7 +58,7 @@ class Slab final : public EchoSink {
 
   void take(const Scatterers&, const Echoes& echoes) override {
     require_finite(echoes, "GriddedEngine");
-    for (Place& place : places_) place.list.clear();
+    for (Position& position : positions_) position.list.clear();
     begin_.resize(echoes.size()), end_.resize(echoes.size());
     kernels::reached_bins(echoes.delay.data(), echoes.size(),
                           {plan_.axis.start, plan_.axis.step, reach_.half, reach_.growth, static_cast<double>(first_),
@@ -67,27 +67,27 @@ class Slab final : public EchoSink {
     for (std::size_t i = 0; i < echoes.size(); ++i)
       if (begin_[i] < end_[i])
         for (std::size_t t = (begin_[i] - first_) / plan_.tile_bins; t <= (end_[i] - 1 - first_) / plan_.tile_bins; ++t)
-          places_[t].list.push_back(static_cast<std::uint32_t>(i));
-    for (Place& place : places_) {
-      if (place.list.empty()) continue;
-      if (!place.tile) place.tile = pool_.take();
-      place.tile->add(echoes, reach_, place.list, place.first_bin);
+          positions_[t].list.push_back(static_cast<std::uint32_t>(i));
+    for (Position& position : positions_) {
+      if (position.list.empty()) continue;
+      if (!position.tile) position.tile = pool_.take();
+      position.tile->add(echoes, reach_, position.list, position.first_bin);
     }
   }
 
   void form_beams(const BeamTransform<Real>& to_beams, ComplexGrid& pressure, double& gridded, double& received) {
-    for (Place& place : places_) {
-      const std::size_t end = std::min(place.first_bin + plan_.tile_bins, last_);
-      if (place.tile)
-        place.tile->form_beams(to_beams, place.first_bin, end, pressure, gridded, received);
+    for (Position& position : positions_) {
+      const std::size_t end = std::min(position.first_bin + plan_.tile_bins, last_);
+      if (position.tile)
+        position.tile->form_beams(to_beams, position.first_bin, end, pressure, gridded, received);
       else
-        pressure.middleCols(place.first_bin, end - place.first_bin).setZero();
-      place.tile.reset();
+        pressure.middleCols(position.first_bin, end - position.first_bin).setZero();
+      position.tile.reset();
     }
   }
 
  private:
-  struct Place {
+  struct Position {
     std::size_t first_bin;
     typename TilePool<GridTile<Real>>::Handle tile{};
     std::vector<std::uint32_t> list{};
@@ -98,7 +98,7 @@ class Slab final : public EchoSink {
   PulseReach reach_;
   std::size_t first_, last_;
   double min_range_ = 0, max_range_ = 0;
-  std::vector<Place> places_;
+  std::vector<Position> positions_;
   std::vector<std::uint32_t> begin_, end_;  // samples that the echoes of a chunk reach
 };
 

@@ -81,8 +81,8 @@ void GriddingPlan<Real>::plan_elements() {
   element.assign(grid, Complex(0));
   // Transforms have the sign of exp(2 pi i place cycles): places are counted from port.
   for (std::size_t m = 0; m < n; ++m) {
-    const double place = element_place(m, n), kernel_transform = kernel.transform(place / steps);
-    const auto frequency = static_cast<std::ptrdiff_t>(std::floor(place));
+    const double position = element_position(m, n), kernel_transform = kernel.transform(position / steps);
+    const auto frequency = static_cast<std::ptrdiff_t>(std::floor(position));
     element[static_cast<std::size_t>(frequency < 0 ? frequency + static_cast<std::ptrdiff_t>(grid) : frequency)] =
         static_cast<Real>(head.array.shading[n - 1 - m] /
                           (static_cast<double>(n) * kernel_transform * kernel_transform));
@@ -96,19 +96,19 @@ template <typename Real>
 void GriddingPlan<Real>::plan_beams() {
   const std::size_t width = kernel.width();
   for (const double u : beam_cosines(head.fan)) {
-    const Place place = place_of(u);
-    const double low = place.step - 0.5 * static_cast<double>(width), first = std::ceil(low);
+    const Position position = position_of(u);
+    const double low = position.step - 0.5 * static_cast<double>(width), first = std::ceil(low);
     for (std::size_t k = 0; k < width; ++k) {
       const double j = first + static_cast<double>(k), wraps = std::floor(j / static_cast<double>(grid));
-      const double sign = wraps != 0 && element_offset != 0 ? -place.sign : place.sign;
-      beam_weight.push_back(static_cast<Real>(sign * kernel.at(j - place.step)));
+      const double sign = wraps != 0 && element_offset != 0 ? -position.sign : position.sign;
+      beam_weight.push_back(static_cast<Real>(sign * kernel.at(j - position.step)));
       beam_row.push_back(static_cast<std::uint32_t>(j - wraps * static_cast<double>(grid)));
     }
   }
 }
 
 template <typename Real>
-typename GriddingPlan<Real>::Place GriddingPlan<Real>::place_of(double u) const {
+typename GriddingPlan<Real>::Position GriddingPlan<Real>::position_of(double u) const {
   const double cycles = cycles_per_u * u, whole = std::floor(cycles);
   const bool turned = element_offset != 0 && std::fmod(whole, 2) != 0;
   return {(cycles - whole) * static_cast<double>(grid), turned ? -1.0 : 1.0};

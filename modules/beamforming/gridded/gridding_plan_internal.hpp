@@ -53,10 +53,10 @@ struct GriddingPlan {
   std::size_t tiles() const { return (axis.bins + tile_bins - 1) / tile_bins; }
 
   /// Position of a direction on the grid: step, and sign due to whole cycles.
-  struct Place {
+  struct Position {
     double step, sign;
   };
-  Place place_of(double u) const;
+  Position position_of(double u) const;
   /// Half lengths of the pulses of a scene and a head at rest, or of moving ones.
   PulseReach reach(bool moving) const;
 

@@ -26,35 +26,35 @@ NarrowBandError::NarrowBandError(const SonarHead& head, double sound_speed)
   for (std::size_t b = 0; b < head.fan.beams(); ++b)
     u_beam_.push_back(std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
   for (std::size_t m = 0; m < head.array.elements(); ++m)
-    y_.push_back(head.array.spacing * element_place(m, head.array.elements()));
+    y_.push_back(head.array.spacing * element_position(m, head.array.elements()));
   shading_ = head.array.shading;
   while (y_.size() % kernels::phasor_lanes != 0) y_.push_back(0), shading_.push_back(0);
 }
 
-NarrowBandError::Sums NarrowBandError::of(const Scatterers& places, const std::vector<double>& power,
+NarrowBandError::Sums NarrowBandError::of(const Scatterers& positions, const std::vector<double>& power,
                                           const std::vector<double>& doppler, int threads) const {
-  // Some of the places, and how many parts of the power each stands for.
-  const double parts = std::max(32.0, 768.0 / static_cast<double>(std::min(u_beam_.size(), near_beams)));
-  const double part = std::accumulate(power.begin(), power.end(), 0.0) / parts;
-  double passed = -0.5 * part;
+  // Some of the positions, and how many parts of the power each stands for.
+  const double shares = std::max(32.0, 768.0 / static_cast<double>(std::min(u_beam_.size(), near_beams)));
+  const double share = std::accumulate(power.begin(), power.end(), 0.0) / shares;
+  double passed = -0.5 * share;
   std::vector<std::pair<std::size_t, double>> chosen;
   for (std::size_t i = 0; i < power.size(); ++i) {
     passed += power[i];
     if (power[i] == 0 || passed < 0) continue;
-    chosen.emplace_back(i, std::floor(passed / part) + 1);
-    passed -= chosen.back().second * part;
+    chosen.emplace_back(i, std::floor(passed / share) + 1);
+    passed -= chosen.back().second * share;
   }
   // Their errors, added in their order.
   std::vector<Sums> sums(chosen.size());
   parallel_blocks(chosen.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto [i, times] = chosen[k];
-      sums[k] = of_echo({places.range[i], std::cos(places.elevation[i]) * std::sin(places.azimuth[i]), times,
+      sums[k] = of_echo({positions.range[i], std::cos(positions.elevation[i]) * std::sin(positions.azimuth[i]), times,
                          head_.pulse.centre_frequency + (doppler.empty() ? 0 : doppler[i])});
     }
   });
   Sums sum;
-  for (const Sums& of_place : sums) sum.error += part * of_place.error, sum.image += part * of_place.image;
+  for (const Sums& of_position : sums) sum.error += share * of_position.error, sum.image += share * of_position.image;
   return sum;
 }
 
@@ -87,7 +87,7 @@ void NarrowBandError::add_beam(const Echo& echo, double u_beam, double weight, s
                          nodes_[3].frequency / echo.carrier, nodes_[4].frequency / echo.carrier},
                         p);
   const kernels::PhasorSums all = kernels::sum_phasors(shading_.data(), y_.size(), p);
-  const auto sum_of = [](const double(&parts)[2]) { return std::complex(parts[0], parts[1]); };
+  const auto sum_of = [](const double(&shares)[2]) { return std::complex(shares[0], shares[1]); };
   const std::complex<double> narrow = sum_of(all.row[p.narrow]), before = sum_of(all.row[p.before]),
                              behind = sum_of(all.row[p.behind]);
   std::complex<double> truth[5];  // nodes come in pairs about the carrier
@@ -96,9 +96,9 @@ void NarrowBandError::add_beam(const Echo& echo, double u_beam, double weight, s
     const std::complex<double> by_cosine = sum_of(all.by_cosine[n - 1]), by_sine = sum_of(all.by_sine[n - 1]);
     truth[2 + n] = by_cosine + by_sine, truth[2 - n] = by_cosine - by_sine;
   }
-  const auto add_node = [&](const std::complex<double>& t, double part) {
-    sums.error += weight * part * std::norm(t - narrow);
-    sums.image += weight * part * std::norm(t);
+  const auto add_node = [&](const std::complex<double>& t, double share) {
+    sums.error += weight * share * std::norm(t - narrow);
+    sums.image += weight * share * std::norm(t);
   };
   for (std::size_t n = 0; n < nodes_.size(); ++n) add_node(truth[n], nodes_[n].weight - (n == 2 ? 1.0 / 3 : 0));
   add_node(before, 1.0 / 6);

@@ -24,10 +24,10 @@ class NarrowBandError {
     double error = 0, image = 0;
   };
 
-  /// Returns the expected sums for echoes from `places` whose power at an element is `power` [Pa^2] and whose carrier is
+  /// Returns the expected sums for echoes from `positions` whose power at an element is `power` [Pa^2] and whose carrier is
   /// shifted by `doppler` [Hz; empty: nothing moves]; zero sums if `power` is empty. The sums are estimated from 32 to 48 places that each represent the same power, in the 16
   /// beams whose main or grating lobes are nearest and in 8 of the other beams.
-  Sums of(const Scatterers& places, const std::vector<double>& power, const std::vector<double>& doppler,
+  Sums of(const Scatterers& positions, const std::vector<double>& power, const std::vector<double>& doppler,
           int threads = 0) const;
 
  private:

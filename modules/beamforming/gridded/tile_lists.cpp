@@ -36,7 +36,6 @@ TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReac
   const std::size_t block = std::max(min_block, (echoes.size() + max_blocks - 1) / max_blocks);
   const std::size_t blocks = (echoes.size() + block - 1) / block;
 
-  // Count the entries of each block of echoes in each tile.
   std::vector<std::size_t> next(blocks * tiles, 0);
   parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
     std::size_t* count = next.data() + first / block * tiles;
@@ -46,17 +45,17 @@ TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReac
   // Assign positions tile by tile, within a tile block by block, so the lists do not depend on the division into
   // blocks.
   begin.assign(1, 0);
-  std::size_t place = 0;
+  std::size_t count_before = 0;
   for (std::size_t t = 0; t < tiles; ++t) {
     for (std::size_t k = 0; k < blocks; ++k) {
       const std::size_t count = next[k * tiles + t];
-      next[k * tiles + t] = place;
-      place += count;
+      next[k * tiles + t] = count_before;
+      count_before += count;
     }
-    begin.push_back(place);
+    begin.push_back(count_before);
   }
 
-  echo.resize(place);
+  echo.resize(count_before);
   parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
     std::size_t* to = next.data() + first / block * tiles;
     each_tile(echoes, axis, reach, tile_bins, first, last,

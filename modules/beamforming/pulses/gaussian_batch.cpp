@@ -32,7 +32,7 @@ double GaussianBatch<Real>::sample(const kernels::GaussianGrid& grid, const Echo
   re.resize(most * rows);
   im.resize(most * rows);
   for (std::size_t n = 0; n < rows; n += at_once) {
-    kernels::place_gaussians({delay, u, amplitude_re, amplitude_im, doppler}, list.size(), grid, n, state, places());
+    kernels::place_gaussians({delay, u, amplitude_re, amplitude_im, doppler}, list.size(), grid, n, state, positions());
     kernels::sample_gaussians(state, list.size(), std::min(at_once, rows - n), re.data() + n * list.size(),
                               im.data() + n * list.size());
   }

@@ -25,7 +25,7 @@ struct GaussianBatch {
   /// the squared peaks after absorption at the carrier [unit^2]. Throws Error if absorption lets a pulse grow.
   double sample(const kernels::GaussianGrid& grid, const EchoShapes& shapes, const Echoes& echoes,
                 std::span<const std::uint32_t> list, double unit, std::size_t rows);
-  kernels::GaussianPlaces<Real> places() { return {row.data(), column.data(), column_offset.data()}; }
+  kernels::GaussianPositions<Real> positions() { return {row.data(), column.data(), column_offset.data()}; }
 };
 
 }  // namespace insonify

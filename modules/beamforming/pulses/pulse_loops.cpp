@@ -13,9 +13,9 @@ constexpr double pi = 3.14159265358979323846;
 
 template <typename Real>
 INSONIFY_ALWAYS_INLINE void place_all(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid,
-                                      std::size_t sample, GaussianState s, GaussianPlaces<Real> at) {
+                                      std::size_t sample, GaussianState s, GaussianPositions<Real> at) {
   const GaussianGrid g = grid;
-  const double turn_step = 2 * pi * g.step, first = g.start + g.half, sign = g.half_places ? 1 : 0;
+  const double turn_step = 2 * pi * g.step, first = g.start + g.half, sign = g.half_positions ? 1 : 0;
   const auto later = static_cast<double>(sample);
 #pragma GCC ivdep
   for (std::size_t i = 0; i < count; ++i) {
@@ -63,7 +63,7 @@ INSONIFY_ALWAYS_INLINE void sample_all(GaussianState s, std::size_t count, std::
 }
 
 template <std::size_t lanes, typename Real>
-INSONIFY_ALWAYS_INLINE void grid_lanes(GaussianPlaces<Real> at, std::size_t count, const Real* pulse_re,
+INSONIFY_ALWAYS_INLINE void grid_lanes(GaussianPositions<Real> at, std::size_t count, const Real* pulse_re,
                                        const Real* pulse_im, std::size_t rows, Pieces<Real> p, Real* x_re, Real* x_im,
                                        std::size_t stride) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -81,14 +81,14 @@ INSONIFY_ALWAYS_INLINE void grid_lanes(GaussianPlaces<Real> at, std::size_t coun
 
 INSONIFY_CLONES
 void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
-                     GaussianState state, GaussianPlaces<float> places) {
-  place_all(echoes, count, grid, sample, state, places);
+                     GaussianState state, GaussianPositions<float> positions) {
+  place_all(echoes, count, grid, sample, state, positions);
 }
 
 INSONIFY_CLONES
 void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
-                     GaussianState state, GaussianPlaces<double> places) {
-  place_all(echoes, count, grid, sample, state, places);
+                     GaussianState state, GaussianPositions<double> positions) {
+  place_all(echoes, count, grid, sample, state, positions);
 }
 
 INSONIFY_CLONES
@@ -102,21 +102,22 @@ void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, 
 }
 
 INSONIFY_CLONES
-void grid_samples(GaussianPlaces<float> places, std::size_t count, const float* pulse_re, const float* pulse_im,
+void grid_samples(GaussianPositions<float> positions, std::size_t count, const float* pulse_re, const float* pulse_im,
                   std::size_t rows, Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride) {
   if (columns_of.lanes == 8)
-    grid_lanes<8>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+    grid_lanes<8>(positions, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
   else
-    grid_lanes<16>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+    grid_lanes<16>(positions, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
 }
 
 INSONIFY_CLONES
-void grid_samples(GaussianPlaces<double> places, std::size_t count, const double* pulse_re, const double* pulse_im,
-                  std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride) {
+void grid_samples(GaussianPositions<double> positions, std::size_t count, const double* pulse_re,
+                  const double* pulse_im, std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im,
+                  std::size_t stride) {
   if (columns_of.lanes == 8)
-    grid_lanes<8>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+    grid_lanes<8>(positions, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
   else
-    grid_lanes<16>(places, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
+    grid_lanes<16>(positions, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
 }
 
 INSONIFY_CLONES

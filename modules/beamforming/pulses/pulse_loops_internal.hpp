@@ -19,7 +19,7 @@ struct GaussianGrid {
   double start, step, half, first_row;  ///< time axis [s], half length of pulses [s], first row
   double first_u, cycles_per_u;         ///< cycles of the grid
   double grid, half_width, pad;         ///< steps of a cycle; of the kernel; before the first
-  bool half_places;                     ///< elements stand at half-integers: whole cycles have signs
+  bool half_positions;                  ///< elements stand at half-integers: whole cycles have signs
   double a_sent, range_per_delay;       ///< `a` of EchoEnvelope as sent (E8); range [m] per delay [s]
   double a0, a1, a2;                    ///< absorption
 };
@@ -32,24 +32,25 @@ struct GaussianState {
 /// Places Gaussian pulses, attenuated and shifted in frequency by absorption and Doppler (E8, E13, E54), on the grid;
 /// the state is that of sample `sample` of each.
 template <typename Real>
-struct GaussianPlaces {
+struct GaussianPositions {
   std::uint32_t *row, *column;
   Real* column_offset;
 };
 void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
-                     GaussianState state, GaussianPlaces<float> places);
+                     GaussianState state, GaussianPositions<float> positions);
 void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
-                     GaussianState state, GaussianPlaces<double> places);
+                     GaussianState state, GaussianPositions<double> positions);
 
 /// Samples of the pulses by recurrence, row by row: sample n of echo i at n count + i. Uses up the state.
 void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, float* pulse_re, float* pulse_im);
 void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, double* pulse_re, double* pulse_im);
 
 /// Adds the pulses that sample_gaussians sampled, times the kernel of their columns, to the planes (rows x stride).
-void grid_samples(GaussianPlaces<float> places, std::size_t count, const float* pulse_re, const float* pulse_im,
+void grid_samples(GaussianPositions<float> positions, std::size_t count, const float* pulse_re, const float* pulse_im,
                   std::size_t rows, Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride);
-void grid_samples(GaussianPlaces<double> places, std::size_t count, const double* pulse_re, const double* pulse_im,
-                  std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im, std::size_t stride);
+void grid_samples(GaussianPositions<double> positions, std::size_t count, const double* pulse_re,
+                  const double* pulse_im, std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im,
+                  std::size_t stride);
 
 /// A time axis, and the half length of pulses on it: half sqrt(max(1, 1 + growth delay)). reached_bins writes the
 /// samples [begin, end) within the half length of each delay, clipped to [first, last); begin >= end if there are none.

@@ -25,7 +25,9 @@ void require_tolerance(const ElementOptions& options, const char* who) {
 }
 
 /// Position of element m along the array [m], positive to port.
-double element_y(const LineArray& array, std::size_t m) { return array.spacing * element_place(m, array.elements()); }
+double element_y(const LineArray& array, std::size_t m) {
+  return array.spacing * element_position(m, array.elements());
+}
 
 /// Path difference [m] between the element at `y` and the centre of the array.
 double path_difference(Wavefront wavefront, double range, double u, double y) {

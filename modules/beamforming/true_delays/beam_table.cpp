@@ -41,7 +41,7 @@ double BeamTable::guard(const BeamTableSizes& sizes, const BeamTableSizes::Span&
 double BeamTable::work(const BeamTableSizes& sizes, const BeamTableSizes::Span& span) {
   const double samples = 2 * sizes.reach.at(2 * sizes.range_of(span.last) / sizes.medium.sound_speed) *
                          static_cast<double>(sizes.per_bin) / sizes.axis.step;
-  return static_cast<double>(span.nodes * sizes.directions_of(span).count * sizes.part.y.size()) * samples;
+  return static_cast<double>(span.nodes * sizes.directions_of(span).count * sizes.section.y.size()) * samples;
 }
 
 double BeamTable::bytes(const BeamTableSizes& sizes, const BeamTableSizes::Span& span) {
@@ -60,7 +60,7 @@ BeamTable::BeamTable(const BeamTableSizes& sizes, const BeamTableSizes::Span& sp
       span_(span),
       directions_(sizes.directions_of(span)),
       values_(span.nodes * directions_.count * times_ * 2 * width_) {
-  const double near = span.place(sizes.range_of(span.first - 1)), far = span.place(sizes.range_of(span.last + 1));
+  const double near = span.position(sizes.range_of(span.first - 1)), far = span.position(sizes.range_of(span.last + 1));
   for (std::size_t c = 0; c < span.nodes; ++c)
     node_.push_back(0.5 * (near + far) + 0.5 * (near - far) * chebyshev_node(c, span.nodes));
   for (std::size_t c = 0; c < span.nodes; ++c) {
@@ -80,22 +80,21 @@ void BeamTable::fill(std::size_t node) {
   const EchoEnvelope envelope = of.shapes.of(2 * range / c);
   const std::size_t samples = width_ * of.per_bin + time_taps - 1;
   std::vector<double> focus(samples), re(directions_.count * samples), im(directions_.count * samples);
-  for (std::size_t m = 0; m < of.part.y.size(); ++m)
+  for (std::size_t m = 0; m < of.section.y.size(); ++m)
     for (std::size_t g = 0; g < directions_.count; ++g) {
-      const double asked = directions_.first + static_cast<double>(g) * of.u_step;
-      const double u = of.u_seen(range, asked / stretch_);
-      const double late = of.lateness(range, u), path = path_difference(range, u, of.part.y[m]);
-      if (g == 0 || of.part.fade > 0)
-        kernels::focus_at({range + 0.5 * c * (start + late), 0.5 * c * step, of.u_beam, of.part.y[m]}, samples,
+      const double wanted = directions_.first + static_cast<double>(g) * of.u_step;
+      const double u = of.u_seen(range, wanted / stretch_);
+      const double late = of.lateness(range, u), path = path_difference(range, u, of.section.y[m]);
+      if (g == 0 || of.section.fade > 0)
+        kernels::focus_at({range + 0.5 * c * (start + late), 0.5 * c * step, of.u_beam, of.section.y[m]}, samples,
                           focus.data());
-      // Samples that the pulse reaches.
       const auto [least, most] = std::minmax(focus[0], focus[samples - 1]);
       const double low = (-reach - late - (most - path) / c - start) / step,
                    high = (reach - late - (least - path) / c - start) / step;
       const double end = std::min(high + 2, static_cast<double>(samples));
       if (end > std::max(low, 0.0))
         kernels::add_element({start, step, late, stretch_ * of.head.pulse.centre_frequency, c, envelope.a, envelope.b},
-                             focus.data(), path, of.part.weight[m], static_cast<std::size_t>(std::max(low, 0.0)),
+                             focus.data(), path, of.section.weight[m], static_cast<std::size_t>(std::max(low, 0.0)),
                              static_cast<std::size_t>(end), re.data() + g * samples,
                              im.data() + g * samples);  // (E134)
     }
@@ -140,8 +139,7 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   const double carrier = of.head.pulse.centre_frequency, stretch = 1 + doppler / carrier;
   kernels::ResponseTaps taps;
   taps.row = 2 * width_, taps.line = times_ * taps.row, taps.plane = directions_.count * taps.line;
-  // Between ranges.
-  const double range = 0.5 * of.medium.sound_speed * delay, x = span_.place(range);
+  const double range = 0.5 * of.medium.sound_speed * delay, x = span_.position(range);
   taps.ranges = node_.size();
   for (std::size_t c = 0; c < node_.size(); ++c) {
     double weight = node_weight_[c];
@@ -149,13 +147,12 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
       if (k != c) weight *= x - node_[k];
     taps.range[c] = static_cast<float>(weight);
   }
-  // Between directions.
-  const double asked = stretch * of.seen(range, of.mirrored ? std::abs(u) : u);
-  const double place = (asked - directions_.first) / of.u_step;
-  const auto direction = static_cast<std::size_t>(place) - taps_before;
-  eight_weights(place - static_cast<double>(direction), taps.direction);
+  const double wanted = stretch * of.seen(range, of.mirrored ? std::abs(u) : u);
+  const double position = (wanted - directions_.first) / of.u_step;
+  const auto direction = static_cast<std::size_t>(position) - taps_before;
+  eight_weights(position - static_cast<double>(direction), taps.direction);
   // Between times: the first bin that the response reaches, and where in a bin the echo lies.
-  const double late = of.part.fade > 0 ? of.lateness(range, u) : 0, half_bins = half_ / of.axis.step;
+  const double late = of.section.fade > 0 ? of.lateness(range, u) : 0, half_bins = half_ / of.axis.step;
   const double bin = (delay + late - of.axis.start) / of.axis.step, from = std::ceil(bin - half_bins);
   const double time = std::clamp(from - bin + half_bins, 0.0, 1 - 1e-12) * static_cast<double>(of.per_bin);
   const auto within = static_cast<std::size_t>(time);
@@ -186,8 +183,8 @@ void BeamTable::add(double delay, double u, std::complex<double> amplitude, doub
   // A line through both tables, and the shift itself since the echo's delay.
   other.resize(taps.row);
   kernels::sum_response(shifted->values_.data() + origin, taps, other.data() + 2 * some.first);
-  const double part = doppler / (BeamTableSizes::shifted * carrier);
-  const auto between = [&](std::size_t k) { return response[k] + part * (other[k] - response[k]); };
+  const double section = doppler / (BeamTableSizes::shifted * carrier);
+  const auto between = [&](std::size_t k) { return response[k] + section * (other[k] - response[k]); };
   const double since = (from + static_cast<double>(begin)) * of.axis.step + of.axis.start - delay;
   std::complex<double> turn = amplitude * std::polar(1.0, -2 * pi * reduced_cycles(doppler * since));
   const std::complex<double> turns = std::polar(1.0, -2 * pi * reduced_cycles(doppler * of.axis.step));

@@ -15,7 +15,7 @@ namespace insonify {
 
 /// Elements of an array with their weights in a beam. Times of a response are relative to the arrival of the echo at
 /// `centre`.
-struct ArrayPart {
+struct ArraySection {
   std::vector<double> y;       ///< places [m], positive to port
   std::vector<double> weight;  ///< shading over the number of elements of the whole array
   double centre = 0;           ///< [m]
@@ -23,9 +23,9 @@ struct ArrayPart {
   double fade = 0;
 
   /// The whole array, about its middle.
-  static ArrayPart whole(const LineArray& array);
+  static ArraySection whole(const LineArray& array);
   /// The port end of an array, whose weights fade out over `fade` [m].
-  static ArrayPart end(const LineArray& array, double fade);
+  static ArraySection end(const LineArray& array, double fade);
 };
 
 /// Sizes that all tables of a part of the array share: the steps of direction and time, and the ranges that one table
@@ -35,7 +35,7 @@ struct BeamTableSizes {
   Medium medium;
   double tolerance;
   double widest;  ///< |u| of echoes
-  ArrayPart part;
+  ArraySection section;
   TimeAxis axis;
   PulseReach reach;  ///< half length of an echo's pulse
   EchoShapes shapes;
@@ -51,8 +51,8 @@ struct BeamTableSizes {
     std::size_t nodes;
     bool by_inverse;  ///< true: in 1 / range, as wavefronts curve; false: in range, as pulses change
 
-    double place(double range) const { return by_inverse ? 1 / range : range; }
-    double range_at(double place) const { return by_inverse ? 1 / place : place; }
+    double position(double range) const { return by_inverse ? 1 / range : range; }
+    double range_at(double position) const { return by_inverse ? 1 / position : position; }
   };
 
   /// Doppler shifts over the carrier. `shifted` is the shift of the tables for moving echoes, `most_shifted` the
@@ -60,7 +60,7 @@ struct BeamTableSizes {
   static constexpr double shifted = 5e-3, most_shifted = 0.025;
 
   /// For a head with one beam and a Gaussian pulse, and echoes within `widest` of u = 0.
-  BeamTableSizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, ArrayPart part);
+  BeamTableSizes(const SonarHead& head, const Medium& medium, double tolerance, double widest, ArraySection section);
 
   /// Returns the direction of an echo as seen from the centre of the part, less the direction of the beam's focus at
   /// the echo's range. At a constant value responses hardly change with range. u_seen is the inverse and returns u.

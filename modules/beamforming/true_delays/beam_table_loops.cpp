@@ -37,7 +37,7 @@ void focus_at(const ElementFocus& focus, std::size_t count, double* path) {
   const double range = focus.range, step = focus.step, y = focus.y, twice = 2 * focus.u * focus.y;
 #pragma GCC ivdep
   for (std::size_t j = 0; j < count; ++j) {
-    const double asked = range + static_cast<double>(j) * step, r = asked < 1e-3 ? 1e-3 : asked;
+    const double wanted = range + static_cast<double>(j) * step, r = wanted < 1e-3 ? 1e-3 : wanted;
     const double squared = y * y - twice * r, sum = r * r + squared;
     path[j] = squared / (std::sqrt(sum < 0 ? 0 : sum) + r);
   }

@@ -63,58 +63,58 @@ double faded(double x) {
 
 }  // namespace
 
-ArrayPart ArrayPart::whole(const LineArray& array) {
-  ArrayPart part;
+ArraySection ArraySection::whole(const LineArray& array) {
+  ArraySection section;
   for (std::size_t m = 0; m < array.elements(); ++m) {
-    part.y.push_back(array.spacing * element_place(m, array.elements()));
-    part.weight.push_back(array.shading[m] / static_cast<double>(array.elements()));
+    section.y.push_back(array.spacing * element_position(m, array.elements()));
+    section.weight.push_back(array.shading[m] / static_cast<double>(array.elements()));
   }
-  return part;
+  return section;
 }
 
-ArrayPart ArrayPart::end(const LineArray& array, double fade) {
-  const ArrayPart all = whole(array);
-  ArrayPart part;
-  part.centre = all.y.back(), part.fade = fade;
+ArraySection ArraySection::end(const LineArray& array, double fade) {
+  const ArraySection all = whole(array);
+  ArraySection section;
+  section.centre = all.y.back(), section.fade = fade;
   for (std::size_t m = 0; m < all.y.size(); ++m)
-    if (const double left = faded((part.centre - all.y[m]) / fade); left > 0) {
-      part.y.push_back(all.y[m]);
-      part.weight.push_back(left * all.weight[m]);
+    if (const double left = faded((section.centre - all.y[m]) / fade); left > 0) {
+      section.y.push_back(all.y[m]);
+      section.weight.push_back(left * all.weight[m]);
     }
-  return part;
+  return section;
 }
 
 BeamTableSizes::BeamTableSizes(const SonarHead& head_in, const Medium& medium_in, double tolerance_in, double widest_in,
-                               ArrayPart part_in)
+                               ArraySection part_in)
     : head(head_in),
       medium(medium_in),
       tolerance(tolerance_in),
       widest(widest_in),
-      part(std::move(part_in)),
+      section(std::move(part_in)),
       axis(head.gate, medium.sound_speed),
       reach(head.pulse, medium.absorption, medium.sound_speed, false, pulse_cut(tolerance)),
       shapes(head.pulse, medium),
       u_beam(beam_cosines(head.fan).front()),
-      mirrored(part.fade == 0 && std::abs(u_beam) < 1e-12 && is_symmetric(part.weight)) {
+      mirrored(section.fade == 0 && std::abs(u_beam) < 1e-12 && is_symmetric(section.weight)) {
   const double half_band = half_band_of(head.pulse, tolerance);
   highest = head.pulse.centre_frequency + half_band;
   // Steps of the sampling theorem: elements of an end lie to one side of its centre, and fade.
   const double per_u =
-      highest / medium.sound_speed * (part.fade > 0 ? 0.65 * part.fade : part.y.back() - part.y.front());
+      highest / medium.sound_speed * (section.fade > 0 ? 0.65 * section.fade : section.y.back() - section.y.front());
   u_step = std::min(0.25 * widest, 1 / (per_u * finer_in_direction(tolerance)));
   // Focusing at every range moves the frequencies of the outermost elements.
   per_bin = static_cast<std::size_t>(std::ceil(axis.step * 2 * 1.3 * half_band * finer_in_time(tolerance)));
 }
 
 double BeamTableSizes::local(double range, double u) const {
-  const double y = part.centre;
+  const double y = section.centre;
   return y == 0 ? u : (range * u - y) / (range + path_difference(range, u, y));
 }
 
 double BeamTableSizes::seen(double range, double u) const { return local(range, u) - local(range, u_beam); }
 
 double BeamTableSizes::u_seen(double range, double w) const {
-  const double here = w + local(range, u_beam), y = part.centre, across = y * (1 - here * here);
+  const double here = w + local(range, u_beam), y = section.centre, across = y * (1 - here * here);
   return (across + here * std::sqrt(std::max(0.0, range * range - y * across))) / range;
 }
 
@@ -136,7 +136,8 @@ BeamTableSizes::Directions BeamTableSizes::directions_of(const Span& span) const
 }
 
 double BeamTableSizes::lateness(double range, double u) const {
-  return (path_difference(range, u, part.centre) - path_difference(range, u_beam, part.centre)) / medium.sound_speed;
+  return (path_difference(range, u, section.centre) - path_difference(range, u_beam, section.centre)) /
+         medium.sound_speed;
 }
 
 /// Returns the path [m] by which an echo counts later at y than at the centre of the part, `time` [s] after it.
@@ -151,7 +152,7 @@ double BeamTableSizes::half_length(double near, double far) const {
   // Later responses are focused elsewhere. Of a part that fades, all but the end cancels.
   for (int pass = 0; pass < 3; ++pass) {
     double most = 0;
-    for (const double y : {part.fade > 0 ? part.centre : part.y.front(), part.y.back()})
+    for (const double y : {section.fade > 0 ? section.centre : section.y.front(), section.y.back()})
       for (const double u : {-widest, 0.0, widest})
         for (const double late : {-half, half})
           most = std::max(most, std::abs(path(near, u, late + lateness(near, u), y)));
@@ -163,7 +164,7 @@ double BeamTableSizes::half_length(double near, double far) const {
 double BeamTableSizes::left_of(const Span& span) const {
   constexpr double weight = 0.02;  // of the outermost elements, at the ends of the pulse
   const double first = range_of(span.first), last = range_of(span.last);
-  const double near = span.place(first), far = span.place(last);
+  const double near = span.position(first), far = span.position(last);
   // Errors are largest where a Chebyshev polynomial is.
   const auto count = static_cast<Eigen::Index>(span.nodes);
   const Eigen::VectorXd checks =
@@ -180,7 +181,7 @@ double BeamTableSizes::left_of(const Span& span) const {
   };
   const auto [least, most] = extent(first, last);
   double phases = 0, pulses = 0;
-  for (const double y : {part.fade > 0 ? part.centre - 0.15 * part.fade : part.y.front(), part.y.back()})
+  for (const double y : {section.fade > 0 ? section.centre - 0.15 * section.fade : section.y.front(), section.y.back()})
     for (const double w : {least, 0.5 * least, 0.0, 0.5 * most, most})
       for (const double late : {-reach.half, reach.half})
         phases = std::max(phases, left([&](double range) {

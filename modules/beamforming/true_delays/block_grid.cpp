@@ -48,7 +48,7 @@ void BlockWorkspace::grid_gaussians(const Echoes& echoes, List list) {
                                    .grid = static_cast<double>(plan.grid),
                                    .half_width = 0.5 * static_cast<double>(plan.kernel.width()),
                                    .pad = 0,
-                                   .half_places = false,
+                                   .half_positions = false,
                                    .a_sent = plan.spectral_width2,
                                    .range_per_delay = 0.5 * plan.medium.sound_speed,
                                    .a0 = absorption.a0,
@@ -57,7 +57,7 @@ void BlockWorkspace::grid_gaussians(const Echoes& echoes, List list) {
   const auto rows = static_cast<std::size_t>(std::floor(2 * plan.reach / plan.fine_step)) + 1;
   pulses_.sample(grid, plan.shapes, echoes, list, unit_, rows);
   for (std::size_t k = 0; k < list.size(); ++k) touch(pulses_.row[k], rows);
-  kernels::grid_samples(pulses_.places(), list.size(), pulses_.re.data(), pulses_.im.data(), rows,
+  kernels::grid_samples(pulses_.positions(), list.size(), pulses_.re.data(), pulses_.im.data(), rows,
                         column_pieces(plan.columns), re_.data(), im_.data(), plan.grid_stride);
 }
 

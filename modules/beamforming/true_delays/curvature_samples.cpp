@@ -48,10 +48,10 @@ Complex undone(const TrueDelayPlan& plan, const Curvature& curvature, double pha
   Complex before = 1, now = a, sum = 1, slope = 0;
   double last = 1;
   for (std::size_t j = 1; j < TrueDelayPlan::moments; ++j) {
-    const Complex part = now * moment[j];
-    sum += part;
+    const Complex share = now * moment[j];
+    sum += share;
     slope += static_cast<double>(j) * before * moment[j];
-    const double size = std::norm(part);
+    const double size = std::norm(share);
     if (std::max(size, last) < nothing) break;  // every other one may be 0
     last = size;
     const Complex next = a * now + static_cast<double>(j) * b * before;
@@ -102,7 +102,7 @@ std::vector<Complex> inverse_series(const TrueDelayPlan& plan, double frequency)
   return inverse;
 }
 
-RowPlaces::RowPlaces(const TrueDelayPlan& plan, double off) {
+RowPositions::RowPositions(const TrueDelayPlan& plan, double off) {
   // Smooth in frequency, and finite where the array is no longer than a row.
   const double carrier = plan.head.pulse.centre_frequency, rows = plan.medium.sound_speed / plan.period;
   row = rows / std::max(carrier - off, 0.15 * carrier);
@@ -138,7 +138,7 @@ void CurvatureSamples::place_nodes(const TrueDelayPlan& plan, const CurvatureSpa
   for (std::size_t j = 0; j < count_u; ++j) u.push_back(span.widest * chebyshev_node(j, count_u));
   for (std::size_t j = 0; j < count_r; ++j)
     r.push_back(std::max(0.5 * c * (middle + half * chebyshev_node(j, count_r)), least));
-  places = count_u / 2 + static_cast<std::size_t>(std::max(9.0, 5.7 + 2 * plan.digits));
+  positions = count_u / 2 + static_cast<std::size_t>(std::max(9.0, 5.7 + 2 * plan.digits));
 }
 
 void CurvatureSamples::sample(const TrueDelayPlan& plan, const CurvatureSpan& span) {
@@ -146,9 +146,9 @@ void CurvatureSamples::sample(const TrueDelayPlan& plan, const CurvatureSpan& sp
   std::vector<std::vector<Complex>> moment;  // by column
   std::vector<double> y, mean;
   for (std::size_t f = 0; f < plan.node_frequency.size(); ++f)
-    for (std::size_t i = 0; i < places; ++i) {
-      const double node = chebyshev_node(i, places);
-      y.push_back(RowPlaces(plan, plan.node_frequency[f]).reach * node);
+    for (std::size_t i = 0; i < positions; ++i) {
+      const double node = chebyshev_node(i, positions);
+      y.push_back(RowPositions(plan, plan.node_frequency[f]).reach * node);
       mean.push_back(mean_curvature(span, y.back()));
       const double harmonic = plan.period * y.back() * (plan.head.pulse.centre_frequency - plan.node_frequency[f]) / c;
       moment.push_back(inverse_series(plan, harmonic / static_cast<double>(plan.grid)));
@@ -159,7 +159,7 @@ void CurvatureSamples::sample(const TrueDelayPlan& plan, const CurvatureSpan& sp
     for (std::size_t k = 0; k < r.size(); ++k)
       for (std::size_t at = 0; at < y.size(); ++at) {
         const Curvature curvature(r[k], u[j], y[at]);
-        const double off = plan.node_frequency[at / places];
+        const double off = plan.node_frequency[at / positions];
         const double turn = 2 * pi * (plan.head.pulse.centre_frequency - off) / c * (curvature.b - mean[at]);
         value(static_cast<Eigen::Index>(j * r.size() + k), static_cast<Eigen::Index>(at)) =
             undone(plan, curvature, turn, off, moment[at], span.echoes);
@@ -168,15 +168,15 @@ void CurvatureSamples::sample(const TrueDelayPlan& plan, const CurvatureSpan& sp
 
 void CurvatureSamples::undo_rows(const TrueDelayPlan& plan) {
   // Interpolation between rows k - d by a kernel sees slopes along k: a power series of them, undone by its reciprocal.
-  const auto count_y = static_cast<Eigen::Index>(places), count_r = static_cast<Eigen::Index>(r.size());
-  const Eigen::MatrixXd slope = slope_at_nodes(places);
+  const auto count_y = static_cast<Eigen::Index>(positions), count_r = static_cast<Eigen::Index>(r.size());
+  const Eigen::MatrixXd slope = slope_at_nodes(positions);
   std::vector<Eigen::MatrixXd> power = {Eigen::MatrixXd::Identity(count_y, count_y)};
   while (power.size() < TrueDelayPlan::moments) power.push_back(slope * power.back());
   Eigen::MatrixXcd all(count_y, count_y);
   for (std::size_t j = 0; j < half_of_u(); ++j) {
     const std::vector<Complex> inverse = inverse_series(plan, u[j] / plan.period);
     for (std::size_t f = 0; f < plan.node_frequency.size(); ++f) {
-      const RowPlaces rows(plan, plan.node_frequency[f]);
+      const RowPositions rows(plan, plan.node_frequency[f]);
       const double per_row = rows.row / rows.reach;
       auto values =
           value.block(static_cast<Eigen::Index>(j) * count_r, static_cast<Eigen::Index>(f) * count_y, count_r, count_y);
@@ -200,7 +200,7 @@ void CurvatureSamples::undo_rows(const TrueDelayPlan& plan) {
 }
 
 void CurvatureSamples::mirror() {
-  const auto count_y = static_cast<Eigen::Index>(places), count_r = static_cast<Eigen::Index>(r.size());
+  const auto count_y = static_cast<Eigen::Index>(positions), count_r = static_cast<Eigen::Index>(r.size());
   for (std::size_t j = half_of_u(); j < u.size(); ++j)
     for (Eigen::Index first = 0; first < value.cols(); first += count_y)
       value.block(static_cast<Eigen::Index>(j) * count_r, first, count_r, count_y) =

@@ -26,7 +26,7 @@ struct CurvatureSamples {
 
   std::vector<double> u, r;    ///< nodes
   double middle, half;         ///< middle and half length of the span of time [s]
-  std::size_t places;          ///< nodes on the array, to RowPlaces::reach
+  std::size_t positions;       ///< nodes on the array, to RowPositions::reach
   RowMatrix value;             ///< u x r by node of frequency and place
   std::vector<double> weight;  ///< weight of each column: shading, spectrum, and nodes
 
@@ -45,11 +45,11 @@ struct CurvatureSamples {
 };
 
 /// Positions of the rows of harmonics on the array at a frequency `off` below the carrier.
-struct RowPlaces {
+struct RowPositions {
   double row;    ///< distance between rows [m]
   double reach;  ///< distance of the outermost nodes from the middle: that of the outermost row that elements use [m]
 
-  RowPlaces(const TrueDelayPlan& plan, double off);
+  RowPositions(const TrueDelayPlan& plan, double off);
 };
 
 /// Reciprocal of the power series sum of moment[j] / (j! moment[0]) z^j.

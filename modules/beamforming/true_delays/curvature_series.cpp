@@ -34,9 +34,9 @@ struct Factors {
       Eigen::Index worst = 0;
       left.maxCoeff(&worst);
       const Eigen::RowVectorXcd q = a.row(worst) / std::sqrt(left[worst]);
-      const Eigen::VectorXcd part = a * q.adjoint();
-      a.noalias() -= part * q;
-      found.col(static_cast<Eigen::Index>(chosen.size())) = part;
+      const Eigen::VectorXcd share = a * q.adjoint();
+      a.noalias() -= share * q;
+      found.col(static_cast<Eigen::Index>(chosen.size())) = share;
       chosen.push_back(worst);
       left = a.rowwise().squaredNorm();
     }
@@ -69,7 +69,7 @@ struct BandRows {
 
   BandRows(const TrueDelayPlan& plan, const RowFits& fits, const CurvatureSamples& samples, const Factors& factors) {
     const auto nodes = static_cast<Eigen::Index>(TrueDelayPlan::fit_nodes),
-               rows = static_cast<Eigen::Index>(plan.rows()), count_y = static_cast<Eigen::Index>(samples.places);
+               rows = static_cast<Eigen::Index>(plan.rows()), count_y = static_cast<Eigen::Index>(samples.positions);
     const Eigen::Map<const Eigen::VectorXd> fit(plan.fit_frequency.data(), nodes);
     const Eigen::MatrixXd between = from_nodes(fit / plan.half_band, plan.node_frequency.size());
     // Find the factors of the rows of harmonics, by frequency.
@@ -78,9 +78,9 @@ struct BandRows {
       Eigen::MatrixXcd here = Eigen::MatrixXcd::Zero(factors.terms(), count_y);
       for (Eigen::Index n = 0; n < between.cols(); ++n)
         here += between(f, n) * factors.across.middleCols(n * count_y, count_y);
-      const Eigen::VectorXd place = fits.place.col(f) / RowPlaces(plan, fit[f]).reach;
+      const Eigen::VectorXd position = fits.position.col(f) / RowPositions(plan, fit[f]).reach;
       const Eigen::MatrixXcd at_rows =
-          from_nodes(place.cwiseMax(-1.0).cwiseMin(1.0), samples.places) * here.transpose();
+          from_nodes(position.cwiseMax(-1.0).cwiseMin(1.0), samples.positions) * here.transpose();
       for (Eigen::Index q = 0; q < factors.terms(); ++q) value[static_cast<std::size_t>(q)].row(f) = at_rows.col(q);
     }
     fit_powers(plan, fits, value);
@@ -89,18 +89,18 @@ struct BandRows {
  private:
   void fit_powers(const TrueDelayPlan& plan, const RowFits& fits, const std::vector<Eigen::MatrixXcd>& value) {
     const auto powers = static_cast<Eigen::Index>(TrueDelayPlan::most_powers);
-    std::vector<Eigen::MatrixXcd> part(value.size(), Eigen::MatrixXcd(powers, fits.place.rows()));
+    std::vector<Eigen::MatrixXcd> share(value.size(), Eigen::MatrixXcd(powers, fits.position.rows()));
     Eigen::MatrixXd left = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(value.size()), powers + 1);
     for (std::size_t t = 0; t < value.size(); ++t)
       for (std::size_t k = 0; k < fits.row.size(); ++k) {
         const RowFits::Row& fit = fits.row[k];
         const auto here = static_cast<Eigen::Index>(k);
         const Eigen::VectorXcd weighed = fit.weight.asDiagonal() * value[t].col(here);
-        part[t].col(here).noalias() = fit.across * weighed;
+        share[t].col(here).noalias() = fit.across * weighed;
         double rest = weighed.squaredNorm();
         for (Eigen::Index s = 0; s <= powers; ++s) {
           left(static_cast<Eigen::Index>(t), s) += fit.counts * std::max(rest, 0.0);
-          if (s < powers) rest -= std::norm(part[t](s, here));
+          if (s < powers) rest -= std::norm(share[t](s, here));
         }
       }
     const double enough = std::pow(band_share * plan.tolerance, 2) * fits.all / static_cast<double>(value.size());
@@ -109,12 +109,12 @@ struct BandRows {
       while (n < powers && left(static_cast<Eigen::Index>(t), n) > enough) ++n;
       if (t > 0) n = std::min(n, static_cast<Eigen::Index>(band.back()));
       band.push_back(static_cast<std::size_t>(n));
-      row.emplace_back(fits.place.rows(), n);
+      row.emplace_back(fits.position.rows(), n);
       for (std::size_t k = 0; k < fits.row.size(); ++k)
         row.back().row(static_cast<Eigen::Index>(k)) = fits.row[k]
                                                            .root.topLeftCorner(n, n)
                                                            .triangularView<Eigen::Upper>()
-                                                           .solve(part[t].col(static_cast<Eigen::Index>(k)).head(n))
+                                                           .solve(share[t].col(static_cast<Eigen::Index>(k)).head(n))
                                                            .transpose();
     }
   }
@@ -164,8 +164,8 @@ void fill_along(const TrueDelayPlan& plan, const CurvatureSamples& samples, cons
     for (std::size_t k = 0; k < series.powers; ++k, to += 2 * series.stride)
       for (std::size_t g = 0; g < plan.grid; ++g) {
         if (std::abs(x[static_cast<Eigen::Index>(g)]) > 1) continue;
-        to[g] = static_cast<float>(plan.place_factor[g] * re(g, k));
-        to[series.stride + g] = static_cast<float>((echoes ? 1 : -1) * plan.place_factor[g] * im(g, k));
+        to[g] = static_cast<float>(plan.position_factor[g] * re(g, k));
+        to[series.stride + g] = static_cast<float>((echoes ? 1 : -1) * plan.position_factor[g] * im(g, k));
       }
   }
 }
@@ -204,13 +204,13 @@ CurvatureSeries curvature_of(const TrueDelayPlan& plan, const RowFits& fits, boo
 RowFits::RowFits(const TrueDelayPlan& plan) {
   const auto nodes = static_cast<Eigen::Index>(TrueDelayPlan::fit_nodes), rows = static_cast<Eigen::Index>(plan.rows()),
              powers = static_cast<Eigen::Index>(TrueDelayPlan::most_powers);
-  place.resize(rows, nodes);
+  position.resize(rows, nodes);
   Eigen::ArrayXXd within(rows, nodes);  // 1: near the array
   for (Eigen::Index f = 0; f < nodes; ++f) {
-    const RowPlaces on_array(plan, plan.fit_frequency[static_cast<std::size_t>(f)]);
+    const RowPositions on_array(plan, plan.fit_frequency[static_cast<std::size_t>(f)]);
     const auto most = static_cast<double>(plan.most);
-    place.col(f) = on_array.row * Eigen::VectorXd::LinSpaced(rows, -most, most);
-    within.col(f) = (place.col(f).array().abs() <= on_array.reach).cast<double>();
+    position.col(f) = on_array.row * Eigen::VectorXd::LinSpaced(rows, -most, most);
+    within.col(f) = (position.col(f).array().abs() <= on_array.reach).cast<double>();
   }
   const Eigen::Map<const Eigen::VectorXd> node_weight(plan.fit_weight.data(), nodes);
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> power(
@@ -218,13 +218,13 @@ RowFits::RowFits(const TrueDelayPlan& plan) {
   for (Eigen::Index k = 0; k < rows; ++k) {
     Row fit;
     // Frequencies at which the row lies off the array hardly count beside those at which it does not.
-    const Eigen::ArrayXd heard = within.row(k).transpose() * node_weight.array();
-    fit.weight = heard + (1 - within.row(k).transpose()) * node_weight.array().min(hardly * heard.maxCoeff());
+    const Eigen::ArrayXd covered = within.row(k).transpose() * node_weight.array();
+    fit.weight = covered + (1 - within.row(k).transpose()) * node_weight.array().min(hardly * covered.maxCoeff());
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fit.weight.asDiagonal() * power);
     fit.across = (qr.householderQ() * Eigen::MatrixXd::Identity(nodes, powers)).transpose();
     fit.root = qr.matrixQR().topRows(powers);
     for (Eigen::Index f = 0; f < nodes; ++f)
-      fit.counts = std::max(fit.counts, node_weight[f] * CurvatureSamples::shading_at(plan, place(k, f)));
+      fit.counts = std::max(fit.counts, node_weight[f] * CurvatureSamples::shading_at(plan, position(k, f)));
     fit.counts *= fit.counts / node_weight.squaredNorm();
     all += fit.counts * fit.weight.squaredNorm();
     row.push_back(std::move(fit));

@@ -39,7 +39,7 @@ struct RowFits {
     Eigen::MatrixXd across, root;  ///< root x coefficients = across x weighted values
     double counts = 0;             ///< weight of the row
   };
-  Eigen::MatrixXd place;  ///< where rows lie on the array, by row and frequency [m]
+  Eigen::MatrixXd position;  ///< where rows lie on the array, by row and frequency [m]
   std::vector<Row> row;
   double all = 0;  ///< errors are relative to the root of this
 

@@ -25,7 +25,6 @@ double nearest_range(const SonarHead& head, const Medium& medium, double toleran
   return std::max(1.5 * aperture, moved / std::sqrt(0.3)) + medium.sound_speed * reach.half;
 }
 
-/// Returns nearest_range in bins of the gate, from its first on.
 double nearest_bin(const SonarHead& head, const Medium& medium, double tolerance) {
   const double bin = (nearest_range(head, medium, tolerance) - head.gate.min_range) / head.gate.bin_size;
   return std::max(0.0, std::ceil(bin));
@@ -84,13 +83,13 @@ double BeamTables::bytes() const {
 
 OneBeam::OneBeam(const SonarHead& head, const Medium& medium, double tolerance, double widest, double split)
     : split_(split),
-      whole_(BeamTableSizes(head, medium, tolerance, std::min(split, widest), ArrayPart::whole(head.array)),
+      whole_(BeamTableSizes(head, medium, tolerance, std::min(split, widest), ArraySection::whole(head.array)),
              nearest_bin(head, medium, tolerance)),
       guard_(whole_.guard()),
       stretches_{TimeAxis(head.gate, medium.sound_speed), {}} {
   if (split < widest) {
     end_ = std::make_unique<BeamTables>(
-        BeamTableSizes(head, medium, tolerance, widest, ArrayPart::end(head.array, fade_for(split, head, medium))),
+        BeamTableSizes(head, medium, tolerance, widest, ArraySection::end(head.array, fade_for(split, head, medium))),
         whole_.edges().front());
     guard_ = std::max(guard_, end_->guard());
   }

@@ -19,12 +19,12 @@ kernels::TimeFactor factor_of(const CurvatureSeries& curvature, std::size_t term
 }
 
 /// Times of a tile within the block, from -1 to 1.
-std::array<float, time_tile> places_in(const CurvatureSeries& curvature, double first, double step) {
-  std::array<float, time_tile> place;
+std::array<float, time_tile> positions_in(const CurvatureSeries& curvature, double first, double step) {
+  std::array<float, time_tile> position;
   for (std::size_t n = 0; n < time_tile; ++n)
-    place[n] = static_cast<float>(
+    position[n] = static_cast<float>(
         std::clamp((first + static_cast<double>(n) * step - curvature.middle) / curvature.half, -1.0, 1.0));
-  return place;
+  return position;
 }
 
 kernels::RowMix mix_of(const CurvatureSeries& curvature) {
@@ -59,12 +59,12 @@ BlockWorkspace::BlockWorkspace(const TrueDelayPlan& plan, const BlockTransforms&
       lines_(plan.chunks.size() * plan.rows() * chunk_row),
       chunk_(std::max(plan.rows(), plan.chunks.size()) * chunk_row),
       across_(plan.grid * 2 * time_tile),
-      place_(plan.grid, static_cast<std::uint32_t>(plan.rows())),
+      position_(plan.grid, static_cast<std::uint32_t>(plan.rows())),
       beam_(2 * time_tile),
       touched_(plan.fine / time_tile + 2),
       bins_row_((plan.cycle + time_tile - 1) / time_tile * time_tile + 8) {
   for (std::size_t r = 0; r < plan.rows(); ++r)
-    place_[(r + plan.grid - plan.most) % plan.grid] = static_cast<std::uint32_t>(r);
+    position_[(r + plan.grid - plan.most) % plan.grid] = static_cast<std::uint32_t>(r);
   // Frequencies beyond what bins can tell fold, as they do in any sampled image.
   const auto cycle = static_cast<std::ptrdiff_t>(plan.cycle);
   for (const std::size_t chunk : plan.chunks) {
@@ -102,9 +102,9 @@ kernels::TimePlanes BlockWorkspace::planes_of(Numbers& numbers) const {
   return {floats_of(numbers.data()), plan_.grid, 2 * plan_.grid_stride, 2 * time_tile * plan_.grid_stride};
 }
 
-kernels::PlaceRows BlockWorkspace::rows_of(Numbers& numbers, std::size_t length, std::size_t n0) const {
+kernels::PositionRows BlockWorkspace::rows_of(Numbers& numbers, std::size_t length, std::size_t n0) const {
   const std::size_t rows = plan_.rows();
-  return {floats_of(numbers.data() + n0), place_.data(), static_cast<std::uint32_t>(rows), 2 * length,
+  return {floats_of(numbers.data() + n0), position_.data(), static_cast<std::uint32_t>(rows), 2 * length,
           2 * (rows + 1) * length};
 }
 
@@ -117,7 +117,7 @@ void BlockWorkspace::receive(const CurvatureSeries& curvature) {
         std::fill_n(floats_of(spectrum_.data() + r * plan.fine_row + n0), 2 * time_tile, 0.0F);
       continue;
     }
-    const auto time = places_in(curvature, start_time_ + static_cast<double>(n0) * plan.fine_step, plan.fine_step);
+    const auto time = positions_in(curvature, start_time_ + static_cast<double>(n0) * plan.fine_step, plan.fine_step);
     for (std::size_t q = 0; q < curvature.terms; ++q) {
       kernels::weigh(factor_of(curvature, q), time.data(), re_.data() + n0 * plan.grid_stride,
                      im_.data() + n0 * plan.grid_stride, plan.grid, plan.grid_stride, floats_of(tile_.data()));
@@ -187,7 +187,7 @@ void BlockWorkspace::form_directions(const CurvatureSeries& curvature, std::size
   kernels::mix_from_rows(mix_of(curvature), rows_of(bins_, bins_row_, n0), planes_of(harmonics_), mixed_.data());
   for (std::size_t q = 0; q < curvature.terms; ++q)
     transforms_.to_directions.run(harmonics_.data() + q * tile, directions_.data() + q * tile);
-  const auto time = places_in(curvature, plan.time_of(first), plan.axis.step);
+  const auto time = positions_in(curvature, plan.time_of(first), plan.axis.step);
   kernels::weigh_back(factor_of(curvature, 0), time.data(), floats_of(directions_.data()), curvature.terms, 2 * tile,
                       plan.grid, plan.grid_stride, across_.data());
 }
@@ -211,8 +211,8 @@ void BlockWorkspace::add_beams(const TimeBlock& block, ComplexGrid& pressure) {
       // Rows of the image are far apart in memory.
       const auto later = static_cast<Eigen::Index>(std::min(b + beams_ahead, plan.u_beam.size() - 1));
       for (std::ptrdiff_t n = from; n < to; n += 4) __builtin_prefetch(&pressure(later, n), 1);
-      const float* part = beam_.data() + 2 * (from - first);
-      for (std::ptrdiff_t n = 0; n < 2 * (to - from); ++n) sum[n] += unit_ * static_cast<double>(part[n]);
+      const float* share = beam_.data() + 2 * (from - first);
+      for (std::ptrdiff_t n = 0; n < 2 * (to - from); ++n) sum[n] += unit_ * static_cast<double>(share[n]);
     }
   }
 }

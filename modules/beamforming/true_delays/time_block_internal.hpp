@@ -71,19 +71,19 @@ class BlockWorkspace {
   void form_directions(const CurvatureSeries& curvature, std::size_t n0, double first);
   /// A tile by direction or harmonic, and rows of harmonics from time `n0` on.
   kernels::TimePlanes planes_of(Numbers& numbers) const;
-  kernels::PlaceRows rows_of(Numbers& numbers, std::size_t length, std::size_t n0) const;
+  kernels::PositionRows rows_of(Numbers& numbers, std::size_t length, std::size_t n0) const;
 
   const TrueDelayPlan& plan_;
   const BlockTransforms& transforms_;
-  AlignedArray<float, float> re_, im_;  ///< fine samples x grid_stride; 0 between images
-  Numbers tile_;                        ///< some samples by direction
-  Numbers harmonics_, directions_;      ///< some samples by harmonic or direction, of each term
-  Numbers spectrum_, row_;              ///< powers x harmonics x fine samples, and one harmonic by frequency
-  Numbers bins_, bin_row_;              ///< powers x harmonics x bins, and one harmonic
-  AlignedFloats lines_, chunk_;         ///< numbers by chunk, harmonic and line; those of one chunk, or one harmonic
-  AlignedFloats across_, mixed_;        ///< numbers by grid step and bin; workspace of mixes
-  std::vector<std::uint32_t> place_;    ///< rows of harmonics of a transform
-  std::vector<std::uint32_t> bin_;      ///< first of each chunk
+  AlignedArray<float, float> re_, im_;   ///< fine samples x grid_stride; 0 between images
+  Numbers tile_;                         ///< some samples by direction
+  Numbers harmonics_, directions_;       ///< some samples by harmonic or direction, of each term
+  Numbers spectrum_, row_;               ///< powers x harmonics x fine samples, and one harmonic by frequency
+  Numbers bins_, bin_row_;               ///< powers x harmonics x bins, and one harmonic
+  AlignedFloats lines_, chunk_;          ///< numbers by chunk, harmonic and line; those of one chunk, or one harmonic
+  AlignedFloats across_, mixed_;         ///< numbers by grid step and bin; workspace of mixes
+  std::vector<std::uint32_t> position_;  ///< rows of harmonics of a transform
+  std::vector<std::uint32_t> bin_;       ///< first of each chunk
   std::vector<float> beam_;
   GaussianBatch<float> pulses_;
   std::vector<double> pulse_re_, pulse_im_;

@@ -31,7 +31,6 @@ constexpr std::size_t beams_at_once = 8;
 constexpr double steady_band = 0.1;  // Doppler shift that the band of echoes at rest holds, over the bandwidth
 constexpr double first_rung = 0.05;  // least Doppler shift of plans for moving echoes, over the bandwidth
 
-/// Idle workspaces.
 class IdleWorkspaces {
  public:
   std::unique_ptr<BlockWorkspace> take(const TrueDelayPlan& plan, const BlockTransforms& transforms) {
@@ -109,7 +108,6 @@ struct TrueDelayEngine::Plan {
   /// Returns the image of echoes with shifts up to `fastest` [Hz] that blocks for echoes at rest do not serve (E191).
   ComplexGrid moving_image(const Echoes& echoes, double far_out, double fastest) const;
   ComplexGrid pressure(const EchoFeed& feed, bool fast = false) const;
-  /// Adds the images of all blocks.
   void add_blocks(const EchoFeed& feed, ComplexGrid& pressure) const;
   /// Adds the image of a block once wait() returns.
   void add_block(std::size_t number, const EchoFeed& feed, ComplexGrid& pressure,

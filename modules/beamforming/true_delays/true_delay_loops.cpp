@@ -10,9 +10,9 @@ constexpr std::size_t lines = lines_at_once;
 #define INSONIFY_INLINE [[gnu::always_inline]] inline
 
 using Eight = float __attribute__((vector_size(32)));
-using Places = int __attribute__((vector_size(32)));
-constexpr Places real_parts = {0, 2, 4, 6, 8, 10, 12, 14}, imaginary_parts = {1, 3, 5, 7, 9, 11, 13, 15};
-constexpr Places low_mixed = {0, 8, 1, 9, 2, 10, 3, 11}, high_mixed = {4, 12, 5, 13, 6, 14, 7, 15};
+using Positions = int __attribute__((vector_size(32)));
+constexpr Positions real_parts = {0, 2, 4, 6, 8, 10, 12, 14}, imaginary_parts = {1, 3, 5, 7, 9, 11, 13, 15};
+constexpr Positions low_mixed = {0, 8, 1, 9, 2, 10, 3, 11}, high_mixed = {4, 12, 5, 13, 6, 14, 7, 15};
 
 INSONIFY_INLINE void load(const float* from, Eight& eight) { __builtin_memcpy(&eight, from, sizeof eight); }
 INSONIFY_INLINE void store(const Eight& eight, float* to) { __builtin_memcpy(to, &eight, sizeof eight); }
@@ -22,9 +22,9 @@ constexpr std::size_t four = 4;  // times whose numbers stay in registers
 using FourTimes = Eight[2 * four];
 
 INSONIFY_INLINE void turn(FourTimes& x) {
-  constexpr Places low1 = {0, 8, 1, 9, 4, 12, 5, 13}, high1 = {2, 10, 3, 11, 6, 14, 7, 15};
-  constexpr Places low2 = {0, 1, 8, 9, 4, 5, 12, 13}, high2 = {2, 3, 10, 11, 6, 7, 14, 15};
-  constexpr Places low4 = {0, 1, 2, 3, 8, 9, 10, 11}, high4 = {4, 5, 6, 7, 12, 13, 14, 15};
+  constexpr Positions low1 = {0, 8, 1, 9, 4, 12, 5, 13}, high1 = {2, 10, 3, 11, 6, 14, 7, 15};
+  constexpr Positions low2 = {0, 1, 8, 9, 4, 5, 12, 13}, high2 = {2, 3, 10, 11, 6, 7, 14, 15};
+  constexpr Positions low4 = {0, 1, 2, 3, 8, 9, 10, 11}, high4 = {4, 5, 6, 7, 12, 13, 14, 15};
   FourTimes y, z;
   for (int k = 0; k < 4; ++k) {
     y[2 * k] = __builtin_shuffle(x[2 * k], x[2 * k + 1], low1);
@@ -41,7 +41,6 @@ INSONIFY_INLINE void turn(FourTimes& x) {
   }
 }
 
-/// Eight places from `power` on, at four times.
 INSONIFY_INLINE void factors_at(TimeFactor factor, const float* power, const float* time, FourTimes& at) {
   Eight next;
   for (Eight& x : at) x = Eight{};
@@ -69,14 +68,14 @@ INSONIFY_INLINE void mix_four(const float* factor, std::size_t ins, const float*
   }
 }
 
-INSONIFY_INLINE bool holds_rows(PlaceRows rows, std::size_t g) {
+INSONIFY_INLINE bool holds_rows(PositionRows rows, std::size_t g) {
   for (std::size_t k = 0; k < 8; ++k)
     if (rows.row[g + k] != rows.none) return true;
   return false;
 }
 
 /// Fetches the rows of eight places into the cache: one after another they are far apart in memory.
-INSONIFY_INLINE void fetch_rows(PlaceRows rows, std::size_t g, std::size_t planes) {
+INSONIFY_INLINE void fetch_rows(PositionRows rows, std::size_t g, std::size_t planes) {
   for (std::size_t o = 0; o < planes; ++o)
     for (std::size_t k = 0; k < 8; ++k) {
       const float* row = rows.value + o * rows.plane + rows.row[g + k] * rows.length;
@@ -139,8 +138,8 @@ void weigh_back(TimeFactor factor, const float* time, const float* line, std::si
 }
 
 INSONIFY_CLONES
-void mix_to_rows(RowMix mix, TimePlanes from, PlaceRows to, float* workspace) {
-  for (std::size_t g = 0; g < from.places; g += 8) {
+void mix_to_rows(RowMix mix, TimePlanes from, PositionRows to, float* workspace) {
+  for (std::size_t g = 0; g < from.positions; g += 8) {
     if (!holds_rows(to, g)) continue;
     fetch_rows(to, g, mix.outs);
     for (std::size_t i = 0; i < mix.stride; ++i)
@@ -163,10 +162,10 @@ void mix_to_rows(RowMix mix, TimePlanes from, PlaceRows to, float* workspace) {
 }
 
 INSONIFY_CLONES
-void mix_from_rows(RowMix mix, PlaceRows from, TimePlanes to, float* workspace) {
-  for (std::size_t g = 0; g < to.places; g += 8) {
+void mix_from_rows(RowMix mix, PositionRows from, TimePlanes to, float* workspace) {
+  for (std::size_t g = 0; g < to.positions; g += 8) {
     const bool any = holds_rows(from, g);
-    if (g + 8 < to.places) fetch_rows(from, g + 8, mix.stride);
+    if (g + 8 < to.positions) fetch_rows(from, g + 8, mix.stride);
     for (std::size_t i = 0; any && i < mix.stride; ++i)
       for (std::size_t n = 0; n < times_at_once; n += four) {
         FourTimes in;
@@ -231,11 +230,11 @@ void through_elements(ElementTaps taps, const float* factor, const float* rows, 
 }
 
 INSONIFY_CLONES
-void add_power(const float* line, std::size_t count, const float* power, std::size_t stride, const std::uint32_t* place,
-               float* to) {
+void add_power(const float* line, std::size_t count, const float* power, std::size_t stride,
+               const std::uint32_t* position, float* to) {
   for (std::size_t i = 0; i < count; ++i, line += 2 * lines, power += stride) {
     Eight re, im, times, low, high;
-    float* at = to + 2 * place[i];
+    float* at = to + 2 * position[i];
     load(line, re);
     load(line + lines, im);
     load(power, times);

@@ -23,7 +23,7 @@ void weigh(TimeFactor factor, const float* time, const float* re, const float* i
            std::size_t stride, float* line);
 
 /// Writes sum over `terms` of factor(g, time[n]) line(n, g), the inverse step of weigh. The lines of the terms lie
-/// `plane` numbers apart, and the factors of the terms follow one another. The result holds the times of each place g
+/// `plane` numbers apart, and the factors of the terms follow one another. The result holds the times of each position g
 /// one after another, real and imaginary in turn.
 void weigh_back(TimeFactor factor, const float* time, const float* line, std::size_t terms, std::size_t plane,
                 std::size_t count, std::size_t stride, float* across);
@@ -40,18 +40,18 @@ struct RowMix {
 /// A tile by time and place, several planes of it.
 struct TimePlanes {
   float* value;
-  std::size_t places, row, plane;  ///< a multiple of 8; numbers from row to row, and from plane to plane
+  std::size_t positions, row, plane;  ///< a multiple of 8; numbers from row to row, and from plane to plane
 };
 /// Rows of places by time, several planes of them: place g is row[g], or `none`, which is one, too.
-struct PlaceRows {
+struct PositionRows {
   float* value;
   const std::uint32_t* row;
   std::uint32_t none;
   std::size_t length, plane;  ///< numbers from row to row, and from plane to plane
 };
 /// Mixes a tile into rows, or rows into a tile. `workspace` holds 2 * times_at_once * 8 numbers for each `in`.
-void mix_to_rows(RowMix mix, TimePlanes from, PlaceRows to, float* workspace);
-void mix_from_rows(RowMix mix, PlaceRows from, TimePlanes to, float* workspace);
+void mix_to_rows(RowMix mix, TimePlanes from, PositionRows to, float* workspace);
+void mix_from_rows(RowMix mix, PositionRows from, TimePlanes to, float* workspace);
 
 /// Interpolation of a chunk of frequencies from harmonics to elements: element m takes `taps` rows from row[m] on.
 struct ElementTaps {
@@ -78,8 +78,8 @@ void through_elements(ElementTaps taps, const float* factor, const float* rows, 
 
 /// Adds one power of frequency of the chunks, laid out as by sum_powers, to a line of complex numbers. Chunk i begins
 /// at number place[i] of the line.
-void add_power(const float* line, std::size_t count, const float* power, std::size_t stride, const std::uint32_t* place,
-               float* to);
+void add_power(const float* line, std::size_t count, const float* power, std::size_t stride,
+               const std::uint32_t* position, float* to);
 
 /// Writes `count` numbers of a beam, a multiple of 8: the weighted sum of rows of a grid, `stride` numbers apart.
 void take_beam(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid, std::size_t stride,

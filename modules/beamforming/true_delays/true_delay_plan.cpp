@@ -95,7 +95,7 @@ TrueDelayPlan::TrueDelayPlan(const SonarHead& head_in, const Medium& medium_in, 
       kernel(kernel_width, oversampling_for(tolerance)),
       columns(kernel.pieces<float>(1e-7)) {
   for (std::size_t m = 0; m < head.array.elements(); ++m)
-    y.push_back(head.array.spacing * element_place(m, head.array.elements()));
+    y.push_back(head.array.spacing * element_position(m, head.array.elements()));
   if (is_gaussian(head.pulse)) spectral_width2 = echo_envelope(head.pulse, {}, 0).a;
   plan_directions();
   plan_elements();
@@ -113,7 +113,7 @@ void TrueDelayPlan::plan_directions() {
   }
   const auto factor = [this](double frequency) { return 1 / kernel_transform(frequency); };
   for (std::size_t g = 0; g < grid; ++g)
-    place_factor.push_back(factor(static_cast<double>(g) / static_cast<double>(grid) - 0.5));
+    position_factor.push_back(factor(static_cast<double>(g) / static_cast<double>(grid) - 0.5));
   for (const double u : u_beam) {
     const double first = std::ceil(column_of(u) - half_width);
     for (std::size_t k = 0; k < kernel.width(); ++k) {
@@ -156,17 +156,17 @@ void TrueDelayPlan::plan_elements() {
     undo.push_back(1 / kernel_transform(static_cast<double>(k) / 32 / static_cast<double>(grid)));
   for (std::size_t i = 0; i < chunks.size(); ++i)
     for (std::size_t m = 0; m < n; ++m) {
-      std::array<double, lines_at_once> place;
+      std::array<double, lines_at_once> position;
       for (std::size_t l = 0; l < lines_at_once; ++l) {
         const double frequency = head.pulse.centre_frequency - line_of(chunks[i] * lines_at_once + l) / seconds();
-        place[l] = period * frequency / c * y[m] + static_cast<double>(most);
+        position[l] = period * frequency / c * y[m] + static_cast<double>(most);
       }
-      const double base = std::ceil(*std::min_element(place.begin(), place.end()) - half_width);
+      const double base = std::ceil(*std::min_element(position.begin(), position.end()) - half_width);
       if (base < 0 || base + static_cast<double>(taps) > static_cast<double>(rows())) continue;
       tap_row[i * n + m] = static_cast<std::uint32_t>(base);
       for (std::size_t l = 0; l < lines_at_once; ++l) {
         if (std::abs(line_of(chunks[i] * lines_at_once + l)) > top) continue;
-        const double low = place[l] - half_width, first = std::ceil(low);
+        const double low = position[l] - half_width, first = std::ceil(low);
         const auto t = static_cast<float>(2 * (first - low) - 1);
         std::array<float, 8> value = {};
         for (std::size_t p = 0; p <= columns.degree; ++p)
@@ -174,10 +174,10 @@ void TrueDelayPlan::plan_elements() {
         const auto skipped = static_cast<std::size_t>(first - base);
         for (std::size_t k = 0; k < width && skipped + k < taps; ++k)
           tap_weight[((i * n + m) * taps + skipped + k) * lines_at_once + l] = value[k];
-        const double at = 32 * std::abs(place[l] - static_cast<double>(most)), part = at - std::floor(at);
+        const double at = 32 * std::abs(position[l] - static_cast<double>(most)), share = at - std::floor(at);
         const double* here = undo.data() + static_cast<std::size_t>(at);
         element_weight[(i * n + m) * lines_at_once + l] = static_cast<float>(
-            std::pow(here[0] + part * (here[1] - here[0]), 2) * head.array.shading[m] / static_cast<double>(n * fine));
+            std::pow(here[0] + share * (here[1] - here[0]), 2) * head.array.shading[m] / static_cast<double>(n * fine));
       }
     }
 }

@@ -79,10 +79,10 @@ struct TrueDelayPlan : TrueDelaySizes {
   std::vector<double> y;       ///< places of elements [m], positive to port
   double spectral_width2 = 0;  ///< a of a Gaussian pulse with the spectrum exp(-a f^2) [s^2]; 0: of a sweep
 
-  GriddingKernel kernel;             ///< kernel of directions on the grid, and of places between harmonics
-  PolynomialPieces<float> columns;   ///< polynomials of the kernel
-  std::vector<double> place_factor;  ///< undoes the kernel between harmonics, by step of the grid
-  std::vector<float> beam_weight;    ///< weights of kernel.width() grid steps for each beam
+  GriddingKernel kernel;                ///< kernel of directions on the grid, and of places between harmonics
+  PolynomialPieces<float> columns;      ///< polynomials of the kernel
+  std::vector<double> position_factor;  ///< undoes the kernel between harmonics, by step of the grid
+  std::vector<float> beam_weight;       ///< weights of kernel.width() grid steps for each beam
   std::vector<std::uint32_t> beam_row;
 
   std::vector<std::size_t> chunks;                ///< chunks of lines_at_once frequencies that contribute

@@ -37,9 +37,9 @@ class Stars {
     for (const Vector3f& p : flat_) low = low.cwiseMin(p), high = high.cwiseMax(p);
     const double plan = static_cast<double>(high.x() - low.x()) * static_cast<double>(high.y() - low.y());
     const double most = moved * std::sqrt(plan / static_cast<double>(flat_.size()));
-    places_.reserve(flat_.size());
+    positions_.reserve(flat_.size());
     for (std::size_t i = 0; i < flat_.size(); ++i)
-      places_.emplace_back(flat_[i].x() + most * hashed(2 * i), flat_[i].y() + most * hashed(2 * i + 1));
+      positions_.emplace_back(flat_[i].x() + most * hashed(2 * i), flat_[i].y() + most * hashed(2 * i + 1));
   }
 
   /// Appends the triangles whose first corner is point i.
@@ -48,8 +48,8 @@ class Stars {
     const Polygon& cell = work.cell;
     for (std::size_t a = 0, b = cell.size() - 1; a < cell.size(); b = a++) {
       // This corner ends the side of one neighbour and begins that of the next.
-      if (cell[b].place == no_place || cell[a].place == no_place || cell[a].at.norm() > widest) continue;
-      const std::uint32_t j = work.found[cell[b].place].index, k = work.found[cell[a].place].index;
+      if (cell[b].index == no_neighbour || cell[a].index == no_neighbour || cell[a].at.norm() > widest) continue;
+      const std::uint32_t j = work.found[cell[b].index].index, k = work.found[cell[a].index].index;
       if (i < j && i < k) triangles.push_back({i, j, k});
     }
   }
@@ -79,20 +79,22 @@ class Stars {
 
   void clip(std::uint32_t i, double widest, Workspace& work) const {
     const double half = 2 * widest;
-    work.cell = {
-        {{-half, -half}, no_place}, {{half, -half}, no_place}, {{half, half}, no_place}, {{-half, half}, no_place}};
+    work.cell = {{{-half, -half}, no_neighbour},
+                 {{half, -half}, no_neighbour},
+                 {{half, half}, no_neighbour},
+                 {{-half, half}, no_neighbour}};
     double reach = reach_of(work.cell);
     for (std::uint32_t n = 0; n < work.found.size(); ++n) {
       if (static_cast<double>(work.found[n].squared_distance) > 4 * reach * reach) return;
       if (work.found[n].index == i) continue;
-      clip_by_bisector(work.cell, places_[work.found[n].index] - places_[i], n, work.scratch);
+      clip_by_bisector(work.cell, positions_[work.found[n].index] - positions_[i], n, work.scratch);
       reach = reach_of(work.cell);
     }
   }
 
   std::vector<Vector3f> flat_;
   SceneIndex index_;
-  std::vector<Vector2d> places_;
+  std::vector<Vector2d> positions_;
 };
 
 }  // namespace
@@ -101,13 +103,13 @@ std::vector<Triangle> height_triangles(std::span<const Vector3f> points, int thr
   if (points.size() < 3) return {};
   const Stars stars(plan_of(points));
   constexpr std::size_t at_once = 1024;
-  std::vector<std::vector<Triangle>> parts((points.size() + at_once - 1) / at_once);
+  std::vector<std::vector<Triangle>> blocks((points.size() + at_once - 1) / at_once);
   parallel_blocks(points.size(), at_once, threads, [&](std::size_t begin, std::size_t end) {
     Workspace work;
-    for (std::size_t i = begin; i < end; ++i) stars.add(static_cast<std::uint32_t>(i), work, parts[begin / at_once]);
+    for (std::size_t i = begin; i < end; ++i) stars.add(static_cast<std::uint32_t>(i), work, blocks[begin / at_once]);
   });
   std::vector<Triangle> triangles;
-  for (const auto& part : parts) triangles.insert(triangles.end(), part.begin(), part.end());
+  for (const auto& block : blocks) triangles.insert(triangles.end(), block.begin(), block.end());
   return triangles;
 }
 

@@ -38,18 +38,18 @@ Terms<Degree> terms_at(double x, double y) {
 
 // Fits a polynomial through the point and its neighbours, all of one weight; `up` is the normal of the plane.
 template <int Degree>
-ReliefFit fit_relief(std::span<const Place> places, const Vector3d& up) {
+ReliefFit fit_relief(std::span<const FlatNeighbour> neighbours, const Vector3d& up) {
   constexpr int terms = terms_of<Degree>;
   using Terms = cells::Terms<Degree>;
-  if (places.size() < terms) return {};
+  if (neighbours.size() < terms) return {};
   double reach = 0;
-  for (const Place& p : places) reach = std::max(reach, p.flat.norm());
+  for (const FlatNeighbour& p : neighbours) reach = std::max(reach, p.flat.norm());
   // The point itself stands at the origin with no rise: only its constant term counts.
   Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
   normal(0, 0) = 1;
   Terms right = Terms::Zero();
   double square = 0;
-  for (const Place& p : places) {
+  for (const FlatNeighbour& p : neighbours) {
     const double rise = p.offset.dot(up);
     const Terms power = terms_at<Degree>(p.flat.x() / reach, p.flat.y() / reach);
     normal.template selfadjointView<Eigen::Lower>().rankUpdate(power);
@@ -60,7 +60,7 @@ ReliefFit fit_relief(std::span<const Place> places, const Vector3d& up) {
   if (!(solver.vectorD().minCoeff() > least_pivot * solver.vectorD().maxCoeff())) return {};
   const Terms found = solver.solve(right);
   const double left = std::max(0.0, square - found.dot(right));
-  return {found.template segment<2>(1) / reach, left / static_cast<double>(places.size() + 1 - terms), true};
+  return {found.template segment<2>(1) / reach, left / static_cast<double>(neighbours.size() + 1 - terms), true};
 }
 
 }  // namespace insonify::cells

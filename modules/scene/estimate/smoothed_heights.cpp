@@ -52,10 +52,10 @@ struct Prediction {
 class CubicFit {
  public:
   /// Returns nothing if the neighbours do not determine a cubic, or stray from it by more than their noise.
-  std::optional<Prediction> operator()(std::span<const Place> places, double noise) {
-    if (places.size() <= terms_of<3>) return {};
-    set_places(places);
-    const double freedom = static_cast<double>(places.size() - terms_of<3>);
+  std::optional<Prediction> operator()(std::span<const FlatNeighbour> neighbours, double noise) {
+    if (neighbours.size() <= terms_of<3>) return {};
+    set_neighbours(neighbours);
+    const double freedom = static_cast<double>(neighbours.size() - terms_of<3>);
     std::optional<Prediction> found;
     for (int n = 0; n < fits_of_cubic; ++n) {
       found = solve();
@@ -69,17 +69,17 @@ class CubicFit {
   }
 
  private:
-  void set_places(std::span<const Place> places) {
-    const auto count = static_cast<Eigen::Index>(places.size());
+  void set_neighbours(std::span<const FlatNeighbour> neighbours) {
+    const auto count = static_cast<Eigen::Index>(neighbours.size());
     power_.resize(count, terms_of<3>);
     rise_.resize(count);
     weight_.setOnes(count);
     double square = 0;
-    for (const Place& p : places) square = std::max(square, p.flat.squaredNorm());
+    for (const FlatNeighbour& p : neighbours) square = std::max(square, p.flat.squaredNorm());
     const double per_reach = 1 / std::sqrt(square);
     power_.col(0).setOnes();
     for (Eigen::Index n = 0; n < count; ++n) {
-      const Place& p = places[static_cast<std::size_t>(n)];
+      const FlatNeighbour& p = neighbours[static_cast<std::size_t>(n)];
       power_.block<1, 2>(n, 1) = p.flat.transpose() * per_reach;
       rise_[n] = p.offset.z();
     }
@@ -142,7 +142,7 @@ class Neighbourhood {
 
   /// Returns the `count` neighbours nearest to a point, or all others. Equal distances sort by index. Unordered unless
   /// `sorted`.
-  std::span<const Place> look_around(std::size_t i, std::size_t count, bool sorted = false) {
+  std::span<const FlatNeighbour> look_around(std::size_t i, std::size_t count, bool sorted = false) {
     const std::size_t wanted = std::min(count + 1, flat_.size());
     auto radius = static_cast<float>(1.02 * std::sqrt(area_per_point_ * static_cast<double>(wanted)));
     index_.find_within(flat_[i], radius, found_);
@@ -156,13 +156,13 @@ class Neighbourhood {
     std::nth_element(found_.begin(), last, found_.end(), before);
     if (sorted) std::sort(found_.begin(), last, before);
     area_per_point_ = last->squared_distance / static_cast<double>(wanted);
-    places_.clear();
+    positions_.clear();
     for (auto n = found_.begin(); n <= last; ++n)
       if (n->index != i) {
         const Vector3d offset = (points_[n->index] - points_[i]).cast<double>();
-        places_.push_back({offset.head<2>(), offset});
+        positions_.push_back({offset.head<2>(), offset});
       }
-    return places_;
+    return positions_;
   }
 
  private:
@@ -171,7 +171,7 @@ class Neighbourhood {
   const SceneIndex& index_;
   double area_per_point_ = 0;  // area per point over pi
   std::vector<Neighbour> found_;
-  std::vector<Place> places_;
+  std::vector<FlatNeighbour> positions_;
 };
 
 class Heights {
@@ -185,12 +185,12 @@ class Heights {
   /// Returns the mean square error of each width at a point, over the noise variance. It is capped: objects are not
   /// errors.
   Errors errors_at(std::size_t i, Neighbourhood& near, CubicFit& fit) const {
-    const std::span<const Place> places = near.look_around(i, widths.back(), true);
+    const std::span<const FlatNeighbour> neighbours = near.look_around(i, widths.back(), true);
     const double noise = noise_[i];
     Errors errors;
     double error = off_object * off_object;
     for (std::size_t w = 0; w < widths.size(); ++w) {
-      if (const auto found = fit(places.first(std::min(widths[w], places.size())), noise))
+      if (const auto found = fit(neighbours.first(std::min(widths[w], neighbours.size())), noise))
         error = std::min(std::pow(found->rise / noise, 2), off_object * off_object);
       errors[w] = static_cast<float>(error);
     }
@@ -220,7 +220,7 @@ class Heights {
 class Widths {
  public:
   Widths(const Heights& heights, const std::vector<std::uint32_t>& tried, int threads)
-      : places_(places_of(heights, tried)), index_(places_), log_width_(tried.size()) {
+      : positions_(positions_of(heights, tried)), index_(positions_), log_width_(tried.size()) {
     std::vector<Errors> errors(tried.size());
     parallel_blocks(tried.size(), 128, threads, [&](std::size_t begin, std::size_t end) {
       Neighbourhood near = heights.neighbourhood();
@@ -230,7 +230,7 @@ class Widths {
     parallel_blocks(tried.size(), 128, threads, [&](std::size_t begin, std::size_t end) {
       std::vector<Neighbour> found;
       for (std::size_t a = begin; a < end; ++a) {
-        index_.find_nearest(places_[a], tried_around, found);
+        index_.find_nearest(positions_[a], tried_around, found);
         std::array<double, widths.size()> sum{};
         for (const Neighbour& n : found)
           for (std::size_t w = 0; w < widths.size(); ++w) sum[w] += errors[n.index][w];
@@ -240,22 +240,22 @@ class Widths {
     });
   }
 
-  std::size_t at(const Vector3f& place, std::vector<Neighbour>& found) const {
-    index_.find_nearest(place, blended, found);
+  std::size_t at(const Vector3f& position, std::vector<Neighbour>& found) const {
+    index_.find_nearest(position, blended, found);
     double sum = 0;
     for (const Neighbour& n : found) sum += log_width_[n.index];
     return static_cast<std::size_t>(std::exp(sum / static_cast<double>(found.size())));
   }
 
  private:
-  static std::vector<Vector3f> places_of(const Heights& heights, const std::vector<std::uint32_t>& tried) {
-    std::vector<Vector3f> places;
-    places.reserve(tried.size());
-    for (const std::uint32_t i : tried) places.push_back(heights.flat(i));
-    return places;
+  static std::vector<Vector3f> positions_of(const Heights& heights, const std::vector<std::uint32_t>& tried) {
+    std::vector<Vector3f> neighbours;
+    neighbours.reserve(tried.size());
+    for (const std::uint32_t i : tried) neighbours.push_back(heights.flat(i));
+    return neighbours;
   }
 
-  std::vector<Vector3f> places_;
+  std::vector<Vector3f> positions_;
   SceneIndex index_;
   std::vector<double> log_width_;
 };

@@ -25,7 +25,7 @@ std::vector<float> estimate_surfel_areas(std::span<const Eigen::Vector3f> points
 /// Options of estimate_surfel_shapes.
 struct ShapeOptions {
   int neighbours =
-      16;           ///< nearest points that bound a cell in a view from one place (otherwise twice as many); at least 6
+      16;  ///< nearest points that bound a cell in a view from one position (otherwise twice as many); at least 6
   int threads = 0;  ///< 0: all cores
   /// Place from which points were seen [m]; empty: unknown. They count as one view if their cells among the directions
   /// from there are at least `evenness_of_view` times as even as on the plan. Otherwise the viewpoint changes nothing.

@@ -35,7 +35,7 @@ inline std::vector<Vector3f> plan_of(std::span<const Vector3f> points) {
 }
 
 // A neighbour: its position in the tangent plane, and in space relative to the point.
-struct Place {
+struct FlatNeighbour {
   Vector2d flat;
   Vector3d offset;
 };
@@ -43,10 +43,10 @@ struct Place {
 // A corner of a convex polygon around (0, 0). From it to the next runs the bisector to a neighbour.
 struct Corner {
   Vector2d at;
-  std::uint32_t place;
+  std::uint32_t index;
 };
 using Polygon = std::vector<Corner>;
-inline constexpr std::uint32_t no_place = ~0u;
+inline constexpr std::uint32_t no_neighbour = ~0u;
 
 inline double area_of(const Polygon& polygon) {
   double twice = 0;
@@ -56,14 +56,14 @@ inline double area_of(const Polygon& polygon) {
 }
 
 // Keeps the side of the bisector between (0, 0) and `neighbour`, places[place], on which (0, 0) lies.
-inline void clip_by_bisector(Polygon& polygon, const Vector2d& neighbour, std::uint32_t place, Polygon& scratch) {
+inline void clip_by_bisector(Polygon& polygon, const Vector2d& neighbour, std::uint32_t index, Polygon& scratch) {
   const double half = neighbour.squaredNorm() / 2;
   scratch.clear();
   for (std::size_t a = 0, b = polygon.size() - 1; a < polygon.size(); b = a++) {
     const double beyond_b = polygon[b].at.dot(neighbour) - half, beyond_a = polygon[a].at.dot(neighbour) - half;
     if ((beyond_a > 0) != (beyond_b > 0)) {
       const Vector2d cut = polygon[b].at + (polygon[a].at - polygon[b].at) * (beyond_b / (beyond_b - beyond_a));
-      scratch.push_back({cut, beyond_a > 0 ? place : polygon[b].place});
+      scratch.push_back({cut, beyond_a > 0 ? index : polygon[b].index});
     }
     if (beyond_a <= 0) scratch.push_back(polygon[a]);
   }
@@ -82,7 +82,7 @@ struct Gap {
 // Everything one thread needs for one point after another.
 struct Workspace {
   std::vector<Neighbour> found;
-  std::vector<Place> places;  // neighbours, nearest first
+  std::vector<FlatNeighbour> neighbours;  // neighbours, nearest first
   std::vector<double> angle;
   std::vector<Gap> gaps;
   Polygon cell, scratch;
@@ -132,8 +132,8 @@ class AreaEstimator {
     find_flat_neighbours(i, normal, k, work);
     if (work.gaps.size() > 1) find_flat_neighbours(i, normal, k *= 4, work);
     work.cell.clear();
-    if (work.places.empty()) return 0;
-    const double nearest = work.places.front().flat.norm();
+    if (work.neighbours.empty()) return 0;
+    const double nearest = work.neighbours.front().flat.norm();
     if (!work.gaps.empty()) {
       const double spacing_there = spacing_at_nearest(i, work);
       if (nearest > isolation * spacing_there) return spacing_there * spacing_there;
@@ -148,8 +148,9 @@ class AreaEstimator {
     Vector3d sum = Vector3d::Zero();
     if (work.cell.size() < 3) return sum;
     for (std::size_t a = 0, b = work.cell.size() - 1; a < work.cell.size(); b = a++) {
-      const std::uint32_t from = work.cell[b].place, to = work.cell[a].place;
-      if (from != no_place && to != no_place) sum += work.places[from].offset.cross(work.places[to].offset);
+      const std::uint32_t from = work.cell[b].index, to = work.cell[a].index;
+      if (from != no_neighbour && to != no_neighbour)
+        sum += work.neighbours[from].offset.cross(work.neighbours[to].offset);
     }
     return sum.norm() > 0 ? Vector3d(sum.normalized()) : Vector3d::Zero();
   }
@@ -162,13 +163,13 @@ class AreaEstimator {
     const Vector3d n = normal.cast<double>();
     const Vector3d t1 = n.unitOrthogonal(), t2 = n.cross(t1);
     index_.find_nearest(charted_[i], k + 1, work.found);
-    work.places.clear();
+    work.neighbours.clear();
     for (const Neighbour& neighbour : work.found) {
       if (neighbour.index == i) continue;
       const Vector3d d = (charted_[neighbour.index] - charted_[i]).cast<double>();
       const Vector2d flat(t1.dot(d), t2.dot(d));
       if (std::abs(n.dot(d)) <= steepest_ * flat.norm())
-        work.places.push_back({flat, (points_[neighbour.index] - points_[i]).cast<double>()});
+        work.neighbours.push_back({flat, (points_[neighbour.index] - points_[i]).cast<double>()});
     }
     find_gaps(work);
   }
@@ -176,7 +177,7 @@ class AreaEstimator {
   static void find_gaps(Workspace& work) {
     work.gaps.clear();
     work.angle.clear();
-    for (const Place& p : work.places) work.angle.push_back(std::atan2(p.flat.y(), p.flat.x()));
+    for (const FlatNeighbour& p : work.neighbours) work.angle.push_back(std::atan2(p.flat.y(), p.flat.x()));
     std::sort(work.angle.begin(), work.angle.end());
     for (std::size_t a = 0; a < work.angle.size(); ++a) {
       const double next = a + 1 < work.angle.size() ? work.angle[a + 1] : work.angle[0] + 2 * pi;
@@ -196,13 +197,13 @@ class AreaEstimator {
   // Fills borders with mirror images of the neighbours opposite, so that a cell extends as far beyond its point as
   // within. Gaps that stay wider than the limit get points at the distance of the nearest neighbour.
   static void close_gaps(double nearest, Workspace& work) {
-    const std::size_t real = work.places.size();
+    const std::size_t real = work.neighbours.size();
     const std::vector<Gap> gaps = work.gaps;
     for (std::size_t j = 0; j < real; ++j) {
-      const Place mirrored = {-work.places[j].flat, -work.places[j].offset};
+      const FlatNeighbour mirrored = {-work.neighbours[j].flat, -work.neighbours[j].offset};
       const double angle = std::atan2(mirrored.flat.y(), mirrored.flat.x());
       for (const Gap& gap : gaps)
-        if (gap.holds(angle)) work.places.push_back(mirrored);
+        if (gap.holds(angle)) work.neighbours.push_back(mirrored);
     }
     find_gaps(work);
     for (const Gap& gap : work.gaps) {
@@ -210,22 +211,23 @@ class AreaEstimator {
       for (int p = 1; p < parts; ++p) {
         const double angle = gap.begin + gap.width * p / parts;
         const Vector2d flat(nearest * std::cos(angle), nearest * std::sin(angle));
-        work.places.push_back({flat, Vector3d::Zero()});
+        work.neighbours.push_back({flat, Vector3d::Zero()});
       }
     }
-    std::sort(work.places.begin(), work.places.end(),
-              [](const Place& a, const Place& b) { return a.flat.squaredNorm() < b.flat.squaredNorm(); });
+    std::sort(work.neighbours.begin(), work.neighbours.end(), [](const FlatNeighbour& a, const FlatNeighbour& b) {
+      return a.flat.squaredNorm() < b.flat.squaredNorm();
+    });
   }
 
   static double clipped_area(Workspace& work) {
     double farthest = 0;
-    for (const Place& p : work.places) farthest = std::max(farthest, p.flat.norm());
-    work.cell = {{{-farthest, -farthest}, no_place},
-                 {{farthest, -farthest}, no_place},
-                 {{farthest, farthest}, no_place},
-                 {{-farthest, farthest}, no_place}};
-    for (std::uint32_t p = 0; p < work.places.size(); ++p)
-      clip_by_bisector(work.cell, work.places[p].flat, p, work.scratch);  // (E15)
+    for (const FlatNeighbour& p : work.neighbours) farthest = std::max(farthest, p.flat.norm());
+    work.cell = {{{-farthest, -farthest}, no_neighbour},
+                 {{farthest, -farthest}, no_neighbour},
+                 {{farthest, farthest}, no_neighbour},
+                 {{-farthest, farthest}, no_neighbour}};
+    for (std::uint32_t p = 0; p < work.neighbours.size(); ++p)
+      clip_by_bisector(work.cell, work.neighbours[p].flat, p, work.scratch);  // (E15)
     return work.cell.size() < 3 ? 0 : area_of(work.cell);
   }
 

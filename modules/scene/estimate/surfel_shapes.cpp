@@ -95,8 +95,8 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
   };
   const Vector3d facet = AreaEstimator::facet_normal(work);
   if (facet.dot(up) >= least_cosine) look.relief = facet.cast<float>();
-  if (work.places.size() < neighbours_fitted) return look;
-  const std::span<const Place> all(work.places), near = all.first(neighbours_fitted);
+  if (work.neighbours.size() < neighbours_fitted) return look;
+  const std::span<const FlatNeighbour> all(work.neighbours), near = all.first(neighbours_fitted);
   ReliefFit cubic = fit_relief<3>(near, up), flat = fit_relief<1>(near, up);
   if (!cubic.found) cubic = fit_relief<2>(all, up), flat = fit_relief<1>(all, up);  // for three lines of a scan
   if (!cubic.found) return look;
@@ -204,7 +204,7 @@ void estimate_around(const ShapeOptions& options, Estimate& e, std::vector<Vecto
   choose_shapes(look_at_all(e, normals, estimator, options), estimator.index(), options, e, normals, counts);
 }
 
-// Returns the areas of the Voronoi cells of every `step`th of `places`, unit vectors or points of a plan, with the
+// Returns the areas of the Voronoi cells of every `step`th of `neighbours`, unit vectors or points of a plan, with the
 // tangent planes' normals `up`.
 std::vector<double> cells_among(const AreaEstimator& estimator, const std::vector<Vector3f>& up, std::size_t step,
                                 int threads) {
@@ -223,7 +223,7 @@ double spread_of(std::vector<double> cells) {
   return typical > 0 ? median_of(cells) / typical : 0;
 }
 
-// Estimates the areas of points that were all seen from one place by their cells among the directions from there (E73).
+// Estimates the areas of points that were all seen from one position by their cells among the directions from there (E73).
 // Returns false if the cells are not `evenness` times as even there as on the plan: the cloud is a raster of heights,
 // or was not seen at once.
 bool estimate_seen(const Vector3d& viewpoint, double evenness, const std::vector<Vector3f>& normals,

@@ -119,12 +119,12 @@ void draw(std::vector<ChartLine> lines, const std::string& path) {
 
 int main(int argc, char** argv) {
   if (argc < 2) return std::fprintf(stderr, "detail_accuracy PICTURE.png [SCENE SURFELS]...\n"), 2;
-  std::vector<std::pair<std::string, std::size_t>> asked;
-  for (int k = 2; k + 1 < argc; k += 2) asked.emplace_back(argv[k], std::strtoull(argv[k + 1], nullptr, 10));
-  if (asked.empty()) asked = {{"harbour", 1000000}, {"harbour", 10000000}, {"reef", 1000000}};
+  std::vector<std::pair<std::string, std::size_t>> requested;
+  for (int k = 2; k + 1 < argc; k += 2) requested.emplace_back(argv[k], std::strtoull(argv[k + 1], nullptr, 10));
+  if (requested.empty()) requested = {{"harbour", 1000000}, {"harbour", 10000000}, {"reef", 1000000}};
   std::vector<ChartLine> lines;
   std::map<std::string, Grid<double>> exact;
-  for (const auto& [scene, surfels] : asked) {
+  for (const auto& [scene, surfels] : requested) {
     const View view{scene};
     if (!exact.count(scene)) {
       exact[scene] = expected_level(view.of(4000000), view.pose, head_of_12_cm(), {.scatterers_per_cell = 10})

@@ -20,7 +20,7 @@ using namespace insonify;
 /// A file with the pose of a head of a p900-45 with 512 beams in it; ranges in metres, angles in degrees.
 struct CapturedView {
   const char *what, *file;
-  Eigen::Vector3d place, angles;
+  Eigen::Vector3d position, angles;
   double min_range, max_range;
   double mesh_spacing = 0;  ///< spacing of a mesh that is taken as a cloud [m]
   bool from_head = false;   ///< true: the file has no viewpoint, it was captured from about the head's position
@@ -38,7 +38,7 @@ const CapturedView views[] = {
 SceneCloud cloud_of(const CapturedView& view, const std::string& folder) {
   LoadOptions options;
   options.mesh_spacing = view.mesh_spacing;
-  if (view.from_head) options.viewpoint = view.place;
+  if (view.from_head) options.viewpoint = view.position;
   return load_scene(folder + "/" + view.file, options).scene;
 }
 
@@ -46,7 +46,7 @@ Grid<double> levels_of(const PreparedScene& scene, const CapturedView& view, dou
   SonarSpec spec = find_sonar("p900-45").spec;
   spec.beams = 512, spec.min_range = view.min_range, spec.max_range = view.max_range;
   const SonarHead head = make_head(spec, sound_speed(Water{}));
-  const Pose pose = pose_from_yaw_pitch_roll(view.place, radians(view.angles.x()), radians(view.angles.y()),
+  const Pose pose = pose_from_yaw_pitch_roll(view.position, radians(view.angles.x()), radians(view.angles.y()),
                                              radians(view.angles.z()));
   const SimulationOptions options{.sampling = {.detail_width = width},
                                   .synthesis = {.method = SynthesisMethod::incoherent}};

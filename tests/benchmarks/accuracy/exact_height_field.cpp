@@ -95,12 +95,12 @@ Wrong compare_surfels(const HeightField& field, const SceneCloud& scene, const V
   Wrong wrong;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!(all.projected_area[i] > 0) || all.range[i] < view.head.gate.min_range) continue;
-    Eigen::Vector3d place = scene.origin + scene.point[all.surfel[i]].cast<double>();
-    place.z() = field.at(place.head<2>());
+    Eigen::Vector3d position = scene.origin + scene.point[all.surfel[i]].cast<double>();
+    position.z() = field.at(position.head<2>());
     const double energy =
         heard_by_definition(all.range[i] * unit_vector({all.azimuth[i], all.elevation[i]}), all.cos_incidence[i],
                             all.projected_area[i] / all.cos_incidence[i], 0.01, view.head, medium);
-    const bool open = std::isfinite(place.z()) && field.in_view(place, view.pose.translation());
+    const bool open = std::isfinite(position.z()) && field.in_view(position, view.pose.translation());
     const double part = share[all.surfel[i]] / all.projected_area[i];
     const double length = view.head.gate.max_range - view.head.gate.min_range;
     const auto band = std::min(bands - 1, static_cast<Eigen::Index>((all.range[i] - view.head.gate.min_range) / length *
@@ -184,13 +184,13 @@ void compare(const std::string& title, const HeightField& field, const View& vie
   for (const Reading& r : readings) print_row(r.name, field, truth, load_scene(r.path, r.load), view, r.kind);
 }
 
-View view_of(const std::string& sonar, const Eigen::Vector3d& place, double yaw, double pitch, double roll, double from,
-             double to) {
+View view_of(const std::string& sonar, const Eigen::Vector3d& position, double yaw, double pitch, double roll,
+             double from, double to) {
   SonarSpec spec = find_sonar(sonar).spec;
   spec.bandwidth = 1500 / (2 * 0.01);
   spec.min_range = from;
   spec.max_range = to;
-  const Pose pose = pose_from_yaw_pitch_roll(place, radians(yaw), radians(pitch), radians(roll));
+  const Pose pose = pose_from_yaw_pitch_roll(position, radians(yaw), radians(pitch), radians(roll));
   return {make_head(spec, medium_of(Water{}, spec.centre_frequency).sound_speed), pose};
 }
 

@@ -101,8 +101,8 @@ void print_table(const PreparedScene& scene, const std::string& preset) {
   const Bench::Rule many{"", 100, everywhere, false};
   const Grid<double> exact = 0.5 * (bench.levels(101, many, pi) + bench.levels(102, many, pi));
   const Grid<double> of_main = bench.levels(101, many, 0);
-  const Grid<bool> heard = exact > 1e-12 * exact.maxCoeff(), side = heard && of_main < 0.1 * exact,
-                   main = heard && !side;
+  const Grid<bool> beam_azimuth = exact > 1e-12 * exact.maxCoeff(), side = beam_azimuth && of_main < 0.1 * exact,
+                   main = beam_azimuth && !side;
   const double as_told = SamplingOptions{}.scatterers_per_cell;
   for (const Bench::Rule& rule : {Bench::Rule{"10 per cell, shared alike", 10, 0, true, true},
                                   {"10 per cell", 10, 0},

@@ -60,7 +60,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Returns true if the true range jumps within `distance` of the place that the ray meets: on one of four lines across
+// Returns true if the true range jumps within `distance` of the position that the ray meets: on one of four lines across
 // it, the inverse range differs by more than far_off from the linear one of a plane.
 bool is_near_silhouette(const World& world, const Vector3d& from, const Vector3d& along, double range,
                         double distance) {

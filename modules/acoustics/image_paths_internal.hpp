@@ -11,8 +11,8 @@
 namespace insonify {
 
 /// A way to an image of the head and back from it, in head axes.
-struct ImageWay {
-  Eigen::Vector3d sent, heard;             ///< apparent places of the image on the way out, and on the way back
+struct ImagePath {
+  Eigen::Vector3d outgoing, returning;     ///< apparent positions of the image on the way out, and on the way back
   std::complex<double> factor = 1;         ///< reflections and edges
   std::vector<Eigen::Vector3d> bounces{};  ///< places at which it bounces
   std::vector<const Boundary*> by{};       ///< off these
@@ -31,11 +31,11 @@ inline constexpr double edge_floor = 1e-6;
 /// later, on which reflections and edges leave at least -80 dB. By one mirror with edges these are paths by its specular
 /// point, by each edge and by each corner (E164, E165), down to -120 dB; by several, edges change the level of the
 /// image alone (E150).
-std::vector<ImageWay> image_ways(std::span<const Boundary> mirrors, std::size_t first, int most);
+std::vector<ImagePath> image_paths(std::span<const Boundary> mirrors, std::size_t first, int most);
 
 /// Returns for each way whether the surfels of a scene leave it open: they block it, if the view has occlusion, and a
 /// target must have surfels where it reflects.
-std::vector<std::uint8_t> open_ways(const SceneCloud& scene, const View& view, const std::vector<ImageWay>& ways,
-                                    int threads);
+std::vector<std::uint8_t> unblocked_paths(const SceneCloud& scene, const View& view,
+                                          const std::vector<ImagePath>& paths, int threads);
 
 }  // namespace insonify

@@ -2,7 +2,7 @@
 // Compares legs and glints by tilted mirrors in a profile with rays shot in three dimensions and reflected.
 #include <numeric>
 
-#include "acoustics/bent_bench.hpp"
+#include "acoustics/refracted_bench.hpp"
 #include "core/text.hpp"
 #include "support/bounced_ray.hpp"
 #include "support/scenes.hpp"
@@ -17,13 +17,13 @@ using Eigen::Vector3d;
 Mirror leaning_wall(const Vector3d& near, const Vector3d& side, double lean, double distance) {
   Mirror wall;
   wall.normal = std::cos(lean) * side + std::sin(lean) * Vector3d::UnitZ();
-  wall.place = near - distance * wall.normal;
+  wall.position = near - distance * wall.normal;
   return wall;
 }
 
 traced::Plane plane_from(const Vector3d& head, const Mirror& mirror) {
   const Vector3d normal = mirror.normal.normalized();
-  return {normal, normal.dot(mirror.place - head)};
+  return {normal, normal.dot(mirror.position - head)};
 }
 
 /// Expects delay, direction and level of an echo to agree with a ray that goes both ways.
@@ -48,28 +48,28 @@ TEST(BentChains, legs_by_leaning_walls_are_rays_that_the_walls_reflect) {
       Bench b(profile, 3 + 10 * unit(random), 6 * unit(random), 0.4 * unit(random) - 0.2, 0.6 * unit(random) - 0.3);
       const Vector3d ahead = b.view.world_from_head.linear().col(0);
       const double to = std::atan2(ahead.y(), ahead.x()) + 0.6 * unit(random) - 0.3, out = 12 + 14 * unit(random);
-      const Vector3d place =
+      const Vector3d position =
           b.head() + Vector3d(out * std::cos(to), out * std::sin(to), b.head_depth - 1 - 20 * unit(random));
       const double port = unit(random) < 0.5 ? -1 : 1, up = unit(random) < 0.5 ? -1 : 1;
       const Vector3d side = port * Vector3d(-std::sin(to + 0.1), std::cos(to + 0.1), 0);
       const Mirror wall = leaning_wall(b.head(), side, up * radians(5 + 35 * unit(random)), 4);
       const traced::Plane plane = plane_from(b.head(), wall);
-      if (plane.normal.dot(place - b.head()) - plane.offset < 1) continue;
-      const auto direct = b.ray(b.water(), place);
-      const auto bounced = traced::arrival_by_planes(b.water(), b.head_depth, {&plane, 1}, place - b.head());
+      if (plane.normal.dot(position - b.head()) - plane.offset < 1) continue;
+      const auto direct = b.ray(b.water(), position);
+      const auto bounced = traced::arrival_by_planes(b.water(), b.head_depth, {&plane, 1}, position - b.head());
       ASSERT_TRUE(bounced);
 
       SceneCloud scene;
-      scene.origin = place;
+      scene.origin = position;
       scene.materials = {Material{}};
-      add_surfel(scene, place, ((b.head() - place).normalized() - bounced->arrival).normalized(), 1e-4);
-      const Multipath found = mirror_echoes(scene, scatterers_at({b.view.world_from_head.inverse() * place}, 1e-4F),
+      add_surfel(scene, position, ((b.head() - position).normalized() - bounced->arrival).normalized(), 1e-4);
+      const Multipath found = mirror_echoes(scene, scatterers_at({b.view.world_from_head.inverse() * position}, 1e-4F),
                                             b.environment, {&wall, 1}, false, b.view, b.sent, {.refraction = true});
       const std::string what = printed("head %.3g m deep, wall %.3g %.3g %.3g", b.head_depth, wall.normal.x(),
                                        wall.normal.y(), wall.normal.z());
       ASSERT_EQ(found.one_bounce, 2u) << what;
       EXPECT_EQ(found.unreached, 0u);
-      const Vector3d level = Vector3d((place - b.head()).x(), (place - b.head()).y(), 0).normalized();
+      const Vector3d level = Vector3d((position - b.head()).x(), (position - b.head()).y(), 0).normalized();
       const Vector3d arrives = std::cos(direct.arrival) * level + std::sin(direct.arrival) * Vector3d::UnitZ();
       const Vector3d normal = scene.normal[0].cast<double>();
       const double cosines = normal.dot(arrives) * normal.dot(bounced->arrival);

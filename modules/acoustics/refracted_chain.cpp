@@ -10,8 +10,8 @@
 
 #include <Eigen/Dense>
 
-#include "acoustics/bend_paths.hpp"
-#include "acoustics/bent_chain_internal.hpp"
+#include "acoustics/refract_paths.hpp"
+#include "acoustics/refracted_chain_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -24,14 +24,14 @@ constexpr int most_steps = 24, steps_between_derivatives = 4;
 
 class ChainSearch {
  public:
-  ChainSearch(const BentLegs& rays, std::span<const Boundary* const> planes, std::vector<Vector3d> bounces,
-              const Vector3d& place)
-      : rays_(rays), planes_(planes), bounces_(std::move(bounces)), place_(place) {
+  ChainSearch(const RefractedLegs& rays, std::span<const Boundary* const> planes, std::vector<Vector3d> bounces,
+              const Vector3d& position)
+      : rays_(rays), planes_(planes), bounces_(std::move(bounces)), position_(position) {
     for (const Boundary* plane : planes_) tangents_.push_back(across_way(plane->normal));
   }
 
   /// The ray, if the search ends.
-  std::optional<BentChain> find() {
+  std::optional<RefractedChain> find() {
     for (std::size_t k = 0; k <= planes_.size(); ++k)
       if (!(piece_length(k) > shortest_piece)) return std::nullopt;
     straight_ = straight_length();
@@ -53,10 +53,10 @@ class ChainSearch {
   }
 
  private:
-  using Places = std::vector<Vector3d>;
+  using Positions = std::vector<Vector3d>;
 
-  Vector3d node(const Places& bounces, std::size_t k) const {
-    return k == 0 ? Vector3d(Vector3d::Zero()) : k > bounces.size() ? place_ : bounces[k - 1];
+  Vector3d node(const Positions& bounces, std::size_t k) const {
+    return k == 0 ? Vector3d(Vector3d::Zero()) : k > bounces.size() ? position_ : bounces[k - 1];
   }
   double piece_length(std::size_t k) const { return (node(bounces_, k + 1) - node(bounces_, k)).norm(); }
   double straight_length() const {
@@ -64,12 +64,12 @@ class ChainSearch {
     for (std::size_t k = 0; k <= planes_.size(); ++k) sum += piece_length(k);
     return sum;
   }
-  void move(Places& bounces, const Eigen::VectorXd& by) const {
+  void move(Positions& bounces, const Eigen::VectorXd& by) const {
     for (std::size_t k = 0; k < bounces.size(); ++k)
       bounces[k] += tangents_[k] * by.segment<2>(2 * static_cast<Eigen::Index>(k));
   }
-  std::optional<std::vector<BentPiece>> pieces(const Places& bounces) const {
-    std::vector<BentPiece> all;
+  std::optional<std::vector<RayPiece>> pieces(const Positions& bounces) const {
+    std::vector<RayPiece> all;
     for (std::size_t k = 0; k <= bounces.size(); ++k) {
       const auto piece = rays_.between(node(bounces, k), node(bounces, k + 1));
       if (!piece) return std::nullopt;
@@ -78,8 +78,8 @@ class ChainSearch {
     return all;
   }
 
-  /// First derivatives of the apparent length by the places of the bounces on their planes.
-  std::optional<Eigen::VectorXd> slopes(const Places& bounces) const {
+  /// First derivatives of the apparent length by the positions of the bounces on their planes.
+  std::optional<Eigen::VectorXd> slopes(const Positions& bounces) const {
     const auto ray = pieces(bounces);
     if (!ray) return std::nullopt;
     Eigen::VectorXd slope(2 * bounces.size());
@@ -114,7 +114,7 @@ class ChainSearch {
     const auto n = 2 * static_cast<Eigen::Index>(planes_.size());
     Eigen::MatrixXd second(n, n);
     for (Eigen::Index k = 0; k < n; ++k) {
-      Places ahead = bounces_, behind = bounces_;
+      Positions ahead = bounces_, behind = bounces_;
       move(ahead, step * Eigen::VectorXd::Unit(n, k)), move(behind, -step * Eigen::VectorXd::Unit(n, k));
       const auto there = slopes(ahead), here = slopes(behind);
       if (!there || !here) return std::nullopt;
@@ -123,12 +123,11 @@ class ChainSearch {
     return second;
   }
 
-  /// The ray by the bounces found.
-  std::optional<BentChain> chain() const {
+  std::optional<RefractedChain> chain() const {
     const auto ray = pieces(bounces_);
     const auto second = ray_derivatives();
     if (!ray || !second) return std::nullopt;
-    BentChain found;
+    RefractedChain found;
     double apparent = 0, pressure = 1 / std::sqrt(std::abs(second->determinant()));
     for (std::size_t k = 0; k < ray->size(); ++k) {
       apparent += (*ray)[k].apparent;
@@ -144,23 +143,23 @@ class ChainSearch {
     return found;
   }
 
-  const BentLegs& rays_;
+  const RefractedLegs& rays_;
   std::span<const Boundary* const> planes_;
-  Places bounces_;
-  Vector3d place_;
+  Positions bounces_;
+  Vector3d position_;
   std::vector<Tangents> tangents_;
   double straight_ = 0;
 };
 
 }  // namespace
 
-double BentChain::grazing_on(const Boundary& plane, std::size_t k) const {
+double RefractedChain::grazing_on(const Boundary& plane, std::size_t k) const {
   return std::asin(std::min(1.0, std::abs(plane.normal.dot(meets[k]))));
 }
 
-std::optional<BentChain> bent_chain(const BentLegs& rays, std::span<const Boundary* const> planes,
-                                    std::vector<Vector3d> bounces, const Vector3d& place) {
-  return ChainSearch(rays, planes, std::move(bounces), place).find();
+std::optional<RefractedChain> refracted_chain(const RefractedLegs& rays, std::span<const Boundary* const> planes,
+                                              std::vector<Vector3d> bounces, const Vector3d& position) {
+  return ChainSearch(rays, planes, std::move(bounces), position).find();
 }
 
 }  // namespace insonify

@@ -18,7 +18,7 @@ namespace insonify {
 using Members = std::vector<std::uint32_t>;  // indices of surfels, ascending
 
 /// Surfels of a scene; places in the world [m].
-struct SurfelPart {
+struct SurfelGroup {
   const SceneCloud& scene;
   Members members;
 
@@ -45,12 +45,12 @@ struct SurfelPart {
     return sum / area();
   }
   template <typename Keep>
-  SurfelPart where(const Keep& keep) const {
-    SurfelPart part{scene, {}};
-    std::copy_if(members.begin(), members.end(), std::back_inserter(part.members), keep);
-    return part;
+  SurfelGroup where(const Keep& keep) const {
+    SurfelGroup group{scene, {}};
+    std::copy_if(members.begin(), members.end(), std::back_inserter(group.members), keep);
+    return group;
   }
-  std::string place() const {
+  std::string position_text() const {
     const Eigen::Vector3d p = middle();
     return printed("%zu surfels about (%.4g, %.4g, %.4g) m", members.size(), p.x(), p.y(), p.z());
   }
@@ -64,6 +64,6 @@ inline Members without(const Members& all, const Members& taken) {
 }
 
 /// Parts whose surfels lie within `link` [m] of each other: cells of that size that touch.
-std::vector<SurfelPart> connected_parts(const SurfelPart& all, double link);
+std::vector<SurfelGroup> connected_groups(const SurfelGroup& all, double link);
 
 }  // namespace insonify

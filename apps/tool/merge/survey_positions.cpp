@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/merge/survey_places.hpp"
+#include "tool/merge/survey_positions.hpp"
 
 #include <cmath>
 
@@ -14,9 +14,9 @@ using nlohmann::ordered_json;
 
 /// Longitude and latitude to 1e-9 degrees, which is a tenth of a millimetre, and height to a millimetre.
 ordered_json coordinates_of(const Georeference& world, const Pose& world_from_head) {
-  const GeoPlace place = geo_from_world(world, world_from_head.translation());
-  return {std::round(1e9 * degrees(place.longitude)) / 1e9, std::round(1e9 * degrees(place.latitude)) / 1e9,
-          std::round(1e3 * place.height) / 1e3};
+  const GeoPosition position = geo_from_world(world, world_from_head.translation());
+  return {std::round(1e9 * degrees(position.longitude)) / 1e9, std::round(1e9 * degrees(position.latitude)) / 1e9,
+          std::round(1e3 * position.height) / 1e3};
 }
 
 }  // namespace
@@ -32,13 +32,13 @@ ordered_json frame_json(const SurveyFrame& frame) {
   return json;
 }
 
-ordered_json track_geojson(const Georeference& place, const std::string& start_utc,
+ordered_json track_geojson(const Georeference& georeference, const std::string& start_utc,
                            const std::vector<HeadCube>& heads) {
   ordered_json features = ordered_json::array();
   for (const HeadCube& head : heads) {
     ordered_json line = ordered_json::array(), times = ordered_json::array(), numbers = ordered_json::array();
     for (const TrackPoint& point : read_track(head.path)) {
-      line.push_back(coordinates_of(place, point.world_from_head));
+      line.push_back(coordinates_of(georeference, point.world_from_head));
       numbers.push_back(point.number);
       if (start_utc.empty())
         times.push_back(point.time);

@@ -9,8 +9,8 @@
 
 namespace insonify::tool {
 
-/// The place of a world on the globe that options ask for; empty: as its run says.
-struct AskedPlace {
+/// The position of a world on the globe that options ask for; empty: as its run says.
+struct WorldOptions {
   std::string anchor, utm, system;
 
   /// Returns whether nothing is asked.
@@ -18,10 +18,10 @@ struct AskedPlace {
 };
 
 /// Adds --anchor, --utm and --system.
-void add_place_options(OptionList list, AskedPlace& asked);
+void add_world_options(OptionList list, WorldOptions& requested);
 
 /// The place of the world of a run, as far as the run knows it.
-struct KnownPlace {
+struct KnownWorld {
   std::string run;     ///< its path, for messages
   std::string system;  ///< system of its mission or of the file of its scene, as FileMeaning has it; or empty
   std::optional<Anchor> anchor{};  ///< anchor of its mission; absent: none
@@ -38,11 +38,11 @@ void require_same_system(const std::string& path, const std::optional<Anchor>& a
                          const std::string& of_scene);
 
 /// Returns where the world is, as asked or as the run says; absent if neither says it. Throws Error(argument) if what
-/// is asked contradicts the run, and if one of `places`, points of the world [m], cannot be there (require_plausible).
-std::optional<Georeference> georeference_of(const AskedPlace& asked, const KnownPlace& known,
-                                            const std::vector<Eigen::Vector3d>& places);
+/// is asked contradicts the run, and if one of `positions`, points of the world [m], cannot be there (require_plausible).
+std::optional<Georeference> georeference_of(const WorldOptions& requested, const KnownWorld& known,
+                                            const std::vector<Eigen::Vector3d>& positions);
 
 /// Returns what to say of --utm: that S is the hemisphere and not the band of MGRS; else nothing.
-std::string utm_note(const AskedPlace& asked, const KnownPlace& known);
+std::string utm_note(const WorldOptions& requested, const KnownWorld& known);
 
 }  // namespace insonify::tool

@@ -4,15 +4,15 @@
 #include <span>
 #include <vector>
 
-#include "acoustics/bent_legs_internal.hpp"
+#include "acoustics/refracted_legs_internal.hpp"
 
 // Private to acoustics: rays from a head through a profile by planes of any tilt. Head axes [m].
 namespace insonify {
 
-/// A ray from the head by planes, one after the other, to a place.
-struct BentChain {
+/// A ray from the head by planes, one after the other, to a position.
+struct RefractedChain {
   Eigen::Vector3d sent;  ///< unit vector along the ray where it leaves the head
-  BentLeg leg;           ///< all pieces as one leg to the place: `apparent` along `sent`, `arrival` of the last piece
+  RefractedLeg leg;  ///< all pieces as one leg to the position: `apparent` along `sent`, `arrival` of the last piece
   std::vector<Eigen::Vector3d> bounces, meets;  ///< where it meets the planes, and unit vectors along it just before
 
   /// Returns the grazing angle [rad] on the k-th plane.
@@ -22,7 +22,7 @@ struct BentChain {
 /// Returns the ray by `planes` near a straight way that meets them at `bounces`: the way of stationary travel time (E177).
 /// Its pressure is that of pieces of ray tubes (E167) joined by stationary phase over the planes, at most most_focusing in
 /// intensity. None in a shadow zone, if the search does not end, or if two bounces are within a millimetre of each other.
-std::optional<BentChain> bent_chain(const BentLegs& rays, std::span<const Boundary* const> planes,
-                                    std::vector<Eigen::Vector3d> bounces, const Eigen::Vector3d& place);
+std::optional<RefractedChain> refracted_chain(const RefractedLegs& rays, std::span<const Boundary* const> planes,
+                                              std::vector<Eigen::Vector3d> bounces, const Eigen::Vector3d& position);
 
 }  // namespace insonify

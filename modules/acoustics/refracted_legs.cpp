@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acoustics/bend_paths.hpp"
-#include "acoustics/bent_legs_internal.hpp"
 #include "acoustics/ray_families_internal.hpp"
+#include "acoustics/refract_paths.hpp"
+#include "acoustics/refracted_legs_internal.hpp"
 #include "acoustics/shoot_ray.hpp"
 
 namespace insonify {
@@ -34,7 +34,8 @@ SoundSpeedProfile mirrored_at(const SoundSpeedProfile& profile, double depth, bo
 
 }  // namespace
 
-BentLegs::BentLegs(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, double absorption)
+RefractedLegs::RefractedLegs(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
+                             double absorption)
     : profile_(std::make_shared<const SoundSpeedProfile>(profile)),
       head_depth_(head_depth),
       absorption_(absorption),
@@ -42,15 +43,15 @@ BentLegs::BentLegs(const SoundSpeedProfile& profile, double head_depth, const Po
   prepare({}, 1);
 }
 
-BentLegs BentLegs::mirrored(double distance, bool above) const {
+RefractedLegs RefractedLegs::mirrored(double distance, bool above) const {
   const double depth = above ? head_depth_ - distance : head_depth_ + distance;
   return {mirrored_at(*profile_, depth, above), head_depth_, world_from_head_, absorption_};
 }
 
-void BentLegs::prepare(std::span<const Vector3d> places, int threads) {
-  DepthBox box{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, places.size()};
-  for (const Vector3d& place : places) {
-    const Vector3d way = world_from_head_.linear() * place;
+void RefractedLegs::prepare(std::span<const Vector3d> positions, int threads) {
+  DepthBox box{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, positions.size()};
+  for (const Vector3d& position : positions) {
+    const Vector3d way = world_from_head_.linear() * position;
     const double depth = head_depth_ - way.z(), out = std::hypot(way.x(), way.y());
     box.min_depth = std::min(box.min_depth, depth), box.max_depth = std::max(box.max_depth, depth);
     box.min_horizontal = std::min(box.min_horizontal, out), box.max_horizontal = std::max(box.max_horizontal, out);
@@ -58,12 +59,12 @@ void BentLegs::prepare(std::span<const Vector3d> places, int threads) {
   table_ = std::make_unique<RefractionTable>(*profile_, head_depth_, box, threads);
 }
 
-std::optional<BentLeg> BentLegs::to(const Vector3d& place) const {
-  const Vector3d way = world_from_head_.linear() * place;
-  const double out = std::hypot(way.x(), way.y()), straight = place.norm();
+std::optional<RefractedLeg> RefractedLegs::to(const Vector3d& position) const {
+  const Vector3d way = world_from_head_.linear() * position;
+  const double out = std::hypot(way.x(), way.y()), straight = position.norm();
   const auto seen = table_->apparent(head_depth_ - way.z(), out);
   if (!seen || !(straight > 0)) return std::nullopt;
-  BentLeg leg{seen->range / straight * place, place / straight, 1};
+  RefractedLeg leg{seen->range / straight * position, position / straight, 1};
   leg.pressure = std::exp(0.5 * seen->gain - absorption_ * (straight - seen->range));  // (E167)
   if (out == 0) return leg;
   const Vector3d ahead(way.x() / out, way.y() / out, 0);
@@ -75,7 +76,7 @@ std::optional<BentLeg> BentLegs::to(const Vector3d& place) const {
   return leg;
 }
 
-std::optional<BentPiece> BentLegs::between(const Vector3d& from, const Vector3d& to) const {
+std::optional<RayPiece> RefractedLegs::between(const Vector3d& from, const Vector3d& to) const {
   const Vector3d way = world_from_head_.linear() * (to - from);
   const double out = std::hypot(way.x(), way.y()), straight = way.norm();
   const double depth = head_depth_ - world_from_head_.linear().row(2).dot(from), depth_there = depth - way.z();
@@ -89,19 +90,19 @@ std::optional<BentPiece> BentLegs::between(const Vector3d& from, const Vector3d&
     return world_from_head_.linear().transpose() *
            (std::cos(elevation) * ahead + std::sin(elevation) * Vector3d::UnitZ());
   };
-  BentPiece piece{in_head(ray->elevation), in_head(tube.end.elevation), 0, 1};
+  RayPiece piece{in_head(ray->elevation), in_head(tube.end.elevation), 0, 1};
   piece.apparent = sound_speed_at(*profile_, head_depth_) * ray->travel_time;
   piece.pressure = std::sqrt(std::min(straight * straight * spreading, most_focusing)) *
                    std::exp(-absorption_ * (straight - piece.apparent));  // (E167)
   return piece;
 }
 
-double BentLegs::relative_speed(const Vector3d& place) const {
-  const double depth = head_depth_ - world_from_head_.linear().row(2).dot(place);
+double RefractedLegs::relative_speed(const Vector3d& position) const {
+  const double depth = head_depth_ - world_from_head_.linear().row(2).dot(position);
   return sound_speed_at(*profile_, depth) / sound_speed_at(*profile_, head_depth_);
 }
 
-double BentLegs::grazing_at(double depth, const Vector3d& apparent) const {
+double RefractedLegs::grazing_at(double depth, const Vector3d& apparent) const {
   const double up = world_from_head_.linear().row(2).dot(apparent.normalized());
   const double cosine = std::sqrt(std::max(0.0, (1 - up) * (1 + up))) * sound_speed_at(*profile_, depth) /
                         sound_speed_at(*profile_, head_depth_);  // Snell's law

@@ -12,11 +12,11 @@
 // surfel (E70). The trees are fixed to the mesh.
 namespace insonify {
 
-/// A node of the tree, with the place of its surfel.
-struct Part {
+/// A node of the tree, with the position of its surfel.
+struct Piece {
   Corners corner;
   Eigen::Matrix3d weights = Eigen::Matrix3d::Identity();  ///< columns: barycentric weights of the corners
-  Eigen::Vector3d place;                                  ///< place of the surfel, in weights of these corners
+  Eigen::Vector3d position;                               ///< place of the surfel, in weights of these corners
   double area = 0;                                        ///< [m^2]
   std::uint64_t node = 1;                                 ///< children of n are 2 n and 2 n + 1
   std::uint32_t id = 0;
@@ -25,24 +25,24 @@ struct Part {
 
 /// A part's surfel.
 struct MeshSurfel {
-  MeshPlace place;
+  MeshPoint position;
   float area;
   std::uint32_t id;
   Facet facet;
 };
 
 /// The trees of a mesh; keeps a reference to it.
-class MeshParts {
+class MeshPieces {
  public:
-  MeshParts(const SceneMesh& mesh, std::uint64_t seed);
+  MeshPieces(const SceneMesh& mesh, std::uint64_t seed);
 
   const SceneMesh& mesh() const { return mesh_; }
-  Part root(std::size_t triangle) const;
+  Piece root(std::size_t triangle) const;
   /// Returns the halves of a part; one half keeps place and id.
-  std::array<Part, 2> bisect(const Part& whole, std::size_t triangle) const;
+  std::array<Piece, 2> bisect(const Piece& whole, std::size_t triangle) const;
   /// Returns true if there are ids for the halves.
-  bool may_bisect(const Part& part, std::size_t triangle) const { return part.depth < ids_[triangle].depth; }
-  MeshSurfel surfel_of(const Part& part, std::size_t triangle) const;
+  bool may_bisect(const Piece& piece, std::size_t triangle) const { return piece.depth < ids_[triangle].depth; }
+  MeshSurfel surfel_of(const Piece& piece, std::size_t triangle) const;
 
  private:
   /// Share of a triangle in the 2^32 ids.

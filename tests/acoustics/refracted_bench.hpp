@@ -42,13 +42,13 @@ struct Bench {
     }
     return both;
   }
-  traced::Arrival ray(const traced::Water& in, const Eigen::Vector3d& place) const {
-    const Eigen::Vector3d way = place - head();
+  traced::Arrival ray(const traced::Water& in, const Eigen::Vector3d& position) const {
+    const Eigen::Vector3d way = position - head();
     return traced::fastest_arrival(in, head_depth, head_depth - way.z(), std::hypot(way.x(), way.y())).value();
   }
-  /// Returns the direction cosines at the head of a ray that leaves in the vertical plane of a place.
-  Eigen::Vector3d heard(const Eigen::Vector3d& place, double launch) const {
-    const Eigen::Vector3d way = place - head();
+  /// Returns the direction cosines at the head of a ray that leaves in the vertical plane of a position.
+  Eigen::Vector3d beam_azimuth(const Eigen::Vector3d& position, double launch) const {
+    const Eigen::Vector3d way = position - head();
     const double out = std::hypot(way.x(), way.y());
     return view.world_from_head.linear().transpose() *
            Eigen::Vector3d(std::cos(launch) * way.x() / out, std::cos(launch) * way.y() / out, std::sin(launch));

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Refraction: scatterers are moved to their apparent places, where a straight ray at the head's sound speed would put
+// Refraction: scatterers are moved to their apparent positions, where a straight ray at the head's sound speed would put
 // them (rays in layers of constant gradient, Jensen et al., Computational Ocean Acoustics, ch. 3; E43). Steps:
 //   1. refraction_bound   an upper bound of the change, from the box of ranges and directions and Snell's law alone;
 //                         where it is 0 nothing else is done
-//   2. place_of           depth and horizontal distance of every scatterer: the problem has two dimensions
+//   2. position_of           depth and horizontal distance of every scatterer: the problem has two dimensions
 //   3. RefractionTable    eigenrays on a grid of patches over these two, stored less their first order
 //   4. table.apparent     range, elevation, spreading and arrival of every scatterer, interpolated, or solved where a
 //                         patch is not smooth
 // Cost: some thousand eigenrays for the table, whatever the number of scatterers, and an interpolation for each; for
 // few scatterers one eigenray each. Blocks of scatterers run in parallel and are independent.
-#include "acoustics/bend_paths.hpp"
+#include "acoustics/refract_paths.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -75,9 +75,9 @@ struct Extent {
     const Interval across = wave_within(up.x(), up.y(), azimuth);
     Interval sine, depth;
     for (const double a : {across.low, across.high}) {
-      const Interval part = wave_within(a, up.z(), elevation);
-      sine.add(part.low);
-      sine.add(part.high);
+      const Interval share = wave_within(a, up.z(), elevation);
+      sine.add(share.low);
+      sine.add(share.high);
     }
     depth.add(head_depth);
     for (const double s : {sine.low, sine.high}) depth.add(head_depth - range.high * s);
@@ -106,22 +106,22 @@ struct SpeedSpan {
   double climb(double way) const { return 0.5 * way * std::sqrt((fastest / slowest - 1) * (fastest / slowest + 1)); }
 };
 
-struct Place {
+struct Position {
   double depth = 0, horizontal = 0;
 };
 
-Place place_of(const Pose& pose, double head_depth, double range, const Eigen::Vector3d& direction) {
+Position position_of(const Pose& pose, double head_depth, double range, const Eigen::Vector3d& direction) {
   const double up = pose.linear().row(2).dot(direction);
   return {head_depth - range * up, range * std::sqrt(std::max((1 - up) * (1 + up), 0.0))};
 }
 
-DepthBox box_of(const std::vector<Place>& places) {
+DepthBox box_of(const std::vector<Position>& positions) {
   Interval depth, horizontal;
-  for (const Place& place : places) {
-    depth.add(place.depth);
-    horizontal.add(place.horizontal);
+  for (const Position& position : positions) {
+    depth.add(position.depth);
+    horizontal.add(position.horizontal);
   }
-  return {depth.low, depth.high, horizontal.low, horizontal.high, places.size()};
+  return {depth.low, depth.high, horizontal.low, horizontal.high, positions.size()};
 }
 
 // A vertical plane through the head in which a ray runs, and the straight way to its end; world axes.
@@ -173,8 +173,8 @@ RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_d
   return {far * std::max(early, late), std::min(far * span.gradient / span.slowest, snell)};
 }
 
-BentPaths bend_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, Scatterers& s,
-                     const BendOptions& options) {
+RefractedPaths refract_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
+                             Scatterers& s, const RefractionOptions& options) {
   constexpr const char* who = "bend_paths";
   require_valid_call(who, profile, head_depth, world_from_head);
   for (std::size_t i = 0; i < s.size(); ++i) checked_range(who, s, i);
@@ -182,17 +182,17 @@ BentPaths bend_paths(const SoundSpeedProfile& profile, double head_depth, const 
   if (bound.range == 0 && bound.elevation == 0) return {};
 
   // Where the scatterers are, and the rays that get there.
-  std::vector<Place> places(s.size());
+  std::vector<Position> positions(s.size());
   parallel_blocks(s.size(), echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      places[i] = place_of(world_from_head, head_depth, s.range[i], unit_vector({s.azimuth[i], s.elevation[i]}));
+      positions[i] = position_of(world_from_head, head_depth, s.range[i], unit_vector({s.azimuth[i], s.elevation[i]}));
   });
-  const RefractionTable table(profile, head_depth, box_of(places), options.threads);
+  const RefractionTable table(profile, head_depth, box_of(positions), options.threads);
 
   const double lost = 4 * options.absorption;  // of intensity, per metre both ways
   std::atomic<std::size_t> silenced{0}, focused{0};
   const auto bend = [&](std::size_t i) {
-    const auto seen = table.apparent(places[i].depth, places[i].horizontal);
+    const auto seen = table.apparent(positions[i].depth, positions[i].horizontal);
     if (!seen) {
       s.projected_area[i] = 0;
       ++silenced;
@@ -219,9 +219,9 @@ BentPaths bend_paths(const SoundSpeedProfile& profile, double head_depth, const 
   return {silenced, focused};
 }
 
-RefractionBound bending_in_view(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
-                                const Scatterers& scatterers, const Sector& sector, const RangeGate& gate,
-                                int threads) {
+RefractionBound refraction_in_view(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
+                                   const Scatterers& scatterers, const Sector& sector, const RangeGate& gate,
+                                   int threads) {
   // Some of those in view.
   const SectorBounds bounds(sector);
   Scatterers straight;
@@ -235,7 +235,7 @@ RefractionBound bending_in_view(const SoundSpeedProfile& profile, double head_de
   }
   // How far they seem to move.
   Scatterers bent = straight;
-  bend_paths(profile, head_depth, world_from_head, bent, {.threads = threads});
+  refract_paths(profile, head_depth, world_from_head, bent, {.threads = threads});
   RefractionBound most;
   for (std::size_t i = 0; i < bent.size(); ++i) {
     const Eigen::Vector3d from = unit_vector({straight.azimuth[i], straight.elevation[i]});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/asked_meaning.hpp"
+#include "scene/meaning_override.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,18 +88,18 @@ std::optional<double> unit_named(std::string_view name) {
   return known ? std::optional(*known) : std::nullopt;
 }
 
-AskedMeaning parse_meaning(const MeaningText& text) {
-  AskedMeaning asked;
-  if (!text.unit.empty()) asked.unit = parse_unit(text.unit);
-  if (!text.z.empty()) asked.z_down = is_first("--z", text.z, "down", "up");
-  if (!text.up.empty()) asked.y_up = is_first("--up", text.up, "y", "z");
-  asked.band = text.band;
+MeaningOverride parse_meaning(const MeaningText& text) {
+  MeaningOverride requested;
+  if (!text.unit.empty()) requested.unit = parse_unit(text.unit);
+  if (!text.z.empty()) requested.z_down = is_first("--z", text.z, "down", "up");
+  if (!text.up.empty()) requested.y_up = is_first("--up", text.up, "y", "z");
+  requested.band = text.band;
   if (text.no_data == "none")
-    asked.no_data.emplace();
+    requested.no_data.emplace();
   else if (!text.no_data.empty())
-    asked.no_data = numbers_of("--nodata", text.no_data, "none, or numbers with commas between them, e.g. -9999");
-  if (!text.classes.empty()) asked.classes = parse_classes(text.classes);
-  return asked;
+    requested.no_data = numbers_of("--nodata", text.no_data, "none, or numbers with commas between them, e.g. -9999");
+  if (!text.classes.empty()) requested.classes = parse_classes(text.classes);
+  return requested;
 }
 
 }  // namespace insonify

@@ -17,14 +17,14 @@
 namespace insonify {
 
 /// Where a leg seems to come from, how it arrives, and what it makes of spherical spreading over the apparent range.
-struct BentLeg {
+struct RefractedLeg {
   Eigen::Vector3d apparent;  ///< place at the apparent range, in the direction at the head
-  Eigen::Vector3d arrival;   ///< unit vector along the ray at the place
+  Eigen::Vector3d arrival;   ///< unit vector along the ray at the position
   double pressure = 1;       ///< factor on 1 / apparent range: tube (E167), and absorption of the true distance
 };
 
-/// A ray between two places, neither of them the head.
-struct BentPiece {
+/// A ray between two positions, neither of them the head.
+struct RayPiece {
   Eigen::Vector3d leaves, arrives;  ///< unit vectors along the ray at its ends
   double apparent = 0;              ///< travel time at the sound speed of the head [m]
   double pressure =
@@ -32,26 +32,26 @@ struct BentPiece {
 };
 
 /// The legs from a head through a profile, and through its image in a level boundary.
-class BentLegs {
+class RefractedLegs {
  public:
   /// `head_depth`: depth of the head's origin [m]; `absorption`: of amplitude [Np/m].
-  BentLegs(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, double absorption);
+  RefractedLegs(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head, double absorption);
 
   /// Returns legs through water whose profile is mirrored in a level boundary at `distance` [m] above or below the
   /// head.
-  BentLegs mirrored(double distance, bool above) const;
+  RefractedLegs mirrored(double distance, bool above) const;
 
-  /// Builds a table for legs to many places; without it each ray is solved.
-  void prepare(std::span<const Eigen::Vector3d> places, int threads);
+  /// Builds a table for legs to many positions; without it each ray is solved.
+  void prepare(std::span<const Eigen::Vector3d> positions, int threads);
 
-  /// Returns the leg to a place; none in a shadow zone.
-  std::optional<BentLeg> to(const Eigen::Vector3d& place) const;
+  /// Returns the leg to a position; none in a shadow zone.
+  std::optional<RefractedLeg> to(const Eigen::Vector3d& position) const;
 
-  /// Returns the ray between two places by an eigenray of its own; none in a shadow zone, or if they are one place.
-  std::optional<BentPiece> between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+  /// Returns the ray between two positions by an eigenray of its own; none in a shadow zone, or if they are one position.
+  std::optional<RayPiece> between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
-  /// Returns the sound speed at a place over that at the head.
-  double relative_speed(const Eigen::Vector3d& place) const;
+  /// Returns the sound speed at a position over that at the head.
+  double relative_speed(const Eigen::Vector3d& position) const;
 
   /// Grazing angle [rad] on a level boundary at this depth of the ray that leaves the head towards `apparent`.
   double grazing_at(double depth, const Eigen::Vector3d& apparent) const;

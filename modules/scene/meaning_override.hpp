@@ -13,7 +13,7 @@ using PointClasses = std::bitset<256>;
 
 /// Statements of a caller about the meaning of a scene file. Where a member is empty, the file decides, else the
 /// convention of its format.
-struct AskedMeaning {
+struct MeaningOverride {
   std::optional<double> unit;  ///< [m] of one unit of all coordinates
   std::optional<bool> z_down;  ///< true: z is a depth and counts downwards
   std::optional<bool> y_up;    ///< the y axis points up: (x, y, z) becomes (x, -z, y)
@@ -22,7 +22,7 @@ struct AskedMeaning {
   std::optional<PointClasses> classes;         ///< classes of LAS points that are read; others are left out
 };
 
-/// AskedMeaning as text, as the command line, TOML files and Python give it. An empty text is not given.
+/// MeaningOverride as text, as the command line, TOML files and Python give it. An empty text is not given.
 struct MeaningText {
   std::string unit, z, up, band, no_data, classes;
   /// Orders by text.
@@ -57,6 +57,6 @@ inline constexpr MeaningOption meaning_options[] = {
 std::optional<double> unit_named(std::string_view name);
 
 /// Returns the statements of a text. Throws Error(argument) with the option, its value and what it may be.
-AskedMeaning parse_meaning(const MeaningText& text);
+MeaningOverride parse_meaning(const MeaningText& text);
 
 }  // namespace insonify

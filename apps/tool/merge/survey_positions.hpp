@@ -21,7 +21,7 @@ struct HeadCube {
 /// name, the numbers of its pings, and their times: UTC, or [s] without start_utc. Heads of one ping give a Point.
 /// place      where the world is
 /// start_utc  of time 0, or ""
-nlohmann::ordered_json track_geojson(const Georeference& place, const std::string& start_utc,
+nlohmann::ordered_json track_geojson(const Georeference& position, const std::string& start_utc,
                                      const std::vector<HeadCube>& heads);
 
 }  // namespace insonify::tool

@@ -2,11 +2,11 @@
 #include <array>
 #include <unordered_map>
 
-#include "acoustics/surfel_part_internal.hpp"
+#include "acoustics/surfel_group_internal.hpp"
 
 namespace insonify {
 
-std::vector<SurfelPart> connected_parts(const SurfelPart& all, double link) {
+std::vector<SurfelGroup> connected_groups(const SurfelGroup& all, double link) {
   using Cell = std::array<long, 3>;
   struct Hash {
     std::size_t operator()(const Cell& c) const {
@@ -19,24 +19,24 @@ std::vector<SurfelPart> connected_parts(const SurfelPart& all, double link) {
     return Cell{std::lround(std::floor(p.x())), std::lround(std::floor(p.y())), std::lround(std::floor(p.z()))};
   };
   for (const std::uint32_t s : all.members) cells[cell_of(s)].push_back(s);
-  std::vector<SurfelPart> parts;
+  std::vector<SurfelGroup> groups;
   for (const std::uint32_t seed : all.members) {
     std::vector<Cell> open = {cell_of(seed)};
     if (!cells.contains(open[0])) continue;
-    SurfelPart part{all.scene, {}};
+    SurfelGroup group{all.scene, {}};
     while (!open.empty()) {
       const Cell c = open.back();
       open.pop_back();
       const auto found = cells.find(c);
       if (found == cells.end()) continue;
-      part.members.insert(part.members.end(), found->second.begin(), found->second.end());
+      group.members.insert(group.members.end(), found->second.begin(), found->second.end());
       cells.erase(found);
       for (int k = 0; k < 27; ++k) open.push_back({c[0] + k % 3 - 1, c[1] + k / 3 % 3 - 1, c[2] + k / 9 - 1});
     }
-    std::sort(part.members.begin(), part.members.end());
-    parts.push_back(std::move(part));
+    std::sort(group.members.begin(), group.members.end());
+    groups.push_back(std::move(group));
   }
-  return parts;
+  return groups;
 }
 
 }  // namespace insonify

@@ -8,7 +8,7 @@
 #include <Eigen/LU>
 
 #include "acoustics/edge_waves_internal.hpp"
-#include "acoustics/image_ways_internal.hpp"
+#include "acoustics/image_paths_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -16,14 +16,14 @@ namespace {
 using Eigen::Vector3d;
 using Chain = std::vector<const Boundary*>;  // mirrors one after the other
 
-constexpr double same_place = 1e-6;  // [m]
+constexpr double same_position = 1e-6;  // [m]
 constexpr double far = 1e6;
 const ConvexPolygon everything = {{-far, -far}, {far, -far}, {far, far}, {-far, far}};
 
-/// The image of a place in mirrors [first, last) one after the other, the last one first.
-Vector3d image(const Chain& chain, std::size_t first, std::size_t last, Vector3d place) {
-  for (std::size_t k = last; k > first; --k) place = chain[k - 1]->mirrored(place);
-  return place;
+/// The image of a position in mirrors [first, last) one after the other, the last one first.
+Vector3d image(const Chain& chain, std::size_t first, std::size_t last, Vector3d position) {
+  for (std::size_t k = last; k > first; --k) position = chain[k - 1]->mirrored(position);
+  return position;
 }
 
 /// The aperture that the mirrors of a chain leave of a straight way, in Fresnel parameters.
@@ -57,17 +57,17 @@ class Aperture {
     planes << mirror.normal.transpose(), other.normal.transpose(), line.transpose();
     const Vector3d on_both = planes.inverse() * Vector3d(-mirror.head_distance, -other.head_distance, 0);
     const Vector3d inside = on_both + other.normal - other.normal.dot(mirror.normal) * mirror.normal;
-    const Vector3d place = image(chain_, 0, k, on_both), edge = image(chain_, 0, k, on_both + line) - place;
+    const Vector3d position = image(chain_, 0, k, on_both), edge = image(chain_, 0, k, on_both + line) - position;
     const Vector3d ahead = end_.normalized();
     Vector3d inward = ahead.cross(edge);
     if (inward.norm() < 1e-9 * edge.norm()) return;
     inward.normalize();
-    if (inward.dot(image(chain_, 0, k, inside) - place) < 0) inward = -inward;
+    if (inward.dot(image(chain_, 0, k, inside) - position) < 0) inward = -inward;
     const Vector3d across = edge - ahead.dot(edge) * ahead;
-    const double passed = ahead.dot(place) - ahead.dot(edge) * across.dot(place) / across.squaredNorm();
+    const double passed = ahead.dot(position) - ahead.dot(edge) * across.dot(position) / across.squaredNorm();
     const double length = end_.norm(), crossing = std::clamp(passed / length, 1e-3, 1 - 1e-3);
     open_ = clipped(open_, across_way(end_).transpose() * inward,
-                    fresnel_scale(length, crossing, mirror.wavenumber) * inward.dot(place));
+                    fresnel_scale(length, crossing, mirror.wavenumber) * inward.dot(position));
     has_edges_ = true;
   }
 
@@ -77,65 +77,64 @@ class Aperture {
   bool has_edges_ = false;
 };
 
-/// The way by a chain, if there is one.
-bool find_way(const Chain& chain, ImageWay& way) {
+bool find_path(const Chain& chain, ImagePath& path) {
   const Vector3d head = Vector3d::Zero();
   const std::size_t n = chain.size();
-  way.sent = image(chain, 0, n, head);
-  way.heard = image({chain.rbegin(), chain.rend()}, 0, n, head);
-  if (way.sent.norm() < same_place) return false;
-  Aperture aperture(chain, way.sent);
+  path.outgoing = image(chain, 0, n, head);
+  path.returning = image({chain.rbegin(), chain.rend()}, 0, n, head);
+  if (path.outgoing.norm() < same_position) return false;
+  Aperture aperture(chain, path.outgoing);
   double reached = 0;
   Vector3d at = head;
   for (std::size_t k = 0; k < n; ++k) {
     // From the last bounce towards the image of the head in the mirrors that are left.
     const Vector3d ahead = image(chain, k, n, head) - at;
-    const double from = chain[k]->distance(at), fall = -chain[k]->normal.dot(ahead), part = from / fall;
-    const double crossing = reached + part * (1 - reached);
+    const double from = chain[k]->distance(at), fall = -chain[k]->normal.dot(ahead), share = from / fall;
+    const double crossing = reached + share * (1 - reached);
     if (!(fall > 0 && crossing > 0 && crossing < 1) || !aperture.cut_by(k, crossing)) return false;
-    way.factor *= chain[k]->reflection(std::asin(std::min(1.0, fall / ahead.norm())));
-    way.bounces.push_back(at += part * ahead);
+    path.factor *= chain[k]->reflection(std::asin(std::min(1.0, fall / ahead.norm())));
+    path.bounces.push_back(at += share * ahead);
     reached = crossing;
   }
-  way.factor *= aperture.factor();
-  way.by = chain;
-  return std::norm(way.factor) >= echo_floor * echo_floor;
+  path.factor *= aperture.factor();
+  path.by = chain;
+  return std::norm(path.factor) >= echo_floor * echo_floor;
 }
 
 /// The ways by one mirror with edges: by its specular point, its edges and its corners.
-void add_ways_of_plate(const Boundary& plate, std::vector<ImageWay>& ways) {
+void add_paths_of_plate(const Boundary& plate, std::vector<ImagePath>& paths) {
   for (const BodyArrival& arrival : plate_arrivals(plate.corners, plate.normal, plate.wavenumber)) {
     const Vector3d image = 2 * arrival.apparent;
-    ImageWay way{image, image, arrival.factor, {arrival.place}, {&plate}};
-    way.rise = arrival.rise, way.least = edge_floor;
-    way.scale(plate.reflection(arrival.grazing));
-    if (std::norm(way.factor) >= edge_floor * edge_floor) ways.push_back(std::move(way));
+    ImagePath path{image, image, arrival.factor, {arrival.position}, {&plate}};
+    path.rise = arrival.rise, path.least = edge_floor;
+    path.scale(plate.reflection(arrival.grazing));
+    if (std::norm(path.factor) >= edge_floor * edge_floor) paths.push_back(std::move(path));
   }
 }
 
-void add_ways(std::span<const Boundary> mirrors, std::size_t first, int most, Chain& chain, bool counts,
-              std::vector<ImageWay>& ways) {
+void add_paths(std::span<const Boundary> mirrors, std::size_t first, int most, Chain& chain, bool counts,
+               std::vector<ImagePath>& paths) {
   for (std::size_t m = 0; m < mirrors.size() && most > 0; ++m) {
     if (!chain.empty() && chain.back() == &mirrors[m]) continue;
     chain.push_back(&mirrors[m]);
     const bool with_it = counts || m >= first;
-    ImageWay way;
+    ImagePath path;
     if (with_it && chain.size() == 1 && !mirrors[m].corners.empty())
-      add_ways_of_plate(mirrors[m], ways);
-    else if (with_it && find_way(chain, way))
-      ways.push_back(std::move(way));
-    add_ways(mirrors, first, most - 1, chain, with_it, ways);
+      add_paths_of_plate(mirrors[m], paths);
+    else if (with_it && find_path(chain, path))
+      paths.push_back(std::move(path));
+    add_paths(mirrors, first, most - 1, chain, with_it, paths);
     chain.pop_back();
   }
 }
 
 }  // namespace
 
-std::vector<ImageWay> image_ways(std::span<const Boundary> mirrors, std::size_t first, int most) {
-  std::vector<ImageWay> ways;
+std::vector<ImagePath> image_paths(std::span<const Boundary> mirrors, std::size_t first, int most) {
+  std::vector<ImagePath> paths;
   Chain chain;
-  add_ways(mirrors, first, most, chain, false, ways);
-  return ways;
+  add_paths(mirrors, first, most, chain, false, paths);
+  return paths;
 }
 
 }  // namespace insonify

@@ -5,7 +5,7 @@
 
 #include "core/parallel.hpp"
 #include "core/radix_sort.hpp"
-#include "sampling/cut_parts_internal.hpp"
+#include "sampling/cut_pieces_internal.hpp"
 #include "scene/prepared_scene.hpp"
 
 namespace insonify {
@@ -14,10 +14,10 @@ namespace {
 /// The ranks of marked surfels: their indices in a cut.
 class Ranks {
  public:
-  Ranks(const std::vector<CutPart>& parts, std::size_t surfels, int threads) {
+  Ranks(const std::vector<CutPiece>& pieces, std::size_t surfels, int threads) {
     marks_.words.resize((surfels + 63) / 64);
-    parallel_for(parts.size(), threads, [&](std::size_t p) {
-      for (const std::uint32_t i : parts[p].stands_for)
+    parallel_for(pieces.size(), threads, [&](std::size_t p) {
+      for (const std::uint32_t i : pieces[p].stands_for)
         std::atomic_ref(marks_.words[i / 64]).fetch_or(std::uint64_t{1} << i % 64, std::memory_order_relaxed);
     });
     before_.reserve(marks_.words.size());
@@ -39,32 +39,32 @@ class Ranks {
 };
 
 /// First numbers of the surfels of each part, and the number of all.
-std::vector<std::size_t> firsts_of(const std::vector<CutPart>& parts) {
+std::vector<std::size_t> firsts_of(const std::vector<CutPiece>& pieces) {
   std::vector<std::size_t> first{0};
-  for (const CutPart& part : parts) first.push_back(first.back() + part.stands_for.size());
+  for (const CutPiece& piece : pieces) first.push_back(first.back() + piece.stands_for.size());
   return first;
 }
 
-/// Moves the surfels of a part to their places in the cut.
+/// Moves the surfels of a part to their positions in the cut.
 template <typename... Arrays>
-void scatter(const SceneCloud& from, std::span<const std::uint32_t> places, SceneCloud& to, Arrays... arrays) {
+void scatter(const SceneCloud& from, std::span<const std::uint32_t> positions, SceneCloud& to, Arrays... arrays) {
   const auto move = [&](auto array) {
-    for (std::size_t k = 0; k < (from.*array).size(); ++k) (to.*array)[places[k]] = (from.*array)[k];
+    for (std::size_t k = 0; k < (from.*array).size(); ++k) (to.*array)[positions[k]] = (from.*array)[k];
   };
   (move(arrays), ...);
 }
 
-/// The parts as one scene with all but the surfels of `like`. `places`: in it, of the surfels of all parts.
-SceneCloud joined(const std::vector<CutPart>& parts, const std::vector<std::uint32_t>& places, const SceneCloud& like,
-                  bool noisy, int threads) {
+/// The parts as one scene with all but the surfels of `like`. `positions`: in it, of the surfels of all parts.
+SceneCloud joined(const std::vector<CutPiece>& pieces, const std::vector<std::uint32_t>& positions,
+                  const SceneCloud& like, bool noisy, int threads) {
   SceneCloud cut;
-  const auto resize = [&](auto... arrays) { ((cut.*arrays).resize(places.size()), ...); };
+  const auto resize = [&](auto... arrays) { ((cut.*arrays).resize(positions.size()), ...); };
   resize(&SceneCloud::point, &SceneCloud::normal, &SceneCloud::area, &SceneCloud::material, &SceneCloud::id,
          &SceneCloud::unevenness);
   if (noisy) resize(&SceneCloud::noise);
-  const std::vector<std::size_t> first = firsts_of(parts);
-  parallel_for(parts.size(), threads, [&](std::size_t p) {
-    scatter(parts[p].scene, std::span(places).subspan(first[p], first[p + 1] - first[p]), cut, &SceneCloud::point,
+  const std::vector<std::size_t> first = firsts_of(pieces);
+  parallel_for(pieces.size(), threads, [&](std::size_t p) {
+    scatter(pieces[p].scene, std::span(positions).subspan(first[p], first[p + 1] - first[p]), cut, &SceneCloud::point,
             &SceneCloud::normal, &SceneCloud::area, &SceneCloud::material, &SceneCloud::id, &SceneCloud::unevenness,
             &SceneCloud::noise);
   });
@@ -76,29 +76,29 @@ SceneCloud joined(const std::vector<CutPart>& parts, const std::vector<std::uint
 
 }  // namespace
 
-OrderedCut::OrderedCut(const std::vector<CutPart>& parts, const SceneCloud& scene, int threads) {
-  const Ranks ranks(parts, scene.size(), threads);
+OrderedCut::OrderedCut(const std::vector<CutPiece>& pieces, const SceneCloud& scene, int threads) {
+  const Ranks ranks(pieces, scene.size(), threads);
   order.resize(ranks.all()), stands_for.resize(ranks.all());
-  const std::vector<std::size_t> first = firsts_of(parts);
-  parallel_for(parts.size(), threads, [&](std::size_t p) {
-    for (std::size_t k = 0; k < parts[p].stands_for.size(); ++k) {
-      const std::uint32_t surfel = parts[p].stands_for[k];
+  const std::vector<std::size_t> first = firsts_of(pieces);
+  parallel_for(pieces.size(), threads, [&](std::size_t p) {
+    for (std::size_t k = 0; k < pieces[p].stands_for.size(); ++k) {
+      const std::uint32_t surfel = pieces[p].stands_for[k];
       order[first[p] + k] = ranks.of(surfel);
       stands_for[order[first[p] + k]] = surfel;
     }
   });
-  cut = joined(parts, order, scene, !scene.noise.empty(), threads);
+  cut = joined(pieces, order, scene, !scene.noise.empty(), threads);
 }
 
-SceneCloud joined_by_id(const std::vector<CutPart>& parts, const SceneCloud& like, bool noisy, int threads) {
+SceneCloud joined_by_id(const std::vector<CutPiece>& pieces, const SceneCloud& like, bool noisy, int threads) {
   std::vector<std::uint64_t> by_id;  // id, number in the order of the parts
-  for (const CutPart& part : parts)
-    for (const std::uint32_t id : part.stands_for) by_id.push_back(std::uint64_t{id} << 32 | by_id.size());
+  for (const CutPiece& piece : pieces)
+    for (const std::uint32_t id : piece.stands_for) by_id.push_back(std::uint64_t{id} << 32 | by_id.size());
   radix_sort(by_id, 32, 64, [](std::uint64_t k) { return k; });
   std::vector<std::uint32_t> order(by_id.size());
   for (std::size_t k = 0; k < by_id.size(); ++k)
     order[static_cast<std::uint32_t>(by_id[k])] = static_cast<std::uint32_t>(k);
-  return joined(parts, order, like, noisy, threads);
+  return joined(pieces, order, like, noisy, threads);
 }
 
 }  // namespace insonify

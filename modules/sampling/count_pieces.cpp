@@ -8,12 +8,12 @@
 #include "core/parallel.hpp"
 #include "core/uninitialized_vector.hpp"
 #include "core/units.hpp"
-#include "sampling/count_parts_internal.hpp"
+#include "sampling/count_pieces_internal.hpp"
 #include "sampling/energy_shares_internal.hpp"
 
 // Counts the parts of surfels:
 //   1. by cells: so many that a cell of the surface holds scatterers_per_cell of them (E17);
-//   2. by shares: a bin adds up what its beam hears from one range. Its relative error is the least for a given number
+//   2. by shares: a bin adds up what its beam receives from one range. Its relative error is the least for a given number
 //      of parts if each surface has parts in proportion to what it gives, so none needs more (E127).
 namespace insonify {
 namespace {
@@ -45,14 +45,14 @@ struct Seen {
 
 /// Parts of a surfel by cells, and the widths of these.
 struct ByCells {
-  double parts;
+  double pieces;
   SampledCells::Widths widths;
 };
 
 }  // namespace
 
-PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
-                       const SampledCells& cells, const RangeGate& gate, const SamplingOptions& options) {
+PieceCounts count_pieces(const SceneCloud& scene, const HeadFrame& head, std::span<const std::uint32_t> surfels,
+                         const SampledCells& cells, const RangeGate& gate, const SamplingOptions& options) {
   const bool by_shares = options.energy && cells.scatterers_per_cell() > 0;
   const auto inner = options.inner_sector ? std::optional<SectorBounds>(*options.inner_sector) : std::nullopt;
   const auto beyond = [&inner](const Vector3d& p) -> std::uint8_t {
@@ -64,7 +64,7 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
     for (std::size_t s = begin; s < end; ++s) {
       const Seen seen(scene, head, surfels[s]);
       const SampledCells::Widths widths = cells.widths(seen.position, seen.radius);
-      by_cells[s] = {cells.parts(seen.range, seen.area, seen.cosine, widths), widths};
+      by_cells[s] = {cells.pieces(seen.range, seen.area, seen.cosine, widths), widths};
       if (by_shares)
         received[s] =
             seen.received(options.energy->of(seen.position, seen.cosine, seen.area, scene.material[surfels[s]]),
@@ -74,16 +74,17 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
   std::optional<EnergyShares> shares;
   if (by_shares) shares.emplace(received, gate, cells, options.threads);
 
-  PartCounts counts{std::vector<std::uint16_t>(surfels.size())};
+  PieceCounts counts{std::vector<std::uint16_t>(surfels.size())};
   std::atomic<std::size_t> capped{0};
   parallel_blocks(surfels.size(), counted_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
     std::size_t capped_here = 0;
     for (std::size_t s = begin; s < end; ++s) {
-      double wanted = by_cells[s].parts;
+      double wanted = by_cells[s].pieces;
       if (by_shares && wanted > 1)
-        wanted = std::min(wanted, cells.parts_of_share(shares->share(received[s]), by_cells[s].widths));
-      counts.parts[s] = static_cast<std::uint16_t>(std::ceil(std::clamp<double>(wanted, 1, most_parts) - rounding));
-      capped_here += wanted > most_parts;
+        wanted = std::min(wanted, cells.pieces_of_share(shares->share(received[s]), by_cells[s].widths));
+      counts.pieces[s] =
+          static_cast<std::uint16_t>(std::ceil(std::clamp<double>(wanted, 1, most_subranges) - rounding));
+      capped_here += wanted > most_subranges;
     }
     capped += capped_here;
   });
@@ -91,11 +92,11 @@ PartCounts count_parts(const SceneCloud& scene, const HeadFrame& head, std::span
   return counts;
 }
 
-std::vector<std::size_t> first_parts(std::span<const std::uint16_t> parts, double scatterers_per_cell) {
-  std::vector<std::size_t> first(parts.size() + 1, 0);
-  for (std::size_t s = 0; s < parts.size(); ++s) first[s + 1] = first[s] + parts[s];
+std::vector<std::size_t> first_pieces(std::span<const std::uint16_t> pieces, double scatterers_per_cell) {
+  std::vector<std::size_t> first(pieces.size() + 1, 0);
+  for (std::size_t s = 0; s < pieces.size(); ++s) first[s + 1] = first[s] + pieces[s];
   if (first.back() > max_scatterers)
-    fail(ErrorKind::argument, "split_surfels: ", parts.size(), " surfels make ", first.back(), " scatterers (",
+    fail(ErrorKind::argument, "split_surfels: ", pieces.size(), " surfels make ", first.back(), " scatterers (",
          first.back() * bytes_per_scatterer >> 30,
          " GiB), must be at most 2^28; lower scatterers_per_cell = ", scatterers_per_cell, ", or thin the scene");
   return first;

@@ -12,8 +12,8 @@
 namespace insonify {
 
 /// A coherent part: what its shapes have in common, and how its surfels may stray from them.
-struct CoherentPart {
-  const SurfelPart& surfels;
+struct CoherentGroup {
+  const SurfelGroup& surfels;
   const Material& material;
   SurfelNoise noise;
 
@@ -25,7 +25,7 @@ struct CoherentPart {
     target.material = surfels.scene.material[surfels.members[0]];
     return target;
   }
-  SmoothTarget plate(const FittedPlane& plane, const SurfelPart& of) const {
+  SmoothTarget plate(const FittedPlane& plane, const SurfelGroup& of) const {
     SmoothTarget made = target();
     made.surface = mirror_of(of, plane, material);
     return made;
@@ -41,6 +41,6 @@ struct FittedCylinder {
 
 /// Returns the cylinder of a part whose side and ends hold nearly all of its surfels, with its ends as plates where they were
 /// captured. Its axis is near one of those of the normals' distribution.
-std::optional<FittedCylinder> cylinder_of(const CoherentPart& part);
+std::optional<FittedCylinder> cylinder_of(const CoherentGroup& group);
 
 }  // namespace insonify
