@@ -195,10 +195,9 @@ void refer_to_parts(const FileContext& context, const JoinedCube& joined, const 
   hsize_t first = 0;
   for (const Source& source : joined.sources) {
     const Extent there = {source.pings, joined.extent[1], joined.extent[2]};
-    const Handle here = rows(context, joined.extent, first, source.pings),
-                 source = rows(context, there, 0, source.pings);
+    const Handle here = rows(context, joined.extent, first, source.pings), from = rows(context, there, 0, source.pings);
     const std::string name = std::filesystem::relative(source.path, folder.empty() ? "." : folder).string();
-    context.checked(H5Pset_virtual(properties, here, name.c_str(), image.c_str(), source), image);
+    context.checked(H5Pset_virtual(properties, here, name.c_str(), image.c_str(), from), image);
     first += source.pings;
   }
   const float missing[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::quiet_NaN()};

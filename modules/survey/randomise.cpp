@@ -23,7 +23,7 @@ std::array<double, 4> symmetric_numbers(std::uint64_t seed, const SurveyPing& pi
 
 // Groups of the draws of poses, counted by (ping, try, group); those of heads and water have the groups 0 to 2.
 constexpr std::uint64_t place_group = 3, turn_group = 4;
-constexpr std::uint64_t most_tries = 1000;
+constexpr std::uint64_t most_poses_tried = 1000;
 
 // Returns true if a position is clear of the ground below it and at eight places as far around.
 bool is_clear(const Eigen::Vector3d& position, double clearance, const Ground& ground) {
@@ -56,7 +56,7 @@ Pose drawn_pose(const RandomPoses& rule, std::uint64_t seed, std::int64_t number
   const auto within = [](const std::array<double, 2>& limits, double u) {
     return limits[0] + (limits[1] - limits[0]) * u;  // (E198)
   };
-  for (std::uint64_t k = 0; k < most_tries; ++k) {
+  for (std::uint64_t k = 0; k < most_poses_tried; ++k) {
     const auto numbers = [&](std::uint64_t group) {
       return random_uniform(seed, RandomStage::randomise, {static_cast<std::uint64_t>(number), k, group});
     };
@@ -67,8 +67,8 @@ Pose drawn_pose(const RandomPoses& rule, std::uint64_t seed, std::int64_t number
     return pose_from_yaw_pitch_roll(position, within(rule.yaw, v[0]), within(rule.pitch, v[1]),
                                     within(rule.roll, v[2]));
   }
-  fail(ErrorKind::content, "ping ", number, ": none of ", most_tries, " places drawn in the box is ", rule.clearance,
-       " m clear of the ground; raise the box, or lower the clearance");
+  fail(ErrorKind::content, "ping ", number, ": none of ", most_poses_tried, " places drawn in the box is ",
+       rule.clearance, " m clear of the ground; raise the box, or lower the clearance");
 }
 
 RandomisedPing randomised(const Randomisation& spread, std::uint64_t seed, const SurveyPing& ping) {
