@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // insonify._insonify_io: what needs PCL, VTK and the files of runs.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
