@@ -114,7 +114,7 @@ std::string write_truth(const PlacedRun& run, const Ping& first, RunDirectory& d
     const std::string folder = settings_folder_of(run.options);
     const SceneOptions scene = scene_of_run(folder);
     if (scene.path.empty()) return "does not name its scene";
-    const auto open = open_scene_of_run(scene, folder);
+    const auto open = open_scene_of_run(scene, folder, 0);
     save_scene(directory.file("truth.ply"), open->take_whole(open->moment_of(first.time, first.number)));
     return {};
   } catch (const Error& error) {
