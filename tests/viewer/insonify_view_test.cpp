@@ -42,8 +42,8 @@ class InsonifyView : public ToolTest {
 
 TEST_F(InsonifyView, a_picture_of_a_run_needs_no_display) {
   const std::string out =
-      succeed("view out --size 1000x700 --screenshot a.png --events 'select " +
-              std::to_string(made_.port.position.beam) + " " + std::to_string(made_.port.position.bin) + "'");
+      succeed("view out --size 1000x700 --screenshot a.png --events 'select " + std::to_string(made_.port.pixel.beam) +
+              " " + std::to_string(made_.port.pixel.bin) + "'");
   EXPECT_THAT(out, HasSubstr("iron"));
   EXPECT_THAT(out, HasSubstr("a.png"));
   EXPECT_TRUE(is_png(read("a.png")));
@@ -54,7 +54,7 @@ TEST_F(InsonifyView, a_picture_of_a_run_needs_no_display) {
 
 TEST_F(InsonifyView, a_beam_is_selected_at_its_loudest_sample) {
   const std::string out =
-      succeed("view out --size 800x600 --screenshot a.png --beam " + std::to_string(made_.starboard.position.beam) +
+      succeed("view out --size 800x600 --screenshot a.png --beam " + std::to_string(made_.starboard.pixel.beam) +
               " --events 'key shift+Up; key shift+Down; screenshot b.png; select 0 0' -q");
   EXPECT_TRUE(is_png(read("b.png")));
   EXPECT_THAT(out, HasSubstr("beam 0, bin 0"));
@@ -109,7 +109,7 @@ TEST_F(InsonifyView, shows_the_returns_of_a_run) {
   soundings.azimuth = {static_cast<float>(made_.port.azimuth), 0};
   soundings.elevation = {0, 0.01F};
   soundings.ping = {7, 8};
-  soundings.beam = {static_cast<std::uint32_t>(made_.port.position.beam), 20};
+  soundings.beam = {static_cast<std::uint32_t>(made_.port.pixel.beam), 20};
   soundings.bin = {40, 100};
   soundings.true_elevation = {0, 0.01F};
   soundings.true_surfel = {3, 4};
@@ -197,8 +197,8 @@ TEST_F(InsonifyView, opens_a_window_that_answers_clicks_and_keys) {
     made_.data.title = "three-targets";
     ViewerWindow window(made_.data, options, ViewerScreen::off_screen);
     window.draw();
-    at[0] = window.pixel_of(made_.port.position);
-    at[1] = window.pixel_of(made_.starboard.position);
+    at[0] = window.pixel_of(made_.port.pixel);
+    at[1] = window.pixel_of(made_.starboard.pixel);
   }
   DesktopProgram program(display, {"env", "-C", path("."), INSONIFY_TOOL, "view", "out", "--size", "1000x700"},
                          path("said.txt"));

@@ -19,8 +19,7 @@ void add_plate(SceneCloud& scene, const Pose& pose, const Eigen::Vector3d& middl
 
 void add_echo(std::vector<Ping>& pings, const Target& target) {
   for (Ping& ping : pings)
-    ping.pressure(static_cast<Eigen::Index>(target.position.beam), static_cast<Eigen::Index>(target.position.bin)) =
-        loud;
+    ping.pressure(static_cast<Eigen::Index>(target.pixel.beam), static_cast<Eigen::Index>(target.pixel.bin)) = loud;
 }
 
 }  // namespace
@@ -59,7 +58,7 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
   data.scene.origin = {8, 22, 0};
   data.scene.materials.clear();
   for (const char* name : {"iron", "wood", "rubber"}) data.scene.materials.push_back({name});
-  const auto position = [&](const char* name, std::size_t beam, std::size_t bin, std::uint16_t material) {
+  const auto target_at = [&](const char* name, std::size_t beam, std::size_t bin, std::uint16_t material) {
     Target target{name, ping.fan.azimuth[beam], ping.gate.centre(bin), {beam, bin}, {}};
     target.position = ping.world_from_head * (target.range * unit_vector({target.azimuth, 0}));
     add_plate(data.scene, ping.world_from_head, target.position, material);
@@ -67,9 +66,9 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
     return target;
   };
   const bool port_last = ping.fan.azimuth[0] < 0;  // for either numbering of the fan
-  made.port = position("iron", port_last ? 33 : 7, 40, 0);
-  made.starboard = position("wood", port_last ? 7 : 33, 40, 1);
-  made.far = position("rubber", 20, 100, 2);
+  made.port = target_at("iron", port_last ? 33 : 7, 40, 0);
+  made.starboard = target_at("wood", port_last ? 7 : 33, 40, 1);
+  made.far = target_at("rubber", 20, 100, 2);
   data.pings = reel_in_memory(made.pings);
   if (!with_contributors) return made;
 
@@ -83,7 +82,7 @@ TargetData three_targets(std::size_t pings, bool with_contributors) {
   list.material.assign(entries, Contributors::no_material);
   list.path.assign(entries, PathKind::direct);
   for (const std::uint32_t k : {0U, 1U}) {
-    const std::size_t at = list.at(made.port.position.beam, made.port.position.bin, k);
+    const std::size_t at = list.at(made.port.pixel.beam, made.port.pixel.bin, k);
     list.surfel[at] = 12 - 5 * k;
     list.id[at] = data.scene.id[12 - 5 * k];
     list.share[at] = k == 0 ? 0.75F : 0.2F;

@@ -9,7 +9,7 @@ namespace insonify {
 struct Target {
   const char* name;          ///< name of its material
   double azimuth, range;     ///< azimuth and range of its centre [rad, m]; positive to port
-  PixelPosition position;    ///< sample of its echo
+  PixelPosition pixel;       ///< sample of its echo
   Eigen::Vector3d position;  ///< world [m]
 };
 struct TargetData {

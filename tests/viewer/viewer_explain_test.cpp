@@ -9,7 +9,7 @@ using testing::Not;
 
 TEST(ExplainPixel, says_range_bearing_and_levels) {
   const auto made = three_targets();
-  const PixelFacts facts = find_pixel_facts(made.data, 0, made.starboard.position);
+  const PixelFacts facts = find_pixel_facts(made.data, 0, made.starboard.pixel);
   EXPECT_NEAR(facts.range, 2 + 40.5 * 0.1, 1e-12);  // centre of bin 40
   // 10 Pa peak: 20 log10(10 / sqrt 2 / 1e-6) = 136.99 dB; TVG: 40 log10(6.05) + 2 x 0.25 x 6.05 = 34.30 dB.
   EXPECT_NEAR(facts.level_db, 136.99, 0.005);
@@ -26,7 +26,7 @@ TEST(ExplainPixel, gives_back_the_absorption_of_the_water_of_its_ping) {
   made.pings[1].absorption_db_per_m = 0.5;
   made.data.pings = reel_in_memory(made.pings);
   const auto gain = [&](std::size_t ping) {
-    const PixelFacts facts = find_pixel_facts(made.data, ping, made.starboard.position);
+    const PixelFacts facts = find_pixel_facts(made.data, ping, made.starboard.pixel);
     return facts.compensated_level_db - facts.level_db;
   };
   EXPECT_NEAR(gain(1) - gain(0), 2 * (0.5 - 0.25) * 6.05, 1e-9);
@@ -35,14 +35,14 @@ TEST(ExplainPixel, gives_back_the_absorption_of_the_water_of_its_ping) {
 TEST(ExplainPixel, port_is_negative_and_starboard_positive) {
   const auto made = three_targets();
   EXPECT_GT(made.port.azimuth, 0);
-  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, made.port.position)), HasSubstr("-26.00° (port)"));
-  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, made.far.position)), HasSubstr("0.00° (ahead)"));
+  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, made.port.pixel)), HasSubstr("-26.00° (port)"));
+  EXPECT_THAT(explain_pixel(find_pixel_facts(made.data, 0, made.far.pixel)), HasSubstr("0.00° (ahead)"));
 }
 
 TEST(ExplainPixel, names_the_material_at_the_sample) {
   const auto made = three_targets();
   for (const auto* target : {&made.port, &made.starboard, &made.far}) {
-    const PixelFacts facts = find_pixel_facts(made.data, 0, target->position);
+    const PixelFacts facts = find_pixel_facts(made.data, 0, target->pixel);
     EXPECT_EQ(facts.seen_material, target->name);
     EXPECT_EQ(facts.visibility->seen.size(), 25U);
     EXPECT_THAT(explain_pixel(facts), HasSubstr(std::string("25 seen (") + target->name));
@@ -51,7 +51,7 @@ TEST(ExplainPixel, names_the_material_at_the_sample) {
 
 TEST(ExplainPixel, contributors_come_strongest_first_with_share_and_path) {
   const auto made = three_targets(1, true);
-  const PixelFacts facts = find_pixel_facts(made.data, 0, made.port.position);
+  const PixelFacts facts = find_pixel_facts(made.data, 0, made.port.pixel);
   ASSERT_EQ(facts.contributions.size(), 2U);
   EXPECT_EQ(facts.contributions[0].surfel, 12U);
   EXPECT_EQ(facts.contributions[0].material, "iron");
@@ -72,7 +72,7 @@ TEST(ExplainPixel, distinguishes_no_contributors_from_unknown_ones) {
 
 TEST(ExplainPixel, without_contributors_what_is_seen_there_is_highlighted) {
   const auto made = three_targets();
-  EXPECT_EQ(surfels_behind(find_pixel_facts(made.data, 0, made.port.position)).size(), 25U);
+  EXPECT_EQ(surfels_behind(find_pixel_facts(made.data, 0, made.port.pixel)).size(), 25U);
   EXPECT_TRUE(surfels_behind(find_pixel_facts(made.data, 0, {0, 0})).empty());
 }
 
@@ -85,7 +85,7 @@ TEST(ExplainPixel, names_the_occluder_and_its_range) {
     for (int j = -20; j < 20; ++j)
       add_surfel(made.data.scene, pose * Eigen::Vector3d(range, 0.02 * i + 0.01, 0.02 * j + 0.01),
                  pose.linear() * Eigen::Vector3d(-1, 0, 0), 4e-4, 1);
-  const PixelFacts facts = find_pixel_facts(made.data, 0, made.far.position);
+  const PixelFacts facts = find_pixel_facts(made.data, 0, made.far.pixel);
   EXPECT_EQ(facts.visibility->hidden.size(), 25U);
   EXPECT_TRUE(facts.visibility->seen.empty());
   ASSERT_TRUE(facts.visibility->occluder_range);
@@ -126,7 +126,7 @@ TEST(ExplainPixel, refuses_a_sample_that_is_not_there) {
 TEST(PlaceOf, finds_the_sample_of_a_target) {
   const auto made = three_targets();
   for (const auto* target : {&made.port, &made.starboard, &made.far})
-    EXPECT_EQ(position_of(made.pings[0], target->position), target->position) << target->name;
+    EXPECT_EQ(position_of(made.pings[0], target->position), target->pixel) << target->name;
 }
 
 TEST(PlaceOf, is_empty_outside_fan_and_gate) {
@@ -161,11 +161,11 @@ TEST(HeadView, counts_what_a_head_sees) {
 TEST(HeadView, is_that_of_the_ping_where_it_is_known) {
   auto made = three_targets();
   const Ping& ping = made.pings[0];
-  const PixelFacts facts = find_pixel_facts(made.data, 0, made.far.position);
+  const PixelFacts facts = find_pixel_facts(made.data, 0, made.far.pixel);
   EXPECT_EQ(facts.visibility->seen.size(), 25U);
   made.data.view = View{Pose::Identity(), {}, {2, 9, 0.1}, {}};  // the far target stands at 12 m
   EXPECT_EQ(look_from(made.data.scene, view_at(made.data, ping.world_from_head, ping.fan, ping.gate)).seen, 50U);
-  EXPECT_TRUE(find_pixel_facts(made.data, 0, made.far.position).visibility->seen.empty());
+  EXPECT_TRUE(find_pixel_facts(made.data, 0, made.far.pixel).visibility->seen.empty());
 }
 
 TEST(HeadView, explains_a_surfel) {

@@ -58,8 +58,8 @@ class WindowFixture : public testing::Test {
 TEST_F(WindowFixture, a_click_on_a_target_selects_its_sample_and_explains_it) {
   open();
   for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
-    window_->play(click_at(window_->pixel_of(target->position), ViewerPanelName::fan));
-    EXPECT_EQ(window_->state().selected, target->position) << target->name;
+    window_->play(click_at(window_->pixel_of(target->pixel), ViewerPanelName::fan));
+    EXPECT_EQ(window_->state().selected, target->pixel) << target->name;
     ASSERT_FALSE(said_.empty());
     EXPECT_THAT(said_.back(), HasSubstr(target->name));
   }
@@ -83,41 +83,41 @@ TEST_F(WindowFixture, targets_are_drawn_where_clicks_find_them) {
     return std::pair(Point2{x / n, y / n}, n);
   };
   for (const auto* target : {&made_.port, &made_.starboard, &made_.far}) {
-    const Point2 at = window_->pixel_of(target->position);
+    const Point2 at = window_->pixel_of(target->pixel);
     const auto [found, pixels] = centre_of(at.x - 12, at.x + 12, at.y - 12, at.y + 12);
     EXPECT_GT(pixels, 1) << target->name;
     EXPECT_NEAR(found.x, at.x, 1.5) << target->name;
     EXPECT_NEAR(found.y, at.y, 1.5) << target->name;
   }
   // Port left, starboard right, far above near.
-  const Point2 port = window_->pixel_of(made_.port.position), starboard = window_->pixel_of(made_.starboard.position);
-  EXPECT_LT(port.x, window_->pixel_of(made_.far.position).x);
-  EXPECT_GT(starboard.x, window_->pixel_of(made_.far.position).x);
-  EXPECT_GT(window_->pixel_of(made_.far.position).y, port.y + 0.2 * fan.height());
+  const Point2 port = window_->pixel_of(made_.port.pixel), starboard = window_->pixel_of(made_.starboard.pixel);
+  EXPECT_LT(port.x, window_->pixel_of(made_.far.pixel).x);
+  EXPECT_GT(starboard.x, window_->pixel_of(made_.far.pixel).x);
+  EXPECT_GT(window_->pixel_of(made_.far.pixel).y, port.y + 0.2 * fan.height());
 }
 
 TEST_F(WindowFixture, clicks_find_the_same_cell_after_the_fan_was_moved_and_zoomed) {
   open();
-  const Point2 before = window_->pixel_of(made_.port.position);
+  const Point2 before = window_->pixel_of(made_.port.pixel);
   window_->play(drag_from(middle(ViewerPanelName::fan), {40, -25}, ViewerPanelName::fan));
-  const Point2 after = window_->pixel_of(made_.port.position);
+  const Point2 after = window_->pixel_of(made_.port.pixel);
   EXPECT_NEAR(after.x - before.x, 40, 1);
   EXPECT_NEAR(after.y - before.y, -25, 1);
   const Point2 at = middle(ViewerPanelName::fan);
   window_->interactor()->SetEventInformation(static_cast<int>(at.x), static_cast<int>(at.y));
   window_->interactor()->InvokeEvent(vtkCommand::MouseWheelForwardEvent);
-  EXPECT_GT(std::abs(window_->pixel_of(made_.port.position).x - at.x), std::abs(after.x - at.x));
-  window_->play(click_at(window_->pixel_of(made_.port.position), ViewerPanelName::fan));
-  EXPECT_EQ(window_->state().selected, made_.port.position);
+  EXPECT_GT(std::abs(window_->pixel_of(made_.port.pixel).x - at.x), std::abs(after.x - at.x));
+  window_->play(click_at(window_->pixel_of(made_.port.pixel), ViewerPanelName::fan));
+  EXPECT_EQ(window_->state().selected, made_.port.pixel);
   window_->press_key("Up");  // redrawn with the user's camera
-  EXPECT_NE(window_->pixel_of(made_.port.position).x, before.x);
+  EXPECT_NE(window_->pixel_of(made_.port.pixel).x, before.x);
   window_->press_key("r");
-  EXPECT_NEAR(window_->pixel_of(made_.port.position).x, before.x, 1e-6);
+  EXPECT_NEAR(window_->pixel_of(made_.port.pixel).x, before.x, 1e-6);
 }
 
 TEST_F(WindowFixture, a_drag_is_no_click) {
   open();
-  window_->play(drag_from(window_->pixel_of(made_.port.position), {30, 0}, ViewerPanelName::fan));
+  window_->play(drag_from(window_->pixel_of(made_.port.pixel), {30, 0}, ViewerPanelName::fan));
   EXPECT_FALSE(window_->state().selected);
   EXPECT_TRUE(said_.empty());
 }
@@ -128,7 +128,7 @@ TEST_F(WindowFixture, a_click_on_a_target_in_3d_selects_its_sample) {
     const auto at = window_->pixel_of_point(target->position);
     ASSERT_TRUE(at);
     window_->play(click_at(*at, ViewerPanelName::scene));
-    EXPECT_EQ(window_->state().selected, target->position) << target->name;
+    EXPECT_EQ(window_->state().selected, target->pixel) << target->name;
   }
   // Seen from behind the head, port is left and starboard right.
   EXPECT_LT(window_->pixel_of_point(made_.port.position)->x, window_->pixel_of_point(made_.starboard.position)->x);
@@ -136,19 +136,19 @@ TEST_F(WindowFixture, a_click_on_a_target_in_3d_selects_its_sample) {
 
 TEST_F(WindowFixture, a_click_on_the_ascan_keeps_the_beam_and_takes_the_range) {
   ViewerOptions options;
-  options.start.selected = made_.port.position;
+  options.start.selected = made_.port.pixel;
   open(options);
   window_->play(click_at(middle(ViewerPanelName::ascan), ViewerPanelName::ascan));
   ASSERT_TRUE(window_->state().selected);
-  EXPECT_EQ(window_->state().selected->beam, made_.port.position.beam);
+  EXPECT_EQ(window_->state().selected->beam, made_.port.pixel.beam);
   EXPECT_NEAR(static_cast<double>(window_->state().selected->bin), 60, 12);  // near the middle of the gate
 }
 
 TEST_F(WindowFixture, two_clicks_measure_the_distance_between_two_targets) {
   open();
   window_->press_key("d");
-  window_->play(click_at(window_->pixel_of(made_.port.position), ViewerPanelName::fan));
-  window_->play(click_at(window_->pixel_of(made_.starboard.position), ViewerPanelName::fan));
+  window_->play(click_at(window_->pixel_of(made_.port.pixel), ViewerPanelName::fan));
+  window_->play(click_at(window_->pixel_of(made_.starboard.pixel), ViewerPanelName::fan));
   // Both at 6.05 m, 52 degrees apart: 2 x 6.05 sin 26 degrees.
   EXPECT_NEAR(window_->state().measure.length(), 2 * 6.05 * std::sin(radians(26)), 0.05);
   EXPECT_FALSE(window_->state().selected);
@@ -233,8 +233,8 @@ TEST_F(WindowFixture, a_run_without_scene_shows_its_fan_alone) {
   made_.data.scene = {};
   open();
   EXPECT_EQ(window_->layout().scene.width(), 0);
-  window_->play(click_at(window_->pixel_of(made_.port.position), ViewerPanelName::fan));
-  EXPECT_EQ(window_->state().selected, made_.port.position);
+  window_->play(click_at(window_->pixel_of(made_.port.pixel), ViewerPanelName::fan));
+  EXPECT_EQ(window_->state().selected, made_.port.pixel);
 }
 
 TEST_F(WindowFixture, refuses_what_cannot_be_shown) {
