@@ -18,6 +18,10 @@ namespace detail {
 /// True if a value is sent as its bytes.
 template <typename Value>
 constexpr bool is_plain = std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>;
+template <typename Value, int Rows, int Columns, int Options>
+constexpr bool is_plain<Eigen::Matrix<Value, Rows, Columns, Options>> = (Rows > 0 && Columns > 0);
+template <typename Value, int Dimensions, int Mode, int Options>
+constexpr bool is_plain<Eigen::Transform<Value, Dimensions, Mode, Options>> = true;
 }  // namespace detail
 
 /// Memory for what a reader sends, which may be another process. Only addresses are reserved; pages take memory when
@@ -59,8 +63,10 @@ class SharedMemory {
 /// `template <typename Stream> void pass(Stream&, T&)` beside it; the function names the members: stream(t.a, t.b).
 class ArraySender {
  public:
-  /// `memory` holds at most `most` bytes, which may grow meanwhile.
-  ArraySender(const SharedMemory& memory, const std::size_t& most) : memory_(memory), most_(most) {}
+  static constexpr std::size_t all_of_it = static_cast<std::size_t>(-1);  ///< no limit but the size of the memory
+  /// `memory` may take `most` bytes, which may grow meanwhile, if it holds as many.
+  explicit ArraySender(const SharedMemory& memory, const std::size_t& most = all_of_it)
+      : memory_(memory), most_(most) {}
   ~ArraySender();
   /// Bytes that were sent.
   std::size_t used() const { return used_; }
@@ -120,15 +126,6 @@ class ArraySender {
   void send(const Eigen::Array<Value, Rows, Columns, Options>& grid) {
     send(grid.rows(), grid.cols());
     send_bytes(grid.data(), static_cast<std::size_t>(grid.size()) * sizeof(Value));
-  }
-  template <typename Value, int Rows, int Columns>
-  void send(const Eigen::Matrix<Value, Rows, Columns>& matrix) {
-    static_assert(Rows != Eigen::Dynamic && Columns != Eigen::Dynamic);
-    send_bytes(matrix.data(), sizeof(Value) * static_cast<std::size_t>(Rows * Columns));
-  }
-  template <typename Value, int Dimensions, int Mode>
-  void send(const Eigen::Transform<Value, Dimensions, Mode>& transform) {
-    send_bytes(transform.data(), sizeof(transform.matrix()));
   }
   template <typename First, typename... Others>
   void send(const First& first, const Others&... others) {
@@ -208,14 +205,6 @@ class ArrayReceiver {
     bytes_of(static_cast<std::size_t>(rows), bytes_of(static_cast<std::size_t>(columns), sizeof(Value)));
     grid.resize(rows, columns);
     copy(grid.data(), static_cast<std::size_t>(grid.size()) * sizeof(Value));
-  }
-  template <typename Value, int Rows, int Columns>
-  void receive(Eigen::Matrix<Value, Rows, Columns>& matrix) {
-    copy(matrix.data(), sizeof(Value) * static_cast<std::size_t>(Rows * Columns));
-  }
-  template <typename Value, int Dimensions, int Mode>
-  void receive(Eigen::Transform<Value, Dimensions, Mode>& transform) {
-    copy(transform.data(), sizeof(transform.matrix()));
   }
 
   std::string path_;

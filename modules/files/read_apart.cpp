@@ -13,14 +13,10 @@ namespace {
 
 ReaderProcess reader_process;
 
-std::shared_ptr<SharedMemory> read_here(const ReadTask& task, const ReaderProcess::Send& arguments) {
+std::shared_ptr<SharedMemory> read_here(const ReadTask& task, const ReadTask::Send& arguments) {
   auto memory = std::make_shared<SharedMemory>(task.limits.sent);
-  const std::size_t all = memory->bytes();
-  {
-    ArraySender sender(*memory, all);
-    arguments(sender);
-  }
-  task.run(memory, all);
+  ReadTask::send(arguments, *memory);
+  task.run(memory);
   return memory;
 }
 
@@ -37,6 +33,11 @@ ReadLimits limits_of_file(std::size_t bytes) {
 #endif
   return {memory_per_byte * bytes + memory_at_least,
           static_cast<unsigned>(bytes / bytes_per_second + seconds_at_least)};
+}
+
+void ReadTask::send(const Send& arguments, const SharedMemory& memory) {
+  ArraySender sender(memory);
+  arguments(sender);
 }
 
 void ReadTask::run(const std::shared_ptr<SharedMemory>& memory, const std::size_t& most) const {
@@ -56,7 +57,7 @@ void ReadTask::run(const std::shared_ptr<SharedMemory>& memory, const std::size_
 
 ReaderProcess set_reader_process(ReaderProcess process) { return std::exchange(reader_process, std::move(process)); }
 
-ArrayReceiver read_apart(const ReadTask& task, const ReaderProcess::Send& arguments) {
+ArrayReceiver read_apart(const ReadTask& task, const ReadTask::Send& arguments) {
   const auto memory = reader_process.run ? reader_process.run(task, arguments) : read_here(task, arguments);
   memory->keep_sent();
   return {task.path, memory};

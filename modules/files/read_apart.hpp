@@ -24,22 +24,25 @@ ReadLimits limits_of_file(std::size_t bytes);
 /// The reading of a file of others. Processes that were forked from one program can call the function and pass its
 /// arguments, which no closure could.
 struct ReadTask {
+  using Send = std::function<void(ArraySender&)>;  ///< sends arguments
+
   std::string path;  ///< with which messages begin
   ReadLimits limits;
   void (*read)(ArrayReceiver& arguments, ArraySender& to) = nullptr;  ///< sends what it found
 
   /// Calls `read` with the arguments that `memory` holds; what it sends, at most `most` bytes, takes their place.
   /// Throws what `read` throws: Error and std::bad_alloc as they are, others as Error(content).
-  void run(const std::shared_ptr<SharedMemory>& memory, const std::size_t& most) const;
+  void run(const std::shared_ptr<SharedMemory>& memory, const std::size_t& most = ArraySender::all_of_it) const;
+  /// Leaves in `memory` what `arguments` sends.
+  static void send(const Send& arguments, const SharedMemory& memory);
 };
 
 /// A process that reads files for this one. A program that reads files of strangers sets one (set_reader_process),
 /// since damaged files can make HDF5, GDAL, libpng and VTK crash, or search and take memory without end.
 struct ReaderProcess {
-  using Send = std::function<void(ArraySender&)>;  ///< sends arguments
   /// Returns the memory in which task.read sent its values, for the arguments that `arguments` sends. Throws what it
   /// threw, or an Error if the process ended otherwise.
-  std::function<std::shared_ptr<SharedMemory>(const ReadTask& task, const Send& arguments)> run{};
+  std::function<std::shared_ptr<SharedMemory>(const ReadTask& task, const ReadTask::Send& arguments)> run{};
   /// Called there, by expect_from_file, if a file will rightly take so many bytes more.
   std::function<void(double bytes)> expect{};
 };
@@ -50,7 +53,7 @@ ReaderProcess set_reader_process(ReaderProcess process);
 
 /// Returns what a task sends, by the reader process, else from this process. Throws as ReadTask::run and
 /// ReaderProcess::run.
-ArrayReceiver read_apart(const ReadTask& task, const ReaderProcess::Send& arguments);
+ArrayReceiver read_apart(const ReadTask& task, const ReadTask::Send& arguments);
 
 /// Returns what read(to, arguments...) sends, as above. `read` is a lambda without captures: another process may call
 /// it with copies of the arguments, which are values that an ArraySender sends.

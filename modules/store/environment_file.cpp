@@ -179,11 +179,4 @@ std::string environment_as_toml(const Environment& e) {
   return text;
 }
 
-std::vector<std::string> environment_key_names() {
-  Environment e;
-  std::vector<std::string> names = names_of(environment_keys(e));
-  std::erase_if(names, [](const std::string& name) { return name.starts_with("profile.") || name == "mirror"; });
-  return names;
-}
-
 }  // namespace insonify

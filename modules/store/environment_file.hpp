@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <string>
-#include <vector>
 
 #include "acoustics/environment.hpp"
 
 namespace insonify {
 
 /// Returns an environment from TOML. The tables [water], [surface], [bottom], [volume], [wind], [noise], [tank] have
-/// the keys of environment_key_names; [profile] has the lists depth_m and sound_speed; each mirror is a [[mirror]].
+/// the keys of docs/reference/keys.md; [profile] has the lists depth_m and sound_speed; each mirror is a [[mirror]].
 /// Each table enables its part of the environment; omitted keys keep their defaults. Other tables of a run.toml
 /// (recognised by its key insonify_version) are ignored. Unknown tables or keys and values of the wrong type are errors
 /// with file, line and the nearest known name. Throws Error(file) or Error(content).
@@ -22,8 +21,5 @@ void set_environment_value(Environment& environment, const std::string& section,
 /// Returns the parts of the environment that are present as TOML tables. They read back with the same bits, except that
 /// the last bit of lambert_mu_db may differ.
 std::string environment_as_toml(const Environment& environment);
-
-/// Returns all keys as "section.key", in the order of files.
-std::vector<std::string> environment_key_names();
 
 }  // namespace insonify

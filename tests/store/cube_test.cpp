@@ -70,18 +70,13 @@ TEST(Cube, is_read_ping_by_ping_as_it_is_as_a_whole) {
 TEST(Cube, of_few_bytes_is_read_at_once_ping_by_ping) {
   const std::string path = write(random_cube(4, 3));
   int reads = 0, pings = 0;
-  const ReaderProcess before =
-      set_reader_process({.run = [&](const ReadTask& task, const ReaderProcess::Send& arguments) {
-        ++reads;
-        const auto memory = std::make_shared<SharedMemory>(std::size_t{1} << 26);
-        const std::size_t all = memory->bytes();
-        {
-          ArraySender sender(*memory, all);
-          arguments(sender);
-        }
-        task.run(memory, all);
-        return memory;
-      }});
+  const ReaderProcess before = set_reader_process({.run = [&](const ReadTask& task, const ReadTask::Send& arguments) {
+    ++reads;
+    const auto memory = std::make_shared<SharedMemory>(std::size_t{1} << 26);
+    ReadTask::send(arguments, *memory);
+    task.run(memory);
+    return memory;
+  }});
   read_cube_pings(path, [&](const Cube&, const Ping&) { ++pings; });
   set_reader_process(before);
   EXPECT_EQ(pings, 4);

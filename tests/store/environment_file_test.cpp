@@ -2,6 +2,7 @@
 #include "store/environment_file.hpp"
 
 #include "core/text.hpp"
+#include "store/environment_keys.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -10,6 +11,14 @@ bool holds(const std::string& text, const std::string& part) { return text.find(
 
 std::string error_of_environment(const std::string& text) {
   return error_with_kind([&] { load_environment(own_file("e.toml", text)); });
+}
+
+/// Returns the keys that set_environment_value sets, as "section.key", in the order of files.
+std::vector<std::string> environment_key_names() {
+  Environment e;
+  std::vector<std::string> names = names_of(environment_keys(e));
+  std::erase_if(names, [](const std::string& name) { return name.starts_with("profile.") || name == "mirror"; });
+  return names;
 }
 
 }  // namespace

@@ -127,8 +127,7 @@ int run_reader(const Request& request) {
       ReadTask{request.path.data(), {}, request.read}.run(memory, allowed.beyond_server);
       return reader_in_order;
     } catch (const Error& error) {
-      const std::size_t all = memory->bytes();
-      ArraySender(*memory, all)(error.kind(), std::string(error.what()));
+      ReadTask::send([&](ArraySender& to) { to(error.kind(), std::string(error.what())); }, *memory);
       return reader_failed;
     }
   } catch (const std::bad_alloc&) {
@@ -186,7 +185,7 @@ int exit_code_of_reader(const Answer& answer, const std::string& path, const All
 }
 
 /// Has the server read.
-std::shared_ptr<SharedMemory> read_by(int socket, const ReadTask& task, const ReaderProcess::Send& arguments) {
+std::shared_ptr<SharedMemory> read_by(int socket, const ReadTask& task, const ReadTask::Send& arguments) {
   Request request{task.read, -1, 0, {}};
   // Not a file in memory, for whose size `ulimit -f` holds.
   const auto map = [&](std::size_t bytes) -> char* {
@@ -199,11 +198,7 @@ std::shared_ptr<SharedMemory> read_by(int socket, const ReadTask& task, const Re
   auto memory = std::make_shared<SharedMemory>(task.limits.sent, map);
   request.bytes = memory->bytes();
   task.path.copy(request.path.data(), request.path.size() - 1);
-  {
-    const std::size_t all = memory->bytes();
-    ArraySender sender(*memory, all);
-    arguments(sender);
-  }
+  ReadTask::send(arguments, *memory);
   const Allowed& allowed = *new (&allowed_in(*memory)) Allowed{
       task.limits.memory, task.limits.memory, task.limits.seconds, limit_of(RLIMIT_AS), limit_of(RLIMIT_CPU)};
   if (exit_code_of_reader(ask(socket, request), task.path, allowed) == reader_in_order) return memory;
@@ -232,7 +227,7 @@ ReaderServer::ReaderServer() {
   }
   socket_ = ends[0];
   close(ends[1]);
-  before_ = set_reader_process({.run = [socket = socket_](const ReadTask& task, const ReaderProcess::Send& arguments) {
+  before_ = set_reader_process({.run = [socket = socket_](const ReadTask& task, const ReadTask::Send& arguments) {
     return read_by(socket, task, arguments);
   }});
 }

@@ -28,11 +28,8 @@ namespace {
 constexpr double repeat_within = 0.1;  // [m]: a point of the repeated record stands for one so near
 
 ComparedFile compared_run(const std::string& path, int ping) {
-  Cube cube = read_run_cube(path);
-  if (ping < 0 || static_cast<std::size_t>(ping) >= cube.pings.size())
-    fail(ErrorKind::argument, "--ping = ", ping, ", must be from 0 and below ", cube.pings.size(),
-         ", the number of pings in ", path);
-  const Ping& p = cube.pings[static_cast<std::size_t>(ping)];
+  const Cube cube = read_run_ping(path, ping);
+  const Ping& p = cube.pings.front();
   ComparedFile file{{shown_level_db(p), p.fan, p.gate, std::nullopt, p.expected_level}, false, p.world_from_head};
   file.kind = p.expected_level ? "run, expected level" : p.display_cells ? "run, display cells" : "run";
   file.centre_frequency = cube.centre_frequency, file.bandwidth = cube.bandwidth, file.sound_speed = p.sound_speed;

@@ -61,11 +61,8 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   if (!o.sonar.empty() || !o.pose.empty() || !o.range.empty())
     fail(ErrorKind::argument, o.run,
          " is a run, whose sonar and poses are known; leave --sonar, --pose and --range out");
-  const Cube cube = read_run_cube(o.run);
-  if (o.ping >= cube.pings.size())
-    fail(ErrorKind::argument, "--ping = ", o.ping, ", must be below ", cube.pings.size(), ", the number of pings in ",
-         o.run);
-  const Ping& ping = cube.pings[o.ping];
+  const Cube cube = read_run_ping(o.run, static_cast<std::ptrdiff_t>(o.ping));
+  const Ping& ping = cube.pings.front();
   SceneOptions options = scene_of_run(o.run);
   if (!o.scene.empty()) options.path = o.scene;
   if (options.path.empty()) fail(ErrorKind::content, o.run, ": does not say what its scene was; give it with --scene");
@@ -73,7 +70,8 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
   Drawing drawing;
   drawing.scene = load_of_ping(o, options, ping, progress);
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
-  for (const Ping& sent : cube.pings) drawing.look.track.emplace_back(sent.world_from_head.translation());
+  for (const TrackPoint& sent : read_track(run_cube_path(o.run)))
+    drawing.look.track.emplace_back(sent.world_from_head.translation());
   drawing.look.colour = o.colour.empty() ? SceneColour::level : *find_named(colour_words, o.colour);
   if (drawing.look.colour == SceneColour::visibility)
     drawing.view = view_of_run(o.run, whole_of(*drawing.scene), o.common.threads);

@@ -159,6 +159,16 @@ std::string run_cube_path(const std::string& run) {
 
 Cube read_run_cube(const std::string& path) { return read_cube(run_cube_path(path)); }
 
+Cube read_run_ping(const std::string& path, std::ptrdiff_t ping) {
+  const std::string file = run_cube_path(path);
+  Cube cube;
+  if (ping >= 0) cube = read_cube(file, static_cast<std::size_t>(ping), 1);
+  if (cube.pings.empty())
+    fail(ErrorKind::argument, "--ping = ", ping, ", must be from 0 and below ", read_track(file).size(),
+         ", the number of pings in ", path);
+  return cube;
+}
+
 RunPings find_run_pings(const std::string& run, const std::string& head) {
   if (is_folder(run) && is_survey_run(run)) return pings_of_survey(run, head);
   return pings_of_directory(run);

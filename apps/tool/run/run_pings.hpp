@@ -38,6 +38,8 @@ std::string run_cube_path(const std::string& run);
 
 /// Reads the cube of a run directory, or a cube file; errors as run_cube_path and read_cube.
 Cube read_run_cube(const std::string& path);
+/// Reads one ping of such a cube; errors as above, and Error(argument) that names --ping unless there is one.
+Cube read_run_ping(const std::string& path, std::ptrdiff_t ping);
 
 /// Number of the leg on which a ping was sent, from 1; 0: of none, as of a run without a mission.
 std::size_t leg_at(const std::vector<MissionLeg>& legs, double time);
