@@ -14,7 +14,6 @@
 #include "core/units.hpp"
 #include "python/binding_internal.hpp"
 #include "returns/sounding_columns.hpp"
-#include "run/parse_values.hpp"
 #include "survey/mesh_source.hpp"
 
 namespace insonify::python {
@@ -64,8 +63,7 @@ std::vector<Eigen::Vector3d> vectors_for_each_pose(const py::dict& keys, const c
 
 PingSimulator resolve(MadePing& ping, int threads) {
   PingSetup& setup = ping.setup;
-  const Placement& at = setup.run.placement;
-  setup.event = requested_event(at, pose_of(*at.pose));
+  setup.event = requested_event(setup.run.placement);
   setup.simulation = ping.by->setup.simulation;
   setup.simulation.seed = setup.run.simulation.seed;
   setup.simulation.threads = threads;

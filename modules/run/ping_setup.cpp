@@ -39,22 +39,12 @@ std::string beyond_sonar_note(const SonarSpec& spec, const SonarFile& device) {
       spec.max_range, device.spec.name, most, spec.min_range, most);
 }
 
-/// Refuses a time that is no number.
-void require_time(const Placement& p) {
-  if (!std::isfinite(p.time)) fail(ErrorKind::argument, "--time = ", p.time, " s, must be finite");
-}
-
-/// The motion that --velocity and --turn-rate ask for.
-Motion requested_motion(const Placement& p) {
-  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-  return {p.velocity.value_or(none), p.turn_rate.value_or(none) * radians(1)};
-}
-
 Track track_of(const Placement& p) {
-  require_time(p);
+  if (!std::isfinite(p.time)) fail(ErrorKind::argument, "--time = ", p.time, " s, must be finite");
   if (p.pose.has_value() != p.trajectory.empty())
     fail(ErrorKind::argument, "give either --pose or --trajectory, e.g. --pose=0,0,-3,0,10,0");
-  if (p.pose) return {pose_of(*p.pose, p.world), requested_motion(p)};
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  if (p.pose) return {pose_of(*p.pose, p.world), {p.velocity.value_or(none), p.turn_rate.value_or(none) * radians(1)}};
   if (p.world != WorldAxes::z_up)
     fail(ErrorKind::argument, "--world ", name_of(world_words, p.world), ": trajectories are z-up; leave --world out");
   if (p.velocity || p.turn_rate)
@@ -72,10 +62,8 @@ void require_slow(const Placement& p, const Motion& motion, double sound_speed) 
 
 }  // namespace
 
-namespace {
-
-/// Where and when the head of a vehicle on its track pings.
-PingEvent event_on(const Track& track, const Placement& p) {
+PingEvent requested_event(const Placement& p) {
+  const Track track = track_of(p);
   const Pose mount = p.mount ? pose_of(*p.mount) : Pose::Identity();
   PingEvent event;
   event.world_from_head = p.mount ? track.pose * mount : track.pose;
@@ -86,15 +74,6 @@ PingEvent event_on(const Track& track, const Placement& p) {
   event.time = p.time;
   event.number = p.number >= 0 ? p.number : std::llround(1000 * p.time);
   return event;
-}
-
-}  // namespace
-
-PingEvent requested_event(const Placement& p) { return event_on(track_of(p), p); }
-
-PingEvent requested_event(const Placement& p, const Pose& vehicle) {
-  require_time(p);
-  return event_on({vehicle, requested_motion(p)}, p);
 }
 
 std::string number_note(const PingEvent& event, const Placement& p) {
@@ -153,10 +132,6 @@ std::optional<GivenPose> given_mounting(const SonarFile& sonar) {
 PingSetup set_up_ping(const Run& run) {
   const PingEvent event = requested_event(run.placement);
   return set_up(set_up_head(run.head, event.world_from_head.translation().z()), run, event);
-}
-
-PingSetup set_up_any_ping(const Run& run, std::optional<double> water_level) {
-  return set_up(set_up_head(run.head, std::nullopt, water_level), run);
 }
 
 std::vector<Eigen::Vector3d> sampled_positions(const SceneCloud& scene, const Pose& pose) {

@@ -65,8 +65,6 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
 
 /// Returns where and when the head pings, and how it moves; Error(argument) names the option.
 PingEvent requested_event(const Placement& placement);
-/// Returns the event of a vehicle at a pose that is not the one given.
-PingEvent requested_event(const Placement& placement, const Pose& vehicle);
 
 /// Returns a sentence if the number of a ping is its time in milliseconds and the time lies between two: other pings
 /// within the millisecond have its noise. Empty otherwise.
@@ -77,8 +75,6 @@ PingSetup set_up(PingSetup head, const Run& run, const PingEvent& event = {}, Na
 /// Reads sonar, environment and trajectory and checks all options; Error(argument) names the option. The scene is not
 /// read.
 PingSetup set_up_ping(const Run& run);
-/// Sets up pings that have poses and motion of their own. `water_level` as for set_up_head.
-PingSetup set_up_any_ping(const Run& run, std::optional<double> water_level = std::nullopt);
 
 /// Positions of about 10 000 surfels in head axes [m].
 std::vector<Eigen::Vector3d> sampled_positions(const SceneCloud& scene, const Pose& pose);

@@ -23,7 +23,7 @@ PingSetup set_up_survey_head(const MissionFile& file, std::size_t h, int threads
   run.head = {sonar.sonar, {}, file.environment, file.profile, sonar.settings};
   if (!sonar.range.empty()) run.head.range = parse_range(sonar.range);
   run.placement.pose.emplace();  // for run.toml, which demands one
-  PingSetup head = set_up_any_ping(run, file.water.level);
+  PingSetup head = set_up(set_up_head(run.head, std::nullopt, file.water.level), run);
   static DroppedContributors labels_alone;
   head.simulation.outputs.contributor_sink = &labels_alone;
   return head;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run_scenes/ping_report.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 #include <fmt/format.h>
@@ -86,6 +88,13 @@ ordered_json scene_json(const LoadReport& r, const SceneCloud& scene) {
   return json;
 }
 
+namespace {
+
+double peak_level_db(const Ping& ping) {
+  const auto power = [](const std::complex<float>& p) { return std::norm(std::complex<double>(p)); };
+  return std::max(silence_db, pressure_level_db(std::sqrt(ping.pressure.unaryExpr(power).maxCoeff())));
+}
+
 ordered_json layers_json(const std::vector<LayerReport>& layers) {
   ordered_json json = ordered_json::array();
   for (const LayerReport& layer : layers) json.push_back({{"name", layer.name}, {"echoes", layer.echoes}});
@@ -112,6 +121,17 @@ ordered_json holes_json(const HoleReport& holes) {
 ordered_json motion_json(const Motion& motion) {
   const auto list = [](const Eigen::Vector3d& v) { return ordered_json{v.x(), v.y(), v.z()}; };
   return {{"velocity_m_s", list(motion.velocity)}, {"turn_rate_deg_s", list(motion.turn_rate * degrees(1))}};
+}
+
+}  // namespace
+
+void describe_ping(const SimulatedPing& ping, const PingSetup& setup, ordered_json& manifest) {
+  const Motion& motion = setup.event.motion;
+  manifest["sampling"] = sampling_json(ping);
+  if (setup.simulation.outputs.mask) manifest["holes"] = holes_json(ping.report.holes);
+  manifest["layers"] = layers_json(ping.report.layers);
+  if (!motion.none()) manifest["motion"] = motion_json(motion);
+  manifest["peak_level_db"] = peak_level_db(ping.ping);
 }
 
 std::vector<std::string> notes_before(const PingSetup& setup, const LoadReport& report) {

@@ -15,14 +15,8 @@ namespace insonify {
 
 /// Returns what was read of a scene, and what it became.
 nlohmann::ordered_json scene_json(const LoadReport& report, const SceneCloud& scene);
-/// Returns the numbers of surfels, scatterers and returns of a ping.
-nlohmann::ordered_json sampling_json(const SimulatedPing& ping);
-/// Returns the part of the view that holes of the scan leave open.
-nlohmann::ordered_json holes_json(const HoleReport& holes);
-/// Returns the echoes of each layer.
-nlohmann::ordered_json layers_json(const std::vector<LayerReport>& layers);
-/// Returns a motion in m/s and degrees a second.
-nlohmann::ordered_json motion_json(const Motion& motion);
+/// Adds to a manifest what a ping was made of: surfels, scatterers and returns, holes, layers, motion, peak level.
+void describe_ping(const SimulatedPing& ping, const PingSetup& setup, nlohmann::ordered_json& manifest);
 
 /// Returns the notes on head, water, place and scene of a ping, before it is made.
 std::vector<std::string> notes_before(const PingSetup& setup, const LoadReport& report);

@@ -2,8 +2,12 @@
 #include "run_scenes/ping_run.hpp"
 
 #include "core/error.hpp"
+#include "core/stop_watch.hpp"
+#include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/ping_report.hpp"
+#include "run_scenes/run_folder.hpp"
 
 namespace insonify {
 namespace {
@@ -45,6 +49,31 @@ ReadyPing load_ping_scene(PingSetup& setup) {
   if (file || (parts && !parts->scene().has_tiles()))
     require_in_reach(ready.scene.positions, setup.head.gate, run.scene.path);
   return ready;
+}
+
+nlohmann::ordered_json make_ping_run(PingSetup setup, const RunPictures& pictures, RunObserver& observer) {
+  std::vector<std::string> inputs = input_files(all_settings(setup.run));
+  const Run& run = setup.run;
+  inputs.insert(inputs.end(), {run.head.sonar, run.head.environment, run.head.profile});
+  RunFolder folder(setup, inputs, pictures, observer);
+
+  observer.step("loading " + run.scene.path);
+  StopWatch watch;
+  const ReadyPing sent = load_ping_scene(setup);
+  const double load_seconds = watch.lap();
+  const PreparedScene& scene = *sent.scene.scene;
+  for (const std::string& note : notes_before(setup, sent.scene.report)) observer.note(note);
+  const SimulationOptions options = folder.options_for(scene.scene());
+  SceneInstances instances;
+  if (options.outputs.contributors > 0 || options.outputs.labels) instances = instances_of_scene(run.scene.path);
+
+  observer.step("pinging");
+  PingPlan plan;
+  SimulatedPing made = sent.simulator.with(options).ping(scene, setup.event, plan);
+  nlohmann::ordered_json manifest = folder.write(std::move(made), plan, sent.scene, instances, load_seconds);
+  observer.step("done");
+  folder.commit();
+  return manifest;
 }
 
 }  // namespace insonify

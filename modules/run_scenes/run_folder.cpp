@@ -56,11 +56,6 @@ ordered_json write_insonification(const RunDirectory& directory, const SceneClou
   return {{"surfels", scene.size()}, {"insonified", covered.size()}};
 }
 
-double peak_level_db(const Ping& ping) {
-  const auto power = [](const std::complex<float>& p) { return std::norm(std::complex<double>(p)); };
-  return std::max(silence_db, pressure_level_db(std::sqrt(ping.pressure.unaryExpr(power).maxCoeff())));
-}
-
 /// Writes the returns as both clouds; returns the local origin of the PCD.
 Eigen::Vector3d save_returns(RunDirectory& directory, const Soundings& soundings, ordered_json& manifest) {
   const Eigen::Vector3d origin = save_soundings(directory.file("returns.pcd"), soundings);
@@ -72,16 +67,6 @@ Eigen::Vector3d save_returns(RunDirectory& directory, const Soundings& soundings
 std::string origin_note(const Eigen::Vector3d& origin) {
   return fmt::format("returns.pcd counts from {:.0f}, {:.0f}, {:.0f} m, as its VIEWPOINT says: a PCD is float32",
                      origin.x(), origin.y(), origin.z());
-}
-
-/// Adds what the ping was made of to the manifest.
-void describe(const SimulatedPing& result, const SimulationOptions& simulation, const Motion& motion,
-              ordered_json& manifest) {
-  manifest["sampling"] = sampling_json(result);
-  if (simulation.outputs.mask) manifest["holes"] = holes_json(result.report.holes);
-  manifest["layers"] = layers_json(result.report.layers);
-  if (!motion.none()) manifest["motion"] = motion_json(motion);
-  manifest["peak_level_db"] = peak_level_db(result.ping);
 }
 
 ordered_json seconds_json(double load, const StageSeconds& of, double output) {
@@ -127,9 +112,8 @@ void RunFolder::take(const Contributors& band, std::size_t first_beam) {
 
 ordered_json RunFolder::write(SimulatedPing ping, const PingPlan& plan, const PingScene& scene,
                               const SceneInstances& instances, double load_seconds) {
-  const SimulationOptions& simulation = setup_.simulation;
   ordered_json manifest = {
-      {"schema", 1},         {"insonify_version", INSONIFY_VERSION},        {"seed", simulation.seed},
+      {"schema", 1},         {"insonify_version", INSONIFY_VERSION},        {"seed", setup_.simulation.seed},
       {"scene", scene.json}, {"notes", notes_before(setup_, scene.report)}, {"plan", plan_json(plan)}};
   const auto note_to_user = [&](const std::string& note) {
     observer_.note(note);
@@ -142,7 +126,7 @@ ordered_json RunFolder::write(SimulatedPing ping, const PingPlan& plan, const Pi
   const Eigen::Vector3d origin = save_returns(directory_, ping.soundings, manifest);
   if (!origin.isZero(0)) note_to_user(origin_note(origin));
   write_kept(ping, scene.scene->scene(), instances, manifest);
-  describe(ping, simulation, setup_.event.motion, manifest);
+  describe_ping(ping, setup_, manifest);
   Run written = setup_.run;
   std::vector<PingNote> notes = notes_of(ping, setup_.environment, setup_.head.gate);
   write_image(std::move(ping.ping), std::move(notes), settings_as_toml(all_settings(written)), manifest);

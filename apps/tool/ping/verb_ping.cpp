@@ -4,12 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/stop_watch.hpp"
-#include "run/run_settings.hpp"
-#include "run_scenes/ping_report.hpp"
 #include "run_scenes/ping_run.hpp"
-#include "run_scenes/run_folder.hpp"
-#include "simulate/ping_simulator.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/run/vtk_pictures.hpp"
@@ -29,33 +24,10 @@ std::string summary(const std::string& output, const ordered_json& manifest) {
 void add_ping_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, true); }
 
 void ping(const PingCommand& command) {
-  const CommonOptions& common = command.common;
-  // The whole command line is checked before any work.
-  Progress progress(common, 4);
-  PingSetup ready = set_up_ping(complete_run(command));
-  Run& o = ready.run;
-  InputPaths inputs = input_files(all_settings(o));
-  inputs.insert(inputs.end(), {o.head.sonar, o.head.environment, o.head.profile});
-  const VtkPictures pictures;
-  RunFolder folder(ready, inputs, pictures, progress);
-
-  progress.step("loading " + o.scene.path);
-  StopWatch watch;
-  const ReadyPing sent = load_ping_scene(ready);
-  const double load_seconds = watch.lap();
-  const PreparedScene& scene = *sent.scene.scene;
-  for (const std::string& note : notes_before(ready, sent.scene.report)) progress.note(note);
-  SimulationOptions options = folder.options_for(scene.scene());
-  SceneInstances instances;
-  if (options.outputs.contributors > 0 || options.outputs.labels) instances = instances_of_scene(o.scene.path);
-
-  progress.step("pinging");
-  PingPlan plan;
-  SimulatedPing result = sent.simulator.with(options).ping(scene, ready.event, plan);
-  const ordered_json manifest = folder.write(std::move(result), plan, sent.scene, instances, load_seconds);
-  progress.step("done");
-  folder.commit();
-  print_summary(common, manifest, summary(o.output.folder, manifest));
+  Progress progress(command.common, 4);
+  const PingSetup setup = set_up_ping(complete_run(command));  // checks the whole command line before any work
+  const ordered_json manifest = make_ping_run(setup, VtkPictures(), progress);
+  print_summary(command.common, manifest, summary(setup.run.output.folder, manifest));
 }
 
 }  // namespace
