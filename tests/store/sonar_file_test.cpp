@@ -164,9 +164,10 @@ TEST(SonarFile, takes_a_hyperbolic_sweep_and_a_tone_burst) {
   expect_same_bits(load_sonar(sonar_as_toml(burst)).spec, burst);
   refuses_sonar(plain + "pulse = \"hyperbolic_fm\"\n",
                 "12: pulse = hyperbolic_fm, must come with pulse_length_s, the duration of the sweep");
-  refuses_sonar(plain + "pulse = \"hyperbolic_fm\"\npulse_length_s = 10\n", "must be within 1 and 2e4");
+  refuses_sonar(plain + "pulse = \"hyperbolic_fm\"\npulse_length_s = 10\n",
+                "13: pulse_length_s = 10 s, times bandwidth_hz = 30000 Hz, must be within 1 and 2e4; it is 300000");
   refuses_sonar(plain + "pulse = \"tone_burst\"\nreplica_window = \"hann\"\n",
-                "13: replica_window = hann, must be left out for pulse tone_burst");
+                "13: replica_window = hann, must be left out for pulse tone_burst; use pulse = \"linear_fm\"");
 }
 
 TEST(SonarFile, refuses_halves_of_a_sweep_with_line) {
