@@ -120,7 +120,12 @@ double noise_bound(const PlanFacts& facts) {
   const SonarHead& head = facts.ping.head;
   const double noise = 2 * power_from_db(facts.ping.beam_noise_db) * micropascal * micropascal *
                        static_cast<double>(head.fan.beams() * head.gate.bins());
-  const double pulse_bins = energy_length(head.pulse, facts.ping.sent.medium.sound_speed) / head.gate.bin_size;
+  const double sound_speed = facts.ping.sent.medium.sound_speed;
+  Pulse gaussian = head.pulse;
+  gaussian.shape = {};
+  // The energy of a Gaussian pulse to six digits, times how much more another has.
+  const double pulse_bins = 0.469719 / head.pulse.bandwidth * sound_speed / (2 * head.gate.bin_size) *
+                            (energy_length(head.pulse, sound_speed) / energy_length(gaussian, sound_speed));
   return bound_of_added_echoes(facts, noise / pulse_bins);
 }
 
