@@ -14,7 +14,7 @@ declare -A why=(
   [libtomlplusplus-dev]="sonar and run files (TOML)" [nlohmann-json3-dev]="manifests (JSON)" [libfmt-dev]="text formatting"
   [libcli11-dev]="command line" [libegl-dev]="off-screen pictures" [libegl-mesa0]="off-screen pictures"
   [libgl1-mesa-dri]="off-screen pictures in software" [libglew-dev]="VTK's headers ask for it" [fonts-dejavu-core]="letters in pictures"
-  [libx11-dev]="the viewer's window" [libassimp-dev]="meshes of robots and CAD (Assimp)" [libembree-dev]="rays from surface to surface (Embree)" [libgdal-dev]="rasters as scenes, map projections (GDAL; libvtk9-dev needs it too)"
+  [libx11-dev]="the viewer's window" [libassimp-dev]="meshes of robots and CAD (Assimp)" [liblaszip-dev]="clouds of LAZ (LASzip)" [libembree-dev]="rays from surface to surface (Embree)" [libgdal-dev]="rasters as scenes, map projections (GDAL; libvtk9-dev needs it too)"
 )
 if [[ "${1:-}" == --python || "${1:-}" == --tests || "${1:-}" == --packages ]]; then
   why+=([pybind11-dev]="Python's module" [python3-dev]="Python's module" [python3-numpy]="Python's module")
@@ -35,8 +35,8 @@ if ! command -v apt-get >/dev/null; then
   for package in "${!why[@]}"; do printf '  %-24s %s\n' "$package" "${why[$package]}"; done | sort
   exit 0
 fi
-# Not in every suite: the format that tests check is that of clang-format 14, of Debian 12.
-if [[ ! -r /etc/os-release ]] || ! grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then unset 'why[clang-format]'; fi
+# Not in every suite: Debian 12 has no LASzip; the format that tests check is that of clang-format 14, of Debian 12.
+if [[ -r /etc/os-release ]] && grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then unset 'why[liblaszip-dev]'; else unset 'why[clang-format]'; fi
 missing=()
 installed=$'\n'$(dpkg-query -W -f='${Package} ${Status}\n' "${!why[@]}" 2>/dev/null || true)
 for package in "${!why[@]}"; do

@@ -59,6 +59,9 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4), libfftw3-d
 if(EMBREE_LIBRARY)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libembree-dev")
 endif()
+if(LASZIP_LIBRARY)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", liblaszip-dev")
+endif()
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "insonify (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), cmake,
  libhdf5-dev, libzstd-dev, libtomlplusplus-dev, libfmt-dev, libpcl-dev, libvtk9-dev, libgdal-dev, libassimp-dev, libglew-dev, libegl-dev, libx11-dev")
 string(REPLACE "\n" "" CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "${CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS}")

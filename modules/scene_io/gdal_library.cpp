@@ -20,4 +20,14 @@ void* find_in_gdal(const char* name) {
   return function;
 }
 
+std::string beginning_in_zip(const std::string& zip, const std::string& name, std::size_t most) {
+  const GdalReading reading;
+  VSILFILE* const file = VSIFOpenL(("/vsizip/{" + zip + "}/" + name).c_str(), "rb");
+  if (!file) return {};
+  std::string begin(most, '\0');
+  begin.resize(VSIFReadL(begin.data(), 1, most, file));
+  VSIFCloseL(file);
+  return begin;
+}
+
 }  // namespace insonify

@@ -99,6 +99,8 @@ INSONIFY_GDAL_FUNCTION(OSRNewSpatialReference);
 INSONIFY_GDAL_FUNCTION(OSRSetAxisMappingStrategy);
 INSONIFY_GDAL_FUNCTION(VSIFCloseL);
 INSONIFY_GDAL_FUNCTION(VSIFileFromMemBuffer);
+INSONIFY_GDAL_FUNCTION(VSIFOpenL);
+INSONIFY_GDAL_FUNCTION(VSIFReadL);
 INSONIFY_GDAL_FUNCTION(VSIFree);
 #undef INSONIFY_GDAL_FUNCTION
 
@@ -136,6 +138,9 @@ class GdalReading {
   QuietGdalErrors quiet_;
   GIntBig before_ = 0;
 };
+
+/// Returns the first bytes, at most `most`, of a file within a zip; empty if there is none.
+std::string beginning_in_zip(const std::string& zip, const std::string& name, std::size_t most);
 
 struct FreeReference {
   void operator()(void* reference) const { OSRDestroySpatialReference(reference); }

@@ -189,7 +189,7 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options);
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
 RawCloud read_ptx(const std::string& path, const ReadOptions& options);
 RawCloud read_gltf(const std::string& path, const ReadOptions& options);
-RawCloud read_assimp(const std::string& path, const ReadOptions& options);  ///< .dae, .fbx, .off, .x3d
+RawCloud read_assimp(const std::string& path, const ReadOptions& options);  ///< .dae, .fbx, .off, .x3d, .3mf
 RawCloud read_las(const std::string& path, const ReadOptions& options);
 RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< heights, by GDAL
 /// Throws Error(content) for a classic netCDF file that ends before its variables do; other files pass.

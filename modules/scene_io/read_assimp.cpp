@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Meshes of robots, games and CAD by Assimp, which is loaded when it is needed. It applies the transforms of nodes, and
-// the unit and up axis of Collada and FBX; coordinates are float.
+// the unit and up axis of Collada and FBX; the unit of 3MF is read here. Coordinates are float.
 #include <memory>
 #include <string>
 
@@ -13,7 +13,11 @@
 #include <dlfcn.h>
 
 #include "core/error.hpp"
+#include "core/text_lines.hpp"
 #include "files/input_file.hpp"
+#ifdef INSONIFY_GDAL
+#include "scene_io/gdal_library_internal.hpp"
+#endif
 #include "scene_io/read_apart_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 
@@ -41,7 +45,6 @@ AssimpScene import(const std::string& path) {
   const auto options = INSONIFY_ASSIMP_FUNCTION(aiCreatePropertyStore)();
   const auto set = INSONIFY_ASSIMP_FUNCTION(aiSetImportPropertyInteger);
   set(options, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  set(options, "AI_CONFIG_IMPORT_FBX_IGNORE_UP_DIRECTION", 1);  // the up axis is applied here, by its number
   const aiScene* const scene = INSONIFY_ASSIMP_FUNCTION(aiImportFileExWithProperties)(
       path.c_str(),
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GlobalScale | aiProcess_ValidateDataStructure, nullptr,
@@ -73,10 +76,9 @@ struct PlacedMeshes {
   RawCloud& raw;
   std::vector<double> rows{};  ///< x y z label
 
-  void add(const aiNode& node, const Affine3d& parent) {
-    const Affine3d world = parent * transform_of(node);
+  void add(const aiNode& node, const Affine3d& world) {
     for (unsigned k = 0; k < node.mNumMeshes; ++k) add(*scene.mMeshes[node.mMeshes[k]], world);
-    for (unsigned k = 0; k < node.mNumChildren; ++k) add(*node.mChildren[k], world);
+    for (unsigned k = 0; k < node.mNumChildren; ++k) add(*node.mChildren[k], world * transform_of(*node.mChildren[k]));
   }
 
   void add(const aiMesh& mesh, const Affine3d& world) {
@@ -97,6 +99,33 @@ struct PlacedMeshes {
   }
 };
 
+/// Sets the unit of a 3MF, which Assimp leaves out: GDAL reads the begin of its model from the zip.
+void set_unit_of_3mf(RawCloud& raw) {
+  std::string head;
+#ifdef INSONIFY_GDAL
+  head = beginning_in_zip(raw.path, "3D/3dmodel.model", 1 << 16);
+#endif
+  const std::size_t begin = head.find("<model"), end = begin == head.npos ? begin : head.find('>', begin);
+  if (end == head.npos) {
+    raw.meaning.no_lengths =
+        "the unit in it cannot be read; give --unit mm, or what its model says: unzip -p FILE "
+        "3D/3dmodel.model | head -c 1000";
+    return;
+  }
+  const std::string tag = head.substr(begin, end - begin);
+  const std::size_t at = tag.find(" unit=");
+  const std::string name = at == tag.npos ? "millimeter" : tag.substr(at + 7, tag.find(tag[at + 6], at + 7) - at - 7);
+  const std::optional<double> unit = name == "micron" ? 1e-6 : name == "inch" ? 0.0254 : unit_named(name);
+  if (!unit) fail(ErrorKind::content, raw.path, ": its unit '", shown(name), "' is unknown; export it in millimetres");
+  raw.meaning.unit = {*unit, MeaningOrigin::file, "unit of the file: " + name};
+}
+
+/// Returns the name of a material in its file. The importer of 3MF puts "id", a number and "_" before it.
+std::string name_in_file(const std::string& name, bool is_3mf) {
+  const std::size_t end = name.find_first_not_of("0123456789", 2);
+  return is_3mf && name.starts_with("id") && end != name.npos && name[end] == '_' ? name.substr(end + 1) : name;
+}
+
 /// Sets which axis points up: the importers of Collada and X3D make it y; FBX states it, and others leave it open.
 void set_up_axis(const aiScene& scene, const std::string& extension, RawCloud& raw) {
   raw.meaning.y_up.value = extension == ".dae" || extension == ".x3d";
@@ -109,15 +138,21 @@ void set_up_axis(const aiScene& scene, const std::string& extension, RawCloud& r
 
 SentRows send_assimp(ArraySender& to, RawCloud& raw) {
   const AssimpScene scene = import(raw.path);
+  const bool is_3mf = extension_of(raw.path) == ".3mf";
   set_up_axis(*scene, extension_of(raw.path), raw);
+  if (is_3mf) set_unit_of_3mf(raw);
   PlacedMeshes meshes{*scene, raw};
-  meshes.add(*scene->mRootNode, Affine3d::Identity());
+  // The root of an FBX has no transform of its own. Assimp turns it by the axes of the file, each version otherwise; the
+  // up axis is applied here instead.
+  const bool is_fbx = extension_of(raw.path) == ".fbx";
+  meshes.add(*scene->mRootNode, is_fbx ? Affine3d::Identity() : transform_of(*scene->mRootNode));
   if (meshes.rows.empty())
     fail(ErrorKind::content, raw.path, ": holds no triangle; export the mesh again, with its geometry");
   for (unsigned k = 0; k < scene->mNumMaterials; ++k) {
     aiString name;
     INSONIFY_ASSIMP_FUNCTION(aiGetMaterialString)(scene->mMaterials[k], AI_MATKEY_NAME, &name);
-    raw.material_names.push_back(name.length > 0 ? name.C_Str() : "material " + std::to_string(k));
+    raw.material_names.push_back(name.length > 0 ? name_in_file(name.C_Str(), is_3mf)
+                                                 : "material " + std::to_string(k));
   }
   raw.width = meshes.rows.size() / 4;
   const SentRows sent = rows_of_doubles({"x", "y", "z", "label"}, raw.width);
@@ -132,7 +167,7 @@ RawCloud read_assimp(const std::string& path, const ReadOptions& options) {
   RawCloud raw;
   raw.path = path;
   for (const auto& [extension, name] :
-       {std::pair{".dae", "Collada"}, {".fbx", "FBX"}, {".off", "OFF"}, {".x3d", "X3D"}})
+       {std::pair{".dae", "Collada"}, {".fbx", "FBX"}, {".off", "OFF"}, {".x3d", "X3D"}, {".3mf", "3MF"}})
     if (extension_of(path) == extension) raw.format = std::string(name) + " mesh";
   raw.fields = {{"x", "float"}, {"y", "float"}, {"z", "float"}};
   read_rows_apart(raw, file_size_of(path), options,

@@ -12,7 +12,7 @@
 #include "scene_io/scene_readers_internal.hpp"
 
 // Reads LAS 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15): a header, variable-length records, and points as rows of
-// packed numbers. The records that are read describe extra bytes or the coordinate system.
+// packed numbers, which a LAZ has compressed. The records that are read describe extra bytes or the coordinate system.
 namespace insonify {
 namespace {
 
@@ -168,8 +168,10 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
   const int major = start.at<std::uint8_t>(24), minor = start.at<std::uint8_t>(25);
   if (major != 1 || minor > 4)
     fail(ErrorKind::content, path, ": is LAS ", major, ".", minor, ", expected 1.0 to 1.4; export it as one of these");
-  const unsigned format = start.at<std::uint8_t>(104);
-  if (format >= 128) fail(ErrorKind::content, path, ": its points are compressed (LAZ); ", laz_remedy);
+  // The upper bits say that the points are packed.
+  const unsigned announced = start.at<std::uint8_t>(104), format = announced & 0x3f;
+  const bool packed = announced != format;
+  if (packed && *laz_remedy) fail(ErrorKind::content, path, ": its points are compressed (LAZ); ", laz_remedy);
   if (format >= point_formats.size())
     fail(ErrorKind::content, path, ": point data record format ", format,
          ", expected 0 to 10; export it in one of these");
@@ -177,8 +179,9 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
 
   RowFile file;
   file.path = path;
-  file.format =
-      "LAS " + std::to_string(major) + "." + std::to_string(minor) + ", point format " + std::to_string(format);
+  file.packed = packed;
+  file.format = std::string(packed ? "LAZ " : "LAS ") + std::to_string(major) + "." + std::to_string(minor) +
+                ", point format " + std::to_string(format);
   file.begin = start.at<std::uint32_t>(96);
   file.stride = start.at<std::uint16_t>(105);
   const std::uint64_t many = minor >= 4 ? start.at<std::uint64_t>(247) : 0;
@@ -186,7 +189,7 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
   if (file.stride < layout.bytes)
     fail(ErrorKind::content, path, ": a point has ", file.stride, " bytes, format ", format, " needs ", layout.bytes);
   const std::size_t size = file_size_of(path);
-  if (file.begin > size || file.rows > (size - file.begin) / file.stride)
+  if (file.begin > size || (!packed && file.rows > (size - file.begin) / file.stride))
     fail(ErrorKind::content, path, ": cut off: the header announces ", file.rows, " points of ", file.stride,
          " bytes from byte ", file.begin, ", the file has ", size, " bytes; copy or export the file again");
   add_columns(start, layout, format < 6, file);

@@ -56,6 +56,9 @@ RawCloud raw_of(const RowFile& file) {
 }
 
 RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count) {
+#ifdef INSONIFY_LASZIP
+  if (file.packed) return unpack_rows(file, first, count);
+#endif
   const auto bytes = std::make_shared<std::vector<char>>(count * file.stride);
   BinaryFile(file.path, BinaryFile::Mode::read).read(file.begin + first * file.stride, *bytes);
   if (file.big_endian) {

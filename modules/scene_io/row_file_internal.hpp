@@ -13,7 +13,7 @@
 // Private to scene_io: clouds of any size, read in batches of rows.
 namespace insonify {
 
-/// Layout of the rows of an uncompressed binary cloud file.
+/// Layout of the rows of a binary cloud file.
 struct RowFile {
   std::string path, format;
   std::vector<RowTable::Column> columns;
@@ -26,9 +26,10 @@ struct RowFile {
   RowMarks marks{};
   FileMeaning meaning{};
   std::vector<std::string> notes{};
+  bool packed = false;  ///< the rows of a LAZ, which LASzip unpacks
 };
 
-/// Return the layout of a binary PLY or PCD without faces, or of a LAS file; nothing for files that must be read as a
+/// Return the layout of a binary PLY or PCD without faces, or of a LAS or LAZ file; nothing for files that must be read as a
 /// whole. Throw as load_scene for files that are missing, truncated or of another format than their extension.
 std::optional<RowFile> find_ply_rows(const std::string& path);
 std::optional<RowFile> find_pcd_rows(const std::string& path);
@@ -41,8 +42,10 @@ RowFile rows_of_ply(const std::string& path, const char* otherwise);
 /// Returns the facts in the header of the file, without points.
 RawCloud raw_of(const RowFile& file);
 
-/// Returns `count` rows starting at `first`, in this machine's byte order.
+/// Returns `count` rows starting at `first`, in this machine's byte order. Throws Error(content) for a damaged LAZ.
 RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count);
+/// Does the same for a LAZ, by LASzip.
+RowTable unpack_rows(const RowFile& file, std::size_t first, std::size_t count);
 
 /// Reads a file in batches, and calls use(RowTable) for each.
 template <typename Use>

@@ -11,6 +11,19 @@
 #include "tiles/tiled_scene.hpp"
 
 namespace insonify {
+namespace {
+
+#ifdef INSONIFY_ASSIMP
+constexpr auto read_by_assimp = read_assimp;
+constexpr const char* without_assimp = "";
+#else
+constexpr RawCloud (*read_by_assimp)(const std::string&, const ReadOptions&) = nullptr;
+constexpr const char* without_assimp = "export it as .glb, or build insonify with libassimp-dev";
+#endif
+constexpr const char* vrml_remedy =
+    "make it .ply first: docs/scene-files.md has the command (VRML), or export it as .glb, .obj or .stl";
+
+}  // namespace
 
 std::string surface_remedy(const std::string& extension) {
   const bool legacy = extension == ".vtk";
@@ -24,38 +37,37 @@ std::string surface_remedy(const std::string& extension) {
 
 const std::vector<SceneReader>& scene_readers() {
   static const std::vector<SceneReader> readers = {
-      {{".pcd"}, {"# .PCD", "VERSION ", "FIELDS "}, "a PCD file", "", read_pcd, find_pcd_rows},
-      {{".ply"}, {"ply\n", "ply\r\n"}, "a PLY file", "", read_ply, find_ply_rows},
-      {{".obj"}, {}, "an OBJ file", "", read_obj},
-      {{".stl"}, {"solid "}, "an ASCII STL file", "", read_stl},
-      {{".vtk"}, {"# vtk DataFile"}, "a legacy VTK file", "", read_vtk},
-      {{".vtp"}, {"<VTKFile PolyData"}, "a VTK file of polydata", "", read_vtk},
-      {{".vtu", ".vts", ".vtr", ".vti"}, {"<VTKFile"}, "a VTK file that is no polydata", surface_remedy(".vtu")},
-      {{".glb"}, {"glTF"}, "a binary glTF file", "", read_gltf},
-      {{".gltf"}, {}, "a glTF document", "", read_gltf},
-#ifdef INSONIFY_ASSIMP
-      {{".dae"}, {}, "a Collada document", "", read_assimp},
-      {{".fbx"}, {"Kaydara FBX Binary", "; FBX "}, "an FBX file", "", read_assimp},
-      {{".off"}, {"OFF"}, "an OFF file", "", read_assimp},
-      {{".x3d"}, {}, "an X3D document", "", read_assimp},
-#else
-      {{".dae", ".fbx", ".off", ".x3d"},
-       {},
-       "a mesh that Assimp reads",
-       "export it as .glb, or build insonify with libassimp-dev"},
-#endif
-      {{".3mf", ".wrl", ".stp", ".step"}, {}, "a mesh or solid of another kind", "export it as .glb, .obj or .stl"},
-      {{".xyz", ".txt", ".csv"}, {}, "text", "", read_asc},
-      {{".pts"}, {}, "points of a scanner as text", "", read_text_cloud},
-      {{".ptx"}, {}, "scans of a scanner as text", "", read_ptx},
-      {{".asc"}, {"ncols", "NCOLS"}, "text, or an ESRI ASCII grid", "", read_asc},
-      {{".tif", ".tiff"}, {std::string("II*\0", 4), std::string("MM\0*", 4)}, "a TIFF file", "", read_raster},
-      {{".bag"}, {}, "a BAG file", "", read_raster},
-      {{".nc", ".grd"}, {"CDF"}, "a netCDF grid", "", read_raster},
-      {{".tiles"}, {"\x89HDF\r\n\x1a\n"}, "an HDF5 file, if of insonify tiles", "", nullptr, nullptr, load_all_tiles},
-      {{".las"}, {"LASF"}, "a LAS file", "", read_las, find_las_rows},
-      {{".laz"}, {}, "a LAZ file", laz_remedy},
-      {{".e57"}, {"ASTM-E57"}, "an E57 file", "make it .xyz first: docs/scene-files.md has the command (LAZ and E57)"},
+      {{".pcd"}, {"# .PCD", "VERSION ", "FIELDS "}, "a PCD file", "PCL", "", read_pcd, find_pcd_rows},
+      {{".ply"}, {"ply\n", "ply\r\n"}, "a PLY file", "insonify", "", read_ply, find_ply_rows},
+      {{".obj"}, {}, "an OBJ file", "insonify", "", read_obj},
+      {{".stl"}, {"solid "}, "an ASCII STL file", "insonify", "", read_stl},
+      {{".vtk"}, {"# vtk DataFile"}, "a legacy VTK file", "VTK", "", read_vtk},
+      {{".vtp"}, {"<VTKFile PolyData"}, "a VTK file of polydata", "VTK", "", read_vtk},
+      {{".vtu", ".vts", ".vtr", ".vti"}, {"<VTKFile"}, "a VTK file that is no polydata", "", surface_remedy(".vtu")},
+      {{".glb"}, {"glTF"}, "a binary glTF file", "insonify", "", read_gltf},
+      {{".gltf"}, {}, "a glTF document", "insonify", "", read_gltf},
+      {{".dae"}, {}, "a Collada document", "Assimp", without_assimp, read_by_assimp},
+      {{".fbx"}, {"Kaydara FBX Binary", "; FBX "}, "an FBX file", "Assimp", without_assimp, read_by_assimp},
+      {{".off"}, {"OFF"}, "an OFF file", "Assimp", without_assimp, read_by_assimp},
+      {{".x3d"}, {}, "an X3D document", "Assimp", without_assimp, read_by_assimp},
+      {{".3mf"}, {}, "a 3MF file", "Assimp", without_assimp, read_by_assimp},
+      {{".wrl"}, {"#VRML"}, "a VRML file", "", vrml_remedy},
+      {{".stp", ".step"}, {"ISO-10303-21"}, "a solid", "", "export its surface as .glb, .obj or .stl"},
+      {{".xyz", ".txt", ".csv"}, {}, "text", "insonify", "", read_asc},
+      {{".pts"}, {}, "points of a scanner as text", "insonify", "", read_text_cloud},
+      {{".ptx"}, {}, "scans of a scanner as text", "insonify", "", read_ptx},
+      {{".asc"}, {"ncols", "NCOLS"}, "text, or an ESRI ASCII grid", "GDAL", "", read_asc},
+      {{".tif", ".tiff"}, {std::string("II*\0", 4), std::string("MM\0*", 4)}, "a TIFF file", "GDAL", "", read_raster},
+      {{".bag"}, {}, "a BAG file", "GDAL", "", read_raster},
+      {{".nc", ".grd"}, {"CDF"}, "a netCDF grid", "GDAL", "", read_raster},
+      {{".tiles"}, {"\x89HDF\r\n\x1a\n"}, "an HDF5 file, if of insonify tiles", "HDF5", "", {}, {}, load_all_tiles},
+      {{".las"}, {"LASF"}, "a LAS file", "insonify", "", read_las, find_las_rows},
+      {{".laz"}, {}, "a LAZ file", "LASzip", laz_remedy, read_las, find_las_rows},
+      {{".e57"},
+       {"ASTM-E57"},
+       "an E57 file",
+       "",
+       "make it .xyz first: docs/scene-files.md has the command (LAZ and E57)"},
   };
   return readers;
 }
@@ -89,6 +101,13 @@ std::string scene_extensions() {
   for (const SceneReader& reader : scene_readers())
     for (const std::string& extension : reader.extensions)
       if (reader.remedy.empty()) all += (all.empty() ? "" : " ") + extension;
+  return all;
+}
+
+std::vector<SceneFormat> scene_formats() {
+  std::vector<SceneFormat> all;
+  for (const SceneReader& reader : scene_readers())
+    all.push_back({reader.extensions, reader.name, reader.library, reader.remedy});
   return all;
 }
 

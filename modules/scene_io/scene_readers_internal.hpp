@@ -15,6 +15,7 @@ struct SceneReader {
   std::vector<std::string> extensions;  ///< in lower case, with their dots; the first is the usual one
   std::vector<std::string> magic;       ///< possible first bytes of such files; empty: unknown
   std::string name;                     ///< "a PLY file"
+  std::string library;                  ///< reader of such files; empty: none
   std::string remedy;                   ///< formats that are not read: command or way to convert them; else empty
   RawCloud (*read)(const std::string& path, const ReadOptions& options) = nullptr;
   std::optional<RowFile> (*find_rows)(const std::string& path) = nullptr;  ///< null: read as a whole only
@@ -26,7 +27,12 @@ const std::vector<SceneReader>& scene_readers();
 
 /// Returns the remedy for a VTK file of this extension that is no polydata: to make its surface a .vtp.
 std::string surface_remedy(const std::string& extension);
-constexpr const char* laz_remedy = "make it .las first: docs/scene-files.md has the command (LAZ and E57)";
+#ifdef INSONIFY_LASZIP
+constexpr const char* laz_remedy = "";
+#else
+constexpr const char* laz_remedy =
+    "make it .las first, or build insonify with liblaszip-dev: docs/scene-files.md has the commands (LAZ and E57)";
+#endif
 
 /// Returns the reader of `path` by its extension. Throws Error(file) if the file cannot be opened, Error(content) if it
 /// is empty or its extension is none of scene_extensions().

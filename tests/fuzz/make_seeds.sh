@@ -8,7 +8,7 @@ set -euo pipefail
 [[ $# == 2 ]] || { sed -n '6s/^# *//p' "$0" >&2; exit 2; }
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
-mkdir pcd ply obj stl vtk vtp gltf glb xyz pts ptx dae fbx off x3d csv asc las tiff tiles sonar environment mission materials mirrors scene \
+mkdir pcd ply obj stl vtk vtp gltf glb xyz pts ptx dae fbx off x3d 3mf csv asc las laz tiff tiles sonar environment mission materials mirrors scene \
   scene.beside profile trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run levels survey work
 
 # Formats that the tool writes.
@@ -32,6 +32,8 @@ find work/vtk -name '*.vtp' -size -64k -exec cp {} vtp/ \;
 "$tool" export work/side --to xtf --linear --anchor 54,8 -o xtf/floats.xtf -q >/dev/null
 cp "$root"/data/sonars/{p900-45,ping360,em2040}.toml sonar/
 cp "$root"/data/materials.toml materials/
+cp "$root"/tests/data/laz/*.laz laz/
+cp "$root"/tests/data/meshes/*.3mf 3mf/
 
 # Text, by hand.
 square='0 0 0\n1 0 0\n1 1 0\n0 1 0\n'

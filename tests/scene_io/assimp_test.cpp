@@ -142,8 +142,38 @@ TEST_F(AssimpFile, damage_is_named_with_a_remedy) {
   own_file("empty.off", "OFF\n0 0 0\n");
   expect_error(ErrorKind::content, {"empty.off"}, [] { load_scene(own_path("empty.off")); });
   own_file("part.3mf", "PK");
-  expect_error(ErrorKind::content, {"part.3mf", "not read", "export it as .glb"},
+  expect_error(ErrorKind::content, {"part.3mf", "cannot be read", "export it again"},
                [] { load_scene(own_path("part.3mf")); });
+}
+
+// Two parts of steel and sand, in inches; the second stands 100 inches to the side: tests/data/meshes/README.md.
+TEST_F(AssimpFile, of_3mf_obeys_unit_places_and_names_of_materials) {
+  const std::string path = INSONIFY_TEST_MESHES "/two_parts.3mf";
+  LoadOptions options;
+  options.materials = {{.name = "sand", .lambert_mu = 0.2}};
+  const auto expect_parts = [&](double unit) {
+    const LoadedScene loaded = load_scene(path, options);
+    Vector3d low(9, 9, 9), high(-9, -9, -9);
+    for (const Eigen::Vector3f& corner : loaded.mesh.value().point) {
+      const Vector3d position = loaded.mesh->origin + corner.cast<double>();
+      low = low.cwiseMin(position), high = high.cwiseMax(position);
+    }
+    EXPECT_LT(low.norm(), 1e-6) << low.transpose();
+    EXPECT_LT((high - unit * Vector3d(110, 20, 30)).norm(), 1e-5 * unit) << high.transpose();
+    for (std::size_t i = 0; i < loaded.scene.size(); ++i) {
+      const bool side = world(loaded.scene, i).x() > unit * 50;
+      EXPECT_EQ(loaded.scene.materials.at(loaded.scene.material[i]).name, side ? "sand" : "steel");
+    }
+  };
+  options.meaning = meaning_override(&MeaningText::unit, "m");
+  expect_parts(1);
+#ifdef INSONIFY_GOLDEN_RASTER
+  options.meaning = {};
+  expect_parts(0.0254);
+#else
+  options.meaning = {};
+  expect_error(ErrorKind::content, {"two_parts.3mf", "give --unit mm"}, [&] { load_scene(path, options); });
+#endif
 }
 
 }  // namespace insonify::assimp_tests

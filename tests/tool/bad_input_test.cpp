@@ -3,6 +3,7 @@
 // nothing behind.
 #include "run/run_settings.hpp"
 #include "scene/surface_rays.hpp"
+#include "scene_io/load_scene.hpp"
 #include "support/test.hpp"
 #include "tool/tool_runner.hpp"
 
@@ -182,5 +183,6 @@ TEST_F(BadInput, help_is_no_error) {
   EXPECT_TRUE(all.out.starts_with(version.out + "built with ")) << all.out;
   for (const char* part : {"Embree", "GDAL", "Python", "VTK"}) EXPECT_THAT(all.out, HasSubstr(part));
   EXPECT_EQ(all.out.find("without Embree") == all.out.npos, SurfaceRays::available());
+  EXPECT_EQ(all.out.find("without LASzip") == all.out.npos, scene_extensions().find(".laz") != std::string::npos);
   expect_refused("--verbose", 2, {"--verbose requires --version"});
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "scene_io/load_scene.hpp"
+#include "scene_io/describe_file.hpp"
 #include "tool/command/command_text.hpp"
 #include "tool/tool_runner.hpp"
 #include "tool/verbs_in_help.hpp"
@@ -120,9 +120,12 @@ TEST_F(Help, verbs_and_formats_of_scenes_are_in_the_docs) {
   const std::string readme = page("README.md"), formats = page("docs/scene-files.md");
   for (const std::string& verb : verbs())
     EXPECT_TRUE(std::regex_search(readme, std::regex("(insonify |`)" + verb + "[ `]"))) << "README.md lacks " << verb;
-  std::istringstream extensions(scene_extensions());
-  for (std::string extension; extensions >> extension;)
-    EXPECT_THAT(formats, HasSubstr("`" + extension + "`")) << "docs/scene-files.md lacks a format";
+  // Each extension stands in a row of the table that ends with the library that reads it.
+  for (const SceneFormat& format : scene_formats())
+    for (const std::string& extension : format.extensions)
+      EXPECT_TRUE(std::regex_search(formats, std::regex("\\n\\|[^|\n]*`\\" + extension + "`[^|\n]*\\|[^|\n]*\\| " +
+                                                        (format.library.empty() ? "not read" : format.library))))
+          << "docs/scene-files.md lacks " << extension << " with " << format.library;
 }
 
 TEST_F(Help, colour_maps_are_words) {

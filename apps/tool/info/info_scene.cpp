@@ -96,6 +96,7 @@ ordered_json cloud_info(const std::string& path, MeaningText& requested) {
     meaning.push_back({{"item", m.name}, {"value", m.value}, {"origin", m.origin}, {"sentence", m.sentence}});
   ordered_json json = {{"path", d.path},
                        {"format", d.format},
+                       {"reader", d.reader},
                        {"points", d.points},
                        {"triangles", d.triangles},
                        {"width", d.width},
@@ -128,6 +129,7 @@ ordered_json tiles_info(const std::string& path, const TiledScene& tiled) {
   for (const Material& m : info.materials) materials.push_back(m.name);
   ordered_json json = {{"path", path},
                        {"format", "insonify tiles"},
+                       {"reader", "HDF5"},
                        {"surfels", info.surfels},
                        {"tiles", info.tiles},
                        {"bytes", info.bytes},
@@ -159,7 +161,7 @@ void print_scene(const ordered_json& d) {
     const ordered_json& at = d["bounds"][corner];
     return Eigen::Vector3d(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
   };
-  fmt::print("{}\n  format     {}\n  points     {}", text(d["path"]), text(d["format"]),
+  fmt::print("{}\n  format     {}, read by {}\n  points     {}", text(d["path"]), text(d["format"]), text(d["reader"]),
              d["points"].get<std::size_t>());
   if (d["height"].get<std::size_t>() > 1)
     fmt::print(" ({} x {}, organised)", d["width"].get<std::size_t>(), d["height"].get<std::size_t>());
