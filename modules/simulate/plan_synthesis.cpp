@@ -98,7 +98,7 @@ const char* reason_for_phases(const PlanCause& of) {
 /// Forms samples of coarse heads, of which a display cell holds a few, as well as a display shows them: means within
 /// 0.1 dB of cells down to 40 dB below the loudest, contrast within 5 %. What is not the default stands.
 void adapt_to_display(const PlanCause& of, SimulationOptions& o) {
-  constexpr double display_tolerance = 1e-3, display_scatterers = 1.5;
+  constexpr double display_tolerance = 1e-3, display_scatterers = 3;
   if (!(of.samples_per_cell < least_samples_per_cell) || o.outputs.layers || o.sampling.kind == SamplingKind::rays)
     return;
   if (o.synthesis.tolerance == SynthesisSettings{}.tolerance) o.synthesis.tolerance = display_tolerance;

@@ -181,7 +181,7 @@ TEST(DisplayPing, of_few_samples_is_formed_as_well_as_a_display_shows) {
     o.outputs.display_bins = fine;
     return plan_ping(seabed(), head, {.world_from_head = tilted()}, {}, o).options;
   };
-  EXPECT_EQ(decided(display(false)).sampling.scatterers_per_cell, 1.5);  // in place of 3: means and contrast below hold
+  EXPECT_EQ(decided(display(false)).sampling.scatterers_per_cell, 3);
   EXPECT_EQ(decided(display(false)).synthesis.tolerance, 1e-3);
   // Settings of the caller stay.
   EXPECT_EQ(decided(display(true)).sampling.scatterers_per_cell, SamplingOptions{}.scatterers_per_cell);
