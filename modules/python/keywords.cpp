@@ -185,9 +185,9 @@ void set_keywords(const Keywords& of, const py::dict& given, const std::string& 
       fail(ErrorKind::argument, who, ": unknown keyword '", name, "'", did_you_mean(name, {known.begin(), known.end()}),
            "; its docs list all");
     }
-    const Key& key = *found->second;
-    const std::string full = (*key.section ? std::string(key.section) + "." : "") + key.name;
-    if (!value.is_none()) set_key({key}, full, meanings_of(value_of(value, who + ": " + name)), who + ": ");
+    Key key = *found->second;
+    key.section = "", key.name = name.c_str();  // as errors call it
+    if (!value.is_none()) set_key({key}, name, meanings_of(value_of(value, who + ": " + name)), who + ": ");
   }
 }
 

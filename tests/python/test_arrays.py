@@ -91,7 +91,7 @@ def test_errors_speak_of_keywords(simulator, scene, tmp_path):
         ping.save(tmp_path / "run", picture=False)
     assert "--" not in str(caught.value)
     for call, said in ((lambda: iy.Scene(np.eye(3), material="sandd"), "^material = 'sandd' is unknown"),
-                       (lambda: simulator.ping(scene, (0, 0, -3), velocity="fast"), "^velocity = "),
+                       (lambda: simulator.ping(scene, (0, 0, -3), velocity="fast"), "^ping: velocity = "),
                        (lambda: iy.PingSimulator(iy.sonar("p900-45"), all_bins_above="loud"), "all_bins_above")):
         with pytest.raises(iy.ArgumentError, match=said) as caught:
             call()

@@ -21,4 +21,4 @@ def test_files_are_read_beside_busy_threads(tmp_path):
     subprocess.run([seeds, os.environ["INSONIFY_TOOL"], tmp_path / "seeds"], check=True)
     program = [sys.executable, str(Path(__file__).with_name("busy_readings.py")), str(tmp_path / "seeds"), "10"]
     ended = subprocess.run(program, capture_output=True, text=True, timeout=300)
-    assert ended.returncode == 0 and ended.stdout == "140 files read, 0 wrong\n", ended.stdout + ended.stderr
+    assert ended.returncode == 0 and ended.stdout == "200 files read, 0 wrong\n", ended.stdout + ended.stderr

@@ -33,6 +33,8 @@ def rules_of(docs: str) -> dict[str, str]:
 def type_of(name: str, rules: dict[str, str]) -> str:
     """The type of a keyword, which may be the end of a full name, without its unit."""
     full = next(full for full in rules if any(full == name + unit or full.endswith(f"_{name}{unit}") for unit in units))
+    if "as text or as a list" in rules[full]:
+        return "str | _Numbers"
     return next(kind for begin, kind in types if rules[full].startswith(begin))
 
 
