@@ -77,28 +77,30 @@ class Scene:
     def __init__(self, points: ArrayLike, *, normals: ArrayLike | None = None, areas: ArrayLike | None = None,
             material: ArrayLike | str | None = None, instance: ArrayLike | None = None,
             triangles: ArrayLike | None = None,
-            viewpoint: _Text | None = None, materials: _Text | None = None, material_field: _Text | None = None,
-            unit: _Text | None = None, z: _Text | None = None, up: _Text | None = None, band: _Text | None = None,
-            nodata: _Text | None = None, classes: _Text | None = None, mesh_spacing: _Number | None = None,
-            scan_noise: _Text | None = None, keep_strays: bool | np.bool_ | None = None) -> None: ...
+            viewpoint: str | _Numbers | None = None, materials: _Text | None = None,
+            material_field: _Text | None = None, unit: _Text | None = None, z: _Text | None = None,
+            up: _Text | None = None, band: _Text | None = None, nodata: _Text | None = None,
+            classes: _Text | None = None, mesh_spacing: _Number | None = None,
+            scan_noise: str | _Numbers | None = None, keep_strays: bool | np.bool_ | None = None) -> None: ...
     def __len__(self) -> int: ...
     def add(self, body: _Path | Scene | ArrayLike | tuple[ArrayLike, ArrayLike], *, name: str | None = None,
             class_: str | None = None, material: ArrayLike | str | None = None, pose: ArrayLike = ...,
             velocity: ArrayLike | None = None, turn_rate: ArrayLike | None = None, spacing: float = 0,
-            viewpoint: _Text | None = None, materials: _Text | None = None, material_field: _Text | None = None,
-            unit: _Text | None = None, z: _Text | None = None, up: _Text | None = None, band: _Text | None = None,
-            nodata: _Text | None = None, classes: _Text | None = None, mesh_spacing: _Number | None = None,
-            scan_noise: _Text | None = None, keep_strays: bool | np.bool_ | None = None) -> int: ...
+            viewpoint: str | _Numbers | None = None, materials: _Text | None = None,
+            material_field: _Text | None = None, unit: _Text | None = None, z: _Text | None = None,
+            up: _Text | None = None, band: _Text | None = None, nodata: _Text | None = None,
+            classes: _Text | None = None, mesh_spacing: _Number | None = None,
+            scan_noise: str | _Numbers | None = None, keep_strays: bool | np.bool_ | None = None) -> int: ...
     def move(self, id: int, pose: ArrayLike, *, velocity: ArrayLike | None = None,
             turn_rate: ArrayLike | None = None) -> None: ...
     def remove(self, id: int) -> None: ...
 
 def load_scene(path: _Path, *, seed: int | None = None,
-            viewpoint: _Text | None = None, materials: _Text | None = None, material_field: _Text | None = None,
-            material: _Text | None = None, unit: _Text | None = None, z: _Text | None = None,
-            up: _Text | None = None, band: _Text | None = None, nodata: _Text | None = None,
-            classes: _Text | None = None, mesh_spacing: _Number | None = None, scan_noise: _Text | None = None,
-            keep_strays: bool | np.bool_ | None = None) -> Scene: ...
+            viewpoint: str | _Numbers | None = None, materials: _Text | None = None,
+            material_field: _Text | None = None, material: _Text | None = None, unit: _Text | None = None,
+            z: _Text | None = None, up: _Text | None = None, band: _Text | None = None, nodata: _Text | None = None,
+            classes: _Text | None = None, mesh_spacing: _Number | None = None,
+            scan_noise: str | _Numbers | None = None, keep_strays: bool | np.bool_ | None = None) -> Scene: ...
 def make_scene(name: str, points: int = 200000, seed: int = 1) -> Scene: ...
 
 class Ping:
@@ -163,15 +165,15 @@ class PingSimulator:
             split: bool | np.bool_ | None = None, display: int | np.integer[Any] | None = None,
             looks_range: int | np.integer[Any] | None = None, looks_pings: int | np.integer[Any] | None = None,
             absorption_order: int | np.integer[Any] | None = None, threshold_db: _Number | None = None,
-            false_alarm_rate: _Number | None = None, all_bins_above: _Text | None = None,
+            false_alarm_rate: _Number | None = None, all_bins_above: str | _Numbers | None = None,
             memory_limit_gib: _Number | None = None, with_: str | Sequence[str] | None = None,
             without: str | Sequence[str] | None = None) -> None: ...
     def ping(self, scene: Scene, position: ArrayLike, yaw: float = 0, pitch: float = 0, roll: float = 0, *,
             seed: int | np.integer[Any] | str | None = None, time: _Number | None = None,
             ping: int | np.integer[Any] | None = None, draw: int | np.integer[Any] | None = None,
             keep: str | Sequence[str] | None = None, contributors: int | np.integer[Any] | None = None,
-            display: int | np.integer[Any] | None = None, velocity: _Text | None = None,
-            turn_rate: _Text | None = None) -> Ping: ...
+            display: int | np.integer[Any] | None = None, velocity: str | _Numbers | None = None,
+            turn_rate: str | _Numbers | None = None) -> Ping: ...
     def pings(self, scene: Scene, poses: ArrayLike, threads: int = 0, *,
             seed: int | np.integer[Any] | str | None = None, time: ArrayLike | None = None,
             ping: int | np.integer[Any] | None = None, draw: ArrayLike | None = None,
@@ -189,8 +191,8 @@ class PingSimulator:
             seed: int | np.integer[Any] | str | None = None, time: _Number | None = None,
             ping: int | np.integer[Any] | None = None, draw: int | np.integer[Any] | None = None,
             keep: str | Sequence[str] | None = None, contributors: int | np.integer[Any] | None = None,
-            display: int | np.integer[Any] | None = None, velocity: _Text | None = None,
-            turn_rate: _Text | None = None) -> list[dict[str, Any]]: ...
+            display: int | np.integer[Any] | None = None, velocity: str | _Numbers | None = None,
+            turn_rate: str | _Numbers | None = None) -> list[dict[str, Any]]: ...
 
 def draw_fan(ping: Ping, path: _Path, *, width: int = 1400, height: int = 1050, title: str | None = None,
              colour_map: str = "bronze", min_db: float = ..., max_db: float = ..., dark: bool = False) -> None: ...
