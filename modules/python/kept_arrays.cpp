@@ -36,7 +36,6 @@ py::object elements_of(const py::object& self) {
       "start"_a = series.start, "step"_a = series.step);
 }
 
-/// The poses of the parts of the scene of a ping.
 py::dict poses_of_parts(const MadePing& ping) {
   py::dict poses;
   const auto add = [&](const std::string& name, const Pose& pose) { poses[name.c_str()] = pose.matrix(); };

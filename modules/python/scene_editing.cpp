@@ -44,7 +44,6 @@ Pose pose_of(const py::object& value) {
 /// Returns the number that instance images add to the ids of parts: those of given objects come first.
 std::uint32_t before_parts(const Scene& scene) { return scene.instances.most; }
 
-/// Returns the id of a part in the edited scene.
 std::uint32_t own_id(const Scene& scene, std::int64_t id) {
   const std::int64_t own = id - before_parts(scene);
   if (own < 1) fail(ErrorKind::argument, "Scene: no part has the id ", id, "; parts lists them");
@@ -63,7 +62,6 @@ PlacedPart ground_of(const Scene& scene) {
   return ground;
 }
 
-/// Returns rows of three numbers.
 template <typename Number, typename Rows>
 py::array rows_of_three(const Rows& rows, const Eigen::Vector3d& shift) {
   py::array_t<Number> array({static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}});

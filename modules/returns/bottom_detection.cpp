@@ -19,7 +19,6 @@ namespace {
 
 constexpr const char* bottom_call = "detect_bottom";
 
-/// Returns the position of a sounding in the world.
 Eigen::Vector3d position_of(const Ping& ping, const BottomOptions& options, std::size_t beam, double range) {
   const Eigen::Vector3d axis = unit_vector({ping.fan.azimuth[beam], ping.fan.elevation[beam]});
   const Eigen::Vector3d head = ping.world_from_head.translation();

@@ -39,7 +39,6 @@ KeyValue list_value(const NumberList& list) {
   return value;
 }
 
-/// The value of a setting as a key of run.toml has it.
 KeyValue key_value(const RunSetting& setting) {
   const OptionRules& rules = setting.rules;
   if (std::string* const* text = std::get_if<std::string*>(&setting.value))

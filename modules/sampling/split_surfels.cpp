@@ -58,7 +58,7 @@ class Splitter {
       out.id[first + k] = scene_.piece_id(surfel, k);
       out.surfel[first + k] = surfel;
     }
-    if (pieces > 1) position(out, first, pieces, surfel, centre);
+    if (pieces > 1) put_pieces(out, first, pieces, surfel, centre);
   }
 
  private:
@@ -86,7 +86,7 @@ class Splitter {
   }
 
   /// Places the parts beside the centre, of a low-discrepancy sequence over the disc (E17), and shares the surface.
-  void position(Scatterers& out, std::size_t first, std::size_t pieces, std::uint32_t surfel, const Centre& c) {
+  void put_pieces(Scatterers& out, std::size_t first, std::size_t pieces, std::uint32_t surfel, const Centre& c) {
     static const Turns turns;
     const Vector3d tangent = c.own_normal.unitOrthogonal();
     const Vector3d t1 = c.axes.to_head * tangent, t2 = c.axes.to_head * c.own_normal.cross(tangent);

@@ -10,7 +10,6 @@ namespace {
 
 using Eigen::Vector2d, Eigen::Vector3d;
 
-/// Returns the pose that turns the axis of a body of revolution from x to up.
 Pose axis_up() { return Pose(Eigen::AngleAxisd(-pi / 2, Vector3d::UnitY())); }
 
 /// Lays or stands a body of revolution, as its option `upright` says.

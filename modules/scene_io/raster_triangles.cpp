@@ -14,7 +14,6 @@ using Eigen::Vector3f;
 
 constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
 
-/// Evenly spaced values along one axis of a grid.
 struct GridAxis {
   double first = 0, step = 0;  ///< [m]
   std::size_t nodes = 0;       ///< 0: the values are not evenly spaced

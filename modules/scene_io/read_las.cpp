@@ -59,7 +59,6 @@ constexpr std::array<NumberType, 10> extra_types = {
     NumberType::uint8, NumberType::int8,   NumberType::uint16, NumberType::int16,   NumberType::uint32,
     NumberType::int32, NumberType::uint64, NumberType::int64,  NumberType::float32, NumberType::float64};
 
-/// Adds the columns in a record that describes extra bytes, from `offset` within a row.
 void add_extra_columns(const Bytes& header, std::size_t begin, std::size_t length, std::size_t offset, RowFile& file) {
   constexpr std::size_t description = 192, scaled = 8, shifted = 16;
   for (std::size_t at = begin; at + description <= begin + length; at += description) {

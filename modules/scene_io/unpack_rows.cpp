@@ -98,7 +98,6 @@ class PackedPoints {
   laszip_point_struct* point_ = nullptr;
 };
 
-/// Returns the limits for unpacking `rows` rows of a file.
 ReadLimits limits_of_rows(const RowFile& file, std::size_t rows) {
   constexpr std::size_t bytes_per_second = 5 << 20;  // LASzip does five times as many
   ReadLimits limits = limits_of_file(file_size_of(file.path));

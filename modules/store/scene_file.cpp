@@ -98,8 +98,7 @@ const Trajectory& Reader::trajectory_of(int line, const std::string& file) const
   return trajectory->second;
 }
 
-/// Sets position and motion of a part by the keys of its table.
-void position(const Reader& reader, const TomlValue& table, const SceneTables& t, PartPlacement& p) {
+void set_placement(const Reader& reader, const TomlValue& table, const SceneTables& t, PartPlacement& p) {
   const auto given = [&](const char* key) { return table.find(key) != nullptr; };
   p.captured = std::ranges::none_of(placing_keys, given);
   if (p.captured) return;
@@ -129,7 +128,7 @@ void Reader::read_part(const TomlValue& table, SceneFile& scene) const {
   complete(t.part.file, line_in(table, "file"), "file");
   ScenePartEntry& part = t.part;
   if (part.name.empty()) part.name = fs::path(part.file.path).stem().string();
-  position(*this, table, t, part.placement);
+  set_placement(*this, table, t, part.placement);
   if (part.label.empty() && !part.placement.captured) part.label = part.name;
   if (!t.trajectory.empty()) {
     const int line = line_in(table, "trajectory");

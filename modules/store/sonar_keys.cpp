@@ -16,7 +16,6 @@ std::vector<Named<Value>> named(const char* (*name)(Value), std::initializer_lis
   for (const Value value : values) table.push_back({name(value), value});
   return table;
 }
-// Returns the names of all kinds of pulses.
 std::vector<Named<PulseShape>> pulse_names() {
   std::vector<Named<PulseShape>> table;
   for (std::size_t k = 0; k < std::size(pulse_kinds); ++k)

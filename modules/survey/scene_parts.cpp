@@ -108,7 +108,7 @@ SceneParts::SceneParts(std::vector<PartDefinition> parts, std::vector<SceneScatt
   number_classes(parts, scatters);
   for (PartDefinition& part : parts) {
     names_.push_back(part.body.name);
-    position(part);
+    put(part);
   }
   for (const SceneScatter& scatter : scatters) prepare_scatter(scatter);
   std::set<std::string> unique;
@@ -144,7 +144,7 @@ void SceneParts::number_classes(const std::vector<PartDefinition>& parts, const 
   std::ranges::for_each(all, add);
 }
 
-void SceneParts::position(const PartDefinition& part) {
+void SceneParts::put(const PartDefinition& part) {
   const SceneBody& body = part.body;
   require_area(body);
   const PartPlacement& p = part.placement;

@@ -86,7 +86,7 @@ class SceneParts {
   };
   /// Fills materials_.
   void number_classes(const std::vector<PartDefinition>& parts, const std::vector<SceneScatter>& scatters);
-  void position(const PartDefinition& part);
+  void put(const PartDefinition& part);
   void prepare_scatter(const SceneScatter& scatter);
   /// Adds the bodies of a scatter that a draw does not have as absent parts.
   static void add_absent(const ScatteredBodies& scattered, std::vector<PlacedPart>& parts);

@@ -27,7 +27,6 @@ std::vector<std::uint32_t> counted(std::size_t count) {
   return numbers;
 }
 
-// Returns an actor of points of a single colour that share arrays with another actor.
 vtkSmartPointer<vtkActor> plain_points(const PointCloudArrays& arrays, const Colour& colour, double min_pixels,
                                        double lift) {
   vtkSmartPointer<vtkActor> actor = point_actor(arrays, {});

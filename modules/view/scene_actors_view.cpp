@@ -49,10 +49,10 @@ void SceneActors::update_axes(vtkRenderer* renderer) {
 void SceneActors::place_camera(vtkRenderer* renderer, ScenePreset preset) const {
   const int* size = renderer->GetSize();
   const double narrow = std::min(size[0], size[1]);
-  const auto position = [&](const std::vector<Eigen::Vector3d>& points, double margin) {
+  const auto view_of = [&](const std::vector<Eigen::Vector3d>& points, double margin) {
     return place_view(scene_, look_, preset, points, size[0], size[1], margin);
   };
-  CameraView view = position(interest_, 0.04 * narrow);
+  CameraView view = view_of(interest_, 0.04 * narrow);
 
   // The view determines which edges carry the axes; the labels are then placed in it.
   if (axes_shown_) {
@@ -63,7 +63,7 @@ void SceneActors::place_camera(vtkRenderer* renderer, ScenePreset preset) const 
       points.push_back(label.position);
       widest = std::max(widest, text_size(label.text, font).width);
     }
-    view = position(points, std::min(widest + 1.2 * font, 0.16 * narrow));
+    view = view_of(points, std::min(widest + 1.2 * font, 0.16 * narrow));
   }
   vtkCamera* eye = renderer->GetActiveCamera();
   eye->ParallelProjectionOff();

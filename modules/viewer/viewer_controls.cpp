@@ -147,7 +147,7 @@ ViewerSliders::ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor*
   if (pings > 1) shape_of(slider_[2])->ShowSliderLabelOff();  // the status line shows it
 }
 
-void ViewerSliders::position(const Box& room, const Box& timeline, const int window_size[2], int font_size) {
+void ViewerSliders::lay_out(const Box& room, const Box& timeline, const int window_size[2], int font_size) {
   const double width = window_size[0], height = window_size[1];
   for (std::size_t i = 0; i < slider_.size(); ++i) {
     vtkSliderRepresentation2D* shape = shape_of(slider_[i]);

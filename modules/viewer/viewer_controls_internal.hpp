@@ -63,7 +63,7 @@ class ViewerSliders {
   ViewerSliders(vtkRenderWindow* window, vtkRenderWindowInteractor* interactor, std::size_t pings,
                 std::function<void(double gain_db, double window_db, double ping)> moved);
 
-  void position(const Box& room, const Box& timeline, const int window_size[2], int font_size);
+  void lay_out(const Box& room, const Box& timeline, const int window_size[2], int font_size);
   void set(double gain_db, double window_db, double ping);
 
  private:

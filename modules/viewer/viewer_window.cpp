@@ -155,9 +155,9 @@ void ViewerWindow::lay_out() {
   if (over_.content) place_panel(over_, {0, layout_.facts.right, 0, layout_.facts.top}, size);
   const double font = layout_.font_size;
   if (sliders_)
-    sliders_->position({layout_.facts.left + 2 * font, layout_.facts.right - 2 * font,
-                        layout_.facts.bottom + 0.5 * font, layout_.facts.bottom + 12 * font},
-                       layout_.timeline, size, layout_.font_size);
+    sliders_->lay_out({layout_.facts.left + 2 * font, layout_.facts.right - 2 * font, layout_.facts.bottom + 0.5 * font,
+                       layout_.facts.bottom + 12 * font},
+                      layout_.timeline, size, layout_.font_size);
 }
 
 void ViewerWindow::resized() {

@@ -51,7 +51,6 @@ PlacedRun placed_run(const ProductOptions& o) {
   return run;
 }
 
-/// Writes a product that is a folder.
 void export_folder(const PlacedRun& run, const CommonOptions& common, Progress& progress) {
   const ProductOptions& o = run.options;
   RunDirectory directory(o.output, o.force, {o.run});

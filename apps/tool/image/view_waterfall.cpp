@@ -11,7 +11,6 @@
 namespace insonify::tool {
 namespace {
 
-/// A history of the pings of `other` with silent samples from `min_range` to `max_range`.
 PingHistory silent_history(const PingHistory& other, double min_range, double max_range) {
   PingHistory history = other;
   history.gate.min_range = min_range;
