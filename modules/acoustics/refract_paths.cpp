@@ -175,7 +175,7 @@ RefractionBound refraction_bound(const SoundSpeedProfile& profile, double head_d
 
 RefractedPaths refract_paths(const SoundSpeedProfile& profile, double head_depth, const Pose& world_from_head,
                              Scatterers& s, const RefractionOptions& options) {
-  constexpr const char* who = "bend_paths";
+  constexpr const char* who = "refract_paths";
   require_valid_call(who, profile, head_depth, world_from_head);
   for (std::size_t i = 0; i < s.size(); ++i) checked_range(who, s, i);
   const RefractionBound bound = refraction_bound(profile, head_depth, world_from_head, s);

@@ -143,7 +143,7 @@ UtmZone utm_zone_of(const GeoPosition& position) {
 UtmPosition utm_position_of(const GeoPosition& position, const UtmZone& zone) {
   const double from_middle = std::remainder(position.longitude - middle_of(zone), 2 * pi);
   if (!(std::abs(from_middle) <= radians(60)))
-    fail(ErrorKind::argument, "utm_place_of: longitude ", degrees(position.longitude),
+    fail(ErrorKind::argument, "utm_position_of: longitude ", degrees(position.longitude),
          " deg, must be within 60 deg of the ", "middle of zone ", zone.number);
   const double t = conformal_tangent(std::tan(position.latitude)), c = std::cos(from_middle);
   const Complex sphere(std::atan2(t, c), std::asinh(std::sin(from_middle) / std::hypot(t, c)));

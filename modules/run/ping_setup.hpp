@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "acoustics/multipath_echoes.hpp"
-#include "run/asked_simulation.hpp"
+#include "run/requested_simulation.hpp"
 #include "scene/scene_cloud.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/ping_simulator.hpp"

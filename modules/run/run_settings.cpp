@@ -7,8 +7,8 @@
 #include <fmt/ranges.h>
 
 #include "core/error.hpp"
-#include "run/asked_simulation.hpp"
 #include "run/parse_values.hpp"
+#include "run/requested_simulation.hpp"
 
 namespace insonify {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "beamforming/engine.hpp"
 #include "core/text.hpp"
-#include "run/asked_simulation.hpp"
 #include "run/parse_values.hpp"
+#include "run/requested_simulation.hpp"
 #include "run/run_settings.hpp"
 #include "run/setting_values_internal.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run.toml makes the same bytes again: every setting is in it and is read back, and the command line overrides it.
-#include "run/asked_simulation.hpp"
+#include "run/requested_simulation.hpp"
 #include "run/run_settings.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "files/path_status.hpp"
 #include "returns/looks.hpp"
-#include "run/asked_simulation.hpp"
+#include "run/requested_simulation.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/run_files.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run/asked_simulation.hpp"
+#include "run/requested_simulation.hpp"
 
 #include <algorithm>
 
