@@ -150,7 +150,9 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"csv", ".csv", read_scene},
       {"asc", ".asc", read_scene, {}, true},
       {"las", ".las", read_description},
+#ifdef INSONIFY_LASZIP
       {"laz", ".laz", read_description, {}, true},
+#endif
       {"tiff", ".tif", read_scene, {}, true},
       {"tiles", ".tiles", read_tiles, {}, true},
       {"sonar", ".toml", [](const std::string& path) { load_sonar_file(path); }},
