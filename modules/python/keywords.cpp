@@ -186,8 +186,8 @@ void set_keywords(const Keywords& of, const py::dict& given, const std::string& 
            "; its docs list all");
     }
     Key key = *found->second;
-    key.section = "", key.name = name.c_str();  // as errors call it
-    if (!value.is_none()) set_key({key}, name, meanings_of(value_of(value, who + ": " + name)), who + ": ");
+    key.section = "";  // no keyword has it
+    if (!value.is_none()) set_key({key}, key.name, meanings_of(value_of(value, who + ": " + name)), who + ": ");
   }
 }
 
