@@ -73,9 +73,9 @@ TEST(PartLabels, name_class_and_part_of_every_pixel) {
     EXPECT_EQ(classes[pot].size(), 1U);
     EXPECT_GT(classes[pot]["pot"], 3) << pot;
   }
-  // Objects: the two pots by their parts, all else by what touches.
+  // Objects: the two pots by their parts, numbered above the given objects of the bed; all else by what touches.
   const ObjectKeys keys = object_keys(labels, number_instances({{7, 7}}), 0.5);
-  EXPECT_EQ(keys.instances, (SceneInstances{{{2, 3}, {3, 4}}, {}, 4}));
+  EXPECT_EQ(keys.instances, (SceneInstances{{{2, 10}, {3, 11}}, {}, 11}));
 }
 
 TEST(PartLabels, have_the_extents_of_a_sphere_and_all_of_its_share) {

@@ -114,7 +114,7 @@ TEST(RunSettings, lists_of_numbers_are_text_or_a_list) {
   EXPECT_EQ(pose_of_file("[1, 2.5, -3, 0, 10, 0]"), expected);
   EXPECT_EQ(pose_of_file("\"\""), std::nullopt);
   for (const char* wrong : {"\"1,2\"", "[1, 2]", "[1, 2, 3, 4, 5, \"6\"]", "\"a,0,0,0,0,0\"", "7", "true"})
-    EXPECT_THAT(error_of([&] { pose_of_file(wrong); }),
+    EXPECT_THAT(error_of([&] { pose_of_file(wrong); }, ErrorKind::content),
                 testing::AllOf(HasSubstr(path + ":4: ping.pose = "),
                                HasSubstr("must be x,y,z,yaw,pitch,roll in metres and degrees")))
         << wrong;
