@@ -24,7 +24,7 @@ int main(int count, char** words) try {
   if (count != 2) fail(ErrorKind::argument, "usage: 07_mission MISSION.toml");
   MissionFile file = load_mission(words[1]);
   const auto scene = scene_source_of(file);
-  draw_poses(file, *scene);  // of a mission with [randomise.pose]
+  draw_poses(file, *scene);  // nothing without [randomise.pose]
   const Survey survey(file.mission, mission_heads(file), {file.randomise, file.seed, file.coverage});
   Counted pings;
   simulate_survey(survey, survey.blocks(), *scene, pings);

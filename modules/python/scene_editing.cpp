@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene holds, and its edits.
+// The arrays and parts of a scene, and its edits.
 #include <filesystem>
 #include <utility>
 

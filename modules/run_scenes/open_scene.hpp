@@ -82,7 +82,7 @@ class OpenScene : public SceneSource {
   const OpenSceneOptions options_;
 };
 
-/// Opens the scene at scene.path: the one position that asks what kind of scene a path is. Throws as load_scene,
+/// Opens the scene at scene.path: the one place that asks what kind of scene a path is. Throws as load_scene,
 /// TiledScene and PartsScene; Error(argument) for options of loading beside a scene of parts.
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options = {});
 

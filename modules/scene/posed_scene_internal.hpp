@@ -31,8 +31,9 @@ struct PosedScene::State {
   State(std::shared_ptr<SceneCloud> of, std::size_t named, int threads);
 
   /// Has the scene hold this list of parts behind the resting ones, and this table of materials behind theirs. What
-  /// agrees with the list before stays, rays and levels too if all does; a part that differs by its pose is moved in place; one that is absent is taken
-  /// out; from the first other difference on all are placed anew. Throws Error(argument) as merge_parts.
+  /// agrees with the list before stays, rays and levels too if all does. A part that differs by its pose is moved in
+  /// place, one that is absent is taken out; from the first other difference on all are placed anew. Throws
+  /// Error(argument) as merge_parts.
   void pose(const PartList& list, std::span<const Material> more, const char* who);
 
   std::shared_ptr<SceneCloud> scene;

@@ -84,7 +84,7 @@ std::string kilometres_doubt(const SceneNumbers& n) {
                   1000 * n.unit, " for kilometres)");
 }
 
-/// Doubts float32 coordinates whose rounding error, half a unit in the last position, is large.
+/// Doubts float32 coordinates whose rounding error, half a unit in the last place, is large.
 std::string precision_doubt(const SceneNumbers& n) {
   const double farthest = std::max(n.raw.box.max.cwiseAbs().maxCoeff(), n.raw.box.min.cwiseAbs().maxCoeff());
   const double step = farthest > 0 ? std::exp2(std::floor(std::log2(farthest / n.unit)) - 23) * n.unit : 0;

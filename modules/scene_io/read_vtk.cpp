@@ -50,7 +50,7 @@ class VtkReadMessages : public vtkOutputWindow {
   }
 };
 
-/// Puts `messages` in the position of VTK's console and silences its log while it lives. Both exist once per process.
+/// Puts `messages` in the place of VTK's console and silences its log while it lives. Both exist once per process.
 class QuietVtk {
  public:
   explicit QuietVtk(vtkOutputWindow* messages) : before_(vtkOutputWindow::GetInstance()) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr int scene_schema = 1;
 constexpr std::size_t most_subranges = 65000;
-/// Keys that position a part. A part without any of them is captured.
+/// Keys that place a part. A part without any of them is captured.
 constexpr const char* placing_keys[] = {"position_m", "rest",       "bury_m",       "yaw_deg",        "pitch_deg",
                                         "roll_deg",   "trajectory", "velocity_mps", "turn_deg_per_s", "scale"};
 /// Keys that a part with a trajectory must not have.

@@ -55,7 +55,7 @@ std::string ones(const char* word) {
   return text;
 }
 
-// Puts an empty dataset of so many pings in the position of /pressure.
+// Puts an empty dataset of so many pings in the place of /pressure.
 void announce_pings(hid_t file, hsize_t pings) {
   const hid_t old = H5Dopen2(file, "/pressure", H5P_DEFAULT), type = H5Dget_type(old), space = H5Dget_space(old);
   hsize_t extent[3];

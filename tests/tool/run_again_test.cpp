@@ -146,7 +146,7 @@ TEST_F(RunAgain, options_beside_it_override_it) {
       "--no-picture -q");
   succeed(again_head + pose + " --seed 8 --keep paths --without motion --range 6:8 -o expected");
   expect_same("expected", "other");
-  // A trajectory takes the position of a pose and its motion, and a pose that of a trajectory.
+  // A trajectory takes the place of a pose and its motion, and a pose that of a trajectory.
   succeed(again_head + gate + pose + " --velocity=1,0,0 --world ned -o moving");
   succeed("ping --run moving/run.toml --trajectory track.csv --time 1.5 -o track --no-picture -q");
   succeed("ping --run track/run.toml" + pose + " -o still --no-picture -q");

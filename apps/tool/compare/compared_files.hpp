@@ -25,7 +25,7 @@ struct CompareOptions {
   std::string window;         ///< MIN:MAX [dB], or empty: automatic
   std::string strength;       ///< field of a cloud
   std::string unit = "db";    ///< unit of the field `strength`
-  std::string repeat;         ///< another record of the same position
+  std::string repeat;         ///< another record of the same place
   double cell = 0.25;         ///< [m] of grids of soundings and scene
   bool align = false;         ///< move A by the shift that is found
   bool force = false;

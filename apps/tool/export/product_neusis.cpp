@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Eigen::Index blanked_rows = 200;  // the farthest rows of an image, which that loader blanks
-constexpr double white_share = 0.001;       // of the samples of all images, as of data sets
+constexpr double white_share = 0.001;       // share of the samples that are white, as in data sets
 
 Grid<float> gained_level(const Ping& ping) {
   return apply_tvg(shown_level_db(ping), ping.gate, GreyScale::tvg_of(ping));
@@ -48,7 +48,7 @@ void require_even_fan(const std::string& run, const BeamFan& fan) {
 /// Positions of the columns among the beams in the order of their azimuths: the beam below, and how much of the next one.
 /// Column j looks to -h / 2 + j h / W, so W is one less than the beams, and the last beam is left out.
 std::vector<std::pair<std::size_t, double>> columns_of(const std::vector<double>& azimuth) {
-  constexpr double rounding = 1e-6;  // of the distance of two beams
+  constexpr double rounding = 1e-6;  // share of the distance of two beams
   const std::size_t width = azimuth.size() - 1;
   std::vector<std::pair<std::size_t, double>> columns;
   for (std::size_t j = 0; j < width; ++j) {

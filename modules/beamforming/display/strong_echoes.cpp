@@ -9,7 +9,7 @@
 namespace insonify {
 namespace {
 
-constexpr double strong_share = 0.1;      // of a cell, from which on an echo is added as a pressure (E184)
+constexpr double strong_share = 0.1;      // share of a cell above which an echo is a pressure (E184)
 constexpr double spread_of_disc = 0.866;  // half width of the box with the variance of a disc, in its radius
 constexpr double half_maximum_of_box =
     0.68;                              // length at half maximum of a Gaussian, in that of the box of its variance
