@@ -105,9 +105,9 @@ std::optional<PatchLegs::Path> PatchLegs::path_by_tilted_mirror_to(const Vector3
 /// The leg through the profile to a position, by boundary `by` to its image; none in a shadow zone.
 std::optional<PatchLegs::Path> PatchLegs::refracted_path_to(const Vector3d& position, std::size_t by) const {
   if (!rays_[by]) return path_by_tilted_mirror_to(position, boundaries_[by - 1]);
-  const auto bent = rays_[by]->to(position);
-  if (!bent) return std::nullopt;
-  Path way{*bent};
+  const auto refracted = rays_[by]->to(position);
+  if (!refracted) return std::nullopt;
+  Path way{*refracted};
   if (by == 0) return way;
   const Boundary& boundary = boundaries_[by - 1];
   const double grazing = tilt_of(boundary) == BoundaryTilt::level

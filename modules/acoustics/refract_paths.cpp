@@ -141,9 +141,10 @@ struct RayPlane {
 double incidence_factor(const SceneCloud& scene, std::uint32_t surfel, const RayPlane& plane, double arrival) {
   constexpr double least_cosine = 1e-3;
   const Eigen::Vector3d normal = scene.normal[surfel].cast<double>();
-  double straight = -normal.dot(plane.straight), bent = -normal.dot(plane.at(std::cos(arrival), std::sin(arrival)));
-  if (!scene.oriented(surfel)) straight = std::abs(straight), bent = std::abs(bent);
-  return straight < least_cosine ? 1 : std::clamp(bent / straight, 0.0, 1 / straight);
+  double straight = -normal.dot(plane.straight),
+         refracted = -normal.dot(plane.at(std::cos(arrival), std::sin(arrival)));
+  if (!scene.oriented(surfel)) straight = std::abs(straight), refracted = std::abs(refracted);
+  return straight < least_cosine ? 1 : std::clamp(refracted / straight, 0.0, 1 / straight);
 }
 
 }  // namespace
@@ -191,7 +192,7 @@ RefractedPaths refract_paths(const SoundSpeedProfile& profile, double head_depth
 
   const double lost = 4 * options.absorption;  // of intensity, per metre both ways
   std::atomic<std::size_t> silenced{0}, focused{0};
-  const auto bend = [&](std::size_t i) {
+  const auto refract = [&](std::size_t i) {
     const auto seen = table.apparent(positions[i].depth, positions[i].horizontal);
     if (!seen) {
       s.projected_area[i] = 0;
@@ -214,7 +215,7 @@ RefractedPaths refract_paths(const SoundSpeedProfile& profile, double head_depth
     s.azimuth[i] = direction.azimuth, s.elevation[i] = direction.elevation;
   };
   parallel_blocks(s.size(), echoes_at_once, options.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) bend(i);
+    for (std::size_t i = begin; i < end; ++i) refract(i);
   });
   return {silenced, focused};
 }
@@ -234,15 +235,15 @@ RefractionBound refraction_in_view(const SoundSpeedProfile& profile, double head
     straight.elevation.push_back(from.elevation), straight.projected_area.push_back(1);
   }
   // How far they seem to move.
-  Scatterers bent = straight;
-  refract_paths(profile, head_depth, world_from_head, bent, {.threads = threads});
+  Scatterers refracted = straight;
+  refract_paths(profile, head_depth, world_from_head, refracted, {.threads = threads});
   RefractionBound most;
-  for (std::size_t i = 0; i < bent.size(); ++i) {
+  for (std::size_t i = 0; i < refracted.size(); ++i) {
     const Eigen::Vector3d from = unit_vector({straight.azimuth[i], straight.elevation[i]});
-    const double turned = (unit_vector({bent.azimuth[i], bent.elevation[i]}) - from).norm();
-    most.range = std::max(most.range, std::abs(bent.range[i] - straight.range[i]));
+    const double turned = (unit_vector({refracted.azimuth[i], refracted.elevation[i]}) - from).norm();
+    most.range = std::max(most.range, std::abs(refracted.range[i] - straight.range[i]));
     most.elevation = std::max(most.elevation, 2 * std::asin(std::min(1.0, 0.5 * turned)));
-    const double spread = bent.projected_area[i] * std::pow(straight.range[i] / bent.range[i], 4);
+    const double spread = refracted.projected_area[i] * std::pow(straight.range[i] / refracted.range[i], 4);
     if (spread > 0) most.level_db = std::max(most.level_db, std::abs(db_from_power(spread)));
   }
   return most;

@@ -96,12 +96,12 @@ class ChainSearch {
     for (Eigen::Index k = 0; k <= n; ++k) {
       const auto piece = static_cast<std::size_t>(k);
       const Vector3d way = node(bounces_, piece + 1) - node(bounces_, piece), along = way.normalized();
-      const Eigen::Matrix3d bend = (Eigen::Matrix3d::Identity() - along * along.transpose()) / way.norm();
+      const Eigen::Matrix3d across_over_length = (Eigen::Matrix3d::Identity() - along * along.transpose()) / way.norm();
       for (const Eigen::Index i : {k - 1, k})
         for (const Eigen::Index j : {k - 1, k}) {
           if (std::min(i, j) < 0 || std::max(i, j) >= n) continue;
           second.block<2, 2>(2 * i, 2 * j) += (i == j ? 1 : -1) * tangents_[static_cast<std::size_t>(i)].transpose() *
-                                              bend * tangents_[static_cast<std::size_t>(j)];
+                                              across_over_length * tangents_[static_cast<std::size_t>(j)];
         }
     }
     return second;

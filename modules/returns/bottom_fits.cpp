@@ -151,8 +151,8 @@ BottomEstimate zero_of_known_slope(const BottomBeam& beam, const BottomEcho& ech
   const double across =
       echo.footprint_deviation * echo.footprint_deviation - echo.along_deviation * echo.along_deviation;
   const double seen = seen_slope(echo);
-  const double bent = echo.bend * (seen * s.xx / s.weight + across * (1 - seen) / seen);
-  return {centre - std::clamp(bent, -0.5 * reach, 0.5 * reach) - echo.lengthening_along,
+  const double curved = echo.range_curvature * (seen * s.xx / s.weight + across * (1 - seen) / seen);
+  return {centre - std::clamp(curved, -0.5 * reach, 0.5 * reach) - echo.lengthening_along,
           std::sqrt(variance / (slope * slope) + away * away)};
 }
 
@@ -185,9 +185,9 @@ BottomEcho echo_of_plane(const BeamFan& fan, double sine, double range, double s
   echo.along_deviation = away * along * along / std::sqrt(2.0);
   echo.lengthening_along = 0.5 * away * along * along;
   // Limit the second-order term to the first-order one: neighbours over an edge do not define a plane.
-  const double bent = std::min(0.5 * second * across * across, echo.footprint_deviation);
-  echo.lengthening = bent + echo.lengthening_along;
-  echo.bend = slope != 0 ? bent / (slope * slope * across * across) : 0;
+  const double curved = std::min(0.5 * second * across * across, echo.footprint_deviation);
+  echo.lengthening = curved + echo.lengthening_along;
+  echo.range_curvature = slope != 0 ? curved / (slope * slope * across * across) : 0;
   return echo;
 }
 
@@ -262,8 +262,8 @@ BottomEstimate zero_crossing(const BottomBeam& beam, const BottomEcho& echo, dou
   const double variance = (independent * residual + prior_looks * expected * spread / (2 * independent)) /
                           (independent + prior_looks) / (line.slope * line.slope);  // (E95)
   // The fitted line is straight, but a plane's range over direction curves.
-  const double bent = echo.bend * (s.xx / s.weight - away * away);
-  return {centre - std::clamp(bent, -0.5 * widest, 0.5 * widest) - echo.lengthening_along, std::sqrt(variance)};
+  const double curved = echo.range_curvature * (s.xx / s.weight - away * away);
+  return {centre - std::clamp(curved, -0.5 * widest, 0.5 * widest) - echo.lengthening_along, std::sqrt(variance)};
 }
 
 }  // namespace insonify

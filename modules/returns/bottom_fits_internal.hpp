@@ -33,7 +33,7 @@ struct BottomEcho {
   double lengthening = 0;          ///< mean range of a plane over the footprint, less that on the beam's axis [m]
   double lengthening_along = 0;    ///< part of `lengthening` that is due to the footprint along the track [m]
   double along_deviation = 0;      ///< part of footprint_deviation that is due to the footprint along the track [m]
-  double bend = 0;                 ///< r'' / (2 r'^2) of a plane's range over the direction cosine of the fan [1/m]
+  double range_curvature = 0;      ///< r'' / (2 r'^2) of a plane's range over the direction cosine of the fan [1/m]
 };
 
 /// Returns the echo of a plane that crosses the axis of a beam of direction cosine `sine` at `range` [m]. `slope` is

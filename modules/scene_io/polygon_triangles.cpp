@@ -60,7 +60,7 @@ void add_strip(RawCloud& raw, const std::vector<std::int64_t>& corners, std::siz
 
 void cut_polygons(RawCloud& raw) {
   std::size_t tests_left = (std::size_t{1} << 28) + 100 * raw.triangle.size();  // one second, and most polygons
-  DefectivePolygons bent, crossed;
+  DefectivePolygons warped, crossed;
   std::vector<std::uint32_t> ids;
   std::vector<Vector3d> corners;
   for (const auto& [first, triangles] : raw.polygon) {
@@ -72,13 +72,13 @@ void cut_polygons(RawCloud& raw) {
     if (tests_left == 0)
       fail(ErrorKind::content, raw.path, ": a polygon of ", ids.size(),
            " corners takes too long to cut into triangles; triangulate the mesh in the program that made it");
-    if (cut.off_plane > most_off_plane) bent.add(raw, corners[0]);
+    if (cut.off_plane > most_off_plane) warped.add(raw, corners[0]);
     if (cut.crosses) crossed.add(raw, corners[0]);
     std::transform(cut.ears.begin(), cut.ears.end(), fan, [&](const std::array<int, 3>& t) {
       return std::array<std::uint32_t, 3>{ids[t[0]], ids[t[1]], ids[t[2]]};
     });
   }
-  bent.note(raw, "with corners off the plane by more than 1 % of the size");
+  warped.note(raw, "with corners off the plane by more than 1 % of the size");
   crossed.note(raw, "whose edges cross, read as triangles from the first corner");
 }
 

@@ -22,7 +22,7 @@ MovingScene motion_of(const SceneCloud& scene, const ResolvedPing& ping) {
 }
 
 /// Bends the rays to the patches if the options say so.
-RefractedPaths bend(const SceneCloud& scene, const ResolvedPing& ping, Scatterers& patches) {
+RefractedPaths refract_patches(const SceneCloud& scene, const ResolvedPing& ping, Scatterers& patches) {
   if (!ping.environment.profile || ping.options.effects.refraction != Choice::always) return {};
   return refract_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, patches,
                        {&scene, ping.sent.medium.absorption.a0, ping.options.threads});
@@ -35,7 +35,7 @@ RefractionReport refract(const SceneCloud& scene, const ResolvedPing& ping, Scat
   const RefractionBound bound =
       refraction_in_view(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, patches,
                          sector, ping.head.gate, ping.options.threads);
-  return {bound, ping.options.effects.refraction == Choice::always, bend(scene, ping, patches)};
+  return {bound, ping.options.effects.refraction == Choice::always, refract_patches(scene, ping, patches)};
 }
 
 /// Returns the environment whose profile legs run through; nullptr: rays are straight.

@@ -56,10 +56,10 @@ double absorption_slope_bound(const PlanFacts& facts) {
 
 double refraction_bound(const PlanFacts& facts) {
   const ResolvedPing& ping = facts.ping;
-  Scatterers bent = facts.sample.positions;
-  refract_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, bent,
+  Scatterers refracted = facts.sample.positions;
+  refract_paths(*ping.environment.profile, ping.environment.water.depth, ping.view.world_from_head, refracted,
                 {&facts.sample.scene, ping.sent.medium.absorption.a0, ping.options.threads});
-  return std::hypot(difference_bound(facts, echoes_of(facts, facts.sample.positions), echoes_of(facts, bent)),
+  return std::hypot(difference_bound(facts, echoes_of(facts, facts.sample.positions), echoes_of(facts, refracted)),
                     straight_double_echoes(facts).bound);
 }
 

@@ -77,11 +77,11 @@ Complex undone(const TrueDelayPlan& plan, const Curvature& curvature, double pha
 std::size_t range_nodes(const CurvaturePhase& phase, double near, double far, double tolerance) {
   const double ratio = (far - near) / (far + near);
   const auto most = static_cast<std::size_t>(std::ceil(-std::log10(tolerance)) + 1 + std::ceil(1.4 * phase.over_range));
-  double turned = 1, bent = 1;
+  double turned = 1, curved = 1;
   for (std::size_t n = 1; n < most; ++n) {
     turned *= 0.5 * phase.over_range / static_cast<double>(n);
-    bent *= 0.5 * ratio;
-    if (n > 1 && 2 * turned + 2 * (phase.all + 0.3) * bent < node_share * tolerance) return n;
+    curved *= 0.5 * ratio;
+    if (n > 1 && 2 * turned + 2 * (phase.all + 0.3) * curved < node_share * tolerance) return n;
   }
   return most;
 }

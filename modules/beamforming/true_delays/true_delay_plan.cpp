@@ -73,8 +73,8 @@ TrueDelaySizes::TrueDelaySizes(const SonarHead& head, const Medium& medium, doub
   // A period that the kernel between harmonics needs, and the array as long as it is at the highest frequency.
   const double finer = oversampling_for(tolerance);
   // Curved wavefronts come to the ends of a long array from other directions.
-  const double bent = aperture > 0 ? 0.65 * aperture / std::max(3 * aperture, head.gate.min_range) : 0;
-  period = 2.02 * std::max(widest, bent) * finer;
+  const double curved = aperture > 0 ? 0.65 * aperture / std::max(3 * aperture, head.gate.min_range) : 0;
+  period = 2.02 * std::max(widest, curved) * finer;
   const double wavelengths = 0.5 * aperture * (head.pulse.centre_frequency + 0.8 * half_band) / medium.sound_speed;
   most = static_cast<std::size_t>(std::ceil(wavelengths * period + 0.5 * static_cast<double>(kernel_width))) + 1;
   grid =
