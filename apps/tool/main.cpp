@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "files/peak_memory.hpp"
-#include "tool/command/command_line.hpp"
+#include "tool/command/program.hpp"
 
 int main(int argc, char** argv) {
   insonify::keep_freed_memory();

@@ -5,9 +5,7 @@
 
 #include "files/path_status.hpp"
 #include "run/parse_values.hpp"
-#include "store/output_rules.hpp"
 #include "store/run_directory.hpp"
-#include "tool/command/memory_guard.hpp"
 #include "tool/command/program.hpp"
 #include "viewer/show_viewer.hpp"
 #include "viewer/viewer_command.hpp"

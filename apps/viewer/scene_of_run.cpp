@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viewer/scene_of_run.hpp"
-
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +8,7 @@
 #include "run_scenes/open_scene.hpp"
 #include "scene_io/load_scene.hpp"
 #include "survey/mesh_source.hpp"
+#include "viewer/viewer_command.hpp"
 
 namespace insonify::viewer {
 namespace {

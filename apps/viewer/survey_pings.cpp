@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "viewer/survey_pings.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -12,6 +10,7 @@
 #include "store/cube.hpp"
 #include "store/survey_run.hpp"
 #include "view/ping_record.hpp"
+#include "viewer/viewer_command.hpp"
 
 namespace insonify::viewer {
 namespace {

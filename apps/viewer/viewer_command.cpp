@@ -25,8 +25,6 @@
 #include "store/survey_run.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/run/record_file.hpp"
-#include "viewer/scene_of_run.hpp"
-#include "viewer/survey_pings.hpp"
 #include "viewer/viewer_state.hpp"
 
 namespace insonify::viewer {

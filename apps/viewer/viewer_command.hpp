@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "run/options.hpp"
-#include "tool/command/common_options.hpp"
+#include "tool/command/option_list.hpp"
+#include "viewer/lazy_pings.hpp"
 #include "viewer/viewer_data.hpp"
 
 namespace insonify::viewer {
@@ -47,5 +48,35 @@ LoadedView load_run(const ViewerCommand& command);
 
 /// Reads a scene to inspect. Throws as load_scene and find_sonar; Error(argument) without --sonar or --pose.
 LoadedView load_inspection(const ViewerCommand& command);
+
+/// A cube, and the returns of its pings (PLY) or "".
+struct CubeOfPings {
+  std::string cube, returns;
+};
+
+/// The pings of cubes in turn, read one at a time; of the returns those of one cube are kept. Errors as read_cube.
+LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes);
+
+/// Pings that are in memory.
+LazyPings lazy_pings_of(std::vector<Ping> pings);
+
+/// One head of a survey.
+struct SurveyHeadRun {
+  std::string folder;  ///< folder of the head, with its run.toml
+  std::string name;
+  std::vector<CubeOfPings> cubes;   ///< the finished blocks; if they are gone, the merged cube
+  std::vector<std::string> others;  ///< names of the other heads
+  std::size_t blocks = 0, done = 0;
+};
+
+/// The head that `target` (the folder of a survey, or of one of its heads) and `head` (or "": the first) name; nothing
+/// if the target is of no survey. Throws Error(argument) for a head that the survey lacks, Error(content) if none of
+/// its blocks is done.
+std::optional<SurveyHeadRun> find_survey_head(const std::string& target, const std::string& head);
+
+/// Adds the scene of the run in `run_folder` to a view that has its pings, and notes on it; of a scene of parts that of
+/// each ping. Without the scene, or with contributors of another one, a note says so. Throws as load_any_scene and
+/// PartsOfPings.
+void show_scene_of_run(const ViewerCommand& command, const std::string& run_folder, LoadedView& view);
 
 }  // namespace insonify::viewer

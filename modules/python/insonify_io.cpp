@@ -10,8 +10,6 @@
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_of_pings.hpp"
-#include "run_scenes/ping_report.hpp"
-#include "run_scenes/run_files.hpp"
 #include "run_scenes/run_folder.hpp"
 #include "scene_io/pcl_bridge.hpp"
 #include "tool/run/vtk_pictures.hpp"

@@ -15,8 +15,6 @@
 #include "python/binding_internal.hpp"
 #include "returns/looks.hpp"
 #include "returns/quantise.hpp"
-#include "tool/dataset/box_contrast.hpp"
-#include "tool/dataset/label_pictures.hpp"
 #include "tool/dataset/labelled_image.hpp"
 
 namespace insonify::python {

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "files/path_status.hpp"
+#include "run/mission_heads.hpp"
 #include "run/parse_values.hpp"
 #include "run/run_settings.hpp"
 #include "simulate/plan_ping.hpp"
@@ -60,6 +61,22 @@ void require_slow(const Placement& p, const Motion& motion, double sound_speed) 
          " m/s, a hundredth of the sound speed");
 }
 
+/// Notes on the trajectory of a ping, and on a time in one of its gaps.
+std::vector<std::string> notes_on_track(const Placement& p) {
+  std::vector<std::string> notes = trajectory_notes(p.trajectory);
+  const Trajectory trajectory = load_trajectory(p.trajectory);
+  if (const auto gap = gap_at(trajectory, p.time, gap_of(trajectory)))
+    notes.push_back(fmt::format(
+        "{} has no entry between {:g} and {:g} s: the pose at {:g} s is that of a straight line between them",
+        p.trajectory, gap->from, gap->to, p.time));
+  return notes;
+}
+
+/// Drops the contributors of pings: surveys keep the labels that follow from them.
+struct DroppedContributors : ContributorSink {
+  void take(const Contributors&, std::size_t) override {}
+};
+
 }  // namespace
 
 PingEvent requested_event(const Placement& p) {
@@ -84,21 +101,6 @@ std::string number_note(const PingEvent& event, const Placement& p) {
       "noise, waves and water; --ping gives another number",
       event.number);
 }
-
-namespace {
-
-/// Notes on the trajectory of a ping, and on a time in one of its gaps.
-std::vector<std::string> notes_on_track(const Placement& p) {
-  std::vector<std::string> notes = trajectory_notes(p.trajectory);
-  const Trajectory trajectory = load_trajectory(p.trajectory);
-  if (const auto gap = gap_at(trajectory, p.time, gap_of(trajectory)))
-    notes.push_back(fmt::format(
-        "{} has no entry between {:g} and {:g} s: the pose at {:g} s is that of a straight line between them",
-        p.trajectory, gap->from, gap->to, p.time));
-  return notes;
-}
-
-}  // namespace
 
 PingSetup set_up(PingSetup head, const Run& run, const PingEvent& event, NamedBy by) {
   PingSetup setup = std::move(head);
@@ -216,6 +218,26 @@ std::optional<View> view_of_run(const std::string& run, const WholeScene& scene,
   if (const auto surface = surface_height(e))
     somewhere.translation().z() = *surface - (e.water.depth > 0 ? e.water.depth : 1);
   return resolve_ping(scene, setup.head, {somewhere}, e, {.threads = threads}).view;
+}
+
+PingSetup set_up_survey_head(const MissionFile& file, std::size_t h, int threads) {
+  const MissionSonar& sonar = file.sonars[h];
+  Run run = load_mission_settings(file.path);
+  run.simulation.seed = file.seed, run.simulation.threads = threads;
+  run.scene.path = file.scene;
+  run.head = {sonar.sonar, {}, file.environment, file.profile, sonar.settings};
+  if (!sonar.range.empty()) run.head.range = parse_range(sonar.range);
+  run.placement.pose.emplace();  // for run.toml, which demands one
+  PingSetup head = set_up(set_up_head(run.head, std::nullopt, file.water.level), run);
+  static DroppedContributors labels_alone;
+  head.simulation.outputs.contributor_sink = &labels_alone;
+  return head;
+}
+
+std::vector<PingSimulator> mission_heads(const MissionFile& file) {
+  std::vector<PingSimulator> heads;
+  for (std::size_t h = 0; h < file.mission.heads.size(); ++h) heads.push_back(set_up_survey_head(file, h).simulator());
+  return heads;
 }
 
 }  // namespace insonify

@@ -13,6 +13,7 @@
 #include "scene_io/load_scene.hpp"
 #include "simulate/ping_simulator.hpp"
 #include "sonar/sonar_spec.hpp"
+#include "store/mission_file.hpp"
 #include "store/sonar_file.hpp"
 
 namespace insonify {
@@ -82,5 +83,9 @@ std::vector<Eigen::Vector3d> sampled_positions(const SceneCloud& scene, const Po
 /// Throws Error(content) if the median range of `positions` is far outside the range gate: the cloud is in other units, or
 /// the pose in another frame.
 void require_in_reach(std::vector<Eigen::Vector3d> positions, const RangeGate& gate, const std::string& path);
+
+/// Returns head `h` of a mission with the settings that its file gives for all. Its run.toml has the pose of no ping.
+/// Throws Error(content) for these settings, and Error(argument) for sonar, range and environment, naming the setting.
+PingSetup set_up_survey_head(const MissionFile& file, std::size_t h, int threads = 0);
 
 }  // namespace insonify

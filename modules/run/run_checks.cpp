@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "files/path_status.hpp"
 #include "files/sha256.hpp"
-#include "store/run_manifest.hpp"
+#include "store/run_directory.hpp"
 #include "store/survey_run.hpp"
 
 namespace insonify {

@@ -14,7 +14,7 @@
 #include "run/ping_setup.hpp"
 #include "run/run_settings.hpp"
 #include "run_scenes/parts_of_pings.hpp"
-#include "run_scenes/ping_report.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "run_scenes/scene_source_of.hpp"
 #include "sampling/scene_cut.hpp"
 #include "scene_io/cloud_field.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_scenes/part_files.hpp"
-
 #include <algorithm>
 #include <numeric>
 

@@ -8,7 +8,7 @@
 #include "files/path_status.hpp"
 #include "run/ping_setup.hpp"
 #include "run/run_settings.hpp"
-#include "run_scenes/ping_report.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
 

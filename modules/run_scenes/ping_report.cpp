@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_scenes/ping_report.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,6 +9,7 @@
 #include "beamforming/engine.hpp"
 #include "core/units.hpp"
 #include "run/scene_reach.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "simulate/ping_notes.hpp"
 
 namespace insonify {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run_scenes/ping_run.hpp"
-
 #include "core/error.hpp"
 #include "core/stop_watch.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_of_pings.hpp"
-#include "run_scenes/ping_report.hpp"
 #include "run_scenes/run_folder.hpp"
 
 namespace insonify {

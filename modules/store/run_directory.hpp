@@ -1,12 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <map>
 #include <string>
+#include <vector>
 
 #include "files/pending_file.hpp"
 #include "files/pending_path.hpp"
-#include "store/output_rules.hpp"
 
 namespace insonify {
+
+/// Key of a manifest.json: the SHA-256 of the files of a run, by their names relative to its folder.
+inline constexpr const char* digests_key = "sha256";
+
+/// Returns the digests in `folder`/manifest.json; empty if there is no manifest of insonify with digests. Throws
+/// Error(content) for a manifest that is not a JSON object.
+std::map<std::string, std::string> digests_of_run(const std::string& folder);
+
+/// Returns the names in `folder` that do not belong to its run: files that its manifest.json does not list, links, and
+/// listed files of up to 16 MiB with another SHA-256. Larger files count as unchanged. Without a manifest of insonify
+/// all names are returned; none for an empty folder. Throws as digests_of_run.
+std::vector<std::string> names_of_no_run(const std::string& folder);
+
+/// Files and folders that a call reads. Names that do not exist are ignored; they may be names of presets.
+using InputPaths = std::vector<std::string>;
+
+/// Throws Error(file) unless the file `output` may be written. It may if it does not exist. With `force` it may also be
+/// an existing file, except an input under any name, or a file of a run or survey among the inputs.
+void require_free_file(const std::string& output, bool force, const InputPaths& inputs);
+
+/// Throws Error(file) unless the folder `output` may be made. It may if it does not exist. With `force` it may also be
+/// an existing folder that is empty, or that holds only files that its manifest.json lists, unchanged. The folder must
+/// neither be nor contain an input, under any name.
+void require_free_folder(const std::string& output, bool force, const InputPaths& inputs);
+
+/// Throws Error(file) if `folder` holds anything that no run wrote, naming that. `called` is the name of the folder in
+/// the message.
+void require_run_alone(const std::string& folder, const std::string& called);
 
 /// An output folder that is created atomically. Files are written into a temporary folder beside it, and commit()
 /// renames that folder. Without commit() (an error, Ctrl-C) the temporary folder is removed. If the process was killed,

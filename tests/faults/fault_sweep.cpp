@@ -22,7 +22,7 @@
 #include "faults/failing_calls.hpp"
 #include "faults/fault_cases.hpp"
 #include "faults/files_below.hpp"
-#include "tool/command/command_line.hpp"
+#include "tool/command/program.hpp"
 #include "tool/verbs_in_help.hpp"
 
 namespace fs = std::filesystem;

@@ -29,7 +29,7 @@
 #include "run_scenes/parts_scene.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/run_directory.hpp"
-#include "tool/command/command_line.hpp"
+#include "tool/command/program.hpp"
 #include "tool/run/record_file.hpp"
 #include "view/grey_file.hpp"
 #endif

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "tool/dataset/dataset_split.hpp"
+#include "tool/dataset/dataset.hpp"
 #include "tool/dataset_fixture.hpp"
 
 namespace {

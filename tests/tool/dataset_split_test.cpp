@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tests which images go into train, val and test of a data set.
-#include "tool/dataset/dataset_split.hpp"
-
 #include "support/test.hpp"
+#include "tool/dataset/dataset.hpp"
 #include "tool/dataset_fixture.hpp"
 
 TEST_F(DatasetRun, splits_by_scene) {

@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "scene_io/describe_file.hpp"
-#include "tool/command/command_text.hpp"
+#include "tool/command/option_list.hpp"
 #include "tool/tool_runner.hpp"
 #include "tool/verbs_in_help.hpp"
 

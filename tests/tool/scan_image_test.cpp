@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps of a scanning head: bent where the vehicle moved, straight once that is compensated.
-#include "tool/image/scan_image.hpp"
-
 #include <Eigen/Eigenvalues>
 
 #include "store/mission_file.hpp"
 #include "support/test.hpp"
 #include "survey/survey_pings.hpp"
+#include "tool/image/image.hpp"
 #include "tool/tool_runner.hpp"
 
 using namespace insonify::tool;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Side-scan lines and swaths: heads mounted as their files say, slant and ground range, shadows of the length they must
 // have.
-#include "tool/image/side_scan.hpp"
-
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkImageData.h>
@@ -11,6 +9,7 @@
 
 #include "core/units.hpp"
 #include "support/test.hpp"
+#include "tool/image/image.hpp"
 #include "tool/tool_runner.hpp"
 
 using namespace insonify::tool;

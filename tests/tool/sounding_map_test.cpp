@@ -4,7 +4,7 @@
 #include "formats/ros_messages.hpp"
 #include "support/page.hpp"
 #include "support/test.hpp"
-#include "tool/dataset/dataset_split.hpp"
+#include "tool/dataset/dataset.hpp"
 
 using tool::cell_of, tool::SoundingMap;
 

@@ -9,7 +9,7 @@
 #include <wordexp.h>
 
 #include "support/test.hpp"
-#include "tool/command/command_line.hpp"
+#include "tool/command/program.hpp"
 
 namespace fs = std::filesystem;
 

@@ -12,7 +12,7 @@
 #include "run/ping_setup.hpp"
 #include "run/run_checks.hpp"
 #include "run_scenes/open_scene.hpp"
-#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "store/run_directory.hpp"
 #include "tool/accuracy/accuracy_files.hpp"
 #include "tool/command/progress.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/command/command_line.hpp"
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -13,8 +11,7 @@
 
 #include "core/error.hpp"
 #include "store/nearest_word.hpp"
-#include "tool/command/command_text.hpp"
-#include "tool/command/memory_guard.hpp"
+#include "tool/command/option_list.hpp"
 #include "tool/command/program.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/verb.hpp"

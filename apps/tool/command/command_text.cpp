@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/command/command_text.hpp"
-
 #include <algorithm>
 #include <sstream>
 
@@ -8,7 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "core/text.hpp"
-#include "tool/command/exit_code.hpp"
+#include "tool/command/option_list.hpp"
+#include "tool/command/program.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/command/memory_guard.hpp"
-
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -11,7 +9,7 @@
 #include <unistd.h>
 
 #include "files/memory_limit.hpp"
-#include "tool/command/exit_code.hpp"
+#include "tool/command/program.hpp"
 #include "tool/command/reader_server.hpp"
 
 namespace insonify::tool {

@@ -15,7 +15,6 @@
 #include "run/parse_values.hpp"
 #include "run/run_checks.hpp"
 #include "store/nearest_word.hpp"
-#include "tool/command/exit_code.hpp"
 #include "tool/command/program.hpp"
 
 namespace insonify::tool {

@@ -12,9 +12,41 @@
 #include "core/error.hpp"
 #include "core/message.hpp"
 #include "files/final_names.hpp"
-#include "tool/command/exit_code.hpp"
 
 namespace insonify::tool {
+
+/// How a program ends.
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_failure = 1,
+  exit_usage = 2,
+  exit_content = 3,
+  exit_file = 4,
+  exit_some_failed = 5,
+  exit_interrupted = 130,
+  exit_no_reader = 141  ///< code that a shell reports for SIGPIPE
+};
+
+/// An exit code with its meaning in man pages and docs/troubleshooting.md.
+struct ExitCodeText {
+  ExitCode code;
+  const char* meaning;
+};
+inline constexpr ExitCodeText exit_code_texts[] = {
+    {exit_ok, "ok"},
+    {exit_failure, "run-time failure"},
+    {exit_usage, "wrong usage"},
+    {exit_content, "unusable content"},
+    {exit_file, "file missing or not writable, or too little memory"},
+    {exit_some_failed, "some pings of a survey failed and all others are kept"},
+    {exit_interrupted, "interrupted"},
+    {exit_no_reader, "the reader of the output has gone"}};
+
+/// The exit code of an error.
+constexpr ExitCode exit_code_of(ErrorKind kind) {
+  constexpr ExitCode codes[] = {exit_failure, exit_usage, exit_content, exit_file, exit_file};  // in the order of kinds
+  return codes[static_cast<int>(kind)];
+}
 
 /// Thrown by a verb that ends by itself after Ctrl-C, keeping what is done.
 struct Interrupted {
@@ -64,5 +96,13 @@ inline int run_program(const std::function<int()>& run, const char* less) {
   }
   return exit_failure;
 }
+
+/// Returns the exit code of `run`, during which a ReaderServer reads files of strangers. Under a limit of address space
+/// (ulimit -v) a child process runs it: libraries that end their process where they get no memory are reported as exit
+/// code 4 in one line, which `less` completes. Signals that are sent to this process reach the child.
+int under_memory_guard(const std::function<int()>& run, const char* less);
+
+/// The program: parses the command line and runs its verb; errors go to stderr. Returns the exit code.
+int run_tool(int argc, char** argv);
 
 }  // namespace insonify::tool

@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "run/run_observer.hpp"
-#include "tool/command/common_options.hpp"
+#include "tool/command/option_list.hpp"
 #include "tool/command/program.hpp"
 
 namespace insonify::tool {

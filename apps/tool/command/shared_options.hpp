@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "run/run_settings.hpp"
-#include "tool/command/common_options.hpp"
 #include "tool/command/option_list.hpp"
 
 /// Options that several verbs share.

@@ -9,7 +9,7 @@
 #include "compare/resample_image.hpp"
 #include "core/error.hpp"
 #include "core/pose.hpp"
-#include "tool/command/common_options.hpp"
+#include "tool/command/option_list.hpp"
 
 /// Files that `compare` reads.
 namespace insonify::tool {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/contact_sheet.hpp"
-
 #include <algorithm>
 
+#include "tool/dataset/dataset.hpp"
 #include "view/grey_file.hpp"
 #include "view/label_colours.hpp"
 

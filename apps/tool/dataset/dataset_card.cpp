@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/dataset_card.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/text.hpp"
-#include "tool/dataset/label_pictures.hpp"
+#include "tool/dataset/dataset.hpp"
+#include "tool/dataset/labelled_image.hpp"
 
 namespace insonify::tool {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/dataset_form.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -8,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "files/pending_file.hpp"
-#include "tool/dataset/dataset_split.hpp"
+#include "tool/dataset/dataset.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/dataset_runs.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -14,6 +12,7 @@
 #include "run_scenes/open_scene.hpp"
 #include "run_scenes/parts_of_pings.hpp"
 #include "store/survey_run.hpp"
+#include "tool/dataset/dataset.hpp"
 #include "tool/run/run_pings.hpp"
 
 namespace insonify::tool {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/dataset_split.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "files/sha256.hpp"
 #include "store/mission_file.hpp"
 #include "store/survey_run.hpp"
+#include "tool/dataset/dataset.hpp"
 #include "tool/run/run_pings.hpp"
 
 namespace insonify::tool {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/dataset_writer.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -14,11 +12,9 @@
 #include "files/sha256.hpp"
 #include "returns/looks.hpp"
 #include "run/run_checks.hpp"
-#include "store/run_manifest.hpp"
-#include "tool/dataset/box_contrast.hpp"
-#include "tool/dataset/dataset_card.hpp"
-#include "tool/dataset/image_meta.hpp"
-#include "tool/dataset/label_pictures.hpp"
+#include "store/run_directory.hpp"
+#include "tool/dataset/dataset.hpp"
+#include "tool/dataset/labelled_image.hpp"
 #include "view/grey_file.hpp"
 #include "view/label_colours.hpp"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/image_meta.hpp"
-
 #include <algorithm>
 #include <filesystem>
 
 #include "core/units.hpp"
-#include "tool/dataset/part_objects.hpp"
+#include "tool/dataset/dataset.hpp"
+#include "tool/dataset/labelled_image.hpp"
 
 namespace insonify::tool {
 namespace {

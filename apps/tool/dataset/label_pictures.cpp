@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/label_pictures.hpp"
-
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "run/parse_values.hpp"
+#include "tool/dataset/labelled_image.hpp"
 #include "view/label_colours.hpp"
 
 namespace insonify::tool {

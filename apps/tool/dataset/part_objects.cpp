@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/dataset/part_objects.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "tool/dataset/labelled_image.hpp"
 
 namespace insonify::tool {
 namespace {

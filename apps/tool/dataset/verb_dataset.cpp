@@ -16,8 +16,8 @@
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/compare/compared_files.hpp"
-#include "tool/dataset/dataset_writer.hpp"
-#include "tool/dataset/label_pictures.hpp"
+#include "tool/dataset/dataset.hpp"
+#include "tool/dataset/labelled_image.hpp"
 #include "tool/dataset/level_counts.hpp"
 
 namespace insonify::tool {

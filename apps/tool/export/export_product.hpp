@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "tool/command/common_options.hpp"
+#include "tool/command/option_list.hpp"
 #include "tool/run/world_reference.hpp"
 
 namespace insonify::tool {

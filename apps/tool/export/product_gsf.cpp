@@ -9,7 +9,6 @@
 #include "formats/gsf_file.hpp"
 #include "returns/echo_place.hpp"
 #include "tool/export/product_run.hpp"
-#include "tool/export/ship_axes.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -11,7 +11,6 @@
 #include "returns/first_return.hpp"
 #include "returns/looks.hpp"
 #include "tool/export/product_run.hpp"
-#include "tool/export/ship_axes.hpp"
 
 namespace insonify::tool {
 namespace {

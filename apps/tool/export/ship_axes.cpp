@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/export/ship_axes.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "tool/export/product_run.hpp"
 
 namespace insonify::tool {
 

@@ -10,7 +10,6 @@
 #include "run/parse_values.hpp"
 #include "sonar/sonar_head.hpp"
 #include "store/cube.hpp"
-#include "tool/command/common_options.hpp"
 #include "tool/command/option_list.hpp"
 #include "view/ping_record.hpp"
 
@@ -141,5 +140,33 @@ BeamRecord beam_record(const ImageRun& run, const ImageOptions& options, const s
 
 /// The title of the picture of a ping where the user gives none.
 std::string default_title(const ImageRun& run, const ImageOptions& options, std::size_t ping);
+
+/// The sweep of a scanning head that a ping belongs to, a beam for each of its pings, at its scan angle: what an
+/// operator sees, bent where the vehicle moved. Throws Error(content) for a run that is not of a scanning head of one
+/// beam.
+LevelImage sweep_of_head(const ImageRun& run, const ImageOptions& options, std::size_t ping);
+
+/// Draws that sweep where it was in the world, seen from the middle of the sweep: every sample at the position and bearing
+/// that its beam had, the strongest of those that meet in a cell. Cells are half a step of the head wide and a bin
+/// long; those that no beam saw are silent. Errors as sweep_of_head.
+LevelImage sweep_in_world(const ImageRun& run, const ImageOptions& options, std::size_t ping);
+
+/// Levels of the chosen beam (--beam) in all pings of a run, by slant range. Throws Error(content) for a run of one
+/// ping, Error(argument) as choose_beam.
+PingHistory beam_history(const ImageRun& run, const ImageOptions& options);
+
+/// Height of the head above the flat bottom in each ping [m]: --altitude, or by the pose above --bottom; empty if
+/// neither is given. Throws Error(argument) for a height that is not above the bottom.
+std::vector<double> altitudes_of(const ImageRun& run, const ImageOptions& options);
+
+/// A history by slant range drawn on a flat and level bottom `altitude[ping]` below the head: at ground range g the
+/// sample at slant range sqrt(g^2 + altitude^2), in bins of the same size from 0 to where the lowest ping ends; what
+/// arrives from the water before the bottom is left out, and ground not reached is silent. Throws Error(argument)
+/// unless each altitude is below the range.
+PingHistory on_flat_bottom(const PingHistory& slant, const std::vector<double>& altitude);
+
+/// Port and starboard of one line as one history: ranges to port to the left, to starboard to the right, and silence
+/// between them where neither has samples. Throws Error(content) unless both have the same gate and number of pings.
+PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard);
 
 }  // namespace insonify::tool

@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "tool/image/scan_image.hpp"
+#include "tool/image/image.hpp"
 
 namespace insonify::tool {
 namespace {

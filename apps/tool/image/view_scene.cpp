@@ -13,7 +13,7 @@
 #include "run/ping_setup.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/open_scene.hpp"
-#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "sampling/find_holes.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "tool/command/progress.hpp"

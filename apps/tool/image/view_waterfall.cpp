@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "tool/image/side_scan.hpp"
+#include "tool/image/image.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -13,7 +13,7 @@
 #include "run/requested_simulation.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
-#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "scene_io/projected_system.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"

@@ -15,7 +15,6 @@
 #include "scene_io/describe_file.hpp"
 #include "tiles/tiled_scene.hpp"
 #include "tool/info/info.hpp"
-#include "tool/info/material_list.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -14,8 +14,7 @@
 #include "store/sonar_file.hpp"
 #include "store/toml_tree.hpp"
 #include "tool/info/info.hpp"
-#include "tool/info/material_list.hpp"
-#include "tool/survey/survey_setup.hpp"
+#include "tool/survey/survey.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/info/material_list.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +8,7 @@
 #include "acoustics/surface_laws.hpp"
 #include "core/units.hpp"
 #include "store/sonar_file.hpp"
+#include "tool/info/info.hpp"
 
 namespace insonify::tool {
 

@@ -10,12 +10,11 @@
 #include "acoustics/surface_laws.hpp"
 #include "core/error.hpp"
 #include "run/parse_values.hpp"
-#include "store/output_rules.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
-#include "tool/info/material_list.hpp"
+#include "tool/info/info.hpp"
 #include "view/line_chart_internal.hpp"
 
 namespace insonify::tool {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/merge/merge_companions.hpp"
-
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
@@ -17,6 +15,7 @@
 #include "scene_io/insonification_file.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
+#include "tool/merge/merge.hpp"
 
 namespace insonify::tool {
 namespace {

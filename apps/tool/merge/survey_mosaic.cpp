@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/merge/survey_mosaic.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -20,6 +18,7 @@
 #include "store/cube.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/export/sounding_map.hpp"
+#include "tool/merge/merge.hpp"
 #include "view/save_vtk.hpp"
 
 namespace insonify::tool {

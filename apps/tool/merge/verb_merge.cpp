@@ -14,8 +14,7 @@
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/export/raster_plane.hpp"
-#include "tool/merge/merge_companions.hpp"
-#include "tool/merge/merge_survey.hpp"
+#include "tool/merge/merge.hpp"
 #include "tool/run/run_pings.hpp"
 #include "tool/run/world_reference.hpp"
 

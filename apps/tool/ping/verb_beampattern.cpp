@@ -9,7 +9,7 @@
 #include "run/parse_values.hpp"
 #include "run/ping_setup.hpp"
 #include "sonar/beam_pattern.hpp"
-#include "store/output_rules.hpp"
+#include "store/run_directory.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "run_scenes/ping_run.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/run/vtk_pictures.hpp"

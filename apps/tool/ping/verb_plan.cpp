@@ -6,8 +6,7 @@
 
 #include "beamforming/engine.hpp"
 #include "run/ping_setup.hpp"
-#include "run_scenes/ping_report.hpp"
-#include "run_scenes/ping_run.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"

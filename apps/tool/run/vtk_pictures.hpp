@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "run_scenes/run_pictures.hpp"
+#include "run_scenes/run_folder.hpp"
 
 namespace insonify::tool {
 

@@ -11,7 +11,7 @@
 #include "scene_io/save_cloud.hpp"
 #include "store/material_library.hpp"
 #include "store/nearest_word.hpp"
-#include "store/output_rules.hpp"
+#include "store/run_directory.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"

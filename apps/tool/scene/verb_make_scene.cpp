@@ -14,7 +14,7 @@
 #include "scene_io/save_cloud.hpp"
 #include "store/material_library.hpp"
 #include "store/materials_file.hpp"
-#include "store/output_rules.hpp"
+#include "store/run_directory.hpp"
 #include "tiles/tile_writer.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"

@@ -12,7 +12,7 @@
 #include "scene/thin_scene.hpp"
 #include "scene_io/prepare_tiles.hpp"
 #include "scene_io/save_cloud.hpp"
-#include "store/output_rules.hpp"
+#include "store/run_directory.hpp"
 #include "store/scene_file.hpp"
 #include "tiles/tile_writer.hpp"
 #include "tool/command/progress.hpp"

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/survey/survey_blocks.hpp"
-
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "core/error.hpp"
 #include "files/path_status.hpp"
 #include "files/pending_file.hpp"
 #include "returns/sounding_columns.hpp"
 #include "run/run_settings.hpp"
-#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/cube.hpp"
+#include "tool/survey/survey.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -126,6 +129,38 @@ void write_survey_settings(const SurveySetup& setup, const std::string& folder) 
     const fs::path head = fs::path(folder) / setup.file.mission.heads[h].name;
     if (path_exists(head)) write_once(head / "run.toml", run_toml(setup.heads[h], settings_as_toml(all_settings(run))));
   }
+}
+
+SurveyStatus::SurveyStatus(Progress& progress, std::string path, std::string shard, std::size_t pings, std::size_t done)
+    : progress_(progress), path_(std::move(path)), shard_(std::move(shard)), pings_(pings), done_before_(done) {}
+
+void SurveyStatus::ping_done(const PingOutcome* made) {
+  const std::scoped_lock lock(guard_);
+  ++(made ? made_ : done_before_);
+  failed_ += made && !made->failure.empty();
+  const std::size_t done = done_before_ + made_;
+  seconds_ += watch_.lap();
+  const double left =
+      seconds_ * static_cast<double>(pings_ - done) / static_cast<double>(std::max<std::size_t>(1, made_));
+  progress_.show(static_cast<double>(done) / static_cast<double>(pings_),
+                 fmt::format("ping {} of {}, {} left", done, pings_, time_text(left)));
+  if (seconds_ - written_ >= 1) write_locked("running");
+}
+
+void SurveyStatus::write(const std::string& state) {
+  const std::scoped_lock lock(guard_);
+  write_locked(state);
+}
+
+void SurveyStatus::write_locked(const std::string& state) {
+  seconds_ += watch_.lap();
+  written_ = seconds_;
+  const std::size_t left = pings_ - done_before_ - made_;
+  nlohmann::ordered_json status = {{"schema", 1},           {"state", state},      {"shard", shard_},
+                                   {"process", ::getpid()}, {"pings", pings_},     {"done", done_before_ + made_},
+                                   {"failed", failed_},     {"seconds", written_}, {"seconds_left", nullptr}};
+  if (made_ > 0) status["seconds_left"] = written_ * static_cast<double>(left) / static_cast<double>(made_);
+  write_file(path_, status.dump(2) + "\n");
 }
 
 }  // namespace insonify::tool

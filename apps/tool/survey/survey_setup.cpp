@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tool/survey/survey_setup.hpp"
-
 #include <algorithm>
 #include <limits>
 
@@ -15,6 +13,7 @@
 #include "store/environment_file.hpp"
 #include "store/material_library.hpp"
 #include "tool/run/world_reference.hpp"
+#include "tool/survey/survey.hpp"
 
 namespace insonify::tool {
 namespace {

@@ -15,7 +15,7 @@
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/open_scene.hpp"
-#include "store/output_rules.hpp"
+#include "store/run_directory.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree.hpp"
 #include "tool/command/progress.hpp"

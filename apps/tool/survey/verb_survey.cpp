@@ -15,15 +15,14 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "run/parse_values.hpp"
-#include "run_scenes/run_files.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "scene_io/projected_system.hpp"
 #include "simulate/ping_notes.hpp"
 #include "store/csv_tables.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/run/world_reference.hpp"
-#include "tool/survey/survey_blocks.hpp"
-#include "tool/survey/survey_status.hpp"
+#include "tool/survey/survey.hpp"
 
 namespace insonify::tool {
 namespace {
