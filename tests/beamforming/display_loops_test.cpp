@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "beamforming/display/between_samples_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
+#include "core/units.hpp"
 
 namespace insonify {
 namespace {
@@ -43,6 +45,42 @@ std::vector<std::complex<double>> display_normals(std::uint64_t seed, std::size_
   return numbers;
 }
 
+/// Root of the mean square error of a random function of all frequencies up to the highest, between the samples of a
+/// period, in that of the function.
+template <std::size_t width>
+double error_between_samples(double oversampling) {
+  constexpr std::size_t length = 200;
+  const SampleKernel<width> kernel(oversampling);
+  const int highest = static_cast<int>(kernel.highest() * static_cast<double>(length));
+  std::mt19937 engine(5);
+  std::normal_distribution<double> normal;
+  const auto turn = [](int q, double position) {
+    return std::polar(1.0, 2 * pi * q * position / static_cast<double>(length));
+  };
+  std::vector<std::complex<double>> spectrum, samples(length + guards_before + guards_behind);
+  for (int q = -highest; q <= highest; ++q) spectrum.emplace_back(normal(engine), normal(engine));
+  const auto at = [&](int q) { return spectrum[static_cast<std::size_t>(q + highest)]; };
+  for (std::size_t j = 0; j < length; ++j)
+    for (int q = -highest; q <= highest; ++q)
+      samples[guards_before + j] +=
+          at(q) * turn(q, static_cast<double>(j)) / (kernel.transform(q / static_cast<double>(length)) * length);
+  repeat_ends(samples);
+  double error = 0, square = 0;
+  for (double position = 0; position < length; position += 0.37) {
+    std::complex<double> exact = 0;
+    for (int q = -highest; q <= highest; ++q) exact += at(q) * turn(q, position) / static_cast<double>(length);
+    error += std::norm(kernel.at(position).of(samples.data()) - exact), square += std::norm(exact);
+  }
+  return std::sqrt(error / square);
+}
+
+TEST(DisplayLoops, fields_and_powers_between_samples_are_as_exact_as_said) {
+  EXPECT_LT(error_between_samples<4>(4), 1e-3);
+  EXPECT_LT(error_between_samples<8>(2), 1e-6);
+  EXPECT_LT(error_between_samples<8>(1.25), 1e-4);
+  EXPECT_GT(error_between_samples<4>(2), error_between_samples<4>(4));
+}
+
 TEST(DisplayLoops, looks_are_those_of_the_formula) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<float> uniform(0, 1);
@@ -51,7 +89,7 @@ TEST(DisplayLoops, looks_are_those_of_the_formula) {
     constexpr std::size_t nodes = 40;
     const std::size_t row = kernels::row_length(subranges);
     std::vector<std::vector<double>> energy(nodes, std::vector<double>(subranges, 0));
-    std::vector<float> differences((nodes + 1) * row, 0);
+    std::vector<float> differences((nodes + 1) * row, 0), alike(nodes + 1, 0);
     for (int k = 0; k < 30; ++k) {
       const auto pick = [&](std::size_t n) {
         return static_cast<std::size_t>(uniform(engine) * static_cast<float>(n));
@@ -60,10 +98,14 @@ TEST(DisplayLoops, looks_are_those_of_the_formula) {
       const float more = uniform(engine);
       for (std::size_t j = first; j <= last; ++j) energy[j][n] += static_cast<double>(more);
       differences[first * row + n] += more, differences[(last + 1) * row + n] -= more;
+      // Some energies are in all ranges alike.
+      if (k % 3 != 0) continue;
+      for (std::size_t j = first; j <= last; ++j)
+        for (double& of_range : energy[j]) of_range += 0.1 * static_cast<double>(more);
+      alike[first] += 0.1f * more, alike[last + 1] -= 0.1f * more;
     }
-    const kernels::CellEnergies cell{differences.data(), nodes, subranges, lobe.data(),
-                                     lobe.size(),        1e-3f, 1e-2f,     correlation.data(),
-                                     correlation.size()};
+    const kernels::CellEnergies cell{differences.data(), alike.data(), nodes, subranges,          lobe.data(),
+                                     lobe.size(),        1e-3f,        1e-2f, correlation.data(), correlation.size()};
     const std::vector<std::size_t> at = {0, 1, 7, 20, 38, 39};
     std::vector<double> looks(at.size());
     kernels::count_looks(cell, at.data(), at.size(), looks.data());

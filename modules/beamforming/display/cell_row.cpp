@@ -13,13 +13,7 @@ namespace {
 
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
 constexpr double rounding = 1e-13;    // part of the louder of two cells that transforms leave in the other
-constexpr std::uint64_t ping_seed = 0x9e3779b97f4a7c15, stage_seed = 0xd1b54a32d192ed03;  // odd, far from each other
 constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
-
-/// Seed of the noise of a ping, far from those of the amplitudes of surfaces.
-std::uint64_t noise_seed(const CellOptions& options) {
-  return (options.seed ^ stage_seed) + static_cast<std::uint64_t>(options.ping) * ping_seed;
-}
 
 /// Looks at a position between two nodes.
 double looks_at(double position, const std::vector<double>& looks) {
@@ -37,18 +31,23 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       beams_(row.beams),
       options_(options),
       all_(plan.all_length),
-      all_samples_(plan.all_samples),
-      power_(plan.period_samples + guards),
+      spectrum_(plan.all_length),
+      all_samples_(plan.all_length + guards_before + guards_behind),
       power_at_(plan.period),
+      lags_(plan.period),
+      power_(plan.period + guards_before + guards_behind),
+      elements_(plan.period),
+      weighted_(plan.period),
       energy_((plan.broad + 1) * kernels::row_length(plan.subranges)),
-      noise_id_(plan.shading.size()),
-      noise_re_(plan.shading.size()),
-      noise_im_(plan.shading.size()) {
+      alike_(plan.broad + 1),
+      noise_id_(plan.lag.size()),
+      noise_re_(plan.lag.size()),
+      noise_im_(plan.lag.size()) {
   const std::size_t beams = row.beams.u_beam.size();
   for (Side& side : side_) {
     for (auto* numbers : {&side.mean, &side.power}) numbers->resize(beams);
     side.looks.resize(row.beams.broad_used.size());
-    for (auto& field : side.field) field.resize(plan.period_samples + guards);
+    for (auto& field : side.field) field.resize(plan.period + guards_before + guards_behind);
   }
   for (auto& nodes : nodes_) nodes.resize(plan.period);
   for (auto* numbers : {&even_.variate, &even_.from, &even_.looks, &even_.mean, &even_.strong, &drawn_})
@@ -124,7 +123,7 @@ void CellRow::label(std::size_t cell, Side& side) {
 
 void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
   // Energies of both cells over u, as real and imaginary parts. Nodes are counted from 1.
-  std::fill(all_.begin(), all_.end(), Complex(0));
+  std::fill(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(plan_.nodes + 3), Complex(0));
   const double per_node = 1 / plan_.node_width;
   for (std::size_t s = 0; s < sides; ++s)
     for (const Piece& piece : side_[s].even) {
@@ -135,21 +134,21 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
       const double low = std::max(position - half, -0.5) + 1,
                    high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
       const double density = piece.energy / (high - low);
-      // The first and the last node are met in part.
+      // Each node gets how much more it has than the one before; the first and the last node are met in part.
       const auto first = static_cast<std::size_t>(low), last = static_cast<std::size_t>(high);
+      const double before = density * (low - static_cast<double>(first)),
+                   within = density * (high - static_cast<double>(last));
       double* const at = reinterpret_cast<double*>(all_.data()) + s;
-      for (std::size_t i = first; i < last; ++i) at[2 * i] += density;
-      at[2 * first] -= density * (low - static_cast<double>(first));
-      at[2 * last] += density * (high - static_cast<double>(last));
+      at[2 * first] += density - before, at[2 * first + 2] += before;
+      at[2 * last] -= density - within, at[2 * last + 2] -= within;
     }
-  // Times the pattern, on twice as many samples.
-  plan_.to_all.run(all_.data());
+  for (std::size_t i = 1; i < plan_.nodes + 3; ++i) all_[i] += all_[i - 1];
+  // Times the pattern.
+  plan_.to_all.run(all_.data(), spectrum_.data());
   const std::vector<double>& kernel = plan_.kernel[plan_.kernel_of(cell)];
-  const std::size_t n = all_.size(), half = n / 2;
-  std::fill(all_samples_.begin(), all_samples_.end(), Complex(0));
-  for (std::size_t q = 0; q < half; ++q) all_samples_[q] = all_[q] * kernel[q];
-  for (std::size_t q = half + 1; q < n; ++q) all_samples_[n + q] = all_[q] * kernel[q];
-  plan_.from_all.run(all_samples_.data());
+  for (std::size_t q = 0; q < kernel.size(); ++q) spectrum_[q] *= kernel[q];
+  plan_.from_all.run(spectrum_.data(), all_samples_.data() + guards_before);
+  repeat_ends(all_samples_);
   const double noise = row_.element_noise * plan_.lag[0];
   for (std::size_t b = 0; b < beams_.u_beam.size(); ++b) {
     const Complex mean = beams_.in_all[b].of(all_samples_.data());
@@ -158,83 +157,11 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
   }
 }
 
-void CellRow::sum_fields(std::size_t cell, std::size_t s) {
-  Side& side = side_[s];
-  for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), Complex(0));
-  for (const Piece& piece : side.even) {
-    const CellEcho& echo = *piece.echo;
-    if (!(piece.field > 0)) continue;
-    std::size_t position = echo.node;
-    while (position >= plan_.period) position -= plan_.period;
-    Complex turn = static_cast<double>(piece.sign * std::sqrt(piece.field));
-    if (plan_.half_positions) turn = turn.real() * plan_.turn[echo.node];
-    for (std::size_t q = 0; q < 2; ++q) {
-      const double re = echo.pressure[q].real(), im = echo.pressure[q].imag();
-      nodes_[q][position] += Complex(turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re);
-    }
-    reinterpret_cast<double*>(&power_at_[position])[s] += piece.field;
-  }
-  for (std::size_t q = 0; q < 2; ++q) plan_.to_elements.run(nodes_[q].data());
-  add_noise(cell, side);
-  for (std::size_t q = 0; q < 2; ++q) form_period(nodes_[q].data(), side.field[q]);
-}
-
-void CellRow::add_noise(std::size_t cell, Side& side) {
-  const double root = std::sqrt(side.noise / plan_.lag[0]);
-  if (root == 0) return;
-  for (std::size_t q = 0; q < 2; ++q) {
-    for (std::size_t m = 0; m < noise_id_.size(); ++m)
-      noise_id_[m] = ((row_.first_element + m) * plan_.cells + cell) * 2 + q;
-    kernels::draw_normals(noise_seed(options_), noise_id_.data(), noise_id_.size(), noise_re_.data(), noise_im_.data());
-    std::size_t at = plan_.first_element;
-    for (std::size_t m = 0; m < noise_id_.size(); ++m) {
-      nodes_[q][at] += root * Complex(noise_re_[m], noise_im_[m]);
-      if (++at == plan_.period) at = 0;
-    }
-  }
-}
-
-void CellRow::form_period(const Complex* elements, std::vector<Complex>& samples) const {
-  std::fill(samples.begin(), samples.end(), Complex(0));
-  const std::size_t count = plan_.shading.size(), length = plan_.period_samples;
-  Complex* const at = samples.data() + 1;
-  for (std::size_t m = 0; m < count; ++m) {
-    const std::size_t from = (plan_.first_element + m) % plan_.period;
-    at[(length - count / 2 + m) % length] = plan_.shading[m] * elements[from];
-  }
-  transform_period(samples);
-}
-
-void CellRow::transform_period(std::vector<Complex>& samples) const {
-  Complex* const at = samples.data() + 1;
-  plan_.to_period.run(at);
-  const std::size_t length = plan_.period_samples;
-  samples[0] = at[length - 1], at[length] = at[0], at[length + 1] = at[1];
-}
-
-void CellRow::sum_powers(std::size_t sides) {
-  // Expected powers of the fields of both cells, as real and imaginary parts.
-  std::vector<Complex>& nodes = power_at_;
-  plan_.to_elements.run(nodes.data());
-  std::fill(power_.begin(), power_.end(), Complex(0));
-  const std::size_t length = plan_.period_samples;
-  Complex* const at = power_.data() + 1;
-  for (std::size_t m = 0; m < plan_.lag.size(); ++m) {
-    at[m] = plan_.lag[m] * nodes[m];
-    if (m > 0) at[length - m] = plan_.lag[m] * nodes[plan_.period - m];
-  }
-  at[0] += Complex(side_[0].noise, sides > 1 ? side_[1].noise : 0);
-  transform_period(power_);
-  for (std::size_t b = 0; b < drawn_.size(); ++b) {
-    const Complex power = beams_.in_period[b].of(power_.data());
-    side_[0].power[b] = power.real(), side_[1].power[b] = power.imag();
-  }
-}
-
 void CellRow::count_looks(std::size_t cell, Side& side) {
   // Energies by range, for broad nodes of u, each beyond those of the node before.
   const std::size_t subranges = plan_.subranges, row = kernels::row_length(subranges);
   std::fill(energy_.begin(), energy_.end(), 0.f);
+  std::fill(alike_.begin(), alike_.end(), 0.f);
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double per_length = static_cast<double>(subranges) / plan_.cell_length, unit = side.energy + side.noise;
   const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(subranges);
@@ -247,6 +174,10 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
     if (!(high > low)) continue;
     const std::uint32_t port = echo.port, starboard = echo.starboard;
     const float density = piece.energy * per_unit / ((high - low) * static_cast<float>(port - starboard + 1));
+    if (low == 0 && high == length) {
+      alike_[starboard] += density, alike_[port + 1] -= density;
+      continue;
+    }
     // The first and the last range are met in part.
     const auto k = static_cast<std::uint32_t>(low), whole = static_cast<std::uint32_t>(high);
     const std::uint32_t last = whole - (static_cast<float>(whole) == high ? 1 : 0);
@@ -257,7 +188,8 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
     for (std::size_t n = k; n <= last; ++n) more[n] += density, less[n] -= density;
     more[k] -= before, more[last] -= beyond, less[k] += before, less[last] += beyond;
   }
-  kernels::CellEnergies of{energy_.data(),     plan_.broad,       subranges, plan_.lobe.data(), plan_.lobe.size(), 0, 0,
+  kernels::CellEnergies of{energy_.data(),     alike_.data(),     plan_.broad, subranges,
+                           plan_.lobe.data(),  plan_.lobe.size(), 0,           0,
                            plan_.looks.data(), plan_.looks.size()};
   of.beside = static_cast<float>(plan_.beside_lobe);
   of.noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(subranges)) : 0;
@@ -266,7 +198,7 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
 
 void CellRow::draw(const Side& side) {
   for (std::size_t b = 0; b < drawn_.size(); ++b) {
-    const BetweenFour& position = beams_.in_period[b];
+    const BetweenFields& position = beams_.in_field[b];
     const Complex f = position.of(side.field[0].data()), g = position.of(side.field[1].data());
     const double power = std::max({side.power[b], side.noise, std::numeric_limits<double>::min()});
     even_.variate[b] = (std::norm(f) + std::norm(g)) / (2 * power);
@@ -284,7 +216,7 @@ void CellRow::add_groups(std::size_t beam, const Side& side, const std::array<Co
   const double unit = mean / (looks * power);  // of one look of the even ground
   double strong = 0, taken = 0;
   for (std::size_t k = 0; k < side.groups; ++k) {
-    const Complex s = beams_.in_period[beam].of(side.strong_field[k].data());
+    const Complex s = beams_.in_field[beam].of(side.strong_field[k].data());
     // A group interferes with one look of the even ground, if it is not far weaker.
     const bool interferes = std::norm(s) > least_interference * mean / looks && taken + 1 < looks;
     strong += std::norm(interferes ? std::sqrt(unit) * field[static_cast<std::size_t>(taken) % 2] + s : s);  // (E184)

@@ -40,9 +40,6 @@ inline double overlap(double low, double high, double first, double last) {
 /// Deviations of a pulse's energy in range beyond which it is left out.
 inline constexpr double reach_of_pulse = 4;
 
-/// Samples about a period of u: one before it, and three behind.
-inline constexpr std::size_t guards = 4;
-
 /// An echo in a cell.
 struct EchoInCell {
   std::uint32_t echo;
@@ -115,10 +112,10 @@ class CellRow {
   void sum_fields(std::size_t cell, std::size_t s);
   void sum_powers(std::size_t sides);
   void count_looks(std::size_t cell, Side& side);
-  void add_noise(std::size_t cell, Side& side);
-  void form_period(const Complex* elements, std::vector<Complex>& samples) const;
-  /// Turns elements into samples of a period, and copies those at its ends to the guards.
-  void transform_period(std::vector<Complex>& samples) const;
+  /// Adds noise of a power [Pa^2] in the beams to the pressures of field q at the elements.
+  void add_noise(std::size_t cell, std::size_t q, double noise);
+  /// Turns pressures at the elements, from first_element on, into samples of their field.
+  void form_period(const std::vector<Complex>& elements, std::vector<Complex>& samples);
   void draw(const Side& side);
   void add_groups(std::size_t beam, const Side& side, const std::array<Complex, 2>& field, double power);
 
@@ -128,9 +125,11 @@ class CellRow {
   const BeamPositions& beams_;
   const CellOptions& options_;
   std::array<Side, 2> side_;
-  std::vector<Complex> all_, all_samples_, power_, power_at_;
+  std::vector<Complex> all_, spectrum_, all_samples_;  ///< energies of both cells over u, and those that beams receive
+  std::vector<Complex> power_at_, lags_, power_;       ///< powers of both fields over a period of u, likewise
+  std::vector<Complex> elements_, weighted_;           ///< pressures at elements; the same weighted, 0 elsewhere
   std::array<std::vector<Complex>, 2> nodes_;
-  std::vector<float> energy_;
+  std::vector<float> energy_, alike_;
   std::vector<std::uint64_t> noise_id_;
   std::vector<double> noise_re_, noise_im_;
   /// Even ground as each beam receives it (kernels::EvenGround).

@@ -16,12 +16,19 @@ constexpr std::size_t least_parts_of_a_cell = 4;
 constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
 constexpr double least_beside = 1e-12;
 
-/// Position of `at` >= 1 among samples: of the four about it the second is at or before it.
-BetweenFour between_four(double at) {
-  const double whole = std::floor(at), t = at - whole;
-  return {static_cast<std::size_t>(whole) - 1,
-          {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
-           (t + 1) * t * (t - 1) / 6}};
+/// A period of fields has four samples per element, one of powers two for each lag, to either side.
+const SampleKernel<4>& of_fields() {
+  static const SampleKernel<4> made(4);
+  return made;
+}
+const SampleKernel<8>& of_powers() {
+  static const SampleKernel<8> made(2);
+  return made;
+}
+/// Mean patterns reach beyond the lags of the centre frequency as far as bands are wide.
+const SampleKernel<8>& of_means() {
+  static const SampleKernel<8> made(1.25);
+  return made;
 }
 
 double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
@@ -44,27 +51,18 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
       broad(nodes / 2 + 1),
       node_width(node_width_of(head, wavelength_of(head, medium))),
       beam_width(head.fan.beam_width),
-      period_samples(2 * period),
       all_length(fft_length(2 * nodes + 4)),
-      all_samples(2 * all_length),
       half_positions(head.array.elements() % 2 == 0),
       response(head.array, wavelength_of(head, medium)),
       pulse(head.pulse, medium, head.gate),
       cell_length(head.gate.bin_size),
       first_range(head.gate.min_range),
       cells(head.gate.bins()),
-      to_elements({period}, FFTW_FORWARD),
-      to_period({period_samples}, FFTW_BACKWARD),
-      to_all({all_length}, FFTW_FORWARD),
-      from_all({all_samples}, FFTW_BACKWARD) {
-  const auto n = static_cast<double>(head.array.elements());
-  const std::vector<double>& w = head.array.shading;
-  for (std::size_t m = 0; m < w.size(); ++m) {
-    shading.push_back(w[m] / n);
-    double pairs = 0;
-    for (std::size_t k = 0; k + m < w.size(); ++k) pairs += w[k] * w[k + m];
-    lag.push_back(pairs / (n * n));  // (E65)
-  }
+      to_elements({period, 1, 1, 0, false}, FFTW_FORWARD),
+      to_period({period, 1, 1, 0, false}, FFTW_BACKWARD),
+      to_all({all_length, 1, 1, 0, false}, FFTW_FORWARD),
+      from_all({all_length, 1, 1, 0, false}, FFTW_BACKWARD) {
+  fill_elements(head);
   first_element = (period - head.array.elements() / 2) % period;
   if (half_positions)
     for (std::size_t i = 0; i < nodes; ++i)
@@ -73,15 +71,28 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
   fill_looks(head);
 }
 
+void DisplayPlan::fill_elements(const SonarHead& head) {
+  const auto n = static_cast<double>(head.array.elements()), in_period = static_cast<double>(period);
+  const std::vector<double>& w = head.array.shading;
+  for (std::size_t m = 0; m < w.size(); ++m) {
+    const double place = static_cast<double>(m), frequency = (place - static_cast<double>(w.size() / 2)) / in_period;
+    element_weight.push_back(w[m] / n / of_fields().transform(frequency));
+    double pairs = 0;
+    for (std::size_t k = 0; k + m < w.size(); ++k) pairs += w[k] * w[k + m];
+    lag.push_back(pairs / (n * n));  // (E65)
+    lag_weight.push_back(lag[m] / of_powers().transform(place / in_period));
+  }
+}
+
 BeamPositions DisplayPlan::positions_of(const BeamFan& fan) const {
-  constexpr double samples_per_node = 2;
   BeamPositions at;
   at.u_beam = beam_cosines(fan);
   for (const double u : at.u_beam) {
     const double node = (u + 1) / node_width - 0.5;  // centres of nodes are whole numbers
-    at.in_all.push_back(between_four(samples_per_node * (node + 1)));
+    at.in_all.push_back(of_means().at(node + 1));
     const double turns = node / static_cast<double>(period), within = turns - std::floor(turns);
-    at.in_period.push_back(between_four(within * static_cast<double>(period_samples) + 1));  // a guard stands before
+    at.in_field.push_back(of_fields().at(within * static_cast<double>(period)));
+    at.in_power.push_back(of_powers().at(within * static_cast<double>(period)));
     at.broad_of.push_back(std::clamp(0.5 * (node - 0.5), 0.0, static_cast<double>(broad - 1)) / 2);
   }
   // Every other broad node: they stand as near as the array resolves, and looks between them are interpolated.
@@ -120,7 +131,7 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
   for (std::size_t block = 0; block < blocks; ++block) {
     const double middle = (static_cast<double>(block) + 0.5) * static_cast<double>(cells) / static_cast<double>(blocks);
     const auto spectrum = pulse.spectrum(first_range + middle * cell_length, count);
-    std::vector<std::complex<double>> of_band(all_length, 0);
+    std::vector<std::complex<double>> of_band(all_length, 0), transformed(all_length);
     for (std::size_t k = 0; k < nodes; ++k) {
       double mean = 0;
       for (const SpectrumNode& node : spectrum)
@@ -130,11 +141,13 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
       if (block == 0 && static_cast<double>(k) * node_width > main_lobe_reach * head.fan.beam_width)
         outside += mean, positions += 1;
     }
-    to_all.run(of_band.data());
+    to_all.run(of_band.data(), transformed.data());
     std::vector<double>& filled = kernel.emplace_back(all_length);
     for (std::size_t q = 0; q < all_length; ++q) {
       const double cycles = static_cast<double>(std::min(q, all_length - q)) / static_cast<double>(all_length);
-      filled[q] = of_band[q].real() / static_cast<double>(all_length) / std::pow(sinc(cycles), 2);
+      if (cycles > of_means().highest()) continue;  // no lag of the array is so long
+      filled[q] = transformed[q].real() / static_cast<double>(all_length) / std::pow(sinc(cycles), 2) /
+                  of_means().transform(cycles);
     }
   }
   beside_lobe = positions > 0 ? std::max(outside / positions, least_beside) : least_beside;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <array>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "beamforming/display/between_samples_internal.hpp"
 #include "beamforming/display/pulse_energy_internal.hpp"
 #include "beamforming/numerics/fft_internal.hpp"
 #include "sonar/response_table.hpp"
@@ -13,16 +13,10 @@
 
 namespace insonify {
 
-/// A position between four neighbouring samples, and their weights (cubic interpolation).
-struct BetweenFour {
-  std::size_t first;
-  std::array<double, 4> weight;
-  template <typename Number>
-  Number of(const Number* samples) const {
-    return weight[0] * samples[first] + weight[1] * samples[first + 1] + weight[2] * samples[first + 2] +
-           weight[3] * samples[first + 3];
-  }
-};
+/// Positions among samples of fields, and of powers. A period has four times as many samples as fields vary with, and
+/// twice as many as powers, whose weak parts count: errors are below 1e-3 and 1e-6 of the root of the mean square.
+using BetweenFields = Between<4>;
+using BetweenPowers = Between<8>;
 
 /// Where the beams of a row stand among the nodes and samples of a DisplayPlan.
 struct BeamPositions {
@@ -30,8 +24,9 @@ struct BeamPositions {
   std::vector<std::int32_t> beam_near;  ///< the beam that receives each node best; -1: none has it in its lobe
   std::vector<double> broad_of;         ///< place of each beam among broad_used: index, and part of the way to the next
   std::vector<std::size_t> broad_used;  ///< every other broad node as far as beams go, ascending
-  std::vector<BetweenFour> in_period;   ///< place of each beam among the samples of a transformed period
-  std::vector<BetweenFour> in_all;      ///< place of each beam among the samples of all directions
+  std::vector<BetweenFields> in_field;  ///< place of each beam among the samples of a field
+  std::vector<BetweenPowers> in_power;  ///< place of each beam among the samples of powers of a period
+  std::vector<BetweenPowers> in_all;    ///< place of each beam among the samples of all directions
 };
 
 /// Directions, patterns and transforms of the display cells of a line array, made once for many pings (E180).
@@ -49,10 +44,11 @@ struct DisplayPlan {
     return position <= 0 ? 0 : std::min(static_cast<std::size_t>(position), nodes - 1);
   }
 
-  std::size_t period_samples, all_length, all_samples;
+  std::size_t all_length;
 
   std::vector<double> lag;                 ///< R_m of E65 by lag, m = 0 .. N - 1, divided by N^2
-  std::vector<double> shading;             ///< w_m / N
+  std::vector<double> lag_weight;          ///< the same, for samples that are interpolated (E186)
+  std::vector<double> element_weight;      ///< w_m / N, for samples that are interpolated (E186)
   std::size_t first_element;               ///< index of element 0 in a transformed period
   bool half_positions;                     ///< elements stand at half-integers
   std::vector<std::complex<double>> turn;  ///< factor of the pressure of an echo at each node, if half_positions
@@ -70,13 +66,14 @@ struct DisplayPlan {
   double cell_length, first_range;
   std::size_t cells;
 
-  Fft<double> to_elements, to_period, to_all, from_all;
+  Fft<double> to_elements, to_period, to_all, from_all;  ///< transform one array into another
 
   /// Returns the positions of the beams of a fan of one elevation.
   BeamPositions positions_of(const BeamFan& fan) const;
 
  private:
   double response_at(double offset) const;  // of any size
+  void fill_elements(const SonarHead& head);
   void fill_kernels(const SonarHead& head, const Medium& medium);
   void fill_looks(const SonarHead& head);
 };

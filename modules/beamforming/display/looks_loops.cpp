@@ -34,15 +34,21 @@ INSONIFY_ALWAYS_INLINE void store(const Lanes& lanes, float* to) { __builtin_mem
 /// Sums up the energies of nodes from their differences; returns those of all nodes in `everywhere`.
 template <std::size_t rows>
 INSONIFY_ALWAYS_INLINE void sum_differences(const CellEnergies& cell, Lanes (&everywhere)[rows]) {
-  Lanes sum[rows] = {};
-  for (std::size_t j = 0; j < cell.nodes; ++j)
+  Lanes sum[rows] = {}, inside[rows] = {};
+  for (std::size_t n = 0; n < cell.subranges; ++n) inside[n / subrange_lanes][n % subrange_lanes] = 1;
+  float alike = 0;
+  for (std::size_t j = 0; j < cell.nodes; ++j) {
+    alike += cell.alike[j];
     for (std::size_t r = 0; r < rows; ++r) {
       float* const at = cell.energy + (j * rows + r) * subrange_lanes;
       Lanes difference;
       load(at, difference);
-      sum[r] += difference, everywhere[r] += sum[r];
-      store(sum[r], at);
+      sum[r] += difference;
+      const Lanes here = sum[r] + alike * inside[r];
+      everywhere[r] += here;
+      store(here, at);
     }
+  }
 }
 
 /// Counts looks of cells of so many whole lanes of ranges.

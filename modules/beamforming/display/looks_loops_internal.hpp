@@ -16,9 +16,10 @@ constexpr std::size_t row_length(std::size_t subranges) {
 }
 
 /// Energies in a cell: of range n by how much more node j of u has than the one before, at j row_length(parts) + n, 0
-/// for n >= parts; and the pattern of a beam.
+/// for n >= parts; of all ranges alike, by how much more each of them has; and the pattern of a beam.
 struct CellEnergies {
   float* energy;
+  const float* alike;
   std::size_t nodes, subranges;
   const float* lobe;  ///< weight of nodes at distances 0, 1, .. below `lobe_reach`
   std::size_t lobe_reach;

@@ -36,7 +36,8 @@ void CellRow::partition_strong(Side& side) {
     const double reception = beam < 0 ? side.energy : std::min(side.energy, side.mean[static_cast<std::size_t>(beam)]);
     return energy > strong_share * reception && energy > strong_share * reception * pieces_of(echo, plan_);
   };
-  const auto first = std::stable_partition(side.even.begin(), side.even.end(), [&](auto& p) { return !strong(p); });
+  const auto found = std::find_if(side.even.begin(), side.even.end(), strong);
+  const auto first = std::stable_partition(found, side.even.end(), [&](auto& p) { return !strong(p); });
   side.strong.assign(first, side.even.end());
   side.even.erase(first, side.even.end());
 }
@@ -52,8 +53,9 @@ void CellRow::sum_strong(Side& side) {
     const double last = first->echo->range + 2 * plan_.pulse.half_length();
     std::fill(elements.begin(), elements.end(), Complex(0));
     for (; first != side.strong.end() && first->echo->range < last; ++first) add_strong(*first, elements, side.mean);
-    if (side.groups == side.strong_field.size()) side.strong_field.emplace_back(plan_.period_samples + guards);
-    form_period(elements.data(), side.strong_field[side.groups++]);
+    if (side.groups == side.strong_field.size())
+      side.strong_field.emplace_back(plan_.period + guards_before + guards_behind);
+    form_period(elements, side.strong_field[side.groups++]);
   }
   for (double& mean : side.mean) mean = std::max(mean, row_.element_noise * plan_.lag[0]);
 }
@@ -62,7 +64,7 @@ void CellRow::add_strong(const Piece& piece, std::vector<Complex>& elements, std
   const CellEcho& echo = *piece.echo;
   const double step = 2 * pi / (plan_.node_width * static_cast<double>(plan_.period));
   const double u = echo.u, away = u - (0.5 * plan_.node_width - 1);  // from node 0, where samples begin
-  const std::size_t count = plan_.shading.size();
+  const std::size_t count = plan_.lag.size();
   const Complex turn = std::polar(1.0, -step * away);
   Complex at = static_cast<double>(piece.sign * std::sqrt(piece.energy)) * Complex(echo.pressure[0]) *
                std::polar(1.0, -step * away * element_position(0, count));

@@ -62,7 +62,7 @@ struct CellSynthesizer::Plan {
   void form_row(const FanRow& of, const RowReception& reception, const EchoesByCell& lists, const CellOptions& options,
                 Grid<double>& cells) const {
     Grid<double> image(of.beams.size(), display.cells);
-    parallel_blocks((display.cells + 1) / 2, 4, options.threads, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks((display.cells + 1) / 2, 8, options.threads, [&](std::size_t begin, std::size_t end) {
       CellRow row(display, lists, reception, options);
       for (std::size_t pair = begin; pair < end; ++pair) row.form(2 * pair, image);
     });

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields of a display cell, of which its speckle is drawn, and their expected powers (E183).
+#include <algorithm>
+#include <cmath>
+
+#include "beamforming/display/cell_row_internal.hpp"
+#include "beamforming/display/looks_loops_internal.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::uint64_t ping_seed = 0x9e3779b97f4a7c15, stage_seed = 0xd1b54a32d192ed03;  // odd, far from each other
+
+/// Seed of the noise of a ping, far from those of the amplitudes of surfaces.
+std::uint64_t noise_seed(const CellOptions& options) {
+  return (options.seed ^ stage_seed) + static_cast<std::uint64_t>(options.ping) * ping_seed;
+}
+
+}  // namespace
+
+void CellRow::sum_fields(std::size_t cell, std::size_t s) {
+  Side& side = side_[s];
+  for (auto& nodes : nodes_) std::fill(nodes.begin(), nodes.end(), Complex(0));
+  for (const Piece& piece : side.even) {
+    const CellEcho& echo = *piece.echo;
+    if (!(piece.field > 0)) continue;
+    std::size_t position = echo.node;
+    while (position >= plan_.period) position -= plan_.period;
+    Complex turn = static_cast<double>(piece.sign * std::sqrt(piece.field));
+    if (plan_.half_positions) turn = turn.real() * plan_.turn[echo.node];
+    for (std::size_t q = 0; q < 2; ++q) {
+      const double re = echo.pressure[q].real(), im = echo.pressure[q].imag();
+      nodes_[q][position] += Complex(turn.real() * re - turn.imag() * im, turn.real() * im + turn.imag() * re);
+    }
+    reinterpret_cast<double*>(&power_at_[position])[s] += piece.field;
+  }
+  for (std::size_t q = 0; q < 2; ++q) {
+    plan_.to_elements.run(nodes_[q].data(), elements_.data());
+    add_noise(cell, q, side.noise);
+    form_period(elements_, side.field[q]);
+  }
+}
+
+void CellRow::add_noise(std::size_t cell, std::size_t q, double noise) {
+  const double root = std::sqrt(noise / plan_.lag[0]);
+  if (root == 0) return;
+  for (std::size_t m = 0; m < noise_id_.size(); ++m)
+    noise_id_[m] = ((row_.first_element + m) * plan_.cells + cell) * 2 + q;
+  kernels::draw_normals(noise_seed(options_), noise_id_.data(), noise_id_.size(), noise_re_.data(), noise_im_.data());
+  std::size_t at = plan_.first_element;
+  for (std::size_t m = 0; m < noise_id_.size(); ++m) {
+    elements_[at] += root * Complex(noise_re_[m], noise_im_[m]);
+    if (++at == plan_.period) at = 0;
+  }
+}
+
+void CellRow::form_period(const std::vector<Complex>& elements, std::vector<Complex>& samples) {
+  const std::size_t count = plan_.element_weight.size(), length = plan_.period;
+  std::size_t from = plan_.first_element, to = length - count / 2;
+  for (std::size_t m = 0; m < count; ++m) {
+    weighted_[to] = plan_.element_weight[m] * elements[from];
+    if (++from == length) from = 0;
+    if (++to == length) to = 0;
+  }
+  plan_.to_period.run(weighted_.data(), samples.data() + guards_before);
+  repeat_ends(samples);
+}
+
+void CellRow::sum_powers(std::size_t sides) {
+  // Expected powers of the fields of both cells, as real and imaginary parts.
+  plan_.to_elements.run(power_at_.data(), elements_.data());
+  const std::size_t length = plan_.period;
+  for (std::size_t m = 0; m < plan_.lag.size(); ++m) {
+    lags_[m] = plan_.lag_weight[m] * elements_[m];
+    if (m > 0) lags_[length - m] = plan_.lag_weight[m] * elements_[length - m];
+  }
+  lags_[0] += plan_.lag_weight[0] / plan_.lag[0] * Complex(side_[0].noise, sides > 1 ? side_[1].noise : 0);
+  plan_.to_period.run(lags_.data(), power_.data() + guards_before);
+  repeat_ends(power_);
+  for (std::size_t b = 0; b < drawn_.size(); ++b) {
+    const Complex power = beams_.in_power[b].of(power_.data());
+    side_[0].power[b] = power.real(), side_[1].power[b] = power.imag();
+  }
+}
+
+}  // namespace insonify
