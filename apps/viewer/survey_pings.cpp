@@ -76,6 +76,23 @@ LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes) {
   return {std::move(positions), std::move(source)};
 }
 
+LazyPings lazy_pings_of(std::shared_ptr<const tool::SwathPings> swath) {
+  std::vector<TrackPoint> positions;
+  for (std::size_t i = 0; i < swath->record().pings.size(); ++i) positions.push_back(swath->track_point(i));
+  PingSource source;
+  source.ping = [swath](std::size_t i) { return swath->ping(i); };
+  source.beam = [swath](std::size_t first, std::size_t count, std::size_t beam) {
+    ComplexGridF rows;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Ping ping = swath->ping(first + k);
+      if (k == 0) rows.resize(static_cast<Eigen::Index>(count), ping.pressure.cols());
+      rows.row(static_cast<Eigen::Index>(k)) = ping.pressure.row(static_cast<Eigen::Index>(beam));
+    }
+    return rows;
+  };
+  return {std::move(positions), std::move(source)};
+}
+
 LazyPings lazy_pings_of(std::vector<Ping> pings) {
   std::vector<TrackPoint> positions;
   for (const Ping& ping : pings) positions.push_back(track_point_of(ping));

@@ -25,6 +25,7 @@
 #include "store/survey_run.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/run/record_file.hpp"
+#include "tool/run/swath_pings.hpp"
 #include "viewer/viewer_state.hpp"
 
 namespace insonify::viewer {
@@ -155,8 +156,23 @@ std::size_t channel_of(const ViewerCommand& command, const tool::Record& record)
   return static_cast<std::size_t>(named - record.channels.begin());
 }
 
+// A swath is shown with the soundings of all pings.
+LoadedView load_swath(const ViewerCommand& command) {
+  if (!command.head.empty())
+    fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no side-scan; leave --head out");
+  LoadedView view{{}, command.start, {}};
+  const auto swath = std::make_shared<const tool::SwathPings>(read_swath(command.target));
+  view.data.title = swath->record().format, view.data.recorded_unit = swath->unit();
+  view.data.returns = swath->soundings();
+  view.data.pings = lazy_pings_of(swath);
+  view.start.tvg = false;
+  choose_start(command, view);
+  return view;
+}
+
 // Levels of a recording are shown as they are recorded.
 LoadedView load_record(const ViewerCommand& command) {
+  if (is_swath(command.target)) return load_swath(command);
   LoadedView view{{}, command.start, {}};
   tool::Record record = tool::read_record(command.target);
   view.data.title = record.kind;

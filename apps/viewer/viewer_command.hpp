@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "run/options.hpp"
 #include "tool/command/option_list.hpp"
+#include "tool/run/swath_pings.hpp"
 #include "viewer/lazy_pings.hpp"
 #include "viewer/viewer_data.hpp"
 
@@ -59,6 +61,9 @@ LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes);
 
 /// Pings that are in memory.
 LazyPings lazy_pings_of(std::vector<Ping> pings);
+
+/// The pings of a recorded swath, drawn one at a time.
+LazyPings lazy_pings_of(std::shared_ptr<const tool::SwathPings> swath);
 
 /// One head of a survey.
 struct SurveyHeadRun {

@@ -42,6 +42,15 @@ Number little_at(std::string_view bytes, std::size_t offset) {
   return number;
 }
 
+/// Returns the number at `offset`, highest byte first.
+template <typename Number>
+Number big_at(std::string_view bytes, std::size_t offset) {
+  std::array<char, sizeof(Number)> raw;
+  std::memcpy(raw.data(), bytes.data() + offset, raw.size());
+  std::reverse(raw.begin(), raw.end());
+  return std::bit_cast<Number>(raw);
+}
+
 /// Returns the text of a field, which ends at its first zero or with the field.
 inline std::string field_at(std::string_view bytes, std::size_t offset, std::size_t length) {
   const std::string_view field = bytes.substr(offset, length);

@@ -82,6 +82,7 @@ enum XtfPacketOffset : std::size_t {
   xtf_pitch_at = 204,
   xtf_roll_at = 208,
   xtf_heading_at = 212,
+  xtf_heave_at = 216,
   xtf_yaw_at = 220,
   xtf_attitude_tag_at = 224,
   xtf_fix_milliseconds_at = 232,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string_view>
 
@@ -10,17 +9,13 @@
 #include "formats/packed_bytes_internal.hpp"
 #include "formats/xtf_file.hpp"
 #include "formats/xtf_layout_internal.hpp"
+#include "formats/xtf_packets_internal.hpp"
 
 namespace insonify {
 namespace {
 
 constexpr double farthest_range = 1e5;        // [m], beyond any side-scan
-constexpr double slowest_sound = 1000;        // [m/s]; lower speeds are half the true one
 constexpr double highest_in_kilohertz = 1e4;  // higher numbers are in Hz
-
-double number_of(float value) { return std::isfinite(value) ? static_cast<double>(value) : 0.0; }
-double real_at(std::string_view bytes, std::size_t at) { return number_of(little_at<float>(bytes, at)); }
-std::uint8_t byte_at(std::string_view bytes, std::size_t at) { return static_cast<std::uint8_t>(bytes[at]); }
 
 double hertz(double frequency) { return frequency > highest_in_kilohertz ? frequency : 1000 * frequency; }
 
@@ -33,7 +28,7 @@ float ibm_float(std::uint32_t raw) {
 
 /// Returns the storage of samples: as the format field says, in older files by their size.
 XtfSamples samples_of(const std::string& path, std::string_view channel, std::size_t number) {
-  const std::uint8_t format = byte_at(channel, xtf_sample_format_at);
+  const std::uint8_t format = xtf_byte_at(channel, xtf_sample_format_at);
   const auto size = little_at<std::uint16_t>(channel, xtf_sample_bytes_at);
   for (const XtfSamples known : {XtfSamples::ibm_float, XtfSamples::integer_32, XtfSamples::integer_16,
                                  XtfSamples::ieee_float, XtfSamples::integer_8})
@@ -47,71 +42,42 @@ XtfSamples samples_of(const std::string& path, std::string_view channel, std::si
 
 XtfChannel channel_of(const std::string& path, std::string_view bytes, std::size_t number) {
   XtfChannel channel;
-  const std::uint8_t side = byte_at(bytes, xtf_side_at);
+  const std::uint8_t side = xtf_byte_at(bytes, xtf_side_at);
   if (side > static_cast<std::uint8_t>(XtfSide::starboard))
     fail(ErrorKind::content, path, ": channel ", number, " is of type ", int{side},
          ", must be 0 (sub-bottom), 1 (port) or 2 (starboard)");
   channel.side = static_cast<XtfSide>(side);
   channel.samples = samples_of(path, bytes, number);
   channel.name = field_at(bytes, xtf_channel_name_at, 16);
-  channel.frequency = hertz(std::max(0.0, real_at(bytes, xtf_channel_frequency_at)));
-  channel.beam_width = radians(real_at(bytes, xtf_beam_angle_at));
-  channel.elevation_width = radians(real_at(bytes, xtf_beam_width_at));
-  channel.depression = radians(real_at(bytes, xtf_tilt_at));
+  channel.frequency = hertz(std::max(0.0, xtf_real_at(bytes, xtf_channel_frequency_at)));
+  channel.beam_width = radians(xtf_real_at(bytes, xtf_beam_angle_at));
+  channel.elevation_width = radians(xtf_real_at(bytes, xtf_beam_width_at));
+  channel.depression = radians(xtf_real_at(bytes, xtf_tilt_at));
   return channel;
 }
 
-/// Returns the number of channels of any kind that the header describes.
-std::size_t described_channels(std::string_view head) {
-  return std::size_t{little_at<std::uint16_t>(head, xtf_sonar_channels_at)} +
-         little_at<std::uint16_t>(head, xtf_bathymetry_channels_at) + byte_at(head, xtf_snippet_channels_at) +
-         byte_at(head, xtf_forward_channels_at) + little_at<std::uint16_t>(head, xtf_echo_channels_at) +
-         byte_at(head, xtf_interferometry_channels_at);
-}
-
-/// Reads the header and returns its size: 1024 bytes, and as many again while not all channels fit in.
+/// Reads the header and returns its size.
 std::size_t read_header(BinaryInput& file, const std::string& path, XtfHeader& header) {
-  const std::string format = file.part(0, 1, "its header");
-  if (byte_at(format, xtf_format_at) != xtf_file_format)
-    fail(ErrorKind::content, path, ": does not begin with 123, so it is no XTF recording");
-  std::string head = file.part(0, xtf_header_bytes, "its header");
-  const std::size_t sonars = little_at<std::uint16_t>(head, xtf_sonar_channels_at);
-  const std::size_t needed = xtf_channels_at + described_channels(head) * xtf_channel_bytes;
-  const std::size_t size =
-      std::max(xtf_header_bytes, (needed + xtf_header_bytes - 1) / xtf_header_bytes * xtf_header_bytes);
-  if (sonars == 0) fail(ErrorKind::content, path, ": has no channel of a side-scan");
-  head = file.part(0, size, "its header");
+  const XtfOutline outline = read_xtf_outline(file, path);
+  if (outline.sonars == 0)
+    fail(ErrorKind::content, path, ": has no channel of a side-scan",
+         outline.bathymetries > 0 ? "; it is a swath, which info and compare read" : "");
+  const std::string head = file.part(0, outline.bytes, "its header");
   header.program = field_at(head, xtf_program_at, 8);
   header.version = field_at(head, xtf_version_at, 8);
   header.sonar = field_at(head, xtf_sonar_at, 16);
   header.note = field_at(head, xtf_note_at, 64);
   header.in_degrees = little_at<std::uint16_t>(head, xtf_nav_units_at) == xtf_degrees;
-  for (std::size_t c = 0; c < sonars; ++c)
+  for (std::size_t c = 0; c < outline.sonars; ++c)
     header.channels.push_back(
         channel_of(path, std::string_view(head).substr(xtf_channels_at + c * xtf_channel_bytes, xtf_channel_bytes), c));
-  return size;
-}
-
-/// Returns the time of a packet, UTC; 0 if it has no date.
-double time_of(std::string_view packet, const std::string& where) {
-  using namespace std::chrono;
-  const auto year_number = little_at<std::uint16_t>(packet, xtf_year_at);
-  const std::uint8_t month_number = byte_at(packet, xtf_month_at), day_number = byte_at(packet, xtf_day_at);
-  if (year_number == 0 && month_number == 0) return 0;
-  const year_month_day date{year(year_number), month(month_number), day(day_number)};
-  const int clock[] = {byte_at(packet, xtf_hour_at), byte_at(packet, xtf_minute_at), byte_at(packet, xtf_second_at),
-                       byte_at(packet, xtf_hundredth_at)};
-  if (!date.ok() || clock[0] > 23 || clock[1] > 59 || clock[2] > 60 || clock[3] > 99)
-    fail(ErrorKind::content, where, " has the date ", year_number, "-", int{month_number}, "-", int{day_number}, " ",
-         clock[0], ":", clock[1], ":", clock[2], ".", clock[3], ", which is none");
-  return 86400.0 * static_cast<double>(sys_days(date).time_since_epoch().count()) + 3600.0 * clock[0] +
-         60.0 * clock[1] + clock[2] + 0.01 * clock[3];
+  return outline.bytes;
 }
 
 float sample_at(std::string_view bytes, std::size_t at, XtfSamples samples) {
   switch (samples) {
     case XtfSamples::integer_8:
-      return byte_at(bytes, at);
+      return xtf_byte_at(bytes, at);
     case XtfSamples::integer_16:
       return little_at<std::uint16_t>(bytes, at);
     case XtfSamples::integer_32:
@@ -137,13 +103,6 @@ std::vector<float> samples_of(std::string_view bytes, const XtfChannel& channel,
   return values;
 }
 
-double sound_speed_of(std::string_view packet) {
-  double speed = real_at(packet, xtf_sound_speed_at);
-  if (!(speed > 0)) speed = real_at(packet, xtf_computed_speed_at);
-  if (!(speed > 0)) return 0;
-  return speed < slowest_sound ? 2 * speed : speed;
-}
-
 /// Reads the channel of a ping that begins at `at`, and moves `at` behind its samples.
 XtfTrace trace_of(std::string_view packet, std::size_t& at, std::size_t position, const XtfHeader& header,
                   double sound_speed, const std::string& where) {
@@ -165,8 +124,8 @@ XtfTrace trace_of(std::string_view packet, std::size_t& at, std::size_t position
          ", as many as its packet holds");
   trace.samples = samples_of(packet.substr(at, bytes), channel, little_at<std::int16_t>(head, xtf_weight_at), where);
   at += bytes;
-  trace.end = real_at(head, xtf_slant_range_at);
-  trace.begin = std::max(0.0, 0.5 * real_at(head, xtf_delay_at) * sound_speed);
+  trace.end = xtf_real_at(head, xtf_slant_range_at);
+  trace.begin = std::max(0.0, 0.5 * xtf_real_at(head, xtf_delay_at) * sound_speed);
   if (!(trace.end > trace.begin && trace.end < farthest_range))
     fail(ErrorKind::content, where, " reaches from ", trace.begin, " to ", trace.end,
          " m, must reach farther, and less than ", farthest_range, " m");
@@ -180,22 +139,22 @@ XtfPing ping_of(std::string_view packet, const XtfHeader& header, const std::str
   if (packet.size() < xtf_ping_bytes) fail(ErrorKind::content, where, " ends within its header");
   XtfPing ping;
   ping.number = little_at<std::uint32_t>(packet, xtf_ping_number_at);
-  ping.time = time_of(packet, where);
-  ping.sound_speed = sound_speed_of(packet);
+  ping.time = xtf_time_of(packet, where);
+  ping.sound_speed = xtf_sound_speed_of(packet);
   const auto position_at = [&](std::size_t x_at, std::size_t y_at) {
     const Eigen::Vector2d position(little_at<double>(packet, x_at), little_at<double>(packet, y_at));
     return position.allFinite() ? position : Eigen::Vector2d(Eigen::Vector2d::Zero());
   };
   ping.ship = position_at(xtf_ship_x_at, xtf_ship_y_at), ping.sensor = position_at(xtf_sensor_x_at, xtf_sensor_y_at);
-  ping.ship_heading = radians(real_at(packet, xtf_ship_gyro_at)),
-  ping.heading = radians(real_at(packet, xtf_heading_at));
-  ping.pitch = radians(real_at(packet, xtf_pitch_at)), ping.roll = radians(real_at(packet, xtf_roll_at));
-  ping.yaw = radians(real_at(packet, xtf_yaw_at));
-  ping.speed = xtf_knot * real_at(packet, xtf_sensor_speed_at);
-  ping.depth = real_at(packet, xtf_depth_at), ping.altitude = real_at(packet, xtf_altitude_at);
+  ping.ship_heading = radians(xtf_real_at(packet, xtf_ship_gyro_at)),
+  ping.heading = radians(xtf_real_at(packet, xtf_heading_at));
+  ping.pitch = radians(xtf_real_at(packet, xtf_pitch_at)), ping.roll = radians(xtf_real_at(packet, xtf_roll_at));
+  ping.yaw = radians(xtf_real_at(packet, xtf_yaw_at));
+  ping.speed = xtf_knot * xtf_real_at(packet, xtf_sensor_speed_at);
+  ping.depth = xtf_real_at(packet, xtf_depth_at), ping.altitude = xtf_real_at(packet, xtf_altitude_at);
   std::size_t at = xtf_ping_bytes;
   for (std::size_t c = 0; c < little_at<std::uint16_t>(packet, xtf_traces_at); ++c) {
-    if (c == 0 && packet.size() >= at + xtf_trace_bytes) ping.period = real_at(packet, at + xtf_period_at);
+    if (c == 0 && packet.size() >= at + xtf_trace_bytes) ping.period = xtf_real_at(packet, at + xtf_period_at);
     ping.traces.push_back(trace_of(packet, at, c, header, ping.sound_speed, where));
   }
   return ping;
@@ -206,25 +165,16 @@ XtfPing ping_of(std::string_view packet, const XtfHeader& header, const std::str
 XtfRecord read_xtf(const std::string& path) {
   BinaryInput file(path);
   XtfRecord record;
-  std::size_t at = read_header(file, path, record.header);
-  for (std::size_t number = 0; at < file.size(); ++number) {
-    const std::string where = path + ": packet " + std::to_string(number) + " at byte " + std::to_string(at);
-    const std::string head = file.part(at, xtf_packet_head, "packet " + std::to_string(number));
-    if (little_at<std::uint16_t>(head, xtf_magic_at) != xtf_magic)
-      fail(ErrorKind::content, where, " does not begin with 0xFACE; the file is damaged, copy it again");
-    const std::size_t bytes = little_at<std::uint32_t>(head, xtf_packet_bytes_at);
-    if (bytes < xtf_packet_head)
-      fail(ErrorKind::content, where, " has ", bytes, " bytes, must have at least ", xtf_packet_head);
-    const std::string packet = file.part(at, bytes, "packet " + std::to_string(number));
-    at += bytes;
-    const std::uint8_t type = byte_at(packet, xtf_packet_type_at);
+  const std::size_t begin = read_header(file, path, record.header);
+  each_xtf_packet(file, path, begin, [&](std::string_view packet, const std::string& where) {
+    const std::uint8_t type = xtf_byte_at(packet, xtf_packet_type_at);
     if (type == xtf_sonar_packet && little_at<std::uint16_t>(packet, xtf_traces_at) > 0)
       record.pings.push_back(ping_of(packet, record.header, where));
     else if (type == xtf_notes_packet && packet.size() >= xtf_note_bytes)
       record.header.notes.push_back(field_at(packet, xtf_note_text_at, xtf_note_bytes - xtf_note_text_at));
     else
       ++record.other_packets;
-  }
+  });
   if (record.pings.empty()) fail(ErrorKind::content, path, ": has no ping of a side-scan");
   return record;
 }

@@ -9,7 +9,7 @@ set -euo pipefail
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
 mkdir pcd ply obj stl vtk vtp gltf glb xyz pts ptx dae fbx off x3d 3mf csv asc las laz tiff tiles sonar environment mission materials mirrors scene \
-  scene.beside profile trajectory tum scatterers labels cube contributors aris xtf oculus record npy png run levels survey work
+  scene.beside profile trajectory tum scatterers labels cube contributors aris xtf oculus record gsf kmall r2sonic swath npy png run levels survey work
 
 # Formats that the tool writes.
 "$tool" make-scene poles --points 40 -o ply/scene.ply -q >/dev/null
@@ -30,6 +30,9 @@ find work/vtk -name '*.vtp' -size -64k -exec cp {} vtp/ \;
   -o work/side >/dev/null
 "$tool" export work/side --to xtf --anchor 54,8 -o xtf/side.xtf -q >/dev/null
 "$tool" export work/side --to xtf --linear --anchor 54,8 -o xtf/floats.xtf -q >/dev/null
+"$tool" export work/run --to gsf --anchor 54,8 --start-utc 2026-05-01T08:30:00Z -o gsf/run.gsf -q >/dev/null
+/usr/bin/python3 "$root"/tests/formats/write_swaths.py work
+cp work/*.gsf gsf/ && cp work/*.kmall kmall/ && cp work/*.xtf r2sonic/ && cp gsf/run.gsf work/arrays.gsf swath/
 cp "$root"/data/sonars/{p900-45,ping360,em2040}.toml sonar/
 cp "$root"/data/materials.toml materials/
 cp "$root"/tests/data/laz/*.laz laz/

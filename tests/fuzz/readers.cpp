@@ -4,6 +4,7 @@
 #include "formats/aris_file.hpp"
 #include "formats/npy_file.hpp"
 #include "formats/oculus_file.hpp"
+#include "formats/r2sonic_record.hpp"
 #include "formats/xtf_file.hpp"
 #include "fuzz/damage_toml.hpp"
 #include "sampling/scene_cut.hpp"
@@ -167,6 +168,9 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"contributors", ".h5", [](const std::string& path) { read_contributor_file(path); }, {}, true},
       {"aris", ".aris", [](const std::string& path) { read_aris_frame(path, 0); }},
       {"xtf", ".xtf", [](const std::string& path) { read_xtf(path); }},
+      {"gsf", ".gsf", [](const std::string& path) { read_swath(path); }},
+      {"kmall", ".kmall", [](const std::string& path) { read_swath(path); }},
+      {"r2sonic", ".xtf", [](const std::string& path) { read_r2sonic_xtf(path); }},
       {"oculus", ".raw", [](const std::string& path) { level_db(read_oculus_ping(path, 0)); }},
       {"npy", ".npy", [](const std::string& path) { read_npy(path); }},
 #ifndef INSONIFY_FUZZ_TOOL
@@ -178,6 +182,7 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"png", ".png", [](const std::string& path) { load_grey_png(path); }, {}, true},
       {"run", ".toml", [](const std::string& path) { load_ping_settings(path); }},
       {"record", ".xtf", [](const std::string& path) { tool::read_record(path); }},
+      {"swath", ".gsf", [](const std::string& path) { run_verb("info " + path), tool::read_record(path); }},
       {"levels", ".tiles", ping_tiles, damage_tiles, true},
       {"survey", ".folder", go_on_with_survey, damage_folder},
 #endif

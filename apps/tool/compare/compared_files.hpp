@@ -27,6 +27,7 @@ struct CompareOptions {
   std::string unit = "db";    ///< unit of the field `strength`
   std::string repeat;         ///< another record of the same place
   double cell = 0.25;         ///< [m] of grids of soundings and scene
+  double angles = 5;          ///< [deg] width of the bands of angle in which swaths are compared
   bool align = false;         ///< move A by the shift that is found
   bool force = false;
 };

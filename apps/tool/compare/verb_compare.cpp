@@ -14,6 +14,7 @@
 #include "tool/compare/compare_page.hpp"
 #include "tool/compare/compare_ranges.hpp"
 #include "tool/compare/compare_soundings.hpp"
+#include "tool/compare/compare_swaths.hpp"
 #include "tool/run/record_file.hpp"
 
 namespace insonify::tool {
@@ -22,7 +23,7 @@ namespace {
 using nlohmann::ordered_json;
 
 void add_options(OptionList list, CompareOptions& o) {
-  list.add("A", &o.a, "run directory, cube.h5 or recording; or soundings written by export --to csv",
+  list.add("A", &o.a, "run directory, cube.h5 or recording; or soundings written by export --to csv or --to gsf",
            {.required = true});
   list.add("B", &o.b,
            "the reference: a run, a recording (" + record_extensions() +
@@ -44,8 +45,9 @@ void add_options(OptionList list, CompareOptions& o) {
            "field of the cloud B that holds measured strengths; they are compared with the levels of A at the points");
   list.add("--strength-unit", &o.unit, "unit of the field: db, linear (amplitude) or power",
            {.words = {"db", "linear", "power"}});
-  list.add("--cell", &o.cell, "[m] size of the cells in which heights of soundings and scene are compared",
+  list.add("--cell", &o.cell, "[m] size of the cells in which heights of soundings, scene or swaths are compared",
            {.positive = true});
+  list.add("--angles", &o.angles, "[deg] width of the bands of angle in which swaths are compared", {.positive = true});
   list.add("--repeat", &o.repeat,
            "second cloud of the same place; its strengths show how well a repeated measurement agrees");
   list.add("--seed", &o.common.seed, "seed of the simulated comparison of two seeds");
@@ -253,9 +255,10 @@ void compare(const CompareOptions& o) {
   Progress progress(o.common, 3);
   progress.step("reading");
   if (!o.strength.empty()) return compare_with_points(o, directory);
-  if (std::filesystem::path(o.a).extension() == ".csv") {
-    const ordered_json result = compare_soundings(o);
-    return finish(o, directory, result, soundings_table(result));
+  const bool swaths = is_swath(o.a) || is_swath(o.b);
+  if (swaths || std::filesystem::path(o.a).extension() == ".csv") {
+    const ordered_json result = swaths ? compare_swaths(o) : compare_soundings(o);
+    return finish(o, directory, result, swaths ? swaths_table(result) : soundings_table(result));
   }
   if (!o.repeat.empty()) fail(ErrorKind::argument, "--repeat goes with --strength, the field of both clouds");
   const bool waterfall = is_waterfall(o.a) || is_waterfall(o.b);
@@ -287,10 +290,10 @@ void compare(const CompareOptions& o) {
 
 Verb compare_verb() {
   return make_verb<CompareOptions>(
-      "compare", "likeness of two runs, of a run and a recording, or of soundings and their scene",
+      "compare", "likeness of two runs, of a run and a recording, of soundings and their scene, or of two swaths",
       {"insonify compare run other-seed -o compared", "insonify compare run picture.png --scale 40:100",
        "insonify compare run scan.pcd --strength intensity --strength-unit linear",
-       "insonify compare soundings.csv reef.pcd --cell 0.1"},
+       "insonify compare soundings.csv reef.pcd --cell 0.1", "insonify compare run.gsf survey.gsf --cell 1"},
       add_options, compare);
 }
 

@@ -36,6 +36,9 @@ std::vector<std::string> next_of_scene(const std::string& path, const Bounds& bo
 /// Returns facts of a recording of a real sonar, by its first ping.
 nlohmann::ordered_json info_of_record(const std::string& path);
 
+/// Returns facts of a recorded swath: soundings, their extent, levels and deviations, the way, and kinds of records.
+nlohmann::ordered_json info_of_swath(const std::string& path);
+
 /// Prints what info_of_scene says of a cloud, mesh or raster.
 void print_scene(const nlohmann::ordered_json& info);
 

@@ -6,6 +6,7 @@
 
 #include "core/message.hpp"
 #include "files/path_status.hpp"
+#include "formats/swath_record.hpp"
 #include "run/run_checks.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
@@ -77,7 +78,7 @@ void info(const InfoOptions& o) {
     const bool recorded = !is_folder(file) && is_record(path);
     const bool is_scene = !recorded && !is_folder(file) && file.extension() != ".h5" && file.extension() != ".toml";
     if (recorded)
-      all.push_back(info_of_record(path));
+      all.push_back(is_swath(path) ? info_of_swath(path) : info_of_record(path));
     else if (is_scene)
       all.push_back(info_of_scene(path, o.meaning));
     else if (file.extension() == ".toml")

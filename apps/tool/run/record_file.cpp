@@ -15,6 +15,7 @@
 #include "formats/oculus_file.hpp"
 #include "formats/xtf_file.hpp"
 #include "returns/looks.hpp"
+#include "tool/run/swath_pings.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -25,14 +26,26 @@ constexpr double most_growth = 16;  // of samples, to bring ranges and channels 
 float pressure_of(double amplitude) { return static_cast<float>(std::numbers::sqrt2 * micropascal * amplitude); }
 
 ComplexGridF pressures_of(const Grid<float>& level_db) {
-  return level_db.unaryExpr([](float level) {
-    const double decibels = static_cast<double>(level);
-    return std::complex<float>(decibels <= silence_db ? 0.0F : pressure_of(amplitude_from_db(decibels)));
-  });
+  return level_db.unaryExpr([](float level) { return recorded_pressure(static_cast<double>(level)); });
 }
 
 void require_ping(const std::string& path, std::size_t first, std::size_t pings) {
   if (first >= pings) fail(ErrorKind::argument, path, ": ping ", first, ", must be below the number of pings, ", pings);
+}
+
+// --- swaths
+
+Record record_of_swath(const std::string& path, std::size_t first, std::size_t count) {
+  const SwathPings swath(read_swath(path));
+  const std::vector<SwathPing>& pings = swath.record().pings;
+  require_ping(path, first, pings.size());
+  Record record;
+  record.kind = swath.record().format, record.unit = swath.unit(), record.has_scale = false;
+  record.cube.sonar = swath.record().sonar;
+  record.cube.sound_speed = pings.front().sound_speed, record.cube.centre_frequency = pings.front().frequency;
+  record.cube.anchor = swath.anchor();
+  for (std::size_t p = first; p < pings.size() && p - first < count; ++p) record.cube.pings.push_back(swath.ping(p));
+  return record;
 }
 
 // --- side-scans
@@ -120,6 +133,7 @@ ComplexGridF pressures_of(const XtfPing& ping, const std::vector<XtfChannel>& ch
 }
 
 Record record_of_xtf(const std::string& path, std::size_t first, std::size_t count) {
+  if (is_swath(path)) return record_of_swath(path, first, count);
   const XtfRecord xtf = read_xtf(path);
   require_ping(path, first, xtf.pings.size());
   const std::vector<XtfChannel>& channels = xtf.header.channels;
@@ -200,8 +214,9 @@ struct RecordReader {
   const char* ending;
   Record (*read)(const std::string& path, std::size_t first, std::size_t count);
 };
-constexpr RecordReader record_readers[] = {
-    {".xtf", record_of_xtf}, {".aris", record_of_aris}, {".oculus", record_of_oculus}, {".raw", record_of_oculus}};
+constexpr RecordReader record_readers[] = {{".gsf", record_of_swath},     {".kmall", record_of_swath},
+                                           {".xtf", record_of_xtf},       {".aris", record_of_aris},
+                                           {".oculus", record_of_oculus}, {".raw", record_of_oculus}};
 
 }  // namespace
 
@@ -220,6 +235,10 @@ Record read_record(const std::string& path, std::size_t first, std::size_t count
   for (const RecordReader& reader : record_readers)
     if (ending_of(path) == reader.ending) return reader.read(path, first, count);
   fail(ErrorKind::argument, path, ": is no recording; those end with ", record_extensions());
+}
+
+std::complex<float> recorded_pressure(double level_db) {
+  return level_db <= silence_db ? 0.0F : pressure_of(amplitude_from_db(level_db));
 }
 
 RangeGate shown_gate(double begin, std::size_t bins, double bin_size) {

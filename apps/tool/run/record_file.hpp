@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <complex>
 #include <limits>
 #include <optional>
 #include <string>
@@ -11,7 +12,7 @@
 /// Recordings of real sonars, which verbs read as they read runs.
 namespace insonify::tool {
 
-/// The endings of recordings: .xtf, .aris, .oculus and .raw.
+/// The endings of recordings: .xtf, .aris, .oculus, .raw, and those of swaths, .gsf and .kmall.
 std::string record_extensions();
 
 /// True for a path with the ending of a recording.
@@ -35,6 +36,9 @@ struct Record {
 /// the readers.
 Record read_record(const std::string& path, std::size_t first = 0,
                    std::size_t count = std::numeric_limits<std::size_t>::max());
+
+/// The pressure whose level is this [dB re the reference of a recording]; 0 of silence.
+std::complex<float> recorded_pressure(double level_db);
 
 /// A gate of so many bins from a range on, which may be 0; that of a fan cannot, and begins a millionth of a bin later.
 RangeGate shown_gate(double begin, std::size_t bins, double bin_size);
