@@ -10,6 +10,8 @@
 namespace insonify {
 namespace {
 
+constexpr std::uint32_t no_line = ~std::uint32_t{0};
+
 /// More than what single precision changes of a surfel's depth or position [m].
 float rounding_of(const GatedSurfel& s) { return 4e-6f * s.range; }
 
@@ -36,18 +38,19 @@ struct HidingDepth {
 
 }  // namespace
 
-void OpenList::add(std::uint32_t surfel) {
-  entries.push_back({surfel, 0});
-  const GatedSurfel& s = surfels_[surfel];
+void OpenList::fill(std::span<const std::uint32_t> surfels) {
+  const std::size_t count = surfels.size();
+  entries.resize(count);
+  for (auto& numbers : numbers_) numbers.assign(count + kernels::visibility_lanes, 0);
   // Facets hide what is deeper than their own tolerance.
   const bool by_disc = surfels_.facet.empty();
-  const float numbers[] = {s.position.x(),        s.position.y(), s.position.z(), by_disc ? s.unevenness : 0,
-                           by_disc ? s.noise : 0, rounding_of(s)};
-  for (std::size_t k = 0; k < numbers_.size(); ++k) numbers_[k].push_back(numbers[k]);
-}
-
-void OpenList::close() {
-  for (auto& numbers : numbers_) numbers.resize(entries.size() + kernels::visibility_lanes, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const GatedSurfel& s = surfels_[surfels[i]];
+    entries[i] = {surfels[i], 0, no_line};
+    numbers_[0][i] = s.position.x(), numbers_[1][i] = s.position.y(), numbers_[2][i] = s.position.z();
+    if (by_disc) numbers_[3][i] = s.unevenness, numbers_[4][i] = s.noise;
+    numbers_[5][i] = rounding_of(s);
+  }
 }
 
 void OpenList::take_out(std::size_t entry) {
@@ -61,8 +64,18 @@ void OpenList::move(std::size_t from, std::size_t to) {
 
 void OpenList::keep(std::size_t count) {
   entries.resize(count);
-  for (auto& numbers : numbers_) numbers.resize(count);
-  close();
+  for (auto& numbers : numbers_) {
+    numbers.resize(count);
+    numbers.resize(count + kernels::visibility_lanes, 0);
+  }
+}
+
+const LineOfSight& OpenList::line_to(Entry& entry) {
+  if (entry.line == no_line) {
+    entry.line = static_cast<std::uint32_t>(lines_.size());
+    lines_.emplace_back(surfels_[entry.surfel]);
+  }
+  return lines_[entry.line];
 }
 
 kernels::HidingDisc OpenList::disc_of(std::uint32_t surfel) const {
@@ -93,7 +106,7 @@ void DepthTile::find_covers(const DirectionTile& tile, std::vector<Cover>& cover
     for (std::size_t k = 0; k < found; ++k) {
       OpenList::Entry& behind = open_.entries[behind_[k]];
       if (hides(behind.so_far)) continue;
-      behind.so_far |= cover(surfels_, box.surfel, LineOfSight(surfels_[behind.surfel]));
+      behind.so_far |= cover(surfels_, box.surfel, open_.line_to(behind));
       if (!hides(behind.so_far)) continue;
       open_.take_out(behind_[k]);
       ++hidden_;
@@ -133,8 +146,8 @@ void DepthTile::sort_open(const DirectionTile& tile) {
   }
   std::shift_right(first_.begin(), first_.end(), 1);
   first_[0] = 0;
-  for (const std::uint32_t query : sorted) open_.add(queried_[query]);
-  open_.close();
+  for (std::uint32_t& query : sorted) query = queried_[query];
+  open_.fill(sorted);
   behind_.resize(sorted.size() + (side + 1) * kernels::visibility_lanes);
 }
 

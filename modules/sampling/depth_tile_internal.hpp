@@ -18,20 +18,22 @@ class OpenList {
   struct Entry {
     std::uint32_t surfel;
     Cover so_far;
+    std::uint32_t line;  ///< its number among the lines of sight made so far
   };
   std::vector<Entry> entries{};
 
   /// Keeps a reference to the surfels.
   explicit OpenList(const GatedSurfels& surfels) : surfels_(surfels) {}
 
-  void add(std::uint32_t surfel);
-  /// Ends the numbers with zeros, as vector loops read them.
-  void close();
+  /// Sets the entries.
+  void fill(std::span<const std::uint32_t> surfels);
   /// Takes an entry out of what `numbers` lists: it lies in the head, where nothing hides it.
   void take_out(std::size_t entry);
   void move(std::size_t from, std::size_t to);
-  /// Keeps the first entries of a closed list.
+  /// Keeps the first entries.
   void keep(std::size_t count);
+  /// Returns the line of sight to an entry, made once.
+  const LineOfSight& line_to(Entry& entry);
 
   /// Returns what a surfel hides, with room for rounding.
   kernels::HidingDisc disc_of(std::uint32_t surfel) const;
@@ -39,7 +41,8 @@ class OpenList {
 
  private:
   const GatedSurfels& surfels_;
-  std::array<std::vector<float>, 6> numbers_{};  // as kernels::OpenSurfels has them
+  std::array<std::vector<float>, 6> numbers_{};  // as kernels::OpenSurfels has them, and zeros behind
+  std::vector<LineOfSight> lines_{};
 };
 
 /// Depth buffer of one tile: for each cell the inverse of the least depth at which a surfel may be hidden. Surfels in

@@ -163,9 +163,11 @@ double outer_scale(const PreparedScene& prepared, const SamplingOptions& options
   return options.relief_outer_scale > 0 ? options.relief_outer_scale : prepared.whole().mean_spacing;
 }
 
-// Sorts surfels by bands of 64 bins and inside a band by u, then by index: neighbours add to the same part of an image.
-void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<std::uint32_t>& surfels,
-                   const std::vector<std::uint16_t>& pieces, VisibleSurfels& sorted) {
+// Sorts surfels by bands of 64 bins and inside a band by u, if asked for, then by index: neighbours add to the same part
+// of an image.
+void sort_by_place(const SceneCloud& scene, const View& view, SurfelOrder order,
+                   const std::vector<std::uint32_t>& surfels, const std::vector<std::uint16_t>& pieces,
+                   VisibleSurfels& sorted) {
   struct Key {
     double u;
     std::uint32_t at;  // in surfels, which ascend
@@ -195,7 +197,8 @@ void sort_by_place(const SceneCloud& scene, const View& view, const std::vector<
   parallel_for(first.size() - 1, view.options.threads, [&](std::size_t b) {
     const auto begin = keys.begin() + static_cast<std::ptrdiff_t>(first[b]),
                end = keys.begin() + static_cast<std::ptrdiff_t>(first[b + 1]);
-    std::sort(begin, end, [](const Key& a, const Key& c) { return std::tuple(a.u, a.at) < std::tuple(c.u, c.at); });
+    if (order == SurfelOrder::range_and_u)
+      std::sort(begin, end, [](const Key& a, const Key& c) { return std::tuple(a.u, a.at) < std::tuple(c.u, c.at); });
     for (std::size_t k = first[b]; k < first[b + 1]; ++k) {
       const std::uint32_t s = keys[k].at;
       sorted.surfel[k] = surfels[s], sorted.bounds[k] = bounds[s], sorted_pieces[k] = pieces[s];
@@ -234,7 +237,7 @@ Sampling find_scatterers(const PreparedScene& prepared, const Pose& world_from_h
 }
 
 VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
-                            const RangeGate& gate, const SamplingOptions& options) {
+                            const RangeGate& gate, const SamplingOptions& options, SurfelOrder order) {
   const SceneCloud& scene = prepared.scene();
   require_valid(world_from_head, fan, gate, options);
   const View view(scene, world_from_head, fan, gate, options);
@@ -244,7 +247,7 @@ VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_fro
   const SampledCells cells(fan, gate, options);
   const auto visible = select_visible(gated, options, result.report);
   const PieceCounts counts = count_pieces(scene, view.head, visible, cells, gate, options);
-  sort_by_place(scene, view, visible, counts.pieces, result);
+  sort_by_place(scene, view, order, visible, counts.pieces, result);
   result.report.capped = counts.capped;
   result.report.scatterers = result.first.back();
   result.options = options;

@@ -10,9 +10,13 @@
 
 namespace insonify {
 
+/// Order of visible surfels: by bands of range, and inside each by u, as streams of echoes add them to an image, or as
+/// they stand in the scene.
+enum class SurfelOrder { range_and_u, range };
+
 /// The surfels that find_scatterers splits, counted and not yet split.
 struct VisibleSurfels {
-  std::vector<std::uint32_t> surfel;  ///< index in the scene; by bands of range, and inside each by u
+  std::vector<std::uint32_t> surfel;  ///< index in the scene; by bands of range, and inside each by SurfelOrder
   std::vector<std::size_t> first;     ///< number of the first part of each, and of all parts
   std::vector<SurfelBounds> bounds;   ///< bounds of each
   SamplingReport report;
@@ -23,7 +27,8 @@ struct VisibleSurfels {
 /// Returns the visible surfels of a view. make_chunks makes the scatterers of find_scatterers from them, in another
 /// order. options.kind is ignored. Errors as find_scatterers.
 VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_from_head, const BeamFan& fan,
-                            const RangeGate& gate, const SamplingOptions& options = {});
+                            const RangeGate& gate, const SamplingOptions& options = {},
+                            SurfelOrder order = SurfelOrder::range_and_u);
 
 /// Returns the scatterers of visible surfels (indices in the scene, ascending), split and tilted as by find_scatterers
 /// with these options.

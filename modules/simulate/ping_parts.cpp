@@ -56,7 +56,9 @@ bool needs_all_patches(const ResolvedPing& ping) {
 VisibleSurfels visible_surfels(const PreparedScene& prepared, ResolvedPing& ping) {
   View& view = ping.view;
   view.sampling.energy = surfel_energy(ping, prepared.scene().materials);
-  return find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling);
+  // Cells sort echoes themselves.
+  return find_visible(prepared, view.world_from_head, view.fan, view.gate, view.sampling,
+                      draws_cells(ping.options) ? SurfelOrder::range : SurfelOrder::range_and_u);
 }
 
 PingParts sample_parts(const PreparedScene& prepared, ResolvedPing& ping, PingReport& report) {

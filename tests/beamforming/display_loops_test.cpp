@@ -98,7 +98,18 @@ TEST(DisplayLoops, looks_are_those_of_the_formula) {
       const float more = uniform(engine);
       for (std::size_t j = first; j <= last; ++j) energy[j][n] += static_cast<double>(more);
       differences[first * row + n] += more, differences[(last + 1) * row + n] -= more;
-      // Some energies are in all ranges alike.
+      // Others begin and end within a range.
+      const float low = static_cast<float>(n) + 0.25f,
+                  high = std::min(static_cast<float>(subranges), low + 0.125f + 5 * more);
+      const kernels::RangedEnergy ranged{low, high, 0.2f, static_cast<std::uint32_t>(first),
+                                         static_cast<std::uint32_t>(last + 1)};
+      kernels::add_energies(&ranged, 1, subranges, differences.data());
+      for (std::size_t j = first; j <= last; ++j)
+        for (std::size_t range = 0; range < subranges; ++range) {
+          const auto at = static_cast<float>(range);
+          energy[j][range] += 0.2 * static_cast<double>(std::max(0.f, std::min(high, at + 1) - std::max(low, at)));
+        }
+      // Some are in all ranges alike.
       if (k % 3 != 0) continue;
       for (std::size_t j = first; j <= last; ++j)
         for (double& of_range : energy[j]) of_range += 0.1 * static_cast<double>(more);

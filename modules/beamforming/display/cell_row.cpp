@@ -159,9 +159,10 @@ void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
 
 void CellRow::count_looks(std::size_t cell, Side& side) {
   // Energies by range, for broad nodes of u, each beyond those of the node before.
-  const std::size_t subranges = plan_.subranges, row = kernels::row_length(subranges);
+  const std::size_t subranges = plan_.subranges;
   std::fill(energy_.begin(), energy_.end(), 0.f);
   std::fill(alike_.begin(), alike_.end(), 0.f);
+  ranged_.clear();
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double per_length = static_cast<double>(subranges) / plan_.cell_length, unit = side.energy + side.noise;
   const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(subranges);
@@ -178,16 +179,9 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
       alike_[starboard] += density, alike_[port + 1] -= density;
       continue;
     }
-    // The first and the last range are met in part.
-    const auto k = static_cast<std::uint32_t>(low), whole = static_cast<std::uint32_t>(high);
-    const std::uint32_t last = whole - (static_cast<float>(whole) == high ? 1 : 0);
-    const float before = density * (low - static_cast<float>(k)),
-                beyond = density * (static_cast<float>(last + 1) - high);
-    // More than its neighbours on one side, less than those on the other.
-    float *const more = energy_.data() + starboard * row, *const less = energy_.data() + (port + 1) * row;
-    for (std::size_t n = k; n <= last; ++n) more[n] += density, less[n] -= density;
-    more[k] -= before, more[last] -= beyond, less[k] += before, less[last] += beyond;
+    ranged_.push_back({low, high, density, starboard, port + 1});
   }
+  kernels::add_energies(ranged_.data(), ranged_.size(), subranges, energy_.data());
   kernels::CellEnergies of{energy_.data(),     alike_.data(),     plan_.broad, subranges,
                            plan_.lobe.data(),  plan_.lobe.size(), 0,           0,
                            plan_.looks.data(), plan_.looks.size()};

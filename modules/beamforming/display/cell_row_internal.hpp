@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "beamforming/display/display_plan_internal.hpp"
+#include "beamforming/display/looks_loops_internal.hpp"
 #include "beamforming/synthesize_cells.hpp"
 #include "core/uninitialized_vector.hpp"
 
@@ -130,6 +131,7 @@ class CellRow {
   std::vector<Complex> elements_, weighted_;           ///< pressures at elements; the same weighted, 0 elsewhere
   std::array<std::vector<Complex>, 2> nodes_;
   std::vector<float> energy_, alike_;
+  std::vector<kernels::RangedEnergy> ranged_;
   std::vector<std::uint64_t> noise_id_;
   std::vector<double> noise_re_, noise_im_;
   /// Even ground as each beam receives it (kernels::EvenGround).

@@ -93,6 +93,29 @@ INSONIFY_CLONES void count_looks(const CellEnergies& cell, const std::size_t* at
   count_looks_of<2>(cell, at, count, looks);
 }
 
+INSONIFY_CLONES void add_energies(const RangedEnergy* added, std::size_t count, std::size_t subranges, float* energy) {
+  const std::size_t row = row_length(subranges);
+  float place[most_subranges];
+  for (std::size_t n = 0; n < most_subranges; ++n) place[n] = static_cast<float>(static_cast<int>(n));
+  for (std::size_t k = 0; k < count; ++k) {
+    const RangedEnergy of = added[k];
+    for (std::size_t begin = 0; begin < row; begin += subrange_lanes) {
+      float *const more = energy + of.first * row + begin, *const less = energy + of.end * row + begin;
+      float part[subrange_lanes];
+#pragma GCC unroll 1
+      for (std::size_t l = 0; l < subrange_lanes; ++l) {
+        const float from = place[begin + l], to = from + 1;
+        const float low = of.low > from ? of.low : from, high = of.high < to ? of.high : to;
+        part[l] = high > low ? of.density * (high - low) : 0;
+      }
+#pragma GCC unroll 1
+      for (std::size_t l = 0; l < subrange_lanes; ++l) more[l] += part[l];
+#pragma GCC unroll 1
+      for (std::size_t l = 0; l < subrange_lanes; ++l) less[l] -= part[l];
+    }
+  }
+}
+
 INSONIFY_CLONES void draw_normals(std::uint64_t seed, const std::uint64_t* id, std::size_t count, double* re,
                                   double* im) {
   const std::uint64_t stream = mixed(seed + golden);
