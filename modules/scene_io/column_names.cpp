@@ -133,7 +133,9 @@ void take_headings(const RowTable& table, const Columns& found, RawCloud& raw) {
     const auto number = [&](std::size_t axis) {
       return std::to_string(found.position[axis] - table.columns.data() + 1);
     };
-    const double x = found.position[0]->value(table.bytes), y = found.position[1]->value(table.bytes);
+    double x = 0, y = 0;
+    table.with_rows(0, 1,
+                    [&](const char* row) { x = found.position[0]->value(row), y = found.position[1]->value(row); });
     meaning.no_lengths =
         "columns " + quoted(0) + " and " + quoted(1) +
         " are degrees, but a scene needs metres; project them: awk -F '[,;[:space:]]+' 'NR > 1 {print $" + number(0) +

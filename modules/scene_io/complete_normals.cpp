@@ -43,8 +43,7 @@ bool seen_from_somewhere(const RawCloud& raw) { return raw.viewpoint || !raw.sta
 
 /// Orients all normals towards where their points were seen from.
 void face_viewpoint(RawCloud& raw, LoadedScene& result) {
-  for (std::size_t i = 0; i < raw.point.size(); ++i)
-    raw.normal[i] = facing(raw.normal[i], raw.point[i], *raw.seen_from(i) - raw.origin);
+  face_viewpoints(raw);
   result.report.viewpoint = raw.viewpoint;
   result.scene.normals_oriented = true;
 }
@@ -66,10 +65,7 @@ void estimate_all(RawCloud& raw, const LoadOptions& options, LoadedScene& result
     return;
   }
   result.report.notes.push_back(
-      "no normals in the file and no viewpoint known: the estimated normals are not oriented, so both sides of "
-      "every "
-      "surface reflect; give the viewpoint of the capture to orient them" +
-      std::string(raw.height > 1 ? " (an organised cloud in camera axes was seen from 0,0,0)" : ""));
+      two_sided_note + std::string(raw.height > 1 ? " (an organised cloud in camera axes was seen from 0,0,0)" : ""));
 }
 
 /// Adds a note if most normals of the file face away from the viewpoint: inward or unoriented normals are likely.
@@ -85,6 +81,11 @@ void compare_with_viewpoint(const RawCloud& raw, LoadedScene& result) {
 }
 
 }  // namespace
+
+void face_viewpoints(RawCloud& raw) {
+  for (std::size_t i = 0; i < raw.point.size(); ++i)
+    raw.normal[i] = facing(raw.normal[i], raw.point[i], *raw.seen_from(i) - raw.origin);
+}
 
 void turn_up(std::vector<Vector3f>& normals) {
   for (Vector3f& normal : normals)

@@ -124,7 +124,7 @@ void check_options(const LoadOptions& options, const char* who) {
 
 std::vector<std::uint32_t> first_at_same_position(std::span<const Eigen::Vector3f> points) {
   constexpr std::uint32_t empty = std::numeric_limits<std::uint32_t>::max();
-  const std::size_t slots = std::bit_ceil(2 * points.size() + 1);
+  const std::size_t slots = points.size() + points.size() / 2 + 1;
   std::vector<std::uint32_t> table(slots, empty), first(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     first[i] = i;
@@ -133,8 +133,8 @@ std::vector<std::uint32_t> first_at_same_position(std::span<const Eigen::Vector3
     const auto bits = [&](int axis) { return std::uint64_t{std::bit_cast<std::uint32_t>(points[i][axis] + 0.0f)}; };
     std::uint64_t hash = (bits(0) | bits(1) << 32) * 0x9e3779b97f4a7c15ull;
     hash = ((hash ^ hash >> 29) + bits(2)) * 0xbf58476d1ce4e5b9ull;
-    std::size_t slot = (hash ^ hash >> 32) & (slots - 1);
-    while (table[slot] != empty && points[table[slot]] != points[i]) slot = (slot + 1) & (slots - 1);
+    std::size_t slot = (hash ^ hash >> 32) % slots;
+    while (table[slot] != empty && points[table[slot]] != points[i]) slot = slot + 1 == slots ? 0 : slot + 1;
     if (table[slot] == empty) table[slot] = i;
     first[i] = table[slot];
   }
@@ -144,20 +144,20 @@ std::vector<std::uint32_t> first_at_same_position(std::span<const Eigen::Vector3
 std::size_t drop_unusable(RawCloud& raw) {
   const bool search = !raw.tags.prepared;  // save_scene writes no duplicates
   if (!search && raw.unused() == 0) return 0;
-  std::vector<std::uint32_t> first(raw.point.size());
-  std::iota(first.begin(), first.end(), 0u);
+  std::vector<std::uint32_t> first;
   if (search) first = first_at_same_position(raw.point);
-  std::size_t duplicates = 0;
-  std::vector<std::uint32_t> keep;
-  keep.reserve(raw.point.size());
+  first.resize(raw.point.size());
+  if (!search) std::iota(first.begin(), first.end(), 0u);
+  std::size_t duplicates = 0, kept = 0;
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     if (!raw.point[i].allFinite()) continue;
     if (first[i] == i)
-      keep.push_back(i);
+      first[kept++] = i;
     else
       ++duplicates;
   }
-  keep_points(raw, keep);
+  first.resize(kept);
+  keep_points(raw, first);
   return duplicates;
 }
 

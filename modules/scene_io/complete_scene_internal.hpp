@@ -25,9 +25,18 @@ LoadReport begin_report(const RawCloud& raw);
 std::vector<std::uint32_t> first_at_same_position(std::span<const Eigen::Vector3f> points);
 
 /// Returns unit normals of the points listed in `wanted`: normals of the plane fitted to the `neighbours` nearest
-/// points (PCL). The sign is arbitrary; NaN where no plane can be fitted. Does not depend on `threads`.
+/// points (PCL), with the sign that faces `towards`; NaN where no plane can be fitted. Does not depend on `threads`.
 std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>& points,
-                                              const std::vector<std::uint32_t>& wanted, int neighbours, int threads);
+                                              const std::vector<std::uint32_t>& wanted, int neighbours, int threads,
+                                              const Eigen::Vector3f& towards = Eigen::Vector3f::Zero());
+
+/// Note on estimated normals without a side.
+inline constexpr const char* two_sided_note =
+    "no normals in the file and no viewpoint known: the estimated normals are not oriented, so both sides of every "
+    "surface reflect; give the viewpoint of the capture to orient them";
+
+/// Turns each normal to the side from which its point was seen.
+void face_viewpoints(RawCloud& raw);
 
 /// Gives every point of `raw` a unit normal, drops points without one, and reports the changes.
 void complete_normals(RawCloud& raw, const LoadOptions& options, LoadedScene& result);
@@ -44,6 +53,13 @@ void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& repor
 /// is empty unless the points form a grid along x and y: each point within 2 % of a node, one point per node, and
 /// points on a sixteenth of the nodes or more. The cells of the grid may have any shape.
 std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Eigen::Vector3f> points);
+
+/// Returns false if the points of a sample (raster_sample) are already so close along x and y that a grid through them
+/// has more than twenty nodes for each of the `points` of the cloud, which no raster has.
+bool may_be_raster(std::span<const Eigen::Vector3f> sample, std::size_t points);
+/// Returns the index of the k-th point of that sample, ascending with k; from `points` on there are no more. The steps
+/// are uneven, since even ones may be those of the rows.
+std::size_t raster_sample(std::size_t k, std::size_t points);
 
 /// Returns the viewpoint of an organised cloud that does not state one and is not yet cleaned: the origin of its
 /// coordinates, if rows and columns fan out from there. Empty for other clouds, and where the viewpoint is known.
@@ -65,6 +81,18 @@ bool looks_up(const RawCloud& raw);
 /// coordinates. They do if the directions from there to neighbouring points are even where the points themselves are
 /// not. Returns false where this cannot be decided, as on smooth surfaces.
 bool fans_out_from_origin(const RawCloud& raw);
+
+/// Facts about a cloud without normals that is completed in groups of neighbours.
+struct GroupCompletion {
+  LoadOptions options;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< origin of the whole cloud [m]
+  std::optional<Eigen::Vector3d> viewpoint;          ///< [m]
+  bool areas = true, noise = true;                   ///< false: they are known
+};
+
+/// Sets normals, areas and noise of a group, as complete_scene does for a cloud that is no raster and no single view. A
+/// point whose normal cannot be estimated looks up.
+void complete_group(const GroupCompletion& how, SceneCloud& group);
 
 /// Sets the noise: that of the file, else that of the options, else an estimate (E67).
 void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene& result);

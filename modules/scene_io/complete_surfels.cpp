@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/text.hpp"
@@ -74,17 +75,22 @@ void take_areas(SurfelShapes& shapes, const LoadOptions& options, RawCloud& raw,
                                                 : "their areas are those of their neighbours"));
 }
 
-/// Sets the areas and, on rough surfaces, finer normals. A normal that would turn from the viewpoint stays as it is.
-void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
-  SurfelShapes shapes = shapes_of(raw, options);
+/// Sets the normals. One that would turn from the viewpoint stays as it is.
+void take_normals(const SurfelShapes& shapes, RawCloud& raw) {
   for (std::size_t i = 0; i < raw.point.size(); ++i) {
     const auto viewpoint = raw.seen_from(i);
     const bool seen =
         !viewpoint || shapes.normal[i].cast<double>().dot(*viewpoint - raw.origin - raw.point[i].cast<double>()) > 0;
     if (seen) raw.normal[i] = shapes.normal[i];
   }
+}
+
+/// Sets the areas and, on rough surfaces, finer normals.
+void complete_shapes(RawCloud& raw, const LoadOptions& options, LoadReport& report) {
+  SurfelShapes shapes = shapes_of(raw, options);
+  take_normals(shapes, raw);
   if (raw.heights && !raw.viewpoint) turn_up(raw.normal);
-  join_heights(shapes, std::exchange(raw.raster, {}), options, raw, report);
+  if (!raw.only_surfels) join_heights(shapes, std::exchange(raw.raster, {}), options, raw, report);
   take_areas(shapes, options, raw, report);
 }
 
@@ -144,6 +150,29 @@ void complete_areas(RawCloud& raw, const LoadOptions& options, LoadReport& repor
 
 std::string bad_noise_note(std::size_t bad, std::size_t points) {
   return share(bad, points, "noise values") + " were negative or NaN: taken as 0";
+}
+
+void complete_group(const GroupCompletion& how, SceneCloud& group) {
+  RawCloud raw;
+  raw.origin = group.origin;
+  raw.viewpoint = how.viewpoint;
+  raw.point = std::move(group.point);
+  std::vector<std::uint32_t> all(raw.point.size());
+  std::iota(all.begin(), all.end(), 0u);
+  const Eigen::Vector3f middle = (how.origin - group.origin).cast<float>();
+  raw.normal = estimate_normals(raw.point, all, how.options.normal_neighbours, how.options.threads, middle);
+  for (Eigen::Vector3f& normal : raw.normal)
+    if (!usable_normal(normal)) normal = Eigen::Vector3f::UnitZ();
+  if (raw.viewpoint) face_viewpoints(raw);
+  if (how.areas) {
+    SurfelShapes shapes = estimate_surfel_shapes(
+        raw.point, raw.normal, {.threads = how.options.threads, .keep_strays = how.options.keep_strays});
+    take_normals(shapes, raw);
+    group.area = std::move(shapes.area);
+  }
+  if (how.noise) group.noise = estimate_surfel_noise(raw.point, {.threads = how.options.threads});
+  group.point = std::move(raw.point);
+  group.normal = std::move(raw.normal);
 }
 
 void complete_noise(const RawCloud& raw, const LoadOptions& options, LoadedScene& result) {

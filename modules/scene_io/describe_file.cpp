@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "core/parallel.hpp"
@@ -14,20 +15,26 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t most_queries = 20000;
+constexpr std::size_t indexed_at_once = 1 << 20;  // an index takes some 30 bytes a point
 
 /// Returns the median distance to the nearest neighbour of up to 20 000 points spread over the cloud.
 double median_spacing(std::span<const Eigen::Vector3f> points) {
   if (points.size() < 2) return 0;
-  const SceneIndex index(points);
   const std::size_t queries = std::min(points.size(), most_queries);
-  std::vector<double> distance(queries);
-  parallel_blocks(queries, 256, 0, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbour> nearest;
-    for (std::size_t q = begin; q < end; ++q) {
-      index.find_nearest(points[q * points.size() / queries], 2, nearest);
-      distance[q] = std::sqrt(nearest.back().squared_distance);
-    }
-  });
+  std::vector<double> distance(queries, std::numeric_limits<double>::infinity());
+  for (std::size_t first = 0; first < points.size(); first += indexed_at_once) {
+    const SceneIndex index(points.subspan(first, std::min(indexed_at_once, points.size() - first)));
+    parallel_blocks(queries, 256, 0, [&](std::size_t begin, std::size_t end) {
+      std::vector<Neighbour> nearest;
+      for (std::size_t q = begin; q < end; ++q) {
+        const std::size_t point = q * points.size() / queries;
+        const bool among_them = point >= first && point < first + index.size();  // then it is the nearest itself
+        index.find_nearest(points[point], among_them ? 2 : 1, nearest);
+        if (nearest.size() > among_them)
+          distance[q] = std::min(distance[q], std::sqrt(static_cast<double>(nearest.back().squared_distance)));
+      }
+    });
+  }
   std::nth_element(distance.begin(), distance.begin() + queries / 2, distance.end());
   return distance[queries / 2];
 }

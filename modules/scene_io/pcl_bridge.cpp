@@ -172,7 +172,8 @@ std::string pcd_header(const PackedRows& rows) {
 }
 
 std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>& points,
-                                              const std::vector<std::uint32_t>& wanted, int neighbours, int threads) {
+                                              const std::vector<std::uint32_t>& wanted, int neighbours, int threads,
+                                              const Eigen::Vector3f& towards) {
   const QuietPcl quiet;
   const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
   cloud->reserve(points.size());
@@ -185,6 +186,7 @@ std::vector<Eigen::Vector3f> estimate_normals(const std::vector<Eigen::Vector3f>
   if (wanted.size() < points.size()) estimation.setIndices(indices);
   estimation.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>());
   estimation.setKSearch(neighbours);
+  estimation.setViewPoint(towards.x(), towards.y(), towards.z());
   pcl::PointCloud<pcl::Normal> found;
   estimation.compute(found);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "files/memory_limit.hpp"
+#include "scene/estimate/surfel_area.hpp"
 #include "scene_io/complete_scene_internal.hpp"
 #include "scene_io/scene_readers_internal.hpp"
 #include "tiles/tiled_scene.hpp"
@@ -15,18 +17,24 @@ namespace {
 using Eigen::Vector3d, Eigen::Vector3f;
 
 constexpr std::size_t batch_rows = 1 << 18;
-constexpr double first_pass = 0.15, both_passes = 0.35;  // completed fractions
+constexpr double bytes_of_height = 250;  // memory for a point of a raster, which is completed whole
 
 /// Facts about the file that both passes share.
 struct Survey {
   RowFile file;
   ReadOptions reading;
   RawCloud whole;  // tags, box and counts; no points
-  bool normals = false, areas = false, ids_ascend = true;
+  bool normals = false, areas = false, noise = false, ids_ascend = true;
   std::size_t bad_areas = 0, bad_noise = 0;
   float largest_area = 0;
   std::vector<std::size_t> label_count = std::vector<std::size_t>(no_label + 1, 0);
   bool labels = false;
+  std::vector<Vector3f> sample{};  // raster_sample, relative to the first of its points [m]
+  Vector3d first_of_sample = Vector3d::Zero();
+  std::size_t sampled = 0;  // number of points that were considered
+
+  /// Returns the completed fractions of both passes, which are short beside the estimation of normals.
+  double passes() const { return normals ? 0.35 : 0.05; }
 };
 
 struct Batch {
@@ -55,13 +63,25 @@ void report_progress(const PrepareTilesOptions& options, double part) {
   if (options.progress) options.progress(part);
 }
 
+void add_to_sample(const Batch& batch, std::size_t first, Survey& survey) {
+  for (std::size_t row; (row = raster_sample(survey.sampled, survey.file.rows)) < first + batch.positions.size();
+       ++survey.sampled) {
+    const Vector3d& position = batch.positions[row - first];
+    if (!position.allFinite()) continue;
+    if (survey.sample.empty()) survey.first_of_sample = position;
+    survey.sample.push_back((position - survey.first_of_sample).cast<float>());
+  }
+}
+
 /// Finds the bounding box, the labels and the columns present, in the first pass.
 void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
   RawCloud& whole = survey.whole;
   std::int64_t last_id = -1;
   for (std::size_t first = 0; first < survey.file.rows; first += batch_rows) {
-    const RawCloud raw = read_batch(survey, first).raw;
+    const Batch batch = read_batch(survey, first);
+    const RawCloud& raw = batch.raw;
     add_counts(whole, raw);
+    add_to_sample(batch, first, survey);
     whole.float_coordinates = raw.float_coordinates;
     whole.meaning = raw.meaning;
     whole.named_depth = raw.named_depth;
@@ -69,6 +89,7 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
     whole.other_columns = raw.other_columns;
     survey.normals = !raw.normal.empty();
     survey.areas = !raw.area.empty();
+    survey.noise = !raw.noise.empty();
     survey.labels = !raw.label.empty();
     survey.bad_areas += static_cast<std::size_t>(std::count_if(raw.area.begin(), raw.area.end(), bad_area));
     survey.bad_noise += static_cast<std::size_t>(
@@ -82,7 +103,8 @@ void survey_rows(Survey& survey, const PrepareTilesOptions& options) {
       survey.ids_ascend = survey.ids_ascend && id > last_id;
       last_id = id;
     }
-    report_progress(options, first_pass * static_cast<double>(first) / static_cast<double>(survey.file.rows));
+    report_progress(options,
+                    0.4 * survey.passes() * static_cast<double>(first) / static_cast<double>(survey.file.rows));
   }
   resolve_meaning(whole);
   require_usable_points(whole, survey.file.rows);
@@ -108,12 +130,13 @@ std::vector<std::uint16_t> plan_materials(const Survey& survey, const LoadOption
   return index;
 }
 
-/// Returns the usable surfels of a batch, and counts the dropped ones.
+/// Returns the usable surfels of a batch, and counts the dropped ones. Missing normals look up until they are known.
 SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, const std::vector<std::uint16_t>& material,
                       std::vector<Vector3d>& positions, LoadedScene& result) {
   RawCloud& raw = batch.raw;
+  if (!survey.normals) raw.normal.assign(raw.point.size(), Vector3f::UnitZ());
   renormalise(raw.normal, survey.whole.tags.prepared);
-  const bool turn = !survey.whole.tags.oriented && survey.whole.viewpoint;
+  const bool turn = survey.normals && !survey.whole.tags.oriented && survey.whole.viewpoint;
   const Vector3d viewpoint = survey.whole.viewpoint.value_or(Vector3d::Zero()) - *survey.reading.origin;
   SceneCloud scene;
   scene.materials = result.scene.materials;
@@ -136,53 +159,90 @@ SceneCloud surfels_of(Batch& batch, std::size_t first, const Survey& survey, con
   return scene;
 }
 
-PreparedTiles stream(RowFile file, const std::string& output, const PrepareTilesOptions& options) {
-  Survey survey{std::move(file), read_options(options.load), {}};
-  RawCloud& whole = survey.whole = raw_of(survey.file);
-  whole.meaning.override_by(options.load.meaning);
-  if (survey.reading.material_field.name.empty()) survey.reading.material_field.name = whole.tags.material_field;
-  survey.reading.origin = Vector3d::Zero();
-  survey_rows(survey, options);
-  if (!survey.normals)
-    fail(ErrorKind::content, whole.path, ": has no normals, and ", survey.file.rows, " points (more than ",
-         options.whole_points,
-         ") are prepared in batches, which cannot estimate them: compute normals first, or run "
-         "`insonify prepare` with a .ply output, not .tiles, if memory holds the cloud");
-  survey.reading.origin = whole.origin = origin_of(whole);
-  if (whole.viewpoint) whole.viewpoint = whole.meaning.axes().position(*whole.viewpoint);
-  if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
+/// Throws Error(content) if a raster of heights without normals, which is completed whole, is larger than memory.
+void require_memory_for_raster(const Survey& survey) {
+  const double needed = bytes_of_height * static_cast<double>(survey.file.rows), gib = 1 << 30;
+  if (needed > available_memory())
+    fail(ErrorKind::content, survey.file.path, ": is a raster of ", survey.file.rows,
+         " heights without normals, which takes some ", std::ceil(needed / gib),
+         " GiB of memory; divide it, or add normals to the file");
+}
 
-  LoadedScene result;
-  LoadReport& report = result.report = begin_report(whole);
+/// Returns the report of the reading of all rows.
+LoadReport report_of(const Survey& survey, const LoadOptions& options) {
+  const RawCloud& whole = survey.whole;
+  LoadReport report = begin_report(whole);
   report.areas_estimated = !survey.areas || survey.bad_areas > 0;
+  report.normals_estimated = !survey.normals;
+  report.noise_estimated = !survey.normals && !survey.noise && !options.scan_noise;
+  if (report.normals_estimated) report.viewpoint = whole.viewpoint;
+  if (report.normals_estimated && !whole.viewpoint) report.notes.emplace_back(two_sided_note);
   if (survey.bad_areas > 0)
     report.notes.push_back("at least " + share(survey.bad_areas, survey.file.rows, "areas") +
                            " were negative, NaN or larger than the cloud: all were estimated");
   if (survey.bad_noise > 0) report.notes.push_back(bad_noise_note(survey.bad_noise, survey.file.rows));
   if (!survey.ids_ascend && (column_named(survey.file.columns, "id") || column_named(survey.file.columns, "scalar_id")))
     report.notes.push_back("the ids in the file do not ascend: renumbered by row");
-  const std::vector<std::uint16_t> material = plan_materials(survey, options.load, result);
+  return report;
+}
 
+TileWriterOptions writer_options(const Survey& survey, const LoadedScene& result, const PrepareTilesOptions& options) {
+  const RawCloud& whole = survey.whole;
+  const LoadReport& report = result.report;
   TileWriterOptions writing;
-  writing.origin = *survey.reading.origin;
+  writing.origin = whole.origin;
   writing.materials = result.scene.materials;
   writing.system = whole.meaning.system.value;
-  writing.normals_oriented = whole.tags.oriented || whole.viewpoint.has_value();
+  writing.normals_oriented = (survey.normals && whole.tags.oriented) || whole.viewpoint.has_value();
   writing.drop_duplicates = !whole.tags.prepared;
-  writing.estimate_areas = report.areas_estimated;
   writing.memory = options.memory;
   writing.threads = options.load.threads;
-  writing.progress = [&](double part) { report_progress(options, both_passes + (1 - both_passes) * part); };
-  TileWriter writer(output, writing);
+  writing.progress = [&](double part) { report_progress(options, survey.passes() + (1 - survey.passes()) * part); };
+  if (report.normals_estimated)
+    writing.complete = [how = GroupCompletion{options.load, whole.origin, whole.viewpoint, report.areas_estimated,
+                                              report.noise_estimated}](SceneCloud& group) {
+      complete_group(how, group);
+    };
+  else if (report.areas_estimated)
+    writing.complete = [threads = options.load.threads](SceneCloud& group) {
+      group.area = estimate_surfel_areas(group.point, group.normal, {.threads = threads});
+    };
+  return writing;
+}
+
+/// Writes the tiles of a file in batches; nothing if it may be a raster of heights without normals, whose side only
+/// the whole shows.
+std::optional<PreparedTiles> stream(RowFile file, const std::string& output, const PrepareTilesOptions& options) {
+  Survey survey{std::move(file), read_options(options.load), {}};
+  RawCloud& whole = survey.whole = raw_of(survey.file);
+  whole.meaning.override_by(options.load.meaning);
+  if (survey.reading.material_field.name.empty()) survey.reading.material_field.name = whole.tags.material_field;
+  survey.reading.origin = Vector3d::Zero();
+  survey_rows(survey, options);
+  if (!survey.normals && may_be_raster(survey.sample, survey.file.rows)) {
+    require_memory_for_raster(survey);
+    return std::nullopt;
+  }
+  survey.reading.origin = whole.origin = origin_of(whole);
+  if (whole.viewpoint) whole.viewpoint = whole.meaning.axes().position(*whole.viewpoint);
+  if (options.load.viewpoint) whole.viewpoint = options.load.viewpoint;
+
+  LoadedScene result;
+  LoadReport& report = result.report = report_of(survey, options.load);
+  const std::vector<std::uint16_t> material = plan_materials(survey, options.load, result);
+  TileWriter writer(output, writer_options(survey, result, options));
   std::vector<Vector3d> positions;
   for (std::size_t first = 0; first < survey.file.rows; first += batch_rows) {
     Batch batch = read_batch(survey, first);
-    const SceneCloud scene = surfels_of(batch, first, survey, material, positions, result);
+    SceneCloud scene = surfels_of(batch, first, survey, material, positions, result);
+    if (scene.noise.empty() && (report.noise_estimated || options.load.scan_noise))
+      scene.noise.assign(scene.size(), static_cast<float>(options.load.scan_noise.value_or(0)));
     writer.add(scene, positions);
-    report_progress(options, first_pass + (both_passes - first_pass) * static_cast<double>(first) /
-                                              static_cast<double>(survey.file.rows));
+    report_progress(options,
+                    survey.passes() * (0.4 + 0.6 * static_cast<double>(first) / static_cast<double>(survey.file.rows)));
   }
-  PreparedTiles prepared{{}, writer.finish(), writing.normals_oriented, true};
+  const bool oriented = (survey.normals && whole.tags.oriented) || whole.viewpoint.has_value();
+  PreparedTiles prepared{{}, writer.finish(), oriented, true};
   report.dropped_duplicates = prepared.tiles.dropped_duplicates;
   note_no_area(prepared.tiles.total_area, report.notes);
   const double spacing =
@@ -193,6 +253,14 @@ PreparedTiles stream(RowFile file, const std::string& output, const PrepareTiles
   return prepared;
 }
 
+/// Returns the surfels of a file that is read whole. Tiles hold no surface between the points of a height field.
+LoadedScene load_surfels(const SceneReader& reader, const std::string& path, const LoadOptions& options) {
+  if (reader.load) return reader.load(path, options);
+  RawCloud raw = reader.read(path, read_options(options));
+  raw.only_surfels = options.mesh_spacing == 0;
+  return complete_scene(std::move(raw), options);
+}
+
 }  // namespace
 
 PreparedTiles prepare_tiles(const std::string& path, const std::string& output, const PrepareTilesOptions& options) {
@@ -200,11 +268,12 @@ PreparedTiles prepare_tiles(const std::string& path, const std::string& output, 
   const SceneReader& reader = reader_of(path);
   std::optional<RowFile> rows = reader.find_rows ? reader.find_rows(path) : std::nullopt;
   if (rows && rows->rows > options.whole_points) {
-    PreparedTiles prepared = stream(std::move(*rows), output, options);
-    const TiledScene readable(output);
-    return prepared;
+    if (std::optional<PreparedTiles> prepared = stream(std::move(*rows), output, options)) {
+      const TiledScene readable(output);
+      return std::move(*prepared);
+    }
   }
-  LoadedScene loaded = load_scene(path, options.load);
+  LoadedScene loaded = load_surfels(reader, path, options.load);
   TileWriterOptions writing;
   writing.memory = options.memory;
   writing.threads = options.load.threads;

@@ -27,15 +27,17 @@ struct PreparedTiles {
 
 /// Writes a cloud or mesh as a .tiles file and returns a report of all changes. Meshes, text and compressed files of
 /// any size, and other files of at most `whole_points` points, are loaded whole and give the surfels of load_scene.
-/// Larger binary PLY and uncompressed binary PCD files are read twice in batches of rows, with five differences:
+/// Larger binary PLY, uncompressed binary PCD, LAS and LAZ files are read twice in batches of rows, with these differences:
 ///
 ///   - points whose normal is zero or NaN are dropped, not repaired,
-///   - missing areas are estimated a few tiles at a time (all areas, if some are negative or NaN),
+///   - missing normals and areas are estimated a few tiles at a time (all areas, if some are negative or NaN); points
+///     far from all others are not counted, and a viewpoint gives normals their side but no areas (E73),
 ///   - ids that do not ascend are replaced by row numbers,
 ///   - the orientation of normals is not compared with a viewpoint,
-///   - noise that the file does not state is not estimated: it is 0.
+///   - noise that the file does not state is estimated only where normals are: else it is that of the options, or 0.
 ///
-/// Throws as load_scene and TileWriter; Error(content) for a cloud without normals that must be read in batches.
+/// A raster of heights without normals is loaded whole. Tiles hold no surface between the points of a height field.
+/// Throws as load_scene and TileWriter; Error(content) for such a raster that memory cannot hold.
 PreparedTiles prepare_tiles(const std::string& path, const std::string& output,
                             const PrepareTilesOptions& options = {});
 

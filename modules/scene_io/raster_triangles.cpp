@@ -21,11 +21,11 @@ struct GridAxis {
   std::size_t node(float value) const { return static_cast<std::size_t>(std::lround((value - first) / step)); }
 };
 
-/// Returns the coordinates along an axis of every step-th point, ascending.
-std::vector<float> sorted_values(std::span<const Vector3f> points, int axis, std::size_t step = 1) {
+/// Returns the coordinates along an axis, ascending.
+std::vector<float> sorted_values(std::span<const Vector3f> points, int axis) {
   std::vector<float> values;
-  values.reserve(points.size() / step + 1);
-  for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][axis]);
+  values.reserve(points.size());
+  for (const Vector3f& p : points) values.push_back(p[axis]);
   boost::sort::spreadsort::float_sort(values.begin(), values.end());
   return values;
 }
@@ -42,18 +42,11 @@ double gap_between(const std::vector<float>& values, double quantile) {
   return *at;
 }
 
-/// Returns false if a few of the points are already so close along x and y that a grid through them has more than
-/// twenty nodes per point, which no raster has.
-bool may_be_grid(std::span<const Vector3f> points) {
-  const auto few = static_cast<std::size_t>(8 * std::sqrt(static_cast<double>(points.size())));
-  const std::size_t step = std::max<std::size_t>(1, points.size() / few);
-  double nodes = 1;
-  for (const int axis : {0, 1}) {
-    const std::vector<float> values = sorted_values(points, axis, step);
-    const double gap = gap_between(values, 0.25);
-    if (gap > 0) nodes *= (values.back() - values.front()) / gap;
-  }
-  return nodes <= 20 * static_cast<double>(points.size());
+std::vector<Vector3f> sample_of(std::span<const Vector3f> points) {
+  std::vector<Vector3f> sample;
+  for (std::size_t k = 0, i = 0; (i = raster_sample(k, points.size())) < points.size(); ++k)
+    sample.push_back(points[i]);
+  return sample;
 }
 
 /// Returns the grid along an axis. Its step is the typical gap between values.
@@ -72,8 +65,24 @@ GridAxis grid_axis(std::span<const Vector3f> points, int axis) {
 
 }  // namespace
 
+std::size_t raster_sample(std::size_t k, std::size_t points) {
+  const auto few = static_cast<std::size_t>(8 * std::sqrt(static_cast<double>(points)));
+  const std::size_t step = std::max<std::size_t>(1, points / std::max<std::size_t>(1, few));
+  return k * step + (k * 0x9e3779b97f4a7c15ull >> 32) % step;
+}
+
+bool may_be_raster(std::span<const Vector3f> sample, std::size_t points) {
+  double nodes = 1;
+  for (const int axis : {0, 1}) {
+    const std::vector<float> values = sorted_values(sample, axis);
+    const double gap = gap_between(values, 0.25);
+    if (gap > 0) nodes *= (values.back() - values.front()) / gap;
+  }
+  return nodes <= 20 * static_cast<double>(points);
+}
+
 std::vector<std::array<std::uint32_t, 3>> raster_triangles(std::span<const Vector3f> points) {
-  if (points.size() < 3 || !may_be_grid(points)) return {};
+  if (points.size() < 3 || !may_be_raster(sample_of(points), points.size())) return {};
   const GridAxis x = grid_axis(points, 0);
   if (x.nodes < 2) return {};
   const GridAxis y = grid_axis(points, 1);

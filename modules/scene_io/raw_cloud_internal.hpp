@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -83,7 +84,8 @@ struct RawCloud {
   std::optional<Eigen::Vector3d> viewpoint;              ///< place from which all points were seen [m]
   std::vector<Eigen::Vector3d> stations;                 ///< places of the scanners of a cloud of several scans [m]
   std::vector<std::uint16_t> station;                    ///< index into `stations` of each point
-  bool heights = false;  ///< points of a raster: seen from above unless a viewpoint is known
+  bool heights = false;       ///< points of a raster: seen from above unless a viewpoint is known
+  bool only_surfels = false;  ///< no surface is wanted between the points of a height field
   SceneTags tags;
   std::vector<std::string> material_names;  ///< names of the materials of a mesh, by label
   std::vector<std::string> notes;
@@ -109,7 +111,7 @@ struct RowMarks {
   }
 };
 
-/// A table of packed rows in memory.
+/// A table of packed rows in memory, or in a file that is read in blocks.
 struct RowTable {
   struct Column {
     std::string name;
@@ -125,9 +127,18 @@ struct RowTable {
   };
   std::vector<Column> columns;
   std::size_t rows = 0, stride = 0;
-  const char* bytes = nullptr;
+  const char* bytes = nullptr;        ///< null: `read` returns the rows
   std::shared_ptr<const void> owner;  ///< owner of the bytes, unless they outlive the table
   RowMarks marks{};
+  std::function<std::vector<char>(std::size_t first, std::size_t count)> read{};  ///< may be called by several threads
+
+  /// Calls use(row) with the bytes of `count` rows from `first` on.
+  template <typename Use>
+  void with_rows(std::size_t first, std::size_t count, const Use& use) const {
+    if (bytes) return use(bytes + first * stride);
+    const std::vector<char> block = read(first, count);
+    use(block.data());
+  }
 };
 
 /// Returns the column of this name; null if there is none.

@@ -205,7 +205,7 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
 RawCloud read_las(const std::string& path, const ReadOptions& options) {
   const RowFile file = *find_las_rows(path);
   RawCloud raw = raw_of(file);
-  fill_cloud(raw, read_rows(file, 0, file.rows), options);
+  fill_cloud(raw, all_rows(file), options);
   return raw;
 }
 

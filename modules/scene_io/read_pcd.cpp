@@ -258,7 +258,7 @@ RawCloud read_pcd(const std::string& path, const ReadOptions& options) {
   RawCloud raw = raw_of(file);
   if (header.width * header.height != 0) raw.width = header.width, raw.height = header.height;
   if (header.data == "binary") {
-    fill_cloud(raw, read_rows(file, 0, header.points), options);
+    fill_cloud(raw, all_rows(file), options);
   } else {
     const bool text = header.data == "ascii";
     if (!text) expect_from_file(path, bytes, {static_cast<double>(header.points * stride), "bytes of points", 1});

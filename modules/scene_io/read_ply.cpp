@@ -138,7 +138,7 @@ RawCloud read_ply(const std::string& path, const ReadOptions& options) {
     if (!p.is_list) raw.fields.push_back({p.name, name_of(p.type)});
   const bool heights = raw.tags.prepared && raw.tags.heights;
   const std::optional<RowFile> rows = heights ? std::nullopt : find_ply_rows(path);
-  fill_cloud(raw, rows ? read_rows(*rows, 0, rows->rows) : PlyWalk(header, raw).walk(), options);
+  fill_cloud(raw, rows ? all_rows(*rows) : PlyWalk(header, raw).walk(), options);
   if (heights)
     raw.surface = std::move(raw.triangle), raw.triangle.clear();
   else if (!raw.triangle.empty() || raw.bad_triangles > 0)

@@ -9,6 +9,22 @@
 #include "scene_io/row_file_internal.hpp"
 
 namespace insonify {
+namespace {
+
+/// Returns the bytes of rows that are not packed, in this machine's byte order.
+std::vector<char> bytes_of_rows(const RowFile& file, std::size_t first, std::size_t count) {
+  std::vector<char> bytes(count * file.stride);
+  BinaryFile(file.path, BinaryFile::Mode::read).read(file.begin + first * file.stride, bytes);
+  if (!file.big_endian) return bytes;
+  for (std::size_t i = 0; i < count; ++i)
+    for (const RowTable::Column& column : file.columns) {
+      char* number = bytes.data() + i * file.stride + column.offset;
+      std::reverse(number, number + size_of(column.type));
+    }
+  return bytes;
+}
+
+}  // namespace
 
 std::optional<RowFile> find_ply_rows(const std::string& path) {
   // The reader of text files checks them line by line.
@@ -59,16 +75,14 @@ RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count) {
 #ifdef INSONIFY_LASZIP
   if (file.packed) return unpack_rows(file, first, count);
 #endif
-  const auto bytes = std::make_shared<std::vector<char>>(count * file.stride);
-  BinaryFile(file.path, BinaryFile::Mode::read).read(file.begin + first * file.stride, *bytes);
-  if (file.big_endian) {
-    for (std::size_t i = 0; i < count; ++i)
-      for (const RowTable::Column& column : file.columns) {
-        char* number = bytes->data() + i * file.stride + column.offset;
-        std::reverse(number, number + size_of(column.type));
-      }
-  }
+  const auto bytes = std::make_shared<std::vector<char>>(bytes_of_rows(file, first, count));
   return {file.columns, count, file.stride, bytes->data(), bytes, file.marks};
+}
+
+RowTable all_rows(const RowFile& file) {
+  if (file.packed) return read_rows(file, 0, file.rows);
+  const auto read = [file](std::size_t first, std::size_t count) { return bytes_of_rows(file, first, count); };
+  return {file.columns, file.rows, file.stride, nullptr, nullptr, file.marks, read};
 }
 
 }  // namespace insonify

@@ -44,6 +44,9 @@ RawCloud raw_of(const RowFile& file);
 
 /// Returns `count` rows starting at `first`, in this machine's byte order. Throws Error(content) for a damaged LAZ.
 RowTable read_rows(const RowFile& file, std::size_t first, std::size_t count);
+
+/// Returns all rows of the file: as a table that reads them in blocks, or in memory if they are packed.
+RowTable all_rows(const RowFile& file);
 /// Does the same for a LAZ, by LASzip.
 RowTable unpack_rows(const RowFile& file, std::size_t first, std::size_t count);
 

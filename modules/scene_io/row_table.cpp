@@ -22,7 +22,7 @@ const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(std::numeric_limits<do
 template <typename Body>
 void for_each_block(const RowTable& table, int threads, const Body& body) {
   parallel_blocks(table.rows, block_rows, threads, [&](std::size_t begin, std::size_t end) {
-    body(begin, end - begin, table.bytes + begin * table.stride);
+    table.with_rows(begin, end - begin, [&](const char* bytes) { body(begin, end - begin, bytes); });
   });
 }
 

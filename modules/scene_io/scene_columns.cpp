@@ -51,11 +51,16 @@ SceneColumn copy_of(const RowTable& table, const RowTable::Column& column, const
   SceneColumn copy{name, name_of(as_it_is ? column.type : NumberType::float64), {}};
   const std::size_t size = as_it_is ? size_of(column.type) : sizeof(double);
   copy.bytes.resize(table.rows * size);
-  for (std::size_t i = 0; i < table.rows; ++i) {
-    const char* row = table.bytes + i * table.stride;
-    const double value = as_it_is ? 0 : column.value(row);
-    std::memcpy(copy.bytes.data() + i * size, as_it_is ? row + column.offset : reinterpret_cast<const char*>(&value),
-                size);
+  char* out = copy.bytes.data();
+  constexpr std::size_t block = 1 << 16;
+  for (std::size_t first = 0; first < table.rows; first += block) {
+    const std::size_t rows = std::min(block, table.rows - first);
+    table.with_rows(first, rows, [&](const char* row) {
+      for (std::size_t i = 0; i < rows; ++i, row += table.stride, out += size) {
+        const double value = as_it_is ? 0 : column.value(row);
+        std::memcpy(out, as_it_is ? row + column.offset : reinterpret_cast<const char*>(&value), size);
+      }
+    });
   }
   return copy;
 }

@@ -5,7 +5,7 @@
 //                       of a second file, and so on until a part fits into memory (tile_sort.cpp)
 //   3. write_group      a part is halved at the highest bit in which its places differ, as in an octree, until at most
 //                       tile_surfels are in each piece; its rows go to the columns of the output
-//   4. fill_areas       only where areas are estimated: Voronoi areas (E15) with the neighbours in the tiles around
+//   4. complete_tiles   only where surfels are completed by their neighbours, a group of tiles and a halo at a time
 //   5. make_forests     levels of detail of the tiles of each cube of the largest cells (tile_levels.cpp)
 //   6. add_directory    tiles and facts, with checksums; then the file gets its name
 // Cost: about five passes over the records on the disk and O(n log n) comparisons. The bytes do not depend on threads;
@@ -23,7 +23,7 @@
 #include "core/parallel.hpp"
 #include "files/path_status.hpp"
 #include "files/pending_file.hpp"
-#include "tiles/tile_areas_internal.hpp"
+#include "tiles/tile_completion_internal.hpp"
 #include "tiles/tile_levels_internal.hpp"
 #include "tiles/tile_sort_internal.hpp"
 
@@ -191,7 +191,7 @@ void TileWriter::State::write_columns(const std::string& name, LevelFiles& files
     columns.emplace(path, BinaryFile::Mode::nameless, packed_columns(most, noisy));
   else
     columns.emplace(name, BinaryFile::Mode::update, create_columns(path, name, most, noisy));
-  const double sorting = options.estimate_areas ? 0.1 : 0.5, levels = 0.5;
+  const double sorting = options.complete ? 0.1 : 0.5, levels = options.complete ? 0.9 : 0.5;
   const auto count = static_cast<double>(most);
   double largest = 0;
   if (most > 0) largest = std::max(box.max.maxCoeff(), -box.min.minCoeff());
@@ -205,9 +205,9 @@ void TileWriter::State::write_columns(const std::string& name, LevelFiles& files
     report_progress(sorting * (moved += static_cast<double>(records)) / wanted);
   };
   sort_along_curve(std::move(waiting), sort);
-  if (options.estimate_areas)
-    total_area = fill_areas(*columns, directory.tiles, options,
-                            [&](double part) { report_progress(sorting + (levels - sorting) * part); });
+  if (options.complete)
+    total_area = complete_tiles(*columns, directory.tiles, options,
+                                [&](double part) { report_progress(sorting + (levels - sorting) * part); });
   else if (report.dropped_duplicates > 0)
     total_area = sum_of_areas(*columns, directory.tiles);
   const double spacing = report.surfels == 0 ? 0 : std::sqrt(total_area / static_cast<double>(report.surfels));

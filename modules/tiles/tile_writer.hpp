@@ -19,9 +19,11 @@ struct TileWriterOptions {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< [m]; points are stored relative to it
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;
-  std::string system{};                    ///< coordinate system of the world, as FileMeaning::system; empty: unknown
-  bool drop_duplicates = false;            ///< keep only the first of several surfels at one position
-  bool estimate_areas = false;             ///< ignore given areas and estimate them from the neighbours (E15)
+  std::string system{};          ///< coordinate system of the world, as FileMeaning::system; empty: unknown
+  bool drop_duplicates = false;  ///< keep only the first of several surfels at one position
+  /// Sets normals, areas and, if there was noise, noise of neighbouring surfels, in place of those that were added. At
+  /// least 12 spacings around them stand at the end of the cloud, whose results are not used. Empty: nothing changes.
+  std::function<void(SceneCloud& neighbours)> complete{};
   std::size_t tile_surfels = 4096;         ///< most surfels of one tile
   std::size_t memory = 256 << 20;          ///< memory for sorting [bytes]; at least 1 MiB is used
   int threads = 0;                         ///< 0: all cores; the file does not depend on it

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene_io/describe_file.hpp"
 
+#include <fstream>
+
+#include "files/peak_memory.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "scene_io/test_files.hpp"
 
@@ -122,6 +125,30 @@ TEST(DescribeFile, a_coarse_survey_on_a_map_grid_is_in_metres) {
     }
   EXPECT_TRUE(has_problem(describe_file(own_file("local.xyz", local.str())), "millimetres"));
   EXPECT_FALSE(has_problem(describe_file(own_file("grid.xyz", grid.str())), "millimetres"));
+}
+
+// The second half of the points is the first one, 0.25 m beside it; the rows take 126 MB, of which 38 are read as points.
+TEST(DescribeFile, the_nearest_neighbour_may_stand_anywhere_in_a_file_that_is_read_in_blocks) {
+  constexpr std::size_t half = 1 << 20;
+  const std::string path = own_path("wide.ply");
+  std::ofstream out(path, std::ios::binary);
+  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << 2 * half << '\n';
+  for (const char* axis : {"x", "y", "z"}) out << "property float " << axis << '\n';
+  for (const char* other : {"a", "b", "c", "d", "e", "f"}) out << "property double " << other << '\n';
+  out << "end_header\n";
+  for (std::size_t i = 0; i < 2 * half; ++i) {
+    const std::size_t k = i % half;
+    const float x = static_cast<float>(k % 1024) + (i < half ? 0.0F : 0.25F), y = static_cast<float>(k / 1024);
+    out << bytes_of(x) << bytes_of(y) << bytes_of(0.0F) << std::string(48, '\1');
+  }
+  out.close();
+  forget_peak_memory();
+  const double before = peak_memory_mib();
+  const FileDescription file = describe_file(path);
+  EXPECT_EQ(file.points, 2 * half);
+  EXPECT_EQ(file.duplicates, 0U);
+  EXPECT_FLOAT_EQ(static_cast<float>(file.median_spacing), 0.25F);
+  EXPECT_LT(peak_memory_mib() - before, 120);
 }
 
 }  // namespace

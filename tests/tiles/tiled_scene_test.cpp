@@ -183,8 +183,10 @@ TEST(TiledScene, duplicates_are_dropped_on_request_and_the_first_is_kept) {
 
 TEST(TiledScene, areas_found_tile_by_tile_add_up_to_the_plate) {
   SceneCloud scene = make_built_in_scene("plane", {.points = 40000, .size = {40, 40}});
-  TileWriterOptions options = small_tiles();
-  options.estimate_areas = true;
+  TileWriterOptions options{.tile_surfels = 50};  // seven groups of tiles
+  options.complete = [](SceneCloud& neighbours) {
+    neighbours.area = estimate_surfel_areas(neighbours.point, neighbours.normal);
+  };
   const TileReport report = save_tiles(own_path("a.tiles"), scene, options);
   EXPECT_NEAR(report.total_area, 1600, 0.02 * 1600);  // the promise of estimate_surfel_areas
   const TiledScene tiled(own_path("a.tiles"));

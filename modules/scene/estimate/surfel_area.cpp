@@ -25,7 +25,10 @@ std::vector<float> estimate_surfel_areas(std::span<const Vector3f> points, std::
   const AreaEstimator estimator(e.position, options.neighbours, same_sheet);
   parallel_blocks(e.area.size(), 4096, options.threads, [&](std::size_t begin, std::size_t end) {
     Workspace work;
-    for (std::size_t d = begin; d < end; ++d) e.area[d] = estimator.area(d, normals[e.distinct.first[d]], work);
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t d = e.visit[k];
+      e.area[d] = estimator.area(d, normals[e.distinct.first[d]], work);
+    }
   });
   limit_cells(e.area);
   return shared_areas(e, points.size());

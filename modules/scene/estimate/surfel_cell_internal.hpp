@@ -174,8 +174,21 @@ class AreaEstimator {
     find_gaps(work);
   }
 
+  // Returns true if each sixth of all directions holds a neighbour: then no gap is wider than two sixths.
+  static bool surrounded(const Workspace& work) {
+    unsigned held = 0;
+    for (const FlatNeighbour& p : work.neighbours) {
+      const double y = p.flat.y(), slanted = std::sqrt(3.0) * p.flat.x();
+      const int upper = y < slanted ? 0 : y < -slanted ? 2 : 1, lower = y > slanted ? 3 : y > -slanted ? 5 : 4;
+      held |= 1u << (y >= 0 ? upper : lower);
+      if (held == 63) return true;
+    }
+    return false;
+  }
+
   static void find_gaps(Workspace& work) {
     work.gaps.clear();
+    if (surrounded(work)) return;
     work.angle.clear();
     for (const FlatNeighbour& p : work.neighbours) work.angle.push_back(std::atan2(p.flat.y(), p.flat.x()));
     std::sort(work.angle.begin(), work.angle.end());
@@ -251,6 +264,8 @@ struct Estimate {
   DistinctPoints distinct;
   std::vector<Vector3f> position;
   std::vector<double> area;
+  std::vector<std::uint32_t>
+      visit;  // the positions in the order of the cloud, in which neighbours mostly follow another
 };
 
 inline void require_valid(std::span<const Vector3f> points, std::span<const Vector3f> normals,
@@ -267,6 +282,8 @@ inline Estimate distinct_points(std::span<const Vector3f> points) {
   e.distinct = find_distinct(points);
   for (const std::uint32_t first : e.distinct.first) e.position.push_back(points[first]);
   e.area.assign(e.position.size(), 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (e.distinct.first[e.distinct.position[i]] == i) e.visit.push_back(e.distinct.position[i]);
   return e;
 }
 

@@ -38,7 +38,8 @@ struct Plan {
 
 // Finds height fields, which have one height at each position: none of the four links of a point to its neighbours is
 // steeper than five to one, or at most a third of those around are. Surfaces one above the other have more.
-Plan find_height_fields(std::span<const Vector3f> points, int threads) {
+Plan find_height_fields(const Estimate& e, int threads) {
+  const std::vector<Vector3f>& points = e.position;
   constexpr std::size_t links = 4;
   std::vector<Vector3f> flat;
   for (const Vector3f& p : points) flat.push_back(on_plan(p));
@@ -48,7 +49,8 @@ Plan find_height_fields(std::span<const Vector3f> points, int threads) {
   std::vector<std::uint8_t> steep(points.size()), hangs(points.size());
   parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = e.visit[k];
       index.find_nearest(flat[i], links + 1, nearest);
       const auto steeper_than = [&](float slope) {
         return static_cast<std::size_t>(std::count_if(nearest.begin(), nearest.end(), [&](const Neighbour& n) {
@@ -62,7 +64,8 @@ Plan find_height_fields(std::span<const Vector3f> points, int threads) {
   });
   parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = e.visit[k];
       plan.single[i] = steep[i] == 0;
       if (plan.single[i] || hangs[i]) continue;
       index.find_nearest(flat[i], around, nearest);
@@ -112,25 +115,22 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
 std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& base, const AreaEstimator& estimator,
                               const ShapeOptions& options) {
   std::vector<Look> looks(e.position.size());
-  const Plan plan = find_height_fields(e.position, options.threads);
+  const Plan plan = find_height_fields(e, options.threads);
   std::vector<Vector3f> flat, raised;
+  std::vector<std::uint32_t> in_plan(e.position.size());
   for (const std::uint32_t p : plan.points) {
+    in_plan[p] = static_cast<std::uint32_t>(flat.size());
     raised.push_back(e.position[p]);
     flat.push_back(on_plan(e.position[p]));
   }
   const AreaEstimator chart(flat, raised, 2 * options.neighbours, flat_chart);
-  const auto each = [&](std::size_t count, auto&& body) {
-    parallel_blocks(count, 1024, options.threads, [&](std::size_t begin, std::size_t end) {
-      Workspace work;
-      for (std::size_t k = begin; k < end; ++k) body(k, work);
-    });
-  };
-  each(plan.points.size(), [&](std::size_t k, Workspace& work) {
-    const std::uint32_t i = plan.points[k];
-    if (plan.single[i]) looks[i] = look_at(chart, k, Vector3f::UnitZ(), true, work);
-  });
-  each(looks.size(), [&](std::size_t i, Workspace& work) {
-    if (!plan.single[i]) looks[i] = look_at(estimator, i, base[i], false, work);
+  parallel_blocks(e.visit.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
+    Workspace work;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = e.visit[k];
+      looks[i] = plan.single[i] ? look_at(chart, in_plan[i], Vector3f::UnitZ(), true, work)
+                                : look_at(estimator, i, base[i], false, work);
+    }
   });
   return looks;
 }
@@ -170,7 +170,8 @@ void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, cons
   parallel_blocks(looks.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
     std::vector<double> by_relief, by_plane, cells;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = e.visit[k];
       const Look& look = looks[i];
       index.find_nearest(e.position[i], around, nearest);
       by_relief.clear(), by_plane.clear(), cells.clear();
