@@ -20,9 +20,8 @@ namespace {
 constexpr const char* bottom_call = "detect_bottom";
 
 Eigen::Vector3d position_of(const Ping& ping, const BottomOptions& options, std::size_t beam, double range) {
-  const Eigen::Vector3d axis = unit_vector({ping.fan.azimuth[beam], ping.fan.elevation[beam]});
   const Eigen::Vector3d head = ping.world_from_head.translation();
-  const Eigen::Vector3d away = way_of_echo(ping, axis, range, options.sound_speed);
+  const Eigen::Vector3d away = way_of_beam(ping, beam, range, options.sound_speed);
   if (!options.profile) return head + away;
   const double distance = away.norm(), level = std::hypot(away.x(), away.y());
   const RayEnd end = shoot_ray(*options.profile, options.head_depth,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
+
 #include <Eigen/Core>
 
 #include "returns/ping.hpp"
@@ -19,6 +21,12 @@ namespace insonify {
 ///
 /// Throws Error(argument) for a sound speed that is not > 0.
 Eigen::Vector3d way_of_echo(const Ping& ping, const Eigen::Vector3d& direction, double range, double sound_speed);
+
+/// Returns the vector from the head at transmission to the scatterer whose echo beam `beam` receives at `range` [m,
+/// world axes]. The elevation of the beam is that of what was sent, so it holds at transmission; the cone about the
+/// array, by which a line array resolves directions, holds at reception (E219). A planar array resolves both at
+/// reception, as way_of_echo. Arguments and errors are those of way_of_echo.
+Eigen::Vector3d way_of_beam(const Ping& ping, std::size_t beam, double range, double sound_speed);
 
 /// Returns the distance from the head at transmission to a scatterer [m]. The scatterer lies in `direction` (unit
 /// vector in head axes at transmission), and its echo arrives at `range`. The distance is T (c^2 - v^2) / (2 (c - v

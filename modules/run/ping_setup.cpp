@@ -160,7 +160,8 @@ void require_in_reach(std::vector<Eigen::Vector3d> positions, const RangeGate& g
          " m; is the cloud in kilometres (--unit km), or the pose in another frame?");
 }
 
-PingSetup set_up_head(const HeadOptions& o, std::optional<double> head_height, std::optional<double> water_level) {
+PingSetup set_up_head(const HeadOptions& o, std::optional<double> head_height, std::optional<double> water_level,
+                      bool tide) {
   const SonarFile file = find_sonar(o.sonar);
   SonarSpec spec = file.spec;
   Environment environment;
@@ -174,6 +175,13 @@ PingSetup set_up_head(const HeadOptions& o, std::optional<double> head_height, s
       set_sonar_value(spec, setting.key, setting.value);
     else
       set_environment_value(environment, setting.section, setting.key, setting.value);
+  }
+  if (tide && environment.surface) {
+    double& height = environment.surface->height;
+    if (height != 0)
+      fail(ErrorKind::argument, "surface.height_m = ", height, " m beside [tide], must be 0: the sea surface has the ",
+           "height of the tide above z = 0");
+    height = *water_level;
   }
   if (water_level) environment.water_level = water_level;
   if (o.range) spec.min_range = (*o.range)[0], spec.max_range = (*o.range)[1];
@@ -228,7 +236,10 @@ PingSetup set_up_survey_head(const MissionFile& file, std::size_t h, int threads
   run.head = {sonar.sonar, {}, file.environment, file.profile, sonar.settings};
   if (!sonar.range.empty()) run.head.range = parse_range(sonar.range);
   run.placement.pose.emplace();  // for run.toml, which demands one
-  PingSetup head = set_up(set_up_head(run.head, std::nullopt, file.water.level), run);
+  const TideSeries& tide = file.mission.tide;
+  const std::optional<double> level =
+      tide.time.empty() ? file.water.level : water_height_at(tide, file.mission.trajectory.time.front());
+  PingSetup head = set_up(set_up_head(run.head, std::nullopt, level, !tide.time.empty()), run);
   static DroppedContributors labels_alone;
   head.simulation.outputs.contributor_sink = &labels_alone;
   return head;

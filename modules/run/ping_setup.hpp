@@ -38,10 +38,12 @@ struct PingSetup {
   PingSimulator simulator() const { return {head, environment, simulation}; }
 };
 /// Returns sonar and environment: presets or files, then --set, then --range. Throws Error(argument) for what
-/// environment_at refuses of a head at `head_height` [m], if that is given. `water_level` [m]: replaces that of the
-/// environment.
+/// environment_at refuses of a head at `head_height` [m], if that is given.
+///
+/// water_level  replaces that of the environment [m]
+/// tide         true: it is that of a tide, with which a sea surface moves, whose height must then be 0
 PingSetup set_up_head(const HeadOptions& options, std::optional<double> head_height = std::nullopt,
-                      std::optional<double> water_level = std::nullopt);
+                      std::optional<double> water_level = std::nullopt, bool tide = false);
 /// Returns the setup of a sonar and an environment that are read already: `spec` is that of the file, changed perhaps.
 PingSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment environment,
                       std::optional<double> head_height = std::nullopt);

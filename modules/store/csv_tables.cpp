@@ -153,6 +153,21 @@ Trajectory load_trajectory(const std::string& path) {
   return trajectory;
 }
 
+TideSeries load_tide(const std::string& path) {
+  TideSeries tide;
+  const std::array<CsvColumns, 1> layout = {CsvColumns{"time_s", "height_m"}};
+  read_csv(path, layout, [&](std::size_t) {
+    return [&tide](Row row, const FileLine& at) {
+      if (!tide.time.empty() && !(row[0] > tide.time.back()))
+        at.fail_here("time_s = ", row[0], " s, must be later than the previous line, ", tide.time.back(), " s");
+      tide.time.push_back(row[0]), tide.height.push_back(row[1]);
+    };
+  });
+  if (tide.time.size() < 2)
+    fail(ErrorKind::content, path, ": has ", tide.time.size(), " entries, must have at least two");
+  return tide;
+}
+
 std::vector<std::string> trajectory_notes(const std::string& path) {
   std::vector<double> last;
   std::string first;

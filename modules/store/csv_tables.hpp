@@ -8,6 +8,7 @@
 #include "acoustics/motion.hpp"
 #include "acoustics/sound_speed_profile.hpp"
 #include "sampling/scatterers.hpp"
+#include "survey/mission.hpp"
 
 // Tables of other programs as CSV: a header with its columns in any order, then rows. '#' starts a comment line. Blank
 // lines, a byte-order mark and Windows line ends are accepted. All functions throw Error(file), or Error(content) with
@@ -34,6 +35,10 @@ std::vector<std::string> trajectory_notes(const std::string& path);
 /// Returns a trajectory from a file in the TUM format: lines of time, x, y, z, qx, qy, qz, qw, separated by blanks,
 /// without a header. Rules as load_trajectory.
 Trajectory load_tum_trajectory(const std::string& path);
+
+/// Returns a tide from a file with the header time_s,height_m [s, world z in m]. Rules: times ascend strictly, there are
+/// at least two entries.
+TideSeries load_tide(const std::string& path);
 
 /// Scatterers from another program: positions, cross-sections and complex amplitudes.
 struct ScattererTable {

@@ -36,6 +36,24 @@ void at_line(const std::string& path, int line, const Body& body) {
   }
 }
 
+/// Returns the water level of a mission as a series. Throws Error(argument) if there is none.
+TideSeries water_of(const MissionFile& m) {
+  if (!m.mission.tide.time.empty()) return m.mission.tide;
+  if (!m.water.level)
+    fail(ErrorKind::argument, "trajectory.heights_from = \"water\" must come with [tide], or level_m in [water]");
+  const Trajectory& way = m.mission.trajectory;
+  return {{way.time.front(), way.time.back()}, {*m.water.level, *m.water.level}};
+}
+
+/// Reads the file of a tide, and refuses a second water level.
+void read_tide(const std::string& path, const TomlValue& table, MissionFile& m) {
+  TideSeries& tide = m.mission.tide;
+  const bool lists = !tide.time.empty() || !tide.height.empty();
+  if (lists != m.water.tide.empty()) fail_in_file(path, table.line, "tide: must have file, or time_s and height_m");
+  if (m.water.level) fail_in_file(path, table.line, "tide: replaces level_m in [water]; leave one of them out");
+  if (!m.water.tide.empty()) tide = load_tide(m.water.tide);
+}
+
 void read_trajectory(const std::string& path, const TomlValue& table, const MissionTables& t, MissionFile& m) {
   const bool along_way = table.find("waypoints_m") || table.find("speed_m_s") || table.find("turn_radius_m");
   if (m.trajectory.empty() != along_way)
@@ -53,6 +71,7 @@ void read_trajectory(const std::string& path, const TomlValue& table, const Miss
   if (t.ned)
     for (Pose& pose : trajectory.pose) pose = from_ned(pose);
   at_line(path, table.line, [&] { require_valid(trajectory, "mission"); });
+  if (t.afloat) at_line(path, table.line, [&] { trajectory = on_the_water(trajectory, water_of(m)); });
   if (table.find("nav_noise")) {
     at_line(path, table.line, [&] { m.mission.navigation = navigation_errors(trajectory, t.noise, m.seed); });
     m.position_deviation = t.noise.position;
@@ -88,6 +107,21 @@ Pose vehicle_from_head(const MissionTables& t, const Vector3d& of_sonar) {
   return turned * pose_from_yaw_pitch_roll(Vector3d::Zero(), own[0], own[1], own[2]);
 }
 
+/// Reads what the processing believes of the mounting of a head, after the head itself.
+void read_assumed(const TomlValue& head, const Vector3d& of_sonar, MissionTables& t) {
+  const TomlValue* table = head.find("assumed");
+  if (!table) return;
+  if (t.head.assumed.draught && !head.find("draught_m"))
+    fail(ErrorKind::argument, "head.assumed.draught_m: the true draught must be stated, too: head.draught_m");
+  MissionTables believed = t;
+  believed.offset = t.assumed_offset.value_or(t.offset);
+  believed.roll = t.assumed_roll.value_or(t.roll);
+  believed.pitch = t.assumed_pitch.value_or(t.pitch);
+  believed.heading = t.assumed_heading.value_or(t.heading);
+  if (t.assumed_offset || t.assumed_roll || t.assumed_pitch || t.assumed_heading)
+    t.head.assumed.vehicle_from_head = vehicle_from_head(believed, of_sonar);
+}
+
 void read_head(const std::string& path, const TomlValue& table, MissionFile& m) {
   MissionTables t;
   if (const TomlValue* angles = table.find("angles_deg"))
@@ -101,8 +135,11 @@ void read_head(const std::string& path, const TomlValue& table, MissionFile& m) 
   if (t.rate > 0 && t.dwell > 0)
     fail_in_file(path, table.line, "rate_hz and dwell_s say the same thing; leave one out");
   if (t.rate > 0 || t.dwell > 0) t.head.interval = t.rate > 0 ? 1 / t.rate : t.dwell;
-  at_line(path, table.line,
-          [&] { t.head.vehicle_from_head = vehicle_from_head(t, find_sonar(t.sonar.sonar).mounting); });
+  at_line(path, table.line, [&] {
+    const Vector3d of_sonar = find_sonar(t.sonar.sonar).mounting;
+    t.head.vehicle_from_head = vehicle_from_head(t, of_sonar);
+    read_assumed(table, of_sonar, t);
+  });
   m.mission.heads.push_back(t.head);
   m.sonars.push_back(t.sonar);
   at_line(path, table.line, [&] { require_valid_head(m.mission, m.mission.heads.size() - 1, "mission"); });
@@ -166,6 +203,7 @@ void read_tables(const std::string& path, const TomlValue& document, MissionTabl
     fail_in_file(path, anchor->line,
                  "anchor is the place of a world with its own origin, and system that of projected ",
                  "coordinates; leave one out");
+  if (const TomlValue* tide = document.find("tide")) read_tide(path, *tide, m);
 }
 
 }  // namespace
@@ -197,6 +235,11 @@ MissionFile load_mission(const std::string& path) {
     read_random_poses(path, document, *pose, t, m);
   else
     read_trajectory(path, required_table(path, document, "trajectory"), t, m);
+  if (const TomlValue* tide = document.find("tide"))
+    at_line(path, tide->line, [&] {
+      if (m.mission.random_pings > 0) fail(ErrorKind::argument, "[tide] beside random poses, which have no time");
+      require_valid(m.mission.tide, m.mission.trajectory, "mission");
+    });
   read_each(path, document, "head", [&](const TomlValue& table) { read_head(path, table, m); });
   if (m.mission.heads.empty()) fail_in_file(path, document.line, "missing table [[head]]");
   read_each(path, document, "leg", [&](const TomlValue& table) { read_leg(path, table, m); });

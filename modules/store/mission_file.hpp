@@ -16,12 +16,14 @@ struct MissionSonar {
   std::string sonar;                  ///< preset, or path of a sonar file
   std::string range;                  ///< "min:max" [m]; empty: the range of the sonar
   std::vector<std::string> settings;  ///< such as "sonar.beams=128"
+  std::string assumed_profile{};      ///< path of the profile that the processing believes; empty: the true one
 };
 
 /// The water level of a mission, for soundings.
 struct MissionWater {
   std::optional<double> level{};  ///< world z [m]; absent: that of the environment's surface, else 0
   std::string datum = "UNKNOWN";  ///< name of the vertical datum z = 0, e.g. "MSL"
+  std::string tide{};             ///< path of the tide; empty: none, or lists in the mission
 };
 
 /// The contents of a mission file. The tables [scene] and [ping] are settings of the tool; they are not read here.

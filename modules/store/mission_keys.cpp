@@ -36,6 +36,7 @@ bool is_epsg(const std::string& text) {
 }
 
 constexpr Named<bool> frames[] = {{"z-up", false}, {"ned", true}};
+constexpr Named<bool> height_origins[] = {{"datum", false}, {"water", true}};
 constexpr Named<bool> sides[] = {{"port", false}, {"starboard", true}};
 constexpr Named<ScanMode> scan_modes[] = {
     {"continuous", ScanMode::continuous}, {"sector", ScanMode::sector}, {"single", ScanMode::single}};
@@ -89,6 +90,9 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
       {"trajectory", "file", "", path(given(m.trajectory)),
        "poses of the vehicle: a CSV file ([formats.md](formats.md)), or a TUM file if the extension is not `.csv`"},
       {"trajectory", "frame", "", word(t.ned, frames), "axes of the file"},
+      {"trajectory", "heights_from", "", word(t.afloat, height_origins),
+       "what z of file and waypoints counts from: datum is z = 0 of the world; water is the water level of `[tide]` or "
+       "`water.level_m`, with which the vehicle then rises and falls"},
       {"trajectory", "time_offset_s", "s", number(t.time_offset), "time that is added to all times of the file"},
       {"trajectory", "max_gap_s", "s", number(given(t.max_gap), positive),
        "entries of the file that are farther apart than this leave a gap: no pings are sent there, which `survey` "
@@ -128,11 +132,16 @@ std::vector<Key> head_keys(MissionTables& t) {
        "position of the head in vehicle axes (x forward, y port, z up)"},
       {"head", "roll_deg", "deg", angle(t.roll),
        "roll of the mounting, starboard side down, after the `mounting_deg` of the sonar file "
-       "([picture](../survey.md#mounting))"},
+       "([picture](../survey.md#installation))"},
       {"head", "pitch_deg", "deg", angle(t.pitch), "pitch of the mounting, bow up"},
       {"head", "heading_deg", "deg", angle(t.heading), "heading of the mounting, clockwise from the bow"},
       {"head", "side", "", word(t.starboard, sides),
        "starboard mirrors the mounting with that of the sonar file: headings and rolls change their signs"},
+      {"head", "latency_s", "s", number(t.head.latency),
+       "age of the position and attitude that navigation delivers with a ping; counts by its difference from "
+       "`head.assumed.latency_s`"},
+      {"head", "draught_m", "m", number(given(t.head.draught)),
+       "depth of the head below the water level at rest; counts by its difference from `head.assumed.draught_m`"},
       {"head", "rate_hz", "Hz", number(given(t.rate), positive),
        "pings per second; give only one of `rate_hz`, `every_m` and `times_s`"},
       {"head", "every_m", "m", number(given(t.head.distance), positive),
@@ -158,6 +167,28 @@ std::vector<Key> head_keys(MissionTables& t) {
        "pings per second on this leg; replaces rate, distance and times of the heads"},
       {"leg", "every_m", "m", number(given(leg.distance), positive),
        "distance between two pings on this leg; replaces rate, distance and times of the heads"},
+  };
+}
+
+/// Returns the keys of [head.assumed].
+std::vector<Key> assumed_keys(MissionTables& t) {
+  AssumedInstallation& assumed = t.head.assumed;
+  return {
+      {"head.assumed", "roll_deg", "deg", angle(t.assumed_roll),
+       "roll of the mounting as the processing believes it ([survey.md](../survey.md#installation)). A key that is "
+       "left "
+       "out is as in truth"},
+      {"head.assumed", "pitch_deg", "deg", angle(t.assumed_pitch), "pitch of the mounting, as believed"},
+      {"head.assumed", "heading_deg", "deg", angle(t.assumed_heading), "heading of the mounting, as believed"},
+      {"head.assumed", "offset_m", "m", vector(t.assumed_offset, "x, y, z"), "position of the head, as believed"},
+      {"head.assumed", "latency_s", "s", number(assumed.latency),
+       "age of the navigation for which the processing corrects"},
+      {"head.assumed", "draught_m", "m", number(assumed.draught),
+       "depth of the head below the water level at rest, as believed; `head.draught_m` is the true one"},
+      {"head.assumed", "sound_speed_m_s", "m/s", number(assumed.sound_speed, {.least = 1300, .most = 1700}),
+       "sound speed at the head to which the sonar is set. It steers its beams (E215) and converts delays to ranges"},
+      {"head.assumed", "profile", "", path(given(t.sonar.assumed_profile)),
+       "sound-speed profile by which the processing traces rays, as `export --processing-profile`, which goes before"},
   };
 }
 
@@ -190,8 +221,8 @@ std::vector<Key> pose_keys(MissionTables& t, RandomPoses& poses) {
   };
 }
 
-/// Returns the keys of [randomise] and [water].
-std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
+/// Returns the keys of [randomise], [water] and [tide].
+std::vector<Key> water_keys(Randomisation& r, MissionWater& water, TideSeries& tide) {
   return {
       {"randomise", "source_level_db", "dB", number(r.source_level_db, not_negative),
        "half width of the uniform draw that each ping adds to the sonar's source level (E126). A draw depends only on "
@@ -220,6 +251,12 @@ std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
       {"water", "datum", "",
        text(water.datum, "1 to 32 printable characters without blanks, such as MSL or LAT", is_datum),
        "name of the vertical datum at z = 0"},
+      {"tide", "time_s", "s", list(given(tide.time), {}, as_it_is, {.least = 2}),
+       "times of a tide in place of `water.level_m`. Between them the water level is linear (E217); a trajectory that "
+       "begins before or ends after them is refused, as a tide table states nothing there"},
+      {"tide", "height_m", "m", list(given(tide.height), {}, as_it_is, {.least = 2}),
+       "world z of the water level at these times. The sea surface of an environment moves with it"},
+      {"tide", "file", "", path(given(water.tide)), "CSV with the columns time_s and height_m instead of the lists"},
   };
 }
 
@@ -227,7 +264,8 @@ std::vector<Key> water_keys(Randomisation& r, MissionWater& water) {
 
 std::vector<Key> mission_keys(MissionTables& t, MissionFile& m) {
   std::vector<Key> all = survey_keys(t, m);
-  for (const std::vector<Key>& more : {head_keys(t), water_keys(m.randomise, m.water), pose_keys(t, m.random_poses)})
+  for (const std::vector<Key>& more :
+       {head_keys(t), assumed_keys(t), water_keys(m.randomise, m.water, m.mission.tide), pose_keys(t, m.random_poses)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -42,6 +42,20 @@ void require_valid(const HeadScan& scan, const std::string& head) {
          " directions, must be at most ", most_directions, "; take a larger step");
 }
 
+/// Throws Error(argument) unless all that is true and assumed of the installation is finite, and sound has a speed that
+/// water may have.
+void require_valid_installation(const MissionHead& head, const std::string& item) {
+  const AssumedInstallation& assumed = head.assumed;
+  for (const auto& [value, name] :
+       {std::pair(head.latency, "latency"), std::pair(assumed.latency.value_or(0), "assumed latency"),
+        std::pair(head.draught, "draught"), std::pair(assumed.draught.value_or(0), "assumed draught")})
+    if (!std::isfinite(value)) fail(ErrorKind::argument, item, ": ", name, " = ", value, ", must be finite");
+  if (const double c = assumed.sound_speed.value_or(1500); !(c >= 1300 && c <= 1700))
+    fail(ErrorKind::argument, item, ": assumed sound speed = ", c, " m/s, must be within 1300 and 1700 m/s");
+  if (assumed.vehicle_from_head && !assumed.vehicle_from_head->matrix().allFinite())
+    fail(ErrorKind::argument, item, ": assumed mounting, must be finite");
+}
+
 }  // namespace
 
 bool is_plain_name(const std::string& name) {
@@ -58,6 +72,7 @@ void require_valid_head(const Mission& mission, std::size_t i, const char* who) 
   require_at_least_0(head.interval, item, "time between pings", "s");
   require_at_least_0(head.distance, item, "distance between pings", "m");
   require_at_least_0(head.listening_time, item, "listening time", "s");
+  require_valid_installation(head, item);
   const int given = (head.interval > 0) + (head.distance > 0) + !head.times.empty();
   if (mission.random_pings > 0) {
     if (given > 0 || head.scan)
@@ -117,6 +132,11 @@ void require_valid(const Mission& mission, const char* who) {
   if (mission.random_pings == 0) require_valid(mission.trajectory, who);
   if (mission.random_pings > 0 && !(mission.trajectory.time.empty() && mission.legs.empty()))
     fail(ErrorKind::argument, who, ": random poses have no order, must have neither trajectory nor legs");
+  if (!mission.tide.time.empty() || !mission.tide.height.empty()) {
+    if (mission.random_pings > 0)
+      fail(ErrorKind::argument, who, ": a tide beside random poses, which have no time; leave one out");
+    require_valid(mission.tide, mission.trajectory, who);
+  }
   if (!(mission.max_gap > 0)) fail(ErrorKind::argument, who, ": max_gap = ", mission.max_gap, " s, must be > 0");
   if (mission.heads.empty()) fail(ErrorKind::argument, who, ": no head, must have at least one");
   for (std::size_t i = 0; i < mission.heads.size(); ++i) require_valid_head(mission, i, who);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "acoustics/environment.hpp"
 #include "acoustics/motion.hpp"
 #include "survey/navigation_errors.hpp"
 
@@ -21,6 +22,17 @@ struct HeadScan {
   ScanMode mode = ScanMode::continuous;
 };
 
+/// The installation of a head as the processing of a survey believes it. Absent parts are as they are in truth.
+struct AssumedInstallation {
+  std::optional<Pose> vehicle_from_head{};  ///< mounting, at scan angle 0
+  std::optional<double> latency{};          ///< MissionHead::latency [s]
+  std::optional<double> draught{};          ///< MissionHead::draught [m]
+  std::optional<double> sound_speed{};      ///< at the head [m/s]: it steers beams, and converts delays to ranges
+
+  /// Returns true if any part is there.
+  bool any() const { return vehicle_from_head || latency || draught || sound_speed; }
+};
+
 /// A sonar head on the vehicle, and the rule for its pings: exactly one of `interval`, `distance` and `times`. A
 /// scanning head may have none; it then pings as soon as the listening time of the last ping is over.
 struct MissionHead {
@@ -31,7 +43,33 @@ struct MissionHead {
   std::vector<double> times{};                ///< times of transmission [s], ascending; empty: not given
   double listening_time = 0;                  ///< 2 max_range / c [s]: no two pings are closer
   std::optional<HeadScan> scan{};
+  double latency = 0;             ///< age of the poses that navigation delivers for its pings [s]
+  double draught = 0;             ///< depth below the water level at rest [m], from which an assumed one differs
+  AssumedInstallation assumed{};  ///< errors of its installation: pings are made by the truth, and stored by these
 };
+
+/// The height of the water level over time, linear between entries (E217); without entries there is no tide.
+struct TideSeries {
+  std::vector<double> time;    ///< [s], ascending
+  std::vector<double> height;  ///< world z of the water level [m]
+};
+
+/// Throws Error(argument) unless a tide has two entries at least, as many times as heights, ascends in time, is finite,
+/// and covers the trajectory.
+void require_valid(const TideSeries& tide, const Trajectory& trajectory, const char* who);
+
+/// Returns the height of the water level [m]. Throws Error(argument) for a time outside of the series, which states
+/// nothing there.
+double water_height_at(const TideSeries& tide, double time);
+
+/// Returns the environment at a time: its water level, and with it a sea surface, has the height of the tide. Without a
+/// tide it is as it was. Throws as water_height_at.
+Environment at_tide(Environment environment, const TideSeries& tide, double time);
+
+/// Returns the trajectory of a vehicle that rises and falls with the water: to its z, which counts from the water
+/// level, that of the tide is added. The entries of both remain, so that it is exact between them. Throws as
+/// water_height_at.
+Trajectory on_the_water(const Trajectory& trajectory, const TideSeries& tide);
 
 /// A named part of the trajectory. Its pings have times from <= t < to; a ping at `to` belongs to it only at the end of
 /// the trajectory. A leg that is not active is a transit without pings.
@@ -49,6 +87,7 @@ struct Mission {
   std::vector<MissionHead> heads;
   std::vector<MissionLeg> legs;   ///< in the order of time; empty: one leg over the whole trajectory
   NavigationErrors navigation{};  ///< differences of the stored poses from the true ones
+  TideSeries tide{};              ///< water level; without entries it is that of the environment
   /// No ping is sent between two entries of the trajectory that are farther apart than this [s].
   double max_gap = std::numeric_limits<double>::infinity();
   /// Number of poses that replace the trajectory, at rest, one for each ping of every head; 0: there is a trajectory.
@@ -81,8 +120,8 @@ struct TrajectoryGap {
 /// there is none.
 std::optional<TrajectoryGap> gap_at(const Trajectory& trajectory, double time, double max_gap);
 
-/// Throws Error(argument) unless trajectory, heads and legs are valid and there is at least one head. Random poses have
-/// neither trajectory nor legs.
+/// Throws Error(argument) unless trajectory, tide, heads and legs are valid and there is at least one head. Random poses
+/// have neither trajectory nor tide nor legs.
 void require_valid(const Mission& mission, const char* who);
 
 }  // namespace insonify

@@ -8,9 +8,15 @@
 
 #include "core/error.hpp"
 #include "simulate/ping_notes.hpp"
+#include "survey/assumed_sound_internal.hpp"
 #include "survey/make_blocks_internal.hpp"
 
 namespace insonify {
+
+double listening_time_of(const MissionHead& mounted, const SonarHead& head, const Environment& environment) {
+  const double slowest = slowest_sound(environment);
+  return 2 * head.gate.max_range / std::min(slowest, mounted.assumed.sound_speed.value_or(slowest));
+}
 
 Survey::Survey(Mission mission, const std::vector<PingSimulator>& heads, SurveySettings settings)
     : mission_(std::move(mission)), settings_(settings) {
@@ -23,7 +29,7 @@ Survey::Survey(Mission mission, const std::vector<PingSimulator>& heads, SurveyS
     of_ping.outputs.scatterers |= settings_.coverage;
     heads_.emplace_back(heads[h].head(), heads[h].environment(), of_ping);
     double& listening = mission_.heads[h].listening_time;
-    if (listening == 0) listening = 2 * heads[h].head().gate.max_range / slowest_sound(heads[h].environment());
+    if (listening == 0) listening = listening_time_of(mission_.heads[h], heads[h].head(), heads[h].environment());
   }
   pings_ = survey_pings(mission_);
 }
@@ -32,12 +38,23 @@ std::vector<SurveyBlock> Survey::blocks(std::size_t most) const {
   return survey_blocks(pings_, std::vector<std::size_t>(mission_.heads.size(), most));
 }
 
+Environment Survey::environment_of(const SurveyPing& ping) const {
+  return at_tide(heads_.at(ping.head).environment(), mission_.tide, ping.time);
+}
+
 PingSimulator Survey::simulator_of(const SurveyPing& ping) const {
   const PingSimulator& simulator = heads_.at(ping.head);
-  if (!settings_.randomisation.any()) return simulator;
+  const std::optional<double>& assumed = mission_.heads[ping.head].assumed.sound_speed;
+  const bool tide = !mission_.tide.time.empty(), random = settings_.randomisation.any();
+  if (!(assumed || tide || random)) return simulator;
   SonarHead head = simulator.head();
-  Environment environment = simulator.environment();
-  apply(randomised(settings_.randomisation, settings_.seed, ping), head, environment);
+  Environment environment = environment_of(ping);
+  if (random) apply(randomised(settings_.randomisation, settings_.seed, ping), head, environment);
+  if (assumed) {
+    const double z = event_of(ping).world_from_head.translation().z();
+    const Medium there = medium_of(environment_at(environment, z, "survey"), head.pulse.centre_frequency);
+    head = steered_head(head, there.sound_speed, *assumed);
+  }
   return PingSimulator(std::move(head), std::move(environment), simulator.options());
 }
 
@@ -88,6 +105,8 @@ PingOutcome Survey::simulate(const SurveyPing& ping, const SceneSource& scene) c
                           {.threads = 1});
   std::vector<PingNote> notes = notes_of(simulated, simulator.environment(), simulator.head().gate);
   for (PingNote& note : notes) note.first = ping.number;
+  if (const auto& assumed = mission_.heads[ping.head].assumed.sound_speed)
+    report_as_set(heads_[ping.head].head(), simulated.report.medium.sound_speed, *assumed, simulated);
   PingOutcome outcome = outcome_of(std::move(simulated), mission_, ping);
   outcome.notes = std::move(notes);
   outcome.covered = std::move(covered);
@@ -98,13 +117,18 @@ PingOutcome outcome_of(SimulatedPing&& simulated, const Mission& mission, const 
   PingOutcome outcome{std::move(simulated.ping), std::move(simulated.soundings)};
   outcome.scatterers = simulated.report.sampling.scatterers;
   outcome.ping.number = ping.number;
-  if (!mission.navigation.nodes.empty()) {
-    const Pose believed = believed_pose_of(mission, ping);
-    const Pose moved = believed * outcome.ping.world_from_head.inverse();
-    for (Eigen::Vector3d& position : outcome.soundings.position) position = moved * position;
-    outcome.ping.world_from_head = believed;
+  const bool assumed = mission.heads[ping.head].assumed.any();
+  if (assumed || !mission.navigation.nodes.empty()) {
+    const PingEvent believed = believed_event_of(mission, ping);
+    Pose& pose = outcome.ping.world_from_head;
     Motion& motion = outcome.ping.motion;
-    motion = {moved.linear() * motion.velocity, moved.linear() * motion.turn_rate};
+    const Pose truly = pose;
+    pose = believed.world_from_head;
+    // A random draw of the head stays, as seen from the vehicle.
+    if (assumed) pose = pose * (event_of(mission, ping).world_from_head.inverse() * truly);
+    const Pose moved = pose * truly.inverse();
+    for (Eigen::Vector3d& position : outcome.soundings.position) position = moved * position;
+    motion = assumed ? believed.motion : Motion{moved.linear() * motion.velocity, moved.linear() * motion.turn_rate};
   }
   if (mission.heads[ping.head].scan) outcome.ping.scan = ScanDirection{ping.sweep, ping.scan_angle};
   return outcome;

@@ -17,6 +17,10 @@ struct SurveySettings {
   bool coverage = false;   ///< list the surfels that each ping insonified (PingOutcome::covered)
 };
 
+/// Returns 2 max_range / c [s], c the slowest sound of the environment, or that to which the head is set if it is
+/// slower: the time after which the head may ping again.
+double listening_time_of(const MissionHead& mounted, const SonarHead& head, const Environment& environment);
+
 /// A mission with a simulator for each of its heads: all pings of a vehicle with sonars along a trajectory.
 class Survey {
  public:
@@ -31,8 +35,11 @@ class Survey {
   const std::vector<SurveyPing>& pings() const { return pings_; }
   /// Returns the pings in blocks of at most `most`, head after head.
   std::vector<SurveyBlock> blocks(std::size_t most = 64) const;
-  /// Returns the simulator of a ping: that of its head, with the random differences of the mission applied.
+  /// Returns the simulator of a ping: that of its head, with the random differences of the mission applied, in water of
+  /// the height that the tide has, and with beams steered as another sound speed at the head steers them.
   PingSimulator simulator_of(const SurveyPing& ping) const;
+  /// Returns the environment of a ping: that of its head, with the water level of the mission's tide.
+  Environment environment_of(const SurveyPing& ping) const;
   /// Returns time, pose and motion of a ping, with the random differences of the mission applied.
   PingEvent event_of(const SurveyPing& ping) const;
 
@@ -44,8 +51,8 @@ class Survey {
   /// Returns the options of a head's simulator.
   const SimulationOptions& options_of(std::size_t head) const { return heads_.at(head).options(); }
 
-  /// Simulates a ping and returns its outcome. With navigation errors, pose and soundings are those that the navigation
-  /// reports. Several threads may call it at once. Throws Error as PingSimulator::ping.
+  /// Simulates a ping and returns its outcome. With navigation errors or an assumed installation, pose, motion, beams,
+  /// ranges and soundings are those that navigation and head report. Several threads may call it at once. Throws Error as PingSimulator::ping.
   PingOutcome simulate(const SurveyPing& ping, const SceneSource& scene) const;
 
  private:

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "survey/vehicle_state_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -141,14 +142,6 @@ void require_apart(const MissionHead& head, const std::vector<SurveyPing>& pings
            " s apart, must be at least 2 max_range / c = ", head.listening_time, " s");
 }
 
-/// Returns the two entries about a time, because interpolation checks all entries of its trajectory.
-Trajectory entries_about(const Trajectory& t, double time) {
-  const auto after = std::upper_bound(t.time.begin(), t.time.end(), time) - t.time.begin();
-  const auto i =
-      static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, static_cast<std::ptrdiff_t>(t.time.size()) - 1));
-  return {{t.time[i - 1], t.time[i]}, {t.pose[i - 1], t.pose[i]}};
-}
-
 /// Returns the pings at random poses: each head pings once at each, a second apart.
 std::vector<SurveyPing> pings_at_random(const Mission& mission) {
   const double all = static_cast<double>(mission.random_pings) * static_cast<double>(mission.heads.size());
@@ -169,9 +162,12 @@ const Pose& random_pose_of(const Mission& mission, const SurveyPing& ping) {
   return mission.poses[i];
 }
 
-Pose on_vehicle(const Mission& mission, const SurveyPing& ping, const Pose& vehicle) {
-  return vehicle * mission.heads.at(ping.head).vehicle_from_head *
-         Eigen::AngleAxisd(ping.scan_angle, Eigen::Vector3d::UnitZ());
+/// Returns time, pose and motion of a ping of a head that is mounted like this on its vehicle.
+PingEvent event_on(const VehicleState& vehicle, const Pose& mount, const SurveyPing& ping) {
+  Motion motion = vehicle.motion;
+  motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(vehicle.pose.linear() * mount.translation()));
+  const Pose head = vehicle.pose * mount * Eigen::AngleAxisd(ping.scan_angle, Eigen::Vector3d::UnitZ());
+  return {head, motion, ping.time, random_stream_of(ping)};
 }
 
 }  // namespace
@@ -194,19 +190,29 @@ std::vector<SurveyPing> survey_pings(const Mission& mission) {
 }
 
 PingEvent event_of(const Mission& mission, const SurveyPing& ping) {
-  if (mission.random_pings > 0)
-    return {on_vehicle(mission, ping, random_pose_of(mission, ping)), {}, ping.time, random_stream_of(ping)};
-  const Trajectory near = entries_about(mission.trajectory, ping.time);
-  const Pose vehicle = pose_at(near, ping.time);
-  Motion motion = motion_at(near, ping.time);
   const Pose& mount = mission.heads.at(ping.head).vehicle_from_head;
-  motion.velocity += motion.turn_rate.cross(Eigen::Vector3d(vehicle.linear() * mount.translation()));
-  return {on_vehicle(mission, ping, vehicle), motion, ping.time, random_stream_of(ping)};
+  if (mission.random_pings > 0) return event_on({random_pose_of(mission, ping), {}}, mount, ping);
+  const Trajectory near = entries_about(mission.trajectory, ping.time);
+  return event_on({pose_at(near, ping.time), motion_at(near, ping.time)}, mount, ping);
 }
 
-Pose believed_pose_of(const Mission& mission, const SurveyPing& ping) {
-  const Pose vehicle = pose_at(entries_about(mission.trajectory, ping.time), ping.time);
-  return on_vehicle(mission, ping, believed_pose(mission.navigation, ping.time, vehicle));
+PingEvent believed_event_of(const Mission& mission, const SurveyPing& ping) {
+  const MissionHead& head = mission.heads.at(ping.head);
+  const AssumedInstallation& assumed = head.assumed;
+  const double late = head.latency - assumed.latency.value_or(head.latency), time = ping.time - late;  // (E216)
+  VehicleState vehicle{};
+  if (mission.random_pings > 0)
+    vehicle.pose = random_pose_of(mission, ping);
+  else
+    vehicle = vehicle_at(mission.trajectory, time);
+  if (!mission.navigation.nodes.empty()) {
+    const Pose reported = believed_pose(mission.navigation, time, vehicle.pose);
+    const Eigen::Matrix3d turned = reported.linear() * vehicle.pose.linear().transpose();
+    vehicle = {reported, {turned * vehicle.motion.velocity, turned * vehicle.motion.turn_rate}};
+  }
+  PingEvent event = event_on(vehicle, assumed.vehicle_from_head.value_or(head.vehicle_from_head), ping);
+  event.world_from_head.translation().z() -= assumed.draught.value_or(head.draught) - head.draught;
+  return event;
 }
 
 std::int64_t random_stream_of(const SurveyPing& ping) {

@@ -191,6 +191,16 @@ void Canvas::add_textured_strip(const std::vector<Point2>& points, const std::ve
   renderer_->AddActor(actor);
 }
 
+void Canvas::add_image(const Box& box, int columns, const std::vector<Rgb>& cells) {
+  const vtkNew<vtkImageData> colours;
+  colours->SetDimensions(columns, static_cast<int>(cells.size()) / columns, 1);
+  colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  std::copy_n(cells.front().data(), 3 * cells.size(), static_cast<std::uint8_t*>(colours->GetScalarPointer()));
+  Path corners = outline(box);
+  corners.pop_back();
+  add_textured_strip(corners, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, colours);
+}
+
 void Canvas::add_lines(const std::vector<Path>& paths, double width, const Colour& colour, double opacity) {
   std::vector<Point2> corners;
   for (const Path& path : paths)

@@ -56,6 +56,8 @@ class Canvas {
   /// Draws a patch of cells. `largest_step` [rad] bounds how far a bearing may turn along a straight edge.
   void add_cells(const CellPatch& patch, const std::vector<double>& beam_edges, const ColourScale& scale,
                  const PlaneProjection& projection, double largest_step);
+  /// Draws cells of a grid, `columns` to a row, row after row from below, that fill a box.
+  void add_image(const Box& box, int columns, const std::vector<Rgb>& cells);
   void add_lines(const std::vector<Path>& paths, double width, const Colour& colour, double opacity);
   /// Draws a filled rectangle behind everything else, in any order of drawing.
   void add_plate(const Box& box, const Colour& colour, double opacity);

@@ -50,6 +50,23 @@ TEST(EchoPlace, is_where_a_moving_and_turning_head_hears_it_from) {
     }
 }
 
+// A line array resolves the cone about itself when it receives; elevation is that of the pulse that was sent.
+TEST(EchoPlace, beams_have_the_elevation_that_was_sent_and_the_cone_that_was_heard) {
+  for (const Motion& motion :
+       {Motion{}, Motion{{0.3, -4, 1.2}, Eigen::Vector3d::Zero()}, Motion{{9, 5, -8}, {2, 1, -3}}})
+    for (const Eigen::Vector3d& to : {Eigen::Vector3d(-30, 10, -20), Eigen::Vector3d(-3, 8, 5)}) {
+      Heard h = beam_azimuth(to, motion);
+      const Eigen::Vector3d sent = h.ping.world_from_head.linear().transpose() * to.normalized();
+      const double elevation = std::asin(sent.z()), along = std::asin(h.direction.y() / std::cos(elevation));
+      h.ping.fan.azimuth = {0, sent.x() < 0 ? pi - along : along};
+      h.ping.fan.elevation = {0, elevation};
+      EXPECT_LT((way_of_beam(h.ping, 1, h.range, water) - to).norm() / to.norm(), 1e-9) << motion.velocity.transpose();
+      h.ping.fan.row_width = 0.1;  // a planar array hears the elevation, too
+      const Eigen::Vector3d axis = unit_vector({h.ping.fan.azimuth[1], elevation});
+      EXPECT_EQ(way_of_beam(h.ping, 1, h.range, water), way_of_echo(h.ping, axis, h.range, water));
+    }
+}
+
 TEST(EchoPlace, needs_the_sound_speed) {
   const Ping ping;
   EXPECT_EQ(error_of([&] { way_of_echo(ping, {1, 0, 0}, 5, 0); }), "way_of_echo: sound_speed = 0 m/s, must be > 0");

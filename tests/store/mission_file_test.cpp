@@ -231,6 +231,55 @@ range = "1:20"
               HasSubstr("m.toml:10: unknown key 'head.evry_m'; did you mean 'head.every_m'?"));
 }
 
+TEST(MissionFile, reads_what_the_processing_assumes_of_a_head) {
+  const std::string heads = "pitch_deg = -15\nlatency_s = 0.3\ndraught_m = 0.7\n";
+  const auto assumed = [&](const std::string& lines) {
+    const std::string more = "rate_hz = 4\n[head.assumed]\n" + lines;
+    return load_mission(
+               own_file("m.toml", replaced(replaced(whole, "pitch_deg = -15\n", heads), "rate_hz = 4\n", more)))
+        .mission.heads[0];
+  };
+  const MissionHead head = assumed(
+      "roll_deg = 1\noffset_m = [2, 0, 0]\nlatency_s = 0.1\ndraught_m = 0.5\n"
+      "sound_speed_m_s = 1490\n");
+  EXPECT_TRUE(head.vehicle_from_head.isApprox(pose_from_yaw_pitch_roll({1, 0, -0.2}, 0, radians(15), 0), 1e-15));
+  // The pitch is left out, so it is as in truth.
+  const Pose expected = pose_from_yaw_pitch_roll({2, 0, 0}, 0, radians(15), radians(1));
+  EXPECT_TRUE(head.assumed.vehicle_from_head.value().isApprox(expected, 1e-15));
+  EXPECT_EQ(head.latency, 0.3);
+  EXPECT_EQ(head.assumed.latency, 0.1);
+  EXPECT_EQ(head.assumed.draught, 0.5);
+  EXPECT_EQ(head.assumed.sound_speed, 1490);
+  EXPECT_FALSE(assumed("latency_s = 0\n").assumed.vehicle_from_head) << "nothing of the mounting is assumed";
+  EXPECT_FALSE(load_mission(own_file("m.toml", whole)).mission.heads[0].assumed.any());
+  EXPECT_THAT(refusal("rate_hz = 4", "[head.assumed]\ndraught_m = 1"),
+              HasSubstr("must be stated, too: head.draught_m"));
+  EXPECT_THAT(refusal("rate_hz = 4", "[head.assumed]\nsound_speed_m_s = 150"), HasSubstr("1300"));
+}
+
+TEST(MissionFile, reads_a_tide_in_place_of_a_level) {
+  const std::string tide = "[tide]\ntime_s = [0, 20]\nheight_m = [1, 3]\n[ping]";
+  const MissionFile m = load_mission(own_file("m.toml", replaced(whole, "[ping]", tide)));
+  EXPECT_EQ(m.mission.tide.height, (std::vector<double>{1, 3}));
+  EXPECT_EQ(m.mission.trajectory.pose.front().translation().z(), -3) << "heights count from the datum";
+  const std::string floats =
+      replaced(replaced(whole, "[ping]", tide), "speed_m_s = 2", "speed_m_s = 2\nheights_from = \"water\"");
+  EXPECT_EQ(load_mission(own_file("m.toml", floats)).mission.trajectory.pose.back().translation().z(), -3 + 2);
+  own_file("tide.csv", "time_s,height_m\n0,0.5\n30,0.5\n");
+  const MissionFile of_file =
+      load_mission(own_file("m.toml", replaced(whole, "[ping]", "[tide]\nfile = \"tide.csv\"\n[ping]")));
+  EXPECT_EQ(water_height_at(of_file.mission.tide, 10), 0.5);
+
+  EXPECT_THAT(refusal("[ping]", "[tide]\ntime_s = [0, 5]\nheight_m = [1, 3]\n[ping]"),
+              HasSubstr("there is no water level at 10 s; its entries from 0 to 5 s must reach there"));
+  EXPECT_THAT(refusal("[ping]", "[water]\nlevel_m = 1\n" + tide), HasSubstr("replaces level_m in [water]"));
+  EXPECT_THAT(refusal("[ping]", "[tide]\nfile = \"tide.csv\"\ntime_s = [0, 9]\n[ping]"),
+              HasSubstr("tide: must have file, or time_s and height_m"));
+  EXPECT_THAT(refusal("[ping]", "[tide]\ntime_s = [0, 99]\nheight_m = [1]\n[ping]"), HasSubstr("tide.height_m"));
+  EXPECT_THAT(refusal("speed_m_s = 2", "speed_m_s = 2\nheights_from = \"water\""),
+              HasSubstr("must come with [tide], or level_m in [water]"));
+}
+
 TEST(MissionFile, reads_navigation_noise_and_where_the_survey_is) {
   const MissionFile m = load_mission(own_file(
       "m.toml", replaced(whole, "speed_m_s = 2",

@@ -81,9 +81,9 @@ GreyScale::GreyScale(const Ping& first) {
   window = {most - shown_span_db, most};
 }
 
-std::string profile_name(const ProductOptions& options) {
-  return std::filesystem::path(options.processing_profile).filename().string();
-}
+std::string file_name_of(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+std::string profile_name(const ProductOptions& options) { return file_name_of(options.processing_profile); }
 
 std::string profile_remark(const ProductOptions& options) {
   return options.processing_profile.empty() ? "" : "processing profile: " + profile_name(options);
@@ -94,8 +94,12 @@ SoundingCount each_swath(const PlacedRun& run,
   const ProductOptions& o = run.options;
   SoundingCount count;
   std::size_t pings = 0;
-  each_ping(run.pings, [&](const Cube& cube, const Ping& ping) {
-    BottomOptions how = bottom_options(cube, ping, run.pings.environment, o.per_beam);
+  each_ping(run.pings, [&](const Cube& cube, const Ping& as_stored) {
+    std::optional<Ping> raised;
+    if (const double by = raised_by(run.pings, as_stored.time); by != 0)
+      raised.emplace(as_stored).world_from_head.translation().z() += by;
+    const Ping& ping = raised ? *raised : as_stored;
+    BottomOptions how = bottom_options(cube, ping, run.pings, o.per_beam);
     if (run.processing_profile) how.profile = run.processing_profile;
     BottomSoundings found = detect_bottom(ping, how);
     std::vector<char> keep(found.size());
@@ -113,10 +117,28 @@ SoundingCount each_swath(const PlacedRun& run,
   return count;
 }
 
-void export_product(const ProductOptions& o, const CommonOptions& common) {
+namespace {
+
+/// Reads the tide by which the heights of a product are reduced. Throws Error(argument) for a run that has none itself.
+void read_reduction(const ProductOptions& o, RunPings& pings) {
+  if (o.tide.empty()) return;
+  if (pings.tide.time.empty() && !water_level(pings, 0))
+    fail(ErrorKind::argument, "--tide ", o.tide, ": ", o.run,
+         " does not say where its water level is, from which its heights could be reduced; give [tide], or level_m in ",
+         "[water] of the mission");
+  constexpr double ever = 1e12;  // [s]
+  pings.reduction = o.tide == "none" ? TideSeries{{-ever, ever}, {0, 0}} : load_tide(o.tide);
+}
+
+}  // namespace
+
+void export_product(const ProductOptions& options, const CommonOptions& common) {
   Progress progress(common, 2);
-  progress.step("reading " + o.run);
+  progress.step("reading " + options.run);
+  ProductOptions o = options;
   PlacedRun run = placed_run(o);
+  if (o.processing_profile.empty()) o.processing_profile = run.pings.assumed_profile;
+  read_reduction(o, run.pings);
   for (const std::string& note : run.pings.notes) progress.note(note);
   run.start = seconds_of_utc(o.start_utc.empty() ? run.pings.start_utc : o.start_utc);
   if (!o.processing_profile.empty()) run.processing_profile = load_sound_speed_profile(o.processing_profile);

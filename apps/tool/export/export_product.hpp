@@ -21,6 +21,7 @@ struct ProductOptions {
   double min_level = -std::numeric_limits<double>::infinity();     ///< least level of a sounding [dB re 1 uPa]
   double max_deviation = std::numeric_limits<double>::infinity();  ///< [m]
   std::string processing_profile;    ///< file; empty: the profile that the sound ran through
+  std::string tide;                  ///< file of a tide, or none: what heights are reduced by; empty: the true one
   std::string las_version = "1.4";   ///< or 1.2
   std::string compression = "none";  ///< compression of an mcap: none, lz4 or zstd
   bool linear = false;               ///< images of pressure in 32 bits

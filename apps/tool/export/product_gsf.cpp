@@ -39,8 +39,7 @@ GsfBeam pointing_beam(const ShipAxes& ship, const Eigen::Vector3d& way) {
 GsfBeam placed_beam(const PlacedRun& run, const Ping& ping, const ShipAxes& ship, const Anchor& here,
                     const BottomSoundings& found, std::size_t i) {
   const std::size_t b = found.beam[i];
-  const Eigen::Vector3d way =
-      way_of_echo(ping, unit_vector({ping.fan.azimuth[b], ping.fan.elevation[b]}), found.range[i], ping.sound_speed);
+  const Eigen::Vector3d way = way_of_beam(ping, b, found.range[i], ping.sound_speed);
   GsfBeam beam = pointing_beam(ship, way);
   const Eigen::Vector3d away = world_from_geo(here, geo_from_world(run.reference(), found.position[i]));
   const auto deviation = static_cast<double>(found.deviation[i]);
@@ -99,7 +98,7 @@ GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, con
                  const BottomSoundings& found) {
   const Eigen::Vector3d head = ping.world_from_head.translation();
   const ShipAxes ship = ship_axes(run.pings, ping);
-  const double water = water_level(run.pings).value_or(0);
+  const double water = water_level(run.pings, ping.time).value_or(0);
   GsfPing out;
   out.time = run.start + ping.time;
   out.position = geo_from_world(run.reference(), head);
@@ -137,7 +136,8 @@ std::string command_of(const ProductOptions& o) {
   std::string command = "insonify export --to gsf";
   for (const auto& [option, value] :
        {std::pair("--anchor", o.world.anchor), std::pair("--utm", o.world.utm), std::pair("--system", o.world.system),
-        std::pair("--start-utc", o.start_utc), std::pair("--head", o.head)})
+        std::pair("--start-utc", o.start_utc), std::pair("--head", o.head),
+        std::pair("--tide", o.tide.empty() || o.tide == "none" ? o.tide : file_name_of(o.tide))})
     if (!value.empty()) command += fmt::format(" {} {}", option, value);
   if (o.per_beam > 1) command += fmt::format(" --per-beam {}", o.per_beam);
   if (o.keep_rejected) command += " --keep-rejected";
@@ -156,7 +156,8 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProf
   survey.time = first.time;
   survey.processing.draft = first.head_depth;
   survey.processing.submersible = first.ship_depth > 0;
-  survey.processing.tide_compensated = water_level(run.pings).has_value();
+  survey.processing.tide_compensated =
+      run.options.tide != "none" && water_level(run.pings, first.time - run.start).has_value();
   survey.processing.tidal_datum = run.pings.water.datum;
   if (run.pings.vehicle_from_head) survey.processing.mounting = mounting_of(*run.pings.vehicle_from_head);
   survey.comment = fmt::format("sonar {}, simulated by insonify {}", cube.sonar, cube.insonify_version);
@@ -178,10 +179,10 @@ SoundingCount gsf_product(const PlacedRun& run) {
     GsfPing swath = gsf_ping(run, way, cube, ping, found);
     if (file) swath.period = std::max(0.0, swath.time - before);
     before = swath.time;
-    if (!file && swath.head_depth < 0 && !water_level(run.pings))
+    if (!file && swath.head_depth < 0 && !water_level(run.pings, ping.time))
       notes.push_back(fmt::format(
           "the run states no water level: depths count from z = 0, {:.4g} m below the head, and drafts are negative; "
-          "give [water] level_m in the mission, or surface.height_m in the environment",
+          "give [water] level_m or [tide] in the mission, or surface.height_m in the environment",
           -swath.head_depth));
     const SoundSpeedProfile profile = whole_profile(run, ping);
     const bool other = std::abs(profile.sound_speed.front() - speed) > 0.5 * profile_step;

@@ -41,6 +41,8 @@ struct SoundingCount {
   std::vector<std::string> notes{};  ///< on what the product lacks
 };
 
+/// The name of a file, without its folder.
+std::string file_name_of(const std::string& path);
 /// The name of the processing profile, without its folder.
 std::string profile_name(const ProductOptions& options);
 /// Returns the remark of the header of a product on its processing profile; empty without one.

@@ -153,7 +153,7 @@ void add_position(const PlacedRun& run, const RunPings& head, const std::optiona
       out.yaw = std::remainder(heading_of(run.reference(), sonar, level.normalized()) - out.heading, 2 * pi);
   }
   out.speed = level_velocity(way, ping.time).norm();
-  out.depth = water_level(head).value_or(0) - sonar.z();
+  out.depth = water_level(head, ping.time).value_or(0) - sonar.z();
 }
 
 XtfHeader header_of(const PlacedRun& run, const std::vector<HeadPings>& heads, double full) {

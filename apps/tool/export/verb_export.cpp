@@ -57,6 +57,9 @@ void add_options(OptionList list, ExportOptions& o) {
            {.positive = true});
   list.add("--processing-profile", &p.processing_profile,
            "sound-speed profile (.csv) that places the soundings; default: the profile of the simulation");
+  list.add("--tide", &p.tide,
+           "tide (.csv: time_s,height_m) by which heights are reduced to z = 0, or none: they count from the water "
+           "level at each ping; default: the tide of the mission");
   list.add("--las-version", &p.las_version, "version of a las; 1.2 for readers that know no later one",
            {.words = {"1.4", "1.2"}});
   list.add("--compression", &p.compression,
@@ -104,10 +107,10 @@ std::optional<std::size_t> save_returns(const RunPings& run, const std::string& 
 void require_soundings(const ProductOptions& o) {
   if ((o.to == "vtk" || o.to == "png" || o.to == "xtf" || o.to == "neusis") &&
       (o.keep_rejected || std::isfinite(o.min_level) || std::isfinite(o.max_deviation) ||
-       !o.processing_profile.empty()))
+       !o.processing_profile.empty() || !o.tide.empty()))
     fail(ErrorKind::argument, "--to = ", o.to,
-         " has no soundings of the bottom; --keep-rejected, --min-level, --max-deviation and --processing-profile need "
-         "gsf, las, geotiff, csv or mcap");
+         " has no soundings of the bottom; --keep-rejected, --min-level, --max-deviation, --processing-profile and "
+         "--tide need gsf, las, geotiff, csv or mcap");
 }
 
 void export_run(const ExportOptions& options) {

@@ -36,6 +36,8 @@ struct ImageOptions {
   int bits = 8;                ///< bits of a grey value in view grey
   std::string frame = "head";  ///< frame of view scan
   std::string min_level;       ///< least level of surfaces in view labels [dB], or black; empty: none
+  std::string head;            ///< name of the head, of a survey with several
+  std::string cell;            ///< [m], of view bathymetry; empty: by the extent
   // Options of view waterfall:
   std::string starboard;         ///< run to the right of this one
   std::string altitude, bottom;  ///< [m], of the flat bottom of ground range; empty: slant range
@@ -114,6 +116,7 @@ struct ViewSpec {
   bool of_levels = false;                       ///< shows title, levels and marks of a ping, and nothing else
   bool of_bearings = false;  ///< shows beams by bearing, which the sides of a recorded side-scan have not
   bool of_phases = false;    ///< shows what follows from phases, which recordings of levels have not
+  bool of_survey = false;    ///< takes the folder of a survey itself, with all of its heads
   /// Set for a view that reads what it draws by itself, in place of `draw`.
   void (*draw_alone)(const ImageOptions& options) = nullptr;
 };

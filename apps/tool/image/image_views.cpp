@@ -36,6 +36,18 @@ void take_layer(Ping& ping, const std::string& name, const std::string& run) {
   ping.intensity.resize(0, 0);
 }
 
+/// Reads all pings of a run. Those of a head of a survey that is not merged are in blocks.
+Cube read_whole_cube(const std::string& path) {
+  const std::vector<std::string> cubes = find_run_pings(path, "").cubes;
+  if (cubes.empty()) fail(ErrorKind::content, path, ": has no ping, all of its pings failed");
+  Cube whole = read_cube(cubes.front());
+  for (std::size_t k = 1; k < cubes.size(); ++k) {
+    Cube more = read_cube(cubes[k]);
+    std::move(more.pings.begin(), more.pings.end(), std::back_inserter(whole.pings));
+  }
+  return whole;
+}
+
 }  // namespace
 
 // CMake writes the table, VIEW(fan) VIEW(rect) ..., from the list of views.
@@ -113,7 +125,7 @@ ImageRun read_image_run(const std::string& path, const std::string& layer) {
     Record record = read_record(path);
     return {path, std::move(record.cube), {}, record.unit, record.side_scan};
   }
-  ImageRun run{path, read_run_cube(path)};
+  ImageRun run{path, read_whole_cube(path)};
   const fs::path settings = fs::path(path) / "run.toml";
   if (is_folder(path) && path_exists(settings))
     run.head = make_head(load_sonar_file(settings.string()).spec, run.cube.sound_speed);

@@ -21,6 +21,7 @@
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/image/image.hpp"
+#include "tool/image/survey_heads_drawn.hpp"
 #include "tool/run/record_file.hpp"
 #include "view/show_image.hpp"
 
@@ -60,7 +61,8 @@ void add_options(OptionList list, ImageOptions& o) {
     views.push_back(fmt::format("{}: {}", view.name, view.shows));
   }
   list.add("RUN", &o.run,
-           "run directory, cube.h5, or a recording (" + record_extensions() + "); for view scene also a cloud or mesh",
+           "run directory, folder of a survey, cube.h5, or a recording (" + record_extensions() +
+               "); for view scene also a cloud or mesh",
            {.required = true});
   list.add("-o,--output", &o.output, "picture that is written, .png (grey also .pgm); with --animate a folder",
            {.required = true});
@@ -68,6 +70,9 @@ void add_options(OptionList list, ImageOptions& o) {
   list.add("--bits", &o.bits, "bits of view grey: 8 or 16", {.words = {"8", "16"}, .shown_as = "INT"});
   list.add("--layer", &o.layer, "kind of echo that is shown alone, e.g. multipath; the run must be made with --layers");
   list.add("--ping", &o.ping, "number of the ping, from 0");
+  list.add(
+      "--head", &o.head,
+      "name of the head of a survey; default: a picture for each head, both sides of a side-scan in one waterfall");
   list.add(
       "--beam", &o.beam,
       "number of the beam from 0, or max (waterfall), or all (spectrum); default: the middle beam, for spectrum all");
@@ -221,9 +226,7 @@ void require_options_of_view(const ImageOptions& o) {
   }
 }
 
-void image(const ImageOptions& o) {
-  require_options_of_view(o);
-  require_drawable(o);
+void draw_run(const ImageOptions& o) {
   const PictureAddition annotation = read_annotation(o);
   if (!o.animate) require_free_file(o.output, o.force, inputs_of(o));
   if (const auto draw = view_of(o).draw_alone) return draw(o);
@@ -246,6 +249,12 @@ void image(const ImageOptions& o) {
   print_summary(o.common, {{"output", o.output}, {"view", o.view}, {"ping", o.ping}}, o.output);
 }
 
+void image(const ImageOptions& o) {
+  require_options_of_view(o);
+  require_drawable(o);
+  for (const ImageOptions& drawn : drawn_heads(o)) draw_run(drawn);
+}
+
 }  // namespace
 
 Verb image_verb() {
@@ -256,7 +265,7 @@ Verb image_verb() {
        "insonify image out --view scene -o scene.png",
        "insonify image survey/port --starboard survey/starboard --view waterfall --altitude 5 -o side-scan.png",
        "insonify image survey/ping360 --view scan --frame world -o sweep.png",
-       "insonify image survey --view track -o track.png",
+       "insonify image survey --view track -o track.png", "insonify image survey --view bathymetry -o depths.png",
        "insonify image reef.ply --view scene --sonar p900-45 --pose=-1,4,-2.2,0,15,0 -o visibility.png"},
       add_options, image);
 }

@@ -6,9 +6,9 @@ namespace insonify::tool {
 namespace {
 
 void draw_soundings(const PictureRequest& job) {
-  const Environment environment = find_run_pings(job.run.path, "").environment;
+  const RunPings run = find_run_pings(job.run.path, "");
   const Ping& ping = job.run.cube.pings[job.ping];
-  show_soundings(ping, detect_bottom(ping, bottom_options(job.run.cube, ping, environment, 1)), job.picture, job.path);
+  show_soundings(ping, detect_bottom(ping, bottom_options(job.run.cube, ping, run, 1)), job.picture, job.path);
 }
 
 }  // namespace

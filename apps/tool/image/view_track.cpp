@@ -69,8 +69,10 @@ void draw_track(const ImageOptions& o) {
 }  // namespace
 
 ViewSpec track_view() {
-  return {
-      .name = "track", .shows = "a merged survey from above: ways, and mosaic or returns", .draw_alone = draw_track};
+  return {.name = "track",
+          .shows = "a merged survey from above: ways, and mosaic or returns",
+          .of_survey = true,
+          .draw_alone = draw_track};
 }
 
 }  // namespace insonify::tool

@@ -41,9 +41,14 @@ void add_mission(const std::string& path, const std::string& head, RunPings& pin
   pings.start_utc = file.start_utc;
   pings.legs = file.mission.legs;
   if (found == file.mission.heads.end()) return;
-  pings.vehicle_from_head = found->vehicle_from_head;
-  if (file.mission.random_pings == 0) pings.trajectory = std::move(file.mission.trajectory);
-  pings.water = file.water;
+  const AssumedInstallation& assumed = found->assumed;
+  pings.vehicle_from_head = assumed.vehicle_from_head.value_or(found->vehicle_from_head);
+  pings.assumed_profile = file.sonars[static_cast<std::size_t>(found - file.mission.heads.begin())].assumed_profile;
+  if (file.mission.random_pings == 0) {
+    pings.trajectory = std::move(file.mission.trajectory);
+    for (double& time : pings.trajectory->time) time += found->latency - assumed.latency.value_or(found->latency);
+  }
+  pings.water = file.water, pings.tide = file.mission.tide;
   pings.position_deviation = file.position_deviation;
 }
 
@@ -171,6 +176,11 @@ Cube read_run_ping(const std::string& path, std::ptrdiff_t ping) {
 
 RunPings find_run_pings(const std::string& run, const std::string& head) {
   if (is_folder(run) && is_survey_run(run)) return pings_of_survey(run, head);
+  if (is_folder(run) && !path_exists(run + "/cube.h5")) {  // a head that is not merged
+    const fs::path folder = real_path(run);
+    if (const fs::path survey = folder.parent_path(); is_survey_run(survey.string()))
+      return pings_of_survey(survey.string(), folder.filename().string());
+  }
   return pings_of_directory(run);
 }
 
@@ -181,8 +191,22 @@ std::vector<std::string> head_names(const std::string& run) {
   return names;
 }
 
-std::optional<double> water_level(const RunPings& run) {
+namespace {
+
+/// Height of the water level as it is.
+std::optional<double> true_level(const RunPings& run, double time) {
+  if (!run.tide.time.empty()) return water_height_at(run.tide, time);
   return run.water.level ? run.water.level : surface_height(run.environment);
+}
+
+}  // namespace
+
+std::optional<double> water_level(const RunPings& run, double time) {
+  return run.reduction ? water_height_at(*run.reduction, time) : true_level(run, time);
+}
+
+double raised_by(const RunPings& run, double time) {
+  return run.reduction ? water_height_at(*run.reduction, time) - true_level(run, time).value_or(0) : 0;
 }
 
 std::optional<Pose> vehicle_pose(const RunPings& run, const Ping& ping) {
@@ -225,7 +249,7 @@ void each_ping(const RunPings& run, const std::function<void(const Cube&, const 
   for (const std::string& path : run.cubes) read_cube_pings(path, use);
 }
 
-BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environment& environment, int per_beam) {
+BottomOptions bottom_options(const Cube& cube, const Ping& ping, const RunPings& run, int per_beam) {
   BottomOptions options;
   options.sound_speed = ping.sound_speed;
   options.centre_frequency = cube.centre_frequency;
@@ -235,8 +259,10 @@ BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environme
   options.tolerance = cube.tolerance;
   options.absorption_db_per_m = ping.absorption_db_per_m;
   options.per_beam = per_beam;
-  options.profile = environment.profile;
-  options.head_depth = insonify::head_depth(environment, ping.world_from_head.translation().z());
+  const Environment there = at_tide(run.environment, run.reduction.value_or(run.tide), ping.time);
+  options.profile =
+      run.assumed_profile.empty() ? there.profile : std::optional(load_sound_speed_profile(run.assumed_profile));
+  options.head_depth = insonify::head_depth(there, ping.world_from_head.translation().z());
   return options;
 }
 

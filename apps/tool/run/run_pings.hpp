@@ -25,9 +25,12 @@ struct RunPings {
   std::string start_utc;
   std::optional<Pose>
       vehicle_from_head{};  ///< place of the head by its mission or --mount, at scan angle 0; absent: unknown
-  std::optional<Trajectory> trajectory{};      ///< world_from_vehicle, of its mission
-  std::string settings{};                      ///< path of its run.toml, of a run without a mission
-  MissionWater water{};                        ///< water of its mission
+  std::optional<Trajectory> trajectory{};  ///< world_from_vehicle, of its mission
+  std::string settings{};                  ///< path of its run.toml, of a run without a mission
+  MissionWater water{};                    ///< water of its mission
+  TideSeries tide{};                       ///< tide of its mission; without entries there is none
+  std::optional<TideSeries> reduction{};   ///< tide by which heights are reduced to z = 0; absent: the true one
+  std::string assumed_profile{};  ///< path of the profile by which its mission places soundings; empty: the true one
   std::optional<double> position_deviation{};  ///< deviation of each coordinate that its mission believes [m]; 0: exact
   std::vector<MissionLeg> legs{};              ///< legs of its mission
   std::vector<std::string> notes{};            ///< on what is unknown because files are gone
@@ -55,9 +58,13 @@ std::vector<std::string> head_names(const std::string& run);
 /// Calls `use` with each ping and the cube it is of, without pings: memory is that of one ping.
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use);
 
-/// Height of the water level in the world [m]: of the mission, or of the environment's sea surface; absent if neither
-/// says it.
-std::optional<double> water_level(const RunPings& run);
+/// Height of the water level in the world [m] at a time: by the reduction, else of the mission, or of the environment's
+/// sea surface; absent if none says it. Throws Error(argument) for a time outside of a tide.
+std::optional<double> water_level(const RunPings& run, double time);
+
+/// Height by which the reduction raises a vehicle and its soundings at a time [m]; 0 without one. Throws as
+/// water_level.
+double raised_by(const RunPings& run, double time);
 
 /// Where the vehicle was when a head pinged: world_from_vehicle; absent if the run does not say how the head is
 /// mounted.
@@ -71,8 +78,9 @@ std::vector<Eigen::Vector3d> ends_of(const RunPings& run);
 /// of time. Absent for a single ping at rest. Adds to `notes` why a trajectory that is named is not taken.
 std::optional<Trajectory> way_of(const RunPings& run, std::vector<std::string>& notes);
 
-/// Options to find the bottom in a ping of a cube: with the water at the head, and its depth in the profile.
-BottomOptions bottom_options(const Cube& cube, const Ping& ping, const Environment& environment, int per_beam);
+/// Options to find the bottom in a ping of a cube: with the water at the head, and its depth in the profile, which is
+/// the one that the mission assumes, if it does.
+BottomOptions bottom_options(const Cube& cube, const Ping& ping, const RunPings& run, int per_beam);
 
 /// Seconds since 1970 of a time as 2026-05-01T08:30:00Z; 0 for "". Throws Error(argument) for another text.
 double seconds_of_utc(const std::string& text);

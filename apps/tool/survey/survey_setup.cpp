@@ -81,7 +81,7 @@ void require_anchored(const SurveySetup& s) {
 
 void require_in_water(const SurveySetup& s) {
   for (const SurveyPing& ping : s.survey->pings()) {
-    const Environment& environment = s.heads[ping.head].environment;
+    const Environment environment = s.survey->environment_of(ping);
     const double z = event_of(s.file.mission, ping).world_from_head.translation().z();
     if (const auto surface = surface_height(environment); surface && z >= *surface)
       refuse_ping(s, ping, "is at z = ", z, " m, above the sea surface at ", *surface,
@@ -124,6 +124,7 @@ std::string digest_of(const SurveySetup& s) {
   for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, digest_of_scene(s.file.scene)}) add(part);
   for (const std::string& path : {s.file.trajectory, s.heads.front().run.scene.materials_file})
     if (!path.empty()) add(sha256_of_file(path_of_materials(path)));
+  if (!s.file.water.tide.empty()) add(sha256_of_file(s.file.water.tide));
   for (const MissionHead& head : s.file.mission.heads)  // the mounting may be that of the sonar file
     add(std::string(reinterpret_cast<const char*>(head.vehicle_from_head.data()), 16 * sizeof(double)));
   for (const PingSetup& head : s.heads) add(environment_as_toml(head.environment) + sonar_as_toml(head.spec));
@@ -149,7 +150,7 @@ SurveySetup set_up_survey(const SurveyOptions& o) {
   for (std::size_t h = 0; h < mission.heads.size(); ++h) {
     s.heads.push_back(set_up_survey_head(s.file, h, o.common.threads));
     const PingSetup& head = s.heads.back();
-    mission.heads[h].listening_time = 2 * head.head.gate.max_range / slowest_sound(head.environment);
+    mission.heads[h].listening_time = listening_time_of(mission.heads[h], head.head, head.environment);
     per_block.push_back(block_size(o, begun, mission.heads[h].name, image_bytes(head), s.file.coverage));
   }
   std::vector<PingSimulator> simulators;
