@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "simulate/resolve_ping.hpp"
+#include "sonar/receive_array.hpp"
 #include "sonar/sonar_spec.hpp"
 
 namespace insonify {
@@ -59,6 +60,7 @@ AccuracyTask task_of(const SceneCloud& scene, const SonarHead& head, const Pose&
                      const Environment& environment, const SimulationOptions& options) {
   if (head.column || fan_rows(head.fan).size() != 1)
     fail(ErrorKind::argument, "task_of: ", head.name, " has several rows of beams; the sweep takes sonars with one");
+  if (!has_line(head)) fail(ErrorKind::argument, "task_of: ", head.name, " has a curved array; the sweep takes lines");
   const ResolvedPing ping = resolve_ping(whole_of(scene), head, {world_from_head}, environment, options, "task_of");
   const Sampling sampling = find_scatterers(scene, world_from_head, head.fan, ping.view.gate, ping.view.sampling);
   AccuracyTask task{head, ping.sent.medium, direct_echoes(sampling.scatterers, scene.materials, ping.sent)};

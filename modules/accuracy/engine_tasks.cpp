@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bisect.hpp"
 #include "core/random.hpp"
 #include "sonar/sonar_spec.hpp"
 
@@ -79,11 +80,7 @@ double first_null(const SonarHead& head) {
   const auto response = [&](double u) { return array_response(head.array, wavelength, u, 0).real(); };
   double low = 0, high = 0;
   for (high = 1e-4; response(high) > 0; high += 1e-4) low = high;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (response(middle) > 0 ? low : high) = middle;
-  }
-  return low;
+  return bisected(low, high, [&](double u) { return response(u) > 0; }).first;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/units.hpp"
 #include "sonar/pulse.hpp"
 #include "sonar/pulse_kind.hpp"
+#include "sonar/receive_array.hpp"
 
 namespace insonify {
 namespace {
@@ -45,6 +46,7 @@ void require_windowed(const SonarHead& head, const Medium& medium, const Windowe
   require_valid(medium, "synthesize_windowed");
   if (head.column || fan_rows(head.fan).size() != 1)
     fail(ErrorKind::argument, "synthesize_windowed: the head has several rows of beams, must have one");
+  if (!has_line(head)) fail(ErrorKind::argument, "synthesize_windowed: the head has a curved array, must have a line");
   if (!is_gaussian(head.pulse))
     fail(ErrorKind::argument, "synthesize_windowed: the head has another pulse, must be a Gaussian");
   if (!(o.tolerance >= 1e-12 && o.tolerance < 1))

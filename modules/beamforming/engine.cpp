@@ -7,6 +7,7 @@
 #include "beamforming/reference/element_series.hpp"
 #include "beamforming/synthesize_intensity.hpp"
 #include "beamforming/true_delays/true_delay_engine.hpp"
+#include "sonar/receive_array.hpp"
 
 namespace insonify {
 namespace {
@@ -63,19 +64,19 @@ using Model = ImageModel;
 
 constexpr Engine engine_table[] = {
     {Method::gridded, "gridded", "narrow band, far field", Model::narrow_band, Method::direct, min_gridding_tolerance,
-     1, true, false, GriddedEngine::suits, GriddedEngine::suits, made<KeepingEngine<GriddedEngine>>},
+     1, true, false, has_line, GriddedEngine::suits, GriddedEngine::suits, made<KeepingEngine<GriddedEngine>>},
     {Method::true_delays, "true-delays", "wide band and near field, slow within three array lengths",
-     Model::true_delays, Method::element_exact, min_true_delay_tolerance, max_element_tolerance, false, false, one_line,
-     one_line, made<KeepingEngine<TrueDelayEngine>>},
+     Model::true_delays, Method::element_exact, min_true_delay_tolerance, max_element_tolerance, false, false, has_line,
+     one_line, one_line, made<KeepingEngine<TrueDelayEngine>>},
     {Method::direct, "direct", "slow reference of gridded", Model::narrow_band, Method::direct, 0, 1, false, true,
-     one_line, no_head, made<FunctionEngine<synthesize_direct>>},
+     any_head, one_line, no_head, made<FunctionEngine<synthesize_direct>>},
     {Method::spectrum, "spectrum", "slow check of direct, frequency by frequency", Model::narrow_band, Method::direct,
-     0, 1, false, false, one_line, no_head, made<FunctionEngine<synthesize_spectrum>>},
+     0, 1, false, false, has_line, one_line, no_head, made<FunctionEngine<synthesize_spectrum>>},
     {Method::element_exact, "element-exact", "slow reference of true-delays", Model::true_delays, Method::element_exact,
-     min_element_tolerance, max_element_tolerance, false, false, one_line, no_head,
+     min_element_tolerance, max_element_tolerance, false, false, any_head, one_line, no_head,
      made<FunctionEngine<focused_beams>>},
     {Method::incoherent, "incoherent", "expected level without speckle", Model::expected_power, Method::incoherent, 0,
-     1, false, false, any_head, no_head, made<FunctionEngine<expected_pressure>>}};
+     1, false, false, any_head, any_head, no_head, made<FunctionEngine<expected_pressure>>}};
 
 }  // namespace
 

@@ -36,6 +36,7 @@ struct Engine {
   double least_tolerance, most_tolerance;
   bool replaceable;                      ///< true: the plan may take an engine of true delays instead
   bool receives_all_rows;                ///< true: no echo is omitted from a row of beams that hardly receives it
+  bool (*suits)(const SonarHead&);       ///< returns true if the engine can form the beams of the head's array
   bool (*whole_head)(const SonarHead&);  ///< returns true if one object forms all rows of the head, else one a row
   bool (*streams)(const SonarHead&);     ///< returns true if echoes of a stream need not be stored
   /// Constructs the engine for a head, medium and options.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "sonar/receive_array.hpp"
 
 namespace insonify {
 namespace {
@@ -33,9 +34,11 @@ std::vector<double> resampled_shading(const std::vector<double>& shading, std::s
 
 SonarHead half_aperture(const SonarHead& head, ApertureSide side, const char* who) {
   require_valid(head, who);
-  if (head.column || fan_rows(head.fan).size() > 1)
+  if (head.column || fan_rows(head.fan).size() > 1 || !has_line(head))
     fail(ErrorKind::argument, who, ": a split aperture needs one row of beams of a line array; this head has ",
-         head.column ? "a planar array" : "several rows");
+         head.column      ? "a planar array"
+         : has_line(head) ? "several rows"
+                          : "a curved array");
   const std::size_t elements = head.array.elements(), half = elements / 2;
   if (elements < fewest_elements)
     fail(ErrorKind::argument, who, ": a split aperture needs at least ", fewest_elements, " elements; this head has ",

@@ -27,16 +27,13 @@ struct LineInput {
 };
 
 LineArray squared(const LineArray& array) {
-  const std::size_t n = array.elements();
+  const std::vector<double> pairs = lag_sums(array);
+  const std::size_t n = pairs.size();
   const auto elements = static_cast<double>(n);
   LineArray result{array.spacing, std::vector<double>(2 * n - 1)};
-  for (std::size_t lag = 0; lag < n; ++lag) {
-    double pairs = 0;
-    for (std::size_t m = 0; m + lag < n; ++m) pairs += array.shading[m] * array.shading[m + lag];
-    // array_response divides by 2N - 1 instead of N^2.
-    const double weight = pairs * (2 * elements - 1) / (elements * elements);  // (E65)
-    result.shading[n - 1 + lag] = result.shading[n - 1 - lag] = weight;
-  }
+  for (std::size_t lag = 0; lag < n; ++lag)  // array_response divides by 2N - 1 instead of N^2.
+    result.shading[n - 1 + lag] = result.shading[n - 1 - lag] =
+        pairs[lag] * (2 * elements - 1) / (elements * elements);  // (E65)
   return result;
 }
 
@@ -70,7 +67,8 @@ struct SquaredPulse {
 Grid<double> sum_directly(const LineInput& image, int threads) {
   const auto& [echoes, head, medium] = image;
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  const std::vector<double> u_beam = beam_cosines(head.fan);
+  const std::vector<Eigen::Vector3d> beams = beam_axes(head.fan);
+  const auto array = receive_array(head);
   const EchoShapes shapes(head.pulse, medium);
   const TimeAxis axis(head.gate, medium.sound_speed);
   Grid<double> sum = Grid<double>::Zero(head.fan.beams(), axis.bins);
@@ -89,8 +87,8 @@ Grid<double> sum_directly(const LineInput& image, int threads) {
     });
     parallel_for(head.fan.beams(), threads, [&](std::size_t b) {
       for (std::size_t k = 0; k < count; ++k) {
-        const double response = array_response(head.array, wavelength, echoes.u[first + k], u_beam[b]).real();
-        const double weight = std::norm(echoes.amplitude[first + k]) * response * response;
+        const auto response = array->response(direction_of_echo(echoes, first + k), beams[b], wavelength);
+        const double weight = std::norm(echoes.amplitude[first + k]) * std::norm(response);
         double* at = &sum(static_cast<Eigen::Index>(b), 0) + pulses[k].first;
         for (const double sample : pulses[k].sample) *at++ += weight * sample;  // (E65)
       }
@@ -99,11 +97,11 @@ Grid<double> sum_directly(const LineInput& image, int threads) {
   return sum;
 }
 
-/// Sum of |A|^2 |B|^2 |G|^2 over the echoes of a line array.
+/// Sum of |A|^2 |B|^2 |G|^2 over the echoes of one row of beams.
 Grid<double> sum_of_squares(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                             const SynthesisOptions& options) {
   LineInput image{echoes, head, medium};
-  if (!is_gaussian(head.pulse)) return sum_directly(image, options.threads);
+  if (!is_gaussian(head.pulse) || !has_line(head)) return sum_directly(image, options.threads);
   image = squared(std::move(image));
   return synthesize_gridded(image.echoes, image.head, image.medium, options).real().max(0);
 }

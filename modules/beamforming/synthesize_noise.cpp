@@ -131,13 +131,14 @@ class BeamSums {
 };
 
 BeamSums::BeamSums(const SonarHead& head, double wavelength) {
-  const std::vector<double> u_beam = beam_cosines(head.fan);
+  const std::vector<Eigen::Vector3d> axes = beam_axes(head.fan);
+  const auto array = receive_array(head);
   const std::size_t n = head.array.elements();
-  re_.resize(u_beam.size(), n);
-  im_.resize(u_beam.size(), n);
-  for (std::size_t b = 0; b < u_beam.size(); ++b)
+  re_.resize(axes.size(), n);
+  im_.resize(axes.size(), n);
+  for (std::size_t b = 0; b < axes.size(); ++b)
     for (std::size_t m = 0; m < n; ++m) {
-      const double phase = -2 * pi * head.array.spacing / wavelength * element_position(m, n) * u_beam[b];
+      const double phase = -array->steering_phase(m, axes[b], wavelength);
       const double w = head.array.shading[m] / static_cast<double>(n);
       re_(b, m) = w * std::cos(phase);
       im_(b, m) = w * std::sin(phase);

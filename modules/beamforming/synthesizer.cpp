@@ -24,6 +24,7 @@ Synthesizer::Synthesizer(SonarHead head, const Medium& medium, SynthesisMethod m
       options_(options),
       kept_(std::make_shared<Kept>()) {
   require_synthesis({}, head_, medium_, options_, "synthesize");
+  if (!engine_->suits(head_)) require_one_row(head_, "synthesize");
 }
 
 const ImageEngine& Synthesizer::kept(const SonarHead& head) const {

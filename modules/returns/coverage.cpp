@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
-#include "sonar/response_table.hpp"
+#include "returns/beam_responses_internal.hpp"
 
 namespace insonify {
 namespace {
@@ -21,11 +21,13 @@ constexpr std::uint32_t none = 0xffffffff;
 class Beams {
  public:
   Beams(const SonarHead& head, const Medium& medium)
-      : table_(head.array, medium.sound_speed / head.pulse.centre_frequency) {
+      : responses_(head, medium.sound_speed / head.pulse.centre_frequency) {
     const std::vector<FanRow> rows = fan_rows(head.fan);
     has_row_response_ = rows.size() > 1 || head.column;
     for (const FanRow& row : rows) {
-      rows_.push_back({{}, RowResponse(head, medium.sound_speed / head.pulse.centre_frequency, row.elevation)});
+      rows_.push_back({std::sin(row.elevation),
+                       {},
+                       RowResponse(head, medium.sound_speed / head.pulse.centre_frequency, row.elevation)});
       std::vector<double>& u = rows_.back().u;
       for (const std::size_t b : row.beams) u.push_back(std::cos(row.elevation) * std::sin(head.fan.azimuth[b]));
       std::sort(u.begin(), u.end());
@@ -57,13 +59,13 @@ class Beams {
   /// side. Grating lobes are not counted.
   double equivalent_width(double beam_width) const {
     const double step = beam_width / 64;
-    double sum = 0.5 * table_.intensity(0);
-    for (int k = 1; k < 8 * 64 && k * step < 1; ++k) sum += table_.intensity(k * step);
+    double sum = 0.5 * responses_.intensity(0, 0, 0, 0);
+    for (int k = 1; k < 8 * 64 && k * step < 1; ++k) sum += responses_.intensity(k * step, 0, 0, 0);
     return 2 * step * sum;
   }
 
   double intensity(const Beam& beam, double u, double v) {
-    const double of_line = table_.intensity(u - beam.u);
+    const double of_line = responses_.intensity(u, v, beam.u, rows_[beam.row].v);
     if (!has_row_response_) return of_line;
     const double of_row = rows_[beam.row].response.at(v);
     return of_line * of_row * of_row;
@@ -71,10 +73,11 @@ class Beams {
 
  private:
   struct Row {
+    double v;               ///< upward direction cosine of the beams
     std::vector<double> u;  ///< ascending
     RowResponse response;
   };
-  ResponseTable table_;
+  BeamResponses responses_;
   std::vector<Row> rows_;
   bool has_row_response_ = false;  ///< false for one row of a line array
 };

@@ -12,9 +12,9 @@
 #include "core/require.hpp"
 #include "core/units.hpp"
 #include "core/work_progress.hpp"
+#include "returns/beam_responses_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
 #include "sonar/pulse.hpp"
-#include "sonar/response_table.hpp"
 
 // Finds the strongest contributors of every pixel (E63), a contributor being a surfel by one pair of legs:
 //   1. sort the echoes that reach the gate by surfel and legs into groups (surfel_arrivals);
@@ -104,10 +104,10 @@ class Search {
         options_(options),
         axis_(axis),
         shapes_(head.pulse, medium),
-        table_(head.array, wavelength_),
+        responses_(head, wavelength_),
         floor_(power_from_db(options.floor_db)),
-        reach_(table_.reach(floor_)),
-        lobe_(wavelength_ / (head.array.spacing * static_cast<double>(head.array.elements()))),
+        reach_(responses_.reach(floor_)),
+        lobe_(responses_.lobe()),
         rows_(fan_rows(head.fan)),
         arrivals_(std::move(arrivals)),
         groups_(groups_of(arrivals_)),
@@ -205,16 +205,16 @@ class Search {
   }
 
   void accumulate(std::size_t beam, std::size_t first_group, const std::vector<GroupTerms>& terms) {
-    const double u = std::cos(head_.fan.elevation[beam]) * std::sin(head_.fan.azimuth[beam]);
+    const double up = head_.fan.elevation[beam], u = std::cos(up) * std::sin(head_.fan.azimuth[beam]), v = std::sin(up);
     std::vector<double> sum;
     for (std::size_t k = 0; k < terms.size(); ++k) {
       const Group& group = groups_[first_group + k];
       const double nearest = std::max({0.0, group.u_low - u, u - group.u_high});
-      if (!table_.responds_to(nearest, std::max(group.u_high - u, u - group.u_low), reach_)) continue;
+      if (!responses_.responds_to(nearest, std::max(group.u_high - u, u - group.u_low), reach_)) continue;
       const GroupTerms& group_terms = terms[k];
       sum.assign(group_terms.bins, 0);
       for (const Term& term : group_terms.terms) {
-        const double intensity = table_.intensity(term.u - u);
+        const double intensity = responses_.intensity(term.u, v, u, v);
         const double* energy = group_terms.energy.data() + term.energy;
         double* to = sum.data() + term.bin;
         for (std::size_t n = 0; n < term.length; ++n) to[n] += intensity * energy[n];
@@ -229,7 +229,7 @@ class Search {
   ContributorOptions options_;
   DelayBins axis_;
   EchoShapes shapes_;
-  ResponseTable table_;
+  BeamResponses responses_;
   double floor_, reach_, lobe_;
   std::vector<FanRow> rows_;
   std::vector<Arrival> arrivals_;

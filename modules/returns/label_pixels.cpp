@@ -10,11 +10,11 @@
 #include "beamforming/head_patterns.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "returns/beam_responses_internal.hpp"
 #include "returns/kinds_in_beam_internal.hpp"
 #include "returns/label_kinds_internal.hpp"
 #include "returns/surfel_arrivals_internal.hpp"
 #include "sonar/pulse.hpp"
-#include "sonar/response_table.hpp"
 
 // Labels pixels by the surfaces in their cells (E125):
 //   1. order the visible parts by direction cosine, with the energy of their pulses in the bins around;
@@ -133,7 +133,7 @@ class Labelling {
         head_(head),
         head_from_world_(world_from_head.inverse()),
         wavelength_(medium.sound_speed / head.pulse.centre_frequency),
-        table_(head.array, wavelength_),
+        responses_(head, wavelength_),
         rows_(beam_rows(head, range_resolution(head.pulse, medium.sound_speed))),
         parts_(visible_parts(scene, seen.direct, head, medium, rows_.front().lobe.range, threads)),
         threads_(threads) {
@@ -179,7 +179,8 @@ class Labelling {
           row.lobe.up < anywhere ? std::abs(std::asin(std::clamp(parts_.v[k], -1.0, 1.0)) - row.elevation) : 0;
       if (up > row.lobe.up) continue;
       const double turned = weighted ? response.at(parts_.v[k]) : 1;
-      const double weight = turned * turned * table_.intensity(parts_.u[k] - beam.first);
+      const double weight =
+          turned * turned * responses_.intensity(parts_.u[k], parts_.v[k], beam.first, std::sin(row.elevation));
       const double off = std::abs(parts_.u[k] - beam.first), range = parts_.range[k];
       const double part = parts_.radius[k], surfel = radius_of(scene_, parts_.surfel[k], 1);
       const auto lies_within = [&](double radius) {
@@ -249,7 +250,7 @@ class Labelling {
   const SonarHead& head_;
   Pose head_from_world_;
   double wavelength_;
-  ResponseTable table_;
+  BeamResponses responses_;
   std::vector<BeamRow> rows_;
   VisibleParts parts_;
   int threads_;

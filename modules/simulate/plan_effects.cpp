@@ -10,10 +10,10 @@
 #include "acoustics/glints.hpp"
 #include "acoustics/multipath_echoes.hpp"
 #include "acoustics/refract_paths.hpp"
-#include "beamforming/received_energy.hpp"
 #include "core/units.hpp"
 #include "simulate/echo_overlap_internal.hpp"
 #include "simulate/plan_stages_internal.hpp"
+#include "simulate/received_energy.hpp"
 #include "sonar/pulse_kind.hpp"
 
 namespace insonify {

@@ -56,6 +56,7 @@ bool to_decide(const PlanStage& stage, const SimulationOptions& options) {
 
 /// How one row of beams is gridded, or would be if the method is another: those may ask for more than gridding can.
 SynthesisChoice gridding_of_a_row(const ResolvedPing& ping) {
+  if (!has_line(ping.head)) return {};
   return choice_of_a_row(ping.head, ping.sent.medium,
                          {std::max(ping.options.synthesis.tolerance, min_gridding_tolerance), 1});
 }
@@ -94,6 +95,7 @@ std::vector<PlannedStage> judge_stages(const PlanFacts& facts, bool only_open, S
   std::vector<PlannedStage> judged;
   for (const PlanStage& stage : stages)
     if (!only_open || to_decide(stage, facts.ping.options)) judged.push_back(judge(stage, facts, share, decided));
+  serve_array(facts.ping.head, decided);
   return judged;
 }
 

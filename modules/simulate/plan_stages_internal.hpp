@@ -6,6 +6,7 @@
 
 #include "simulate/ping_plan.hpp"
 #include "simulate/scene_sample_internal.hpp"
+#include "sonar/receive_array.hpp"
 
 /// The stages of a plan, group by group. A new stage is a row in the table of its group, in the order of the plan.
 ///
@@ -22,6 +23,7 @@ struct PlanCause {
   bool single_precision = false;               ///< tiles and transforms are in single precision
   double samples_per_cell = 0;                 ///< samples per cell of a display
   double max_range = 0, range_resolution = 0;  ///< greatest range, and resolution, of the head [m]
+  bool has_line = true;                        ///< the beams are those of a line or plane
 };
 
 /// The data from which stages are judged.
@@ -43,7 +45,8 @@ struct PlanFacts {
             synthesis.single_precision,
             static_cast<double>(ping.samples.bins()) / cells,
             ping.head.gate.max_range,
-            range_resolution(ping.head.pulse, ping.sent.medium.sound_speed)};
+            range_resolution(ping.head.pulse, ping.sent.medium.sound_speed),
+            insonify::has_line(ping.head)};
   }
 };
 

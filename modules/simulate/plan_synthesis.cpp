@@ -5,6 +5,7 @@
 #include "beamforming/engine.hpp"
 #include "beamforming/gridded/narrow_band_error.hpp"
 #include "simulate/plan_stages_internal.hpp"
+#include "sonar/receive_array.hpp"
 
 namespace insonify {
 namespace {
@@ -84,6 +85,7 @@ const char* reason_for_phases(const PlanCause& of) {
   const auto keeps_phase = [](const Material& m) { return m.coherent_fraction > 0; };
   if (o.outputs.display_bins == 0) return "the output is pressure";
   if (o.synthesis.phases) return "asked for";
+  if (!of.has_line) return "display cells are drawn by patterns of lines, which the array is not";
   if (o.sampling.kind == SamplingKind::rays) return "rays meet points, which have no extent to spread energy over";
   if (of.samples_per_cell < least_samples_per_cell)
     return "a display cell has fewer than four samples, formed to 0.1 dB of its mean and 5 % of its contrast";
@@ -119,7 +121,8 @@ constexpr PlanStage stages[] = {
      [](const PlanCause& of) { return sums_pressures(of.options) && !draws_cells(of.options); },
      "elements receive wide bands and near echoes at other times: one pattern does not hold",
      "intensities have no delays across the array", narrow_band_bound, force_true_delays, requested_true_delays,
-     [](const PlanFacts& facts) { return facts.ping.head.column.has_value(); }},
+     [](const PlanFacts& facts) { return facts.ping.head.column.has_value(); }, false,
+     [](const PlanFacts& facts) { return !has_line(facts.ping.head); }},
     {"double-precision", DecidedBy::scene,
      [](const PlanCause& of) { return is_direct_sum(of.options) || !of.single_precision; }, "the tolerance needs it",
      "the tolerance leaves room for single precision", tolerance_of}};

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "returns/looks.hpp"
+#include "sonar/receive_array.hpp"
 
 namespace insonify {
 namespace {
@@ -42,9 +43,10 @@ double most_turned(const SoundSpeedProfile& profile, double range) {
 /// How far beside their main lobes beams may receive echoes as loud as inside, in u and v: by what profile and motion
 /// do, whether their stages are in or out, so that the scatterers are the same.
 double lobe_margin(const SonarHead& head, const Medium& medium, const Environment& environment, const Motion& motion,
-                   double fastest_part) {
+                   double fastest_part, double half_extent) {
   if (has_further_lobes(head, medium.sound_speed / head.pulse.centre_frequency)) return lobes_everywhere;
-  double margin = environment.profile ? most_turned(*environment.profile, head.gate.max_range) : 0;
+  double margin = receive_array(head)->bent_by(head.fan, half_extent);
+  if (environment.profile) margin += most_turned(*environment.profile, head.gate.max_range);
   // A moving head has turned when it receives.
   if (!motion.none())
     margin += 3 * most_displacement(motion, medium.sound_speed) +
@@ -70,7 +72,8 @@ SamplingOptions sampling_of(const WholeScene& scene, const ResolvedPing& ping) {
   const bool all_elevations = o.sampling.outer_elevations == Choice::always;
   s.elevation_half_extent = sampled_half_extent(head, all_elevations ? nothing_db : o.sampling.elevation_floor_db);
   s.azimuth_margin = o.sampling.outer_azimuths == Choice::always ? pi : o.sampling.azimuth_margin;
-  s.lobe_margin = lobe_margin(head, medium, ping.environment, ping.event.motion, scene.fastest);
+  s.lobe_margin =
+      lobe_margin(head, medium, ping.environment, ping.event.motion, scene.fastest, s.elevation_half_extent);
   s.occlusion = o.sampling.occlusion;
   s.relief_outer_scale = scene.mean_spacing;
   s.seed = o.seed;
@@ -116,11 +119,10 @@ void decide_detail(SamplingSettings& s) {
   if (s.detail == Choice::always && !has_width) s.detail_width = usual_detail_width;
 }
 
-DetectionOptions detection_of(const SimulationOptions& o, const LineArray& array, double range_resolution,
+DetectionOptions detection_of(const SimulationOptions& o, const SonarHead& head, double range_resolution,
                               double beam_noise_db) {
   DetectionOptions detection = o.detection;
-  if (detection.side_lobe_reach == 0)
-    detection.side_lobe_reach = 0.5 * array.spacing * static_cast<double>(array.elements());  // (E19)
+  if (detection.side_lobe_reach == 0) detection.side_lobe_reach = 0.5 * receive_array(head)->length();  // (E19)
   if (detection.range_resolution == 0) detection.range_resolution = range_resolution;
   detection.threads = o.threads;
   if (std::isinf(detection.noise_floor_db)) detection.noise_floor_db = beam_noise_db;
@@ -130,13 +132,13 @@ DetectionOptions detection_of(const SimulationOptions& o, const LineArray& array
 }  // namespace
 
 bool has_further_lobes(const SonarHead& head, double wavelength) {
-  double most_u = 0, most_v = 0;
-  for (std::size_t b = 0; b < head.fan.beams(); ++b) {
-    const Eigen::Vector3d axis = unit_vector({head.fan.azimuth[b], head.fan.elevation[b]});
-    most_u = std::max(most_u, std::abs(axis.y())), most_v = std::max(most_v, std::abs(axis.z()));
-  }
-  return wavelength / head.array.spacing < 1 + most_u ||
-         (head.column && wavelength / head.column->spacing < 1 + most_v);
+  return receive_array(head)->has_further_lobes(head.fan, wavelength);
+}
+
+void serve_array(const SonarHead& head, SimulationOptions& options) {
+  const Engine& engine = engine_of(options.synthesis.method);
+  if (engine.replaceable && options.synthesis.true_delays == Choice::as_needed) return;
+  if (!engine.suits(head)) options.synthesis.method = engine.referee;
 }
 
 SamplingOptions sampling_in_view(const ResolvedPing& ping) {
@@ -177,6 +179,7 @@ void derive(const WholeScene& scene, ResolvedPing& ping) {
   ping.head.gate =
       draws_cells(ping.options) ? display_gate(ping.samples, ping.options.outputs.display_bins) : ping.samples;
   const SonarHead& head = ping.head;
+  serve_array(head, ping.options);
   const SimulationOptions& options = ping.options;
   const Medium medium =
       medium_of(ping.environment, head.pulse.centre_frequency, options.effects.absorption_order.value_or(0));
@@ -186,13 +189,17 @@ void derive(const WholeScene& scene, ResolvedPing& ping) {
   ping.smooth_scene = scene.smooth;
   ping.view.sampling.inner_sector = insonified_sector(head.fan, sampling_in_view(ping));
   ping.region = region_of(ping);
-  ping.detection = detection_of(options, head.array, ping.view.sampling.range_resolution, ping.beam_noise_db);
+  ping.detection = detection_of(options, head, ping.view.sampling.range_resolution, ping.beam_noise_db);
 }
 
 void require_valid(const SonarHead& head, const Environment& environment, const SimulationOptions& options,
                    const char* who) {
   require_valid(head, who);
   require_valid(options, who);
+  if (const Engine& engine = engine_of(options.synthesis.method); !engine.replaceable && !engine.suits(head))
+    fail(ErrorKind::argument, who, ": options.synthesis.method = ", engine.word, " does not form beams of a ",
+         array_kinds[static_cast<std::size_t>(head.array_shape)].name,
+         " array; leave the method out, or use direct, element-exact or incoherent");
   if (options.effects.multipath == Choice::always && !has_boundary(environment))
     fail(ErrorKind::argument, who, ": options.effects.multipath = always, but the environment has neither surface nor ",
          "bottom, must have one of them");

@@ -36,6 +36,9 @@ struct ResolvedPing {
   DetectionOptions detection{};  ///< defaults: noise floor of beam_noise_db, resolution of the pulse
 };
 
+/// Sets a method that serves the array of the head, unless true delays are still to be decided: of the model asked for.
+void serve_array(const SonarHead& head, SimulationOptions& options);
+
 /// Returns whether a beam has a second main lobe in a real direction, because elements are too far apart for this
 /// wavelength [m].
 bool has_further_lobes(const SonarHead& head, double wavelength);

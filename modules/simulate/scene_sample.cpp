@@ -7,9 +7,9 @@
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/engine.hpp"
-#include "beamforming/received_energy.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "simulate/received_energy.hpp"
 #include "simulate/scene_sample_internal.hpp"
 
 namespace insonify {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "beamforming/received_energy.hpp"
+#include "simulate/received_energy.hpp"
 #include "simulate/surfel_energy_internal.hpp"
 
 namespace insonify {

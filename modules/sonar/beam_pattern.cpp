@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <tuple>
 
+#include "core/bisect.hpp"
 #include "core/require.hpp"
 #include "core/units.hpp"
 
@@ -53,10 +55,7 @@ double locate_maximum(const std::function<double(double)>& f, double low, double
 
 double locate_zero(const Pattern& pattern, double low, double high) {
   const bool positive = pattern.signed_at(low) > 0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    ((pattern.signed_at(middle) > 0) == positive ? low : high) = middle;
-  }
+  std::tie(low, high) = bisected(low, high, [&](double x) { return (pattern.signed_at(x) > 0) == positive; });
   return 0.5 * (low + high);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/bisect.hpp"
 #include "core/error.hpp"
 #include "core/units.hpp"
 
@@ -36,17 +37,8 @@ double half_power_offset(const LineArray& array, double wavelength, double most)
   require_valid(array, "half_power_offset");
   const auto power = [&](double u) { return std::norm(array_response(array, wavelength, u, 0)); };
   if (array.elements() == 1) return most;
-  // Step out of the main lobe much finer than its width, then bisect.
-  const double step = 0.02 * wavelength / (array.spacing * static_cast<double>(array.elements()));
-  double inside = 0, outside = step;
-  while (outside < most && power(outside) > 0.5) inside = outside, outside += step;
-  if (outside >= most && power(most) > 0.5) return most;
-  outside = std::min(outside, most);
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    (power(middle) > 0.5 ? inside : outside) = middle;
-  }
-  return inside;
+  // Steps are much finer than the main lobe.
+  return half_power_point(power, 0.02 * wavelength / (array.spacing * static_cast<double>(array.elements())), most);
 }
 
 double array_beam_width(const LineArray& array, double wavelength) {
@@ -56,18 +48,31 @@ double array_beam_width(const LineArray& array, double wavelength) {
 
 double directivity_index_db(const LineArray& array, double wavelength, double u_beam) {
   require_valid(array, "directivity_index_db");
-  const std::size_t n = array.elements();
   // Integrate B^2 du over [-1, 1]: pairs of elements whose phase difference at endfire is x contribute 2 cos(x u_beam)
   // sin(x) / x.
+  const std::vector<double> pairs = lag_sums(array);
   double integral = 0;
-  for (std::size_t lag = 0; lag < n; ++lag) {
-    double pairs = 0;
-    for (std::size_t m = 0; m + lag < n; ++m) pairs += array.shading[m] * array.shading[m + lag];
+  for (std::size_t lag = 0; lag < pairs.size(); ++lag) {
     const double x = 2 * pi * array.spacing / wavelength * static_cast<double>(lag);
-    integral += lag == 0 ? 2 * pairs : 2 * pairs * 2 * std::cos(x * u_beam) * std::sin(x) / x;
+    integral += lag == 0 ? 2 * pairs[0] : 2 * pairs[lag] * 2 * std::cos(x * u_beam) * std::sin(x) / x;
   }
-  integral /= static_cast<double>(n) * static_cast<double>(n);
+  integral /= static_cast<double>(pairs.size()) * static_cast<double>(pairs.size());
   return db_from_power(2 / integral);  // (E34)
+}
+
+std::vector<double> lag_sums(const LineArray& array) {
+  const std::size_t n = array.elements();
+  std::vector<double> sums(n, 0);
+  for (std::size_t lag = 0; lag < n; ++lag)
+    for (std::size_t m = 0; m + lag < n; ++m) sums[lag] += array.shading[m] * array.shading[m + lag];
+  return sums;
+}
+
+std::vector<double> lag_products(const LineArray& array) {
+  std::vector<double> products = lag_sums(array);
+  const auto n = static_cast<double>(products.size());
+  for (std::size_t lag = 0; lag < products.size(); ++lag) products[lag] *= (lag == 0 ? 1 : 2) / (n * n);
+  return products;
 }
 
 }  // namespace insonify

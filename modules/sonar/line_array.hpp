@@ -42,4 +42,9 @@ double array_beam_width(const LineArray& array, double wavelength);
 /// du over [-1, 1]).
 double directivity_index_db(const LineArray& array, double wavelength, double u_beam = 0);
 
+/// Returns the sums over pairs of elements `lag` apart of w_m w_(m + lag), lag = 0 .. N-1.
+std::vector<double> lag_sums(const LineArray& array);
+/// Returns the same in both orders, over N^2.
+std::vector<double> lag_products(const LineArray& array);
+
 }  // namespace insonify

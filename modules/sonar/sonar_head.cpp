@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/units.hpp"
+#include "sonar/receive_array.hpp"
 
 namespace insonify {
 namespace {
@@ -21,25 +22,6 @@ void require_memory(std::size_t beams, std::size_t others, const char* what, con
        " GiB, must be at most 2^28 numbers (4 GiB); ", remedy);
 }
 
-void require_valid_column(const LineArray& column, const char* who) {
-  try {
-    require_valid(column, who);
-  } catch (const Error& error) {
-    fail(error.kind(), error.what(), " (column)");
-  }
-}
-
-/// Returns the sums over pairs of elements `lag` apart of w_i w_j / N^2, in both orders; lag = 0 .. N-1.
-std::vector<double> lag_products(const LineArray& array) {
-  const std::size_t n = array.elements();
-  std::vector<double> products(n, 0);
-  for (std::size_t lag = 0; lag < n; ++lag) {
-    for (std::size_t m = 0; m + lag < n; ++m) products[lag] += array.shading[m] * array.shading[m + lag];
-    products[lag] *= (lag == 0 ? 1 : 2) / (static_cast<double>(n) * static_cast<double>(n));
-  }
-  return products;
-}
-
 }  // namespace
 
 void require_valid(const SonarHead& head, const char* who) {
@@ -51,32 +33,15 @@ void require_valid(const SonarHead& head, const char* who) {
   require_memory(head.fan.beams(), head.array.elements(), "elements", "ask for wider or fewer beams", who);
   if (!(head.transmit_width >= 0 && std::isfinite(head.transmit_width)))
     fail(ErrorKind::argument, who, ": transmit_width = ", head.transmit_width, " rad, must be >= 0; 0: fills the fan");
-  if (!head.column && head.fan.row_width > 0)
-    fail(ErrorKind::argument, who, ": fan.row_width = ", degrees(head.fan.row_width),
-         " deg, must be 0 for a head without column");
-  if (!head.column) return;
-  require_valid_column(*head.column, who);
-  if (!(head.fan.row_width > 0))
-    fail(ErrorKind::argument, who, ": fan.row_width = 0, must be the width of the column's beam");
-  if (head.column->elements() > max_numbers / head.array.elements())
-    fail(ErrorKind::argument, who, ": ", head.array.elements(), " columns of ", head.column->elements(),
-         " elements, must be at most 2^28 in all; ask for wider beams");
+  const ArrayKind& kind = array_kinds[static_cast<std::size_t>(head.array_shape)];
+  if (kind.has_radius ? !(head.array_radius > 0 && std::isfinite(head.array_radius)) : head.array_radius != 0)
+    fail(ErrorKind::argument, who, ": array_radius = ", head.array_radius, " m, must be ",
+         kind.has_radius ? "> 0" : "0", " for a ", kind.name, " array");
+  kind.make(head)->require_valid(head, who);
 }
 
 double directivity_index_db(const SonarHead& head, double wavelength) {
-  if (!head.column) return directivity_index_db(head.array, wavelength);
-  require_valid(head.array, "directivity_index_db");
-  require_valid_column(*head.column, "directivity_index_db");
-  const std::vector<double> across = lag_products(head.array), up = lag_products(*head.column);
-  double sum = 0;
-  for (std::size_t p = 0; p < across.size(); ++p)
-    for (std::size_t q = 0; q < up.size(); ++q) {
-      const double distance =
-          std::hypot(static_cast<double>(p) * head.array.spacing, static_cast<double>(q) * head.column->spacing);
-      const double x = 2 * pi * distance / wavelength;
-      sum += across[p] * up[q] * (x > 0 ? std::sin(x) / x : 1);
-    }
-  return -db_from_power(sum);  // (E56)
+  return receive_array(head)->directivity_index_db(wavelength);
 }
 
 double array_gain_db(const SonarHead& head) {
@@ -84,26 +49,32 @@ double array_gain_db(const SonarHead& head) {
   return head.column ? gain - db_from_power(lag_products(*head.column)[0]) : gain;
 }
 
-LineArray array_for_beam_width(double beam_width, double wavelength, Shading shading, double side_lobe_db) {
+LineArray array_for_beam_width(double beam_width, double wavelength, Shading shading, double side_lobe_db,
+                               const SonarHead& head) {
   if (!(beam_width > 0))
     fail(ErrorKind::argument, "array_for_beam_width: beam_width = ", degrees(beam_width), " deg, must be > 0");
   const auto with = [&](std::size_t n) { return LineArray{wavelength / 2, shading_weights(shading, n, side_lobe_db)}; };
+  SonarHead tried = head;
+  const auto width = [&](std::size_t n) {
+    tried.array = with(n);
+    return receive_array(tried)->beam_width(wavelength);
+  };
   // The beam narrows with the number of elements: bisect for the first array that is narrow enough, then take the
   // closer of it and its predecessor.
   std::size_t wide = 1, narrow = 2;
-  if (array_beam_width(with(1), wavelength) <= beam_width) return with(1);
-  while (array_beam_width(with(narrow), wavelength) > beam_width) {
+  if (width(1) <= beam_width) return with(1);
+  while (width(narrow) > beam_width) {
     wide = narrow, narrow *= 2;
     if (narrow > max_elements)
       fail(ErrorKind::argument, "array_for_beam_width: beam_width = ", degrees(beam_width), " deg needs more than ",
-           max_elements, " elements");
+           max_elements, " elements", head.array_radius > 0 ? "; use a larger array_radius" : "");
   }
   while (narrow - wide > 1) {
     const std::size_t middle = (wide + narrow) / 2;
-    (array_beam_width(with(middle), wavelength) > beam_width ? wide : narrow) = middle;
+    (width(middle) > beam_width ? wide : narrow) = middle;
   }
-  const double too_wide = array_beam_width(with(wide), wavelength) - beam_width;
-  const double too_narrow = beam_width - array_beam_width(with(narrow), wavelength);
+  const double too_wide = width(wide) - beam_width;
+  const double too_narrow = beam_width - width(narrow);
   return with(too_wide < too_narrow ? wide : narrow);
 }
 

@@ -92,6 +92,9 @@ void require_valid(const SonarSpec& s, const char* who) {
   require_beam_table(s, who);
   require(s.column_beam_width == 0 || within(s.column_beam_width, 0, pi), who, "column_beam_width_deg",
           degrees(s.column_beam_width), "deg", "> 0 and at most 180; leave it out for a line array");
+  const ArrayKind& kind = array_kinds[static_cast<std::size_t>(s.array)];
+  require(kind.has_radius ? within(s.array_radius, 0, 100) : s.array_radius == 0, who, "array_radius_m", s.array_radius,
+          "m", kind.has_radius ? "> 0 and at most 100" : "left out: array = \"line\" is straight");
   require(s.transmit_width == 0 || within(s.transmit_width, 0, 2 * pi), who, "transmit_width_deg",
           degrees(s.transmit_width), "deg",
           "> 0 and at most 360; leave it out for a transmitter that fills the fan evenly");
@@ -114,8 +117,9 @@ SonarHead make_head(const SonarSpec& spec, double sound_speed) {
   head.pulse = {spec.centre_frequency,         spec.bandwidth,
                 spec.source_level_db,          spec.pulse,
                 spec.pulse_length.value_or(0), spec.replica_window.value_or(ReplicaWindow::hamming)};
+  head.array_shape = spec.array, head.array_radius = spec.array_radius;
   head.array = array_for_beam_width(spec.beam_width, nominal_sound_speed / spec.centre_frequency, shading_of(spec),
-                                    spec.side_lobe_db);
+                                    spec.side_lobe_db, head);
   head.elevation_shape = spec.elevation_shape;
   head.fan = fan_of(spec);
   head.transmit_width = spec.transmit_width;

@@ -31,7 +31,9 @@ struct SonarSpec {
   std::vector<double> azimuths;      ///< [rad]; if not empty, these beams instead of an even fan
   std::vector<double> elevations{};  ///< [rad]; with azimuths: one per beam; without: one row of `beams` beams each
   double column_beam_width = 0;      ///< -3 dB width in elevation of a planar array's beam [rad]; 0: a line array
-  double transmit_width = 0;         ///< -3 dB width in azimuth of the transmitter [rad]; 0: fills the fan evenly
+  ArrayShape array = ArrayShape::line;
+  double array_radius = 0;    ///< radius of an array that is bent [m]; 0: a line
+  double transmit_width = 0;  ///< -3 dB width in azimuth of the transmitter [rad]; 0: fills the fan evenly
   PulseShape pulse = PulseShape::gaussian;
   std::optional<double> pulse_length{};           ///< duration of a sweep [s]
   std::optional<ReplicaWindow> replica_window{};  ///< window of its matched filter; absent: Hamming
@@ -47,8 +49,8 @@ Shading shading_of(const SonarSpec& spec);
 void require_valid(const SonarSpec& spec, const char* who);
 
 /// Returns the head for water of `sound_speed` [m/s]. The array has half-wavelength spacing at the nominal sound speed
-/// and as many elements as the beam width requires (E10) under its shading (E11, E31, E32), and so has the column of a
-/// planar array. Rows of beams follow the order of `elevations`. Throws Error for an invalid spec, or a bin_size that
+/// and as many elements as the beam width requires (E10, E205) under its shading (E11, E31, E32), and so has the column
+/// of a planar array. Rows of beams follow the order of `elevations`. Throws Error for an invalid spec, or a bin_size that
 /// would under-sample the pulse (more than 0.44 c / 2B).
 SonarHead make_head(const SonarSpec& spec, double sound_speed);
 

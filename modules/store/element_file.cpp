@@ -25,9 +25,11 @@ void write_element_file(const std::string& path, const ElementSeries& series, co
     write_attribute(context, file, "start", series.start);
     write_attribute(context, file, "step", series.step);
     write_attribute(context, file, "spacing", head.array.spacing);
+    if (head.array_radius > 0) write_attribute(context, file, "radius", head.array_radius);
     write_attribute(context, file, "centre_frequency", head.pulse.centre_frequency);
     write_attribute(context, file, "sound_speed", sound_speed);
-    write_attribute(context, file, "steering", std::string("exp(+2 pi i f y u / c)"));
+    write_attribute(context, file, "steering",
+                    std::string(head.array_radius > 0 ? "exp(+2 pi i f (x ux + y uy) / c)" : "exp(+2 pi i f y u / c)"));
     const Extent extent = {static_cast<hsize_t>(pressure.rows()), static_cast<hsize_t>(pressure.cols())};
     const Handle dataset = create_dataset(context, file, pressure_name, complex_type(context, H5T_IEEE_F32LE), extent);
     write_attribute(context, dataset, convention_attribute, std::string(pressure_convention));

@@ -22,7 +22,13 @@ std::vector<Named<PulseShape>> pulse_names() {
     table.push_back({pulse_shape_name(static_cast<PulseShape>(k)), static_cast<PulseShape>(k)});
   return table;
 }
+std::vector<Named<ArrayShape>> array_names() {
+  std::vector<Named<ArrayShape>> table;
+  for (const ArrayKind& kind : array_kinds) table.push_back({kind.name, static_cast<ArrayShape>(table.size())});
+  return table;
+}
 const auto pulses = pulse_names();
+const auto arrays = array_names();
 const auto windows = named(replica_window_name, {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming});
 const auto shadings = named(shading_name, {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev});
 
@@ -81,6 +87,9 @@ std::vector<Key> sonar_keys(SonarSpec& s) {
        "elevations of rows of beams; beside `azimuths_deg`: one elevation for each beam"},
       {"", "column_beam_width_deg", "deg", angle(given(s.column_beam_width), width_rule),
        "beam width of a planar array in elevation; without the key: a line array"},
+      {"", "array", "", omitted_if(word(s.array, arrays), [&s] { return s.array == ArrayShape{}; }),
+       "shape of the receive array; default: line; an array that is curved has an array_radius_m"},
+      {"", "array_radius_m", "m", number(given(s.array_radius), width_rule), "radius of a curved array"},
       {"", "side_lobe_db", "dB", number(s.side_lobe_db),
        "level of the side lobes of taylor and chebyshev shading; 0: uniform shading"},
       {"", "shading", "", omitted_if(word(s.shading, shadings), [&s] { return is_default_shading(s); }),

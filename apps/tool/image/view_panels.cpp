@@ -7,6 +7,7 @@
 #include "core/pose.hpp"
 #include "core/units.hpp"
 #include "sonar/beam_pattern.hpp"
+#include "sonar/receive_array.hpp"
 #include "tool/image/image.hpp"
 
 namespace insonify::tool {
@@ -56,6 +57,21 @@ std::vector<Fact> facts_of(const Cube& cube, std::size_t number) {
           {"Seed", fmt::format("{}", cube.seed)}};
 }
 
+/// The pattern of a beam over azimuth in the plane of the array.
+BeamPatternCurve curve_of(const SonarHead& head, double wavelength, double steering) {
+  if (has_line(head)) return beam_pattern_curve(head.array, wavelength, steering);
+  const auto array = receive_array(head);
+  const auto steps = static_cast<int>(std::ceil(16 * pi * array->length() / wavelength)) + 1800;
+  BeamPatternCurve curve;
+  for (int i = 0; i <= steps; ++i) {
+    const double azimuth = pi * (static_cast<double>(i) / steps - 0.5);
+    curve.azimuth.push_back(azimuth);
+    curve.level_db.push_back(
+        db_from_power(std::norm(array->response(unit_vector({azimuth, 0}), unit_vector({steering, 0}), wavelength))));
+  }
+  return curve;
+}
+
 /// Image and facts of a ping, and the pattern of the beam if the run says with which array it was received.
 Panels panels_of(const PictureRequest& job) {
   const ImageRun& run = job.run;
@@ -67,8 +83,8 @@ Panels panels_of(const PictureRequest& job) {
   const double steering = fan.azimuth[panels.beam];
   if (!run.head || std::abs(steering) > pi / 2) return panels;
   const LineArray& array = run.head->array;
-  const BeamPatternCurve curve =
-      beam_pattern_curve(array, run.cube.pings[job.ping].sound_speed / run.cube.centre_frequency, steering);
+  const double wavelength = run.cube.pings[job.ping].sound_speed / run.cube.centre_frequency;
+  const BeamPatternCurve curve = curve_of(*run.head, wavelength, steering);
   panels.azimuth = curve.azimuth;
   panels.pattern_db = curve.level_db;
   panels.pattern_title = fmt::format("Pattern of {}, {} elements", beam_text({{}, panels.beam}, fan), array.elements());

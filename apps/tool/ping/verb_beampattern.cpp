@@ -9,6 +9,7 @@
 #include "run/parse_values.hpp"
 #include "run/ping_setup.hpp"
 #include "sonar/beam_pattern.hpp"
+#include "sonar/receive_array.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
@@ -128,6 +129,10 @@ void beampattern(const BeamPatternOptions& o) {
   const double steering = parse_steering(o.steer);
   if (!o.output.empty()) require_free_file(o.output, o.force, {o.head.sonar});
   const PingSetup setup = set_up_head(o.head);
+  if (!has_line(setup.head))
+    fail(ErrorKind::argument, "beampattern measures beams of a line or plane, but ", setup.spec.name, " has a ",
+         array_kinds[static_cast<std::size_t>(setup.head.array_shape)].name,
+         " array; `insonify view` of a run draws its pattern");
   const SteeredBeam beam{setup, setup.medium.sound_speed / setup.spec.centre_frequency, steering};
 
   progress.step("measuring the beam of " + setup.spec.name);

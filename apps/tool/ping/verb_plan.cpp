@@ -34,9 +34,12 @@ void print_plan(const PingPlan& plan) {
       "may take, or who decides about the stage\n",
       plan.options.accuracy_db);
   fmt::print("all stages left out: {:.2g} dB at most\n", plan.left_out_db);
-  fmt::print("synthesis: {}, {} precision, kernel {} on a grid of {} steps, {} samples per pulse\n",
-             engine_of(plan.options.synthesis.method).word, plan.synthesis.single_precision ? "single" : "double",
-             plan.synthesis.kernel_width, plan.synthesis.grid, plan.synthesis.pulse_samples);
+  fmt::print("synthesis: {}, {} precision", engine_of(plan.options.synthesis.method).word,
+             plan.synthesis.single_precision ? "single" : "double");
+  if (plan.synthesis.grid > 0)
+    fmt::print(", kernel {} on a grid of {} steps, {} samples per pulse", plan.synthesis.kernel_width,
+               plan.synthesis.grid, plan.synthesis.pulse_samples);
+  fmt::print("\n");
 }
 
 void add_plan_verb_options(OptionList list, PingCommand& command) { add_ping_options(list, command, false); }

@@ -74,12 +74,11 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
 void DisplayPlan::fill_elements(const SonarHead& head) {
   const auto n = static_cast<double>(head.array.elements()), in_period = static_cast<double>(period);
   const std::vector<double>& w = head.array.shading;
+  const std::vector<double> pairs = lag_sums(head.array);
   for (std::size_t m = 0; m < w.size(); ++m) {
     const double place = static_cast<double>(m), frequency = (place - static_cast<double>(w.size() / 2)) / in_period;
     element_weight.push_back(w[m] / n / of_fields().transform(frequency));
-    double pairs = 0;
-    for (std::size_t k = 0; k + m < w.size(); ++k) pairs += w[k] * w[k + m];
-    lag.push_back(pairs / (n * n));  // (E65)
+    lag.push_back(pairs[m] / (n * n));  // (E65)
     lag_weight.push_back(lag[m] / of_powers().transform(place / in_period));
   }
 }

@@ -73,6 +73,7 @@ struct CellSynthesizer::Plan {
 
 CellSynthesizer::CellSynthesizer(const SonarHead& head, const Medium& medium) {
   require_synthesis({}, head, medium, {}, me);
+  if (!has_line(head)) require_one_row(head, me);
   plan_ = std::make_unique<const Plan>(head, medium);
 }
 CellSynthesizer::~CellSynthesizer() = default;

@@ -94,7 +94,7 @@ struct GriddedEngine::Plan {
 };
 
 bool GriddedEngine::suits(const SonarHead& head) {
-  return head.column ? is_gaussian(head.pulse) : fan_rows(head.fan).size() == 1;
+  return head.column ? is_gaussian(head.pulse) : fan_rows(head.fan).size() == 1 && has_line(head);
 }
 
 GriddedEngine::GriddedEngine(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {

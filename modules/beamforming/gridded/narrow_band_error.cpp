@@ -11,6 +11,7 @@
 #include "beamforming/gridded/error_loops_internal.hpp"
 #include "core/parallel.hpp"
 #include "core/units.hpp"
+#include "sonar/receive_array.hpp"
 
 namespace insonify {
 namespace {
@@ -23,10 +24,8 @@ NarrowBandError::NarrowBandError(const SonarHead& head, double sound_speed)
     : head_(head), nodes_(spectrum_nodes(head.pulse)) {
   cycles_per_m_ = head.pulse.centre_frequency / sound_speed;
   off_focus_ = std::sqrt(3 * std::numbers::ln2 / 2) * sound_speed / (2 * pi * head.pulse.bandwidth);
-  for (std::size_t b = 0; b < head.fan.beams(); ++b)
-    u_beam_.push_back(std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
-  for (std::size_t m = 0; m < head.array.elements(); ++m)
-    y_.push_back(head.array.spacing * element_position(m, head.array.elements()));
+  for (const Eigen::Vector3d& axis : beam_axes(head.fan)) u_beam_.push_back(axis.y());
+  for (const Eigen::Vector3d& p : receive_array(head)->positions()) y_.push_back(p.y());
   shading_ = head.array.shading;
   while (y_.size() % kernels::phasor_lanes != 0) y_.push_back(0), shading_.push_back(0);
 }

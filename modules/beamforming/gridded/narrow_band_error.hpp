@@ -13,7 +13,7 @@ namespace insonify {
 /// paths from echo and focus to an element at y differ. At frequency f off the carrier, the true phase of the element
 /// is k (1 + (f + d) / f_c) times this difference (E61, E62), d being the Doppler shift of the echo; the narrow-band image
 /// uses -k y (u - u_b). The focus is at the range of the bin; the error is evaluated with the focus one pulse length
-/// before and behind the echo. A planar array is represented by its middle row.
+/// before and behind the echo. A planar array is represented by its middle row, a curved one by its places across.
 class NarrowBandError {
  public:
   /// Keeps a reference to `head`, which must outlive the object; sound_speed [m/s].

@@ -20,6 +20,8 @@ void require_synthesis(const Echoes& echoes, const SonarHead& head, const Medium
     fail(ErrorKind::argument, who, ": ", echoes.size(), " echoes have ", echoes.v.size(), " values of v and ",
          echoes.doppler.size(), " of doppler; must be none, or one of each per echo");
   require_finite(echoes, who);
+  if (echoes.v.empty() && echoes.size() > 0 && !has_line(head))
+    fail(ErrorKind::argument, who, ": echoes have no directions upwards (v), must have them for a curved array");
 }
 
 void require_finite(const Echoes& echoes, const char* who) {
@@ -36,11 +38,14 @@ void require_finite(const Echoes& echoes, const char* who) {
   }
 }
 
-void require_one_row(const SonarHead& head, const char* who) {
+void require_one_row(const SonarHead& head, const char* who, bool of_line) {
   const std::size_t rows = fan_rows(head.fan).size();
   if (head.column || rows > 1)
     fail(ErrorKind::argument, who, ": head '", head.name, "' has ", rows, " rows of beams",
          head.column ? " and a column" : "", ", must be one row of a line array; use synthesize");
+  if (of_line && !has_line(head))
+    fail(ErrorKind::argument, who, ": head '", head.name, "' must have a line or plane of evenly spaced elements, or ",
+         "method direct, element-exact or incoherent");
 }
 
 std::vector<double> beam_cosines(const BeamFan& fan) {

@@ -24,15 +24,10 @@ void require_tolerance(const ElementOptions& options, const char* who) {
          " and ", max_element_tolerance);
 }
 
-/// Position of element m along the array [m], positive to port.
-double element_y(const LineArray& array, std::size_t m) {
-  return array.spacing * element_position(m, array.elements());
-}
-
-/// Path difference [m] between the element at `y` and the centre of the array.
-double path_difference(Wavefront wavefront, double range, double u, double y) {
-  if (wavefront == Wavefront::plane) return -y * u;
-  return insonify::path_difference(range, u, y);
+/// Path difference [m] between the element at `p` and the origin of the head.
+double path_difference(Wavefront wavefront, double range, const Eigen::Vector3d& from, const Eigen::Vector3d& p) {
+  if (wavefront == Wavefront::plane) return -p.y() * from.y() - p.x() * from.x() - p.z() * from.z();
+  return insonify::path_difference(range, from, p);
 }
 
 /// Highest baseband frequency [Hz] that matters.
@@ -79,28 +74,31 @@ class Interpolator {
 ElementSeries element_series(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                              const ElementOptions& options) {
   require_synthesis(echoes, head, medium, {options.tolerance, options.threads}, "element_series");
-  require_one_row(head, "element_series");
+  require_one_row(head, "element_series", false);
   require_tolerance(options, "element_series");
   const double c = medium.sound_speed, f = head.pulse.centre_frequency;
-  const std::size_t elements = head.array.elements();
+  const auto array = receive_array(head);
+  double farthest = 0;
+  for (const Eigen::Vector3d& p : array->positions()) farthest = std::max(farthest, p.norm());
+  std::vector<Eigen::Vector3d> from;
+  for (std::size_t i = 0; i < echoes.size(); ++i) from.push_back(direction_of_echo(echoes, i));
 
   // Time axis: sampled finely enough for the band, and longer than the gate by array length and interpolation width.
   ElementSeries series;
   series.step = 1 / (4 * half_band(head.pulse, 0.1 * options.tolerance));
-  const double beyond = element_y(head.array, elements - 1) / c +
-                        static_cast<double>(Interpolator(options.tolerance).width()) * series.step;
+  const double beyond = farthest / c + static_cast<double>(Interpolator(options.tolerance).width()) * series.step;
   series.start = 2 * head.gate.centre(0) / c - beyond;
   const double end = 2 * head.gate.centre(head.gate.bins() - 1) / c + beyond;
   const auto samples = static_cast<std::size_t>(std::ceil((end - series.start) / series.step)) + 1;
-  series.pressure.setZero(elements, samples);
+  series.pressure.setZero(head.array.elements(), samples);
 
   // Each element is computed by one thread, which adds the echoes in order.
   const PulseReach reach(head.pulse, medium.absorption, c, !echoes.doppler.empty(), 0.1 * options.tolerance);
   const EchoShapes shapes(head.pulse, medium);
-  parallel_for(elements, options.threads, [&](std::size_t m) {
-    const double y = element_y(head.array, m);
+  parallel_for(head.array.elements(), options.threads, [&](std::size_t m) {
+    const Eigen::Vector3d p = array->positions()[m];
     for (std::size_t i = 0; i < echoes.size(); ++i) {
-      const double extra_delay = path_difference(options.wavefront, 0.5 * c * echoes.delay[i], echoes.u[i], y) / c;
+      const double extra_delay = path_difference(options.wavefront, 0.5 * c * echoes.delay[i], from[i], p) / c;
       const double arrival = echoes.delay[i] + extra_delay, half = reach.at(echoes.delay[i]);
       const double first = std::max(0.0, std::ceil((arrival - half - series.start) / series.step));
       const double last =
@@ -120,7 +118,7 @@ ComplexGrid beam_from_elements(const ElementSeries& series, const SonarHead& hea
                                const ElementOptions& options) {
   require_valid(head, "beam_from_elements");
   require_valid(medium, "beam_from_elements");
-  require_one_row(head, "beam_from_elements");
+  require_one_row(head, "beam_from_elements", false);
   require_tolerance(options, "beam_from_elements");
   const std::size_t elements = head.array.elements();
   if (series.pressure.rows() != static_cast<Eigen::Index>(elements) || !(series.step > 0))
@@ -128,18 +126,20 @@ ComplexGrid beam_from_elements(const ElementSeries& series, const SonarHead& hea
          series.step, " s, must have ", elements, " elements as the head, and a step > 0");
   const double c = medium.sound_speed, f = head.pulse.centre_frequency;
   const Interpolator interpolator(options.tolerance);
-  const std::vector<double> u_beam = beam_cosines(head.fan);
+  const std::vector<Eigen::Vector3d> axes = beam_axes(head.fan);
+  const auto array = receive_array(head);
   const std::size_t bins = head.gate.bins();
-  ComplexGrid beams(u_beam.size(), bins);
+  ComplexGrid beams(axes.size(), bins);
 
-  parallel_for(u_beam.size(), options.threads, [&](std::size_t b) {
+  parallel_for(axes.size(), options.threads, [&](std::size_t b) {
     std::vector<double> weight;
     beams.row(b).setZero();
     for (std::size_t m = 0; m < elements; ++m) {
-      const double y = element_y(head.array, m), shading = head.array.shading[m] / static_cast<double>(elements);
+      const Eigen::Vector3d p = array->positions()[m];
+      const double shading = head.array.shading[m] / static_cast<double>(elements);
       for (std::size_t n = 0; n < bins; ++n) {
         const double t = 2 * head.gate.centre(n) / c;
-        const double extra_delay = path_difference(options.wavefront, head.gate.centre(n), u_beam[b], y) / c;
+        const double extra_delay = path_difference(options.wavefront, head.gate.centre(n), axes[b], p) / c;
         const std::ptrdiff_t first = interpolator.weights((t + extra_delay - series.start) / series.step, weight);
         if (first < 0 || first + static_cast<std::ptrdiff_t>(interpolator.width()) > series.pressure.cols())
           fail(ErrorKind::argument, "beam_from_elements: bin ", n, " of beam ", b, " needs samples outside the series");

@@ -23,9 +23,9 @@ struct ElementOptions {
   int threads = 0;  ///< 0: all cores; the result does not depend on it
 };
 
-/// Pressure received by each element of a line array, elements x samples [Pa], complex baseband about the carrier.
-/// Element m is at y = (m - (N-1)/2) spacing, positive to port; sample n is at time start + n step [s] after
-/// transmission.
+/// Pressure received by each element of an array, elements x samples [Pa], complex baseband about the carrier. Element
+/// m of a line is at y = (m - (N-1)/2) spacing, positive to port, that of an arc as in E205; sample n is at time start +
+/// n step [s] after transmission.
 struct ElementSeries {
   double start = 0, step = 0;
   ComplexGrid pressure;
@@ -35,7 +35,7 @@ struct ElementSeries {
 /// assumptions on receive:
 ///
 ///   x_m(t) = sum_i A_i exp(2 pi i f_c d_im / c) G_i(t - delay_i - d_im / c)
-///   d_im   = sqrt(r_i^2 - 2 r_i y_m u_i + y_m^2) - r_i (spherical) or -y_m u_i (plane)
+///   d_im   = sqrt(r_i^2 - 2 r_i p_m d_i + p_m^2) - r_i (spherical) or -p_m d_i (plane), p_m d_i = y_m u_i of a line
 ///
 /// The sampling rate is about four times the band of the pulse, so that beams can interpolate between samples. The
 /// series extends beyond the gate by the length of the array. External beamformers can use the series;

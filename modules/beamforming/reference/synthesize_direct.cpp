@@ -7,7 +7,6 @@
 #include "beamforming/synthesize.hpp"
 #include "core/parallel.hpp"
 #include "core/work_progress.hpp"
-#include "sonar/pulse.hpp"
 
 namespace insonify {
 namespace {
@@ -20,12 +19,13 @@ constexpr std::size_t bins_at_once = 256;
 ComplexGrid beam_weights(const Echoes& echoes, std::size_t first, std::size_t last, const SonarHead& head,
                          const Medium& medium, int threads) {
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  const std::vector<double> u_beam = beam_cosines(head.fan);
-  ComplexGrid weights(last - first, u_beam.size());
+  const std::vector<Eigen::Vector3d> beams = beam_axes(head.fan);
+  const auto array = receive_array(head);
+  ComplexGrid weights(last - first, beams.size());
   parallel_for(last - first, threads, [&](std::size_t i) {
-    for (std::size_t b = 0; b < u_beam.size(); ++b)
-      weights(i, b) =
-          echoes.amplitude[first + i] * array_response(head.array, wavelength, echoes.u[first + i], u_beam[b]);
+    const Eigen::Vector3d from = direction_of_echo(echoes, first + i);
+    for (std::size_t b = 0; b < beams.size(); ++b)
+      weights(i, b) = echoes.amplitude[first + i] * array->response(from, beams[b], wavelength);
   });
   return weights;
 }
@@ -35,7 +35,7 @@ ComplexGrid beam_weights(const Echoes& echoes, std::size_t first, std::size_t la
 ComplexGrid synthesize_direct(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                               const SynthesisOptions& options) {
   require_synthesis(echoes, head, medium, options, "synthesize_direct");
-  require_one_row(head, "synthesize_direct");
+  require_one_row(head, "synthesize_direct", false);
   const std::size_t beams = head.fan.beams(), bins = head.gate.bins();
   ComplexGrid pressure = ComplexGrid::Zero(beams, bins);
   const EchoShapes shapes(head.pulse, medium);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares the energy that all beams receive from a direction, by tables, with the sum of their responses.
-#include "beamforming/received_energy.hpp"
+#include "simulate/received_energy.hpp"
 
 #include "sonar/line_array.hpp"
 #include "support/heads.hpp"

@@ -2,7 +2,7 @@
 // The squared pattern of N elements is that of 2N - 1, shaded by the autocorrelation R of the shading. Over all beams:
 //   sum_b B_b(u)^2 = R_0 beams + 2 Re sum_m R_m exp(i k d m u) sum_b exp(-i k d m u_b)
 // The mean over u +- w has each term times sin(k d m w) / (k d m w).
-#include "beamforming/received_energy.hpp"
+#include "simulate/received_energy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "core/units.hpp"
 #include "sonar/pulse_kind.hpp"
+#include "sonar/receive_array.hpp"
 
 namespace insonify {
 namespace {
@@ -18,19 +19,15 @@ using complex = std::complex<double>;
 
 /// Products R_m sum_b exp(-i k d m u_b), m = 0 .. N-1, those of m > 0 twice.
 std::vector<complex> beam_terms(const SonarHead& head, double step) {
-  const std::vector<double>& w = head.array.shading;
-  const std::size_t n = w.size();
+  const std::vector<double> pairs = lag_sums(head.array);
+  const std::size_t n = pairs.size();
   std::vector<complex> terms(n, 0);
   for (std::size_t b = 0; b < head.fan.beams(); ++b) {
     const complex turn = std::polar(1.0, -step * std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
     complex phase = 1;
     for (std::size_t m = 0; m < n; ++m, phase *= turn) terms[m] += phase;
   }
-  for (std::size_t m = 0; m < n; ++m) {
-    double sum = 0;
-    for (std::size_t j = 0; j + m < n; ++j) sum += w[j] * w[j + m];
-    terms[m] *= (m > 0 ? 2 : 1) * sum / static_cast<double>(n * n);
-  }
+  for (std::size_t m = 0; m < n; ++m) terms[m] *= (m > 0 ? 2 : 1) * pairs[m] / static_cast<double>(n * n);
   return terms;
 }
 
@@ -75,6 +72,8 @@ ReceivedEnergy::ReceivedEnergy(const SonarHead& head, double wavelength, double 
 }
 
 void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double half_width, double share) {
+  if (const auto array = receive_array(head); !array->line())
+    return add_responses(*array, head.fan, 2 * pi * head.array.spacing / step, half_width, share);
   std::vector<complex> terms = beam_terms(head, step);
   if (half_width > 0)
     for (std::size_t m = 1; m < terms.size(); ++m) {
@@ -100,6 +99,19 @@ void ReceivedEnergy::add_frequency(const SonarHead& head, double step, double ha
     for (std::size_t l = 0; l < std::min(lanes, table_.size() - begin); ++l)
       table_[begin + l] += share * std::max(0.0, sum[l]);
   }
+}
+
+void ReceivedEnergy::add_responses(const ReceiveArray& array, const BeamFan& fan, double wavelength, double half_width,
+                                   double share) {
+  const std::vector<Eigen::Vector3d> axes = beam_axes(fan);
+  const double weights[] = {1.0 / 6, 4.0 / 6, 1.0 / 6};  // Simpson's rule over u +- half_width
+  for (std::size_t k = 0; k < table_.size(); ++k)
+    for (int j = half_width > 0 ? 0 : 1; j < (half_width > 0 ? 3 : 2); ++j) {
+      const double u = 2 * static_cast<double>(k) / static_cast<double>(table_.size() - 1) - 1 + (j - 1) * half_width;
+      const Eigen::Vector3d from = ahead(std::clamp(u, -1.0, 1.0), axes[0].z());
+      for (const Eigen::Vector3d& axis : axes)
+        table_[k] += share * (half_width > 0 ? weights[j] : 1) * std::norm(array.response(from, axis, wavelength));
+    }
 }
 
 double ReceivedEnergy::along_array(double u) const { return between_entries(table_, u); }

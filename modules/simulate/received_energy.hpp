@@ -6,9 +6,11 @@
 
 namespace insonify {
 
+class ReceiveArray;
+
 /// Table of the energy that all beams of a head together receive from a plane wave: the sum over beams of the squared
 /// response, side lobes included (E10, E56). Interpolation over u and v is accurate to 1 % within a main lobe and to 5 %
-/// where only side lobes receive.
+/// where only side lobes receive. For an array that is no line the entries are those at the elevation of its beams.
 class ReceivedEnergy {
  public:
   /// Tabulates the sum at `wavelength` [m]. If `half_width` > 0, each entry is the mean over u +- half_width. If
@@ -22,6 +24,7 @@ class ReceivedEnergy {
  private:
   /// Adds the squared response of elements `step` [rad] apart in phase, times `share`.
   void add_frequency(const SonarHead& head, double step, double half_width, double share);
+  void add_responses(const ReceiveArray& array, const BeamFan& fan, double wavelength, double half_width, double share);
 
   std::vector<double> table_;  // over u from -1 to 1
   std::vector<double> rows_;   // sum over rows of their squared responses, over v from -1 to 1; empty: 1
