@@ -16,10 +16,12 @@ namespace insonify {
 class ReceiveArray;
 struct SonarHead;
 std::unique_ptr<const ReceiveArray> line_or_plane(const SonarHead& head);  ///< E10, E56
+std::unique_ptr<const ReceiveArray> curved_array(const SonarHead& head);   ///< E205
 
 /// Shape of the receive array.
 enum class ArrayShape {
-  line  ///< a line along the port-starboard axis; with `column` a plane of such lines
+  line,   ///< a line along the port-starboard axis; with `column` a plane of such lines
+  curved  ///< an arc about the head's origin, in its x-y plane
 };
 
 /// A kind of receive array as sonar files name it.
@@ -30,7 +32,7 @@ struct ArrayKind {
 };
 
 /// The kinds of receive arrays, in the order of ArrayShape. This list is the table to which a new kind adds a row.
-inline constexpr ArrayKind array_kinds[] = {{"line", false, line_or_plane}};
+inline constexpr ArrayKind array_kinds[] = {{"line", false, line_or_plane}, {"curved", true, curved_array}};
 
 /// A sonar head: listening directions, range gate, receive array and transmit pulse.
 struct SonarHead {

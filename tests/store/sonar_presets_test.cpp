@@ -27,7 +27,7 @@ TEST(Presets, are_found_by_name_and_sorted) {
       "micron seaking seaking-hf imagenex-881l-lf imagenex-881l imagenex-881l-hf imagenex-837 ping360 "
       "seabat-t50 r2sonic-2024 em2040 norbit-wbms waterlinked-3d15 waterlinked-3d15-hf echoscope "
       "edgetech-4125 edgetech-4125-hf klein-3000 klein-3000-lf omniscan-450 starfish-450 starfish-990 "
-      "es200-7c ping2 seaking-profiler thesis-table2");
+      "es200-7c ping2 seaking-profiler thesis-table2 sm2000-90");
   for (std::string name; shipped >> name;) EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
