@@ -59,16 +59,20 @@ NarrowBandError::Sums NarrowBandError::of(const Scatterers& positions, const std
 
 // Adds all beams that have the echo in or near their main or grating lobes, and a few that stand for the rest.
 NarrowBandError::Sums NarrowBandError::of_echo(const Echo& echo) const {
-  std::vector<double> u_beam = u_beam_;
-  const std::size_t beams = u_beam.size(), near = std::min(near_beams, beams);
+  struct Beam {
+    double away, u;
+  };
+  const std::size_t beams = u_beam_.size(), near = std::min(near_beams, beams);
   const double lobes_apart = 1 / (cycles_per_m_ * head_.array.spacing);
-  std::ranges::sort(u_beam, {}, [&](double u) { return std::abs(std::remainder(u - echo.u, lobes_apart)); });
+  std::vector<Beam> beam;
+  for (const double u : u_beam_) beam.push_back({std::abs(std::remainder(u - echo.u, lobes_apart)), u});
+  std::ranges::sort(beam, {}, &Beam::away);
   Sums sums;
   std::vector<double> workspace(2 * kernels::EchoPhasors::rows * y_.size());
-  for (std::size_t b = 0; b < near; ++b) add_beam(echo, u_beam[b], echo.times, workspace, sums);
+  for (std::size_t b = 0; b < near; ++b) add_beam(echo, beam[b].u, echo.times, workspace, sums);
   const std::size_t rest = beams - near, step = std::max<std::size_t>(1, rest / far_beams);
   for (std::size_t b = near + step / 2; b < beams; b += step)
-    add_beam(echo, u_beam[b], echo.times * static_cast<double>(step), workspace, sums);
+    add_beam(echo, beam[b].u, echo.times * static_cast<double>(step), workspace, sums);
   return sums;
 }
 
