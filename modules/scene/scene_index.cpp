@@ -11,7 +11,7 @@
 namespace insonify {
 namespace {
 
-using Index = flann::KDTreeSingleIndex<flann::L2_Simple<float>>;
+using Index = flann::KDTreeSingleIndex<flann::L2_3D<float>>;
 
 // Writes results directly into the caller's vector, so a query does not allocate a result set.
 class WithinRadius final : public flann::ResultSet<float> {
@@ -31,8 +31,8 @@ class WithinRadius final : public flann::ResultSet<float> {
 // Keeps the k nearest hits sorted, equal distances by index.
 class Nearest final : public flann::ResultSet<float> {
  public:
-  Nearest(std::size_t k, std::vector<Neighbour>& hits) : k_(k), hits_(hits) { hits_.reserve(k + 1); }
-  bool full() const override { return hits_.size() == k_; }
+  Nearest(std::size_t k, std::vector<Neighbour>& hits) : k_(k), hits_(hits) { hits_.resize(k); }
+  bool full() const override { return found_ == k_; }
   float worstDist() const override { return worst_; }
   void addPoint(float squared_distance, std::size_t index) override {
     if (squared_distance >= worst_) return;
@@ -40,13 +40,16 @@ class Nearest final : public flann::ResultSet<float> {
     const auto before = [](const Neighbour& a, const Neighbour& b) {
       return a.squared_distance < b.squared_distance || (a.squared_distance == b.squared_distance && a.index < b.index);
     };
-    hits_.insert(std::upper_bound(hits_.begin(), hits_.end(), hit, before), hit);
-    if (hits_.size() > k_) hits_.pop_back();
-    if (hits_.size() == k_) worst_ = hits_.back().squared_distance;
+    std::size_t at = full() ? found_ - 1 : found_++;  // the farthest leaves
+    for (; at > 0 && before(hit, hits_[at - 1]); --at) hits_[at] = hits_[at - 1];
+    hits_[at] = hit;
+    if (full()) worst_ = hits_.back().squared_distance;
   }
+  void finish() { hits_.resize(found_); }
 
  private:
   std::size_t k_;
+  std::size_t found_ = 0;
   float worst_ = std::numeric_limits<float>::max();
   std::vector<Neighbour>& hits_;
 };
@@ -89,6 +92,7 @@ void SceneIndex::find_nearest(const Eigen::Vector3f& query, std::size_t k, std::
   if (k == 0 || !tree_->index) return;
   Nearest nearest(std::min(k, tree_->size), result);
   tree_->index->findNeighbors(nearest, query.data(), exact_search());
+  nearest.finish();
 }
 
 void SceneIndex::find_within(const Eigen::Vector3f& query, float radius, std::vector<Neighbour>& result) const {
