@@ -80,9 +80,12 @@ const GsfArray arrays[] = {
     {18, 0, u16, 180, 0, "BEAM_ANGLE_FORWARD", "deg",
      "azimuth of the beam counter-clockwise from starboard, 0 to 359.99: ahead is 90, port 180, astern 270",
      [](const GsfBeam& b) { return gsf_compass(b.azimuth, 180); }},
-    {19, 0, u16, 10000, 0, "VERTICAL_ERROR", "m", "of the sounding by its range, at 95 % (1.96 standard deviations)",
+    {19, 0, u16, 10000, 0, "VERTICAL_ERROR", "m",
+     "of the sounding, at 95 % (1.96 standard deviations): its TVU if the mission states its instruments, else by its "
+     "range alone",
      [](const GsfBeam& b) { return std::min(6.5, confidence_95 * b.vertical_deviation); }},
-    {20, 0, u16, 10000, 0, "HORIZONTAL_ERROR", "m", "of the sounding by its range, at 95 %",
+    {20, 0, u16, 10000, 0, "HORIZONTAL_ERROR", "m",
+     "of the sounding, at 95 %: its THU if the mission states its instruments, else by its range alone",
      [](const GsfBeam& b) { return std::min(6.5, confidence_95 * b.horizontal_deviation); }},
     {23, 0, u8, 1, 0, "DETECTION_INFO", "", "0: centre of gravity of the echo, 1: zero of the phase, 132: no sounding",
      [](const GsfBeam& b) { return b.by_phase ? 1.0 : 0.0; }, 132}};

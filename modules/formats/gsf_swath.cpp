@@ -156,7 +156,7 @@ const std::vector<double>* GsfRecordedPing::array(GsfArrayId id) const {
 
 SwathRecord swath_of(const GsfRecord& record) {
   SwathRecord swath;
-  swath.format = "GSF " + record.version;
+  swath.format = "GSF " + record.version, swath.total_deviations = true;
   swath.sonar = gsf_sonar_name(record.pings.front().sensor);
   for (const GsfRecordedPing& ping : record.pings) {
     swath.pings.push_back(gsf_swath_ping(ping, swath.pings.size()));

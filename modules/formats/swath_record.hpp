@@ -58,7 +58,8 @@ struct RecordedAttitude {
 struct SwathRecord {
   std::string format;  ///< "GSF 3.06", "R2Sonic XTF by QINSy", "KMALL"
   std::string sonar;
-  std::string unit;  ///< unit of levels; empty if none are recorded
+  std::string unit;               ///< unit of levels; empty if none are recorded
+  bool total_deviations = false;  ///< true: deviations times 1.96 are total uncertainties (TVU, THU) at 95 %
   std::vector<SwathPing> pings{};
   std::vector<RecordedProfile> profiles{};
   std::vector<RecordedAttitude> attitudes{};

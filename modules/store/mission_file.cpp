@@ -75,6 +75,8 @@ void read_trajectory(const std::string& path, const TomlValue& table, const Miss
   if (table.find("nav_noise")) {
     at_line(path, table.line, [&] { m.mission.navigation = navigation_errors(trajectory, t.noise, m.seed); });
     m.position_deviation = t.noise.position;
+    if (!m.instruments && (t.noise.position > 0 || t.noise.heading > 0 || t.noise.attitude > 0))
+      m.instruments = {t.noise.position, t.noise.position, t.noise.heading, t.noise.attitude};
   }
 }
 
@@ -197,6 +199,7 @@ const TomlValue& required_table(const std::string& path, const TomlValue& docume
 void read_tables(const std::string& path, const TomlValue& document, MissionTables& t, MissionFile& m) {
   const TomlValue& survey = required_table(path, document, "survey");
   read_keys(path, document, mission_keys(t, m), "", {"schema", "head", "leg", "template", "scene", "ping"});
+  if (document.find("instruments")) m.instruments = t.instruments;
   const TomlValue* anchor = survey.find("anchor");
   if (anchor) m.anchor = t.anchor;
   if (anchor && !m.system.empty())

@@ -26,6 +26,17 @@ struct MissionWater {
   std::string tide{};             ///< path of the tide; empty: none, or lists in the mission
 };
 
+/// Standard deviations of what the instruments of a vehicle state, by which soundings have uncertainties (E214).
+struct InstrumentDeviations {
+  double position = 0;             ///< each horizontal coordinate of the vehicle [m]
+  double height = 0;               ///< height of the vehicle, by heave, tide or satellites [m]
+  double heading = 0;              ///< [rad]
+  double attitude = 0;             ///< pitch and roll each [rad]
+  double latency = 0;              ///< time of pings in that of the navigation [s]
+  double sound_speed = 0;          ///< mean of the profile from the head to the bottom [m/s]
+  double surface_sound_speed = 0;  ///< at the head, by which its beams are steered [m/s]
+};
+
 /// The contents of a mission file. The tables [scene] and [ping] are settings of the tool; they are not read here.
 struct MissionFile {
   std::string path, text;            ///< text: the whole file
@@ -41,6 +52,7 @@ struct MissionFile {
   std::string system;             ///< system of the world's coordinates, "EPSG:25832"; empty: unknown
   std::string trajectory;         ///< path of the trajectory; empty: waypoints, or random poses
   double position_deviation = 0;  ///< standard deviation of nav_noise in each coordinate [m]
+  std::optional<InstrumentDeviations> instruments{};  ///< table [instruments], else by nav_noise; absent: not stated
   Mission mission;  ///< listening times are 0: they follow from sonar and water; random poses are not drawn
   std::vector<MissionSonar> sonars;  ///< one for each head
 };

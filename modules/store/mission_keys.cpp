@@ -117,6 +117,29 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
   };
 }
 
+/// Returns the keys of [instruments].
+std::vector<Key> instrument_keys(InstrumentDeviations& d) {
+  return {
+      {"instruments", "position_m", "m", number(d.position, not_negative),
+       "standard deviation of each horizontal coordinate of the vehicle. The table states how good the instruments "
+       "are: "
+       "soundings get uncertainties (TVU and THU, E214), and nothing else changes. Without the table the deviations "
+       "are "
+       "those of `trajectory.nav_noise`, whose position is that of the height too"},
+      {"instruments", "height_m", "m", number(d.height, not_negative),
+       "standard deviation of the height of the vehicle, by heave, tide or satellites"},
+      {"instruments", "heading_deg", "deg", angle(d.heading, not_negative), "standard deviation of the heading"},
+      {"instruments", "attitude_deg", "deg", angle(d.attitude, not_negative),
+       "standard deviation of pitch and of roll, alignment included"},
+      {"instruments", "latency_s", "s", number(d.latency, not_negative),
+       "standard deviation of the time of pings in that of the navigation"},
+      {"instruments", "sound_speed_m_s", "m/s", number(d.sound_speed, not_negative),
+       "standard deviation of the sound speed of the profile, from the head to the bottom"},
+      {"instruments", "surface_sound_speed_m_s", "m/s", number(d.surface_sound_speed, not_negative),
+       "standard deviation of the sound speed at the head, by which its beams are steered"},
+  };
+}
+
 /// Returns the keys of [[head]] and [[leg]].
 std::vector<Key> head_keys(MissionTables& t) {
   MissionLeg& leg = t.leg;
@@ -265,7 +288,8 @@ std::vector<Key> water_keys(Randomisation& r, MissionWater& water, TideSeries& t
 std::vector<Key> mission_keys(MissionTables& t, MissionFile& m) {
   std::vector<Key> all = survey_keys(t, m);
   for (const std::vector<Key>& more :
-       {head_keys(t), assumed_keys(t), water_keys(m.randomise, m.water, m.mission.tide), pose_keys(t, m.random_poses)})
+       {instrument_keys(t.instruments), head_keys(t), assumed_keys(t), water_keys(m.randomise, m.water, m.mission.tide),
+        pose_keys(t, m.random_poses)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

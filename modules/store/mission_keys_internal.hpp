@@ -17,6 +17,7 @@ struct MissionTables {
   double time_offset = 0, max_gap = 0;  ///< 0: not given
   Waypoints way{};
   NavigationNoise noise{};
+  InstrumentDeviations instruments{};
   double random_pings = 0;             ///< 0: not given
   std::vector<Eigen::Vector3d> box{};  ///< corners of the box of random poses
   MissionHead head{};

@@ -9,12 +9,14 @@
 #include "formats/gsf_file.hpp"
 #include "returns/echo_place.hpp"
 #include "tool/export/product_run.hpp"
+#include "tool/export/sounding_uncertainty.hpp"
 
 namespace insonify::tool {
 namespace {
 
 constexpr double deepest_profile = 12000;  // [m], below any sea floor
-constexpr double profile_step = 0.01;      // of sound speeds in a profile [m/s]
+constexpr double deviations_at_95 = 1.959963985;
+constexpr double profile_step = 0.01;  // of sound speeds in a profile [m/s]
 
 /// How a head is mounted, against one whose swath is straight down: its x axis down, its z axis ahead.
 GsfMounting mounting_of(const Pose& ship_from_head) {
@@ -37,7 +39,7 @@ GsfBeam pointing_beam(const ShipAxes& ship, const Eigen::Vector3d& way) {
 /// A sounding where it lies on the globe, in level axes of the ship below its head. Angles and travel time are those of
 /// a head that stays where it transmitted.
 GsfBeam placed_beam(const PlacedRun& run, const Ping& ping, const ShipAxes& ship, const Anchor& here,
-                    const BottomSoundings& found, std::size_t i) {
+                    const RunUncertainty& uncertainty, const BottomSoundings& found, std::size_t i) {
   const std::size_t b = found.beam[i];
   const Eigen::Vector3d way = way_of_beam(ping, b, found.range[i], ping.sound_speed);
   GsfBeam beam = pointing_beam(ship, way);
@@ -51,6 +53,10 @@ GsfBeam placed_beam(const PlacedRun& run, const Ping& ping, const ShipAxes& ship
   beam.quality = static_cast<double>(found.quality[i]);
   beam.vertical_deviation = deviation * std::cos(beam.angle);
   beam.horizontal_deviation = deviation * std::sin(beam.angle);
+  if (uncertainty.known()) {
+    const SoundingUncertainty of_all = uncertainty.at(ping, found, i);
+    beam.vertical_deviation = of_all.vertical, beam.horizontal_deviation = of_all.thu / deviations_at_95;
+  }
   beam.rejected = found.reject[i] != 0;
   beam.by_phase = found.method[i] == BottomMethod::phase;
   return beam;
@@ -58,7 +64,7 @@ GsfBeam placed_beam(const PlacedRun& run, const Ping& ping, const ShipAxes& ship
 
 /// The beams of a ping from port to starboard, those of several soundings one after the other.
 std::vector<GsfBeam> beams_of(const PlacedRun& run, const Ping& ping, const BottomSoundings& found,
-                              const ShipAxes& ship, const Anchor& here) {
+                              const ShipAxes& ship, const Anchor& here, const RunUncertainty& uncertainty) {
   std::vector<std::pair<double, GsfBeam>> beams;
   std::size_t next = 0;  // soundings are by beams
   for (std::size_t b = 0; b < ping.fan.beams(); ++b) {
@@ -67,7 +73,7 @@ std::vector<GsfBeam> beams_of(const PlacedRun& run, const Ping& ping, const Bott
     const double across = axis.dot(ship.starboard);
     if (next == found.size() || found.beam[next] != b) beams.emplace_back(across, pointing_beam(ship, axis));
     for (; next < found.size() && found.beam[next] == b; ++next)  // each a beam of its own
-      beams.emplace_back(across, placed_beam(run, ping, ship, here, found, next));
+      beams.emplace_back(across, placed_beam(run, ping, ship, here, uncertainty, found, next));
   }
   std::stable_sort(beams.begin(), beams.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<GsfBeam> sorted;
@@ -94,8 +100,8 @@ void add_motion(const PlacedRun& run, const std::optional<Trajectory>& way, cons
   if (out.speed > 1e-6) out.course = heading_of(run.reference(), ping.world_from_head.translation(), level / out.speed);
 }
 
-GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, const Cube& cube, const Ping& ping,
-                 const BottomSoundings& found) {
+GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, const RunUncertainty& uncertainty,
+                 const Cube& cube, const Ping& ping, const BottomSoundings& found) {
   const Eigen::Vector3d head = ping.world_from_head.translation();
   const ShipAxes ship = ship_axes(run.pings, ping);
   const double water = water_level(run.pings, ping.time).value_or(0);
@@ -111,7 +117,7 @@ GsfPing gsf_ping(const PlacedRun& run, const std::optional<Trajectory>& way, con
   add_sonar(cube, ping, out);
   add_motion(run, way, ping, out);
   const Anchor here{degrees(out.position.latitude), degrees(out.position.longitude), degrees(out.heading)};
-  out.beams = beams_of(run, ping, found, ship, here);
+  out.beams = beams_of(run, ping, found, ship, here, uncertainty);
   return out;
 }
 
@@ -173,10 +179,11 @@ GsfSurvey survey_of(const PlacedRun& run, const Cube& cube, const SoundSpeedProf
 SoundingCount gsf_product(const PlacedRun& run) {
   std::vector<std::string> notes;
   const std::optional<Trajectory> way = way_of(run.pings, notes);
+  const RunUncertainty uncertainty(run);
   std::unique_ptr<GsfFile> file;
   double before = 0, speed = 0;  // time of the last ping, and at the surface in its profile
   SoundingCount count = each_swath(run, [&](const Cube& cube, const Ping& ping, const BottomSoundings& found) {
-    GsfPing swath = gsf_ping(run, way, cube, ping, found);
+    GsfPing swath = gsf_ping(run, way, uncertainty, cube, ping, found);
     if (file) swath.period = std::max(0.0, swath.time - before);
     before = swath.time;
     if (!file && swath.head_depth < 0 && !water_level(run.pings, ping.time))

@@ -17,6 +17,7 @@
 #include "tool/export/product_run.hpp"
 #include "tool/export/raster_plane.hpp"
 #include "tool/export/sounding_map.hpp"
+#include "tool/export/sounding_uncertainty.hpp"
 
 namespace insonify::tool {
 
@@ -92,7 +93,10 @@ SoundingCount csv_product(const PlacedRun& run) {
   std::ofstream out(pending.temporary(), std::ios::binary);
   if (const std::string remark = profile_remark(run.options); !remark.empty()) out << "# " << remark << '\n';
   const std::span columns(csv_columns);
-  out << joined(run.georeference ? columns : columns.first(columns.size() - 2), ",", &BandMeaning::name) << '\n';
+  const RunUncertainty uncertainty(run);
+  out << joined(run.georeference ? columns : columns.first(columns.size() - 2), ",", &BandMeaning::name);
+  if (uncertainty.known()) out << ',' << joined(uncertainty_columns(), ",");
+  out << '\n';
   const auto count = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     std::string rows;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -105,6 +109,9 @@ SoundingCount csv_product(const PlacedRun& run) {
         const GeoPosition position = geo_from_world(run.reference(), at);
         rows += fmt::format(",{:.9f},{:.9f}", degrees(position.latitude), degrees(position.longitude));
       }
+      if (uncertainty.known())
+        for (const double number : uncertainty_numbers(uncertainty.at(ping, found, i)))
+          rows += fmt::format(",{:.5f}", number);
       rows += '\n';
     }
     out << rows;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +14,8 @@ namespace insonify::tool {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr double deviations_of_95 = 1.959963985;
 
 /// The least and the greatest of some numbers, without those that are not recorded.
 struct RecordedSpan {
@@ -51,6 +54,39 @@ void add_soundings(const SwathRecord& record, ordered_json& info) {
   if (!horizontal.empty()) info["horizontal_deviation_m"] = median_or_null(horizontal);
 }
 
+/// An order of IHO S-44, edition 6.1: the largest TVU is sqrt(a^2 + (b depth)^2), the largest THU c + d depth. (E214)
+struct IhoOrder {
+  const char* name;
+  double a, b, c, d;
+  bool holds(const SwathSounding& sounding, double depth) const {
+    return deviations_of_95 * sounding.vertical_deviation <= std::hypot(a, b * depth) &&
+           deviations_of_95 * sounding.horizontal_deviation <= c + d * depth;
+  }
+};
+constexpr IhoOrder iho_orders[] = {{"exclusive", 0.15, 0.0075, 1, 0},
+                                   {"special", 0.25, 0.0075, 2, 0},
+                                   {"1a, 1b", 0.5, 0.013, 5, 0.05},
+                                   {"2", 1, 0.023, 20, 0.1}};
+
+/// Adds the shares of the soundings with stated uncertainties that reach each order, and the finest that 95 % reach.
+void add_orders(const SwathRecord& record, ordered_json& info) {
+  std::array<double, std::size(iho_orders)> reached{};
+  double stated = 0;
+  for (const SwathPing& ping : record.pings)
+    for (const SwathSounding& sounding : ping.soundings) {
+      if (sounding.rejected || std::isnan(sounding.vertical_deviation) || std::isnan(sounding.horizontal_deviation))
+        continue;
+      ++stated;
+      for (std::size_t k = 0; k < reached.size(); ++k)
+        reached[k] += iho_orders[k].holds(sounding, std::max(0.0, sounding.depth)) ? 1 : 0;
+    }
+  if (!record.total_deviations || stated == 0) return;
+  info["iho_order"] = "none";
+  for (std::size_t k = reached.size(); k-- > 0;)
+    if (reached[k] >= 0.95 * stated) info["iho_order"] = iho_orders[k].name;
+  for (std::size_t k = 0; k < reached.size(); ++k) info["iho_orders"][iho_orders[k].name] = reached[k] / stated;
+}
+
 void add_way(const SwathPings& swath, ordered_json& info) {
   RecordedSpan latitude, longitude;
   double way = 0;
@@ -79,6 +115,7 @@ ordered_json info_of_swath(const std::string& path) {
   for (const SwathPing& ping : record.pings) beams = std::max(beams, ping.beams);
   info["beams"] = beams;
   add_soundings(record, info);
+  add_orders(record, info);
   if (first.frequency > 0) info["centre_frequency_hz"] = first.frequency;
   if (first.sound_speed > 0) info["sound_speed"] = first.sound_speed;
   info["first_utc"] = utc_after("1970-01-01T00:00:00Z", first.time);

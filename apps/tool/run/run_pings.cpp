@@ -50,6 +50,7 @@ void add_mission(const std::string& path, const std::string& head, RunPings& pin
   }
   pings.water = file.water, pings.tide = file.mission.tide;
   pings.position_deviation = file.position_deviation;
+  pings.instruments = file.instruments;
 }
 
 /// A text that the run.toml of a ping records under [ping]; empty if it has none.

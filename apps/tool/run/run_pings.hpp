@@ -32,8 +32,9 @@ struct RunPings {
   std::optional<TideSeries> reduction{};   ///< tide by which heights are reduced to z = 0; absent: the true one
   std::string assumed_profile{};  ///< path of the profile by which its mission places soundings; empty: the true one
   std::optional<double> position_deviation{};  ///< deviation of each coordinate that its mission believes [m]; 0: exact
-  std::vector<MissionLeg> legs{};              ///< legs of its mission
-  std::vector<std::string> notes{};            ///< on what is unknown because files are gone
+  std::optional<InstrumentDeviations> instruments{};  ///< deviations that its mission states; absent: none
+  std::vector<MissionLeg> legs{};                     ///< legs of its mission
+  std::vector<std::string> notes{};                   ///< on what is unknown because files are gone
 };
 
 /// The cube of a run directory, or the path itself if it is a file. Throws Error(file) or Error(content).
