@@ -287,9 +287,8 @@ std::vector<Key> water_keys(Randomisation& r, MissionWater& water, TideSeries& t
 
 std::vector<Key> mission_keys(MissionTables& t, MissionFile& m) {
   std::vector<Key> all = survey_keys(t, m);
-  for (const std::vector<Key>& more :
-       {instrument_keys(t.instruments), head_keys(t), assumed_keys(t), water_keys(m.randomise, m.water, m.mission.tide),
-        pose_keys(t, m.random_poses)})
+  for (const std::vector<Key>& more : {instrument_keys(t.instruments), head_keys(t), assumed_keys(t),
+                                       water_keys(m.randomise, m.water, m.mission.tide), pose_keys(t, m.random_poses)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -6,8 +6,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "tool/export/ship_axes.hpp"
-
 namespace insonify::tool {
 namespace {
 
