@@ -26,8 +26,8 @@ enum class ArrayShape {
 
 /// A kind of receive array as sonar files name it.
 struct ArrayKind {
-  const char* name;  ///< word in sonar files
-  bool has_radius;   ///< true: array_radius is given
+  const char* name;                                                    ///< word in sonar files
+  bool has_radius;                                                     ///< true: array_radius is given
   std::unique_ptr<const ReceiveArray> (*make)(const SonarHead& head);  ///< makes the array of a head
 };
 
