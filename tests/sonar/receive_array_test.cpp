@@ -123,7 +123,8 @@ TEST(CurvedArray, is_built_for_a_beam_width) {
   EXPECT_NEAR(degrees(receive_array(head)->beam_width(nominal_sound_speed / spec.centre_frequency)), 4, 0.15);
   // A bent array is shorter across than along.
   EXPECT_LT(receive_array(head)->length(), head.array.spacing * static_cast<double>(head.array.elements()));
-  for (const Eigen::Vector3d& p : receive_array(head)->positions()) EXPECT_NEAR(p.norm(), 0.05, 1e-12);
+  const auto array = receive_array(head);
+  for (const Eigen::Vector3d& p : array->positions()) EXPECT_NEAR(p.norm(), 0.05, 1e-12);
 }
 
 TEST(CurvedArray, is_refused_where_it_cannot_form_beams) {

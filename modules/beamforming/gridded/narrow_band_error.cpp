@@ -25,7 +25,8 @@ NarrowBandError::NarrowBandError(const SonarHead& head, double sound_speed)
   cycles_per_m_ = head.pulse.centre_frequency / sound_speed;
   off_focus_ = std::sqrt(3 * std::numbers::ln2 / 2) * sound_speed / (2 * pi * head.pulse.bandwidth);
   for (const Eigen::Vector3d& axis : beam_axes(head.fan)) u_beam_.push_back(axis.y());
-  for (const Eigen::Vector3d& p : receive_array(head)->positions()) y_.push_back(p.y());
+  const auto array = receive_array(head);
+  for (const Eigen::Vector3d& p : array->positions()) y_.push_back(p.y());
   shading_ = head.array.shading;
   while (y_.size() % kernels::phasor_lanes != 0) y_.push_back(0), shading_.push_back(0);
 }
