@@ -103,6 +103,17 @@ TEST_F(Help, bash_completes_verbs_options_and_words) {
   EXPECT_EQ(proposed("insonify completion z", 2), "zsh\n");
 }
 
+TEST_F(Help, shells_complete_a_scene_with_files_of_the_formats_that_are_read) {
+  for (const char* name : {"s.ply", "s.tiles", "s.toml", "s.wrl", "s.png"}) write(name, "");
+  std::filesystem::create_directory(path("s.folder"));
+  const std::string here = path("s");
+  EXPECT_EQ(proposed("insonify prepare " + here, 2),
+            here + ".folder " + here + ".ply " + here + ".tiles " + here + ".toml\n");
+  EXPECT_EQ(proposed("insonify prepare a.ply -o " + here, 4), "\n");  // any file
+  EXPECT_THAT(succeed("completion zsh"), HasSubstr("'::SCENE:_files -g \"*(.pcd|.ply|"));
+  EXPECT_THAT(succeed("completion fish"), HasSubstr("(__fish_complete_suffix .pcd .ply "));
+}
+
 TEST_F(Help, exit_codes_are_those_of_the_docs) {
   std::stringstream page;
   page << std::ifstream(INSONIFY_TROUBLES_PAGE).rdbuf();

@@ -84,7 +84,7 @@ std::string bash_script(const CommandText& program, const std::deque<CommandText
   std::string script = fmt::format(
       "_{0}() {{\n"
       "  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}\n"
-      "  local words=\"\" options=\"\"\n"
+      "  local words=\"\" options=\"\" endings=\"\" ending\n"
       "  if ((COMP_CWORD == 1)) || {{ ((COMP_CWORD == 2)) && [[ $before == help ]]; }}; then\n"
       "    mapfile -t COMPREPLY < <(compgen -W \"{1} --help --version\" -- \"$word\")\n"
       "    return\n"
@@ -95,6 +95,8 @@ std::string bash_script(const CommandText& program, const std::deque<CommandText
     script += fmt::format("    {})\n      options=\"{}\"\n", verb.name, all_names(verb));
     std::string cases;
     for (const OptionText& option : verb.options) {
+      if (!option.extensions.empty())
+        script += fmt::format("      endings=\"{}\"\n", fmt::join(option.extensions, " "));
       if (option.words.empty()) continue;
       if (option.positional())
         script += fmt::format("      words=\"{}\"\n", fmt::join(option.words, " "));
@@ -108,7 +110,13 @@ std::string bash_script(const CommandText& program, const std::deque<CommandText
   return script + fmt::format(
                       "  esac\n"
                       "  [[ $word == -* ]] && words=$options\n"
-                      "  [[ -n $words ]] && mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
+                      "  if [[ -n $words ]]; then\n"
+                      "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
+                      "  elif [[ -n $endings && $before != -* ]]; then\n"
+                      "    mapfile -t COMPREPLY < <(compgen -d -- \"$word\"\n"
+                      "      for ending in $endings; do compgen -G \"$word*$ending\"; done)\n"
+                      "    compopt -o filenames 2>/dev/null\n"
+                      "  fi\n"
                       "}}\n"
                       "complete -o default -F _{0} {0}\n",
                       program.name);
@@ -139,7 +147,8 @@ std::string zsh_script(const CommandText& program, const std::deque<CommandText>
   for (const CommandText& verb : verbs) {
     script += fmt::format("    {})\n      _arguments \\\n", verb.name);
     for (const OptionText& option : verb.options) {
-      const std::string values = option.words.empty() ? "_files" : fmt::format("({})", fmt::join(option.words, " "));
+      std::string values = option.words.empty() ? "_files" : fmt::format("({})", fmt::join(option.words, " "));
+      if (!option.extensions.empty()) values += fmt::format(" -g \"*({})\"", fmt::join(option.extensions, "|"));
       if (option.positional()) {
         script += fmt::format("        '::{}:{}' \\\n", option.names.front(), values);
         continue;
@@ -165,7 +174,10 @@ std::string fish_script(const CommandText& program, const std::deque<CommandText
           line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
       if (!option.words.empty()) line += fmt::format(" -x -a '{}'", fmt::join(option.words, " "));
       if (option.words.empty() && !option.value.empty() && !option.positional()) line += " -r";
-      if (option.positional() && option.words.empty()) continue;
+      if (!option.extensions.empty())
+        line += fmt::format(" -k -a '(__fish_complete_suffix {})'", fmt::join(option.extensions, " "));
+      else if (option.positional() && option.words.empty())
+        continue;
       script += fmt::format("{} -d '{}'\n", line, quoted(option.help, "\\"));
     }
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -139,6 +140,12 @@ void OptionList::add(const std::string& name, const OptionValue& value, const st
   if (rules.group) option->group(rules.group);
   if (rules.shown_as) option->option_text(rules.shown_as);
   text_->options.push_back(text_of(*option, rules));
+}
+
+void OptionList::complete_with(const std::string& name, const std::string& extensions) {
+  std::istringstream words(extensions);
+  for (OptionText& option : text_->options)
+    if (option.names.front() == name) option.extensions.assign(std::istream_iterator<std::string>(words), {});
 }
 
 void OptionList::release(const std::string& name) { app_->get_option(name)->required(false); }

@@ -23,6 +23,7 @@ struct OptionText {
   std::string group;               ///< title under which it is listed; empty: nowhere
   std::vector<std::string> words;  ///< allowed values; empty: any
   bool required = false;
+  std::vector<std::string> extensions{};  ///< endings of the files that a positional argument takes; empty: any
 
   bool positional() const { return names.front().front() != '-'; }
 };
@@ -45,7 +46,7 @@ std::string exit_codes_text();
 std::string man_page(const CommandText& program, const std::deque<CommandText>& verbs, const CommandText& verb);
 
 /// Script that completes verbs, options and their words in a shell: "bash", "zsh" or "fish". Anything else in a command
-/// line is completed as a file.
+/// line is completed as a file, a scene as one of the formats that are read.
 std::string completion_script(const std::string& shell, const CommandText& program,
                               const std::deque<CommandText>& verbs);
 
@@ -65,6 +66,8 @@ class OptionList {
  public:
   OptionList(CLI::App* app, CommandText* text) : app_(app), text_(text) {}
   void add(const std::string& name, const OptionValue& value, const std::string& help, const OptionRules& rules = {});
+  /// Lets shells complete a positional argument with files of these extensions, separated by blanks.
+  void complete_with(const std::string& name, const std::string& extensions);
   /// Makes a required option optional.
   void release(const std::string& name);
 

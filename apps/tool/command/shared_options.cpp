@@ -40,8 +40,10 @@ void add_settings(OptionList list, const std::vector<RunSetting>& settings) {
 
 void add_scene(OptionList list, SceneOptions& o) {
   std::vector<RunSetting> settings = scene_settings(o);
-  settings.front().help += ": " + scene_extensions() + " .toml";
+  const std::string extensions = scene_extensions() + " .toml";
+  settings.front().help += ": " + extensions;
   add_settings(list, settings);
+  list.complete_with("SCENE", extensions);
 }
 
 void add_completion(OptionList list, SceneOptions& o) {
