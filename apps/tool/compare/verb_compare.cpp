@@ -290,7 +290,7 @@ void compare(const CompareOptions& o) {
 
 Verb compare_verb() {
   return make_verb<CompareOptions>(
-      "compare", "likeness of two runs, of a run and a recording, of soundings and their scene, or of two swaths",
+      "compare", "likeness of runs and recordings, of soundings and their scene, or of two swaths",
       {"insonify compare run other-seed -o compared", "insonify compare run picture.png --scale 40:100",
        "insonify compare run scan.pcd --strength intensity --strength-unit linear",
        "insonify compare soundings.csv reef.pcd --cell 0.1", "insonify compare run.gsf survey.gsf --cell 1"},

@@ -20,7 +20,7 @@ inline constexpr std::array uncertainty_terms = {"detection", "attitude", "headi
 struct SoundingGeometry {
   Eigen::Vector3d from_head = Eigen::Vector3d::Zero();     ///< the sounding from the head [m]
   Eigen::Vector3d from_vehicle = Eigen::Vector3d::Zero();  ///< the sounding from the vehicle's origin [m]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< of a point fixed to the vehicle at the sounding [m/s]
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      ///< velocity of a point fixed to the vehicle there [m/s]
   double range_deviation = 0;                              ///< standard deviation of the range [m]
   double steering = 0;     ///< angle of the beam from the broadside of its array [rad], positive to starboard
   double sound_speed = 0;  ///< at the head [m/s]
