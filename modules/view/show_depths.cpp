@@ -13,8 +13,10 @@
 namespace insonify {
 namespace {
 
-constexpr double contours_wanted = 12;  // about as many over the range of depths
-constexpr double relief_range = 0.6;    // of brightness that shading takes, of 1
+constexpr double contours_wanted = 12;   // about as many over the range of depths
+constexpr double relief_range = 0.6;     // of brightness that shading takes, of 1
+constexpr double most_exaggeration = 5;  // more would show the noise of a level bed
+constexpr double least_named = 8;        // length of a contour with a name, in sizes of its font
 constexpr Colour contour_colour = {0.05, 0.05, 0.1}, rejected_colour = {0.9, 0.1, 0.1};
 
 /// Returns least and greatest height of a map. Throws Error(argument) if there is none.
@@ -37,7 +39,7 @@ double exaggeration_of(const Grid<float>& height, double cell) {
   if (slopes.empty()) return 1;
   const auto at = slopes.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(slopes.size() - 1));
   std::nth_element(slopes.begin(), at, slopes.end());
-  return std::clamp(1 / std::max(*at, 1e-6), 1.0, 20.0);
+  return std::clamp(1 / std::max(*at, 1e-6), 1.0, most_exaggeration);
 }
 
 /// Returns the colours of the cells, row after row of y from below: by height, brighter and darker by the relief.
@@ -59,6 +61,13 @@ std::vector<Rgb> relief_colours(const DepthMap& map, const ColourScale& scale, c
   return colours;
 }
 
+double length_of(const Path& line) {
+  double length = 0;
+  for (std::size_t i = 1; i < line.size(); ++i)
+    length += std::hypot(line[i].x - line[i - 1].x, line[i].y - line[i - 1].y);
+  return length;
+}
+
 /// Draws contours at multiples of a step, every second of them with its depth in the middle.
 void draw_contours(Canvas& canvas, const DepthMap& map, const Axes& axes, const ColourScale& scale, int font) {
   const double step = round_step((scale.max_db - scale.min_db) / contours_wanted);
@@ -76,7 +85,7 @@ void draw_contours(Canvas& canvas, const DepthMap& map, const Axes& axes, const 
       depth.on_plate = true;
       const Box box = depth.box();
       const bool free = std::none_of(taken.begin(), taken.end(), [&](const Box& other) { return box.overlaps(other); });
-      if (!named || line.size() < 12 || !free || !axes.frame.contains(box)) continue;
+      if (!named || length_of(line) < least_named * font || !free || !axes.frame.contains(box)) continue;
       taken.push_back(box);
       canvas.add_text(depth);
     }

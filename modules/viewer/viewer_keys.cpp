@@ -97,6 +97,7 @@ const std::vector<ViewerKey> keys_of_runs = {
      {{"shift+Up", [](S& s, E& e) { select_next(s, 0, 1, e); }},
       {"shift+Down", [](S& s, E& e) { select_next(s, 0, -1, e); }}}},
     {"clear selection and measure", {{"Escape", [](S& s, E&) { s.selected.reset(), s.measure = {}; }}}},
+    {"3-D: returns of all pings so far", {{"a", [](S& s, E&) { s.accumulate = !s.accumulate; }}}},
     {"3-D follows the head", {{"f", [](S& s, E&) { s.follow = !s.follow; }}}}};
 
 const std::vector<ViewerKey> keys_to_inspect = {

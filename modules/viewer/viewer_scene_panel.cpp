@@ -4,6 +4,7 @@
 
 #include <vtkCamera.h>
 
+#include "returns/sounding_columns.hpp"
 #include "view/colour_maps_internal.hpp"
 #include "view/fan_layout_internal.hpp"
 #include "view/ping_record.hpp"
@@ -29,6 +30,18 @@ Soundings returns_of(const ViewerData& data, std::size_t ping) {
   const bool by_number = std::count(all.ping.begin(), all.ping.end(), position.number) > 0;
   return soundings_of_ping(all, by_number ? position.number : static_cast<std::int64_t>(ping),
                            Tvg{40, position.absorption_db_per_m});
+}
+
+// Returns the returns of a ping, or, if the state accumulates them, of all pings up to it, at most so many back.
+Soundings returns_shown(const ViewerData& data, const ViewerState& state) {
+  constexpr std::size_t most_pings = 2000;
+  if (!state.accumulate) return returns_of(data, state.ping);
+  Soundings all;
+  for (std::size_t ping = state.ping - std::min(state.ping, most_pings - 1); ping <= state.ping; ++ping) {
+    const Soundings more = returns_of(data, ping);
+    for (std::size_t i = 0; i < more.size(); ++i) append_row(all, more, i);
+  }
+  return all;
 }
 
 // Words for colours, in the order of SceneColour.
@@ -63,7 +76,7 @@ ViewerScene::ViewerScene(const ViewerData& data, ViewerPanel& panel, const Viewe
   look.level_unit = level_unit(Tvg{});
   for (const TrackPoint& position : data.pings.positions())
     look.track.emplace_back(position.world_from_head.translation());
-  if (!data.pings.empty()) look.soundings = returns_of(data, state.ping);
+  if (!data.pings.empty()) look.soundings = returns_shown(data, state);
   options_.colour_map = state.colour_map;
   actors_ = std::make_unique<SceneActors>(shown(), look, options_, viewer_caller);
   drawn_.scene_colour = look.colour;
@@ -114,8 +127,9 @@ void ViewerScene::update(const ViewerState& state, const HeadView* view, double 
   if (state.mode == ViewerMode::inspect || state.ping != drawn_.ping) {
     actors_->show_head(head.world_from_head, head.fan, head.gate);
     has_visibility_ = false;
-    if (state.mode == ViewerMode::run) actors_->show_soundings(returns_of(data_, state.ping));
   }
+  if (state.mode == ViewerMode::run && (state.ping != drawn_.ping || state.accumulate != drawn_.accumulate))
+    actors_->show_soundings(returns_shown(data_, state));
   if (view && !own_ && !has_visibility_) {
     actors_->set_visibility(view->visibility);
     actors_->show_holes(view->holes);
@@ -162,16 +176,17 @@ void ViewerScene::draw_key(const PictureOptions& options, double scene_width, co
   const double left = scene_width + 0.8 * font, top = (title ? title->box().bottom : options.height) - font;
   const double below = draw_legend(canvas, legend, left, options.width - 0.4 * font, top, font) - font;
   const double thin = line_width_for(font);
-  double right = options.width - 0.4 * font;
-  const auto add_bar = [&](const ColourScale& scale, const std::string& unit) {
-    const ColourBar bar = upright_colour_bar(scale, unit, font, right, 0.03 * options.height, below);
-    if (bar.outer().left < scene_width) return;  // no room for a second one
-    canvas.add_colour_bar(bar, scale, thin);
-    right = bar.outer().left - 0.6 * font;
-  };
-  if (const auto soundings = actors_->soundings_key(); soundings && soundings->scale)
-    add_bar(*soundings->scale, soundings->unit);
-  if (key.scale) add_bar(*key.scale, key.unit);
+  std::vector<SceneKey> bars;
+  if (const auto soundings = actors_->soundings_key(); soundings && soundings->scale) bars.push_back(*soundings);
+  if (key.scale) bars.push_back(key);
+  const double bottom = 0.03 * options.height, right = options.width - 0.4 * font;
+  for (std::size_t k = 0; k < bars.size(); ++k) {  // one above the other
+    const double high = (below - bottom) / static_cast<double>(bars.size());
+    const double top_of_bar = below - static_cast<double>(k) * high;
+    const ColourBar bar =
+        upright_colour_bar(*bars[k].scale, bars[k].unit, font, right, top_of_bar - high + font, top_of_bar);
+    canvas.add_colour_bar(bar, *bars[k].scale, thin);
+  }
 }
 
 void ViewerScene::reset_camera() {

@@ -59,6 +59,7 @@ struct ViewerState {
   bool show_help = false, show_colour_bars = true, show_grid = true;  ///< the grid: axes of the scene
   bool show_normals = false;                                          ///< true: draws the normals of the scene
   bool follow = false;                                                ///< true: the scene's camera follows the head
+  bool accumulate = false;  ///< true: the scene shows the returns of all pings up to this one
 
   PoseAngles head;      ///< pose of the head to inspect
   double stride = 0.5;  ///< step of the head per key [m]; turns are 10 degrees per metre of it

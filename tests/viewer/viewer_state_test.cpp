@@ -32,6 +32,11 @@ TEST(ViewerKeys, step_through_the_pings_and_stop_at_both_ends) {
   EXPECT_EQ(after({}, {"End", "Home"}).ping, 0U);
 }
 
+TEST(ViewerKeys, a_gathers_the_returns_of_all_pings_so_far) {
+  EXPECT_TRUE(after({}, {"a"}).accumulate);
+  EXPECT_FALSE(after({}, {"a", "a"}).accumulate);
+}
+
 TEST(ViewerKeys, gain_and_window_move_by_decibels_within_limits) {
   EXPECT_EQ(after({}, {"Up", "Up", "Down"}).gain_db, 2);
   EXPECT_EQ(after({}, {"bracketright"}).window_db, 50);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A survey in the viewer: pings read one at a time, sweeps, waterfalls, seeking; and the program on a survey's folder.
 #include "core/units.hpp"
+#include "returns/sounding_columns.hpp"
+#include "scene/built_in_scenes.hpp"
 #include "store/cube.hpp"
 #include "support/test.hpp"
 #include "tool/survey_fixture.hpp"
@@ -182,6 +184,29 @@ TEST_F(SurveyWindow, the_timeline_seeks_and_stops_playing) {
   EXPECT_FALSE(window_->state().playing);
   window_->press_key("Next");
   EXPECT_NEAR(static_cast<double>(window_->state().ping), 172, 6);
+}
+
+// The status line and the keys stay, so that pictures differ by the returns alone.
+TEST_F(SurveyWindow, a_gathers_returns_of_earlier_pings) {
+  data_.scene = make_built_in_scene("plane", {.points = 400, .size = {20, 20}});
+  for (std::size_t i = 0; i < 20; ++i) {
+    Soundings one;
+    one.position = {{0.5 * static_cast<double>(i), 0, 0.1}};
+    one.level_db = {120}, one.range = {3}, one.azimuth = {0}, one.elevation = {0};
+    one.ping = {static_cast<std::uint32_t>(i)}, one.beam = {0}, one.bin = {0};
+    one.true_elevation = {0}, one.true_surfel = {Soundings::none}, one.true_material = {Soundings::none};
+    append_row(data_.returns, one, 0);
+  }
+  open(20, false);
+  window_->press_key("End");
+  const std::string alone = own_path("alone.png"), gathered = own_path("gathered.png"), again = own_path("again.png");
+  window_->save_png(alone);
+  window_->press_key("a");
+  window_->save_png(gathered);
+  EXPECT_NE(read_png(alone).bytes, read_png(gathered).bytes);
+  window_->press_key("a");
+  window_->save_png(again);
+  EXPECT_EQ(read_png(alone).bytes, read_png(again).bytes);
 }
 
 TEST_F(SurveyWindow, buttons_press_their_keys) {

@@ -17,7 +17,8 @@ namespace insonify::tool {
 namespace {
 
 constexpr double cells_across = 400, most_cells_across = 4000;
-constexpr double soundings_per_cell = 4;  // so that few cells within the swaths stay empty
+constexpr double soundings_per_cell = 1.5;  // about; the few cells without any are filled from those beside them
+constexpr int filling_passes = 2;
 
 /// The soundings of a run.
 struct FoundBed {
@@ -62,25 +63,30 @@ double cell_of_bed(const ImageOptions& o, const FoundBed& bed) {
   return cell;
 }
 
-/// The mean heights of the soundings in cells; a cell without one between others has the mean of those beside it.
+/// Gives cells with three neighbours at least that have a height their mean.
+void fill_beside(Grid<float>& height) {
+  const Grid<float> before = height;
+  for (Eigen::Index x = 0; x < height.rows(); ++x)
+    for (Eigen::Index y = 0; y < height.cols(); ++y) {
+      if (std::isfinite(before(x, y))) continue;
+      double sum = 0, count = 0;
+      for (Eigen::Index i = std::max<Eigen::Index>(0, x - 1); i <= std::min(height.rows() - 1, x + 1); ++i)
+        for (Eigen::Index k = std::max<Eigen::Index>(0, y - 1); k <= std::min(height.cols() - 1, y + 1); ++k)
+          if (std::isfinite(before(i, k))) sum += static_cast<double>(before(i, k)), count += 1;
+      if (count >= 3) height(x, y) = static_cast<float>(sum / count);
+    }
+}
+
+/// The mean heights of the soundings in cells, with small gaps filled.
 DepthMap map_of(const FoundBed& bed, double cell) {
   SoundingMap sums(cell);
   for (const Eigen::Vector3d& position : bed.kept) sums.add(position, 0);
   const GeoGrid grid = sums.grid();
-  const Grid<float> rows = sums.bands().front().values;  // rows along y
   DepthMap map;
   map.x = grid.west, map.y = grid.south, map.cell = cell;
-  map.height = rows.transpose();
+  map.height = sums.bands().front().values.transpose();
+  for (int pass = 0; pass < filling_passes; ++pass) fill_beside(map.height);
   map.rejected = bed.rejected;
-  for (Eigen::Index x = 0; x < rows.cols(); ++x)
-    for (Eigen::Index y = 0; y < rows.rows(); ++y) {
-      if (std::isfinite(rows(y, x))) continue;
-      double sum = 0, count = 0;
-      for (Eigen::Index k = std::max<Eigen::Index>(0, y - 1); k <= std::min(rows.rows() - 1, y + 1); ++k)
-        for (Eigen::Index i = std::max<Eigen::Index>(0, x - 1); i <= std::min(rows.cols() - 1, x + 1); ++i)
-          if (std::isfinite(rows(k, i))) sum += static_cast<double>(rows(k, i)), count += 1;
-      if (count >= 3) map.height(x, y) = static_cast<float>(sum / count);
-    }
   return map;
 }
 
