@@ -193,6 +193,11 @@ TEST_F(SideScan, shadows_are_as_long_as_height_times_range_over_altitude_less_he
   succeed("image run/port --starboard run/starboard --view waterfall --altitude 5 -o ground.png --size 900x500");
   succeed("image run/port --starboard run/starboard --view waterfall -o slant.png --size 900x500");
   EXPECT_TRUE(file_exists(path("ground.png")) && file_exists(path("slant.png")));
+  // The folder of the survey gives both sides as one picture, and one of the swath.
+  succeed("image run --view waterfall --altitude 5 -o all.png --size 900x500");
+  EXPECT_EQ(read("all-sides.png"), read("ground.png"));
+  succeed("image run --head swath --view waterfall --altitude 5 -o swath.png --size 900x500");
+  EXPECT_EQ(read("all-swath.png"), read("swath.png"));
 
   expect_refused("image run/port --altitude 5 -o x.png", 2, {"--altitude goes with --view waterfall, not fan"});
   expect_refused("image run/port --view waterfall --bottom 1 -o x.png", 2,

@@ -21,15 +21,25 @@ double looks_to_port(const std::string& run, const std::string& head) {
   return mounting ? mounting->linear()(1, 0) : 0;
 }
 
-/// Returns one picture of two heads if they are the sides of a side-scan; nothing if not.
-std::optional<ImageOptions> both_sides(const ImageOptions& o, const std::vector<std::string>& heads) {
+/// The picture of a file, with a word in its name.
+std::string named(const std::string& output, const std::string& word) {
+  const fs::path path = output;
+  return (path.parent_path() / (path.stem().string() + "-" + word + path.extension().string())).string();
+}
+
+/// Takes the two sides of a side-scan off the heads, and returns their one picture; nothing if there are none.
+std::optional<ImageOptions> both_sides(const ImageOptions& o, std::vector<std::string>& heads) {
   constexpr double athwart = 0.5;
-  if (o.view != "waterfall" || !o.starboard.empty() || heads.size() != 2) return {};
-  const double first = looks_to_port(o.run, heads[0]), second = looks_to_port(o.run, heads[1]);
-  if (std::min(std::abs(first), std::abs(second)) < athwart || (first > 0) == (second > 0)) return {};
+  if (o.view != "waterfall" || !o.starboard.empty()) return {};
+  std::vector<std::string> port, starboard;
+  for (const std::string& head : heads)
+    if (const double looks = looks_to_port(o.run, head); std::abs(looks) > athwart)
+      (looks > 0 ? port : starboard).push_back(head);
+  if (port.size() != 1 || starboard.size() != 1) return {};
   ImageOptions both = o;
-  both.run = folder_of_head(o.run, heads[first > 0 ? 0 : 1]);
-  both.starboard = folder_of_head(o.run, heads[first > 0 ? 1 : 0]);
+  both.run = folder_of_head(o.run, port.front());
+  both.starboard = folder_of_head(o.run, starboard.front());
+  std::erase_if(heads, [&](const std::string& head) { return head == port.front() || head == starboard.front(); });
   return both;
 }
 
@@ -45,16 +55,16 @@ std::vector<ImageOptions> drawn_heads(const ImageOptions& o) {
            all.empty() ? "which is no survey of heads" : "one of " + joined(all));
   }
   if (heads.empty() || view_of(o).of_survey) return {o};
-  if (const auto both = both_sides(o, heads)) return {*both};
+  const std::size_t all_heads = heads.size();
   std::vector<ImageOptions> drawn;
+  if (const auto both = both_sides(o, heads)) {
+    drawn.push_back(*both);
+    if (!heads.empty()) drawn.back().output = named(o.output, "sides");
+  }
   for (const std::string& head : heads) {
-    ImageOptions of_head = o;
-    of_head.run = folder_of_head(o.run, head);
-    const fs::path output = o.output;
-    if (heads.size() > 1)
-      of_head.output =
-          (output.parent_path() / (output.stem().string() + "-" + head + output.extension().string())).string();
-    drawn.push_back(of_head);
+    drawn.push_back(o);
+    drawn.back().run = folder_of_head(o.run, head);
+    if (all_heads > 1) drawn.back().output = named(o.output, head);
   }
   return drawn;
 }
