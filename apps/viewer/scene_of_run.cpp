@@ -6,14 +6,13 @@
 #include "run/ping_setup.hpp"
 #include "run/run_settings.hpp"
 #include "run_scenes/open_scene.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "scene_io/load_scene.hpp"
 #include "survey/mesh_source.hpp"
 #include "viewer/viewer_command.hpp"
 
 namespace insonify::viewer {
 namespace {
-
-namespace fs = std::filesystem;
 
 // True if the ids of the contributors match the scene.
 bool belong_together(const Contributors& list, const SceneCloud& scene) {
@@ -34,18 +33,19 @@ void show_parts(const std::shared_ptr<const OpenScene>& scene, LoadedView& view)
 }
 
 /// Replaces the overview of a mesh by the surfels of the run's ping, whose contributors are named by them.
-void sample_for_run(const std::string& run_folder, LoadedScene& loaded, LoadedView& view) {
-  const Run run = load_ping_settings((fs::path(run_folder) / "run.toml").string());
-  const PingSetup setup = set_up_ping(run);
+void sample_for_run(const StoredRun& run, LoadedScene& loaded, LoadedView& view) {
+  const std::optional<Run> sent = run.settings();
+  if (!sent) return;
+  const PingSetup setup = set_up_ping(*sent);
   MeshSample fine =
-      mesh_sample_for(*loaded.mesh, loaded.scene.size(), run.memory_limit, setup.simulator(), setup.event);
+      mesh_sample_for(*loaded.mesh, loaded.scene.size(), sent->memory_limit, setup.simulator(), setup.event);
   if (!fine.note.empty()) view.notes.push_back(loaded.report.path + ": " + fine.note);
   if (fine.scene) loaded.scene = std::move(*fine.scene);
 }
 
-void load_scene_of_run(const ViewerCommand& command, const std::string& run_folder, LoadedView& view) {
+void load_scene_of_run(const ViewerCommand& command, const StoredRun& run, LoadedView& view) {
   if (command.no_scene) return;
-  SceneOptions options = scene_of_run(run_folder);
+  SceneOptions options = run.scene();
   if (!command.scene.path.empty()) {
     const std::string path = command.scene.path;
     options = command.scene;
@@ -56,22 +56,22 @@ void load_scene_of_run(const ViewerCommand& command, const std::string& run_fold
                              : options.path + ": the scene of the run is missing: give it with --scene");
     return;
   }
-  const std::shared_ptr<OpenScene> scene = open_scene_of_run(options, run_folder, command.common.threads);
+  const std::shared_ptr<OpenScene> scene = run.open_scene(options, command.common.threads);
   for (const std::string& note : loading_notes(scene->report())) view.notes.push_back(note);
   if (scene->parts()) {
     show_parts(scene, view);
   } else {
     LoadedScene loaded = scene->take_whole({});
-    if (loaded.mesh && !view.data.contributors.empty()) sample_for_run(run_folder, loaded, view);
+    if (loaded.mesh && !view.data.contributors.empty()) sample_for_run(run, loaded, view);
     view.data.scene = std::move(loaded.scene);
   }
-  view.data.view = view_of_run(run_folder, whole_of(*scene_at(view.data, 0)), command.common.threads);
+  view.data.view = run.view(whole_of(*scene_at(view.data, 0)), command.common.threads);
 }
 
 }  // namespace
 
 void show_scene_of_run(const ViewerCommand& command, const std::string& run_folder, LoadedView& view) {
-  load_scene_of_run(command, run_folder, view);
+  load_scene_of_run(command, StoredRun(run_folder), view);
   ViewerData& data = view.data;
   if (!has_scene(data)) return;
   for (std::size_t p = 0; p < data.contributors.size(); ++p)

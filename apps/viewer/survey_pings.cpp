@@ -94,8 +94,7 @@ LazyPings lazy_pings_of(std::shared_ptr<const tool::SwathPings> swath) {
 }
 
 LazyPings lazy_pings_of(std::vector<Ping> pings) {
-  std::vector<TrackPoint> positions;
-  for (const Ping& ping : pings) positions.push_back(track_point_of(ping));
+  std::vector<TrackPoint> positions(pings.begin(), pings.end());
   const auto all = std::make_shared<const std::vector<Ping>>(std::move(pings));
   PingSource source;
   source.ping = [all](std::size_t i) { return all->at(i); };

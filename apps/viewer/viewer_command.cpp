@@ -18,6 +18,7 @@
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/open_scene.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "scene_io/load_scene.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "store/contributor_file.hpp"
@@ -78,13 +79,12 @@ namespace fs = std::filesystem;
 
 // Reads the cube of a complete run; runs appear atomically, including the manifest.
 std::string finished_cube(const std::string& target) {
-  if (!is_folder(target)) return target;
-  const fs::path cube = fs::path(target) / "cube.h5";
-  if (!path_exists(cube)) fail(ErrorKind::content, target, ": holds no cube.h5, so it is no run directory");
-  if (!path_exists(fs::path(target) / "manifest.json"))
+  const StoredRun run(target);
+  std::string cube = run.cube();
+  if (is_folder(target) && run.find("manifest.json").empty())
     fail(ErrorKind::content, target,
-         ": has no manifest.json, so the run is unfinished or damaged; ping again, or view ", cube.string(), " alone");
-  return cube.string();
+         ": has no manifest.json, so the run is unfinished or damaged; ping again, or view ", cube, " alone");
+  return cube;
 }
 
 // Takes the title from the first ping, and the pings as they are shown.
@@ -234,9 +234,9 @@ LoadedView load_run(const ViewerCommand& command) {
   open_cubes({{finished_cube(command.target), ""}}, view);
   for (const char* file : {"cube.h5", "returns.ply", "contributors.h5"})
     if (const std::string doubt = integrity_problem(command.target, file); !doubt.empty()) view.notes.push_back(doubt);
-  const fs::path run(command.target), returns = run / "returns.ply";
-  load_contributors(run, view);
-  if (is_folder(run) && path_exists(returns)) view.data.returns = load_soundings(returns.string());
+  load_contributors(command.target, view);
+  if (const std::string returns = StoredRun(command.target).find("returns.ply"); !returns.empty())
+    view.data.returns = load_soundings(returns);
   show_scene_of_run(command, command.target, view);
   choose_start(command, view);
   return view;

@@ -9,7 +9,6 @@
 #include "run/options.hpp"
 #include "tool/command/option_list.hpp"
 #include "tool/run/swath_pings.hpp"
-#include "viewer/lazy_pings.hpp"
 #include "viewer/viewer_data.hpp"
 
 namespace insonify::viewer {

@@ -189,14 +189,13 @@ double heading_of(const Georeference& reference, const Eigen::Vector3d& world, c
 
 Anchor parse_anchor(const std::string& text, const std::string& option) {
   std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const auto number = finite_number(trimmed(std::string_view(text).substr(begin, end - begin)));
-    if (!number) numbers.clear(), begin = text.size();
-    if (number) numbers.push_back(*number);
-    begin = end < text.size() && number ? end + 1 : text.size() + 1;
+  bool all_numbers = true;
+  for (const std::string_view word : split_at(',', text)) {
+    const auto number = finite_number(trimmed(word));
+    all_numbers = all_numbers && number;
+    numbers.push_back(number.value_or(0));
   }
-  if (numbers.size() != 2 && numbers.size() != 3)
+  if (!all_numbers || (numbers.size() != 2 && numbers.size() != 3))
     fail(ErrorKind::argument, option, " '", text, "', must be LAT,LON[,HEADING] in degrees, e.g. 54.1,7.9,90");
   const Anchor anchor{numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0};
   require_valid(anchor, option.c_str());

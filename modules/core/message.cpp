@@ -74,12 +74,8 @@ std::string message_line(std::string_view message) {
     if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
   line = with_short_quotes(line);
   std::vector<std::string> words;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(' ', begin), line.size());
-    const std::string_view word = std::string_view(line).substr(begin, end - begin);
+  for (const std::string_view word : split_at(' ', line))
     words.push_back(may_be_path(word) ? std::string(word) : shortened(word));
-    begin = end + 1;
-  }
   return without_middle(words);
 }
 

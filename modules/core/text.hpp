@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace insonify {
 
@@ -23,6 +24,16 @@ inline std::string lower_case(std::string text) {
 inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r") {
   text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
   return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+/// Returns the words between the separators of a text; one word if it has none.
+inline std::vector<std::string_view> split_at(char separator, std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0, end = 0; begin <= text.size(); begin = end + 1) {
+    end = std::min(text.find(separator, begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+  }
+  return words;
 }
 
 /// Returns the texts that `text_of` gives for the members of a list, with `separator` between them.

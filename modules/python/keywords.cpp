@@ -142,14 +142,10 @@ py::object object_of(const TomlValue& value) {
 
 namespace {
 
-/// Returns what a value may stand for: itself, a list of one, numbers as text ("x,y,z").
+/// Returns what a value may stand for: itself, or a list of one.
 std::vector<TomlValue> meanings_of(const TomlValue& value) {
   std::vector<TomlValue> meanings{value};
   if (value.kind != Kind::array) meanings.push_back({.kind = Kind::array, .items = {value}});
-  const std::vector<TomlValue> numbers = meanings.back().items;
-  const auto text = [](const TomlValue& item) { return fmt::format("{}", item.number); };
-  if (std::ranges::all_of(numbers, &TomlValue::is_number))
-    meanings.push_back({.kind = Kind::text, .text = joined(numbers, ",", text)});
   return meanings;
 }
 

@@ -21,7 +21,7 @@ namespace insonify {
 
 using python::Archive;
 
-inline void members(Archive& archive, SonarNumber& n) { archive(n.key, n.value, n.status, n.source); }
+inline void members(Archive& archive, SourcedNumber& n) { archive(n.key, n.value, n.status, n.source); }
 inline void members(Archive& archive, Layer& layer) { archive(layer.name, layer.pressure); }
 inline void members(Archive& archive, BeamFan& fan) {
   archive(fan.azimuth, fan.elevation, fan.beam_width, fan.elevation_width, fan.row_width);

@@ -27,11 +27,19 @@ struct ScanDirection {
   double angle = 0;        ///< turn about the head's z axis [rad], positive to port
 };
 
-/// The result of one transmission.
-struct Ping {
+/// Time, pose and water of a ping.
+struct TrackPoint {
   std::int64_t number = 0;
   double time = 0;  ///< time of transmission [s]
   Pose world_from_head = Pose::Identity();
+  std::optional<ScanDirection> scan{};  ///< for a scanning head; its turn is included in world_from_head
+  double sound_speed = 0;               ///< in the water at the head [m/s]; it converts delays to ranges; 0: not known
+  double absorption_db_per_m = 0;       ///< absorption of the water at the head, at the centre frequency
+  Motion motion{};                      ///< motion of the head from transmission on, as simulated in its echoes
+};
+
+/// The result of one transmission.
+struct Ping : TrackPoint {
   BeamFan fan;
   RangeGate gate;
   ComplexGridF pressure;        ///< beams x bins [Pa], analytic baseband, linear
@@ -44,10 +52,6 @@ struct Ping {
   Grid<float>
       split_phase{};     ///< phase between the array's halves [rad], beams x bins, positive to port (E92); or empty
   PixelLabels labels{};  ///< surface of every pixel, if contributors or labels were kept; or empty
-  std::optional<ScanDirection> scan{};  ///< for a scanning head; its turn is included in world_from_head
-  double sound_speed = 0;               ///< in the water at the head [m/s]; it converts delays to ranges; 0: not known
-  double absorption_db_per_m = 0;       ///< absorption of the water at the head, at the centre frequency
-  Motion motion{};                      ///< motion of the head from transmission on, as simulated in its echoes
 };
 
 /// Sets sound speed and absorption of `ping` to those of the water at the head.
@@ -71,22 +75,5 @@ Grid<float> range_compensated_level_db(const Ping& ping, double absorption_db_pe
 /// Returns the level of the mean intensity [dB re 1 uPa] over all beams and bins within [min_range, max_range] [m];
 /// -inf if there are none.
 double mean_level_db(const Ping& ping, double min_range, double max_range);
-
-/// Time and pose of a ping, without its samples.
-struct TrackPoint {
-  std::int64_t number = 0;
-  double time = 0;  ///< [s]
-  Pose world_from_head = Pose::Identity();
-  std::optional<ScanDirection> scan{};  ///< sweep and angle of a scanning head
-  double sound_speed = 0;               ///< see Ping::sound_speed
-  double absorption_db_per_m = 0;       ///< see Ping::absorption_db_per_m
-  Motion motion{};                      ///< see Ping::motion
-};
-
-/// Returns time and pose of a ping.
-inline TrackPoint track_point_of(const Ping& ping) {
-  return {ping.number, ping.time, ping.world_from_head, ping.scan, ping.sound_speed, ping.absorption_db_per_m,
-          ping.motion};
-}
 
 }  // namespace insonify

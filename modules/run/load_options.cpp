@@ -34,7 +34,7 @@ LoadOptions load_options(const SceneOptions& scene, std::uint64_t seed, int thre
   LoadOptions options;
   options.seed = seed;
   options.threads = threads;
-  options.meaning = parse_meaning(scene.meaning);
+  options.meaning = scene.meaning;
   options.mesh_spacing = scene.mesh_spacing;
   options.scan_noise = scene.scan_noise;
   for (const auto& [option, value] :

@@ -17,12 +17,13 @@ namespace insonify {
 template <typename T>
 struct Shown {
   Member<T> value;
+  std::optional<KeyValue> key = {};  ///< value in files; absent: that of a T
 };
 /// Returns a value of the library as its word in a table of names.
 template <typename Table, typename Value>
 Shown<std::string> shown_as_word(Value& value, const Table& table) {
   const auto get = [&value, &table] { return std::optional(name_of(table, value)); };
-  return {{get, [&value, &table](const std::string& word) { value = *find_named(table, word); }}};
+  return {{get, [&value, &table](const std::string& word) { value = *find_named(table, word); }}, {}};
 }
 
 /// Numbers that the command line has as text with commas, and files as such a text or as a list.

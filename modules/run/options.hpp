@@ -19,7 +19,7 @@ struct SceneOptions {
   std::string materials_file;                ///< TOML table
   std::string material;                      ///< name for every surfel, or empty
   std::string material_field;  ///< field of the cloud whose numbers mean materials, or empty: found by name
-  MeaningText meaning;         ///< units, axes and holes of the file
+  MeaningOverride meaning;     ///< units, axes and holes of the file
   double mesh_spacing = 0;
   std::optional<double> scan_noise;  ///< [m]; absent: the file's, else estimated
   bool keep_strays = false;

@@ -12,17 +12,6 @@ namespace {
 
 std::optional<double> as_number(std::string_view text) { return finite_number(trimmed(text, " ")); }
 
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> words;
-  std::size_t begin = 0;
-  for (std::size_t end = text.find(separator); end != std::string::npos; end = text.find(separator, begin)) {
-    words.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  words.push_back(text.substr(begin));
-  return words;
-}
-
 }  // namespace
 
 double parse_number(const std::string& option, const std::string& text) {
@@ -33,12 +22,12 @@ double parse_number(const std::string& option, const std::string& text) {
 
 std::vector<double> parse_numbers(const std::string& option, const std::string& text, std::size_t count,
                                   const char* meaning) {
-  const std::vector<std::string> words = split(text, ',');
+  const std::vector<std::string_view> words = split_at(',', text);
   if (words.size() != count)
     fail(ErrorKind::argument, option, " = '", text, "' has ", words.size(), " numbers, must have ", count, ": ",
          meaning);
   std::vector<double> values;
-  for (const std::string& word : words) {
+  for (const std::string_view word : words) {
     const auto value = as_number(word);
     if (!value) fail(ErrorKind::argument, option, " = '", text, "': '", word, "' is not a number; give ", meaning);
     values.push_back(*value);
@@ -63,7 +52,7 @@ Pose parse_pose(const std::string& text, const std::string& world, const char* o
 }
 
 std::array<double, 2> parse_range(const std::string& text) {
-  const std::vector<std::string> words = split(text, ':');
+  const std::vector<std::string_view> words = split_at(':', text);
   const auto min = as_number(words[0]), max = as_number(words.back());
   if (words.size() != 2 || !min || !max)
     fail(ErrorKind::argument, "--range = '", text, "' is not min:max in metres, e.g. --range 0.5:9");
@@ -75,7 +64,7 @@ std::array<double, 2> parse_range(const std::string& text) {
 }
 
 std::pair<int, int> parse_size(const std::string& text) {
-  const std::vector<std::string> words = split(text, 'x');
+  const std::vector<std::string_view> words = split_at('x', text);
   const auto width = as_number(words[0]), height = as_number(words.back());
   if (words.size() != 2 || !width || !height || *width < 100 || *height < 100 || *width > 16384 || *height > 16384)
     fail(ErrorKind::argument, "--size = '", text, "' is not WIDTHxHEIGHT within 100 and 16384 pixels, e.g. 1400x1050");

@@ -3,22 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
-#include "files/path_status.hpp"
 #include "run/mission_heads.hpp"
 #include "run/parse_values.hpp"
 #include "run/run_settings.hpp"
 #include "simulate/plan_ping.hpp"
-#include "simulate/resolve_ping.hpp"
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
 #include "store/key_table.hpp"
-#include "store/toml_tree.hpp"
 #include "survey/mission.hpp"
 
 namespace insonify {
@@ -197,7 +193,7 @@ PingSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment 
   if (!file.of_run) setup.farthest = file.spec.max_range;
   setup.environment = std::move(environment);
   setup.mount = pose_from_yaw_pitch_roll({0, 0, 0}, file.mounting.x(), file.mounting.y(), file.mounting.z());
-  for (const SonarNumber& n : file.numbers)
+  for (const SourcedNumber& n : file.numbers)
     if (n.status == "assumed" || n.status == "unknown") setup.doubtful.push_back(n);
   require_valid(setup.environment, "environment");
   const Environment there =
@@ -208,24 +204,6 @@ PingSetup set_up_head(const SonarFile& file, const SonarSpec& spec, Environment 
   setup.medium = medium_of(setup.environment, setup.spec.centre_frequency);
   setup.head = make_head(setup.spec, slowest_sound(setup.environment));
   return setup;
-}
-
-SceneOptions scene_of_run(const std::string& run) {
-  const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
-  return path_exists(settings) ? load_scene_settings(settings.string()) : SceneOptions{};
-}
-
-std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads) {
-  const std::filesystem::path settings = std::filesystem::path(run) / "run.toml";
-  if (!path_exists(settings) || !load_toml(settings.string()).find("sonar")) return std::nullopt;
-  HeadOptions options;
-  options.sonar = options.environment = settings.string();
-  const PingSetup setup = set_up_head(options);
-  Pose somewhere = Pose::Identity();
-  const Environment& e = setup.environment;
-  if (const auto surface = surface_height(e))
-    somewhere.translation().z() = *surface - (e.water.depth > 0 ? e.water.depth : 1);
-  return resolve_ping(scene, setup.head, {somewhere}, e, {.threads = threads}).view;
 }
 
 PingSetup set_up_survey_head(const MissionFile& file, std::size_t h, int threads) {

@@ -32,7 +32,7 @@ struct PingSetup {
   std::vector<std::string> notes{};  ///< inputs outside the validity of the formulas
   bool range_is_own = false;         ///< true: the sonar's range, neither options nor a run say another
   double farthest = std::numeric_limits<double>::infinity();  ///< greatest range of the sonar's file [m]; inf: a run's
-  std::vector<SonarNumber> doubtful{};  ///< numbers of the sonar that are assumed or unknown, for the manifest
+  std::vector<SourcedNumber> doubtful{};  ///< numbers of the sonar that are assumed or unknown, for the manifest
 
   /// Returns the simulator of the head with these options.
   PingSimulator simulator() const { return {head, environment, simulation}; }
@@ -57,14 +57,6 @@ LoadOptions load_options(const SceneOptions& scene, std::uint64_t seed = 1, int 
 
 /// One sentence per thing that was dropped, repaired or assumed on loading.
 std::vector<std::string> loading_notes(const LoadReport& report);
-
-/// [scene] of the run.toml in a run directory as options of loading it, with paths looked up as by load_ping_settings.
-/// Defaults, with an empty path, if there is no run.toml or no [scene] in it.
-SceneOptions scene_of_run(const std::string& run);
-
-/// How the head of a run, as its run.toml describes it, samples `scene`, wherever it stands; none without a
-/// run.toml that has the sonar.
-std::optional<View> view_of_run(const std::string& run, const WholeScene& scene, int threads);
 
 /// Returns where and when the head pings, and how it moves; Error(argument) names the option.
 PingEvent requested_event(const Placement& placement);

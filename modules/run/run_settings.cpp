@@ -55,7 +55,8 @@ KeyValue key_value(const RunSetting& setting) {
     const auto get = [get = shown->value.get] { return std::optional<double>(get()); };
     return insonify::number({get, [set = shown->value.set](double x) { set(static_cast<int>(x)); }}, whole);
   }
-  if (const auto* shown = std::get_if<Shown<std::string>>(&setting.value)) return word(shown->value, rules.words);
+  if (const auto* shown = std::get_if<Shown<std::string>>(&setting.value))
+    return shown->key ? *shown->key : word(shown->value, rules.words);
   if (const auto* shown = std::get_if<Shown<bool>>(&setting.value)) return flag(shown->value);
   if (const auto* list = std::get_if<NumberList>(&setting.value)) return list_value(*list);
   if (std::uint64_t* const* value = std::get_if<std::uint64_t*>(&setting.value)) return seed(**value);

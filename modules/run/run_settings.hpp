@@ -28,7 +28,7 @@ inline constexpr const char *scene_title = "Scene", *sonar_title = "Sonar and wa
                             *detection_title = "Detections";
 
 /// Rows of [scene]: what the numbers of a file mean.
-std::vector<RunSetting> meaning_settings(MeaningText& options);
+std::vector<RunSetting> meaning_settings(MeaningOverride& meaning);
 /// Rows of [scene]: how a cloud is read and completed.
 std::vector<RunSetting> scene_settings(SceneOptions& options);
 /// Rows of the top level: the synthesis.

@@ -61,10 +61,13 @@ std::vector<RunSetting> under_titles(std::vector<RunSetting> settings,
 
 }  // namespace
 
-std::vector<RunSetting> meaning_settings(MeaningText& o) {
+std::vector<RunSetting> meaning_settings(MeaningOverride& o) {
   std::vector<RunSetting> settings;
-  for (const MeaningOption& row : meaning_options)
-    settings.push_back({"scene", row.key, row.option, &(o.*row.text), row.help});
+  for (const MeaningOption& row : meaning_options()) {
+    const auto get = [&o, row] { return std::optional(row.text(o)); };
+    const auto set = [&o, row](const std::string& text) { row.parse(text, o); };
+    settings.push_back({"scene", row.key, row.option, Shown<std::string>{{get, set}, meaning(o, row)}, row.help});
+  }
   return settings;
 }
 

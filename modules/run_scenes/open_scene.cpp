@@ -16,6 +16,7 @@
 #include "run_scenes/parts_of_pings.hpp"
 #include "run_scenes/run_folder.hpp"
 #include "run_scenes/scene_source_of.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "sampling/scene_cut.hpp"
 #include "scene_io/cloud_field.hpp"
 #include "scene_io/describe_file.hpp"
@@ -164,14 +165,15 @@ class SceneOfTiles : public OpenScene {
 }  // namespace
 
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options) {
-  if (is_scene_file(scene.path)) return std::make_shared<PartsOfPings>(scene, options);
-  if (is_tiles(scene.path)) return std::make_shared<SceneOfTiles>(scene, options);
+  const SceneKind kind = kind_of_scene(scene.path);
+  if (kind == SceneKind::parts) return std::make_shared<PartsOfPings>(scene, options);
+  if (kind == SceneKind::tiles) return std::make_shared<SceneOfTiles>(scene, options);
   return std::make_shared<SceneOfFile>(scene, options);
 }
 
-std::shared_ptr<OpenScene> open_scene_of_run(const SceneOptions& scene, const std::string& run, int threads,
-                                             std::uint64_t seed) {
-  return open_scene(scene, {is_scene_file(scene.path) ? draws_of_run(run) : RunDraws{seed, {}}, threads});
+std::shared_ptr<OpenScene> StoredRun::open_scene(const SceneOptions& scene, int threads, std::uint64_t seed) const {
+  return insonify::open_scene(scene,
+                              {kind_of_scene(scene.path) == SceneKind::parts ? draws() : RunDraws{seed, {}}, threads});
 }
 
 LoadedScene load_any_scene(const SceneOptions& scene, int threads) {
@@ -192,12 +194,12 @@ std::shared_ptr<const SceneSource> scene_source_of(const MissionFile& file, int 
 }
 
 std::optional<TiledScene> find_tiles(const std::string& path) {
-  return is_tiles(path) ? std::optional<TiledScene>(std::in_place, path) : std::nullopt;
+  return kind_of_scene(path) == SceneKind::tiles ? std::optional<TiledScene>(std::in_place, path) : std::nullopt;
 }
 
 Bounds box_of_scene(const std::string& path) {
   if (const auto tiled = find_tiles(path)) return tiled->info().box;
-  if (is_scene_file(path)) {
+  if (kind_of_scene(path) == SceneKind::parts) {
     const PartsScene parts(path);
     return parts.box_at(parts.parts()->begin());
   }
@@ -206,12 +208,13 @@ Bounds box_of_scene(const std::string& path) {
 }
 
 std::string digest_of_scene(const std::string& path) {
-  if (is_scene_file(path)) {
+  if (kind_of_scene(path) == SceneKind::parts) {
     Sha256 sha;
     std::map<std::string, std::string> digests;
     for (const std::string& file : files_of(load_scene_file(path))) {
       std::string& digest = digests[file];
-      if (digest.empty()) digest = is_scene_file(file) ? sha256_of_file(file) : digest_of_scene(file);
+      if (digest.empty())
+        digest = kind_of_scene(file) == SceneKind::parts ? sha256_of_file(file) : digest_of_scene(file);
       sha.add(fs::path(file).filename().string() + ":" + digest + "\n");
     }
     return sha.digest();
@@ -221,7 +224,7 @@ std::string digest_of_scene(const std::string& path) {
 }
 
 SceneInstances instances_of_scene(const std::string& path) {
-  if (is_tiles(path) || is_scene_file(path) || !has_cloud_field(path, "instance")) return {};
+  if (kind_of_scene(path) != SceneKind::file || !has_cloud_field(path, "instance")) return {};
   const CloudField field = load_cloud_field(path, "instance");
   std::vector<std::pair<std::uint32_t, std::uint32_t>> given;
   for (std::size_t i = 0; i < field.value.size(); ++i)
@@ -238,7 +241,5 @@ void require_no_loading_options(const SceneOptions& o, const std::string& why) {
     if (settings_as_toml({settings[i]}) != settings_as_toml({defaults[i]}))
       fail(ErrorKind::argument, settings[i].option, ": ", o.path, " ", why);
 }
-
-bool is_tiles(const std::string& path) { return fs::path(path).extension() == ".tiles"; }
 
 }  // namespace insonify

@@ -86,11 +86,6 @@ class OpenScene : public SceneSource {
 /// TiledScene and PartsScene; Error(argument) for options of loading beside a scene of parts.
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options = {});
 
-/// Opens the scene of a run, one of parts with the run's draws, another with samples by `seed`; `run` as of
-/// draws_of_run. Throws as open_scene and draws_of_run.
-std::shared_ptr<OpenScene> open_scene_of_run(const SceneOptions& scene, const std::string& run, int threads,
-                                             std::uint64_t seed = 1);
-
 /// Loads a scene of any kind whole, one of parts as it is at time 0. Throws as open_scene and take_whole.
 LoadedScene load_any_scene(const SceneOptions& scene, int threads);
 
@@ -110,8 +105,5 @@ SceneInstances instances_of_scene(const std::string& path);
 
 /// Throws Error(argument) naming the option unless all options that say how a scene is read have their defaults.
 void require_no_loading_options(const SceneOptions& options, const std::string& why);
-
-/// True for a .tiles file: a scene on disk of which a ping reads only what its fan reaches.
-bool is_tiles(const std::string& path);
 
 }  // namespace insonify

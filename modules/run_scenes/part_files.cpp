@@ -99,7 +99,9 @@ const SceneBody& PartFiles::body_of(const PartFile& file, bool captured) {
   const SceneOptions o = scene_options_of(file);
   std::vector<double> viewpoint;
   if (o.viewpoint) viewpoint.assign(o.viewpoint->begin(), o.viewpoint->end());
-  const Settings settings = {o.path,    o.meaning, o.material,   o.materials_file, o.material_field,
+  const std::string meaning =
+      joined(meaning_options(), "|", [&](const MeaningOption& item) { return item.text(o.meaning); });
+  const Settings settings = {o.path,    meaning,   o.material,   o.materials_file, o.material_field,
                              viewpoint, file.thin, file.spacing, captured};
   const auto [known, is_new] = bodies_.try_emplace(settings);
   if (is_new) known->second = read(file, captured);
@@ -139,7 +141,7 @@ SceneBody PartFiles::read(const PartFile& file, bool captured) {
     std::iota(whole.scene.id.begin(), whole.scene.id.end(), 0u);
     return body_of_cloud(std::move(whole.scene), size, captured);
   }
-  if (is_tiles(file.path)) require_no_loading_options(scene_options_of(file), "is prepared already");
+  if (file.kind == SceneKind::tiles) require_no_loading_options(scene_options_of(file), "is prepared already");
   LoadOptions loading = load_options(scene_options_of(file), options_.seed, options_.threads);
   if (captured) loading.mesh_spacing = file.spacing;
   LoadedScene loaded = load_scene(file.path, loading);

@@ -1,33 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "run_scenes/parts_of_pings.hpp"
 
-#include <filesystem>
-
 #include "core/error.hpp"
 #include "files/memory_limit.hpp"
-#include "files/path_status.hpp"
 #include "run/ping_setup.hpp"
-#include "run/run_settings.hpp"
 #include "run_scenes/run_folder.hpp"
-#include "store/mission_file.hpp"
-#include "store/survey_run.hpp"
 
 namespace insonify {
-
-namespace fs = std::filesystem;
-
-RunDraws draws_of_run(const std::string& run) {
-  const fs::path folder = path_exists(run) ? real_path(run) : fs::path(run);
-  const fs::path mission = folder.parent_path() / "mission.toml", settings = folder / "run.toml";
-  if (is_survey_run(folder.parent_path().string()) && path_exists(mission)) {
-    const SurveyRandomisation differs = load_survey_randomisation(mission.string());
-    return {differs.seed, {differs.spread.scene_pings, 0}};
-  }
-  if (!path_exists(settings)) return {};
-  const Run sent = load_ping_settings(settings.string());
-  return {sent.simulation.seed, {0, static_cast<std::uint64_t>(sent.placement.draw)}};
-}
-
 namespace {
 
 constexpr const char* says_itself = "says itself how each part is read; give it there";

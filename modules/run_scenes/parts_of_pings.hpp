@@ -11,11 +11,6 @@
 
 namespace insonify {
 
-/// Returns seed and draws of the pings of a run directory, or of the folder of a survey's head: those of the mission
-/// beside it, else those of its run.toml. Defaults without either. Throws as load_ping_settings and
-/// load_survey_randomisation.
-RunDraws draws_of_run(const std::string& run);
-
 /// Returns the bytes that tiles may take: --memory-limit [GiB], or for 0 the available memory.
 double memory_for_tiles(double limit_gib);
 

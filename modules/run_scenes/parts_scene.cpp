@@ -58,8 +58,7 @@ std::string file_of_name(const std::map<std::string, std::string>& files, const 
 
 SceneBody PartsScene::load_body(const PartFile& file, const std::string& name, bool captured, PartFiles& files) {
   file_of_[name] = file.path;
-  SceneBody body =
-      !file.scene && is_tiles(file.path) && captured ? read_ground(file, name) : files.body_of(file, captured);
+  SceneBody body = file.kind == SceneKind::tiles && captured ? read_ground(file, name) : files.body_of(file, captured);
   body.name = name;
   return body;
 }

@@ -53,8 +53,9 @@ class PartFiles {
  private:
   SceneBody read(const PartFile& file, bool captured);
 
-  /// Everything that the surfels of a file depend on: the members of its SceneOptions, thin, spacing, captured.
-  using Settings = std::tuple<std::string, MeaningText, std::string, std::string, std::string, std::vector<double>,
+  /// Everything that the surfels of a file depend on: path, meaning as text, the other members of its SceneOptions, thin,
+  /// spacing, captured.
+  using Settings = std::tuple<std::string, std::string, std::string, std::string, std::string, std::vector<double>,
                               double, double, bool>;
   PartsOptions options_;
   LoadReport& report_;

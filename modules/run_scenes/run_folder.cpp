@@ -30,9 +30,6 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json sonar_json(const PingSetup& setup, double sound_speed) {
-  ordered_json doubtful = ordered_json::array();
-  for (const SonarNumber& n : setup.doubtful)
-    doubtful.push_back({{"key", n.key}, {"value", n.value}, {"status", n.status}, {"source", n.source}});
   const SonarHead& head = setup.head;
   return {{"name", head.name},
           {"beams", head.fan.beams()},
@@ -46,7 +43,7 @@ ordered_json sonar_json(const PingSetup& setup, double sound_speed) {
           {"range_resolution_fwhm_m", range_resolution(head.pulse, sound_speed)},
           {"range_resolution_nominal_m", nominal_range_resolution(head.pulse, sound_speed)},
           {"source_level_db", head.pulse.source_level_db},
-          {"not_sourced", doubtful}};
+          {"not_sourced", numbers_json(setup.doubtful)}};
 }
 
 ordered_json write_insonification(const RunDirectory& directory, const SceneCloud& scene, const PingSetup& setup,
@@ -211,6 +208,13 @@ Cube cube_of(std::vector<Ping> pings, const PingSetup& setup) {
   cube.sound_speed = first.sound_speed, cube.absorption_db_per_m = first.absorption_db_per_m;
   cube.keep_bits = setup.run.output.keep_bits;
   return cube;
+}
+
+ordered_json numbers_json(const std::vector<SourcedNumber>& numbers) {
+  ordered_json all = ordered_json::array();
+  for (const SourcedNumber& n : numbers)
+    all.push_back({{"key", n.key}, {"value", n.value}, {"status", n.status}, {"source", n.source}});
+  return all;
 }
 
 ordered_json note_json(const PingNote& note, const std::string& head) {

@@ -37,6 +37,9 @@ class RunPictures {
   virtual void write_paths(const SoundPaths& paths, const std::string& path) const = 0;
 };
 
+/// Numbers of a file of data for a machine: key, value, status and source of each.
+nlohmann::ordered_json numbers_json(const std::vector<SourcedNumber>& numbers);
+
 /// A note of pings for a machine: kind, text, pings, first_ping; of a survey the name of its head, too.
 nlohmann::ordered_json note_json(const PingNote& note, const std::string& head = "");
 

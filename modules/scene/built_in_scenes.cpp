@@ -9,8 +9,7 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
-#include "scene/reef_patches_internal.hpp"
-#include "scene/river_patches_internal.hpp"
+#include "scene/built_in_patches_internal.hpp"
 #include "scene/sample_patches_internal.hpp"
 
 namespace insonify {

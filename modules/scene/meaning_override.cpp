@@ -2,6 +2,8 @@
 #include "scene/meaning_override.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -13,12 +15,10 @@ namespace {
 /// Returns the numbers of a list with commas. Throws Error(argument) that states the rule of the option.
 std::vector<double> numbers_of(const char* option, const std::string& text, const char* rule) {
   std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::optional<double> value = finite_number(trimmed(std::string_view(text).substr(begin, end - begin)));
+  for (const std::string_view word : split_at(',', text)) {
+    const std::optional<double> value = finite_number(trimmed(word));
     if (!value) fail(ErrorKind::argument, option, " = '", text, "' must be ", rule);
     numbers.push_back(*value);
-    begin = end + 1;
   }
   return numbers;
 }
@@ -39,17 +39,108 @@ bool is_first(const char* option, const std::string& text, const char* first, co
   return text == first;
 }
 
-PointClasses parse_classes(const std::string& text) {
-  if (text == "all") return PointClasses().set();
-  const char* const rule = "all, or whole numbers from 0 to 255 with commas between them, e.g. 2,9";
+/// Returns the classes of these numbers; nothing if one is not whole and from 0 to 255.
+std::optional<PointClasses> classes_of(const std::vector<double>& numbers) {
   PointClasses classes;
-  for (const double number : numbers_of("--classes", text, rule)) {
-    if (number != std::floor(number) || number < 0 || number > 255)
-      fail(ErrorKind::argument, "--classes = '", text, "' must be ", rule);
+  for (const double number : numbers) {
+    if (number != std::floor(number) || number < 0 || number > 255) return std::nullopt;
     classes.set(static_cast<std::size_t>(number));
   }
   return classes;
 }
+
+PointClasses parse_classes(const std::string& text) {
+  if (text == "all") return PointClasses().set();
+  const char* const rule = "all, or whole numbers from 0 to 255 with commas between them, e.g. 2,9";
+  const std::optional<PointClasses> classes = classes_of(numbers_of("--classes", text, rule));
+  if (!classes) fail(ErrorKind::argument, "--classes = '", text, "' must be ", rule);
+  return *classes;
+}
+
+/// Returns a number in the fewest digits that read back to the same bits.
+std::string shortest_text(double number) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+}
+
+std::string unit_text(double metres) {
+  constexpr Named<double> units[] = {{"m", 1},    {"mm", 1e-3},   {"cm", 1e-2},
+                                     {"km", 1e3}, {"ft", 0.3048}, {"us-ft", 1200.0 / 3937}};
+  const std::string name = name_of(units, metres);
+  return name.empty() ? shortest_text(metres) : name;
+}
+
+std::string classes_text(const PointClasses& classes) {
+  if (classes.all()) return "all";
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < classes.size(); ++i)
+    if (classes[i]) numbers.push_back(static_cast<double>(i));
+  return joined(numbers, ",", shortest_text);
+}
+
+bool no_numbers(const std::vector<double>&, MeaningOverride&) { return false; }
+
+constexpr MeaningOption meaning_rows[] = {
+    {"unit", "--unit",
+     "unit of the coordinates: m, mm, cm, km, ft, us-ft, or metres per unit; default: that of the file, else m",
+     [](const MeaningOverride& m) { return m.unit ? unit_text(*m.unit) : ""; },
+     [](const std::string& text, MeaningOverride& m) {
+       m.unit = text.empty() ? std::nullopt : std::optional(parse_unit(text));
+     },
+     [](const std::vector<double>& numbers, MeaningOverride& m) {
+       m.unit = numbers.front();
+       return numbers.size() == 1 && std::isfinite(*m.unit) && *m.unit > 0;
+     }},
+    {"z", "--z", "sign of z: up, or down for depths; default: as the file says, else up",
+     [](const MeaningOverride& m) { return std::string(m.z_down ? (*m.z_down ? "down" : "up") : ""); },
+     [](const std::string& text, MeaningOverride& m) {
+       m.z_down = text.empty() ? std::nullopt : std::optional(is_first("--z", text, "down", "up"));
+     },
+     no_numbers},
+    {"up", "--up", "axis of the file that points up: y or z; default: y of glTF, else z",
+     [](const MeaningOverride& m) { return std::string(m.y_up ? (*m.y_up ? "y" : "z") : ""); },
+     [](const std::string& text, MeaningOverride& m) {
+       m.y_up = text.empty() ? std::nullopt : std::optional(is_first("--up", text, "y", "z"));
+     },
+     no_numbers},
+    {"band", "--band",
+     "number or name of the band or variable of a raster that holds the heights; default: the one that is named "
+     "as one, else 1",
+     [](const MeaningOverride& m) { return m.band_number > 0 ? std::to_string(m.band_number) : m.band; },
+     [](const std::string& text, MeaningOverride& m) { m.band = text, m.band_number = 0; },
+     [](const std::vector<double>& numbers, MeaningOverride& m) {
+       const double number = numbers.front();
+       if (numbers.size() != 1 || number != std::floor(number) || !(number >= 1 && number < 1e6)) return false;
+       m.band.clear(), m.band_number = static_cast<std::size_t>(number);
+       return true;
+     }},
+    {"nodata", "--nodata",
+     "heights that mark holes, as numbers with commas between them, or none; default: those of the file, and numbers "
+     "such as -9999 that stand far from all others",
+     [](const MeaningOverride& m) {
+       return !m.no_data ? "" : m.no_data->empty() ? "none" : joined(*m.no_data, ",", shortest_text);
+     },
+     [](const std::string& text, MeaningOverride& m) {
+       const char* const rule = "none, or numbers with commas between them, e.g. -9999";
+       m.no_data.reset();
+       if (!text.empty()) m.no_data = text == "none" ? std::vector<double>() : numbers_of("--nodata", text, rule);
+     },
+     [](const std::vector<double>& numbers, MeaningOverride& m) {
+       m.no_data = numbers;
+       return true;
+     }},
+    {"classes", "--classes",
+     "classes of LAS points that are read, as numbers with commas between them, or all; default: all but noise (7 and "
+     "18)",
+     [](const MeaningOverride& m) { return m.classes ? classes_text(*m.classes) : ""; },
+     [](const std::string& text, MeaningOverride& m) {
+       m.classes = text.empty() ? std::nullopt : std::optional(parse_classes(text));
+     },
+     [](const std::vector<double>& numbers, MeaningOverride& m) {
+       m.classes = classes_of(numbers);
+       return m.classes.has_value();
+     }},
+};
 
 }  // namespace
 
@@ -88,18 +179,6 @@ std::optional<double> unit_named(std::string_view name) {
   return known ? std::optional(*known) : std::nullopt;
 }
 
-MeaningOverride parse_meaning(const MeaningText& text) {
-  MeaningOverride requested;
-  if (!text.unit.empty()) requested.unit = parse_unit(text.unit);
-  if (!text.z.empty()) requested.z_down = is_first("--z", text.z, "down", "up");
-  if (!text.up.empty()) requested.y_up = is_first("--up", text.up, "y", "z");
-  requested.band = text.band;
-  if (text.no_data == "none")
-    requested.no_data.emplace();
-  else if (!text.no_data.empty())
-    requested.no_data = numbers_of("--nodata", text.no_data, "none, or numbers with commas between them, e.g. -9999");
-  if (!text.classes.empty()) requested.classes = parse_classes(text.classes);
-  return requested;
-}
+std::span<const MeaningOption> meaning_options() { return meaning_rows; }
 
 }  // namespace insonify

@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/random.hpp"
+#include "scene/scene_part.hpp"
 #include "scene/surfel_fault.hpp"
 
 namespace insonify {
@@ -163,6 +165,12 @@ Bounds bounds(const SceneCloud& scene) {
   box.min = scene.origin + low.cast<double>();
   box.max = scene.origin + high.cast<double>();
   return box;
+}
+
+std::uint64_t part_key(const std::string& name) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return random_bits(hash, RandomStage::scene_points, {name.size(), 0, 1})[0];
 }
 
 }  // namespace insonify

@@ -72,6 +72,7 @@ void FileMeaning::override_by(const MeaningOverride& requested) {
   if (requested.z_down) take(z_down, *requested.z_down, "--z");
   if (requested.y_up) take(y_up, *requested.y_up, "--up");
   if (!requested.band.empty()) take(band, requested.band, "--band");
+  if (requested.band_number > 0) take(band, std::to_string(requested.band_number), "--band");
   if (requested.no_data) take(no_data, *requested.no_data, "--nodata"), valid = {};
   if (requested.classes) take(classes, *requested.classes, "--classes");
 }

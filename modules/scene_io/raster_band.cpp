@@ -78,13 +78,15 @@ std::size_t choose(RawCloud& raw, const MeaningOverride& requested, const std::v
   };
   std::vector<std::string> all;
   for (std::size_t i = 0; i < names.size(); ++i) all.push_back(text(i));
-  if (!requested.band.empty()) {
-    std::size_t number = 0;
-    const auto named = std::find_if(names.begin(), names.end(),
-                                    [&](const std::string& n) { return lower_case(n) == lower_case(requested.band); });
-    const bool counted = to_number(requested.band, number) && number >= 1 && number <= names.size();
+  if (!requested.band.empty() || requested.band_number > 0) {
+    std::size_t number = requested.band_number;
+    const auto named = std::find_if(names.begin(), names.end(), [&](const std::string& n) {
+      return number == 0 && lower_case(n) == lower_case(requested.band);
+    });
+    const bool counted = (number > 0 || to_number(requested.band, number)) && number >= 1 && number <= names.size();
     if (named == names.end() && !counted)
-      fail(ErrorKind::content, raw.path, ": has no band '", requested.band, "'; it has ", joined(all));
+      fail(ErrorKind::content, raw.path, ": has no band '",
+           requested.band.empty() ? std::to_string(number) : requested.band, "'; it has ", joined(all));
     chosen = named != names.end() ? static_cast<std::size_t>(named - names.begin()) : number - 1;
   } else if (names.size() > 1) {
     raw.meaning.band = {text(chosen), MeaningOrigin::guessed,

@@ -31,7 +31,7 @@ void average_cells(const ResolvedPing& ping, Ping& image) {
 }  // namespace
 
 Ping ping_of(const ResolvedPing& ping, const RangeGate& gate, ComplexGridF image) {
-  Ping made{ping.event.number, ping.event.time, ping.event.world_from_head, ping.head.fan, gate, std::move(image)};
+  Ping made{{ping.event.number, ping.event.time, ping.event.world_from_head}, ping.head.fan, gate, std::move(image)};
   if (ping.options.effects.moving == Choice::always) made.motion = ping.event.motion;
   note_water(ping.sent.medium, made);
   return made;

@@ -13,6 +13,7 @@
 
 #include "core/text.hpp"
 #include "core/units.hpp"
+#include "scene/meaning_override.hpp"
 #include "store/toml_tree.hpp"
 
 // The keys of TOML files as rows. Rows serve to read, check and write files, to read --set, and to test the tables of
@@ -170,6 +171,9 @@ KeyValue text(
 KeyValue path(const Member<std::string>& path);
 /// Returns a list of texts, each of them one of `words` unless that is empty.
 KeyValue texts(const Member<std::vector<std::string>>& texts, const std::vector<std::string>& words = {});
+/// Returns an item of the meaning of a scene file: a text, or numbers where it is made of them. Setting it throws
+/// Error(argument), in a file Error(content) with its line, for a text that it cannot be.
+KeyValue meaning(MeaningOverride& meaning, const MeaningOption& item);
 /// Returns one or more tables [[name]], which read_keys reads one by one.
 KeyValue list_of_tables();
 /// Returns a text that is one of `words`; any text if that is empty.

@@ -166,6 +166,25 @@ KeyValue texts(const Member<std::vector<std::string>>& texts, const std::vector<
   return value_in(texts, list_form(word_form(words), {.least = 0, .text = words.empty() ? "a list of texts" : ""}));
 }
 
+KeyValue meaning(MeaningOverride& meaning, const MeaningOption& item) {
+  const auto set = [&meaning, item](const TomlValue& value, const std::string& path) {
+    const std::vector<TomlValue> items = value.kind == Kind::array ? value.items : std::vector{value};
+    if (!items.empty() && std::ranges::all_of(items, &TomlValue::is_number)) {
+      std::vector<double> numbers;
+      std::ranges::transform(items, std::back_inserter(numbers), &TomlValue::number);
+      return item.take(numbers, meaning);
+    }
+    if (value.kind == Kind::text) try {
+        item.parse(value.text, meaning);
+      } catch (const Error& error) {
+        if (path.empty()) throw;
+        fail_in_file(path, value.line, error.what());
+      }
+    return value.kind == Kind::text;
+  };
+  return {"text in quotes", set, [&meaning, item] { return std::optional(as_toml(item.text(meaning))); }};
+}
+
 KeyValue list_of_tables() {
   const auto set = [](const TomlValue& value, const std::string&) {
     const bool tables =

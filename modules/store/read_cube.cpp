@@ -117,14 +117,8 @@ CubeTable read_table(const FileContext& context, hid_t file) {
 std::vector<Ping> pings_of(const CubeTable& table, PingRange range) {
   std::vector<Ping> pings;
   for (std::size_t p = range.begin; p < range.end; ++p) {
-    Ping& ping = pings.emplace_back();
-    const TrackPoint& point = table.track[p];
-    ping.fan = table.fan, ping.gate = table.gate, ping.expected_level = table.expected_level;
-    ping.display_cells = table.display_cells;
-    ping.time = point.time, ping.number = point.number, ping.world_from_head = point.world_from_head;
-    ping.scan = point.scan;
-    ping.sound_speed = point.sound_speed, ping.absorption_db_per_m = point.absorption_db_per_m;
-    ping.motion = point.motion;
+    Ping& ping = pings.emplace_back(Ping{table.track[p], table.fan, table.gate, {}});
+    ping.expected_level = table.expected_level, ping.display_cells = table.display_cells;
   }
   return pings;
 }

@@ -67,7 +67,8 @@ void Reader::complete(PartFile& file, int line, const char* key) const {
   file.path = path_of(line, key, file.path);
   if (!file.materials.empty() && file.materials != "natural")
     file.materials = path_of(line, "materials", file.materials);
-  if (!is_scene_file(file.path)) return;
+  file.kind = kind_of_scene(file.path);
+  if (file.kind != SceneKind::parts) return;
   const std::string real = real_path(file.path).string();
   if (const auto begin = std::ranges::find(chain, real); begin != chain.end()) {
     const std::string names = joined(std::vector(begin, chain.end()), " -> ");
@@ -196,7 +197,10 @@ SceneFile Reader::read() const {
 
 }  // namespace
 
-bool is_scene_file(const std::string& path) { return lower_case(fs::path(path).extension().string()) == ".toml"; }
+SceneKind kind_of_scene(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  return ending == ".tiles" ? SceneKind::tiles : lower_case(ending) == ".toml" ? SceneKind::parts : SceneKind::file;
+}
 
 SceneFile load_scene_file(const std::string& path) {
   if (!path_exists(path)) fail(ErrorKind::file, path, ": no such file");

@@ -12,16 +12,20 @@
 
 namespace insonify {
 
-/// Returns true if a path is that of a scene of parts: a .toml file.
-bool is_scene_file(const std::string& path);
+/// How a scene is stored: one cloud, mesh or raster; tiles on disk; or a scene file of parts.
+enum class SceneKind { file, tiles, parts };
+
+/// Returns the kind of scene that a path names, by its ending: .tiles, .toml, or another one.
+SceneKind kind_of_scene(const std::string& path);
 
 struct SceneFile;
 
 /// A file of surfels or triangles that a scene names, with the settings for reading it.
 struct PartFile {
   std::string path;
+  SceneKind kind = SceneKind::file;
   std::shared_ptr<const SceneFile> scene{};    ///< contents if the file itself is a scene of parts
-  MeaningText meaning;                         ///< units, axes and holes of the file
+  MeaningOverride meaning;                     ///< units, axes and holes of the file
   std::string material, materials;             ///< name for every surfel; path of a table; or empty
   std::string material_field;                  ///< field of the cloud whose numbers mean materials; empty: none
   std::optional<Eigen::Vector3d> viewpoint{};  ///< position of the capture [m, in the axes of the file]

@@ -18,8 +18,8 @@ KeyValue interval(std::vector<double>& numbers, const char* rule, const NumberRu
 /// Returns the keys that say how a file is read.
 std::vector<Key> reading_keys(const char* section, PartFile& file) {
   std::vector<Key> keys;
-  for (const MeaningOption& row : meaning_options)
-    keys.push_back({section, row.key, "", text(given(file.meaning.*row.text)), row.help});
+  for (const MeaningOption& row : meaning_options())
+    keys.push_back({section, row.key, "", meaning(file.meaning, row), row.help});
   const std::vector<Key> others = {
       {section, "material", "", text(given(file.material)),
        "name of one material for every surfel; default: the materials of the file"},

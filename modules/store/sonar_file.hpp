@@ -11,14 +11,13 @@
 namespace insonify {
 
 /// One value of a sonar file with its source.
-using SonarNumber = SourcedNumber;
 
 /// A sonar as its file describes it.
 struct SonarFile {
   SonarSpec spec;
   std::string description;
   std::string path;
-  std::vector<SonarNumber> numbers;
+  std::vector<SourcedNumber> numbers;
   bool of_run = false;                                 ///< true: read from a run.toml; its ranges are those of that run
   Eigen::Vector3d mounting = Eigen::Vector3d::Zero();  ///< attitude on a vehicle: yaw to port, pitch down, roll [rad]
 };

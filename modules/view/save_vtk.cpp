@@ -6,13 +6,18 @@
 #include <filesystem>
 #include <set>
 #include <sstream>
+#include <type_traits>
 
+#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSet.h>
+#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
@@ -26,12 +31,12 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "files/pending_file.hpp"
+#include "returns/sounding_columns.hpp"
 #include "view/drawn_cells_internal.hpp"
 #include "view/scene_lines_internal.hpp"
 #include "view/xml_file_internal.hpp"
 
 namespace insonify {
-
 void write_xml(vtkXMLWriter& writer, vtkDataSet* data, const std::string& path, const VtkMessages& messages,
                const char* who) {
   writer.SetInputData(data);
@@ -50,7 +55,6 @@ void list_units(vtkDataSet* data, const UnitList& units) {
   for (const std::string& unit : units) array->InsertNextValue(unit);
   data->GetFieldData()->AddArray(array);
 }
-
 namespace {
 
 void require_fields(const BeamFan& fan, const RangeGate& gate, const std::vector<SampleField>& fields,
@@ -215,6 +219,48 @@ void save_lines(const std::string& path, const LineSet& lines) {
   if (!lines.fields.empty()) data->GetCellData()->SetActiveScalars(lines.fields.front().name.c_str());
   vtkNew<vtkXMLPolyDataWriter> writer;
   write_xml(*writer, data, path, messages, "save_lines");
+}
+
+void save_points(const std::string& path, const Soundings& soundings, const std::vector<PointColumn>& more) {
+  const auto count = static_cast<vtkIdType>(soundings.size());
+  const auto require_length = [&](const std::string& name, std::size_t length) {
+    if (length != soundings.size())
+      fail(ErrorKind::argument, "save_points: ", path, ": column '", name, "' has ", length,
+           " entries, must have one for each of the ", soundings.size(), " soundings");
+  };
+  const VtkMessages messages;
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> vertices;
+  for (vtkIdType i = 0; i < count; ++i) {
+    points->InsertNextPoint(soundings.position[static_cast<std::size_t>(i)].data());
+    vertices->InsertNextCell(1, &i);
+  }
+  data->SetPoints(points);
+  data->SetVerts(vertices);
+
+  UnitList units{"Points: m"};
+  vtkPointData* columns = data->GetPointData();
+  each_column(
+      [&](const SoundingColumn& about, const auto& column) {
+        require_length(about.name, column.size());
+        using Real = std::is_same<typename std::decay_t<decltype(column)>::value_type, float>;
+        using Array = std::conditional_t<Real::value, vtkFloatArray, vtkIntArray>;
+        add_array<Array>(columns, about.name, column, signed_unit(about), units);
+      },
+      soundings);
+  for (const PointColumn& column : more) {
+    require_length(column.name, column.values.size());
+    if (column.whole)
+      add_array<vtkIntArray>(columns, column.name, column.values, column.unit, units);
+    else
+      add_array<vtkDoubleArray>(columns, column.name, column.values, column.unit, units);
+  }
+  columns->SetActiveScalars("level_db");
+  list_units(data, units);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  write_xml(*writer, data, path, messages, "save_points");
 }
 
 }  // namespace insonify

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "viewer/viewer_buttons_internal.hpp"
+#include "viewer/viewer_panel_internal.hpp"
 
 namespace insonify {
 namespace {

@@ -12,11 +12,11 @@
 
 #include "view/off_screen_internal.hpp"
 #include "viewer/show_viewer.hpp"
-#include "viewer/viewer_buttons_internal.hpp"
 #include "viewer/viewer_controls_internal.hpp"
 #include "viewer/viewer_explain.hpp"
 #include "viewer/viewer_flat_panels_internal.hpp"
 #include "viewer/viewer_layout.hpp"
+#include "viewer/viewer_panel_internal.hpp"
 #include "viewer/viewer_records_internal.hpp"
 #include "viewer/viewer_scene_panel_internal.hpp"
 

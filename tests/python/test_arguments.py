@@ -171,3 +171,17 @@ def test_files(simulator, tmp_path):
         ping.pressure = 3
     with pytest.raises(ValueError):
         ping.pressure[0, 0] = 1
+
+
+def test_the_meaning_of_a_file_takes_numbers(tmp_path):
+    points = np.random.default_rng(7).uniform(0, 90, (300, 3)) * (1, 1, 0)
+    np.savetxt(tmp_path / "bed.xyz", points)
+    metres = iy.load_scene(tmp_path / "bed.xyz", viewpoint=(0, 0, 9)).points
+    for unit in (0.1, "0.1"):
+        np.testing.assert_allclose(iy.load_scene(tmp_path / "bed.xyz", unit=unit, viewpoint=(0, 0, 9)).points,
+                                   0.1 * metres, atol=1e-6)
+    for key, values in {"unit": (0, -1, [1, 2], "mile"), "band": (0, 1.5, [1, 2]), "nodata": ("x",),
+                        "classes": (300, [2, 9.5], "x"), "z": (1, "left"), "up": ("x",)}.items():
+        for value in values:
+            with pytest.raises(iy.ArgumentError, match=key):
+                iy.load_scene(tmp_path / "bed.xyz", **{key: value})

@@ -165,7 +165,7 @@ TEST_F(AssimpFile, of_3mf_obeys_unit_places_and_names_of_materials) {
       EXPECT_EQ(loaded.scene.materials.at(loaded.scene.material[i]).name, side ? "sand" : "steel");
     }
   };
-  options.meaning = meaning_override(&MeaningText::unit, "m");
+  options.meaning = meaning_override("unit", "m");
   expect_parts(1);
 #ifdef INSONIFY_GOLDEN_RASTER
   options.meaning = {};

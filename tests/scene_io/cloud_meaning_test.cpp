@@ -86,7 +86,7 @@ TEST(CloudMeaning, undeclared_marks_are_holes) {
       EXPECT_NEAR(box.min.z(), -13.25, 1e-3);
       EXPECT_TRUE(has_note(report, "16 heights are " + std::to_string(static_cast<int>(mark)))) << mark;
     });
-    expect_of_all(positions, meaning_override(&MeaningText::no_data, "none"),
+    expect_of_all(positions, meaning_override("nodata", "none"),
                   [&](const LoadReport& report, const Bounds& box, std::size_t points) {
                     EXPECT_EQ(points, positions.size());
                     EXPECT_NEAR(box.min.z(), mark, 1e-2);
@@ -103,7 +103,7 @@ TEST(CloudMeaning, a_declared_mark_is_a_hole_and_an_odd_height_stays) {
     EXPECT_NEAR(box.min.z(), -500, 1e-3);
     EXPECT_TRUE(has_note(report, "heights reach -500 m"));
   });
-  expect_of_all(positions, meaning_override(&MeaningText::no_data, "-500,7"),
+  expect_of_all(positions, meaning_override("nodata", "-500,7"),
                 [&](const LoadReport&, const Bounds& box, std::size_t points) {
                   EXPECT_EQ(points, positions.size() - 1);
                   EXPECT_NEAR(box.min.z(), -13.25, 1e-3);
@@ -120,7 +120,7 @@ TEST(CloudMeaning, numbers_like_degrees_are_noted) {
 }
 
 TEST(CloudMeaning, unit_and_sign_of_the_caller_count_in_batches_too) {
-  MeaningOverride requested = meaning_override(&MeaningText::unit, "ft");
+  MeaningOverride requested = meaning_override("unit", "ft");
   requested.z_down = true;
   const Positions positions = level_bed(400, 300, 0.25, 40);
   expect_of_all(positions, requested, [&](const LoadReport&, const Bounds& box, std::size_t points) {
@@ -135,7 +135,7 @@ TEST(CloudMeaning, classes_concern_files_of_classes_alone) {
   for (const std::string& path : files_of(positions)) {
     if (path.ends_with(".las")) continue;
     LoadOptions options;
-    options.meaning = meaning_override(&MeaningText::classes, "2,9");
+    options.meaning = meaning_override("classes", "2,9");
     EXPECT_EQ(load_scene(path, options).scene.size(), positions.size()) << path;
   }
 }
@@ -174,7 +174,7 @@ TEST(CloudMeaning, a_mesh_on_its_side_is_noted_and_can_be_set_up) {
   const std::string path = own_file("bed.obj", obj.str());
   EXPECT_TRUE(has_note(load_scene(path).report, "give --up y"));
   LoadOptions options;
-  options.meaning = meaning_override(&MeaningText::up, "y");
+  options.meaning = meaning_override("up", "y");
   const LoadedScene loaded = load_scene(path, options);
   EXPECT_FALSE(has_note(loaded.report, "give --up y"));
   const Bounds box = bounds(loaded.scene);

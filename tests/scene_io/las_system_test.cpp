@@ -121,7 +121,7 @@ TEST(LasSystem, has_a_name_and_its_unit_can_be_overridden) {
   EXPECT_EQ(system_of(describe_file(path)), "EPSG:32632 (WGS 84 / UTM zone 32N)|file");
   const SystemCase feet{"", wkt_records(compound_wkt(us_ft, ft)), 1, 1, ""};
   LoadOptions options;
-  options.meaning = meaning_override(&MeaningText::unit, "m");
+  options.meaning = meaning_override("unit", "m");
   const LoadedScene metres = load_scene(own_file("b.las", las_of(feet).bytes(positions_in(1, 1))), options);
   EXPECT_LT((world(metres.scene, 0) - positions_in(1, 1)[0]).norm(), 2e-3);
 }
@@ -150,7 +150,7 @@ TEST(LasSystem, degrees_are_refused_in_any_record_with_the_zone_to_project_to) {
     tiles.whole_points = 0;
     expect_error(ErrorKind::content, {"degrees"}, [&] { prepare_tiles(path, own_path("a.tiles"), tiles); });
     LoadOptions options;
-    options.meaning = meaning_override(&MeaningText::unit, "m");
+    options.meaning = meaning_override("unit", "m");
     EXPECT_EQ(load_scene(path, options).scene.size(), 64u);
   }
 }

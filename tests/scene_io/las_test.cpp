@@ -132,7 +132,7 @@ TEST(Las, noise_is_left_out_unless_the_caller_wants_it) {
     const std::string path = own_file("noisy.las", las.bytes(positions()));
     const auto kept = [&](const char* classes) {
       LoadOptions options;
-      options.meaning = meaning_override(&MeaningText::classes, classes);
+      options.meaning = meaning_override("classes", classes);
       PrepareTilesOptions tiles;
       tiles.load = options;
       tiles.whole_points = 0;
@@ -151,7 +151,7 @@ TEST(Las, noise_is_left_out_unless_the_caller_wants_it) {
     EXPECT_EQ(kept("2"), 16u) << format;
     EXPECT_EQ(kept("7,9,18"), 48u) << format;
     LoadOptions none;
-    none.meaning = meaning_override(&MeaningText::classes, "5");
+    none.meaning = meaning_override("classes", "5");
     expect_error(ErrorKind::content, {"noisy.las", "64 of 64 points are of classes that are not read", "--classes all"},
                  [&] { load_scene(path, none); });
   }

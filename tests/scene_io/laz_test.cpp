@@ -47,7 +47,7 @@ void pack(const std::string& las, const std::string& laz, unsigned chunk) {
 LoadedScene with_columns(const std::string& path) {
   LoadOptions options;
   options.keep_columns = true;
-  options.meaning = meaning_override(&MeaningText::classes, "all");
+  options.meaning = meaning_override("classes", "all");
   return load_scene(path, options);
 }
 

@@ -33,10 +33,10 @@ inline double area_of_mesh(const LoadedScene& loaded) {
 }
 
 /// Returns a caller's statement about one item of a file's meaning.
-inline MeaningOverride meaning_override(std::string MeaningText::*item, const std::string& text) {
-  MeaningText said;
-  said.*item = text;
-  return parse_meaning(said);
+inline MeaningOverride meaning_override(const std::string& key, const std::string& text) {
+  MeaningOverride said;
+  std::ranges::find(meaning_options(), key, &MeaningOption::key)->parse(text, said);
+  return said;
 }
 
 inline bool has_note(const LoadReport& report, const std::string& part) {

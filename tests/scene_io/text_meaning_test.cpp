@@ -99,9 +99,9 @@ TEST(TextMeaning, headings_of_other_programs_name_the_coordinates) {
 TEST(TextMeaning, what_the_caller_says_overrides_headings) {
   const std::string path = own_file("a.csv", written({"X [ft],Y [ft],Depth [ft]", ",", {1, 1, -1}}));
   LoadOptions options;
-  options.meaning = meaning_override(&MeaningText::unit, "m");
+  options.meaning = meaning_override("unit", "m");
   expect_bed(load_scene(path, options), "metres after all");
-  options.meaning = meaning_override(&MeaningText::z, "up");
+  options.meaning = meaning_override("z", "up");
   options.meaning.unit = 1;
   EXPECT_NEAR(world(load_scene(path, options).scene, 0).z(), 12, 1e-6);
   // Depths that are negative are heights.
@@ -135,13 +135,13 @@ TEST(TextMeaning, degrees_are_refused_with_a_command_that_projects_them) {
       load_scene(own_file("d.csv", heading + std::string("\n7.9;54.1;-3\n7.9001;54.1;-3\n7.9;54.1001;-3\n")));
     });
   LoadOptions options;
-  options.meaning = meaning_override(&MeaningText::unit, "m");
+  options.meaning = meaning_override("unit", "m");
   EXPECT_EQ(load_scene(path, options).scene.size(), 64u) << "the caller knows better";
   if (output_of("command -v gdaltransform").empty()) GTEST_SKIP() << "gdal-bin is not installed";
   const std::size_t begin = said.find("awk"), end = said.find(", and give --z down");
   ASSERT_TRUE(begin < end && end < said.size()) << said;
   output_of(said.substr(begin, end - begin));
-  options.meaning = meaning_override(&MeaningText::z, "down");
+  options.meaning = meaning_override("z", "down");
   const LoadedScene loaded = load_scene(own_path("out.xyz"), options);
   ASSERT_EQ(loaded.scene.size(), 64u);
   const UtmPosition first = utm_position_of({radians(54.1), radians(7.9), 0}, {32, true});

@@ -67,7 +67,7 @@ TEST(SceneFile, reads_parts_where_they_stand_and_how_they_move) {
   EXPECT_EQ(reef.label, "") << "its materials are its classes";
   EXPECT_EQ(reef.file.path, own_path("reef.ply")) << "beside the scene file";
   EXPECT_TRUE(reef.placement.captured);
-  EXPECT_EQ(reef.file.meaning.unit, "mm");
+  EXPECT_EQ(reef.file.meaning.unit, 1e-3);
   EXPECT_EQ(reef.file.thin, 0.05);
   EXPECT_EQ(reef.file.viewpoint.value(), Eigen::Vector3d(0, 0, 2));
 

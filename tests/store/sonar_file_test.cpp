@@ -44,7 +44,7 @@ TEST(SonarFile, reads_how_a_mission_mounts_the_head) {
 TEST(SonarFile, keeps_the_origin_of_each_number_and_says_user_and_default) {
   const SonarFile file =
       load_sonar(replaced(plain, "210", "{ value = 221, status = \"recalled\", source = \"a talk\" }"));
-  std::map<std::string, SonarNumber> numbers;
+  std::map<std::string, SourcedNumber> numbers;
   for (const auto& number : file.numbers) numbers[number.key] = number;
   EXPECT_EQ(file.spec.source_level_db, 221);
   EXPECT_EQ(numbers["source_level_db"].value, "221.0");
@@ -138,7 +138,7 @@ TEST(SonarFile, shading_is_one_of_four_words) {
   refuses_sonar(plain + "shading = \"hann\"\n",
                 "12: shading = \"hann\", must be one of taylor, uniform, hamming, chebyshev");
   refuses_sonar(plain + "shading = 3\n", "12: shading = 3, must be one of taylor, uniform, hamming, chebyshev");
-  std::map<std::string, SonarNumber> numbers;
+  std::map<std::string, SourcedNumber> numbers;
   for (const auto& number : load_sonar(plain + "side_lobe_db = 0\n").numbers) numbers[number.key] = number;
   EXPECT_EQ(numbers["shading"].value, "uniform");
   EXPECT_EQ(numbers["shading"].status, "derived");

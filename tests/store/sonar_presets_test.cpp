@@ -94,7 +94,7 @@ TEST(Presets, thesis_table_2_is_the_thesis) {
 }
 
 TEST(Presets, list_the_derived_bandwidth) {
-  std::map<std::string, SonarNumber> numbers;
+  std::map<std::string, SourcedNumber> numbers;
   for (const auto& number : find_sonar("oculus-m750d").numbers) numbers[number.key] = number;
   EXPECT_EQ(numbers["range_resolution_m"].value, "0.004");
   EXPECT_EQ(numbers["range_resolution_m"].status, "sourced");

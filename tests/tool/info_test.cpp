@@ -116,6 +116,14 @@ TEST_F(FirstHour, info_tells_toml_files_and_folders_apart) {
   expect_refused("info odd.toml", 3, {"odd.toml:2", "warmth"});
 }
 
+TEST_F(FirstHour, info_describes_a_run_of_scatterers_which_has_no_settings_of_a_ping) {
+  write("one.csv", "range_m,azimuth_rad,elevation_rad,sigma_m2,xi_re,xi_im\n7,0,0,0.01,0.6,0.8\n");
+  succeed("synthesize one.csv -o one --sonar p900-45 --range 4:10 --no-picture -q");
+  const json run = info("one");
+  EXPECT_EQ(run["format"], info("one/cube.h5")["format"]);
+  EXPECT_THAT(next_of(run), HasSubstr("insonify image one"));
+}
+
 TEST_F(FirstHour, materials_lists_names_numbers_and_the_law) {
   const std::string all = succeed("materials");
   for (const char* text : {"sand ", "lambert_mu_db", "coherent_fraction", "relief_slope", "-16.6", "law: Lambert"})

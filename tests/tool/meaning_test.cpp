@@ -59,5 +59,5 @@ TEST_F(Meaning, is_kept_by_prepare_ping_run_and_parts) {
   succeed("ping plain.toml" + head + " -o plain");
   EXPECT_TRUE((ping_of("parts").pressure == ping_of("plain").pressure).all());
   write("bad.toml", "schema = 1\n[[part]]\nfile = \"bed.xyz\"\nz = \"left\"\n");
-  expect_refused("ping bad.toml" + head + " -o bad", 3, {"bad.toml:3", "--z = 'left'"});
+  expect_refused("ping bad.toml" + head + " -o bad", 3, {"bad.toml:4", "--z = 'left'"});
 }

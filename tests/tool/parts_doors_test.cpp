@@ -6,6 +6,7 @@
 
 #include "run/ping_setup.hpp"
 #include "run_scenes/open_scene.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "store/cube.hpp"
 #include "tool/parts_fixture.hpp"
 #include "view/test_pictures.hpp"
@@ -21,10 +22,10 @@ TEST_F(DoorsToParts, the_scene_of_a_ping_of_a_survey_is_that_which_was_pinged) {
   merged_cubes("run", {"fls"});
   const Cube cube = read_cube(path("run/fls/cube.h5"));
   ASSERT_GE(cube.pings.size(), 7U);
-  insonify::SceneOptions scene = insonify::scene_of_run(path("run/fls"));
+  insonify::SceneOptions scene = insonify::StoredRun(path("run/fls")).scene();
   EXPECT_EQ(scene.path, "drawn.toml");
   scene.path = path(scene.path);
-  const auto parts = insonify::open_scene_of_run(scene, path("run/fls"), 0);
+  const auto parts = insonify::StoredRun(path("run/fls")).open_scene(scene, 0);
   std::size_t drawn = 0;
   std::set<std::pair<double, double>> positions;
   for (const Ping& ping : cube.pings) {

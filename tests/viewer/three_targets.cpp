@@ -26,7 +26,7 @@ void add_echo(std::vector<Ping>& pings, const Target& target) {
 
 LazyPings reel_in_memory(std::vector<Ping> pings) {
   std::vector<TrackPoint> positions;
-  for (const Ping& ping : pings) positions.push_back(track_point_of(ping));
+  for (const Ping& ping : pings) positions.push_back(ping);
   const auto held = std::make_shared<const std::vector<Ping>>(std::move(pings));
   PingSource source;
   source.ping = [held](std::size_t i) { return (*held)[i]; };

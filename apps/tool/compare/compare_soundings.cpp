@@ -19,6 +19,7 @@
 #include "files/path_status.hpp"
 #include "run/ping_setup.hpp"
 #include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "scene/scene_index.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/csv_tables.hpp"
@@ -81,14 +82,14 @@ SceneOfSoundings scene_of_soundings(const CompareOptions& o, const SoundingTable
   if (is_folder(o.b)) {
     const std::vector<std::string> heads = head_names(o.b);
     folder = heads.size() == 1 ? (std::filesystem::path(o.b) / heads.front()).string() : o.b;
-    options = scene_of_run(folder);
+    options = StoredRun(folder).scene();
     if (options.path.empty())
       fail(ErrorKind::content, o.b,
            heads.size() > 1 ? ": is a survey of several heads; give the folder of one"
                             : ": does not say what its scene was; give the scene");
   }
   const auto opened = folder.empty() ? open_scene(options, {{o.common.seed, {}}, o.common.threads})
-                                     : open_scene_of_run(options, folder, o.common.threads, o.common.seed);
+                                     : StoredRun(folder).open_scene(options, o.common.threads, o.common.seed);
   scene.parts = {opened, opened->parts()};
   if (!scene.parts)
     scene.whole = std::make_shared<const SceneCloud>(opened->take_whole({}).scene);

@@ -11,6 +11,7 @@
 #include "run/ping_setup.hpp"
 #include "run_scenes/open_scene.hpp"
 #include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "store/survey_run.hpp"
 #include "tool/dataset/dataset.hpp"
 #include "tool/run/run_pings.hpp"
@@ -32,8 +33,8 @@ std::string digest_of_what_is_there(const std::string& scene, std::string& note)
 }
 
 /// Notes the scene of a run, and the instances of its points if its cloud has them.
-void find_scene(DatasetSource& source, const std::string& settings_folder) {
-  source.scene = scene_of_run(settings_folder).path;
+void find_scene(DatasetSource& source, const StoredRun& run) {
+  source.scene = run.scene().path;
   std::error_code error;
   const bool there = !source.scene.empty() && fs::is_regular_file(source.scene, error);
   source.scene_digest = there ? digest_of_what_is_there(source.scene, source.note)
@@ -51,7 +52,7 @@ std::vector<DatasetSource> sources_of_survey(const std::string& run) {
     for (const auto& [number, files, mark] : all_blocks(run, survey, survey.heads[h]))
       if (path_exists(files.cube)) source.cubes.push_back(files.cube);
     source.randomisation = load_survey_randomisation(mission);
-    find_scene(source, (fs::path(run) / source.head).string());
+    find_scene(source, StoredRun((fs::path(run) / source.head).string()));
     sources.push_back(std::move(source));
   }
   return sources;
@@ -68,10 +69,10 @@ std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs)
       for (DatasetSource& source : sources_of_survey(run)) sources.push_back(std::move(source));
     } else {
       DatasetSource& source = sources.emplace_back();
-      source.run = run, source.cubes = {run_cube_path(run)};
-      const std::string folder = is_folder(run) ? run : fs::path(run).parent_path().string();
+      source.run = run, source.cubes = {StoredRun(run).cube()};
+      const StoredRun folder(is_folder(run) ? run : fs::path(run).parent_path().string());
       find_scene(source, folder);
-      const RunDraws draws = draws_of_run(folder);
+      const RunDraws draws = folder.draws();
       source.draw_key = source.scene_digest + fmt::format(" {} {}", draws.seed, draws.rule.draw);
     }
     for (std::size_t s = before; s < sources.size(); ++s) {

@@ -60,18 +60,13 @@ Ping row_of(const Ping& ping, std::size_t row) {
   const std::vector<FanRow> rows = fan_rows(ping.fan);
   if (rows.size() == 1) return ping;
   const std::vector<std::size_t>& beams = rows.at(row).beams;
-  Ping part;
-  part.number = ping.number, part.time = ping.time, part.world_from_head = ping.world_from_head;
-  part.sound_speed = ping.sound_speed, part.absorption_db_per_m = ping.absorption_db_per_m;
-  part.gate = ping.gate, part.expected_level = ping.expected_level, part.display_cells = ping.display_cells,
-  part.scan = ping.scan;
-  part.fan = ping.fan;
+  Ping part{ping, ping.fan, ping.gate, of_beams(ping.pressure, beams)};
+  part.expected_level = ping.expected_level, part.display_cells = ping.display_cells;
   part.fan.azimuth.clear(), part.fan.elevation.clear();
   for (const std::size_t beam : beams) {
     part.fan.azimuth.push_back(ping.fan.azimuth[beam]);
     part.fan.elevation.push_back(ping.fan.elevation[beam]);
   }
-  part.pressure = of_beams(ping.pressure, beams);
   part.intensity = of_beams(ping.intensity, beams);
   const PixelLabels& labels = ping.labels;
   part.labels = {of_beams(labels.material, beams),

@@ -19,6 +19,7 @@
 #include "run/run_checks.hpp"
 #include "run_scenes/open_scene.hpp"
 #include "run_scenes/parts_of_pings.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "tool/dataset/level_counts.hpp"
 #include "tool/export/product_run.hpp"
@@ -111,10 +112,10 @@ std::string settings_folder_of(const ProductOptions& o) {
 /// Writes the scene of the first ping beside the images, as a mesh if it is one; returns why not, or nothing.
 std::string write_truth(const PlacedRun& run, const Ping& first, RunDirectory& directory) {
   try {
-    const std::string folder = settings_folder_of(run.options);
-    const SceneOptions scene = scene_of_run(folder);
+    const StoredRun folder(settings_folder_of(run.options));
+    const SceneOptions scene = folder.scene();
     if (scene.path.empty()) return "does not name its scene";
-    const auto open = open_scene_of_run(scene, folder, 0);
+    const auto open = folder.open_scene(scene, 0);
     save_scene(directory.file("truth.ply"), open->take_whole(open->moment_of(first.time, first.number)));
     return {};
   } catch (const Error& error) {

@@ -83,8 +83,7 @@ std::vector<SampleField> fields_of(const Ping& ping) {
       {"pressure_re", ping.pressure.real(), "Pa, amplitude"},
       {"pressure_im", ping.pressure.imag(), "Pa, amplitude"}};
   for (const Layer& layer : ping.layers)
-    fields.push_back({"level_db_" + layer.name,
-                      level_db({.fan = ping.fan, .gate = ping.gate, .pressure = layer.pressure}), level_unit});
+    fields.push_back({"level_db_" + layer.name, level_db(Ping{{}, ping.fan, ping.gate, layer.pressure}), level_unit});
   if (ping.intensity.size() > 0) fields.push_back({"shown_level_db", shown_level_db(ping), level_unit});
   if (ping.split_phase.size() > 0) fields.push_back({"split_phase", ping.split_phase, "rad"});
   if (ping.unknown.size() > 0) fields.push_back({"unknown", ping.unknown.cast<float>()});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include "core/units.hpp"
 #include "files/path_status.hpp"
 #include "run_scenes/run_folder.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/image/image.hpp"
 #include "tool/run/record_file.hpp"
@@ -18,8 +18,6 @@
 
 namespace insonify::tool {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double default_tvg = 40;  // [dB per decade of range], a point's
 
@@ -91,7 +89,7 @@ BeamRecord beam_record(const ImageRun& run, const ImageOptions& o, const std::ve
       row = level_db.row(static_cast<Eigen::Index>(chosen.beam));
     else
       row = level_db.colwise().maxCoeff();
-    record.pings.push_back(track_point_of(run.cube.pings[p]));
+    record.pings.push_back(run.cube.pings[p]);
   }
   return record;
 }
@@ -126,9 +124,8 @@ ImageRun read_image_run(const std::string& path, const std::string& layer) {
     return {path, std::move(record.cube), {}, record.unit, record.side_scan};
   }
   ImageRun run{path, read_whole_cube(path)};
-  const fs::path settings = fs::path(path) / "run.toml";
-  if (is_folder(path) && path_exists(settings))
-    run.head = make_head(load_sonar_file(settings.string()).spec, run.cube.sound_speed);
+  if (const std::string settings = StoredRun(path).find("run.toml"); !settings.empty())
+    run.head = make_head(load_sonar_file(settings).spec, run.cube.sound_speed);
   if (!layer.empty())
     for (Ping& ping : run.cube.pings) take_layer(ping, layer, path);
   return run;

@@ -14,6 +14,7 @@
 #include "run/scene_reach.hpp"
 #include "run_scenes/open_scene.hpp"
 #include "run_scenes/run_folder.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "sampling/find_holes.hpp"
 #include "simulate/resolve_ping.hpp"
 #include "tool/command/progress.hpp"
@@ -51,7 +52,7 @@ void add_notes(const LoadReport& report, Progress& progress) {
 /// The scene of a run as it was when a ping was sent.
 std::shared_ptr<const SceneCloud> load_of_ping(const ImageOptions& o, const SceneOptions& options, const Ping& ping,
                                                Progress& progress) {
-  const auto scene = open_scene_of_run(options, o.run, o.common.threads);
+  const auto scene = StoredRun(o.run).open_scene(options, o.common.threads);
   add_notes(scene->report(), progress);
   return scene->cloud_at(scene->moment_of(ping.time, ping.number));
 }
@@ -63,26 +64,27 @@ Drawing drawing_of_run(const ImageOptions& o, Progress& progress) {
          " is a run, whose sonar and poses are known; leave --sonar, --pose and --range out");
   const Cube cube = read_run_ping(o.run, static_cast<std::ptrdiff_t>(o.ping));
   const Ping& ping = cube.pings.front();
-  SceneOptions options = scene_of_run(o.run);
+  const StoredRun run(o.run);
+  SceneOptions options = run.scene();
   if (!o.scene.empty()) options.path = o.scene;
   if (options.path.empty()) fail(ErrorKind::content, o.run, ": does not say what its scene was; give it with --scene");
 
   Drawing drawing;
   drawing.scene = load_of_ping(o, options, ping, progress);
   drawing.look.head = SceneHead{ping.world_from_head, ping.fan, ping.gate};
-  for (const TrackPoint& sent : read_track(run_cube_path(o.run)))
+  for (const TrackPoint& sent : read_track(run.cube()))
     drawing.look.track.emplace_back(sent.world_from_head.translation());
   drawing.look.colour = o.colour.empty() ? SceneColour::level : *find_named(colour_words, o.colour);
   if (drawing.look.colour == SceneColour::visibility)
-    drawing.view = view_of_run(o.run, whole_of(*drawing.scene), o.common.threads);
-  const fs::path returns = fs::path(o.run) / "returns.ply";
+    drawing.view = run.view(whole_of(*drawing.scene), o.common.threads);
+  const std::string returns = run.find("returns.ply");
   const bool covered = drawing.look.colour == SceneColour::visibility || drawing.look.colour == SceneColour::grazing ||
                        drawing.look.colour == SceneColour::incidence;
-  if (!path_exists(returns)) {
-    progress.note(returns.string() + " is missing, so no returns are drawn");
+  if (returns.empty()) {
+    progress.note((fs::path(o.run) / "returns.ply").string() + " is missing, so no returns are drawn");
   } else if (!covered) {
     const std::optional<Tvg> tvg = tvg_of(o, ping.absorption_db_per_m);
-    drawing.look.soundings = soundings_of_ping(load_soundings(returns.string()), ping.number, tvg);
+    drawing.look.soundings = soundings_of_ping(load_soundings(returns), ping.number, tvg);
     drawing.look.level_unit = level_unit(tvg);
   }
   drawing.title = picture_title(cube.sonar, ping);
@@ -137,7 +139,7 @@ Drawing drawing_of_scene(const ImageOptions& o, Progress& progress) {
 }
 
 /// Draws the returns of a run over its scene, or of a scene alone its visibility from the sonar. Throws Error(argument)
-/// for options that exclude one another, and as read_run_cube and load_scene.
+/// for options that exclude one another, and as StoredRun::cube and load_scene.
 void draw_scene(const ImageOptions& o) {
   Progress progress(o.common, 2);
   progress.step("reading " + o.run);

@@ -14,6 +14,7 @@
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/run_folder.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "scene_io/projected_system.hpp"
 #include "store/contributor_file.hpp"
 #include "store/cube.hpp"
@@ -28,34 +29,26 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// How much of a head of a survey is done.
+/// How much of a head of a survey is done, and the notes of its pings: of its merged cube, or of its blocks.
 struct HeadState {
   std::size_t done = 0, failed = 0;  ///< blocks, pings
   bool merged = false;
+  std::vector<PingNote> notes{};
 };
 
+StoredRun folder_of(const std::string& run, const std::string& head) {
+  return StoredRun((fs::path(run) / head).string());
+}
+
 HeadState state_of(const std::string& run, const SurveyRun& survey, const SurveyRunHead& head) {
-  HeadState state;
-  for (const StoredBlock& block : stored_blocks(run, survey, head))
+  const std::string merged = folder_of(run, head.name).find("cube.h5");
+  HeadState state{.merged = !merged.empty()};
+  if (state.merged) state.notes = read_cube(merged, 0, 0).notes;
+  for (const StoredBlock& block : stored_blocks(run, survey, head)) {
     ++state.done, state.failed += block.mark.failed.size();
-  state.merged = path_exists(fs::path(run) / head.name / "cube.h5");
+    if (!state.merged && !block.mark.cube_sha256.empty()) gather(state.notes, read_cube(block.files.cube, 0, 0).notes);
+  }
   return state;
-}
-
-/// Returns the settings that a head of a survey keeps in its run.toml; the default ones without that file.
-Run settings_of(const std::string& run, const std::string& head) {
-  const fs::path file = fs::path(run) / head / "run.toml";
-  return path_exists(file) ? load_ping_settings(file.string()) : Run{};
-}
-
-/// Notes of the pings of a head that are done, of its merged cube or of its blocks.
-std::vector<PingNote> notes_of_head(const std::string& run, const SurveyRun& survey, const SurveyRunHead& head) {
-  const fs::path merged = fs::path(run) / head.name / "cube.h5";
-  if (path_exists(merged)) return read_cube(merged.string(), 0, 0).notes;
-  std::vector<PingNote> notes;
-  for (const StoredBlock& block : stored_blocks(run, survey, head))
-    if (!block.mark.cube_sha256.empty()) gather(notes, read_cube(block.files.cube, 0, 0).notes);
-  return notes;
 }
 
 ordered_json notes_json(const std::vector<PingNote>& notes, const std::string& head = "") {
@@ -97,8 +90,8 @@ ordered_json survey_info(const std::string& run) {
   for (const SurveyRunHead& head : survey.heads) {
     const HeadState state = state_of(run, survey, head);
     done &= state.done == head.blocks(), merged &= state.merged;
-    labelled |= keeps(settings_of(run, head.name), "contributors");
-    for (const ordered_json& note : notes_json(notes_of_head(run, survey, head), head.name)) notes.push_back(note);
+    labelled |= keeps(folder_of(run, head.name).settings().value_or(Run{}), "contributors");
+    for (const ordered_json& note : notes_json(state.notes, head.name)) notes.push_back(note);
     heads.push_back({{"name", head.name},
                      {"pings", head.pings},
                      {"blocks", head.blocks()},
@@ -114,7 +107,7 @@ ordered_json survey_info(const std::string& run) {
     next.push_back("insonify image " + word + " --view track -o track.png");
     const std::string name = survey.heads.front().name;
     const std::string target = survey.heads.size() == 1 ? word : word + " --head " + name;
-    for (std::string& command : products_of(target, run, name, settings_of(run, name)))
+    for (std::string& command : products_of(target, run, name, folder_of(run, name).settings().value_or(Run{})))
       next.push_back(std::move(command));
   }
   if (done && labelled) next.push_back("insonify dataset " + word + " -o dataset");
@@ -143,7 +136,7 @@ ordered_json head_info(const std::string& run, const SurveyRun& survey, const Su
           {"blocks_done", state.done},
           {"failed_pings", state.failed},
           {"merged", state.merged},
-          {"notes", notes_json(notes_of_head(run, survey, head))},
+          {"notes", notes_json(state.notes)},
           {"next",
            {done ? "insonify merge " + word
                  : "insonify survey MISSION -o " + word + "  # the mission that it was begun with",
@@ -160,12 +153,10 @@ std::optional<std::pair<std::string, SurveyRunHead>> head_of_survey(const fs::pa
 }
 
 /// Returns facts of any folder that insonify wrote: what its manifest says, without objects and long lists.
-ordered_json manifest_info(const std::string& path) {
-  const std::string file = path + "/manifest.json";
+ordered_json manifest_info(const std::string& path, const ordered_json& manifest) {
   ordered_json info = {{"path", path}, {"format", "folder written by insonify"}};
-  const ordered_json manifest = ordered_json::parse(read_text_file(file), nullptr, false);
-  if (!manifest.is_object() || !manifest.contains("insonify_version"))
-    fail(ErrorKind::content, file, ": is no manifest of insonify");
+  if (!manifest.contains("insonify_version"))
+    fail(ErrorKind::content, path, "/manifest.json: is no manifest of insonify");
   for (const auto& [key, value] : manifest.items())
     if (key != "schema" && (value.is_primitive() || (value.is_array() && value.size() < 8))) info[key] = value;
   info["next"] = {"insonify info --verify " + shell_word(path)};
@@ -173,11 +164,10 @@ ordered_json manifest_info(const std::string& path) {
 }
 
 std::vector<std::string> next_of_run(const std::string& path) {
-  const fs::path run(path), folder = is_folder(run) ? run : run.parent_path();
   const std::string word = shell_word(path);
   std::vector<std::string> next = {"insonify image " + word + " -o picture.png"};
-  const Run settings = is_folder(run) && path_exists(run / "run.toml") ? settings_of(path, ".") : Run{};
-  if (is_folder(run)) next.push_back("insonify view " + word);
+  const Run settings = StoredRun(path).settings().value_or(Run{});
+  if (is_folder(path)) next.push_back("insonify view " + word);
   for (std::string& command : products_of(word, path, "", settings)) next.push_back(std::move(command));
   if (keeps(settings, "contributors")) next.push_back("insonify dataset " + word + " -o dataset");
   return next;
@@ -224,8 +214,7 @@ std::string shell_word(const std::string& path) {
 }
 
 ordered_json info_of_cube(const std::string& path) {
-  const bool is_run = is_folder(path);
-  const std::string file = is_run ? path + "/cube.h5" : path;
+  const std::string file = StoredRun(path).cube();
   // The water of a dive is not one number.
   struct Range {
     double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -253,18 +242,18 @@ ordered_json info_of_folder(const std::string& path) {
   fs::path folder = fs::path(path).lexically_normal();
   if (!folder.has_filename()) folder = folder.parent_path();  // of a path that ends with a slash
   if (is_survey_run(path)) return survey_info(path);
-  if (path_exists(folder / "cube.h5")) {
+  const StoredRun run(folder.string());
+  const ordered_json manifest = run.json("manifest.json");
+  if (!run.find("cube.h5").empty()) {
     ordered_json info = info_of_cube(folder.string());
-    if (!path_exists(folder / "manifest.json")) return info;
-    const ordered_json manifest = ordered_json::parse(read_text_file(folder / "manifest.json"), nullptr, false);
-    if (!manifest.is_object() || !manifest.contains("built_with")) return info;
+    if (!manifest.contains("built_with")) return info;
     const ordered_json next = info["next"];  // stays last
     info.erase("next"), info["built_with"] = manifest["built_with"], info["next"] = next;
     return info;
   }
   if (const auto head = head_of_survey(folder))
     return head_info(head->first, load_survey_run(head->first), head->second);
-  if (path_exists(folder / "manifest.json")) return manifest_info(folder.string());
+  if (!run.find("manifest.json").empty()) return manifest_info(folder.string(), manifest);
   fail(ErrorKind::content, path, ": is no run, survey, head of a survey or export of insonify: it holds no cube.h5, ",
        "survey.toml or manifest.json; give one of its files, or the folder of a run");
 }

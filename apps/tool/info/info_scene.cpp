@@ -12,6 +12,7 @@
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/open_scene.hpp"
+#include "scene/material_shares.hpp"
 #include "scene_io/describe_file.hpp"
 #include "tiles/tiled_scene.hpp"
 #include "tool/info/info.hpp"
@@ -20,6 +21,17 @@ namespace insonify::tool {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// For each material of a scene: name, law, points, share and, where areas are known, area_m2.
+ordered_json shares_json(const std::vector<MaterialShare>& shares) {
+  ordered_json all = ordered_json::array();
+  for (const MaterialShare& share : shares) {
+    ordered_json row = {{"name", share.name}, {"law", share.law}, {"points", share.points}, {"share", share.share}};
+    if (share.area) row["area_m2"] = *share.area;
+    all.push_back(row);
+  }
+  return all;
+}
 
 ordered_json point(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -68,11 +80,11 @@ std::string next_of_camera(const FileDescription& d) {
 }
 
 /// The commands that go on from a cloud. With options they prepare it first, so that the next ones need none.
-std::vector<std::string> next_of_cloud(const FileDescription& d, MeaningText& requested) {
+std::vector<std::string> next_of_cloud(const FileDescription& d, const MeaningOverride& requested) {
   std::string options;
-  for (const RunSetting& setting : meaning_settings(requested))
-    if (const std::string& value = *std::get<std::string*>(setting.value); !value.empty())
-      options += fmt::format(" {} {}", setting.option, shell_word(value));
+  for (const MeaningOption& item : meaning_options())
+    if (const std::string value = item.text(requested); !value.empty())
+      options += fmt::format(" {} {}", item.option, shell_word(value));
   const bool sided = d.has_normals || d.triangles > 0 || d.viewpoint || !d.stations.empty();
   const bool prepares = !sided || !options.empty();
   const std::string prepared = prepares ? "prepared.ply" : d.path;
@@ -86,8 +98,8 @@ std::vector<std::string> next_of_cloud(const FileDescription& d, MeaningText& re
   return next;
 }
 
-ordered_json cloud_info(const std::string& path, MeaningText& requested) {
-  const FileDescription d = describe_file(path, parse_meaning(requested));
+ordered_json cloud_info(const std::string& path, const MeaningOverride& requested) {
+  const FileDescription d = describe_file(path, requested);
   ordered_json fields = ordered_json::array();
   for (const auto& f : d.fields) fields.push_back({{"name", f.name}, {"type", f.type}});
   ordered_json meaning = ordered_json::array();
@@ -149,7 +161,7 @@ ordered_json tiles_info(const std::string& path, const TiledScene& tiled) {
 
 }  // namespace
 
-ordered_json info_of_scene(const std::string& path, MeaningText requested) {
+ordered_json info_of_scene(const std::string& path, const MeaningOverride& requested) {
   const std::optional<TiledScene> tiled = find_tiles(path);
   return tiled ? tiles_info(path, *tiled) : cloud_info(path, requested);
 }

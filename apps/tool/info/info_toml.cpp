@@ -11,6 +11,7 @@
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_scene.hpp"
 #include "store/environment_file.hpp"
+#include "store/materials_file.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree.hpp"
 #include "tool/info/info.hpp"

@@ -22,7 +22,7 @@ struct InfoOptions {
   CommonOptions common;
   std::vector<std::string> files;
   bool verify = false;
-  MeaningText meaning;
+  MeaningOverride meaning;
 };
 
 void add_options(OptionList list, InfoOptions& o) {

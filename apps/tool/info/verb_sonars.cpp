@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.hpp"
+#include "run_scenes/run_folder.hpp"
 #include "store/run_directory.hpp"
 #include "store/sonar_file.hpp"
 #include "tool/command/progress.hpp"
@@ -27,15 +28,15 @@ void add_options(OptionList list, SonarsOptions& o) {
 }
 
 ordered_json sonar_json(const SonarFile& file) {
-  ordered_json numbers = ordered_json::array();
-  for (const SonarNumber& n : file.numbers)
-    numbers.push_back({{"key", n.key}, {"value", n.value}, {"status", n.status}, {"source", n.source}});
-  return {{"name", file.spec.name}, {"description", file.description}, {"path", file.path}, {"numbers", numbers}};
+  return {{"name", file.spec.name},
+          {"description", file.description},
+          {"path", file.path},
+          {"numbers", numbers_json(file.numbers)}};
 }
 
 void print_one(const SonarFile& file) {
   fmt::print("{}: {}\n\n", file.spec.name, file.description);
-  for (const SonarNumber& n : file.numbers)
+  for (const SourcedNumber& n : file.numbers)
     fmt::print("  {:<22} {:>10}  {:<9} {}\n", n.key, n.value, n.status, n.source);
   const SonarHead head = make_head(file.spec, nominal_sound_speed);
   fmt::print("\n  range resolution at {:g} m/s: {:.3g} mm (full width at half intensity), {:.3g} mm (c / 2B)\n",

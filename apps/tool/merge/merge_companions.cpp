@@ -12,6 +12,7 @@
 #include "files/path_status.hpp"
 #include "files/pending_file.hpp"
 #include "returns/sounding_columns.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "scene_io/insonification_file.hpp"
 #include "scene_io/load_scene.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -27,11 +28,8 @@ std::vector<std::string> files_of(const std::vector<std::string>& runs, const st
                                   std::vector<std::string>& notes) {
   std::vector<std::string> files, without;
   for (const std::string& run : runs) {
-    const fs::path file = fs::path(run) / name;
-    if (is_folder(run) && path_exists(file))
-      files.push_back(file.string());
-    else
-      without.push_back(run);
+    const std::string file = StoredRun(run).find(name);
+    file.empty() ? without.push_back(run) : files.push_back(file);
   }
   if (without.empty()) return files;
   if (!files.empty()) notes.push_back(fmt::format("{} is left out: {} has none", name, without.front()));

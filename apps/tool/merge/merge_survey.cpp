@@ -14,6 +14,7 @@
 #include "files/sha256.hpp"
 #include "files/utc.hpp"
 #include "run_scenes/run_folder.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "scene_io/coverage_file.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/concatenate_cube_files.hpp"
@@ -125,7 +126,7 @@ std::optional<Georeference> georeference_of_survey(const std::string& folder, co
 /// Mission and scene say where the world of a survey is.
 SurveyFrame frame_of(const std::string& folder) {
   SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
-  if (const std::string system = recorded_system(folder); !system.empty()) frame.system = system;
+  if (const std::string system = StoredRun(folder).system(); !system.empty()) frame.system = system;
   return frame;
 }
 

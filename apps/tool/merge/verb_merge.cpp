@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "files/path_status.hpp"
 #include "run/run_checks.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "store/merge_cubes_by_time.hpp"
 #include "store/run_directory.hpp"
 #include "store/survey_run.hpp"
@@ -63,9 +64,9 @@ ordered_json inputs_json(const std::vector<NamedCube>& cubes) {
 /// The coordinate system of the world of all runs; without one, some state none. Throws Error(content) if they
 /// contradict each other.
 std::string system_of_runs(const std::vector<std::string>& runs) {
-  std::string common = recorded_system(runs.front());
+  std::string common = StoredRun(runs.front()).system();
   for (const std::string& run : runs) {
-    const std::string system = recorded_system(run);
+    const std::string system = StoredRun(run).system();
     if (!system.empty() && !common.empty() && system != common)
       fail(ErrorKind::content, run, ": its world is in ", system, ", that of ", runs.front(), " in ", common,
            "; pings of two systems have no common world: merge those of one");
@@ -123,7 +124,7 @@ void merge(const MergeOptions& o) {
     progress.step("reading " + run);
     if (const std::string doubt = integrity_problem(run, "cube.h5"); !doubt.empty())
       fail(ErrorKind::content, doubt, "; copy the run again, or name its cube.h5 to merge it as it is");
-    cubes.push_back({run, read_run_cube(run)});
+    cubes.push_back({run, read_cube(StoredRun(run).cube())});
   }
   ordered_json manifest = {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"merged", inputs_json(cubes)}};
   const MergedCube merged = merge_cubes_by_time(cubes);
@@ -137,8 +138,8 @@ void merge(const MergeOptions& o) {
   for (const PingNote& note : merged.cube.notes) notes.push_back(sentence(note));
   for (const std::string& note : notes) progress.note(note);
   manifest["notes"] = notes;
-  const std::filesystem::path settings = std::filesystem::path(o.runs.front()) / "run.toml";
-  if (path_exists(settings)) write_file(directory.file("run.toml"), read_text_file(settings.string()));
+  if (const std::string settings = StoredRun(o.runs.front()).find("run.toml"); !settings.empty())
+    write_file(directory.file("run.toml"), read_text_file(settings));
   write_manifest(directory, manifest);
   directory.commit();
   print_summary(o.common, manifest,

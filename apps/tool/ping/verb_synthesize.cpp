@@ -77,7 +77,7 @@ void synthesize(const SynthesizeOptions& o) {
   const auto& [method, tolerance, true_delays, phases] = decided.synthesis;
   const Medium medium = medium_of(setup.environment, head.pulse.centre_frequency, *decided.effects.absorption_order);
   const ComplexGrid pressure = synthesize(echoes, head, medium, method, {tolerance, run.simulation.threads});
-  Ping ping{0, 0, Pose::Identity(), head.fan, head.gate, stored_pressure(pressure, "synthesize")};
+  Ping ping{{}, head.fan, head.gate, stored_pressure(pressure, "synthesize")};
   ping.expected_level = gives_power(method);
   note_water(medium, ping);
   const double seconds = watch.lap();

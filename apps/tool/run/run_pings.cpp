@@ -12,11 +12,10 @@
 #include "core/units.hpp"
 #include "files/path_status.hpp"
 #include "run/parse_values.hpp"
+#include "run_scenes/stored_run.hpp"
 #include "store/csv_tables.hpp"
 #include "store/environment_file.hpp"
 #include "store/survey_run.hpp"
-#include "store/toml_tree.hpp"
-#include "tool/run/world_reference.hpp"
 
 namespace insonify::tool {
 namespace {
@@ -53,29 +52,15 @@ void add_mission(const std::string& path, const std::string& head, RunPings& pin
   pings.instruments = file.instruments;
 }
 
-/// A text that the run.toml of a ping records under [ping]; empty if it has none.
-std::string ping_setting(const std::string& settings, const std::string& key) {
-  const TomlValue document = load_toml(settings);
-  const TomlValue* ping = document.find("ping");
-  const TomlValue* value = ping ? ping->find(key) : nullptr;
-  return value && value->kind == TomlValue::Kind::text ? value->text : "";
-}
-
-/// The mounting that the run.toml of a ping records; the pose itself if it has none.
-Pose mounting_of_ping(const std::string& settings) {
-  const std::string mount = ping_setting(settings, "mount");
-  return mount.empty() ? Pose::Identity() : parse_pose(mount, "z-up", "mount");
-}
-
 /// The trajectory that the run.toml of pings names, if it is there and leads their heads through all their positions; adds
 /// a note if it is there and does not.
-std::optional<Trajectory> named_way(const std::string& settings, const Pose& vehicle_from_head,
-                                    const Trajectory& positions, std::vector<std::string>& notes) {
+std::optional<Trajectory> named_way(const Run& sent, const Pose& vehicle_from_head, const Trajectory& positions,
+                                    std::vector<std::string>& notes) {
   constexpr double same_position = 1e-3;  // [m]
-  const std::string path = path_named_in(settings, ping_setting(settings, "trajectory"));
+  const std::string& path = sent.placement.trajectory;
   if (!is_file(path)) return {};
   const auto refused = [&](const std::string& why) {
-    notes.push_back(path + ": is not the trajectory of the pings of " + settings + " (" + why +
+    notes.push_back(path + ": is not the trajectory of the pings of " + sent.head.sonar + " (" + why +
                     "); their way is that through their own places");
     return std::optional<Trajectory>();
   };
@@ -92,15 +77,13 @@ std::optional<Trajectory> named_way(const std::string& settings, const Pose& veh
 }
 
 /// The way of a single ping by its velocity, if its run.toml has one.
-std::optional<Trajectory> straight_way(const std::string& settings, const Trajectory& positions) {
-  const std::string velocity = ping_setting(settings, "velocity");
-  if (velocity.empty() || positions.time.size() != 1) return {};
-  const Eigen::Vector3d in_a_second = parse_vector("velocity", velocity, "vx,vy,vz in m/s");
+std::optional<Trajectory> straight_way(const Run& sent, const Trajectory& positions) {
+  if (!sent.placement.velocity || positions.time.size() != 1) return {};
   Trajectory way;
   for (const double second : {-1.0, 1.0}) {
     way.time.push_back(positions.time[0] + second);
     way.pose.push_back(positions.pose[0]);
-    way.pose.back().pretranslate(second * in_a_second);
+    way.pose.back().pretranslate(second * *sent.placement.velocity);
   }
   return way;
 }
@@ -113,28 +96,32 @@ RunPings pings_of_survey(const std::string& run, const std::string& head_name) {
     if (path_exists(files.cube)) pings.cubes.push_back(files.cube);  // else all its pings failed
     if (path_exists(files.returns)) pings.returns.push_back(files.returns);
   }
-  pings.system = recorded_system(run);
-  const std::string settings = run + "/" + head.name + "/run.toml";
-  if (path_exists(settings)) pings.environment = load_environment(settings);
+  pings.system = StoredRun(run).system();
+  const std::string settings = StoredRun(run + "/" + head.name).find("run.toml");
+  if (!settings.empty()) pings.environment = load_environment(settings);
   add_mission(run + "/mission.toml", head.name, pings);
   return pings;
 }
 
 /// Reads the run directory of a ping, or of a merged head within the folder of its survey.
 RunPings pings_of_directory(const std::string& run) {
+  const StoredRun stored(run);
   RunPings pings;
-  pings.cubes = {run_cube_path(run)};
-  if (is_folder(run) && path_exists(run + "/returns.ply")) pings.returns = {run + "/returns.ply"};
-  const std::string settings = run + "/run.toml";
-  if (is_folder(run) && path_exists(settings)) pings.environment = load_environment(settings);
+  pings.cubes = {stored.cube()};
+  if (const std::string returns = stored.find("returns.ply"); !returns.empty()) pings.returns = {returns};
+  const std::string settings = stored.find("run.toml");
+  if (!settings.empty()) pings.environment = load_environment(settings);
   if (!is_folder(run)) return pings;
-  pings.system = recorded_system(run);
+  pings.system = stored.system();
   const fs::path folder = real_path(run), survey = folder.parent_path();
   if (!is_survey_run(survey.string())) {
-    if (path_exists(settings)) pings.vehicle_from_head = mounting_of_ping(settings), pings.settings = settings;
+    pings.sent = stored.settings();
+    if (!settings.empty())
+      pings.vehicle_from_head =
+          pings.sent && pings.sent->placement.mount ? pose_of(*pings.sent->placement.mount) : Pose::Identity();
     return pings;
   }
-  pings.system = recorded_system(survey.string());
+  pings.system = StoredRun(survey.string()).system();
   try {
     add_mission((survey / "mission.toml").string(), folder.filename().string(), pings);
   } catch (const Error& error) {
@@ -155,18 +142,8 @@ std::size_t leg_at(const std::vector<MissionLeg>& legs, double time) {
   return number;
 }
 
-std::string run_cube_path(const std::string& run) {
-  if (!path_exists(run)) fail(ErrorKind::file, run, ": no such run directory or cube");
-  if (!is_folder(run)) return run;
-  std::string path = run + "/cube.h5";
-  if (!path_exists(path)) fail(ErrorKind::content, run, ": holds no cube.h5, so it is no run directory");
-  return path;
-}
-
-Cube read_run_cube(const std::string& path) { return read_cube(run_cube_path(path)); }
-
 Cube read_run_ping(const std::string& path, std::ptrdiff_t ping) {
-  const std::string file = run_cube_path(path);
+  const std::string file = StoredRun(path).cube();
   Cube cube;
   if (ping >= 0) cube = read_cube(file, static_cast<std::size_t>(ping), 1);
   if (cube.pings.empty())
@@ -237,10 +214,10 @@ std::optional<Trajectory> way_of(const RunPings& run, std::vector<std::string>& 
       way.time.push_back(point.time);
       way.pose.push_back(point.world_from_head);
     }
-  if (!run.settings.empty()) {
+  if (run.sent) {
     const Pose vehicle_from_head = run.vehicle_from_head.value_or(Pose::Identity());
-    if (auto named = named_way(run.settings, vehicle_from_head, way, notes)) return named;
-    if (auto straight = straight_way(run.settings, way)) return straight;
+    if (auto named = named_way(*run.sent, vehicle_from_head, way, notes)) return named;
+    if (auto straight = straight_way(*run.sent, way)) return straight;
   }
   if (way.time.size() < 2) return {};
   return way;

@@ -9,6 +9,7 @@
 #include "acoustics/motion.hpp"
 #include "core/geodesy.hpp"
 #include "returns/bottom_detection.hpp"
+#include "run/options.hpp"
 #include "store/cube.hpp"
 #include "store/mission_file.hpp"
 #include "survey/mission.hpp"
@@ -26,7 +27,7 @@ struct RunPings {
   std::optional<Pose>
       vehicle_from_head{};  ///< place of the head by its mission or --mount, at scan angle 0; absent: unknown
   std::optional<Trajectory> trajectory{};  ///< world_from_vehicle, of its mission
-  std::string settings{};                  ///< path of its run.toml, of a run without a mission
+  std::optional<Run> sent{};               ///< settings of its pings, of a run without a mission
   MissionWater water{};                    ///< water of its mission
   TideSeries tide{};                       ///< tide of its mission; without entries there is none
   std::optional<TideSeries> reduction{};   ///< tide by which heights are reduced to z = 0; absent: the true one
@@ -37,12 +38,8 @@ struct RunPings {
   std::vector<std::string> notes{};                   ///< on what is unknown because files are gone
 };
 
-/// The cube of a run directory, or the path itself if it is a file. Throws Error(file) or Error(content).
-std::string run_cube_path(const std::string& run);
-
-/// Reads the cube of a run directory, or a cube file; errors as run_cube_path and read_cube.
-Cube read_run_cube(const std::string& path);
-/// Reads one ping of such a cube; errors as above, and Error(argument) that names --ping unless there is one.
+/// Reads one ping of the cube of a run. Throws as StoredRun::cube and read_cube, and Error(argument) that names --ping
+/// unless there is one.
 Cube read_run_ping(const std::string& path, std::ptrdiff_t ping);
 
 /// Number of the leg on which a ping was sent, from 1; 0: of none, as of a run without a mission.

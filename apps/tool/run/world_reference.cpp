@@ -74,17 +74,6 @@ void add_world_options(OptionList list, WorldOptions& requested) {
       {.excludes = "--anchor"});
 }
 
-std::string recorded_system(const std::string& run) {
-  for (const char* name : {"scene.json", "manifest.json"}) {
-    const fs::path file = fs::path(run) / name;
-    if (!path_exists(file)) continue;
-    const ordered_json found = ordered_json::parse(read_text_file(file.string()), nullptr, false);
-    if (found.is_object() && found.contains("scene") && found["scene"].is_object())
-      if (const std::string system = found["scene"].value("system", ""); !system.empty()) return system;
-  }
-  return "";
-}
-
 void record_system(const std::string& folder, const std::string& system) {
   if (system.empty()) return;
   const std::string path = (fs::path(folder) / "scene.json").string();

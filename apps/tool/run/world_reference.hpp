@@ -27,9 +27,6 @@ struct KnownWorld {
   std::optional<Anchor> anchor{};  ///< anchor of its mission; absent: none
 };
 
-/// Returns the system that a run recorded: of a survey in its scene.json, of a ping in its manifest.json; empty if the
-/// file of the scene stated none.
-std::string recorded_system(const std::string& run);
 /// Writes scene.json into the folder of a survey, if the system of its scene is known.
 void record_system(const std::string& folder, const std::string& system);
 

@@ -9,12 +9,12 @@
 #include "core/message.hpp"
 #include "core/units.hpp"
 #include "run/parse_values.hpp"
-#include "run_scenes/open_scene.hpp"
 #include "scene/built_in_scenes.hpp"
 #include "scene_io/save_cloud.hpp"
 #include "store/material_library.hpp"
 #include "store/materials_file.hpp"
 #include "store/run_directory.hpp"
+#include "store/scene_file.hpp"
 #include "tiles/tile_writer.hpp"
 #include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
@@ -91,7 +91,7 @@ void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& b
 void require_room(const MakeSceneOptions& o) {
   constexpr double bytes_in_memory = 100, bytes_of_tiles = 170, gigabyte = 1e9;  // a surfel, while it is written
   const double points = static_cast<double>(o.points);
-  if (is_tiles(o.output)) {
+  if (kind_of_scene(o.output) == SceneKind::tiles) {
     const std::filesystem::path folder = std::filesystem::path(o.output).parent_path();
     std::error_code error;
     const auto space = std::filesystem::space(folder.empty() ? "." : folder, error);
@@ -116,10 +116,10 @@ void make_scene(const MakeSceneOptions& o) {
       o.points, {size[0], size[1]}, o.radius, power_from_db(o.lambert_mu_db), o.common.seed};
   Progress progress(o.common, 2);
   progress.step("making " + o.name);
-  if (is_tiles(o.output) && o.bare)
+  if (kind_of_scene(o.output) == SceneKind::tiles && o.bare)
     fail(ErrorKind::argument, "--bare: ", o.output, ": tiles are prepared surfels; write .ply or .pcd");
   in_words_of("make-scene", [&] { empty_built_in_scene(o.name, built_in); });
-  if (is_tiles(o.output)) return make_scene_as_tiles(o, built_in, progress);
+  if (kind_of_scene(o.output) == SceneKind::tiles) return make_scene_as_tiles(o, built_in, progress);
   SceneCloud scene = make_built_in_scene(o.name, built_in);
   replace_materials(o, scene.materials);
   progress.step("writing " + o.output);

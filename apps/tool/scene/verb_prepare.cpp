@@ -91,18 +91,20 @@ void prepare_as_tiles(const PrepareOptions& o) {
 
 LoadedScene load_to_prepare(const PrepareOptions& o) {
   OpenSceneOptions options{{o.common.seed, {}}, o.common.threads};
-  options.keep_columns = !is_tiles(o.output);
+  options.keep_columns = kind_of_scene(o.output) != SceneKind::tiles;
   const auto scene = open_scene(o.scene, options);
   LoadedScene whole = scene->take_whole({o.time, 0});
   return scene->parts() ? parts_as_cloud(std::move(whole)) : whole;
 }
 
 void prepare(const PrepareOptions& o) {
-  if (o.time != 0 && !is_scene_file(o.scene.path))
+  const bool of_parts = kind_of_scene(o.scene.path) == SceneKind::parts;
+  const bool as_tiles = kind_of_scene(o.output) == SceneKind::tiles;
+  if (o.time != 0 && !of_parts)
     fail(ErrorKind::argument, "--time: ", o.scene.path,
          " is no scene of parts, and nothing moves in it; leave --time out");
   require_free_file(o.output, o.force, {o.scene.path, o.scene.materials_file});
-  if (is_tiles(o.output) && o.thin == 0 && !is_scene_file(o.scene.path)) return prepare_as_tiles(o);
+  if (as_tiles && o.thin == 0 && !of_parts) return prepare_as_tiles(o);
   Progress progress(o.common, o.thin > 0 ? 3 : 2);
   progress.step("reading and completing " + o.scene.path);
   LoadedScene loaded = load_to_prepare(o);
@@ -118,15 +120,14 @@ void prepare(const PrepareOptions& o) {
     notes.push_back(
         fmt::format("thinned to {} m: {} of {} surfels kept, with the area of all", o.thin, loaded.scene.size(), all));
   }
-  const bool as_surfels =
-      loaded.mesh && (is_tiles(o.output) || !(loaded.columns.heights || o.output.ends_with(".ply")));
+  const bool as_surfels = loaded.mesh && (as_tiles || !(loaded.columns.heights || o.output.ends_with(".ply")));
   if (as_surfels)
     notes.push_back(
         fmt::format("{} has no place for triangles: it holds {} surfels, which hide as discs; a .ply keeps the mesh",
                     o.output, loaded.scene.size()));
   for (const std::string& note : notes) progress.note(note);
   progress.step("writing " + o.output);
-  if (is_tiles(o.output))
+  if (as_tiles)
     save_tiles(o.output, loaded.scene, {.system = loaded.report.meaning.system.value});
   else
     save_scene(o.output, loaded);

@@ -14,4 +14,11 @@ std::vector<Patch> reef_patches(std::uint64_t seed);
 /// Returns the materials of the reef, in the order of the numbers that the patches hold.
 std::vector<Material> reef_materials();
 
+/// Returns the surfaces of the built-in river bed: dunes with ripples, pits and boulders between two banks, and gaps
+/// where a scan saw nothing. `seed` determines phases and positions.
+std::vector<Patch> river_patches(std::uint64_t seed);
+
+/// Returns the materials of the river, in the order of the numbers that the patches hold.
+std::vector<Material> river_materials();
+
 }  // namespace insonify
