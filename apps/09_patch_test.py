@@ -11,9 +11,15 @@ from __future__ import annotations
 import json
 import struct
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Ping = dict[Any, Any]  # head and attitude by name, beam arrays by the numbers of GSF
 
 MISSION = """schema = 1
 [survey]
@@ -68,7 +74,7 @@ def make(folder: Path) -> None:
     (folder / "mission.toml").write_text(MISSION + legs)
 
 
-def records(data: bytes):
+def records(data: bytes) -> Iterator[tuple[int, bytes]]:
     """Yields type and contents of the records of a GSF file."""
     at = 0
     while at < len(data):
@@ -77,20 +83,20 @@ def records(data: bytes):
         at += 8 + size
 
 
-def array_of(raw: bytes, beams: int, number: int, scale: tuple[int, int]) -> np.ndarray:
+def array_of(raw: bytes, beams: int, number: int, scale: tuple[int, int]) -> Array:
     """Numbers of a beam array, which has big-endian whole numbers of 1, 2 or 4 bytes."""
     signed = number in (2, 3, 5)
     numbers = np.frombuffer(raw, f">{'i' if signed else 'u'}{len(raw) // beams}", beams)
-    return numbers / scale[0] - scale[1]
+    return np.asarray(numbers / scale[0] - scale[1])
 
 
-def read_ping(data: bytes, scales: dict[int, tuple[int, int]]) -> dict:
+def read_ping(data: bytes, scales: dict[int, tuple[int, int]]) -> Ping:
     """Head, attitude and beams of a ping; `scales` goes on from ping to ping."""
     s, ns, lon, lat, beams, _, _, _, _, _, heading, pitch, roll = struct.unpack_from(">IIiiHHHHhiHhh", data, 0)
     height, separation = struct.unpack_from(">ii", data, 42)
-    ping = {"time": s + 1e-9 * ns, "longitude": np.radians(lon * 1e-7), "latitude": np.radians(lat * 1e-7),
-            "height": (height - separation) / 1000,
-            "attitude": np.radians([heading / 100, pitch / 100, roll / 100])}
+    ping: Ping = {"time": s + 1e-9 * ns, "longitude": np.radians(lon * 1e-7), "latitude": np.radians(lat * 1e-7),
+                  "height": (height - separation) / 1000,
+                  "attitude": np.radians([heading / 100, pitch / 100, roll / 100])}
     at = 56
     while at + 4 <= len(data):
         number, size = data[at], int.from_bytes(data[at + 1:at + 4], "big")
@@ -107,9 +113,12 @@ def read_ping(data: bytes, scales: dict[int, tuple[int, int]]) -> dict:
     return ping
 
 
-def read_gsf(path: Path) -> tuple[list[dict], dict[str, str], float]:
+def read_gsf(path: Path) -> tuple[list[Ping], dict[str, str], float]:
     """Pings, processing parameters, and the sound speed of a profile that has one alone [m/s]."""
-    pings, parameters, speed, scales = [], {}, 0.0, {}
+    pings: list[Ping] = []
+    parameters: dict[str, str] = {}
+    scales: dict[int, tuple[int, int]] = {}
+    speed = 0.0
     for kind, data in records(path.read_bytes()):
         if kind == 2:
             pings.append(read_ping(data, scales))
@@ -129,7 +138,7 @@ def read_gsf(path: Path) -> tuple[list[dict], dict[str, str], float]:
     return pings, parameters, speed
 
 
-def turn(heading, pitch, roll) -> np.ndarray:
+def turn(heading: Any, pitch: Any, roll: Any) -> Array:
     """Rz(heading) Ry(pitch) Rx(roll) in axes ahead, to starboard and down; of arrays one matrix each."""
     (ch, sh), (cp, sp), (cr, sr) = [(np.cos(a), np.sin(a)) for a in (heading, pitch, roll)]
     return np.moveaxis(np.array([[ch * cp, ch * sp * sr - sh * cr, ch * sp * cr + sh * sr],
@@ -140,7 +149,7 @@ def turn(heading, pitch, roll) -> np.ndarray:
 class Soundings:
     """Soundings of all lines as directions and ranges, to be placed anew by another installation."""
 
-    def __init__(self, pings: list[dict], parameters: dict[str, str], sound_speed: float) -> None:
+    def __init__(self, pings: list[Ping], parameters: dict[str, str], sound_speed: float) -> None:
         self.time = np.array([p["time"] for p in pings])
         latitude = np.array([p["latitude"] for p in pings])
         longitude = np.array([p["longitude"] for p in pings])
@@ -170,7 +179,7 @@ class Soundings:
         self.believed = np.array(believed[::-1] + [0.0])  # roll, pitch, heading [rad], latency [s]
         self.in_head = in_ship @ turn(*believed)
 
-    def at(self, values: np.ndarray, late: float) -> np.ndarray:
+    def at(self, values: Array, late: float) -> Array:
         """Values of the ship at each ping plus `late` [s], line by line, by cubics through values and slopes."""
         found = np.empty_like(values)
         for k in np.unique(self.line):
@@ -184,15 +193,15 @@ class Soundings:
                            + u**2 * (3 - 2 * u) * v[i + 1] - u**2 * (1 - u) * step * slope[i + 1])
         return found
 
-    def placed(self, offsets: np.ndarray) -> np.ndarray:
+    def placed(self, offsets: Array) -> Array:
         """North, east and down [m] with offsets in roll, pitch, heading [rad] and latency [s] of what was assumed."""
         roll, pitch, heading, late = self.believed + offsets
         in_ship = self.in_head @ turn(heading, pitch, roll).T
         place, attitude = self.at(self.place, late)[self.ping], self.at(self.attitude, late)[self.ping]
-        return place + np.einsum("nij,nj->ni", turn(*attitude.T), in_ship)
+        return np.asarray(place + np.einsum("nij,nj->ni", turn(*attitude.T), in_ship))
 
 
-def bed_terms(at: np.ndarray) -> list[np.ndarray]:
+def bed_terms(at: Array) -> list[Array]:
     """Terms of a bed of second order, and their slopes north and east."""
     n, e = at[:, 0] / 10, at[:, 1] / 10
     o, z = np.ones_like(n), np.zeros_like(n)
@@ -200,7 +209,7 @@ def bed_terms(at: np.ndarray) -> list[np.ndarray]:
                                            [z, o / 10, z, n / 5, e / 10, z], [z, z, o / 10, z, n / 10, e / 5])]
 
 
-def solve(soundings: Soundings) -> tuple[np.ndarray, np.ndarray, float]:
+def solve(soundings: Soundings) -> tuple[Array, Array, float]:
     """Offsets (roll, pitch, heading [rad], latency [s]), their deviations, and the rms of what the bed leaves [m]."""
     offsets, steps = np.zeros(4), np.array([1e-4, 1e-4, 1e-4, 1e-3])
     kept = np.ones(len(soundings.ping), bool)
