@@ -129,7 +129,8 @@ TEST_F(PartsOfTool, what_cannot_be_is_refused_with_file_line_and_remedy) {
   refused("\"harbour.ply\"", "\"lost.ply\"", 3, {"bad.toml:3", "lost.ply", "no file"});
   refused("\"harbour.ply\"", "\"bad.toml\"", 3, {"bad.toml:3", "a scene cannot hold itself"});
   refused("material = \"rock\"", "material = \"rokc\"", 3, {"bad.toml:13", "rokc", "did you mean 'rock'"});
-  refused("file = \"box.obj\"\nmaterial = \"rock\"", "unit = \"yd\"\nfile = \"box.obj\"", 3, {"bad.toml:14", "yd"});
+  // The line is that of the key: values of a file's meaning are read with their keys, not when the file is loaded.
+  refused("file = \"box.obj\"\nmaterial = \"rock\"", "unit = \"yd\"\nfile = \"box.obj\"", 3, {"bad.toml:13", "yd"});
   refused("[8, 1]", "[8, nan]", 3, {"bad.toml:8", "position_m"});
   refused("[8, 1]", "[8, 900]", 3, {"bad.toml", "part 'crate' at x = 8, y = 900 m: no ground beneath it"});
   refused("name = \"diver\"", "name = \"crate\"", 3, {"bad.toml:11", "two parts are called 'crate'"});
