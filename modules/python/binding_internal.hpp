@@ -73,6 +73,9 @@ std::vector<T> whole_numbers(const py::handle& value, const std::string& name, p
 TomlValue value_of(const py::handle& value, const std::string& name);
 py::object object_of(const TomlValue& value);
 
+/// Returns the keywords by which a simulator gets the settings of a run.
+std::vector<std::pair<std::string, TomlValue>> given_settings(const Run& run);
+
 /// A sonar as its file describes it, and as keywords have changed it.
 struct Sonar {
   SonarFile file;
@@ -127,6 +130,8 @@ void add_scene_editing(py::class_<Scene, std::shared_ptr<Scene>>& type);
 /// A head in an environment with its options; throws Error(argument) as set_up_ping, but for the pose.
 struct Simulator {
   Simulator(const Sonar& sonar, const Environment& environment, const py::kwargs& keys);
+  /// A head that is set up already, of a mission.
+  Simulator(Sonar sonar, PingSetup setup);
   Sonar sonar;
   std::vector<std::pair<std::string, TomlValue>> given{};  ///< its keywords
   PingSetup setup;                                         ///< without an event
@@ -144,6 +149,7 @@ struct MadePing {
   std::shared_ptr<const SceneArrangement> arrangement{};
   SceneInstances copied{};           ///< instances of a ping without its scene
   std::vector<std::string> noted{};  ///< notes of a ping without its scene
+  std::string head{};                ///< name of the head of a mission; empty: a simulator's
 
   /// Returns the instances of the surfels of its scene.
   const SceneInstances& instances() const { return scene ? scene->instances : copied; }
@@ -169,6 +175,9 @@ void add_ping(py::module_& m);
 
 /// Returns a function of the second extension, which loads PCL and VTK.
 py::object io(const char* function);
+
+/// Adds the class of missions to the second extension.
+void add_missions(py::module_& m);
 
 /// Adds the functions of images with labels to the second extension.
 void add_views(py::module_& m);

@@ -162,7 +162,9 @@ std::vector<std::string> notes(const MadePing& ping) {
 
 void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   if (!ping.scene)
-    fail(ErrorKind::argument, "save: the ping was unpickled and has no scene; save it in the process that made it");
+    fail(ErrorKind::argument,
+         "save: the ping was unpickled or is of a mission, and has no scene; save it in the process that made it, "
+         "and run a mission into a folder by insonify survey");
   const py::gil_scoped_release release;
   const Scene& scene = *ping.scene;
   ToolPing sent = tool_ping_of(ping);
@@ -206,6 +208,7 @@ PYBIND11_MODULE(_insonify_io, m) {
   m.def("draw_fan", &draw, "ping"_a, "path"_a, py::kw_only(), "width"_a = usual.width, "height"_a = usual.height,
         "title"_a = py::none(), "colour_map"_a = usual.colour_map, "min_db"_a = usual.min_db, "max_db"_a = usual.max_db,
         "dark"_a = false);
+  add_missions(m);
   add_views(m);
 }
 

@@ -128,6 +128,11 @@ Simulator::Simulator(const Sonar& of, const Environment& environment, const py::
   simulator.emplace(setup.simulator());
 }
 
+Simulator::Simulator(Sonar of, PingSetup ready)
+    : sonar(std::move(of)), setup(std::move(ready)), simulator(setup.simulator()) {
+  given = given_settings(setup.run);
+}
+
 py::object io(const char* function) { return py::module_::import("insonify._insonify_io").attr(function); }
 
 std::shared_ptr<MadePing> next_of(Pings& pings) {

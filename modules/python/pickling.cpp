@@ -87,7 +87,7 @@ void pass_sonar(Archive& archive, Sonar& sonar) {
 void pass_ping(Archive& archive, MadePing& ping) {
   PingOutputs& outputs = ping.made.outputs;
   archive(ping.setup.event, ping.setup.simulation.seed, ping.setup.run.placement.pose, ping.made.ping,
-          ping.made.soundings, outputs.contributors, outputs.elements, ping.noted, ping.copied.most);
+          ping.made.soundings, outputs.contributors, outputs.elements, ping.noted, ping.copied.most, ping.head);
 }
 
 /// Returns the instances among those of a scene that the pixels of a ping show.
@@ -137,6 +137,19 @@ std::shared_ptr<MadePing> ping_of(const By& by, const py::bytes& bytes) {
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, TomlValue>> given_settings(const Run& run) {
+  Run given = run, usual;
+  const Keywords all = keywords(given), defaults = keywords(usual);
+  std::string text;
+  for (std::size_t i = 0; i < all.keys.size(); ++i)
+    if (const auto value = all.keys[i].value.text(); value && value != defaults.keys[i].value.text())
+      text += all.keys[i].name + (" = " + *value) + '\n';
+  const TomlValue table = load_toml(TextInMemory(text).path());
+  std::vector<std::pair<std::string, TomlValue>> settings;
+  for (std::size_t i = 0; i < table.keys.size(); ++i) settings.emplace_back(table.keys[i], table.items[i]);
+  return settings;
+}
 
 void add_pickling(py::class_<Sonar>& sonar, py::class_<Environment>& environment) {
   sonar.def(py::pickle([](const Sonar& of) { return pickled(of, pass_sonar); },

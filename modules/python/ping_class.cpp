@@ -127,6 +127,8 @@ void add_ping(py::module_& m) {
       [](const MadePing& p) { return array_of(p.made.soundings); });
   add_property(type, "world_from_head", "float64 (4, 4) [m]; head axes are x forward, y to port, z up",
                [](const MadePing& p) { return p.setup.event.world_from_head.matrix(); });
+  add_property(type, "head", "str: name of the head in its mission, else of the sonar",
+               [](const MadePing& p) { return p.head.empty() ? p.by->sonar.spec.name : p.head; });
   add_property(type, "number", "int", [](const MadePing& p) { return p.setup.event.number; });
   add_property(type, "time", "float [s], of transmission", [](const MadePing& p) { return p.setup.event.time; });
   add_property(type, "seed", "int, of all random numbers", [](const MadePing& p) { return p.setup.simulation.seed; });

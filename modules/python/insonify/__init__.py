@@ -10,14 +10,16 @@ from ._insonify import (ArgumentError, Environment, Error, Ping, Pings, PingSimu
                         draw_fan, load_scene, make_scene, sonar, sonars)
 
 from .editing import add as _add
+from .missions import Mission, load_mission
 from .pictures import png_of_ping as _png_of_ping
 from .views import View, views as _views
 
-__all__ = ["ArgumentError", "Environment", "Error", "Ping", "PingSimulator", "Pings", "Scene", "Sonar", "View", "__version__",
-           "draw_fan", "load_scene", "make_scene", "sonar", "sonars"]
+__all__ = ["ArgumentError", "Environment", "Error", "Mission", "Ping", "PingSimulator", "Pings", "Scene", "Sonar", "View", "__version__",
+           "draw_fan", "load_mission", "load_scene", "make_scene", "sonar", "sonars"]
 
 PingSimulator.views = _views
 Scene.add = _add
 Ping._repr_png_ = _png_of_ping
-for _type in (Environment, Ping, PingSimulator, Pings, Scene, Sonar, View):
+load_mission.__module__ = __name__
+for _type in (Environment, Mission, Ping, PingSimulator, Pings, Scene, Sonar, View):
     _type.__module__ = __name__

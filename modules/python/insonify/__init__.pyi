@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 from typing import Any, Final, Literal, TypeAlias
 
@@ -26,16 +26,16 @@ def sonar(name: _Path, *,
             beams: int | np.integer[Any] | None = None, field_of_view_deg: _Number | None = None,
             beam_width_deg: _Number | None = None, azimuths_deg: _Numbers | None = None,
             elevations_deg: _Numbers | None = None, column_beam_width_deg: _Number | None = None,
-            array: str | None = None, array_radius_m: _Number | None = None,
-            side_lobe_db: _Number | None = None, shading: str | None = None,
-            transmit_width_deg: _Number | None = None, elevation_width_deg: _Number | None = None,
-            elevation_deg: _Number | None = None, elevation_shape: str | None = None,
-            min_range_m: _Number | None = None, max_range_m: _Number | None = None,
-            bin_size_m: _Number | None = None, pulse: str | None = None, pulse_length_s: _Number | None = None,
-            replica_window: str | None = None, mounting_deg: _Numbers | None = None,
-            centre_frequency: _Number | None = None, bandwidth: _Number | None = None,
-            range_resolution: _Number | None = None, min_range: _Number | None = None,
-            max_range: _Number | None = None, bin_size: _Number | None = None, pulse_length: _Number | None = None) -> Sonar: ...
+            array: str | None = None, array_radius_m: _Number | None = None, side_lobe_db: _Number | None = None,
+            shading: str | None = None, transmit_width_deg: _Number | None = None,
+            elevation_width_deg: _Number | None = None, elevation_deg: _Number | None = None,
+            elevation_shape: str | None = None, min_range_m: _Number | None = None,
+            max_range_m: _Number | None = None, bin_size_m: _Number | None = None, pulse: str | None = None,
+            pulse_length_s: _Number | None = None, replica_window: str | None = None,
+            mounting_deg: _Numbers | None = None, centre_frequency: _Number | None = None,
+            bandwidth: _Number | None = None, range_resolution: _Number | None = None,
+            array_radius: _Number | None = None, min_range: _Number | None = None, max_range: _Number | None = None,
+            bin_size: _Number | None = None, pulse_length: _Number | None = None) -> Sonar: ...
 def sonars() -> list[str]: ...
 
 class Environment:
@@ -127,6 +127,7 @@ class Ping:
     elevation: Final[NDArray[np.float64]]
     soundings: Final[NDArray[np.void]]
     world_from_head: Final[NDArray[np.float64]]
+    head: Final[str]
     number: Final[int]
     time: Final[float]
     seed: Final[int]
@@ -194,6 +195,17 @@ class PingSimulator:
             keep: str | Sequence[str] | None = None, contributors: int | np.integer[Any] | None = None,
             display: int | np.integer[Any] | None = None, velocity: str | _Numbers | None = None,
             turn_rate: str | _Numbers | None = None) -> list[dict[str, Any]]: ...
+
+class Mission:
+    heads: Final[list[str]]
+    times: Final[NDArray[np.float64]]
+    poses: Final[NDArray[np.float64]]
+    def __init__(self, path: _Path) -> None: ...
+    def __len__(self) -> int: ...
+    def pings(self, *, first: int = 0, count: int | None = None, threads: int = 0,
+            progress: Callable[[int, int], object] | None = None) -> Iterator[Ping]: ...
+
+def load_mission(path: _Path) -> Mission: ...
 
 def draw_fan(ping: Ping, path: _Path, *, width: int = 1400, height: int = 1050, title: str | None = None,
              colour_map: str = "bronze", min_db: float = ..., max_db: float = ..., dark: bool = False) -> None: ...

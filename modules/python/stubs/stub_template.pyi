@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 from typing import Any, Final, Literal, TypeAlias
 
@@ -79,6 +79,7 @@ class Ping:
     elevation: Final[NDArray[np.float64]]
     soundings: Final[NDArray[np.void]]
     world_from_head: Final[NDArray[np.float64]]
+    head: Final[str]
     number: Final[int]
     time: Final[float]
     seed: Final[int]
@@ -119,6 +120,17 @@ class PingSimulator:
             <views>) -> Iterator[View]: ...
     def plan(self, scene: Scene, position: ArrayLike, yaw: float = 0, pitch: float = 0, roll: float = 0, *,
             <ping>) -> list[dict[str, Any]]: ...
+
+class Mission:
+    heads: Final[list[str]]
+    times: Final[NDArray[np.float64]]
+    poses: Final[NDArray[np.float64]]
+    def __init__(self, path: _Path) -> None: ...
+    def __len__(self) -> int: ...
+    def pings(self, *, first: int = 0, count: int | None = None, threads: int = 0,
+            progress: Callable[[int, int], object] | None = None) -> Iterator[Ping]: ...
+
+def load_mission(path: _Path) -> Mission: ...
 
 def draw_fan(ping: Ping, path: _Path, *, width: int = 1400, height: int = 1050, title: str | None = None,
              colour_map: str = "bronze", min_db: float = ..., max_db: float = ..., dark: bool = False) -> None: ...
