@@ -14,6 +14,11 @@ void change(const RunSetting& setting) {
   const auto other_word = [&](const std::string& word) {
     for (const std::string& candidate : setting.rules.words)
       if (candidate != word) return candidate;
+    // Texts whose numbers are read where the row is set; the file holds them in their usual form.
+    constexpr std::pair<std::string_view, const char*> numbers[] = {
+        {"unit", "us-ft"}, {"z", "down"}, {"up", "y"}, {"nodata", "-9999,0.1"}, {"classes", "2,9"}};
+    for (const auto& [key, text] : numbers)
+      if (setting.key == key) return std::string(text);
     return std::string("other \"word\" \\");
   };
   const auto change_value = [&](auto value) {
