@@ -20,7 +20,8 @@ struct SynthesisOptions {
 };
 
 /// Returns the complex baseband pressure per beam and range bin, beams x bins [Pa]: of a line or planar array; direct,
-/// element_exact and incoherent also of a curved one (E205), whose echoes have v. Beams of one elevation form a row. `method` synthesizes each row from echoes that are weighted by the row's response to their elevation:
+/// element_exact and incoherent also of a curved one (E205), whose echoes have v. Beams of one elevation form a row.
+/// `method` synthesizes each row from echoes that are weighted by the row's response to their elevation:
 ///
 ///   one row, no column     1, because direct_echoes has applied the elevation pattern
 ///   a column (E56)         its response B_z(v - v_b), v_b = sin(elevation_b), so that a beam of the planar array is

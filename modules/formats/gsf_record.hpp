@@ -53,8 +53,8 @@ struct GsfRecord {
 
 /// Reads a file in the Generic Sensor Format, versions 2 and 3 (Leidos 2024): swaths with all arrays of one number for
 /// each beam, profiles, attitudes and comments. Records and subrecords of other kinds are skipped. An array is (raw /
-/// multiplier) - offset, of 1, 2 or 4 bytes for each beam. Throws Error(file) if the file cannot be read, Error(content)
-/// if it is no GSF, is truncated or damaged, or holds compressed arrays or no swath.
+/// multiplier) - offset, of 1, 2 or 4 bytes for each beam. Throws Error(file) if the file cannot be read,
+/// Error(content) if it is no GSF, is truncated or damaged, or holds compressed arrays or no swath.
 GsfRecord read_gsf(const std::string& path);
 
 /// Returns the swaths of a GSF file. A beam has a sounding unless depth, across and along are all 0; it is rejected if

@@ -66,8 +66,8 @@ struct SwathRecord {
   std::map<std::string, std::size_t> records{};  ///< numbers of records by their kind, those that are skipped too
 };
 
-/// Returns the angle from straight down under which a head sees a sounding [rad], positive to starboard (E210): atan2 of
-/// its distance across and its depth below the head.
+/// Returns the angle from straight down under which a head sees a sounding [rad], positive to starboard (E210): atan2
+/// of its distance across and its depth below the head.
 double swath_angle(const SwathSounding& sounding, double head_depth);
 
 /// Reads a swath from any of the formats that are known, by the ending of its path: .gsf, .kmall, .xtf. Throws

@@ -19,9 +19,9 @@ struct XtfOutline {
 /// Reads the outline of a file. Throws Error(content) if the file is no XTF.
 XtfOutline read_xtf_outline(BinaryInput& file, const std::string& path);
 
-/// Calls `take` for each packet from this byte of the file on, with its bytes, which are at least those of its head, and
-/// with words that name it in errors. Throws Error(content) for bytes that begin no packet, and at the end of a file
-/// within one.
+/// Calls `take` for each packet from this byte of the file on, with its bytes, which are at least those of its head,
+/// and with words that name it in errors. Throws Error(content) for bytes that begin no packet, and at the end of a
+/// file within one.
 void each_xtf_packet(BinaryInput& file, const std::string& path, std::size_t begin,
                      const std::function<void(std::string_view packet, const std::string& where)>& take);
 

@@ -53,8 +53,8 @@ class PartFiles {
  private:
   SceneBody read(const PartFile& file, bool captured);
 
-  /// Everything that the surfels of a file depend on: path, meaning as text, the other members of its SceneOptions, thin,
-  /// spacing, captured.
+  /// Everything that the surfels of a file depend on: path, meaning as text, the other members of its SceneOptions,
+  /// thin, spacing, captured.
   using Settings = std::tuple<std::string, std::string, std::string, std::string, std::string, std::vector<double>,
                               double, double, bool>;
   PartsOptions options_;

@@ -127,8 +127,8 @@ struct ReadyPing {
 /// anything to draw; Error(runtime) before reading if tiles would not fit into memory (--memory-limit).
 ReadyPing load_ping_scene(PingSetup& setup);
 
-/// Loads the scene of a ping, pings it and writes its whole run folder; `observer` receives steps and notes. Returns the
-/// manifest. Throws as load_ping_scene, PingSimulator::ping and RunFolder.
+/// Loads the scene of a ping, pings it and writes its whole run folder; `observer` receives steps and notes. Returns
+/// the manifest. Throws as load_ping_scene, PingSimulator::ping and RunFolder.
 nlohmann::ordered_json make_ping_run(PingSetup setup, const RunPictures& pictures, RunObserver& observer);
 
 }  // namespace insonify

@@ -33,7 +33,8 @@ class StoredRun {
   std::optional<View> view(const WholeScene& scene, int threads) const;
   /// Returns the object in a JSON file of the folder; null without one. Throws Error(file).
   nlohmann::ordered_json json(const std::string& name) const;
-  /// Returns the system of its world, of a survey by its scene.json, of a run by its manifest; empty if neither says it.
+  /// Returns the system of its world, of a survey by its scene.json, of a run by its manifest; empty if neither says
+  /// it.
   std::string system() const;
   /// Opens a scene for its pings: one of parts with their draws, another with samples by `seed`. Throws as
   /// insonify::open_scene and draws.

@@ -27,7 +27,8 @@ struct PreparedTiles {
 
 /// Writes a cloud or mesh as a .tiles file and returns a report of all changes. Meshes, text and compressed files of
 /// any size, and other files of at most `whole_points` points, are loaded whole and give the surfels of load_scene.
-/// Larger binary PLY, uncompressed binary PCD, LAS and LAZ files are read twice in batches of rows, with these differences:
+/// Larger binary PLY, uncompressed binary PCD, LAS and LAZ files are read twice in batches of rows, with these
+/// differences:
 ///
 ///   - points whose normal is zero or NaN are dropped, not repaired,
 ///   - missing normals and areas are estimated a few tiles at a time (all areas, if some are negative or NaN); points

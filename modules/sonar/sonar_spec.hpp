@@ -50,8 +50,8 @@ void require_valid(const SonarSpec& spec, const char* who);
 
 /// Returns the head for water of `sound_speed` [m/s]. The array has half-wavelength spacing at the nominal sound speed
 /// and as many elements as the beam width requires (E10, E205) under its shading (E11, E31, E32), and so has the column
-/// of a planar array. Rows of beams follow the order of `elevations`. Throws Error for an invalid spec, or a bin_size that
-/// would under-sample the pulse (more than 0.44 c / 2B).
+/// of a planar array. Rows of beams follow the order of `elevations`. Throws Error for an invalid spec, or a bin_size
+/// that would under-sample the pulse (more than 0.44 c / 2B).
 SonarHead make_head(const SonarSpec& spec, double sound_speed);
 
 }  // namespace insonify

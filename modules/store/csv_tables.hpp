@@ -36,8 +36,8 @@ std::vector<std::string> trajectory_notes(const std::string& path);
 /// without a header. Rules as load_trajectory.
 Trajectory load_tum_trajectory(const std::string& path);
 
-/// Returns a tide from a file with the header time_s,height_m [s, world z in m]. Rules: times ascend strictly, there are
-/// at least two entries.
+/// Returns a tide from a file with the header time_s,height_m [s, world z in m]. Rules: times ascend strictly, there
+/// are at least two entries.
 TideSeries load_tide(const std::string& path);
 
 /// Scatterers from another program: positions, cross-sections and complex amplitudes.

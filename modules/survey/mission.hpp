@@ -120,8 +120,8 @@ struct TrajectoryGap {
 /// there is none.
 std::optional<TrajectoryGap> gap_at(const Trajectory& trajectory, double time, double max_gap);
 
-/// Throws Error(argument) unless trajectory, tide, heads and legs are valid and there is at least one head. Random poses
-/// have neither trajectory nor tide nor legs.
+/// Throws Error(argument) unless trajectory, tide, heads and legs are valid and there is at least one head. Random
+/// poses have neither trajectory nor tide nor legs.
 void require_valid(const Mission& mission, const char* who);
 
 }  // namespace insonify

@@ -52,7 +52,8 @@ class Survey {
   const SimulationOptions& options_of(std::size_t head) const { return heads_.at(head).options(); }
 
   /// Simulates a ping and returns its outcome. With navigation errors or an assumed installation, pose, motion, beams,
-  /// ranges and soundings are those that navigation and head report. Several threads may call it at once. Throws Error as PingSimulator::ping.
+  /// ranges and soundings are those that navigation and head report. Several threads may call it at once. Throws Error
+  /// as PingSimulator::ping.
   PingOutcome simulate(const SurveyPing& ping, const SceneSource& scene) const;
 
  private:

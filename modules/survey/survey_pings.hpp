@@ -31,10 +31,10 @@ std::vector<SurveyPing> survey_pings(const Mission& mission);
 /// mission are not drawn.
 PingEvent event_of(const Mission& mission, const SurveyPing& ping);
 
-/// Returns pose and motion of a ping as navigation and installation sheet have them (E216): of the vehicle at the time of
-/// the ping less what is assumed too little of the latency, with the mission's navigation errors, and with mounting and
-/// draught that are assumed. Before and after the trajectory its first and last interval go on. Throws Error(argument)
-/// if the poses of the mission are not drawn.
+/// Returns pose and motion of a ping as navigation and installation sheet have them (E216): of the vehicle at the time
+/// of the ping less what is assumed too little of the latency, with the mission's navigation errors, and with mounting
+/// and draught that are assumed. Before and after the trajectory its first and last interval go on. Throws
+/// Error(argument) if the poses of the mission are not drawn.
 PingEvent believed_event_of(const Mission& mission, const SurveyPing& ping);
 
 /// Returns PingEvent::number of a ping. It differs for all pings of all heads; its lower 40 bits are `number`.

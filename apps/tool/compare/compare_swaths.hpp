@@ -10,7 +10,8 @@
 namespace insonify::tool {
 
 /// Compares two recorded swaths: level, deviation and coverage by angle (E212), and mean heights in cells with their
-/// predicted deviations (E213). Rejected soundings do not count. Throws Error(argument) if one of the files is no swath.
+/// predicted deviations (E213). Rejected soundings do not count. Throws Error(argument) if one of the files is no
+/// swath.
 nlohmann::ordered_json compare_swaths(const CompareOptions& options);
 
 /// Returns the result in words.

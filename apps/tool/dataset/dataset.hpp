@@ -75,8 +75,8 @@ struct DatasetSource {
 /// is not whole.
 std::vector<DatasetSource> dataset_sources(const std::vector<std::string>& runs);
 
-/// Calls `body` with every ping of a source and its position in the track, one in memory at a time. Throws Error(content)
-/// for pings without labels.
+/// Calls `body` with every ping of a source and its position in the track, one in memory at a time. Throws
+/// Error(content) for pings without labels.
 void for_each_labelled_ping(const DatasetSource& source,
                             const std::function<void(const Cube&, const Ping&, std::size_t)>& body);
 

@@ -35,9 +35,9 @@ struct SoundingUncertainty {
   double thu = 0;       ///< total horizontal uncertainty: radius that holds 95 % [m]
 };
 
-/// Returns the uncertainty of a sounding (E214): each source turns or moves the sounding in proportion to its deviation,
-/// and sources are independent. The TVU is 1.96 deviations of the depth; the THU is the radius that holds 95 % of a
-/// normal distribution in the plane (Leenhouts 1985, within 0.2 %).
+/// Returns the uncertainty of a sounding (E214): each source turns or moves the sounding in proportion to its
+/// deviation, and sources are independent. The TVU is 1.96 deviations of the depth; the THU is the radius that holds
+/// 95 % of a normal distribution in the plane (Leenhouts 1985, within 0.2 %).
 SoundingUncertainty uncertainty_of(const SoundingGeometry& sounding, const InstrumentDeviations& instruments);
 
 /// The uncertainties of the soundings of a run.
@@ -58,7 +58,8 @@ class RunUncertainty {
 
 /// Returns the names of the columns of uncertainty in CSV, which a run has whose mission states its instruments.
 std::vector<std::string> uncertainty_columns();
-/// Returns their numbers [m], in that order: TVU and THU, then of each source the vertical and the horizontal deviation.
+/// Returns their numbers [m], in that order: TVU and THU, then of each source the vertical and the horizontal
+/// deviation.
 std::vector<double> uncertainty_numbers(const SoundingUncertainty& uncertainty);
 
 }  // namespace insonify::tool

@@ -149,9 +149,9 @@ std::string default_title(const ImageRun& run, const ImageOptions& options, std:
 /// beam.
 LevelImage sweep_of_head(const ImageRun& run, const ImageOptions& options, std::size_t ping);
 
-/// Draws that sweep where it was in the world, seen from the middle of the sweep: every sample at the position and bearing
-/// that its beam had, the strongest of those that meet in a cell. Cells are half a step of the head wide and a bin
-/// long; those that no beam saw are silent. Errors as sweep_of_head.
+/// Draws that sweep where it was in the world, seen from the middle of the sweep: every sample at the position and
+/// bearing that its beam had, the strongest of those that meet in a cell. Cells are half a step of the head wide and a
+/// bin long; those that no beam saw are silent. Errors as sweep_of_head.
 LevelImage sweep_in_world(const ImageRun& run, const ImageOptions& options, std::size_t ping);
 
 /// Levels of the chosen beam (--beam) in all pings of a run, by slant range. Throws Error(content) for a run of one

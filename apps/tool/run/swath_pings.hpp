@@ -22,8 +22,8 @@ class SwathPings {
   const Anchor& anchor() const { return anchor_; }
   /// Returns the place of a sounding [m].
   Eigen::Vector3d position(const SwathPing& ping, const SwathSounding& sounding) const;
-  /// Returns a ping as an image: each sounding that is not rejected is a pixel at its angle and range, with its level, or
-  /// 0 dB if the recording has no levels; all other pixels are silent.
+  /// Returns a ping as an image: each sounding that is not rejected is a pixel at its angle and range, with its level,
+  /// or 0 dB if the recording has no levels; all other pixels are silent.
   Ping ping(std::size_t i) const;
   /// Returns number, time and pose of a ping's head, which looks straight down, without its image.
   TrackPoint track_point(std::size_t i) const;

@@ -48,9 +48,9 @@ SurveySetup set_up_survey(const SurveyOptions& options);
 /// Returns the bytes of a ping's image in the cube: of pressures, or of the levels of display cells and their labels.
 std::size_t image_bytes(const PingSetup& ping);
 
-/// Opens the scene of a survey, once for all pings, draws its random poses, and says notes to `observer`. Throws as open_scene, and
-/// Error(content) for what scene and mission ask of each other, and for a head that is farther from the scene than it
-/// can listen.
+/// Opens the scene of a survey, once for all pings, draws its random poses, and says notes to `observer`. Throws as
+/// open_scene, and Error(content) for what scene and mission ask of each other, and for a head that is farther from the
+/// scene than it can listen.
 std::shared_ptr<const OpenScene> open_survey_scene(SurveySetup& setup, const CommonOptions& common,
                                                    RunObserver& observer);
 /// Decides for each head whether its pings merge surfels, and records it for its run.toml.

@@ -32,7 +32,8 @@ struct RangedEnergy {
   float low, high, density;
   std::uint32_t first, end;
 };
-/// Adds energies to those of the nodes, row_length(subranges) apart, by how much each node has more than the one before.
+/// Adds energies to those of the nodes, row_length(subranges) apart, by how much each node has more than the one
+/// before.
 void add_energies(const RangedEnergy* added, std::size_t count, std::size_t subranges, float* energy);
 
 /// Sets looks[k] to (sum P)^2 / sum_kl P_k P_l R_|k-l| (E182) of a beam at node at[k], k < count; at least 1. Adds up

@@ -24,8 +24,8 @@ struct ElementOptions {
 };
 
 /// Pressure received by each element of an array, elements x samples [Pa], complex baseband about the carrier. Element
-/// m of a line is at y = (m - (N-1)/2) spacing, positive to port, that of an arc as in E205; sample n is at time start +
-/// n step [s] after transmission.
+/// m of a line is at y = (m - (N-1)/2) spacing, positive to port, that of an arc as in E205; sample n is at time start
+/// + n step [s] after transmission.
 struct ElementSeries {
   double start = 0, step = 0;
   ComplexGrid pressure;
