@@ -101,9 +101,9 @@ TEST(CurvedArray, with_a_great_radius_is_a_line) {
   EXPECT_NEAR(arc->length(), line->length(), 1e-6);
 }
 
-// The mean of |B|^2 over the sphere, by a sum.
+// The mean of |B|^2 over the sphere, by a sum. Noise at elements half a wavelength apart would be independent.
 TEST(CurvedArray, has_the_directivity_of_its_pattern) {
-  const SonarHead head = arc_head(24, 0.12);
+  const SonarHead head = arc_head(24, 0.04, 0.3);
   const auto array = receive_array(head);
   constexpr int turns = 720, levels = 360;
   double mean = 0;
