@@ -26,7 +26,7 @@ Eigen::Vector3d way_of_beam(const Ping& ping, std::size_t beam, double range, do
   if (ping.motion.none() || ping.fan.row_width > 0) return way;
   constexpr int most_steps = 20;
   constexpr double exact = 1e-14;       // [rad]
-  constexpr double least_ahead = 1e-6;  // of a beam along the array, which has no elevation
+  constexpr double least_ahead = 1e-6;  // direction cosine ahead of a beam; one along the array has no elevation
   const double across = std::hypot(axis.x(), axis.z());
   double turn = std::atan2(axis.z(), axis.x());
   for (int k = 0; k < most_steps; ++k) {

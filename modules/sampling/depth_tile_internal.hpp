@@ -41,7 +41,7 @@ class OpenList {
 
  private:
   const GatedSurfels& surfels_;
-  std::array<std::vector<float>, 6> numbers_{};  // as kernels::OpenSurfels has them, and zeros behind
+  std::array<std::vector<float>, 6> numbers_{};  // members of kernels::OpenSurfels, with zeros behind
   std::vector<LineOfSight> lines_{};
 };
 
@@ -76,7 +76,7 @@ class DepthTile {
   std::array<std::uint32_t, side * side + 1> first_;                    // open entry of each cell
   OpenList open_;
   std::vector<std::uint32_t> behind_{};
-  std::size_t hidden_ = 0;  // of those open
+  std::size_t hidden_ = 0;  // number of open surfels that are hidden
 };
 
 }  // namespace insonify

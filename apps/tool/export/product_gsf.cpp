@@ -16,7 +16,7 @@ namespace {
 
 constexpr double deepest_profile = 12000;  // [m], below any sea floor
 constexpr double deviations_at_95 = 1.959963985;
-constexpr double profile_step = 0.01;  // of sound speeds in a profile [m/s]
+constexpr double profile_step = 0.01;  // step of the sound speeds in a profile [m/s]
 
 /// How a head is mounted, against one whose swath is straight down: its x axis down, its z axis ahead.
 GsfMounting mounting_of(const Pose& ship_from_head) {

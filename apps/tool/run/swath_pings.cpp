@@ -13,7 +13,7 @@
 namespace insonify::tool {
 namespace {
 
-constexpr std::size_t most_beams = 512, bins = 512;  // of the image of a ping
+constexpr std::size_t most_beams = 512, bins = 512;  // size of the image of a ping
 
 /// Returns the fan across the track that holds all angles, of as many beams as the widest ping has entries.
 BeamFan fan_of_swath(const SwathRecord& record) {
