@@ -100,7 +100,7 @@ FileDescription describe_file(const std::string& path, const MeaningOverride& re
   FileDescription file;
   file.path = raw.path;
   file.format = raw.format;
-  file.reader = reader_of(path).library;
+  file.reader = reader_of(path).package;
   file.points = raw.points_in_file;
   file.triangles = raw.triangles_in_file;
   file.not_finite = raw.not_finite;

@@ -15,7 +15,7 @@ namespace insonify {
 struct SceneFormat {
   std::vector<std::string> extensions;  ///< in lower case, with their dots
   std::string name;                     ///< such as "a PLY file"
-  std::string library;                  ///< "insonify", "GDAL", "LASzip"; empty: none reads it in any build
+  std::string package;                  ///< "insonify", "GDAL", "LASzip"; empty: none reads it in any build
   std::string remedy;                   ///< way to convert it if this build does not read it; else empty
 };
 
@@ -29,7 +29,7 @@ struct FileDescription {
     std::string name, type;  ///< such as "x", "float32"
   };
   std::string path, format;
-  std::string reader;  ///< library that read it, as SceneFormat::library
+  std::string reader;  ///< library that read it, as SceneFormat::package
   std::size_t points = 0, triangles = 0, not_finite = 0, withheld = 0, duplicates = 0;
   std::size_t width = 0, height = 0;  ///< height > 1: organised
   std::vector<Field> fields;

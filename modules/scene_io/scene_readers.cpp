@@ -107,7 +107,7 @@ std::string scene_extensions() {
 std::vector<SceneFormat> scene_formats() {
   std::vector<SceneFormat> all;
   for (const SceneReader& reader : scene_readers())
-    all.push_back({reader.extensions, reader.name, reader.library, reader.remedy});
+    all.push_back({reader.extensions, reader.name, reader.package, reader.remedy});
   return all;
 }
 

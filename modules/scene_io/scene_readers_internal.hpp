@@ -15,7 +15,7 @@ struct SceneReader {
   std::vector<std::string> extensions;  ///< in lower case, with their dots; the first is the usual one
   std::vector<std::string> magic;       ///< possible first bytes of such files; empty: unknown
   std::string name;                     ///< "a PLY file"
-  std::string library;                  ///< reader of such files; empty: none
+  std::string package;                  ///< reader of such files; empty: none
   std::string remedy;                   ///< formats that are not read: command or way to convert them; else empty
   RawCloud (*read)(const std::string& path, const ReadOptions& options) = nullptr;
   std::optional<RowFile> (*find_rows)(const std::string& path) = nullptr;  ///< null: read as a whole only

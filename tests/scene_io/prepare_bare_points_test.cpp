@@ -3,24 +3,11 @@
 #include <random>
 
 #include "scene_io/complete_scene_internal.hpp"
-#include "scene_io/prepare_tiles.hpp"
 #include "support/test.hpp"
 #include "test_files.hpp"
-#include "tiles/tiled_scene.hpp"
+#include "tile_batches.hpp"
 
 namespace {
-
-/// Returns options that read even small clouds in batches.
-PrepareTilesOptions bare_batches() {
-  PrepareTilesOptions options;
-  options.whole_points = 0;
-  return options;
-}
-
-SceneCloud all_of_tiles(const std::string& path) {
-  const TiledScene tiled(path);
-  return tiled.load(tiled.select_all());
-}
 
 /// Returns points of a bed of waves, unevenly about 0.1 m apart, in rows whose length divides a sample evenly.
 std::vector<Eigen::Vector3d> uneven_bed(int side) {
@@ -66,7 +53,7 @@ void expect_nearly_same(const SceneCloud& found, const SceneCloud& expected) {
 
 TEST(PrepareBarePoints, points_without_normals_are_completed_in_batches_as_in_memory) {
   const std::vector<Eigen::Vector3d> bed = uneven_bed(180);
-  PrepareTilesOptions options = bare_batches();
+  PrepareTilesOptions options = in_batches();
   for (const bool seen : {false, true}) {
     if (seen) options.load.viewpoint = {431009, 5412009, 30};
     const PreparedTiles prepared = prepare_tiles(bare_ply(bed), own_path("bed.tiles"), options);
@@ -75,11 +62,11 @@ TEST(PrepareBarePoints, points_without_normals_are_completed_in_batches_as_in_me
     EXPECT_TRUE(prepared.report.normals_estimated && prepared.report.areas_estimated &&
                 prepared.report.noise_estimated);
     EXPECT_EQ(std::count(prepared.report.notes.begin(), prepared.report.notes.end(), two_sided_note), seen ? 0 : 1);
-    expect_nearly_same(all_of_tiles(own_path("bed.tiles")), load_scene(bare_ply(bed), options.load).scene);
+    expect_nearly_same(load_all(own_path("bed.tiles")), load_scene(bare_ply(bed), options.load).scene);
   }
   options.load.scan_noise = 0.125;
   prepare_tiles(bare_ply(bed), own_path("bed.tiles"), options);
-  const SceneCloud noisy = all_of_tiles(own_path("bed.tiles"));
+  const SceneCloud noisy = load_all(own_path("bed.tiles"));
   EXPECT_EQ(std::count(noisy.noise.begin(), noisy.noise.end(), 0.125F), std::ssize(bed));
 }
 
@@ -99,13 +86,13 @@ TEST(PrepareBarePoints, groups_of_tiles_are_completed_without_seams) {
   writer.add(blank);
   writer.finish();
   EXPECT_GE(groups, 5U);
-  expect_nearly_same(all_of_tiles(own_path("groups.tiles")), whole.scene);
+  expect_nearly_same(load_all(own_path("groups.tiles")), whole.scene);
 }
 
 TEST(PrepareBarePoints, a_raster_of_heights_without_normals_is_completed_whole) {
   std::vector<Eigen::Vector3d> heights;
   for (int i = 0; i < 2500; ++i) heights.emplace_back(0.5 * (i % 50), 0.5 * (i / 50), 0.1 * std::sin(0.2 * i));
-  const PreparedTiles prepared = prepare_tiles(bare_ply(heights), own_path("raster.tiles"), bare_batches());
+  const PreparedTiles prepared = prepare_tiles(bare_ply(heights), own_path("raster.tiles"), in_batches());
   EXPECT_FALSE(prepared.streamed);
   EXPECT_TRUE(prepared.normals_oriented);
   EXPECT_THAT(prepared.report.notes, testing::Contains(HasSubstr("raster of heights")));

@@ -8,21 +8,10 @@
 #include "support/test.hpp"
 #include "support/tile_parts.hpp"
 #include "test_files.hpp"
+#include "tile_batches.hpp"
 #include "tiles/tiled_scene.hpp"
 
 namespace {
-
-/// Returns options that read even small clouds in batches.
-PrepareTilesOptions in_batches() {
-  PrepareTilesOptions options;
-  options.whole_points = 0;
-  return options;
-}
-
-SceneCloud load_all(const std::string& path) {
-  const TiledScene tiled(path);
-  return tiled.load(tiled.select_all());
-}
 
 /// Prepares `cloud` in batches. Expects in the tiles what load_scene makes of the file.
 PreparedTiles expect_as_loaded(const std::string& cloud, PrepareTilesOptions options = in_batches()) {

@@ -135,8 +135,8 @@ TEST_F(Help, verbs_and_formats_of_scenes_are_in_the_docs) {
   for (const SceneFormat& format : scene_formats())
     for (const std::string& extension : format.extensions)
       EXPECT_TRUE(std::regex_search(formats, std::regex("\\n\\|[^|\n]*`\\" + extension + "`[^|\n]*\\|[^|\n]*\\| " +
-                                                        (format.library.empty() ? "not read" : format.library))))
-          << "docs/scene-files.md lacks " << extension << " with " << format.library;
+                                                        (format.package.empty() ? "not read" : format.package))))
+          << "docs/scene-files.md lacks " << extension << " with " << format.package;
 }
 
 TEST_F(Help, colour_maps_are_words) {
