@@ -7,7 +7,7 @@
 #
 #   --only TEXT    only mutations whose term holds this text, or whose equation id it is
 #   --list         says what would be tried, and does nothing
-#   --check        only checks that every old text occurs once in its file (the test layers.mutations_apply)
+#   --check        only checks that every old text occurs once in its file and every test exists (the test layers.mutations_apply)
 #   --table FILE   other mutations than those of mutations.txt
 #   --work FOLDER  copy and build there and leave it: the next run need not build everything again
 #   --jobs N       compile jobs at once (1)
@@ -49,7 +49,7 @@ mutations() {
     die "$table: ends within a mutation\n" if @m;' "$table" "$only"
 }
 
-# Complains of every mutation on stdin that does not fit the code.
+# Complains of every mutation on stdin that does not fit the code, or whose (first) test does not exist.
 check() {
   perl -e '
     use strict;
@@ -57,11 +57,15 @@ check() {
     my $read = sub { local $/; open(my $in, "<", "$root/$_[0]") or return ""; <$in> };
     my $complain = sub { warn "@_\n"; $stale = 1 };
     my $known = $read->("docs/equations.md");
+    my $tests = join "", map { s/.*[(]//r } qx{cd "$root" && grep -rhoE "^(TYPED_)?TEST(_[FP])?[(]\\w+,\\s*\\w+" tests};
     while (<>) {
       chomp;
-      my ($term, $id, $file, $old, $new) = split /\x1f/;
+      my ($term, $id, $file, $old, $new, $filter) = split /\x1f/;
       $complain->("$term: docs/equations.md has no $id") if $id ne "-" && index($known, "| $id |") < 0;
       $complain->("$term: changes nothing") if $old eq $new;
+      my ($suite, $name, $more) = $filter =~ m{^\w+ (?:\w+/)?([\w*]+)\.(\w*)(\*?)} or next;
+      $suite =~ s/\*/\\w*/g;
+      $complain->("$term: there is no test $filter") if $tests !~ ($more ? qr/^$suite,\s*$name/m : qr/^$suite,\s*$name$/m);
       my $times = () = ($text{$file} //= $read->($file)) =~ /(?=\Q$old\E)/g;
       $complain->("$term: does not apply: the old text occurs $times times in $file, must occur once: $old") if $times != 1;
     }
