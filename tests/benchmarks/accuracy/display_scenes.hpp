@@ -32,7 +32,7 @@ inline const View views[] = {{"harbour", 0, -2, 15},
                              {"two facets on a plane", 0, 1.5, 12},
                              {"plane", -5, 2.5, 20},
                              {"sphere", 0, 0.3, 3}};
-inline const View& view_of(const std::string& scene) {
+inline const View& view_of(std::string_view scene) {
   return *std::find_if(std::begin(views), std::end(views), [&](const View& v) { return v.scene == scene; });
 }
 
