@@ -24,19 +24,18 @@ using Path = std::filesystem::path;
 std::shared_ptr<Scene> scene_of_parts(const std::shared_ptr<const PartsOfPings>& parts, const SceneOptions& how,
                                       std::uint64_t seed) {
   MovingScene moving{parts, [parts](const SceneMoment& moment) { return parts->whole_at(moment); },
-                     parts->scene().parts()->begin(), seed};
+                     parts->scene().begin(), seed};
   moving.edit = [parts]() -> std::shared_ptr<EditedScene> {
-    const PartsScene& scene = parts->scene();
-    if (!scene.parts()->still())
-      fail(ErrorKind::argument, scene.file().path,
+    const SceneParts& scene = parts->scene();
+    if (!scene.still())
+      fail(ErrorKind::argument, parts->file().path,
            ": parts of it move or are drawn anew, so that it cannot be edited; load a scene without them, and move "
-           "parts "
-           "by Scene.move");
-    std::vector<PlacedPart> all = scene.resting_with_tiles();
-    for (PlacedPart& part : scene.parts()->others_at(0, 0)) all.push_back(std::move(part));
-    return std::make_shared<EditedScene>(std::move(all), scene.parts()->materials());
+           "parts by Scene.move");
+    std::vector<PlacedPart> all = parts->resting_with_tiles();
+    for (PlacedPart& part : scene.others_at(0, 0)) all.push_back(std::move(part));
+    return std::make_shared<EditedScene>(std::move(all), scene.materials());
   };
-  return std::make_shared<Scene>(std::move(moving), parts->scene().report(), how);
+  return std::make_shared<Scene>(std::move(moving), parts->report(), how);
 }
 
 /// Adds what another scene holds as a part; a mesh is sampled `spacing` [m] apart, 0: as its size says.
@@ -142,9 +141,8 @@ ToolPing tool_ping_of(const MadePing& ping) {
                   scene_json(of.loaded->report, pinged->scene())};
   Bounds box = bounds(whole);
   if (moves) {
-    const PartsScene& parts = of.moving->parts->scene();
-    const auto draw = static_cast<std::uint64_t>(setup.run.placement.draw);
-    box = parts.box_at(event.time, draw), scene.json["parts"] = parts.parts_json(event.time, draw);
+    const SceneMoment moment{event.time, static_cast<std::uint64_t>(setup.run.placement.draw)};
+    box = of.moving->parts->box_at(moment), scene.json["parts"] = of.moving->parts->parts_json(moment);
   }
   for (std::string& note : fit_notes(whole, box, setup)) setup.notes.push_back(std::move(note));
   return {std::move(setup), std::move(simulator), std::move(scene)};
@@ -173,7 +171,7 @@ void save(const MadePing& ping, const Path& path, bool force, bool picture) {
   if (ping.arrangement) run.scene.path.clear();  // no file holds the edits
   run.output.folder = path.string(), run.output.force = force, run.output.no_picture = !picture;
   if (const std::uint64_t seed = run.simulation.seed;
-      scene.moving && !ping.arrangement && scene.moving->parts->scene().is_random() && scene.moving->seed != seed)
+      scene.moving && !ping.arrangement && scene.moving->parts->is_random() && scene.moving->seed != seed)
     fail(ErrorKind::argument, "save: seed = ", seed, ", but the scene is drawn with seed ", scene.moving->seed,
          ", and a run has one seed; load it by load_scene(path, seed=", seed, ")");
   const tool::VtkPictures pictures;

@@ -15,13 +15,13 @@ namespace insonify {
 /// How a cloud is read and completed.
 struct SceneOptions {
   std::string path;
-  std::optional<Eigen::Vector3d> viewpoint;  ///< place of the scanner [m]; absent: as the file says
-  std::string materials_file;                ///< TOML table
-  std::string material;                      ///< name for every surfel, or empty
-  std::string material_field;  ///< field of the cloud whose numbers mean materials, or empty: found by name
-  MeaningOverride meaning;     ///< units, axes and holes of the file
+  std::optional<Eigen::Vector3d> viewpoint{};  ///< place of the scanner [m]; absent: as the file says
+  std::string materials_file{};                ///< TOML table
+  std::string material{};                      ///< name for every surfel, or empty
+  std::string material_field{};  ///< field of the cloud whose numbers mean materials, or empty: found by name
+  MeaningOverride meaning{};     ///< units, axes and holes of the file
   double mesh_spacing = 0;
-  std::optional<double> scan_noise;  ///< [m]; absent: the file's, else estimated
+  std::optional<double> scan_noise{};  ///< [m]; absent: the file's, else estimated
   bool keep_strays = false;
 };
 

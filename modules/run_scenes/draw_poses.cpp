@@ -27,7 +27,7 @@ class GroundOfPings {
     if (rule.clearance == 0) return;
     if (const PartsOfPings* parts = scene.parts()) {
       parts_ = &parts->scene();
-      for (const PlacedPart& part : parts_->resting_with_tiles()) add(part, resting_);
+      for (const PlacedPart& part : parts->resting_with_tiles()) add(part, resting_);
       return;
     }
     PlacedPart all{.name = "scene", .captured = true};
@@ -39,9 +39,9 @@ class GroundOfPings {
   /// Returns the ground at the time and with the draw of a ping.
   Ground at(const PingEvent& event) const {
     Ground ground = resting_;
-    if (!parts_ || parts_->parts()->still()) return ground;
+    if (!parts_ || parts_->still()) return ground;
     const SceneMoment moment = scene_.moment_of(event.time, event.number);
-    for (const PlacedPart& part : parts_->parts()->others_at(moment.time, moment.draw)) add(part, ground);
+    for (const PlacedPart& part : parts_->others_at(moment.time, moment.draw)) add(part, ground);
     return ground;
   }
 
@@ -51,7 +51,7 @@ class GroundOfPings {
   }
 
   const OpenScene& scene_;
-  const PartsScene* parts_ = nullptr;
+  const SceneParts* parts_ = nullptr;
   Ground resting_;
 };
 

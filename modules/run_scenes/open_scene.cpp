@@ -54,35 +54,23 @@ class SceneOfFile : public OpenScene {
     return is_field;
   }
 
-  std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator,
-                                                 const PingEvent& event) const override {
-    return loaded_->mesh ? sampled(simulator, event).first : overview();
-  }
-  PingScene ping_scene(const PingSimulator& simulator, const PingEvent& event) const override {
-    PingScene result{nullptr, loaded_->report, sampled_positions(loaded_->scene, event.world_from_head), {}};
-    std::string note;
-    if (loaded_->mesh)
-      std::tie(result.scene, note) = sampled(simulator, event);
-    else
-      result.scene = overview();
-    if (!note.empty()) result.report.notes.push_back(std::move(note));
-    result.json = scene_json(result.report, result.scene->scene());
-    return result;
-  }
-
  private:
+  std::shared_ptr<const PreparedScene> surfels_of(const PingSimulator& simulator, const PingEvent& event,
+                                                  LoadReport& report, nlohmann::ordered_json*) const override {
+    if (!loaded_->mesh) return overview();
+    MeshSample fine = mesh_sample_for(*loaded_->mesh, loaded_->scene.size(), options_.memory_limit, simulator, event);
+    if (!fine.note.empty()) report.notes.push_back(std::move(fine.note));
+    if (!fine.scene) return overview();
+    return std::make_shared<const PreparedScene>(std::move(*fine.scene), simulator.options().threads);
+  }
+  std::vector<Eigen::Vector3d> positions_of(const SceneCloud&, const Pose& pose) const override {
+    return sampled_positions(loaded_->scene, pose);
+  }
   /// Returns all surfels of a cloud, those of a mesh's overview; prepared when they are first asked for.
   std::shared_ptr<const PreparedScene> overview() const {
     const std::scoped_lock lock(guard_);
     if (!overview_) overview_ = std::make_shared<const PreparedScene>(cloud_at({}), options_.threads);
     return overview_;
-  }
-  /// Returns the surfels of a mesh that a ping needs, with a note on what could not be kept.
-  std::pair<std::shared_ptr<const PreparedScene>, std::string> sampled(const PingSimulator& simulator,
-                                                                       const PingEvent& event) const {
-    MeshSample fine = mesh_sample_for(*loaded_->mesh, loaded_->scene.size(), options_.memory_limit, simulator, event);
-    if (!fine.scene) return {overview(), fine.note};
-    return {std::make_shared<const PreparedScene>(std::move(*fine.scene), simulator.options().threads), fine.note};
   }
 
   std::shared_ptr<LoadedScene> loaded_;
@@ -106,31 +94,14 @@ class SceneOfTiles : public OpenScene {
     return std::make_shared<const SceneCloud>(load_scene(how_.path, loading_of_file(how_, options_)).scene);
   }
   LoadedScene take_whole(const SceneMoment&) override { return load_scene(how_.path, loading_of_file(how_, options_)); }
-  std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator,
-                                                 const PingEvent& event) const override {
-    LoadReport report;
-    nlohmann::ordered_json read;
-    return near(simulator, event, report, read);
-  }
-  PingScene ping_scene(const PingSimulator& simulator, const PingEvent& event) const override {
-    PingScene result{nullptr, report_, {}, {}};
-    const TiledSceneInfo& info = tiled_.info();
-    nlohmann::ordered_json read = {{"surfels", info.surfels}, {"tiles", info.tiles}, {"bytes", info.bytes}};
-    result.scene = near(simulator, event, result.report, read);
-    for (const Eigen::Vector3d& position : tiled_.positions())
-      result.positions.push_back(event.world_from_head.linear().transpose() *
-                                 (position - event.world_from_head.translation()));
-    result.json = scene_json(result.report, result.scene->scene());
-    result.json["tiles"] = std::move(read);
-    return result;
-  }
 
  private:
-  /// Reads what a ping reaches, or levels of detail as fine as its head resolves; says so in `report` and `read`.
-  std::shared_ptr<const PreparedScene> near(const PingSimulator& simulator, const PingEvent& event, LoadReport& report,
-                                            nlohmann::ordered_json& read) const {
+  /// Reads what a ping reaches, or levels of detail as fine as its head resolves.
+  std::shared_ptr<const PreparedScene> surfels_of(const PingSimulator& simulator, const PingEvent& event,
+                                                  LoadReport& report, nlohmann::ordered_json* json) const override {
     require_no_loading_options(how_, "is prepared already; give it to insonify prepare instead");
     const TiledSceneInfo& info = tiled_.info();
+    nlohmann::ordered_json read = {{"surfels", info.surfels}, {"tiles", info.tiles}, {"bytes", info.bytes}};
     const double memory = memory_for_tiles(options_.memory_limit);
     const int threads = simulator.options().threads;
     const ResolvedPing ping =
@@ -155,7 +126,14 @@ class SceneOfTiles : public OpenScene {
     }
     report.points_read = scene.size();
     read["surfels_read"] = scene.size();
+    if (json) (*json)["tiles"] = std::move(read);
     return std::make_shared<const PreparedScene>(std::move(scene), threads);
+  }
+  std::vector<Eigen::Vector3d> positions_of(const SceneCloud&, const Pose& pose) const override {
+    std::vector<Eigen::Vector3d> positions;
+    for (const Eigen::Vector3d& position : tiled_.positions())
+      positions.push_back(pose.linear().transpose() * (position - pose.translation()));
+    return positions;
   }
 
   const TiledScene tiled_;
@@ -164,9 +142,33 @@ class SceneOfTiles : public OpenScene {
 
 }  // namespace
 
+std::shared_ptr<const PreparedScene> OpenScene::scene_for(const PingSimulator& simulator,
+                                                          const PingEvent& event) const {
+  LoadReport unused;
+  return surfels_of(simulator, event, unused, nullptr);
+}
+
+PingScene OpenScene::ping_scene(const PingSimulator& simulator, const PingEvent& event) const {
+  PingScene result{nullptr, report(), {}, {}};
+  nlohmann::ordered_json more = nlohmann::ordered_json::object();
+  result.scene = surfels_of(simulator, event, result.report, &more);
+  result.positions = positions_of(result.scene->scene(), event.world_from_head);
+  result.json = scene_json(result.report, result.scene->scene());
+  result.json.update(more);
+  return result;
+}
+
+std::vector<Eigen::Vector3d> OpenScene::positions_of(const SceneCloud& pinged, const Pose& pose) const {
+  return sampled_positions(pinged, pose);
+}
+
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options) {
   const SceneKind kind = kind_of_scene(scene.path);
-  if (kind == SceneKind::parts) return std::make_shared<PartsOfPings>(scene, options);
+  if (kind == SceneKind::parts) {
+    const auto parts = std::make_shared<PartsOfPings>(scene, options);
+    parts->prepare();
+    return parts;
+  }
   if (kind == SceneKind::tiles) return std::make_shared<SceneOfTiles>(scene, options);
   return std::make_shared<SceneOfFile>(scene, options);
 }
@@ -181,9 +183,7 @@ LoadedScene load_any_scene(const SceneOptions& scene, int threads) {
 }
 
 std::shared_ptr<const SceneSource> scene_source_of(const std::string& path, std::uint64_t seed, int threads) {
-  SceneOptions scene;
-  scene.path = path;
-  return open_scene(scene, {{seed, {}}, threads});
+  return open_scene({path}, {{seed, {}}, threads});
 }
 
 std::shared_ptr<const SceneSource> scene_source_of(const MissionFile& file, int threads) {
@@ -200,8 +200,8 @@ std::optional<TiledScene> find_tiles(const std::string& path) {
 Bounds box_of_scene(const std::string& path) {
   if (const auto tiled = find_tiles(path)) return tiled->info().box;
   if (kind_of_scene(path) == SceneKind::parts) {
-    const PartsScene parts(path);
-    return parts.box_at(parts.parts()->begin());
+    const PartsOfPings parts({path}, {.drawn_at_will = false});
+    return parts.box_at({parts.scene().begin(), 0});
   }
   const FileDescription cloud = describe_file(path);
   return {cloud.min, cloud.max};

@@ -51,8 +51,10 @@ class OpenScene : public SceneSource {
   virtual const LoadReport& report() const = 0;
   /// Returns the box of all surfels at a moment, those on disk included.
   virtual Bounds box_at(const SceneMoment& moment) const = 0;
+  /// Returns the surfels of a ping.
+  std::shared_ptr<const PreparedScene> scene_for(const PingSimulator& simulator, const PingEvent& event) const override;
   /// Returns the surfels of a ping with what a manifest says of them. Throws as scene_for.
-  virtual PingScene ping_scene(const PingSimulator& simulator, const PingEvent& event) const = 0;
+  PingScene ping_scene(const PingSimulator& simulator, const PingEvent& event) const;
   /// Returns one cloud of the whole scene at a moment; of a mesh its overview.
   virtual std::shared_ptr<const SceneCloud> cloud_at(const SceneMoment& moment) const = 0;
   /// Hands over the whole scene at a moment, after which the object is empty. Throws as load_scene.
@@ -78,12 +80,18 @@ class OpenScene : public SceneSource {
  protected:
   /// Keeps how the scene is opened.
   OpenScene(SceneOptions how, const OpenSceneOptions& options) : how_(std::move(how)), options_(options) {}
+  /// Returns the surfels of a ping, and adds notes on them to `report`; `json`, unless null, gets what a manifest says of
+  /// them beyond scene_json. Error(runtime) before reading if tiles need more memory than the limit.
+  virtual std::shared_ptr<const PreparedScene> surfels_of(const PingSimulator& simulator, const PingEvent& event,
+                                                          LoadReport& report, nlohmann::ordered_json* json) const = 0;
+  /// Returns PingScene::positions, of a ping that has these surfels.
+  virtual std::vector<Eigen::Vector3d> positions_of(const SceneCloud& pinged, const Pose& pose) const;
   const SceneOptions how_;
   const OpenSceneOptions options_;
 };
 
 /// Opens the scene at scene.path: the one place that asks what kind of scene a path is. Throws as load_scene,
-/// TiledScene and PartsScene; Error(argument) for options of loading beside a scene of parts.
+/// TiledScene and PartsOfPings; Error(argument) for options of loading beside a scene of parts.
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options = {});
 
 /// Loads a scene of any kind whole, one of parts as it is at time 0. Throws as open_scene and take_whole.

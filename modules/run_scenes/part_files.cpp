@@ -7,8 +7,7 @@
 #include "core/error.hpp"
 #include "files/memory_limit.hpp"
 #include "run/ping_setup.hpp"
-#include "run_scenes/open_scene.hpp"
-#include "run_scenes/parts_scene.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "sampling/mesh_surfels.hpp"
 #include "scene/thin_scene.hpp"
 
@@ -50,11 +49,11 @@ Eigen::Vector3d size_of(const LoadedScene& loaded) {
 
 /// The surfels of a file: of a mesh evenly spaced ones. All hide as discs; a body of a mesh keeps its triangles, by which
 /// its outline is found (part_views).
-SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, const PartsOptions& o) {
+SceneCloud surfels_of(LoadedScene& loaded, const PartFile& file, bool captured, const OpenSceneOptions& o) {
   SceneCloud cloud = std::move(loaded.scene);
   if (loaded.mesh && !loaded.columns.heights && !(captured && file.spacing == 0)) {
     const double by_size = std::clamp(diagonal_of(cloud) / spacings_of_diagonal, least_spacing, most_spacing);
-    cloud = even_surfels(*loaded.mesh, file.spacing > 0 ? file.spacing : by_size, o.seed, o.threads,
+    cloud = even_surfels(*loaded.mesh, file.spacing > 0 ? file.spacing : by_size, o.draws.seed, o.threads,
                          {file.path, available_memory()})
                 .scene;
   }
@@ -125,16 +124,16 @@ SceneBody body_of_cloud(SceneCloud cloud, const Eigen::Vector3d& size, bool capt
 
 }  // namespace
 
-SceneBody body_of_loaded(LoadedScene loaded, const PartFile& file, bool captured, const PartsOptions& options) {
+SceneBody body_of_loaded(LoadedScene loaded, const PartFile& file, bool captured, const OpenSceneOptions& options) {
   const Eigen::Vector3d size = size_of(loaded);
   return body_of_cloud(surfels_of(loaded, file, captured, options), size, captured);
 }
 
 SceneBody PartFiles::read(const PartFile& file, bool captured) {
   if (file.scene) {
-    const PartsScene inner(file.path, options_);
+    PartsOfPings inner({file.path}, options_);
     random_ |= inner.is_random();
-    LoadedScene whole = inner.whole_at(0);
+    LoadedScene whole = inner.take_whole({});
     add_report(whole.report, report_);
     if (captured) take_system_of(file.path, whole.report.meaning.system.value, report_.meaning);
     const Eigen::Vector3d size = size_of(whole);
@@ -142,7 +141,7 @@ SceneBody PartFiles::read(const PartFile& file, bool captured) {
     return body_of_cloud(std::move(whole.scene), size, captured);
   }
   if (file.kind == SceneKind::tiles) require_no_loading_options(scene_options_of(file), "is prepared already");
-  LoadOptions loading = load_options(scene_options_of(file), options_.seed, options_.threads);
+  LoadOptions loading = load_options(scene_options_of(file), options_.draws.seed, options_.threads);
   if (captured) loading.mesh_spacing = file.spacing;
   LoadedScene loaded = load_scene(file.path, loading);
   add_report(loaded.report, report_);

@@ -31,7 +31,7 @@ ReadyPing load_ping_scene(PingSetup& setup) {
   const RunDraws draws{run.simulation.seed, {0, static_cast<std::uint64_t>(draw)}};
   const auto scene = open_scene(run.scene, {draws, run.simulation.threads, run.memory_limit});
   const PartsOfPings* parts = scene->parts();
-  if (draw > 0 && (!parts || parts->scene().file().scatters.empty()))
+  if (draw > 0 && (!parts || parts->file().scatters.empty()))
     fail(ErrorKind::argument, "--draw = ", draw, ": ", run.scene.path,
          parts ? " has no [[scatter]] to draw" : " is no scene of parts", "; leave it out");
   const PingEvent& event = setup.event;
@@ -43,8 +43,7 @@ ReadyPing load_ping_scene(PingSetup& setup) {
   const LoadedScene* file = scene->loaded();
   const SceneCloud& known = file ? file->scene : ready.scene.scene->scene();
   for (std::string& note : fit_notes(known, box, setup)) setup.notes.push_back(std::move(note));
-  if (file || (parts && !parts->scene().has_tiles()))
-    require_in_reach(ready.scene.positions, setup.head.gate, run.scene.path);
+  if (file || (parts && !parts->has_tiles())) require_in_reach(ready.scene.positions, setup.head.gate, run.scene.path);
   return ready;
 }
 

@@ -27,7 +27,7 @@
 #include <unistd.h>
 
 #include "run/run_settings.hpp"
-#include "run_scenes/parts_scene.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "simulate/simulate_ping.hpp"
 #include "store/run_directory.hpp"
 #include "tool/command/program.hpp"
@@ -121,10 +121,10 @@ void ping_mirrors(const std::string& path) { ping_with_four_beams(wall_of({Mater
 /// Pings a scene of parts. One with more surfels than a ping takes in a few seconds (a box of 1 m sampled each 3 mm) is
 /// only read.
 void ping_parts(const std::string& path) {
-  const PartsScene scene(path, {.threads = 1});
+  PartsOfPings scene({path}, {{}, 1, 0, false});
   std::size_t surfels = 0;
-  for (const PlacedPart& part : scene.placed_at(0)) surfels += part.absent ? 0 : part.cloud->size();
-  if (surfels < 700'000) ping_with_four_beams(scene.whole_at(0).scene);
+  for (const PlacedPart& part : scene.placed_at({})) surfels += part.absent ? 0 : part.cloud->size();
+  if (surfels < 700'000) ping_with_four_beams(scene.take_whole({}).scene);
 }
 #endif
 

@@ -61,10 +61,10 @@ std::vector<SceneMoment> moments_of_run(const CompareOptions& o, const SoundingT
 /// The moments of soundings by their times, of a scene file alone.
 std::vector<SceneMoment> moments_of_times(const CompareOptions& o, const SoundingTable& table,
                                           const PartsOfPings& parts) {
-  const bool moves = parts.scene().parts()->moves();
+  const bool moves = parts.scene().moves();
   if (moves && table.time.empty())
     fail(ErrorKind::content, o.a, ": has no column time_s, but parts of ", o.b, " move; export --to csv writes it");
-  std::vector<SceneMoment> moments(table.position.size(), {parts.scene().parts()->begin(), 0});
+  std::vector<SceneMoment> moments(table.position.size(), {parts.scene().begin(), 0});
   for (std::size_t i = 0; moves && i < moments.size(); ++i) {
     moments[i].time = table.time[i];
     if (table.time[i] > latest_scene_time)
@@ -166,7 +166,7 @@ SoundingDifferences differences_of(const std::vector<Eigen::Vector3d>& soundings
         scene.parts ? scene.parts->cloud_at(scene.moment[rows.front()]) : scene.whole;
     std::size_t resting = cloud->size();
     if (scene.parts) {
-      const std::size_t parts = scene.parts->scene().parts()->resting().size();
+      const std::size_t parts = scene.parts->scene().resting().size();
       resting = static_cast<std::size_t>(std::ranges::lower_bound(cloud->part, parts) - cloud->part.begin());
     }
     if (!rests) rests.emplace(*cloud, 0, resting, cell);

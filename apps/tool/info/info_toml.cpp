@@ -9,8 +9,9 @@
 #include "core/text.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
-#include "run_scenes/parts_scene.hpp"
+#include "run_scenes/parts_of_pings.hpp"
 #include "store/environment_file.hpp"
+#include "store/environment_keys.hpp"
 #include "store/materials_file.hpp"
 #include "store/sonar_file.hpp"
 #include "store/toml_tree.hpp"
@@ -84,13 +85,11 @@ ordered_json settings_info(const std::string& path) {
 }
 
 ordered_json environment_info(const std::string& path) {
-  ordered_json parts = ordered_json::array();
-  for (const std::string& key : load_toml(path).keys) parts.push_back(key);
   (void)load_environment(path);  // refuses what is wrong in it
   return {
       {"path", path},
       {"format", "insonify environment"},
-      {"parts", parts},
+      {"parts", load_toml(path).keys},
       {"next",
        {"insonify ping SCENE --environment " + shell_word(path) + " --sonar oculus-m750d --pose=x,y,z,0,0,0 -o out"}}};
 }
@@ -111,11 +110,11 @@ ordered_json sonar_info(const std::string& path) {
 }
 
 ordered_json parts_info(const std::string& path) {
-  const PartsScene scene(path);
+  const PartsOfPings scene({path}, {.drawn_at_will = false});
   ordered_json scatters = ordered_json::array();
   for (const SceneScatterEntry& s : scene.file().scatters)
     scatters.push_back({{"bodies", joined(s.names)}, {"least", s.rule.least}, {"most", s.rule.most}});
-  const double begin = scene.parts()->begin();
+  const SceneMoment begin{scene.scene().begin(), 0};
   const Bounds box = scene.box_at(begin);
   const auto point = [](const Eigen::Vector3d& p) { return ordered_json{p.x(), p.y(), p.z()}; };
   ordered_json json = {{"path", path}, {"format", scene.report().format}, {"parts", scene.parts_json(begin)}};
@@ -143,16 +142,15 @@ constexpr TomlKind toml_kinds[] = {{"insonify_version", settings_info},
                                    {"part", parts_info},
                                    {"head", mission_info},
                                    {"survey", mission_info},
-                                   {"material", materials_info},
-                                   {"water", environment_info},
-                                   {"surface", environment_info},
-                                   {"bottom", environment_info},
-                                   {"volume", environment_info},
-                                   {"wind", environment_info},
-                                   {"noise", environment_info},
-                                   {"profile", environment_info},
-                                   {"tank", environment_info},
-                                   {"mirror", environment_info}};
+                                   {"material", materials_info}};
+
+/// Returns true if a document has a table of an environment.
+bool is_environment(const TomlValue& document) {
+  Environment any;
+  return std::ranges::any_of(environment_keys(any), [&](const Key& key) {
+    return document.find(*key.section ? key.section : key.name) != nullptr;
+  });
+}
 
 }  // namespace
 
@@ -160,7 +158,7 @@ ordered_json info_of_toml(const std::string& path) {
   const TomlValue document = load_toml(path);
   for (const TomlKind& kind : toml_kinds)
     if (document.find(kind.key)) return kind.info(path);
-  return sonar_info(path);
+  return is_environment(document) ? environment_info(path) : sonar_info(path);
 }
 
 }  // namespace insonify::tool

@@ -195,10 +195,10 @@ void require_parts_fit(const SurveySetup& setup, const PartsOfPings& parts, doub
   if (file.coverage)
     fail(ErrorKind::content, file.path, ": coverage counts the pings of each surfel of one cloud, but ", file.scene,
          " is a scene of parts; leave coverage out");
-  if (file.randomise.scene_pings > 0 && parts.scene().file().scatters.empty())
+  if (file.randomise.scene_pings > 0 && parts.file().scatters.empty())
     fail(ErrorKind::content, file.path, ": [randomise] scene draws the bodies of [[scatter]] anew, but ", file.scene,
          " has none; leave it out");
-  at_scene_file(file.scene, [&] { parts.scene().parts()->require_times(first, last); });
+  at_scene_file(file.scene, [&] { parts.scene().require_times(first, last); });
 }
 
 /// Has each surfel counted that coverage counts. Throws Error(content) for a mesh.
