@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -195,6 +196,11 @@ py::list plan(const By& by, const Of& scene, const py::object& position, double 
 /// Returns pings at rows of position and angles; time and draw may be given for each.
 std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& poses, int threads,
                              const py::kwargs& keys);
+/// Returns a function with the result of `decide`: the first thread that asks decides, the others wait.
+template <typename Decide>
+auto decided_once(const Decide& decide) {
+  return [result = std::async(std::launch::deferred, decide).share()]() -> const auto& { return result.get(); };
+}
 /// Returns the next ping, or nullptr after the last. Waits without the GIL, which it takes only to test for signals.
 std::shared_ptr<MadePing> next_of(Pings& pings);
 

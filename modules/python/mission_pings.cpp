@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pings of a mission file over a scene of any kind.
-#include <mutex>
-
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -66,12 +64,6 @@ class LoadedMission {
   std::optional<Survey> survey_;
 };
 
-/// A survey whose heads have decided for all their pings: the first thread that makes one decides, the others wait.
-struct DecidedSurvey {
-  std::once_flag once;
-  std::optional<Survey> survey;
-};
-
 std::unique_ptr<Pings> pings_of(const std::shared_ptr<const LoadedMission>& mission, std::int64_t first,
                                 std::optional<std::int64_t> count, int threads) {
   const auto all = static_cast<std::int64_t>(mission->survey().pings().size());
@@ -79,10 +71,9 @@ std::unique_ptr<Pings> pings_of(const std::shared_ptr<const LoadedMission>& miss
   if (first < 0 || first > all) fail(ErrorKind::argument, "pings: first = ", first, ", must be 0 to ", all);
   if (count && (*count < 0 || *count > all - first))
     fail(ErrorKind::argument, "pings: count = ", *count, ", must be 0 to ", all - first, ", those from ping ", first);
-  const auto decided = std::make_shared<DecidedSurvey>();
-  const auto make = [mission, decided, first, threads](std::size_t i) {
-    std::call_once(decided->once, [&] { decided->survey = mission->decided(threads); });
-    return mission->make(*decided->survey, mission->survey().pings()[static_cast<std::size_t>(first) + i]);
+  const auto decided = decided_once([mission, threads] { return mission->decided(threads); });
+  const auto make = [mission, decided, first](std::size_t i) {
+    return mission->make(decided(), mission->survey().pings()[static_cast<std::size_t>(first) + i]);
   };
   return std::make_unique<Pings>(static_cast<std::size_t>(count.value_or(all - first)), thread_count(threads), make);
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,12 +25,6 @@ MadePing requested(const By& by, const Of& scene, const py::kwargs& keys, const 
   if (scene->edited) ping.edited = scene->edited, ping.arrangement = scene->edited->now();
   return ping;
 }
-
-/// The decision whether pings of one scene merge surfels, made once.
-struct Decided {
-  std::once_flag once;
-  Choice detail = Choice::as_needed;
-};
 
 MadePing requested_at(MadePing ping, const py::object& position, double yaw, double pitch, double roll) {
   const Numbers at = numbers_of(position, "ping: position", 0, 3);
@@ -190,14 +183,12 @@ std::unique_ptr<Pings> pings(const By& by, const Of& scene, const py::object& po
     if (!turn_rate.empty()) at.turn_rate = turn_rate[i];
     return ping;
   };
-  // The first thread that makes a ping decides by the middle one; the others wait.
-  const auto decided = std::make_shared<Decided>();
   const std::size_t count = pose.size() / 6;
-  return std::make_unique<Pings>(count, thread_count(threads), [requested, decided, count, threads](std::size_t i) {
+  const auto detail = decided_once([=] { return detail_of(requested(count / 2), count, threads); });
+  return std::make_unique<Pings>(count, thread_count(threads), [requested, detail](std::size_t i) {
     MadePing ping = requested(i);
-    std::call_once(decided->once, [&] { decided->detail = detail_of(requested(count / 2), count, threads); });
-    ping.detail = decided->detail;
-    record_detail(ping.by->setup.simulation.sampling.detail, decided->detail, ping.setup.run);
+    ping.detail = detail();
+    record_detail(ping.by->setup.simulation.sampling.detail, *ping.detail, ping.setup.run);
     return make(std::move(ping), 1);
   });
 }

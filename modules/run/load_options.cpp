@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "run/parse_values.hpp"
 #include "run/ping_setup.hpp"
 #include "store/material_library.hpp"
 #include "store/materials_file.hpp"
@@ -15,8 +16,7 @@ namespace {
 
 /// Index of the material called `name`, which is added if insonify knows it; Error(argument) with the nearest name.
 std::uint16_t material_index(std::vector<Material>& materials, const std::string& name) {
-  std::vector<std::string> names;
-  for (const Material& m : materials) names.push_back(m.name);
+  std::vector<std::string> names = words_of(materials);
   const auto at = std::find(names.begin(), names.end(), name);
   if (at != names.end()) return static_cast<std::uint16_t>(at - names.begin());
   const std::vector<std::string> built_in = material_names();

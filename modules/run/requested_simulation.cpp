@@ -14,53 +14,32 @@ namespace {
 
 constexpr int drawn_paths = 64;  // of each kind; more would hide one another
 
-/// The settings of a run whose simulation has a problem, and the problem.
-class JudgedSettings {
- public:
-  JudgedSettings(const Run& run, const SimulationOptions& simulation) : run_(run) {
-    run_.simulation = simulation;
-    problem_ = problem_of(run_.simulation);
-    settings_ = all_settings(run_);
-  }
-  JudgedSettings(const JudgedSettings&) = delete;
-  JudgedSettings& operator=(const JudgedSettings&) = delete;
-
-  /// Returns the row by which the problem came about; null without a problem, and for a member that no row reaches.
-  const RunSetting* setting() const {
-    const auto at = std::ranges::find_if(settings_, [&](const RunSetting& s) { return problem_ && reaches(s); });
-    return at == settings_.end() ? nullptr : &*at;
-  }
-  /// Returns "NAME = VALUE, must be RULE". A flag that must be false is to be left out; of a list of words, its word is.
-  std::string refusal(const std::string& name) const {
-    const std::string word = kept_word(), no = "false";
-    if (problem_->value == "true" && problem_->rule.starts_with(no))
-      return fmt::format("{}{}{}: must be left out{}", name, word.empty() ? "" : " ", word,
-                         problem_->rule.substr(no.size()));
-    return fmt::format("{} = {}, must be {}", name, problem_->value, problem_->rule);
-  }
-
- private:
-  /// The word of `keep` that asks for the member with the problem; empty: none.
-  std::string kept_word() const {
-    for (const auto& [word, flag] : kept_outputs)
-      if (problem_->at == &(run_.simulation.outputs.*flag)) return std::string(word);
-    return {};
-  }
-  bool reaches(const RunSetting& setting) const {
-    if (std::get_if<std::vector<std::string>*>(&setting.value) && setting.key == std::string_view("keep"))
-      return !kept_word().empty();
-    return std::visit(
-        [&]<typename Value>(const Value& value) {
-          if constexpr (std::is_pointer_v<Value>) return static_cast<const void*>(value) == problem_->at;
-          return false;
-        },
-        setting.value);
-  }
-
-  Run run_;
-  std::optional<OptionProblem> problem_;
-  std::vector<RunSetting> settings_;
+/// A row by which a problem of a simulation came about, and what is wrong with its value: " = VALUE, must be RULE".
+struct RefusedSetting {
+  std::string option, key, text;
 };
+
+/// Returns the row of the first problem of `simulation`, made of `run`; absent without one, and for a member that no row
+/// reaches. A flag that must be false is to be left out; of a list of words, its word is.
+std::optional<RefusedSetting> find_refused(Run run, const SimulationOptions& simulation) {
+  run.simulation = simulation;
+  const std::optional<OptionProblem> problem = problem_of(run.simulation);
+  if (!problem) return {};
+  std::string kept;
+  for (const auto& [word, flag] : kept_outputs)
+    if (problem->at == &(run.simulation.outputs.*flag)) kept = fmt::format(" {}", word);
+  const auto is_at = [&]<typename Value>(const Value& value) {
+    if constexpr (std::is_pointer_v<Value>) return static_cast<const void*>(value) == problem->at;
+    return false;
+  };
+  for (const RunSetting& setting : all_settings(run)) {
+    if (!(setting.key == std::string_view("keep") ? !kept.empty() : std::visit(is_at, setting.value))) continue;
+    if (const std::string no = "false"; problem->value == "true" && problem->rule.starts_with(no))
+      return {{setting.option, setting.key, kept + ": must be left out" + problem->rule.substr(no.size())}};
+    return {{setting.option, setting.key, fmt::format(" = {}, must be {}", problem->value, problem->rule)}};
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -81,22 +60,20 @@ void record_detail(Choice requested, Choice decided, Run& run) {
 bool keeps(const Run& run, const std::string& what) { return std::ranges::find(run.keep, what) != run.keep.end(); }
 
 void require_valid_settings(const Run& run, const SimulationOptions& simulation, NamedBy by) {
-  const JudgedSettings judged(run, simulation);
-  if (const RunSetting* setting = judged.setting())
-    fail(ErrorKind::argument, judged.refusal(by == NamedBy::option ? setting->option : setting->key));
+  if (const auto refused = find_refused(run, simulation))
+    fail(ErrorKind::argument, by == NamedBy::option ? refused->option : refused->key, refused->text);
   require_valid(simulation, "PingSimulator");
 }
 
 void require_valid_file(const std::string& path, const Run& run) {
-  const JudgedSettings judged(run, requested_simulation(run));
-  const RunSetting* setting = judged.setting();
-  if (!setting) return;
+  const auto refused = find_refused(run, requested_simulation(run));
+  if (!refused) return;
   const TomlValue document = load_toml(path);
   // A mission has in [ping] what a run.toml has at its top level.
   for (const std::string section : {"ping", ""}) {
     const TomlValue* table = section.empty() ? &document : document.find(section);
-    if (const TomlValue* key = table ? table->find(setting->key) : nullptr)
-      fail_in_file(path, key->line, judged.refusal((section.empty() ? "" : section + ".") + setting->key));
+    if (const TomlValue* key = table ? table->find(refused->key) : nullptr)
+      fail_in_file(path, key->line, section.empty() ? "" : section + ".", refused->key, refused->text);
   }
 }
 

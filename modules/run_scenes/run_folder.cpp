@@ -15,6 +15,7 @@
 #include "files/peak_memory.hpp"
 #include "files/sha256.hpp"
 #include "returns/coverage.hpp"
+#include "run/parse_values.hpp"
 #include "run/run_checks.hpp"
 #include "run/run_settings.hpp"
 #include "scene_io/save_cloud.hpp"
@@ -25,9 +26,10 @@
 #include "store/toml_tree.hpp"
 
 namespace insonify {
-namespace {
 
 using nlohmann::ordered_json;
+
+namespace {
 
 ordered_json sonar_json(const PingSetup& setup, double sound_speed) {
   const SonarHead& head = setup.head;
@@ -91,12 +93,10 @@ SimulationOptions RunFolder::options_for(const SceneCloud& scene) {
   SimulationOptions options = setup_.simulation;
   const std::size_t per_pixel = static_cast<std::size_t>(options.outputs.contributors);
   if (per_pixel == 0) return options;
-  std::vector<std::string> materials;
-  for (const Material& material : scene.materials) materials.push_back(material.name);
   const SonarHead& head = setup_.head;
   contributors_ =
       std::make_unique<ContributorFile>(directory_.file("contributors.h5"), head.fan.beams(), head.gate.bins(),
-                                        per_pixel, materials, options.effects.double_echoes > 0);
+                                        per_pixel, words_of(scene.materials), options.effects.double_echoes > 0);
   options.outputs.contributor_sink = this;
   return options;
 }
@@ -188,8 +188,6 @@ void RunFolder::write_image(Ping image, std::vector<PingNote> notes, const std::
 }
 
 void RunFolder::finish(const ordered_json& manifest) { write_manifest(directory_, manifest); }
-
-using nlohmann::ordered_json;
 
 std::string run_toml(const PingSetup& setup, const std::string& settings) {
   const HeadOptions& requested = setup.run.head;

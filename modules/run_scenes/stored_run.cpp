@@ -46,8 +46,8 @@ SceneOptions StoredRun::scene() const {
 RunDraws StoredRun::draws() const {
   const fs::path survey = (path_exists(path_) ? real_path(path_) : fs::path(path_)).parent_path();
   if (const fs::path mission = survey / "mission.toml"; is_survey_run(survey.string()) && path_exists(mission)) {
-    const SurveyRandomisation differs = load_survey_randomisation(mission.string());
-    return {differs.seed, {differs.spread.scene_pings, 0}};
+    const MissionFile differs = load_mission_tables(mission.string());
+    return {differs.seed, {differs.randomise.scene_pings, 0}};
   }
   const std::optional<Run> sent = settings();
   if (!sent) return {};

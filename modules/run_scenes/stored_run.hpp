@@ -27,7 +27,7 @@ class StoredRun {
   /// load_scene_settings.
   SceneOptions scene() const;
   /// Returns seed and draws of its pings: those of the mission beside the folder of a head, else those of its settings.
-  /// Throws as settings and load_survey_randomisation.
+  /// Throws as settings and load_mission_tables.
   RunDraws draws() const;
   /// Returns how its head, wherever it stands, samples a scene; absent without a run.toml that has the sonar.
   std::optional<View> view(const WholeScene& scene, int threads) const;

@@ -112,13 +112,9 @@ void read_material(const std::string& path, const TomlValue& table, MaterialEntr
                    const std::function<Material(const std::string&)>& find_like,
                    const std::vector<std::string>& others) {
   const auto line = [&](const char* key) { return table.find(key) ? table.find(key)->line : 0; };
-  if (const TomlValue* like = table.find("like"); like && like->kind == TomlValue::Kind::text) {
-    try {
-      entry.sourced.material = find_like(like->text);
-    } catch (const Error& error) {
-      fail_in_file(path, like->line, "like: ", error.what());
-    }
-  }
+  if (const TomlValue* like = table.find("like"); like && like->kind == TomlValue::Kind::text)
+    at_line(
+        path, like->line, [&] { entry.sourced.material = find_like(like->text); }, "like: ");
   std::vector<Key> keys = material_keys(entry);
   const bool lambert = !line("like") && (!line("law") || table.find("law")->text == "lambert");
   for (Key& key : keys) key.required = key.required && (lambert || key.name != std::string("lambert_mu_db"));

@@ -26,16 +26,6 @@ Pose from_ned(const Pose& pose) {
   return turned;
 }
 
-/// Adds file and line to the errors that `body` throws.
-template <typename Body>
-void at_line(const std::string& path, int line, const Body& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    fail_in_file(path, line, error.what());
-  }
-}
-
 /// Returns the water level of a mission as a series. Throws Error(argument) if there is none.
 TideSeries water_of(const MissionFile& m) {
   if (!m.mission.tide.time.empty()) return m.mission.tide;
@@ -211,18 +201,11 @@ void read_tables(const std::string& path, const TomlValue& document, MissionTabl
 
 }  // namespace
 
-SurveyFrame load_survey_frame(const std::string& path) {
+MissionFile load_mission_tables(const std::string& path) {
   MissionTables t;
   MissionFile m;
   read_tables(path, load_toml(path), t, m);
-  return {m.start_utc, m.anchor, m.system};
-}
-
-SurveyRandomisation load_survey_randomisation(const std::string& path) {
-  MissionTables t;
-  MissionFile m;
-  read_tables(path, load_toml(path), t, m);
-  return {m.randomise, m.seed};
+  return m;
 }
 
 MissionFile load_mission(const std::string& path) {

@@ -57,24 +57,9 @@ struct MissionFile {
   std::vector<MissionSonar> sonars;  ///< one for each head
 };
 
-/// The date of a survey, and its position on the globe.
-struct SurveyFrame {
-  std::string start_utc;         ///< date of time 0; empty: unknown
-  std::optional<Anchor> anchor;  ///< place and heading of the world's axes
-  std::string system{};          ///< projected system of the world's coordinates; empty: unknown
-};
-
-/// Returns only start_utc, anchor and system of a mission. Throws as load_mission.
-SurveyFrame load_survey_frame(const std::string& path);
-
-/// Random differences between the pings of a survey.
-struct SurveyRandomisation {
-  Randomisation spread;
-  std::uint64_t seed = 1;
-};
-
-/// Returns only seed and [randomise] of a mission. Throws as load_mission.
-SurveyRandomisation load_survey_randomisation(const std::string& path);
+/// Returns a mission without trajectory, heads and legs, and without the files that it names: for its date, place, seed
+/// and [randomise]. Throws as load_mission.
+MissionFile load_mission_tables(const std::string& path);
 
 /// Returns a mission from TOML (docs/survey.md lists the keys). Paths are looked up from the current folder, then from
 /// the folder of the file, then from the folder above it. Unknown keys, wrong types, and missions that

@@ -91,11 +91,7 @@ const Trajectory& Reader::trajectory_of(int line, const std::string& file) const
   const auto [trajectory, is_new] = known.trajectories.try_emplace(file);
   if (!is_new) return trajectory->second;
   trajectory->second = lower_case(file).ends_with(".csv") ? load_trajectory(file) : load_tum_trajectory(file);
-  try {
-    require_valid(trajectory->second, "trajectory");
-  } catch (const Error& error) {
-    fail_at(line, error.what());
-  }
+  at_line(path, line, [&] { require_valid(trajectory->second, "trajectory"); });
   return trajectory->second;
 }
 
@@ -160,11 +156,7 @@ void Reader::read_scatter(const TomlValue& table, SceneFile& scene) const {
   if (!t.bury.empty()) s.rule.least_bury = t.bury.front(), s.rule.most_bury = t.bury.back();
   if (!t.scale.empty()) s.rule.least_scale = t.scale.front(), s.rule.most_scale = t.scale.back();
   if (t.min_distance > 0) s.rule.min_distance = t.min_distance;
-  try {
-    require_valid(s.rule, "scatter");
-  } catch (const Error& error) {
-    fail_at(table.line, error.what());
-  }
+  at_line(path, table.line, [&] { require_valid(s.rule, "scatter"); });
   scene.scatters.push_back(std::move(s));
 }
 

@@ -33,6 +33,16 @@ template <typename... Parts>
   fail(ErrorKind::content, path, ":", line, ": ", parts...);
 }
 
+/// Runs `body`. What it refuses becomes Error(content) "path:line: ..." with its text after `begin`.
+template <typename Body>
+void at_line(const std::string& path, int line, const Body& body, const char* begin = "") {
+  try {
+    body();
+  } catch (const Error& error) {
+    fail_in_file(path, line, begin, error.what());
+  }
+}
+
 /// Returns a text as TOML, with quotes and escapes.
 std::string as_toml(const std::string& text);
 /// Returns a number as TOML, with the fewest digits that read back to the same bits.

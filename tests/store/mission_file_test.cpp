@@ -287,7 +287,7 @@ TEST(MissionFile, reads_navigation_noise_and_where_the_survey_is) {
   EXPECT_EQ(m.mission.navigation.step, 0.2);
   EXPECT_GT(m.mission.navigation.nodes.size(), 50U);
   EXPECT_TRUE(load_mission(own_file("m.toml", whole)).mission.navigation.nodes.empty());
-  const SurveyFrame frame = load_survey_frame(own_path("m.toml"));
+  const MissionFile frame = load_mission_tables(own_path("m.toml"));
   EXPECT_EQ(frame.start_utc, "2026-05-01T08:30:00Z");
   EXPECT_EQ(frame.anchor.value().heading_deg, 30);
   EXPECT_EQ(frame.system, "");
@@ -356,7 +356,7 @@ TEST(MissionFile, reads_limits_of_random_poses_in_place_of_a_trajectory) {
   EXPECT_EQ(m.random_poses.pitch, (std::array<double, 2>{radians(5), radians(25)}));
   EXPECT_EQ(m.random_poses.roll, (std::array<double, 2>{0, 0}));
   EXPECT_EQ(m.random_poses.clearance, 0.5);
-  EXPECT_EQ(load_survey_randomisation(own_path("m.toml")).seed, 7U);
+  EXPECT_EQ(load_mission_tables(own_path("m.toml")).seed, 7U);
 }
 
 TEST(MissionFile, says_what_is_wrong_with_random_poses) {

@@ -53,7 +53,7 @@ void add_options(OptionList list, AccuracyOptions& o) {
   list.add("--force", &o.run.output.force, "replace an existing run directory");
   list.add("--no-picture", &o.run.output.no_picture, "do not draw the charts");
   add_common(list, o.common);
-  add_work(list, o.common);
+  add_work(list, o.common.threads, o.common.seed);
 }
 
 SweepOptions sweep_options(const AccuracyOptions& o) {

@@ -21,18 +21,11 @@ void add_common(OptionList list, CommonOptions& o) {
   list.add("--json", &o.json, "print the result as JSON on stdout");
 }
 
-namespace {
-
-void add_threads_and_seed(OptionList list, int& threads, std::uint64_t& seed) {
+void add_work(OptionList list, int& threads, std::uint64_t& seed) {
   list.add("-j,--threads", &threads, "number of threads; 0: all cores. Results do not depend on it",
            {.within = std::pair(0, 1024)});
   add_settings(list, {seed_setting(seed)});
 }
-
-}  // namespace
-
-void add_work(OptionList list, CommonOptions& o) { add_threads_and_seed(list, o.threads, o.seed); }
-void add_work(OptionList list, SimulationOptions& o) { add_threads_and_seed(list, o.threads, o.seed); }
 
 void add_settings(OptionList list, const std::vector<RunSetting>& settings) {
   for (const RunSetting& s : settings) list.add(s.option, s.value, s.help, s.rules);
@@ -102,7 +95,7 @@ void add_ping_options(OptionList list, PingCommand& command, bool with_output) {
   if (with_output) add_output(list, o.output);
   add_settings(list, ping_settings(o));
   add_common(list, command.common);
-  add_work(list, o.simulation);
+  add_work(list, o.simulation.threads, o.simulation.seed);
 }
 
 Run complete_run(const PingCommand& command) {

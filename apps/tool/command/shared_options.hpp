@@ -13,8 +13,7 @@ void add_verbosity(OptionList list, CommonOptions& options);
 /// --quiet, --verbose and --json.
 void add_common(OptionList list, CommonOptions& options);
 /// --threads and --seed.
-void add_work(OptionList list, CommonOptions& options);
-void add_work(OptionList list, SimulationOptions& options);
+void add_work(OptionList list, int& threads, std::uint64_t& seed);
 /// The options of settings.
 void add_settings(OptionList list, const std::vector<RunSetting>& settings);
 /// The scene that is required, and how it is completed.

@@ -65,10 +65,11 @@ struct DatasetSource {
   std::string scene_digest;          ///< digest of the scene's file; of a run without its scene that of the run's name
   std::vector<std::string> split{};  ///< train, val or test, of each ping
   std::vector<std::set<std::string>> shows{};  ///< classes that have boxes, of each ping; empty: unknown
-  std::string draw_key;  ///< key of a run that is no survey: equal for pings of one draw of one scene
-  std::optional<SurveyRandomisation> randomisation{};  ///< randomisation of a mission; absent: none
-  SceneInstances instances{};                          ///< if the scene's cloud has a field `instance`
-  std::string note{};                                  ///< on files of the scene that are gone; empty: none
+  std::string draw_key;        ///< key of a run that is no survey: equal for pings of one draw of one scene
+  Randomisation randomise{};   ///< spread of its mission; of another run none
+  std::uint64_t seed = 1;      ///< seed of that spread
+  SceneInstances instances{};  ///< if the scene's cloud has a field `instance`
+  std::string note{};          ///< on files of the scene that are gone; empty: none
 };
 
 /// The heads of runs, surveys and cubes. Throws Error(file) for one that is not there, Error(content) for a survey that

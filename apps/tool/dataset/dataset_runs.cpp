@@ -44,14 +44,14 @@ void find_scene(DatasetSource& source, const StoredRun& run) {
 
 std::vector<DatasetSource> sources_of_survey(const std::string& run) {
   const SurveyRun survey = load_survey_run(run);
-  const std::string mission = (fs::path(run) / "mission.toml").string();
+  const MissionFile of_mission = load_mission_tables((fs::path(run) / "mission.toml").string());
   std::vector<DatasetSource> sources;
   for (std::size_t h = 0; h < survey.heads.size(); ++h) {
     DatasetSource source;
     source.run = run, source.head = survey.heads[h].name, source.head_index = h;
     for (const auto& [number, files, mark] : all_blocks(run, survey, survey.heads[h]))
       if (path_exists(files.cube)) source.cubes.push_back(files.cube);
-    source.randomisation = load_survey_randomisation(mission);
+    source.randomise = of_mission.randomise, source.seed = of_mission.seed;
     find_scene(source, StoredRun((fs::path(run) / source.head).string()));
     sources.push_back(std::move(source));
   }

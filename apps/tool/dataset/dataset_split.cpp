@@ -140,13 +140,13 @@ void split_by_region(std::vector<DatasetSource>& sources, const std::vector<doub
 /// Draws of a scene's bodies in a random order, the same one each time.
 void split_by_draw(std::vector<DatasetSource>& sources, const std::vector<double>& shares) {
   for (const DatasetSource& source : sources)
-    if (source.draw_key.empty() && (!source.randomisation || source.randomisation->spread.scene_pings == 0))
+    if (source.draw_key.empty() && source.randomise.scene_pings == 0)
       fail(ErrorKind::argument, "--split-by draw: ", source.run,
            " is a survey that does not draw its scene anew; give [randomise] scene in its mission, or split by another "
            "unit");
   split_by(sources, shares, true, [](const DatasetSource& source, const TrackPoint& ping) {
     if (!source.draw_key.empty()) return sha256_of(source.draw_key);
-    return sha256_of(run_key(source) + fmt::format("{}", ping.number / source.randomisation->spread.scene_pings));
+    return sha256_of(run_key(source) + fmt::format("{}", ping.number / source.randomise.scene_pings));
   });
 }
 

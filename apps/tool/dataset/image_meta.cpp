@@ -87,9 +87,9 @@ ordered_json image_meta(const ImageOf& of, const DatasetOptions& options, GreyWi
                              {"size_m", numbers_json(ping.labels.views[p].size)},
                              {"world_from_part", pose.matrix().isIdentity(0) ? ordered_json() : pose_json(pose)}});
   }
-  if (source.randomisation && source.randomisation->spread.any())
-    meta["randomised"] = randomised_json(randomised(source.randomisation->spread, source.randomisation->seed,
-                                                    {.head = source.head_index, .number = ping.number}));
+  if (source.randomise.any())
+    meta["randomised"] =
+        randomised_json(randomised(source.randomise, source.seed, {.head = source.head_index, .number = ping.number}));
   return meta;
 }
 

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/units.hpp"
 #include "files/memory_limit.hpp"
+#include "run/parse_values.hpp"
 #include "run/ping_setup.hpp"
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
@@ -136,8 +137,6 @@ std::vector<MaterialShare> shares_of(const SceneCloud& scene) {
 
 ordered_json tiles_info(const std::string& path, const TiledScene& tiled) {
   const TiledSceneInfo& info = tiled.info();
-  ordered_json materials = ordered_json::array();
-  for (const Material& m : info.materials) materials.push_back(m.name);
   ordered_json json = {{"path", path},
                        {"format", "insonify tiles"},
                        {"reader", "HDF5"},
@@ -149,7 +148,7 @@ ordered_json tiles_info(const std::string& path, const TiledScene& tiled) {
                        {"mean_spacing_m", info.whole.mean_spacing},
                        {"largest_area_m2", info.whole.largest_area},
                        {"normals_oriented", info.normals_oriented},
-                       {"materials", materials}};
+                       {"materials", words_of(info.materials)}};
   if (!info.system.empty()) json["system"] = info.system;
   if (info.surfels == 0) return json;
   if (tiled.select_all().bytes_to_load() < 0.5 * available_memory())

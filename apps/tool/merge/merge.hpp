@@ -24,19 +24,21 @@ std::vector<std::string> merge_companions(const RunDirectory& directory, const s
                                           const MergedCube& merged, nlohmann::ordered_json& manifest);
 
 /// For the manifest of a survey: start_utc and anchor, null if unknown, and the system of its world if it is known.
-nlohmann::ordered_json frame_json(const SurveyFrame& frame);
+nlohmann::ordered_json frame_json(const MissionFile& frame);
 
-/// A head of a merged survey and its cube.
-struct HeadCube {
-  std::string name, path;
+/// The cubes of a head, whose settings are in FOLDER/NAME/run.toml; joined they are FOLDER/NAME/cube.h5.
+struct HeadCubes {
+  std::string name;
+  std::vector<std::string> cubes;
 };
 
-/// The ways of the heads as GeoJSON: for each a LineString of longitude, latitude and height (WGS 84, E90), with its
-/// name, the numbers of its pings, and their times: UTC, or [s] without start_utc. Heads of one ping give a Point.
+/// The ways of the heads that have cubes, in the folder of their merged survey, as GeoJSON: for each a LineString of
+/// longitude, latitude and height (WGS 84, E90), with its name, the numbers of its pings, and their times: UTC, or [s]
+/// without start_utc. Heads of one ping give a Point.
 /// place      where the world is
 /// start_utc  of time 0, or ""
 nlohmann::ordered_json track_geojson(const Georeference& position, const std::string& start_utc,
-                                     const std::vector<HeadCube>& heads);
+                                     const std::string& folder, const std::vector<HeadCubes>& heads);
 
 /// --mosaic and what goes with it.
 struct MosaicOptions {
@@ -52,12 +54,6 @@ struct MosaicOptions {
 /// with a position on the globe or a local plane, .tif. Throws Error(content) naming blocks that
 /// are missing or were changed; SomeFailed, when all is written, if some pings failed.
 void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common);
-
-/// The cubes of a head, whose settings are in FOLDER/NAME/run.toml.
-struct HeadCubes {
-  std::string name;
-  std::vector<std::string> cubes;
-};
 
 /// Lays the images of a survey on its bed (E96) and writes mosaic.vti, .png and .pgw into its folder, and .tif
 /// if there is a plane: north up there, each cell as the cell of the mosaic that holds its middle.

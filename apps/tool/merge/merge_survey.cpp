@@ -29,10 +29,9 @@ namespace {
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-struct Finished {
+/// A finished block and its head.
+struct Finished : StoredBlock {
   const SurveyRunHead* head;
-  BlockFiles files;
-  BlockMark mark;
 };
 
 std::string pings_of(const SurveyRunHead& head, std::size_t block) {
@@ -53,7 +52,7 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
     };
     for (StoredBlock& block : stored_blocks(folder, run, head)) {
       miss_until(block.number);
-      finished.push_back({&head, std::move(block.files), std::move(block.mark)});
+      finished.push_back({std::move(block), &head});
     }
     miss_until(head.blocks());
     all += head.blocks();
@@ -66,13 +65,16 @@ std::vector<Finished> finished_blocks(const std::string& folder, const SurveyRun
   return finished;
 }
 
+std::string joined_cube(const std::string& folder, const std::string& head) {
+  return (fs::path(folder) / head / "cube.h5").string();
+}
+
 /// The results of joining the blocks of all heads.
 struct JoinedHeads {
   ordered_json heads = ordered_json::array(), failed = ordered_json::array();  ///< for the manifest
   ordered_json notes = ordered_json::array();                                  ///< notes on the pings, for the manifest
   std::vector<std::string> clouds, coverages;                                  ///< paths of the files of the blocks
   std::vector<HeadCubes> cubes;                                                ///< cubes of the blocks, by head
-  std::vector<HeadCube> joined_cubes;
 };
 
 JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const std::vector<Finished>& finished,
@@ -90,10 +92,9 @@ JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const st
       all.clouds.push_back(block.files.returns);
       if (!block.mark.coverage_sha256.empty()) all.coverages.push_back(block.files.coverage);
     }
-    const std::string cube = (fs::path(folder) / head.name / "cube.h5").string();
+    const std::string cube = joined_cube(folder, head.name);
     if (!of_head.empty()) {
       concatenate_cube_files(cube, of_head, copy);
-      all.joined_cubes.push_back({head.name, cube});
       for (const PingNote& note : read_cube(cube, 0, 0).notes) {
         progress.note(head.name + ": " + sentence(note));
         all.notes.push_back(note_json(note, head.name));
@@ -109,7 +110,7 @@ JoinedHeads join_heads(const std::string& folder, const SurveyRun& run, const st
 
 /// Where the world is: as asked, else as mission or scene say; absent if none says it. Without a mosaic, a system that
 /// GDAL cannot serve gives none.
-std::optional<Georeference> georeference_of_survey(const std::string& folder, const SurveyFrame& frame,
+std::optional<Georeference> georeference_of_survey(const std::string& folder, const MissionFile& frame,
                                                    const MosaicOptions& mosaic, const std::vector<Finished>& finished) {
   std::vector<Eigen::Vector3d> positions;
   for (const Finished& block : finished)
@@ -124,8 +125,8 @@ std::optional<Georeference> georeference_of_survey(const std::string& folder, co
 }
 
 /// Mission and scene say where the world of a survey is.
-SurveyFrame frame_of(const std::string& folder) {
-  SurveyFrame frame = load_survey_frame((fs::path(folder) / "mission.toml").string());
+MissionFile frame_of(const std::string& folder) {
+  MissionFile frame = load_mission_tables((fs::path(folder) / "mission.toml").string());
   if (const std::string system = StoredRun(folder).system(); !system.empty()) frame.system = system;
   return frame;
 }
@@ -148,7 +149,7 @@ ordered_json coordinates_of(const Georeference& world, const Pose& world_from_he
 void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mosaic, const CommonOptions& common) {
   const SurveyRun run = load_survey_run(folder);
   const std::vector<Finished> finished = finished_blocks(folder, run);
-  const SurveyFrame frame = frame_of(folder);
+  const MissionFile frame = frame_of(folder);
   const std::optional<Georeference> georeference = georeference_of_survey(folder, frame, mosaic, finished);
   const std::optional<RasterPlane> plane = plane_of(mosaic, georeference);
   Progress progress(common, 2 + static_cast<int>(run.heads.size()) + (mosaic.cell > 0));
@@ -157,7 +158,7 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
                [&](std::size_t b) { require_unchanged(finished[b].files, finished[b].mark); });
 
   const JoinedHeads joined_heads = join_heads(folder, run, finished, copy, progress);
-  const auto& [heads, failed, notes, clouds, coverages, cubes, joined_cubes] = joined_heads;
+  const auto& [heads, failed, notes, clouds, coverages, cubes] = joined_heads;
   progress.step("joining returns");
   const std::string returns = (fs::path(folder) / "returns.ply").string();
   ordered_json manifest = {{"schema", 1},
@@ -168,7 +169,7 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
   manifest.update(frame_json(frame));
   if (georeference)
     write_file((fs::path(folder) / "track.geojson").string(),
-               track_geojson(*georeference, frame.start_utc, joined_cubes).dump(1) + "\n");
+               track_geojson(*georeference, frame.start_utc, folder, cubes).dump(1) + "\n");
   if (!clouds.empty()) {
     join_clouds(returns, clouds);
     if (mosaic.cell > 0) {
@@ -193,7 +194,7 @@ void merge_survey(const std::string& folder, bool copy, const MosaicOptions& mos
                                  failed.size())};
 }
 
-ordered_json frame_json(const SurveyFrame& frame) {
+ordered_json frame_json(const MissionFile& frame) {
   ordered_json json = {{"start_utc", nullptr}, {"anchor", nullptr}};
   if (!frame.start_utc.empty()) json["start_utc"] = frame.start_utc;
   if (frame.anchor)
@@ -204,12 +205,13 @@ ordered_json frame_json(const SurveyFrame& frame) {
   return json;
 }
 
-ordered_json track_geojson(const Georeference& georeference, const std::string& start_utc,
-                           const std::vector<HeadCube>& heads) {
+ordered_json track_geojson(const Georeference& georeference, const std::string& start_utc, const std::string& folder,
+                           const std::vector<HeadCubes>& heads) {
   ordered_json features = ordered_json::array();
-  for (const HeadCube& head : heads) {
+  for (const HeadCubes& head : heads) {
+    if (head.cubes.empty()) continue;
     ordered_json line = ordered_json::array(), times = ordered_json::array(), numbers = ordered_json::array();
-    for (const TrackPoint& point : read_track(head.path)) {
+    for (const TrackPoint& point : read_track(joined_cube(folder, head.name))) {
       line.push_back(coordinates_of(georeference, point.world_from_head));
       numbers.push_back(point.number);
       if (start_utc.empty())

@@ -43,7 +43,7 @@ void add_options(OptionList list, SynthesizeOptions& o) {
   add_settings(list, settings(o));
   add_output(list, o.run.output);
   add_common(list, o.common);
-  add_work(list, o.run.simulation);
+  add_work(list, o.run.simulation.threads, o.run.simulation.seed);
 }
 
 /// Returns the text of run.toml beside sonar and environment.

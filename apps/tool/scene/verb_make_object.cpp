@@ -45,8 +45,7 @@ void add_options(OptionList list, MakeObjectOptions& o) {
 }
 
 const ObjectKind& kind_of(const std::string& name) {
-  std::vector<std::string> names;
-  for (const ObjectKind& kind : object_kinds()) names.emplace_back(kind.name);
+  const std::vector<std::string> names = words_of(object_kinds());
   const ObjectKind* kind = find_object(name);
   if (!kind)
     fail(ErrorKind::argument, "no object '", name, "', must be one of: ", joined(names), did_you_mean(name, names));
@@ -72,9 +71,8 @@ ObjectSettings settings_of(const ObjectKind& kind, const std::vector<std::string
 
 /// The names of the materials after --material, in the order of the object's own.
 std::vector<std::string> names_after(const std::vector<std::string>& options, const std::vector<Material>& own) {
-  std::vector<std::string> names, before;
-  for (const Material& material : own) before.push_back(material.name);
-  names = before;
+  const std::vector<std::string> before = words_of(own);
+  std::vector<std::string> names = before;
   for (const std::string& option : options) {
     const std::size_t equal = option.find('=');
     if (equal == option.npos) {
@@ -133,18 +131,16 @@ void make_object_file(const MakeObjectOptions& o) {
   double area = 0;
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t) area += area_of(corners_of(mesh, t));
   const Eigen::Vector3d size = size_of(mesh);
-  const std::string materials = joined(mesh.materials, ", ", [](const Material& m) { return m.name; });
-  nlohmann::ordered_json names = nlohmann::ordered_json::array();
-  for (const Material& material : mesh.materials) names.push_back(material.name);
+  const std::vector<std::string> materials = words_of(mesh.materials);
   print_summary(o.common,
                 {{"output", o.output},
                  {"object", kind.name},
                  {"size_m", {size.x(), size.y(), size.z()}},
                  {"triangles", mesh.triangle.size()},
                  {"area_m2", area},
-                 {"materials", names}},
+                 {"materials", materials}},
                 fmt::format("{}: {} of {} m, {} triangles, {:.4g} m^2, {}", o.output, kind.name, size_text(mesh),
-                            mesh.triangle.size(), area, materials));
+                            mesh.triangle.size(), area, joined(materials)));
 }
 
 }  // namespace

@@ -57,9 +57,11 @@ void add_options(OptionList list, MakeSceneOptions& o) {
 
 nlohmann::ordered_json summary_json(const MakeSceneOptions& o, std::size_t surfels,
                                     const std::vector<Material>& materials) {
-  nlohmann::ordered_json names = nlohmann::ordered_json::array();
-  for (const Material& material : materials) names.push_back(material.name);
-  return {{"output", o.output}, {"scene", o.name}, {"surfels", surfels}, {"seed", o.common.seed}, {"materials", names}};
+  return {{"output", o.output},
+          {"scene", o.name},
+          {"surfels", surfels},
+          {"seed", o.common.seed},
+          {"materials", words_of(materials)}};
 }
 
 /// Replaces the materials that a table of the options has.
@@ -70,8 +72,8 @@ void replace_materials(const MakeSceneOptions& o, std::vector<Material>& materia
     for (Material& material : materials)
       if (material.name == other.material.name) material = other.material, ++replaced;
   if (replaced == 0)
-    fail(ErrorKind::argument, "--materials = ", o.materials_file, ": has none of the scene's materials: ",
-         shortened_list(materials, ", ", [](const Material& m) { return m.name; }));
+    fail(ErrorKind::argument, "--materials = ", o.materials_file,
+         ": has none of the scene's materials: ", shortened_list(words_of(materials)));
 }
 
 void make_scene_as_tiles(const MakeSceneOptions& o, const BuiltInSceneOptions& built_in, Progress& progress) {

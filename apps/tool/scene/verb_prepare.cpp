@@ -46,7 +46,7 @@ void add_options(OptionList list, PrepareOptions& o) {
   list.add("--force", &o.force, "replace an existing file");
   list.add("--normals", &o.normals, "has no effect: missing normals are always estimated");
   add_common(list, o.common);
-  add_work(list, o.common);
+  add_work(list, o.common.threads, o.common.seed);
 }
 
 /// One cloud of a scene of parts, its surfels numbered through, with a column for the number of its part, from 1.

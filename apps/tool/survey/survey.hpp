@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <atomic>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -56,26 +58,6 @@ std::shared_ptr<const OpenScene> open_survey_scene(SurveySetup& setup, const Com
 /// Decides for each head whether its pings merge surfels, and records it for its run.toml.
 void decide_detail(const SceneSource& scene, int threads, SurveySetup& setup);
 
-/// Reads and writes the blocks of a survey in its folder.
-class SurveyBlocks {
- public:
-  /// `observer` receives what cannot be kept, or taken up again.
-  SurveyBlocks(const SurveySetup& setup, std::string folder, RunObserver& observer)
-      : setup_(setup), folder_(std::move(folder)), observer_(observer) {}
-
-  bool is_done(const SurveyBlock& block) const;
-  /// Pings that an interrupted run left; a damaged file counts as none, with a note.
-  BlockOutcomes resume(const SurveyBlock& block) const;
-  /// Writes a whole block with its mark, or what is done of one that is not whole for `resume`.
-  void keep(const SurveyBlock& block, BlockOutcomes& outcomes) const;
-
- private:
-  BlockFiles files_of(const SurveyBlock& block) const;
-  const SurveySetup& setup_;
-  std::string folder_;
-  RunObserver& observer_;
-};
-
 /// Writes run.toml of every head and a copy of the mission into the folder of the survey, unless they are there.
 void write_survey_settings(const SurveySetup& setup, const std::string& folder);
 
@@ -96,13 +78,42 @@ class SurveyStatus {
   double seconds() const { return seconds_; }  ///< until the last write
 
  private:
-  void write_locked(const std::string& state);
   Progress& progress_;
   std::string path_, shard_;
   std::size_t pings_, done_before_, made_ = 0, failed_ = 0;
   double seconds_ = 0, written_ = 0;
   StopWatch watch_;
-  std::mutex guard_;
+  std::recursive_mutex guard_;
+};
+
+/// Returns whether the folder of a survey holds a block whole.
+bool is_done(const SurveySetup& setup, const std::string& folder, const SurveyBlock& block);
+
+/// Reads and writes the blocks of a survey in its folder, and says how far it is.
+class SurveyFolder : public SurveyStore {
+ public:
+  /// `observer` receives what cannot be kept, or taken up again.
+  SurveyFolder(const SurveySetup& setup, std::string folder, SurveyStatus& status, RunObserver& observer)
+      : setup_(setup), folder_(std::move(folder)), status_(status), observer_(observer) {}
+
+  /// Pings that an interrupted run left; a damaged file counts as none, with a note.
+  BlockOutcomes resume(const SurveyBlock& block) override;
+  /// Writes a whole block with its mark, or what is done of one that is not whole for `resume`.
+  void keep(const SurveyBlock& block, BlockOutcomes& outcomes) override;
+  void ping_done(const PingOutcome* made) override;
+  bool stopped() override { return is_interrupted(); }
+  /// Pings made that hear nothing.
+  std::size_t silent() const { return silent_; }
+  /// Notes of the pings that were kept, by the number of their head.
+  const std::map<std::size_t, std::vector<PingNote>>& notes() const { return notes_; }
+
+ private:
+  const SurveySetup& setup_;
+  std::string folder_;
+  SurveyStatus& status_;
+  RunObserver& observer_;
+  std::atomic<std::size_t> silent_ = 0;
+  std::map<std::size_t, std::vector<PingNote>> notes_;  // one thread at a time keeps
 };
 
 }  // namespace insonify::tool

@@ -43,18 +43,18 @@ std::vector<PingNote> drop_unlike_layers(std::vector<Ping>& pings) {
            pings.size(), pings.front().number}};
 }
 
+BlockFiles files_of(const SurveySetup& setup, const std::string& folder, const SurveyBlock& block) {
+  return block_files(folder, setup.file.mission.heads[block.head].name, block.number);
+}
+
 }  // namespace
 
-BlockFiles SurveyBlocks::files_of(const SurveyBlock& block) const {
-  return block_files(folder_, setup_.file.mission.heads[block.head].name, block.number);
+bool is_done(const SurveySetup& setup, const std::string& folder, const SurveyBlock& block) {
+  return find_mark(files_of(setup, folder, block), setup.run.mission_sha256).has_value();
 }
 
-bool SurveyBlocks::is_done(const SurveyBlock& block) const {
-  return find_mark(files_of(block), setup_.run.mission_sha256).has_value();
-}
-
-BlockOutcomes SurveyBlocks::resume(const SurveyBlock& block) const {
-  const BlockFiles files = files_of(block);
+BlockOutcomes SurveyFolder::resume(const SurveyBlock& block) {
+  const BlockFiles files = files_of(setup_, folder_, block);
   std::error_code ignored;
   fs::remove(files.mark, ignored);  // one that is not whole
   remove_leftovers(files);
@@ -78,8 +78,8 @@ BlockOutcomes SurveyBlocks::resume(const SurveyBlock& block) const {
   return outcomes;
 }
 
-void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const {
-  const BlockFiles files = files_of(block);
+void SurveyFolder::keep(const SurveyBlock& block, BlockOutcomes& outcomes) {
+  const BlockFiles files = files_of(setup_, folder_, block);
   std::vector<Ping> pings;
   std::vector<FailedPing> failed;
   std::vector<double> time;
@@ -90,6 +90,7 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const
   for (std::optional<PingOutcome>& outcome : outcomes) {
     whole &= outcome.has_value();
     if (!outcome) continue;
+    gather(notes_[block.head], outcome->notes);
     if (!outcome->failure.empty()) {
       failed.push_back({outcome->ping.number, outcome->failure});
       continue;
@@ -119,6 +120,13 @@ void SurveyBlocks::keep(const SurveyBlock& block, BlockOutcomes& outcomes) const
   if (whole) finish_block(files, setup_.run.mission_sha256, failed);
 }
 
+void SurveyFolder::ping_done(const PingOutcome* made) {
+  // Walls echo where no surfel does: with mirrors a ping is silent if its image is empty, too.
+  const bool mirrors = !mirrors_of(setup_.heads.front().environment).empty();
+  silent_ += made && made->failure.empty() && made->scatterers == 0 && (!mirrors || (made->ping.pressure == 0).all());
+  status_.ping_done(made);
+}
+
 void write_survey_settings(const SurveySetup& setup, const std::string& folder) {
   const auto write_once = [](const fs::path& path, const std::string& text) {
     if (!path_exists(path)) write_file(path.string(), text);
@@ -144,15 +152,11 @@ void SurveyStatus::ping_done(const PingOutcome* made) {
       seconds_ * static_cast<double>(pings_ - done) / static_cast<double>(std::max<std::size_t>(1, made_));
   progress_.show(static_cast<double>(done) / static_cast<double>(pings_),
                  fmt::format("ping {} of {}, {} left", done, pings_, time_text(left)));
-  if (seconds_ - written_ >= 1) write_locked("running");
+  if (seconds_ - written_ >= 1) write("running");
 }
 
 void SurveyStatus::write(const std::string& state) {
   const std::scoped_lock lock(guard_);
-  write_locked(state);
-}
-
-void SurveyStatus::write_locked(const std::string& state) {
   seconds_ += watch_.lap();
   written_ = seconds_;
   const std::size_t left = pings_ - done_before_ - made_;

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <atomic>
 #include <ctime>
 #include <filesystem>
 #include <iterator>
-#include <map>
-#include <mutex>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -217,50 +214,18 @@ void plan_survey(const SurveyOptions& o, const SurveySetup& s, const OpenScene& 
   print_result(o.common, plan, [&] { print_plan(plan); });
 }
 
-/// Writes the blocks of a survey into its folder, and says how far it is.
-class FolderStore : public SurveyStore {
- public:
-  /// mirrors  walls echo where no surfel does: a ping is silent if its image is empty, too
-  FolderStore(const SurveyBlocks& blocks, SurveyStatus& status, bool mirrors)
-      : blocks_(blocks), status_(status), mirrors_(mirrors) {}
-
-  BlockOutcomes resume(const SurveyBlock& block) override { return blocks_.resume(block); }
-  void keep(const SurveyBlock& block, BlockOutcomes& outcomes) override {
-    for (const std::optional<PingOutcome>& outcome : outcomes)
-      if (outcome) gather(notes_[block.head], outcome->notes);
-    blocks_.keep(block, outcomes);
-  }
-  void ping_done(const PingOutcome* made) override {
-    silent_ +=
-        made && made->failure.empty() && made->scatterers == 0 && (!mirrors_ || (made->ping.pressure == 0).all());
-    status_.ping_done(made);
-  }
-  bool stopped() override { return is_interrupted(); }
-  /// Pings made that hear nothing.
-  std::size_t silent() const { return silent_; }
-  /// Notes of the pings that were kept, by the number of their head.
-  const std::map<std::size_t, std::vector<PingNote>>& notes() const { return notes_; }
-
- private:
-  const SurveyBlocks& blocks_;
-  SurveyStatus& status_;
-  bool mirrors_;
-  std::atomic<std::size_t> silent_ = 0;
-  std::map<std::size_t, std::vector<PingNote>> notes_;  // one thread at a time keeps
-};
-
 /// The work of a shard that is still to be done.
 struct Todo {
   std::vector<SurveyBlock> blocks;
   std::size_t pings = 0, done = 0;  ///< pings of the shard; of these, in finished blocks
 };
 
-Todo blocks_of(const SurveySetup& s, const SurveyBlocks& store, const Shard& shard) {
+Todo blocks_of(const SurveySetup& s, const std::string& folder, const Shard& shard) {
   Todo todo;
   for (std::size_t b = shard.index; b < s.blocks.size(); b += shard.of) {
     const std::size_t pings = s.blocks[b].end - s.blocks[b].begin;
     todo.pings += pings;
-    if (store.is_done(s.blocks[b]))
+    if (is_done(s, folder, s.blocks[b]))
       todo.done += pings;
     else
       todo.blocks.push_back(s.blocks[b]);
@@ -281,7 +246,7 @@ std::vector<std::string> failures_of(const SurveyOptions& o, const SurveySetup& 
 }
 
 /// Prints the notes of the pings made, but of silence, which make_pings says with a remedy.
-ordered_json say_notes(const SurveySetup& s, const FolderStore& made, Progress& progress) {
+ordered_json say_notes(const SurveySetup& s, const SurveyFolder& made, Progress& progress) {
   ordered_json notes = ordered_json::array();
   for (const auto& [number, of_head] : made.notes()) {
     const std::string& head = s.file.mission.heads[number].name;
@@ -306,8 +271,7 @@ void make_pings(const SurveyOptions& o, SurveySetup& s, const Shard& shard, Prog
   if (!is_survey_run(o.output)) load();
   open_survey_run(o.output, s.run);
   write_survey_settings(s, o.output);
-  const SurveyBlocks store(s, o.output, progress);
-  const Todo todo = blocks_of(s, store, shard);
+  const Todo todo = blocks_of(s, o.output, shard);
   const std::string name = shard.of == 1 ? "status.json" : fmt::format("status-{}-of-{}.json", shard.index, shard.of);
   SurveyStatus status(progress, (std::filesystem::path(o.output) / name).string(), o.shard, todo.pings, todo.done);
 
@@ -318,7 +282,7 @@ void make_pings(const SurveyOptions& o, SurveySetup& s, const Shard& shard, Prog
     if (!scene) load();
     record_system(o.output, scene->report().meaning.system.value);
     progress.step("pinging");
-    FolderStore folder(store, status, !mirrors_of(s.heads.front().environment).empty());
+    SurveyFolder folder(s, o.output, status, progress);
     finish_on_interrupt("finished pings are kept; the same command goes on from there");
     whole = simulate_survey(*s.survey, todo.blocks, *scene, folder, o.common.threads);
     silent = folder.silent();
