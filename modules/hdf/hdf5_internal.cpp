@@ -27,10 +27,12 @@ std::string reported_reason() {
   return plain_reason(reason);
 }
 
-void write_scalar(const FileContext& context, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
-                  const void* value) {
+// Writes an attribute of a single value, or of `count` of them.
+void write_values(const FileContext& context, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
+                  const void* value, const hsize_t* count = nullptr) {
   const std::string what = std::string("attribute '") + name + "' cannot be written";
-  const Handle space(context.checked(H5Screate(H5S_SCALAR), what), H5Sclose);
+  const Handle space(context.checked(count ? H5Screate_simple(1, count, nullptr) : H5Screate(H5S_SCALAR), what),
+                     H5Sclose);
   const Handle attribute(context.checked(H5Acreate2(where, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT), what),
                          H5Aclose);
   context.checked(H5Awrite(attribute, memory_type, value), what);
@@ -111,30 +113,26 @@ Handle select_row(const FileContext& context, hid_t dataset, const Extent& exten
 }
 
 void write_attribute(const FileContext& context, hid_t where, const char* name, double value) {
-  write_scalar(context, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+  write_values(context, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
 }
 
 void write_attribute(const FileContext& context, hid_t where, const char* name, std::int64_t value) {
-  write_scalar(context, where, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
+  write_values(context, where, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
 }
 
 void write_attribute(const FileContext& context, hid_t where, const char* name, std::uint64_t value) {
-  write_scalar(context, where, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
+  write_values(context, where, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
 }
 
 void write_attribute(const FileContext& context, hid_t where, const char* name, const std::string& value) {
   const Handle type = text_type(context);
   const char* text = value.c_str();
-  write_scalar(context, where, name, type, type, &text);
+  write_values(context, where, name, type, type, &text);
 }
 
 void write_attribute(const FileContext& context, hid_t where, const char* name, std::span<const double> values) {
-  const std::string what = std::string("attribute '") + name + "' cannot be written";
   const hsize_t count = values.size();
-  const Handle space(context.checked(H5Screate_simple(1, &count, nullptr), what), H5Sclose);
-  const Handle attribute(
-      context.checked(H5Acreate2(where, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), what), H5Aclose);
-  context.checked(H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()), what);
+  write_values(context, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), &count);
 }
 
 double read_number(const FileContext& context, hid_t where, const char* name) {
@@ -181,19 +179,25 @@ Handle create_file(const FileContext& context, const std::string& name) {
 
 namespace {
 
-void describe(const FileContext& context, hid_t dataset, const DatasetName& name) {
+// Creates a dataset with these properties, without timestamps, with its unit and name.
+Handle new_dataset(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+                   hid_t properties) {
+  const Handle space(
+      context.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
+  context.checked(H5Pset_obj_track_times(properties, false), name.path);
+  Handle dataset(
+      context.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
+      H5Dclose);
   if (*name.unit) write_attribute(context, dataset, "units", std::string(name.unit));
   if (*name.about) write_attribute(context, dataset, "long_name", std::string(name.about));
+  return dataset;
 }
 
 }  // namespace
 
 Handle create_dataset(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk, Packing packing) {
-  const Handle space(
-      context.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
   const Handle properties(context.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
-  context.checked(H5Pset_obj_track_times(properties, false), name.path);
   if (!chunk.empty()) {
     context.checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), name.path);
     context.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
@@ -203,26 +207,15 @@ Handle create_dataset(const FileContext& context, hid_t file, const DatasetName&
       context.checked(H5Pset_deflate(properties, 1), name.path);
     }
   }
-  Handle dataset(
-      context.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
-      H5Dclose);
-  describe(context, dataset, name);
-  return dataset;
+  return new_dataset(context, file, name, type, extent, properties);
 }
 
 std::uint64_t create_plain(const FileContext& context, hid_t file, const DatasetName& name, hid_t type,
                            const Extent& extent) {
-  const Handle space(
-      context.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
   const Handle properties(context.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
-  context.checked(H5Pset_obj_track_times(properties, false), name.path);
   context.checked(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), name.path);
   context.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), name.path);
-  const Handle dataset(
-      context.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
-      H5Dclose);
-  describe(context, dataset, name);
-  const haddr_t offset = H5Dget_offset(dataset);
+  const haddr_t offset = H5Dget_offset(new_dataset(context, file, name, type, extent, properties));
   return offset == HADDR_UNDEF ? 0 : offset;
 }
 

@@ -37,13 +37,17 @@ Handle open_file(const FileContext& context) {
 
 namespace {
 
-/// Returns the file name of one source of a virtual dataset.
-std::string virtual_source(hid_t properties, std::size_t part) {
-  const ssize_t length = H5Pget_virtual_filename(properties, part, nullptr, 0);
-  std::string source(static_cast<std::size_t>(std::max<ssize_t>(0, length)) + 1, '\0');
-  H5Pget_virtual_filename(properties, part, source.data(), source.size());
-  source.pop_back();
-  return source;
+/// Returns the file names of the sources of a virtual dataset.
+std::vector<std::string> virtual_sources(const FileContext& context, const DatasetName& name, hid_t properties) {
+  std::size_t count = 0;
+  context.checked(H5Pget_virtual_count(properties, &count), name.path);
+  std::vector<std::string> sources(count);
+  for (std::size_t part = 0; part < count; ++part) {
+    const ssize_t length = H5Pget_virtual_filename(properties, part, nullptr, 0);
+    sources[part].resize(static_cast<std::size_t>(std::max<ssize_t>(0, length)));
+    H5Pget_virtual_filename(properties, part, sources[part].data(), sources[part].size() + 1);
+  }
+  return sources;
 }
 
 /// Throws Error(content) for a dataset whose numbers lie in files that the user did not name, so that a stranger's cube
@@ -59,10 +63,7 @@ void require_own_data(const FileContext& context, hid_t file, const DatasetName&
   const Handle properties(context.checked(H5Dget_create_plist(dataset), name.path), H5Pclose);
   if (H5Pget_external_count(properties) > 0) refuse("is stored in another file");
   if (H5Pget_layout(properties) != H5D_VIRTUAL) return;
-  std::size_t sources = 0;
-  context.checked(H5Pget_virtual_count(properties, &sources), name.path);
-  for (std::size_t i = 0; i < sources; ++i) {
-    const std::string source = virtual_source(properties, i);
+  for (const std::string& source : virtual_sources(context, name, properties)) {
     const std::filesystem::path relative = std::filesystem::path(source).lexically_normal();
     if (relative.is_absolute() || (!relative.empty() && *relative.begin() == ".."))
       refuse("is stored outside its folder");
@@ -72,11 +73,8 @@ void require_own_data(const FileContext& context, hid_t file, const DatasetName&
 /// Returns the size of the files of a virtual dataset [bytes]. Throws Error(content) if one is missing: HDF5 would give
 /// fill values in its position.
 hsize_t bytes_of_sources(const FileContext& context, const DatasetName& name, hid_t properties) {
-  std::size_t sources = 0;
-  context.checked(H5Pget_virtual_count(properties, &sources), name.path);
   hsize_t bytes = 0;
-  for (std::size_t i = 0; i < sources; ++i) {
-    const std::string source = virtual_source(properties, i);
+  for (const std::string& source : virtual_sources(context, name, properties)) {
     std::error_code missing;
     const auto size = std::filesystem::file_size(std::filesystem::path(context.path).parent_path() / source, missing);
     if (missing) fail(context.kind, context.path, ": ", name.path, ": its part ", source, " is missing");

@@ -26,13 +26,6 @@ constexpr float cluster_height = 1;  // extent across the surface, in radii
 constexpr float like_normals = 0.7f;
 constexpr float kernel = 0.6f;  // radius over the root of the area: as small as the scatter of the density allows
 
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-
 #if INSONIFY_EMBREE >= 4
 using RayContext = RTCRayQueryContext;
 constexpr RTCSceneFlags filter_of_rays = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
@@ -124,11 +117,10 @@ RTCRayHit ray_within(const SurfaceRay& ray, float from, float to) {
 struct SurfaceRays::Tree {
   const SceneCloud& scene;
   float footprint;
-  std::unique_ptr<RTCDeviceTy, ReleaseDevice> device;
-  std::unique_ptr<RTCSceneTy, ReleaseScene> discs;
+  std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device{rtcNewDevice(nullptr), rtcReleaseDevice};
+  std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> discs{nullptr, rtcReleaseScene};
 
   Tree(const SceneCloud& of, double disc) : scene(of), footprint(static_cast<float>(disc)) {
-    device.reset(rtcNewDevice(nullptr));
     require_no_error();
     discs.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(discs.get(), filter_of_rays);

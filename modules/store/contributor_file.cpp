@@ -74,7 +74,7 @@ hsize_t beams_per_chunk(const Extent& lists) {
 void require_named_materials(const Contributors& c, std::size_t names, const std::string& path) {
   for (const std::uint16_t m : c.material)
     if (m != Contributors::no_material && m >= names)
-      fail(ErrorKind::argument, "write_contributor_file: ", path, ": material ", m, " has no name, there are ", names);
+      fail(ErrorKind::argument, "ContributorFile: ", path, ": material ", m, " has no name, there are ", names);
 }
 
 }  // namespace
@@ -160,10 +160,10 @@ ContributorFile::~ContributorFile() {
 void ContributorFile::write(const Contributors& band, std::size_t first_beam) {
   const QuietErrors quiet;
   const Extent& lists = open_->lists;
-  require_valid(band, "write_contributor_file");
+  require_valid(band, "ContributorFile");
   require_named_materials(band, open_->materials, open_->context.path);
   if (band.bins != lists[1] || band.per_pixel != lists[2] || first_beam + band.beams > lists[0])
-    fail(ErrorKind::argument, "write_contributor_file: ", open_->context.path, ": beams ", first_beam, " to ",
+    fail(ErrorKind::argument, "ContributorFile: ", open_->context.path, ": beams ", first_beam, " to ",
          first_beam + band.beams, " of ", band.bins, " x ", band.per_pixel, " entries, must be within ", lists[0],
          " beams of ", lists[1], " x ", lists[2]);
   write_checked(open_->context, [&] { open_->write(band, first_beam); });
@@ -173,7 +173,7 @@ void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Gr
   for (const auto& [rows, columns] : {std::pair(material_image.rows(), material_image.cols()),
                                       std::pair(instance_image.rows(), instance_image.cols())})
     if (static_cast<hsize_t>(rows) != open_->lists[0] || static_cast<hsize_t>(columns) != open_->lists[1])
-      fail(ErrorKind::argument, "write_contributor_file: ", open_->context.path, ": labels of ", rows, " x ", columns,
+      fail(ErrorKind::argument, "ContributorFile: ", open_->context.path, ": labels of ", rows, " x ", columns,
            " pixels, must be of ", open_->lists[0], " x ", open_->lists[1]);
   {
     const QuietErrors quiet;
@@ -185,18 +185,6 @@ void ContributorFile::finish(const Grid<std::uint16_t>& material_image, const Gr
     });
   }
   open_->pending.commit();
-}
-
-void write_contributor_file(const std::string& path, const NamedContributors& named) {
-  const Contributors& c = named.contributors;
-  require_valid(c, "write_contributor_file");
-  ContributorFile file(path, c.beams, c.bins, c.per_pixel, named.materials, !c.surfel_before.empty());
-  file.write(c, 0);
-  const Grid<std::uint16_t> materials = material_image(c);
-  file.finish(materials, number_objects(materials.unaryExpr([](std::uint16_t material) {
-                return material == Contributors::no_material ? 0 : std::uint32_t{material} + 1;
-              }),
-                                        id_image(c), {}));
 }
 
 std::uintmax_t contributor_bytes(const std::string& path) {

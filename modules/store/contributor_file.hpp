@@ -15,22 +15,18 @@ struct NamedContributors {
   std::vector<std::string> materials;
 };
 
-/// Writes contributors.h5:
+/// Writes contributors.h5 in bands of beams, so that memory holds only one band:
 ///
 ///   beams x bins x per_pixel   /surfel, /id (uint32), /share, /elevation (float32), /material (uint16), /path (uint8);
 ///                              with double echoes also /surfel_before (uint32)
-///   beams x bins               the label images /material_image (uint16) and /instance_image (uint32): the material of
-///                              the strongest contributor, and connected parts of one material, numbered from 1
+///   beams x bins               the label images /material_image (uint16) and /instance_image (uint32), e.g. the
+///                              material of the strongest contributor, and connected parts of one material from 1
 ///   text                       /material_names
 ///   root attributes            schema, content "contributors", and paths, the meaning of the numbers of /path
 ///
 /// Unused entries have surfel and id 4294967295 and material 65535. The same input gives the same bytes. The file is
 /// written to a temporary name, then renamed. Throws Error(argument) for invalid contributors or a material without a
 /// name, Error(file) if it cannot write.
-void write_contributor_file(const std::string& path, const NamedContributors& named);
-
-/// Writes the file of write_contributor_file in bands of beams, so that memory holds only one band. Throws as
-/// write_contributor_file.
 class ContributorFile {
  public:
   /// Begins a file for beams x bins x per_pixel entries and the names of the materials. With `two_surfaces` it has
@@ -52,7 +48,7 @@ class ContributorFile {
   std::unique_ptr<Open> open_;
 };
 
-/// Returns the contents of a file of write_contributor_file, bit for bit. Throws Error(file) if it is missing,
+/// Returns the contents of a file of ContributorFile, bit for bit. Throws Error(file) if it is missing,
 /// Error(content) if it is not such a file, has another schema or lacks a dataset, naming that.
 NamedContributors read_contributor_file(const std::string& path);
 

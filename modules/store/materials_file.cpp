@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -18,8 +17,6 @@
 
 namespace insonify {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr int materials_schema = 1;
 
@@ -73,24 +70,10 @@ void require_energy(const std::string& path, int line, const Material& material,
 
 std::vector<SourcedMaterial> lambert_table() { return load_materials(path_of_materials("")).materials; }
 
-std::string file_of(const std::string& stem) {
-  return (fs::path(data_folder()) / "materials" / (stem + ".toml")).string();
-}
-
-/// Returns the names of the files without their law, sorted.
-std::vector<std::string> stems() {
-  std::vector<std::string> found;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(data_folder()) / "materials", ignored))
-    if (entry.path().extension() == ".toml") found.push_back(entry.path().stem().string());
-  std::ranges::sort(found);
-  return found;
-}
-
 /// Returns the material of a file once for each of its laws; a sediment has two.
-std::vector<MaterialFile> by_each_law(const std::string& stem) {
+std::vector<MaterialFile> by_each_law(const std::string& stem, const std::string& path) {
   std::vector<MaterialFile> all;
-  const MaterialFile file = load_material_file(file_of(stem));
+  const MaterialFile file = load_material_file(path);
   for (const SurfaceLaw& law : laws_alike(file.material.law)) {
     all.push_back(file);
     all.back().material.law = law;
@@ -162,8 +145,8 @@ MaterialFile load_material_file(const std::string& path) {
 
 std::vector<MaterialFile> list_materials() {
   std::vector<MaterialFile> all;
-  for (const std::string& stem : stems())
-    for (MaterialFile& file : by_each_law(stem)) all.push_back(std::move(file));
+  for (const auto& [stem, path] : data_files("materials"))
+    for (MaterialFile& file : by_each_law(stem, path)) all.push_back(std::move(file));
   return all;
 }
 
@@ -181,9 +164,9 @@ std::vector<std::string> material_names() {
 
 MaterialFile find_material_file(const std::string& name) {
   const std::string stem = name.substr(0, name.find('@'));
-  const std::vector<std::string> known = stems();
-  if (std::ranges::find(known, stem) != known.end())
-    for (const MaterialFile& file : by_each_law(stem))
+  const auto known = data_files("materials");
+  if (const auto found = known.find(stem); found != known.end())
+    for (const MaterialFile& file : by_each_law(stem, found->second))
       if (name == stem || name == file.material.name) return file;
   fail(ErrorKind::argument, "material '", name, "' is unknown", did_you_mean(name, material_names()),
        "; see insonify materials");

@@ -66,27 +66,14 @@ fs::path folder_of_this_code() {
                                                                   : fs::path();
 }
 
-std::vector<std::string> preset_names() {
-  const fs::path folder = fs::path(data_folder()) / "sonars";
-  std::vector<std::string> names;
-  look_at_paths([&] {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  });
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-std::string preset_path(const std::string& name) {
-  return (fs::path(data_folder()) / "sonars" / (name + ".toml")).string();
-}
-
 // Returns the names that contain the word ("oculus" matches six presets), or else the nearest one by spelling.
-std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
+std::string suggestion(const std::string& word, const std::map<std::string, std::string>& presets) {
   const std::string wanted = lower_case(word);
-  std::vector<std::string> with_it;
-  std::copy_if(names.begin(), names.end(), std::back_inserter(with_it),
-               [&](const std::string& name) { return !wanted.empty() && name.find(wanted) != std::string::npos; });
+  std::vector<std::string> names, with_it;
+  for (const auto& [name, path] : presets) {
+    names.push_back(name);
+    if (!wanted.empty() && name.find(wanted) != std::string::npos) with_it.push_back(name);
+  }
   const std::string list = with_it.empty() ? nearest_word(wanted, names) : joined(with_it);
   return list.empty() ? "." : "; did you mean " + list + "?";
 }
@@ -95,27 +82,25 @@ constexpr Named<ElevationShape> elevation_shapes[] = {
     {"gaussian", ElevationShape::gaussian}, {"line", ElevationShape::line}, {"sector", ElevationShape::sector}};
 
 // Returns the names of enumerators, as their own function states them.
-template <typename Value>
-std::vector<Named<Value>> named(const char* (*name)(Value), std::initializer_list<Value> values) {
+template <typename Value, typename NameOf>
+std::vector<Named<Value>> named(const NameOf& name_of, const std::vector<Value>& values) {
   std::vector<Named<Value>> table;
-  for (const Value value : values) table.push_back({name(value), value});
+  for (const Value value : values) table.push_back({name_of(value), value});
   return table;
 }
-std::vector<Named<PulseShape>> pulse_names() {
-  std::vector<Named<PulseShape>> table;
-  for (std::size_t k = 0; k < std::size(pulse_kinds); ++k)
-    table.push_back({pulse_shape_name(static_cast<PulseShape>(k)), static_cast<PulseShape>(k)});
-  return table;
+// Returns the first enumerators.
+template <typename Value>
+std::vector<Value> first_of(std::size_t count) {
+  std::vector<Value> values;
+  while (values.size() < count) values.push_back(static_cast<Value>(values.size()));
+  return values;
 }
-std::vector<Named<ArrayShape>> array_names() {
-  std::vector<Named<ArrayShape>> table;
-  for (const ArrayKind& kind : array_kinds) table.push_back({kind.name, static_cast<ArrayShape>(table.size())});
-  return table;
-}
-const auto pulses = pulse_names();
-const auto arrays = array_names();
-const auto windows = named(replica_window_name, {ReplicaWindow::uniform, ReplicaWindow::hann, ReplicaWindow::hamming});
-const auto shadings = named(shading_name, {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev});
+const auto pulses = named(pulse_shape_name, first_of<PulseShape>(std::size(pulse_kinds)));
+const auto arrays = named([](ArrayShape shape) { return array_kinds[static_cast<std::size_t>(shape)].name; },
+                          first_of<ArrayShape>(std::size(array_kinds)));
+const auto windows = named(replica_window_name, first_of<ReplicaWindow>(3));
+const auto shadings =
+    named<Shading>(shading_name, {Shading::taylor, Shading::uniform, Shading::hamming, Shading::chebyshev});
 
 /// Returns true if the shading follows from side_lobe_db alone.
 bool is_default_shading(const SonarSpec& spec) {
@@ -206,18 +191,28 @@ std::string data_folder() {
        INSONIFY_INSTALL_DATA, "; set INSONIFY_DATA to their folder");
 }
 
+std::map<std::string, std::string> data_files(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  look_at_paths([&] {
+    for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(data_folder()) / folder))
+      if (entry.path().extension() == ".toml") files[entry.path().stem().string()] = entry.path().string();
+  });
+  return files;
+}
+
 SonarFile find_sonar(const std::string& name_or_path) {
   if (fs::path(name_or_path).extension() == ".toml") return load_sonar_file(name_or_path);
-  const std::vector<std::string> names = preset_names();
-  if (std::find(names.begin(), names.end(), name_or_path) == names.end())
-    fail(ErrorKind::argument, "sonar '", name_or_path, "' is not a preset", suggestion(name_or_path, names),
+  const auto presets = data_files("sonars");
+  const auto found = presets.find(name_or_path);
+  if (found == presets.end())
+    fail(ErrorKind::argument, "sonar '", name_or_path, "' is not a preset", suggestion(name_or_path, presets),
          " `insonify sonars` lists all; a path ending in .toml is read as a file");
-  return load_sonar_file(preset_path(name_or_path));
+  return load_sonar_file(found->second);
 }
 
 std::vector<SonarFile> list_sonars() {
   std::vector<SonarFile> sonars;
-  for (const std::string& name : preset_names()) sonars.push_back(load_sonar_file(preset_path(name)));
+  for (const auto& [name, path] : data_files("sonars")) sonars.push_back(load_sonar_file(path));
   return sonars;
 }
 

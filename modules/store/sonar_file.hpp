@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ std::vector<SonarFile> list_sonars();
 /// program, else the installed one, else that of the source tree. Throws Error(file) if none exists, or if
 /// INSONIFY_DATA does not name a data folder.
 std::string data_folder();
+/// Returns the paths of the TOML files in a folder of data_folder(), by their names without the extension. Throws
+/// Error(file).
+std::map<std::string, std::string> data_files(const std::string& folder);
 
 /// Returns the spec as TOML text, the table [sonar] of run.toml. The text reads back bit for bit if the angles of the
 /// spec came from degrees (a file, set_sonar_value); an angle computed in radians may change in its last bit.

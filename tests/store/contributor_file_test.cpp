@@ -34,9 +34,16 @@ Grid<std::uint32_t> objects_of(const Contributors& c) {
                           1);
 }
 
+void write_to(const std::string& path, const NamedContributors& named) {
+  const Contributors& c = named.contributors;
+  ContributorFile file(path, c.beams, c.bins, c.per_pixel, named.materials, !c.surfel_before.empty());
+  file.write(c, 0);
+  file.finish(material_image(c), objects_of(c));
+}
+
 std::string write(const NamedContributors& named, const std::string& name = "c.h5") {
   const std::string path = own_path(name);
-  write_contributor_file(path, named);
+  write_to(path, named);
   return path;
 }
 
@@ -160,13 +167,11 @@ TEST(ContributorFile, of_contributors_that_do_not_fit_is_not_written) {
   const std::string old = own_file("old.h5", "old");
   NamedContributors named = make_contributors();
   named.contributors.share.pop_back();
-  EXPECT_EQ(
-      error_with_kind([&] { write_contributor_file(old, named); }),
-      "argument: write_contributor_file: an array of the contributors has 104 entries, must have 5 beams x 7 bins x "
-      "3");
+  EXPECT_EQ(error_with_kind([&] { write_to(old, named); }),
+            "argument: ContributorFile: an array of the contributors has 104 entries, must have 5 beams x 7 bins x 3");
   named = make_contributors();
   named.materials.pop_back();
-  EXPECT_EQ(error_with_kind([&] { write_contributor_file(old, named); }),
-            "argument: write_contributor_file: " + old + ": material 2 has no name, there are 2");
+  EXPECT_EQ(error_with_kind([&] { write_to(old, named); }),
+            "argument: ContributorFile: " + old + ": material 2 has no name, there are 2");
   EXPECT_EQ(read_text_file(old), "old");
 }

@@ -33,28 +33,24 @@ CLI::Option* add_shown(CLI::App& app, const std::string& name, const Member<T>& 
 }
 
 CLI::Option* add_value(CLI::App& app, const std::string& name, const OptionValue& value, const std::string& help) {
-  using Function = std::function<void(const std::string&)>;
-  if (const auto* word = std::get_if<Shown<std::string>>(&value)) return add_shown(app, name, word->value, help);
-  if (const auto* number = std::get_if<Shown<int>>(&value)) return add_shown(app, name, number->value, help);
-  if (const auto* flag = std::get_if<Shown<bool>>(&value)) return add_shown(app, name, flag->value, help);
-  if (const auto* list = std::get_if<NumberList>(&value))
-    return app.add_option_function<std::string>(
-        name,
-        [name, of = *list](const std::string& text) {
-          of.numbers.set(parse_numbers(name, text, of.count, of.meaning));
-        },
-        help);
-  if (bool* const* flag = std::get_if<bool*>(&value)) return app.add_flag(name, **flag, help);
-  if (const auto* text = std::get_if<std::optional<std::string>*>(&value))
-    return app.add_option(name, **text, help)->expected(0, 1);
-  if (const auto* function = std::get_if<Function>(&value))
-    return app.add_option_function<std::string>(name, *function, help);
-  return std::visit(
-      [&](const auto& target) -> CLI::Option* {
-        if constexpr (std::is_pointer_v<std::decay_t<decltype(target)>>) return app.add_option(name, *target, help);
-        return nullptr;
-      },
-      value);
+  const auto add = [&]<typename Value>(const Value& at) -> CLI::Option* {
+    if constexpr (requires { at.value.set; })
+      return add_shown(app, name, at.value, help);
+    else if constexpr (std::is_same_v<Value, NumberList>)
+      return app.add_option_function<std::string>(
+          name,
+          [name, at](const std::string& text) { at.numbers.set(parse_numbers(name, text, at.count, at.meaning)); },
+          help);
+    else if constexpr (std::is_same_v<Value, bool*>)
+      return app.add_flag(name, *at, help);
+    else if constexpr (std::is_same_v<Value, std::optional<std::string>*>)
+      return app.add_option(name, *at, help)->expected(0, 1);
+    else if constexpr (std::is_pointer_v<Value>)
+      return app.add_option(name, *at, help);
+    else
+      return app.add_option_function<std::string>(name, at, help);
+  };
+  return std::visit(add, value);
 }
 
 /// CLI11 would print the largest number as the end of the range.

@@ -211,12 +211,8 @@ class DatasetWriter {
   void finish();
 
   std::size_t images() const { return images_; }
-  /// Boxes of a form, polar or fan.
-  std::size_t boxes_of_polar() const { return polar_.boxes; }
-  std::size_t boxes_of_fan() const { return fan_.boxes; }
-  /// Objects without a box, since their contrast is too small.
-  std::size_t unboxed_of_polar() const { return polar_.unboxed; }
-  std::size_t unboxed_of_fan() const { return fan_.unboxed; }
+  const DatasetForm& polar() const { return polar_; }
+  const DatasetForm& fan() const { return fan_; }
   const SplitTally& tally() const { return tally_; }
   /// Boxes by class, part and form, of all parts that have images.
   nlohmann::ordered_json boxes_by_class() const { return tool::boxes_by_class({&polar_, &fan_}, classes_); }

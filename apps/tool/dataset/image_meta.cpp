@@ -12,16 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-ordered_json pose_json(const Pose& pose) {
-  ordered_json rows = ordered_json::array();
-  for (int r = 0; r < 4; ++r) {
-    ordered_json row = ordered_json::array();
-    for (int c = 0; c < 4; ++c) row.push_back(pose.matrix()(r, c));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 std::vector<double> degrees_of(const std::vector<double>& angles) {
   std::vector<double> all;
   for (const double angle : angles) all.push_back(degrees(angle));

@@ -63,6 +63,8 @@ using PixelBox = std::array<int, 4>;
 
 /// Three numbers as a JSON array; NaN as null.
 nlohmann::ordered_json numbers_json(const Eigen::Vector3d& v);
+/// The rows of a pose as JSON arrays.
+nlohmann::ordered_json pose_json(const Pose& pose);
 
 /// The box about all that the head would see of a part alone: in a polar picture by its ranges and the beams that hear
 /// it, in a fan by the positions where it is drawn. Empty if the head would see nothing; for a fan also if the cube is

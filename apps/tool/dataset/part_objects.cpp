@@ -73,6 +73,12 @@ ordered_json box_json(const std::optional<PixelBox>& box) {
 
 ordered_json numbers_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+ordered_json pose_json(const Pose& pose) {
+  ordered_json rows = ordered_json::array();
+  for (const auto& row : pose.matrix().rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+  return rows;
+}
+
 std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture) {
   if (!(view.visible_share >= 0)) return std::nullopt;
   if (picture.fan) return box_of_positions(view, *picture.fan);
@@ -99,15 +105,10 @@ ordered_json part_objects_json(const PixelLabels& labels, const std::map<std::ui
     const auto object = std::find_if(parts.begin(), parts.end(), [p](const auto& entry) { return entry.second == p; });
     // A part that lies just beyond the fan may still have pixels: its numbers are null.
     if (!(view.visible_share >= 0) && object == parts.end()) continue;
-    ordered_json pose = ordered_json::array();
-    for (int row = 0; row < 4; ++row) {
-      const Eigen::RowVector4d of_row = view.world_from_part.matrix().row(row);
-      pose.push_back(std::vector<double>(of_row.data(), of_row.data() + 4));
-    }
     objects.push_back({{"part", labels.part_names[p]},
                        {"class", labels.part_labels[p]},
                        {"instance", object == parts.end() ? ordered_json() : ordered_json(object->first)},
-                       {"world_from_part", pose},
+                       {"world_from_part", pose_json(view.world_from_part)},
                        {"scale", view.scale},
                        {"size_m", numbers_json(view.size)},
                        {"visible_share", view.visible_share},

@@ -197,16 +197,16 @@ void dataset(const DatasetOptions& o) {
       {"images", writer.images()},
       {"splits", splits},
       {"notes", notes},
-      {"boxes", {{"polar", writer.boxes_of_polar()}, {"fan", writer.boxes_of_fan()}}},
+      {"boxes", {{"polar", writer.polar().boxes}, {"fan", writer.fan().boxes}}},
       {"boxes_by_class", writer.boxes_by_class()},
-      {"unboxed", {{"polar", writer.unboxed_of_polar()}, {"fan", writer.unboxed_of_fan()}}},
+      {"unboxed", {{"polar", writer.polar().unboxed}, {"fan", writer.fan().unboxed}}},
       {"classes", classes},
       {"window_db", {window.min_db, window.max_db}},
       {"peak_memory_mib", peak_memory_mib()}};
   print_summary(o.common, result,
                 fmt::format("{}: {} images ({}) with {} polar and {} fan boxes; classes {}{}", o.output,
-                            writer.images(), counts, writer.boxes_of_polar(), writer.boxes_of_fan(),
-                            shortened_list(classes), class_counts(writer.boxes_by_class())));
+                            writer.images(), counts, writer.polar().boxes, writer.fan().boxes, shortened_list(classes),
+                            class_counts(writer.boxes_by_class())));
 }
 
 }  // namespace

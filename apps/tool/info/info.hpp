@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include "run/options.hpp"
 #include "scene/scene_cloud.hpp"
@@ -38,6 +41,20 @@ nlohmann::ordered_json info_of_swath(const std::string& path);
 
 /// Prints what info_of_scene says of a cloud, mesh or raster.
 void print_scene(const nlohmann::ordered_json& info);
+
+/// The least and the greatest of some numbers, without those that are not recorded.
+struct FactSpan {
+  void add(double value) {
+    if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
+  }
+  /// Returns both; null of none.
+  nlohmann::ordered_json json() const {
+    return least <= most ? nlohmann::ordered_json{least, most} : nlohmann::ordered_json();
+  }
+  /// Returns both, or the one that they are.
+  nlohmann::ordered_json number_or_json() const { return least == most ? nlohmann::ordered_json(least) : json(); }
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+};
 
 /// A path as a shell takes it.
 std::string shell_word(const std::string& path);

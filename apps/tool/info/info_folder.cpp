@@ -215,25 +215,21 @@ std::string shell_word(const std::string& path) {
 
 ordered_json info_of_cube(const std::string& path) {
   const std::string file = StoredRun(path).cube();
-  // The water of a dive is not one number.
-  struct Range {
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    void take(double value) { least = std::min(least, value), most = std::max(most, value); }
-    ordered_json json() const { return least == most ? ordered_json(least) : ordered_json{least, most}; }
-  };
   ordered_json info;
   std::size_t pings = 0;
-  Range sound_speed, absorption;
+  FactSpan sound_speed, absorption;  // the water of a dive is not one number
   float peak = silence_db;
   read_cube_pings(file, [&](const Cube& cube, const Ping& ping) {
     if (pings++ == 0) info = facts_of(file, cube, ping);
-    sound_speed.take(ping.sound_speed), absorption.take(ping.absorption_db_per_m);
+    sound_speed.add(ping.sound_speed), absorption.add(ping.absorption_db_per_m);
     peak = std::max(peak, level_db(ping).maxCoeff());
   });
   info["pings"] = pings;
-  info["sound_speed"] = sound_speed.json();
-  info["absorption_db_per_m"] = absorption.json();
+  info["sound_speed"] = sound_speed.number_or_json();
+  info["absorption_db_per_m"] = absorption.number_or_json();
   info["peak_level_db"] = peak;
+  if (const ordered_json manifest = StoredRun(path).json("manifest.json"); manifest.contains("built_with"))
+    info["built_with"] = manifest["built_with"];
   info["next"] = next_of_run(path);
   return info;
 }
@@ -243,17 +239,10 @@ ordered_json info_of_folder(const std::string& path) {
   if (!folder.has_filename()) folder = folder.parent_path();  // of a path that ends with a slash
   if (is_survey_run(path)) return survey_info(path);
   const StoredRun run(folder.string());
-  const ordered_json manifest = run.json("manifest.json");
-  if (!run.find("cube.h5").empty()) {
-    ordered_json info = info_of_cube(folder.string());
-    if (!manifest.contains("built_with")) return info;
-    const ordered_json next = info["next"];  // stays last
-    info.erase("next"), info["built_with"] = manifest["built_with"], info["next"] = next;
-    return info;
-  }
+  if (!run.find("cube.h5").empty()) return info_of_cube(folder.string());
   if (const auto head = head_of_survey(folder))
     return head_info(head->first, load_survey_run(head->first), head->second);
-  if (!run.find("manifest.json").empty()) return manifest_info(folder.string(), manifest);
+  if (!run.find("manifest.json").empty()) return manifest_info(folder.string(), run.json("manifest.json"));
   fail(ErrorKind::content, path, ": is no run, survey, head of a survey or export of insonify: it holds no cube.h5, ",
        "survey.toml or manifest.json; give one of its files, or the folder of a run");
 }

@@ -16,22 +16,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json least_and_most(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *least == *most ? ordered_json(*least) : ordered_json{*least, *most};
-}
-
 /// Adds the facts of a side-scan beside its samples.
 void add_side_scan(const Record& record, ordered_json& info) {
   const std::vector<Ping>& pings = record.cube.pings;
   info["channels"] = record.channels;
-  std::vector<double> altitude, depth;
+  FactSpan altitude, depth;
   for (std::size_t p = 0; p < pings.size(); ++p) {
-    if (record.altitude[p] > 0) altitude.push_back(record.altitude[p]);
-    depth.push_back(-pings[p].world_from_head.translation().z());
+    if (record.altitude[p] > 0) altitude.add(record.altitude[p]);
+    depth.add(-pings[p].world_from_head.translation().z());
   }
-  if (!altitude.empty()) info["altitude_m"] = least_and_most(altitude);
-  info["depth_m"] = least_and_most(depth);
+  if (!altitude.json().is_null()) info["altitude_m"] = altitude.number_or_json();
+  info["depth_m"] = depth.number_or_json();
   if (record.cube.anchor) {
     info["latitude_deg"] = record.cube.anchor->latitude_deg;
     info["longitude_deg"] = record.cube.anchor->longitude_deg;

@@ -17,15 +17,6 @@ using nlohmann::ordered_json;
 
 constexpr double deviations_of_95 = 1.959963985;
 
-/// The least and the greatest of some numbers, without those that are not recorded.
-struct RecordedSpan {
-  void add(double value) {
-    if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
-  }
-  ordered_json json() const { return least <= most ? ordered_json{least, most} : ordered_json(); }
-  double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
-};
-
 /// Returns the median; null of none.
 ordered_json median_or_null(std::vector<double> values) {
   if (values.empty()) return {};
@@ -35,7 +26,7 @@ ordered_json median_or_null(std::vector<double> values) {
 }
 
 void add_soundings(const SwathRecord& record, ordered_json& info) {
-  RecordedSpan depth, across, angle, level;
+  FactSpan depth, across, angle, level;
   std::size_t soundings = 0, rejected = 0;
   std::vector<double> vertical, horizontal;
   for (const SwathPing& ping : record.pings)
@@ -88,7 +79,7 @@ void add_orders(const SwathRecord& record, ordered_json& info) {
 }
 
 void add_way(const SwathPings& swath, ordered_json& info) {
-  RecordedSpan latitude, longitude;
+  FactSpan latitude, longitude;
   double way = 0;
   const std::vector<SwathPing>& pings = swath.record().pings;
   for (std::size_t p = 0; p < pings.size(); ++p) {
