@@ -108,8 +108,7 @@ std::string shallow_profile_note(const PingSetup& setup, const Bounds& box, cons
   if (!(deepest - end > std::max(least_missing, part_missing * deepest))) return {};
   return fmt::format(
       "the sound-speed profile ends at a depth of {:.3g} m, but the scene is heard down to {:.3g} m: its last sound "
-      "speed "
-      "is taken for all below; give a profile that reaches the bed",
+      "speed is taken for all below; give a profile that reaches the bed",
       end, deepest);
 }
 

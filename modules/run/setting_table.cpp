@@ -156,8 +156,7 @@ std::vector<RunSetting> sent_settings(Run& run) {
        "least number of scatterers in a resolution cell; surfels are split until it holds them"},
       {"ping", "detail_width", "--detail-width", &o.sampling.detail_width,
        "[beam widths] surfels of dense clouds are merged up to this width; 0: none, but of many display images of a "
-       "scene where that "
-       "pays; --with detail takes 1"},
+       "scene where that pays; --with detail takes 1"},
       {"ping", "detail_spacing", "--detail-spacing", &o.sampling.detail_spacing,
        "[m] instead of --detail-width: surfels are merged up to this width at all ranges, so that passes over one "
        "place share their scatterers"},
@@ -182,9 +181,8 @@ std::vector<RunSetting> kept_settings(Run& run) {
       {"ping", "keep", "--keep", &run.keep,
        "further outputs, separated by commas. elements: elements.h5, the series of every element of a line array; "
        "mask: the holes of the scan, marked in the cube; labels: what every display cell shows (--display, 600 unless "
-       "given); contributors: contributors.h5, the strongest surfels of every "
-       "pixel; insonification: the scene with the received levels as .ply and .pcd; paths: paths.vtp, the paths of the "
-       "strongest echoes as lines",
+       "given); contributors: contributors.h5, the strongest surfels of every pixel; insonification: the scene with "
+       "the received levels as .ply and .pcd; paths: paths.vtp, the paths of the strongest echoes as lines",
        outputs},
       {"ping", "contributors", "--contributors", &run.contributors, "surfels of each pixel, with --keep contributors",
        contributor_numbers},

@@ -96,9 +96,8 @@ std::vector<Key> survey_keys(MissionTables& t, MissionFile& m) {
       {"trajectory", "time_offset_s", "s", number(t.time_offset), "time that is added to all times of the file"},
       {"trajectory", "max_gap_s", "s", number(given(t.max_gap), positive),
        "entries of the file that are farther apart than this leave a gap: no pings are sent there, which `survey` "
-       "notes; "
-       "across shorter intervals the vehicle moves in a straight line. Default: ten times the median interval of the "
-       "file, at least 5 s"},
+       "notes; across shorter intervals the vehicle moves in a straight line. Default: ten times the median interval "
+       "of the file, at least 5 s"},
       {"trajectory", "waypoints_m", "m", points(given(t.way.points)),
        "points of a way that replaces the file. The vehicle follows the way at constant speed from time 0, level and "
        "looking ahead. Arcs blend the corners and take at most half of each leg"},
@@ -122,10 +121,8 @@ std::vector<Key> instrument_keys(InstrumentDeviations& d) {
   return {
       {"instruments", "position_m", "m", number(d.position, not_negative),
        "standard deviation of each horizontal coordinate of the vehicle. The table states how good the instruments "
-       "are: "
-       "soundings get uncertainties (TVU and THU, E214), and nothing else changes. Without the table the deviations "
-       "are "
-       "those of `trajectory.nav_noise`, whose position is that of the height too"},
+       "are: soundings get uncertainties (TVU and THU, E214), and nothing else changes. Without the table the "
+       "deviations are those of `trajectory.nav_noise`, whose position is that of the height too"},
       {"instruments", "height_m", "m", number(d.height, not_negative),
        "standard deviation of the height of the vehicle, by heave, tide or satellites"},
       {"instruments", "heading_deg", "deg", angle(d.heading, not_negative), "standard deviation of the heading"},
@@ -199,8 +196,7 @@ std::vector<Key> assumed_keys(MissionTables& t) {
   return {
       {"head.assumed", "roll_deg", "deg", angle(t.assumed_roll),
        "roll of the mounting as the processing believes it ([survey.md](../survey.md#installation)). A key that is "
-       "left "
-       "out is as in truth"},
+       "left out is as in truth"},
       {"head.assumed", "pitch_deg", "deg", angle(t.assumed_pitch), "pitch of the mounting, as believed"},
       {"head.assumed", "heading_deg", "deg", angle(t.assumed_heading), "heading of the mounting, as believed"},
       {"head.assumed", "offset_m", "m", vector(t.assumed_offset, "x, y, z"), "position of the head, as believed"},
@@ -230,8 +226,7 @@ std::vector<Key> pose_keys(MissionTables& t, RandomPoses& poses) {
   return {
       {"randomise.pose", "pings", "", number(given(t.random_pings), {.least = 1, .most = 1e8, .whole = true}),
        "number of random poses of the vehicle (E198), which replace `[trajectory]`: each head pings once at each, at "
-       "rest, "
-       "the i-th time at i seconds. A pose depends only on the seed and the number of the ping",
+       "rest, the i-th time at i seconds. A pose depends only on the seed and the number of the ping",
        true},
       {"randomise.pose", "box_m", "m", points(t.box),
        "two opposite corners of the box in which positions are drawn, in world axes", true},

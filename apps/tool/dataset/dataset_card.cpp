@@ -34,11 +34,10 @@ std::string dataset_card(const DatasetCard& of) {
       "(half-power widths of beam and pulse) and at least {:g} of the energy heard there is of it, within the main "
       "lobe; it is shadow if surface of the scene lies there but none is visible from the head; else nothing (water, "
       "or side lobes and multipath stronger than what is there). A pixel of a fan image covers several samples: its "
-      "level "
-      "is that of their mean intensity by area, its class the one that most of the energy comes from. Objects are the "
-      "labelled parts of the scene or its field `instance`, with the same number in all images of a scene; the rest "
-      "are connected parts of a class, with larger numbers (`found_by`). They have {} pixels of the polar image at "
-      "least, and a box if they are {:g} dB above what is around them (`--min-contrast`): `unboxed` in `meta.jsonl` "
+      "level is that of their mean intensity by area, its class the one that most of the energy comes from. Objects "
+      "are the labelled parts of the scene or its field `instance`, with the same number in all images of a scene; the "
+      "rest are connected parts of a class, with larger numbers (`found_by`). They have {} pixels of the polar image "
+      "at least, and a box if they are {:g} dB above what is around them (`--min-contrast`): `unboxed` in `meta.jsonl` "
       "lists the others, which stay in the masks. Holes of a scan count as nothing{}.\n\n| value | class | polar "
       "pixels | fan pixels |\n|---|---|---|---|\n",
       of.options.share, of.options.least_pixels, of.options.min_contrast,

@@ -111,10 +111,9 @@ void print_materials(const std::vector<SourcedMaterial>& materials) {
   for (const SourcedMaterial& m : materials)
     if (m.material.law != SurfaceLaw{}) fmt::print("{}: law {}\n", m.material.name, law_to_text(m.material.law));
   fmt::print(
-      "\nlaw: Lambert, cross-section per area = mu cos^2 of the angle of incidence (E4); lambert_mu_db = "
-      "10 log10(mu / "
-      "(1/sr)), "
-      "coherent_fraction of the intensity has no speckle (E53), relief_slope: rms slope of finer relief (E52)\n");
+      "\nlaw: Lambert, cross-section per area = mu cos^2 of the angle of incidence (E4); lambert_mu_db = 10 log10(mu / "
+      "(1/sr)), coherent_fraction of the intensity has no speckle (E53), relief_slope: rms slope of finer relief "
+      "(E52)\n");
 }
 
 /// A material with a law of its own: name, description, law, numbers with status and source.

@@ -46,8 +46,7 @@ void add_options(OptionList list, MakeMissionOptions& o) {
       "depth below it, at most to the sonar's greatest range");
   list.add("--centre", &o.centre,
            "x,y,z [m] of the middle of the way; default: over the middle of the scene, at z = -3 if the scene reaches "
-           "below, else "
-           "above it; of a scene that does not exist yet 0,0,-3");
+           "below, else above it; of a scene that does not exist yet 0,0,-3");
   list.add("--size", &o.size, "x,y [m] extent of the lines; x is the length of a tunnel");
   list.add("--spacing", &o.spacing, "[m] distance between lines", {.positive = true});
   list.add("--radius", &o.radius, "[m] radius of the orbit", {.positive = true});
