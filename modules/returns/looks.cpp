@@ -3,11 +3,46 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
+namespace {
+
+/// The bins that a display cell overlaps, with the areas that they share [m^2], and all of these.
+struct CellBins {
+  std::size_t begin = 0;
+  std::vector<double> share;
+  double area = 0;
+
+  double mean(const double* beam) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < share.size(); ++k) sum += share[k] * beam[begin + k];
+    return area > 0 ? sum / area : sum;
+  }
+};
+
+std::vector<CellBins> bins_of_cells(const RangeGate& samples, const RangeGate& cells) {
+  std::vector<CellBins> all(cells.bins());
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const double first = cells.min_range + static_cast<double>(c) * cells.bin_size, last = first + cells.bin_size;
+    const auto bin_at = [&](double range) { return (range - samples.min_range) / samples.bin_size; };
+    all[c].begin = static_cast<std::size_t>(std::max(0.0, std::floor(bin_at(first))));
+    const auto end = std::min(samples.bins(), static_cast<std::size_t>(std::ceil(bin_at(last))));
+    for (std::size_t n = all[c].begin; n < end; ++n) {
+      const double low = std::max(first, samples.min_range + static_cast<double>(n) * samples.bin_size);
+      const double high = std::min(last, samples.min_range + static_cast<double>(n + 1) * samples.bin_size);
+      all[c].share.push_back(std::max(0.0, high * high - low * low));
+      all[c].area += all[c].share.back();
+    }
+  }
+  return all;
+}
+
+}  // namespace
 
 Grid<float> mean_over_bins(const Grid<double>& intensity, int bins) {
   if (bins < 1) fail(ErrorKind::argument, "mean_over_bins: bins = ", bins, ", must be at least 1");
@@ -27,23 +62,11 @@ RangeGate display_gate(const RangeGate& gate, int count) {
 Grid<double> mean_over_cells(const Grid<double>& intensity, const RangeGate& samples, const RangeGate& cells) {
   if (static_cast<std::size_t>(intensity.cols()) != samples.bins())
     fail(ErrorKind::argument, "mean_over_cells: intensity has ", intensity.cols(), " bins, must have ", samples.bins());
-  Grid<double> mean(intensity.rows(), static_cast<Eigen::Index>(cells.bins()));
-  for (Eigen::Index c = 0; c < mean.cols(); ++c) {
-    const double first = cells.min_range + static_cast<double>(c) * cells.bin_size, last = first + cells.bin_size;
-    const auto bin_at = [&](double range) { return (range - samples.min_range) / samples.bin_size; };
-    const auto begin = static_cast<Eigen::Index>(std::max(0.0, std::floor(bin_at(first))));
-    const auto end = std::min(intensity.cols(), static_cast<Eigen::Index>(std::ceil(bin_at(last))));
-    mean.col(c).setZero();
-    double area = 0;
-    for (Eigen::Index n = begin; n < end; ++n) {
-      const double low = std::max(first, samples.min_range + static_cast<double>(n) * samples.bin_size);
-      const double high = std::min(last, samples.min_range + static_cast<double>(n + 1) * samples.bin_size);
-      const double share = std::max(0.0, high * high - low * low);
-      mean.col(c) += share * intensity.col(n);
-      area += share;
-    }
-    if (area > 0) mean.col(c) /= area;
-  }
+  const std::vector<CellBins> bins = bins_of_cells(samples, cells);
+  Grid<double> mean(intensity.rows(), static_cast<Eigen::Index>(bins.size()));
+  for (Eigen::Index b = 0; b < mean.rows(); ++b)
+    for (std::size_t c = 0; c < bins.size(); ++c)
+      mean(b, static_cast<Eigen::Index>(c)) = bins[c].mean(&intensity(b, 0));
   return mean;
 }
 

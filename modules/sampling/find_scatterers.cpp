@@ -5,17 +5,16 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/units.hpp"
 #include "sampling/cast_rays_internal.hpp"
 #include "sampling/choose_projection_internal.hpp"
 #include "sampling/count_pieces_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "sampling/list_where_internal.hpp"
+#include "sampling/sort_by_place_internal.hpp"
 #include "sampling/sparse_beams_internal.hpp"
 #include "sampling/split_surfels_internal.hpp"
 #include "sampling/surfel_visibility_internal.hpp"
@@ -163,50 +162,6 @@ double outer_scale(const PreparedScene& prepared, const SamplingOptions& options
   return options.relief_outer_scale > 0 ? options.relief_outer_scale : prepared.whole().mean_spacing;
 }
 
-// Sorts surfels by bands of 64 bins and inside a band by u, if asked for, then by index: neighbours add to the same part
-// of an image.
-void sort_by_place(const SceneCloud& scene, const View& view, SurfelOrder order,
-                   const std::vector<std::uint32_t>& surfels, const std::vector<std::uint16_t>& pieces,
-                   VisibleSurfels& sorted) {
-  struct Key {
-    double u;
-    std::uint32_t at;  // in surfels, which ascend
-  };
-  constexpr double most_bands = 1 << 19;  // a gate has at most 2^24 bins
-  UninitializedVector<SurfelBounds> bounds(surfels.size());
-  UninitializedVector<std::uint32_t> band(surfels.size());
-  parallel_blocks(surfels.size(), 4096, view.options.threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      const Eigen::Vector3d p = view.head.position_of(surfels[s]);
-      const double r = std::max(p.norm(), 1e-6), reach = 1.001 * std::sqrt(scene.area[surfels[s]] / pi) + 1e-6 * r;
-      band[s] = static_cast<std::uint32_t>(
-          std::clamp((r - view.gate.min_range) / (64 * view.gate.bin_size), 0.0, most_bands));
-      bounds[s] = {r, reach, p.y() / r, std::min(2.0, 2 * reach / r)};
-    }
-  });
-  // Each band by itself.
-  std::vector<std::size_t> first(1 + (band.empty() ? 0 : std::size_t{1} + *std::max_element(band.begin(), band.end())));
-  for (const std::uint32_t b : band) ++first[b + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  UninitializedVector<Key> keys(surfels.size());
-  std::vector<std::size_t> next = first;
-  for (std::uint32_t s = 0; s < surfels.size(); ++s) keys[next[band[s]]++] = {bounds[s].u, s};
-  sorted.surfel.resize(surfels.size());
-  sorted.bounds.resize(surfels.size());
-  UninitializedVector<std::uint16_t> sorted_pieces(surfels.size());
-  parallel_for(first.size() - 1, view.options.threads, [&](std::size_t b) {
-    const auto begin = keys.begin() + static_cast<std::ptrdiff_t>(first[b]),
-               end = keys.begin() + static_cast<std::ptrdiff_t>(first[b + 1]);
-    if (order == SurfelOrder::range_and_u)
-      std::sort(begin, end, [](const Key& a, const Key& c) { return std::tuple(a.u, a.at) < std::tuple(c.u, c.at); });
-    for (std::size_t k = first[b]; k < first[b + 1]; ++k) {
-      const std::uint32_t s = keys[k].at;
-      sorted.surfel[k] = surfels[s], sorted.bounds[k] = bounds[s], sorted_pieces[k] = pieces[s];
-    }
-  });
-  sorted.first = first_pieces(sorted_pieces, view.options.scatterers_per_cell);
-}
-
 }  // namespace
 
 Sector insonified_sector(const BeamFan& fan, const SamplingOptions& options) {
@@ -247,7 +202,9 @@ VisibleSurfels find_visible(const PreparedScene& prepared, const Pose& world_fro
   const SampledCells cells(fan, gate, options);
   const auto visible = select_visible(gated, options, result.report);
   const PieceCounts counts = count_pieces(scene, view.head, visible, cells, gate, options);
-  sort_by_place(scene, view, order, visible, counts.pieces, result);
+  PlacedSurfels placed = sort_by_place(scene, view.head, gate, order, visible, counts.pieces, options.threads);
+  result.surfel = std::move(placed.surfel), result.bounds = std::move(placed.bounds);
+  result.first = first_pieces(placed.pieces, options.scatterers_per_cell);
   result.report.capped = counts.capped;
   result.report.scatterers = result.first.back();
   result.options = options;

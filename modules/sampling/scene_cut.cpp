@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/vector_functions.hpp"
 #include "sampling/cut_pieces_internal.hpp"
 #include "sampling/gate_surfels_internal.hpp"
 #include "sampling/silhouettes_internal.hpp"
@@ -23,7 +25,8 @@ constexpr double most_thickness = 0.25;  // in cells of range
 constexpr float per_thickness = 16;      // how far below a node's plane its surface may lie, as far as its disc reaches
 constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
 constexpr std::size_t blocks_at_once = 16;
-constexpr double per_node = 20;  // directions across the widest node, in which silhouettes are looked for
+constexpr std::uint32_t roots_ahead = 4;  // that are loaded into the cache
+constexpr double per_node = 20;           // directions across the widest node, in which silhouettes are looked for
 constexpr std::size_t many_surfels =
     1 << 19;  // scenes without noise of so many surfels and more have coarse silhouettes
 
@@ -69,6 +72,7 @@ class LevelWalk {
     if (index < of.levels.surfels) return add_surfel(of, index, out);
     if (of.piece) of.piece->need_node(index - of.levels.surfels);
     const DetailNode& node = of.levels.node[index - of.levels.surfels];
+    if (!of.piece) __builtin_prefetch(&of.scene.id[node.nearest]);
     if (node.children == 0) return add_node(of, node, 1, out);
     const Vector3d p = head_.position(node.point);
     const double range = p.norm();
@@ -78,12 +82,29 @@ class LevelWalk {
       const Vector3d direction = head_.to_head().transpose() * (p / range);
       const double cosine_square = std::pow(node.normal.cast<double>().dot(direction), 2);
       if (spread_of(node) <= most_spread(node, range, cosine_square)) {
-        divided = divides(of.piece ? node.nearest : of.scene.id[node.nearest]);
+        divided = !divided_.empty() && divides(of.piece ? node.nearest : of.scene.id[node.nearest]);
         if (!divided) return add_node(of, node, factor_of(quadratic_form(node.normals, direction), cosine_square), out);
       }
     }
-    for (std::uint32_t k = 0; k < node.children; ++k)
-      visit(of, of.levels.child[node.first_child + k], inside, out, divided);
+    const std::span children = std::span(of.levels.child).subspan(node.first_child, node.children);
+    if (!of.piece)
+      for (const std::uint32_t child : children) prefetch(of, child);
+    for (const std::uint32_t child : children) visit(of, child, inside, out, divided);
+  }
+
+  /// Loads a root or child of a scene in memory into the cache, in which neighbours stand far from each other; inline,
+  /// since the compiler drops calls of functions that do no more.
+  INSONIFY_ALWAYS_INLINE static void prefetch(const Walked& of, std::uint32_t index) {
+    if (index < of.levels.surfels) {
+      __builtin_prefetch(&of.scene.point[index]);
+      __builtin_prefetch(&of.scene.normal[index]);
+      __builtin_prefetch(&of.scene.area[index]);
+      return;
+    }
+    const DetailNode* const node = &of.levels.node[index - of.levels.surfels];
+    __builtin_prefetch(node);
+    __builtin_prefetch(&node->thickness);
+    __builtin_prefetch(&node->cell);
   }
 
  private:
@@ -173,8 +194,11 @@ std::vector<CutPiece> walked(const LevelWalk& walk, const SceneCloud& scene, con
       const DetailBlock& block = levels.block[b];
       const Vector3d centre = scene.origin + block.centre.cast<double>();
       if (!may_intersect(region, centre, block.radius, block.largest_area)) continue;
-      for (std::uint32_t k = block.begin; k < block.end; ++k)
-        walk.visit({scene, levels}, levels.root[k], false, pieces[begin / blocks_at_once]);
+      const Walked of{scene, levels};
+      for (std::uint32_t k = block.begin; k < block.end; ++k) {
+        if (k + roots_ahead < block.end) LevelWalk::prefetch(of, levels.root[k + roots_ahead]);
+        walk.visit(of, levels.root[k], false, pieces[begin / blocks_at_once]);
+      }
     }
   });
   return pieces;

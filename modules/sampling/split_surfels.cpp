@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/units.hpp"
+#include "core/vector_functions.hpp"
 #include "sampling/count_pieces_internal.hpp"
 #include "sampling/range_shares_internal.hpp"
 #include "sampling/split_loops_internal.hpp"
@@ -20,6 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double min_range = 1e-6;  // lower bound of range and horizontal distance [m]
 constexpr std::size_t surfels_at_once = 512;
+constexpr std::size_t surfels_ahead = 8;  // that are loaded into the cache: neighbours stand far apart in the scene
 
 double cos_incidence_of(const Vector3d& normal, const Vector3d& position, double range, bool oriented) {
   const double cosine = -normal.dot(position) / range;
@@ -45,6 +47,15 @@ class Splitter {
  public:
   Splitter(const SceneCloud& scene, const HeadFrame& head, std::uint64_t seed, double range_resolution)
       : scene_(scene), head_(head), seed_(seed), range_resolution_(range_resolution) {}
+
+  /// Loads a surfel into the cache; inline, since the compiler drops calls of functions that do no more.
+  INSONIFY_ALWAYS_INLINE void prefetch(std::uint32_t surfel) const {
+    __builtin_prefetch(&scene_.point[surfel]);
+    __builtin_prefetch(&scene_.normal[surfel]);
+    __builtin_prefetch(&scene_.area[surfel]);
+    __builtin_prefetch(&scene_.material[surfel]);
+    if (!scene_.id.empty()) __builtin_prefetch(&scene_.id[surfel]);
+  }
 
   void write(Scatterers& out, std::size_t first, std::size_t pieces, std::uint32_t surfel) {
     const Centre centre = centre_of(surfel);
@@ -184,8 +195,10 @@ Scatterers split_surfels(const SceneCloud& scene, const HeadFrame& head, std::sp
   resize(scatterers, first.back() - first.front(), threads);
   parallel_blocks(surfels.size(), surfels_at_once, threads, [&](std::size_t begin, std::size_t end) {
     Splitter splitter(scene, head, seed, range_resolution);
-    for (std::size_t s = begin; s < end; ++s)
+    for (std::size_t s = begin; s < end; ++s) {
+      if (s + surfels_ahead < end) splitter.prefetch(surfels[s + surfels_ahead]);
       splitter.write(scatterers, first[s] - first[0], first[s + 1] - first[s], surfels[s]);
+    }
   });
   return scatterers;
 }
