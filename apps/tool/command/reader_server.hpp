@@ -22,6 +22,9 @@ class ReaderServer {
   ReaderServer(const ReaderServer&) = delete;
   ReaderServer& operator=(const ReaderServer&) = delete;
 
+  /// Returns the process.
+  pid_t process() const { return server_; }
+
  private:
   int socket_ = -1;
   pid_t server_ = -1;
