@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "acoustics/direct_echoes.hpp"
 #include "acoustics/moving_parts.hpp"
 
 namespace insonify {
