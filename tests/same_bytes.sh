@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the tool of another commit and that of this tree, makes the same runs with both, and compares the bytes of all
-# files that they write. For changes that must not change a result: moves, renames, merged code.
+# Builds tool and Python module of another commit and of this tree, makes the same runs with both, and compares the bytes
+# of all files that they write. For changes that must not change a result: moves, renames, merged code.
 #
 #   tests/same_bytes.sh [--tools BASE_TOOL TOOL] [--work FOLDER] [BASE]
 #
 #   BASE           commit to compare with (HEAD: the tree before what is not committed yet)
-#   --tools A B    compares two tools that are built already
+#   --tools A B    compares two tools that are built already, with Python's modules in ../python beside their folders
 #   --work FOLDER  builds BASE and runs there, and leaves it
 #
 # Seconds, memory and numbers of processes are left out. 0 if all is the same, 1 if not, with the names of the files.
@@ -28,7 +28,7 @@ fi
 mkdir -p "$work" && work=$(realpath "$work")
 
 build() { # FOLDER: prints the path of its tool
-  (cd "$1" && cmake --preset release >&2 && cmake --build --preset release --target insonify >&2)
+  (cd "$1" && cmake --preset release >&2 && cmake --build --preset release --target insonify _insonify _insonify_io >&2)
   echo "$1/build/release/bin/insonify"
 }
 if ((${#tools[@]} == 0)); then
@@ -63,7 +63,9 @@ swath       insonify ping harbour.ply --sonar em2040 --pose=10,0,-1,0,0,0 --rang
 volume      insonify ping harbour.ply --sonar waterlinked-3d15 --pose=0,0,-3,20,10,0 --range 1:15 -o run
 survey      insonify survey mission.toml -o run; insonify merge run
 parts       printf 'time_s,x_m,y_m,z_m,yaw_deg,pitch_deg,roll_deg\n0,6,-3,-2,0,0,0\n6,6,3,-2,0,0,0\n' > way.csv; printf 'schema = 1\n[[part]]\nfile = "harbour.ply"\n[[part]]\nname = "box"\nfile = "boxes.obj"\ntrajectory = "way.csv"\n[[scatter]]\nfiles = ["boxes.obj"]\nnames = ["pot"]\ncount = [2, 4]\narea_m = [[4, -4], [12, -4], [12, 4], [4, 4]]\nscale = [0.1, 0.2]\n' > scene.toml; insonify ping scene.toml --sonar p900-45 --pose=0,0,-3,0,10,0 --range 2:15 --time 2 --draw 3 --keep contributors -o run; insonify image run --view scene -o scene.png
-drawn       insonify prepare harbour.ply -o harbour.tiles; sed 's/harbour.ply/harbour.tiles/' mission.toml > over.toml; printf '[randomise]\nsource_level_db = 1\ntemperature_c = 2\nposition_m = 0.1\nattitude_deg = 1\n[water]\nlevel_m = 0.37\n' >> over.toml; insonify survey over.toml -o run; insonify merge run
+over        insonify prepare harbour.ply -o harbour.tiles; sed 's/harbour.ply/harbour.tiles/' mission.toml > over.toml; printf '[water]\nlevel_m = 0.37\n' >> over.toml; insonify survey over.toml -o run; insonify merge run
+drawn       cp mission.toml drawn.toml; printf '[randomise]\nsource_level_db = 1\ntemperature_c = 2\nposition_m = 0.1\nattitude_deg = 1\n' >> drawn.toml; insonify survey drawn.toml -o run; insonify merge run
+batch       /usr/bin/python3 batch.py
 accuracy    insonify accuracy --methods gridded,direct --tolerances 1e-3,1e-6 --repeats 1 --no-picture -o run
 RUNS
 }
@@ -92,6 +94,25 @@ range = "0.5:12"
 MISSION
 }
 
+batch() { # pings by Python's module, with their pictures and returns as files, and one as a run
+  cat <<'BATCH'
+import insonify as iy
+import numpy as np
+
+head = iy.sonar("p900-45", min_range=1, max_range=12)
+simulator = iy.PingSimulator(head, iy.Environment(temperature_c=8, self_db=40), noise=True)
+scene = iy.load_scene("harbour.ply")
+poses = [[x, 0, -3, 10 * x, 10, 0] for x in range(6)]
+made = list(simulator.pings(scene, poses, threads=2, keep="contributors"))
+for ping in made:
+    np.save(f"{ping.number}-pressure.npy", ping.pressure)
+    np.save(f"{ping.number}-soundings.npy", ping.soundings)
+    np.save(f"{ping.number}-instances.npy", ping.instance_image)
+    print(ping.number, ping.time, ping.seed, ping.sound_speed, ping.world_from_head.tolist(), ping.notes)
+made[2].save("run")
+BATCH
+}
+
 do_runs() { # TOOL FOLDER
   rm -rf "$2" && mkdir -p "$2/bin"
   ln -s "$1" "$2/bin/insonify"
@@ -99,7 +120,7 @@ do_runs() { # TOOL FOLDER
   while read -r name commands; do
     mkdir "$2/$name" && cd "$2/$name"
     ln "$work/inputs/"* .
-    PATH=$2/bin:$PATH bash -euo pipefail -c "$commands" >log 2>&1 || { echo "$name: the run fails:" && cat log && exit 1; }
+    PATH=$2/bin:$PATH PYTHONPATH=$(dirname "$(dirname "$1")")/python PYTHONDONTWRITEBYTECODE=1 bash -euo pipefail -c "$commands" >log 2>&1 || { echo "$name: the run fails:" && cat log && exit 1; }
   done < <(runs)
 }
 
@@ -120,6 +141,7 @@ rm -rf "$work/inputs" && mkdir -p "$work/inputs"
 box_mesh >"$work/inputs/boxes.obj"
 height_raster >"$work/inputs/dunes.asc"
 mission >"$work/inputs/mission.toml"
+batch >"$work/inputs/batch.py"
 # Both work in a folder of the same name, one after the other.
 for side in 0 1; do
   (do_runs "${tools[$side]}" "$work/runs")
