@@ -27,17 +27,6 @@ std::string reported_reason() {
   return plain_reason(reason);
 }
 
-// Writes an attribute of a single value, or of `count` of them.
-void write_values(const FileContext& context, hid_t where, const char* name, hid_t file_type, hid_t memory_type,
-                  const void* value, const hsize_t* count = nullptr) {
-  const std::string what = std::string("attribute '") + name + "' cannot be written";
-  const Handle space(context.checked(count ? H5Screate_simple(1, count, nullptr) : H5Screate(H5S_SCALAR), what),
-                     H5Sclose);
-  const Handle attribute(context.checked(H5Acreate2(where, name, file_type, space, H5P_DEFAULT, H5P_DEFAULT), what),
-                         H5Aclose);
-  context.checked(H5Awrite(attribute, memory_type, value), what);
-}
-
 Handle open_attribute(const FileContext& context, hid_t where, const char* name, hssize_t values = 1) {
   if (H5Aexists(where, name) <= 0) fail(context.kind, context.path, ": attribute '", name, "' is missing");
   Handle attribute(context.checked(H5Aopen(where, name, H5P_DEFAULT), std::string("attribute '") + name + "'"),
@@ -46,14 +35,6 @@ Handle open_attribute(const FileContext& context, hid_t where, const char* name,
   if (H5Sget_simple_extent_npoints(space) != values)
     fail(context.kind, context.path, ": attribute '", name, "' must hold ", values, values == 1 ? " value" : " values");
   return attribute;
-}
-
-template <typename T>
-T read_scalar(const FileContext& context, hid_t where, const char* name, hid_t memory_type) {
-  const Handle attribute = open_attribute(context, where, name);
-  T value{};
-  context.checked(H5Aread(attribute, memory_type, &value), std::string("attribute '") + name + "' is not a number");
-  return value;
 }
 
 }  // namespace
@@ -93,64 +74,55 @@ Handle complex_type(const FileContext& context, hid_t real_type) {
   return type;
 }
 
-Extent extent_of(const FileContext& context, hid_t dataset, const std::string& name, std::size_t rank) {
+Extent extent_of(const FileContext& context, hid_t dataset, const std::string& name) {
   const Handle space(context.checked(H5Dget_space(dataset), name), H5Sclose);
-  const int dimensions = context.checked(H5Sget_simple_extent_ndims(space), name);
-  if (static_cast<std::size_t>(dimensions) != rank)
-    fail(context.kind, context.path, ": ", name, " has ", dimensions, " dimensions, must have ", rank);
-  Extent extent(rank);
+  Extent extent(static_cast<std::size_t>(context.checked(H5Sget_simple_extent_ndims(space), name)));
   context.checked(H5Sget_simple_extent_dims(space, extent.data(), nullptr), name);
   return extent;
 }
 
-Handle select_row(const FileContext& context, hid_t dataset, const Extent& extent, hsize_t first) {
-  Handle space(context.checked(H5Dget_space(dataset), "selection"), H5Sclose);
-  Extent start(extent.size(), 0), count = extent;
-  start[0] = first, count[0] = 1;
+Extent extent_of(const FileContext& context, hid_t dataset, const std::string& name, std::size_t rank) {
+  const Extent extent = extent_of(context, dataset, name);
+  if (extent.size() != rank)
+    fail(context.kind, context.path, ": ", name, " has ", extent.size(), " dimensions, must have ", rank);
+  return extent;
+}
+
+Handle space_of(const FileContext& context, const Extent& whole) {
+  return {context.checked(H5Screate_simple(static_cast<int>(whole.size()), whole.data(), nullptr), "space"), H5Sclose};
+}
+
+Handle block_of(const FileContext& context, const Extent& whole, const Extent& start, const Extent& count) {
+  Handle space = space_of(context, whole);
   context.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
                   "selection");
   return space;
 }
 
-void write_attribute(const FileContext& context, hid_t where, const char* name, double value) {
-  write_values(context, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
-}
-
-void write_attribute(const FileContext& context, hid_t where, const char* name, std::int64_t value) {
-  write_values(context, where, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
-}
-
-void write_attribute(const FileContext& context, hid_t where, const char* name, std::uint64_t value) {
-  write_values(context, where, name, H5T_STD_U64LE, H5T_NATIVE_UINT64, &value);
+void write_values(const FileContext& context, hid_t where, const char* name, hid_t space, hid_t in_file,
+                  hid_t in_memory, const void* values) {
+  const std::string what = std::string("attribute '") + name + "' cannot be written";
+  const Handle attribute(context.checked(H5Acreate2(where, name, in_file, space, H5P_DEFAULT, H5P_DEFAULT), what),
+                         H5Aclose);
+  context.checked(H5Awrite(attribute, in_memory, values), what);
 }
 
 void write_attribute(const FileContext& context, hid_t where, const char* name, const std::string& value) {
-  const Handle type = text_type(context);
+  const Handle type = text_type(context), space(context.checked(H5Screate(H5S_SCALAR), name), H5Sclose);
   const char* text = value.c_str();
-  write_values(context, where, name, type, type, &text);
+  write_values(context, where, name, space, type, type, &text);
 }
 
 void write_attribute(const FileContext& context, hid_t where, const char* name, std::span<const double> values) {
-  const hsize_t count = values.size();
-  write_values(context, where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values.data(), &count);
+  write_values(context, where, name, space_of(context, {values.size()}), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE,
+               values.data());
 }
 
-double read_number(const FileContext& context, hid_t where, const char* name) {
-  return read_scalar<double>(context, where, name, H5T_NATIVE_DOUBLE);
-}
-
-std::int64_t read_integer(const FileContext& context, hid_t where, const char* name) {
-  return read_scalar<std::int64_t>(context, where, name, H5T_NATIVE_INT64);
-}
-
-std::uint64_t read_unsigned(const FileContext& context, hid_t where, const char* name) {
-  return read_scalar<std::uint64_t>(context, where, name, H5T_NATIVE_UINT64);
-}
-
-void read_numbers(const FileContext& context, hid_t where, const char* name, std::span<double> to) {
-  const Handle attribute = open_attribute(context, where, name, static_cast<hssize_t>(to.size()));
-  context.checked(H5Aread(attribute, H5T_NATIVE_DOUBLE, to.data()),
-                  std::string("attribute '") + name + "' is not numbers");
+void read_numbers(const FileContext& context, hid_t where, const char* name, hid_t in_memory, std::size_t count,
+                  void* to) {
+  const Handle attribute = open_attribute(context, where, name, static_cast<hssize_t>(count));
+  context.checked(H5Aread(attribute, in_memory, to),
+                  std::string("attribute '") + name + (count == 1 ? "' is not a number" : "' is not numbers"));
 }
 
 // Reads text of fixed length (as other programs write it) or of variable length.
@@ -179,12 +151,14 @@ Handle create_file(const FileContext& context, const std::string& name) {
 
 namespace {
 
-// Creates a dataset with these properties, without timestamps, with its unit and name.
-Handle new_dataset(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-                   hid_t properties) {
-  const Handle space(
-      context.checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), name.path), H5Sclose);
+/// Creates a dataset without timestamps, whose other properties `set` sets, with its unit and name.
+template <typename Set>
+Handle create(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
+              const Set& set) {
+  const Handle space = space_of(context, extent);
+  const Handle properties(context.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
   context.checked(H5Pset_obj_track_times(properties, false), name.path);
+  set(properties);
   Handle dataset(
       context.checked(H5Dcreate2(file, name.path, type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name.path),
       H5Dclose);
@@ -197,25 +171,24 @@ Handle new_dataset(const FileContext& context, hid_t file, const DatasetName& na
 
 Handle create_dataset(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
                       const Extent& chunk, Packing packing) {
-  const Handle properties(context.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
-  if (!chunk.empty()) {
+  return create(context, file, name, type, extent, [&](hid_t properties) {
+    if (chunk.empty()) return;
     context.checked(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), name.path);
     context.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_ALLOC),
                     name.path);  // no undefined bytes in edge chunks
-    if (packing == Packing::deflate) {
-      context.checked(H5Pset_shuffle(properties), name.path);
-      context.checked(H5Pset_deflate(properties, 1), name.path);
-    }
-  }
-  return new_dataset(context, file, name, type, extent, properties);
+    if (packing == Packing::none) return;
+    context.checked(H5Pset_shuffle(properties), name.path);
+    context.checked(H5Pset_deflate(properties, 1), name.path);
+  });
 }
 
 std::uint64_t create_plain(const FileContext& context, hid_t file, const DatasetName& name, hid_t type,
                            const Extent& extent) {
-  const Handle properties(context.checked(H5Pcreate(H5P_DATASET_CREATE), name.path), H5Pclose);
-  context.checked(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), name.path);
-  context.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), name.path);
-  const haddr_t offset = H5Dget_offset(new_dataset(context, file, name, type, extent, properties));
+  const Handle dataset = create(context, file, name, type, extent, [&](hid_t properties) {
+    context.checked(H5Pset_alloc_time(properties, H5D_ALLOC_TIME_EARLY), name.path);
+    context.checked(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), name.path);
+  });
+  const haddr_t offset = H5Dget_offset(dataset);
   return offset == HADDR_UNDEF ? 0 : offset;
 }
 

@@ -21,9 +21,8 @@
 // Private to the modules that read and write HDF5 files.
 namespace insonify::hdf5 {
 
-/// Suppresses HDF5's error output during its lifetime; failures become Error instead. It also holds the turn in HDF5.
-/// All calls of HDF5 in this process are made during the lifetime of one, and fork() waits for it: a child process
-/// would find HDF5's lock taken for ever if another thread was within HDF5.
+/// Suppresses HDF5's error output during its lifetime; failures become Error instead. It also holds the turn in HDF5:
+/// all calls of HDF5 in this process are made during the lifetime of one.
 class QuietErrors {
  public:
   QuietErrors();
@@ -148,7 +147,7 @@ Handle create_ordered_group(const FileContext& context, hid_t file, const char* 
 /// Returns the names in such a group in the order of writing; none if it is absent.
 std::vector<std::string> names_in(const FileContext& context, hid_t file, const char* group);
 
-/// Returns the HDF5 type of a number in the file (little-endian) or in memory.
+/// Returns the HDF5 type of a number in the file (little-endian) or in memory. Enumerations of one byte are as uint8.
 template <typename Number>
 hid_t type_of(bool in_file) {
   if constexpr (std::is_same_v<Number, double>) return in_file ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE;
@@ -185,32 +184,44 @@ Handle text_type(const FileContext& context, std::size_t length = H5T_VARIABLE);
 /// Returns the type of complex<float> as in h5py: compound {r, i} of `real_type`.
 Handle complex_type(const FileContext& context, hid_t real_type);
 
-/// Returns the extent of a dataset. Throws Error(content) unless it has `rank` dimensions.
+/// Returns the extent of a dataset.
+Extent extent_of(const FileContext& context, hid_t dataset, const std::string& name);
+/// Returns it too. Throws Error(content) unless it has `rank` dimensions.
 Extent extent_of(const FileContext& context, hid_t dataset, const std::string& name, std::size_t rank);
 
-/// Selects index `first` of the first dimension and everything of the others.
-Handle select_row(const FileContext& context, hid_t dataset, const Extent& extent, hsize_t first);
+/// Returns the space of all values of an array, and of a block of `count` values from `start` on.
+Handle space_of(const FileContext& context, const Extent& whole);
+Handle block_of(const FileContext& context, const Extent& whole, const Extent& start, const Extent& count);
 
-/// Writes an attribute with a single value.
-void write_attribute(const FileContext& context, hid_t where, const char* name, double value);
-void write_attribute(const FileContext& context, hid_t where, const char* name, std::int64_t value);
-void write_attribute(const FileContext& context, hid_t where, const char* name, std::uint64_t value);
+/// Writes an attribute with the values of `space`, of a type in the file and in memory.
+void write_values(const FileContext& context, hid_t where, const char* name, hid_t space, hid_t in_file,
+                  hid_t in_memory, const void* values);
+/// Writes an attribute with a single value, or with several.
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+void write_attribute(const FileContext& context, hid_t where, const char* name, Number value) {
+  const Handle space(context.checked(H5Screate(H5S_SCALAR), name), H5Sclose);
+  write_values(context, where, name, space, type_of<Number>(true), type_of<Number>(false), &value);
+}
 void write_attribute(const FileContext& context, hid_t where, const char* name, const std::string& value);
-/// Writes an attribute of several values.
 void write_attribute(const FileContext& context, hid_t where, const char* name, std::span<const double> values);
 
-/// Reads an attribute. Throws Error(content) naming it if it is missing or of another type.
-double read_number(const FileContext& context, hid_t where, const char* name);
-std::int64_t read_integer(const FileContext& context, hid_t where, const char* name);
-std::uint64_t read_unsigned(const FileContext& context, hid_t where, const char* name);
+/// Reads an attribute of so many numbers. Throws Error(content) naming it if it is missing or has others.
+void read_numbers(const FileContext& context, hid_t where, const char* name, hid_t in_memory, std::size_t count,
+                  void* to);
+/// Returns the text of an attribute. Throws as read_numbers.
 std::string read_text(const FileContext& context, hid_t where, const char* name);
-/// Reads an attribute with as many values as `to` holds. Throws as read_number.
-void read_numbers(const FileContext& context, hid_t where, const char* name, std::span<double> to);
+/// Returns the number of an attribute. Throws as read_numbers.
+template <typename Value = double>
+Value read_attribute(const FileContext& context, hid_t where, const char* name) {
+  Value value{};
+  read_numbers(context, where, name, type_of<Value>(false), 1, &value);
+  return value;
+}
 
 /// Reads a whole dataset, which must have the expected extent.
 template <typename T>
-std::vector<T> read_all(const FileContext& context, hid_t file, const DatasetName& name, const Extent& expected,
-                        hid_t type) {
+std::vector<T> read_all(const FileContext& context, hid_t file, const DatasetName& name, const Extent& expected) {
   const Handle dataset = open_dataset(context, file, name);
   const Extent extent = extent_of(context, dataset, name.path, expected.size());
   std::size_t values = 1;
@@ -221,7 +232,7 @@ std::vector<T> read_all(const FileContext& context, hid_t file, const DatasetNam
     values *= extent[d];
   }
   std::vector<T> result(values);
-  read_values(context, dataset, {type}, result.data(), name.path);
+  read_values(context, dataset, {type_of<T>(false)}, result.data(), name.path);
   return result;
 }
 

@@ -68,13 +68,6 @@ std::vector<std::string> images_of(const FileContext& context, hid_t file) {
   return images;
 }
 
-Extent whole_extent(const FileContext& context, hid_t dataset, const char* name) {
-  const Handle space(context.checked(H5Dget_space(dataset), name), H5Sclose);
-  Extent extent(static_cast<std::size_t>(context.checked(H5Sget_simple_extent_ndims(space), name)));
-  context.checked(H5Sget_simple_extent_dims(space, extent.data(), nullptr), name);
-  return extent;
-}
-
 /// Reads the values of a part's track. Returns their extent, which is empty if the part has none.
 Extent read_values_of(const FileContext& context, hid_t file, Track& track, hsize_t pings) {
   const std::size_t before = track.bytes.size();
@@ -82,13 +75,13 @@ Extent read_values_of(const FileContext& context, hid_t file, Track& track, hsiz
     if (track.without == Track::Without::nothing) return {};
     const bool rest = track.without == Track::Without::rest;
     const std::vector<double> same(rest ? 3 * pings : pings,
-                                   rest ? 0 : read_number(context, file, track.name.path + 1));
+                                   rest ? 0 : read_attribute(context, file, track.name.path + 1));
     track.bytes.resize(before + 8 * same.size());
     std::memcpy(track.bytes.data() + before, same.data(), 8 * same.size());
     return rest ? Extent{pings, 3} : Extent{pings};
   }
   const Handle dataset = open_dataset(context, file, track.name);
-  const Extent extent = whole_extent(context, dataset, track.name.path);
+  const Extent extent = extent_of(context, dataset, track.name.path);
   track.bytes.resize(before + 8 * std::accumulate(extent.begin(), extent.end(), hsize_t{1}, std::multiplies<>()));
   read_values(context, dataset, {track.type(false)}, track.bytes.data() + before, track.name.path);
   return extent;
@@ -167,7 +160,7 @@ bool goes_without(const FileContext& from, hid_t first, const Track& track) {
   if (track.without == Track::Without::nothing) return false;
   std::vector<double> values(track.bytes.size() / 8);
   std::memcpy(values.data(), track.bytes.data(), track.bytes.size());
-  const double same = track.without == Track::Without::rest ? 0 : read_number(from, first, track.name.path + 1);
+  const double same = track.without == Track::Without::rest ? 0 : read_attribute(from, first, track.name.path + 1);
   return std::all_of(values.begin(), values.end(), [same](double value) { return value == same; });
 }
 
@@ -182,10 +175,7 @@ void write_tracks(const FileContext& context, hid_t file, const JoinedCube& join
 }
 
 Handle rows(const FileContext& context, const Extent& extent, hsize_t first, hsize_t count) {
-  Handle space(context.checked(H5Screate_simple(3, extent.data(), nullptr), "selection"), H5Sclose);
-  const Extent start = {first, 0, 0}, size = {count, extent[1], extent[2]};
-  context.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr), "selection");
-  return space;
+  return block_of(context, extent, {first, 0, 0}, {count, extent[1], extent[2]});
 }
 
 /// Makes `properties` refer to the parts. Values of a part that is missing later read as NaN, levels as no_level.
@@ -247,7 +237,7 @@ void write_image(const FileContext& context, const JoinedCube& joined, const std
                           H5Pclose);
   context.checked(H5Pset_obj_track_times(properties, false), image);
   if (!join.copy) refer_to_parts(context, joined, image, type, properties);
-  const Handle space(context.checked(H5Screate_simple(3, joined.extent.data(), nullptr), image), H5Sclose);
+  const Handle space = space_of(context, joined.extent);
   const Handle dataset(
       context.checked(H5Dcreate2(file, image.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), image),
       H5Dclose);

@@ -22,6 +22,17 @@ constexpr DatasetName surfel_name{"/surfel", ""}, id_name{"/id", ""}, share_name
     material_image_name{"/material_image", ""}, instance_image_name{"/instance_image", ""},
     names_name{"/material_names", ""}, before_name{"/surfel_before", ""};
 
+/// Calls use(name, list) for the lists of contributors that each file has, in the order of their datasets.
+template <typename Use>
+void for_each_list(const Contributors& c, const Use& use) {
+  use(surfel_name, c.surfel);
+  use(id_name, c.id);
+  use(share_name, c.share);
+  use(elevations_name, c.elevation);
+  use(material_name, c.material);
+  use(path_name, c.path);
+}
+
 template <typename Number>
 void send_numbers(const FileContext& context, hid_t file, const DatasetName& name, const Extent& extent,
                   ArraySender& to) {
@@ -60,7 +71,7 @@ void require_ours(const FileContext& context, hid_t file) {
   if (H5Aexists(file, "content") <= 0 || read_text(context, file, "content") != content)
     fail(context.kind, context.path, ": is not a contributor file of insonify: attribute 'content' is not \"", content,
          "\"");
-  const std::int64_t schema = read_integer(context, file, "schema");
+  const std::int64_t schema = read_attribute<std::int64_t>(context, file, "schema");
   if (schema != contributor_schema)
     fail(context.kind, context.path, ": has contributor schema ", schema, ", this version reads schema ",
          contributor_schema);
@@ -104,12 +115,7 @@ struct ContributorFile::Open {
     write_attribute(context, file, "content", content);
     write_attribute(context, file, "paths",
                     std::string("0 direct, 1 one bounce, 2 two bounces") + (two_surfaces ? ", 3 two surfaces" : ""));
-    add<std::uint32_t>(surfel_name);
-    add<std::uint32_t>(id_name);
-    add<float>(share_name);
-    add<float>(elevations_name);
-    add<std::uint16_t>(material_name);
-    add<std::uint8_t>(path_name);
+    for_each_list({}, [&]<typename Number>(auto& name, const std::vector<Number>&) { add<Number>(name); });
     if (two_surfaces) add<std::uint32_t>(before_name);
     write_names(context, file, names);
   }
@@ -117,24 +123,16 @@ struct ContributorFile::Open {
   template <typename Number>
   void write(std::size_t dataset, const DatasetName& name, std::size_t first_beam, std::size_t beams,
              const Number* numbers) {
-    const Extent start = {first_beam, 0, 0}, count = {beams, lists[1], lists[2]};
-    const Handle here(context.checked(H5Screate_simple(3, count.data(), nullptr), name.path), H5Sclose);
-    const Handle there(context.checked(H5Dget_space(datasets[dataset]), name.path), H5Sclose);
-    context.checked(H5Sselect_hyperslab(there, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
-                    name.path);
+    const Extent count = {beams, lists[1], lists[2]};
+    const Handle here = space_of(context, count), there = block_of(context, lists, {first_beam, 0, 0}, count);
     context.checked(H5Dwrite(datasets[dataset], type_of<Number>(false), here, there, H5P_DEFAULT, numbers), name.path);
   }
   void write(const Contributors& band, std::size_t first_beam) {
-    write(0, surfel_name, first_beam, band.beams, band.surfel.data());
-    write(1, id_name, first_beam, band.beams, band.id.data());
-    write(2, share_name, first_beam, band.beams, band.share.data());
-    write(3, elevations_name, first_beam, band.beams, band.elevation.data());
-    write(4, material_name, first_beam, band.beams, band.material.data());
-    static_assert(sizeof(PathKind) == 1);
-    write(5, path_name, first_beam, band.beams, reinterpret_cast<const std::uint8_t*>(band.path.data()));
-    if (datasets.size() <= 6) return;
+    std::size_t dataset = 0;
+    for_each_list(band, [&](auto& name, auto& list) { write(dataset++, name, first_beam, band.beams, list.data()); });
+    if (datasets.size() <= dataset) return;
     const std::vector<std::uint32_t> none(band.surfel_before.empty() ? band.surfel.size() : 0, Contributors::none);
-    write(6, before_name, first_beam, band.beams, none.empty() ? band.surfel_before.data() : none.data());
+    write(dataset, before_name, first_beam, band.beams, none.empty() ? band.surfel_before.data() : none.data());
   }
   void write_image(const DatasetName& name, const auto& image) {
     using Number = typename std::decay_t<decltype(image)>::Scalar;
@@ -202,12 +200,9 @@ NamedContributors read_contributor_file(const std::string& path) {
     require_ours(context, file);
     const Extent extent = extent_of(context, open_dataset(context, file, surfel_name), surfel_name.path, 3);
     to(extent);
-    send_numbers<std::uint32_t>(context, file, surfel_name, extent, to);
-    send_numbers<std::uint32_t>(context, file, id_name, extent, to);
-    send_numbers<float>(context, file, share_name, extent, to);
-    send_numbers<float>(context, file, elevations_name, extent, to);
-    send_numbers<std::uint16_t>(context, file, material_name, extent, to);
-    send_numbers<std::uint8_t>(context, file, path_name, extent, to);
+    for_each_list({}, [&]<typename Number>(auto& name, const std::vector<Number>&) {
+      send_numbers<Number>(context, file, name, extent, to);
+    });
     if (H5Lexists(file, before_name.path, H5P_DEFAULT) > 0)
       send_numbers<std::uint32_t>(context, file, before_name, extent, to);
     else

@@ -32,6 +32,9 @@ void pass(Stream& stream, Cube& cube) {
          cube.anchor, cube.notes);
 }
 
+/// Returns the texts that stand one a line.
+std::vector<std::string> texts_in(const std::string& lines);
+
 /// Facts about the pings of a cube without their images.
 struct CubeTable {
   hdf5::Extent extent{};  ///< extent of /pressure
@@ -63,6 +66,19 @@ inline bool has_levels(hid_t file) { return image_name_of(file).path == std::str
 Grid<std::int16_t> stored_levels(const ComplexGridF& pressure);
 /// Returns the pressures, without phase, of stored levels [Pa].
 ComplexGridF pressures_of(const Grid<std::int16_t>& levels);
+
+/// Calls use(name, image) for the maps of the labels of pixels: the dataset, and the member of PixelLabels. Cubes with
+/// labels have the first three.
+template <typename Use>
+void for_each_label_map(const Use& use) {
+  use(label_material_name, &PixelLabels::material);
+  use(label_id_name, &PixelLabels::id);
+  use(label_share_name, &PixelLabels::share);
+  use(label_part_name, &PixelLabels::part);
+  use(label_elevation_name, &PixelLabels::elevation);
+  use(label_second_name, &PixelLabels::second);
+  use(label_second_share_name, &PixelLabels::second_share);
+}
 
 /// Writes the images of all pings: pressures or levels, layers, maps and labels.
 void write_all_images(const hdf5::FileContext& context, hid_t file, const Cube& cube);

@@ -5,7 +5,7 @@
 #include <functional>
 #include <numbers>
 #include <ranges>
-#include <sstream>
+#include <type_traits>
 
 #include "core/error.hpp"
 #include "core/units.hpp"
@@ -14,7 +14,7 @@
 #include "store/cube_layout_internal.hpp"
 #include "store/cube_parts_internal.hpp"
 
-// Sends the images of a cube from the child process that reads them to its parent.
+// Sends the images of a cube from the process that reads them.
 namespace insonify {
 
 using namespace hdf5;
@@ -72,13 +72,13 @@ std::vector<Piece> pieces_of(hid_t dataset, hid_t type, const Extent& extent, hs
   return pieces;
 }
 
-// Sends one image of `type` per ping: for a large one its position in the file, from which the parent copies it, else its
-// numbers.
+// Sends one image of `type` per ping: for a large one its position in the file, from which the receiver copies it,
+// else its numbers.
 void send_images(const FileContext& context, hid_t dataset, const std::string& name, hid_t type, PingRange pings,
                  ArraySender& to) {
   const Extent extent = extent_of(context, dataset, name, 3);
   const Extent one_ping = {1, extent[1], extent[2]};
-  const Handle memory(context.checked(H5Screate_simple(3, one_ping.data(), nullptr), name), H5Sclose);
+  const Handle memory = space_of(context, one_ping);
   for (std::size_t p = pings.begin; p < pings.end; ++p) {
     const std::vector<Piece> pieces = pieces_of(dataset, type, extent, p);
     to(pieces);
@@ -86,7 +86,7 @@ void send_images(const FileContext& context, hid_t dataset, const std::string& n
       to(extent[1], extent[2]);
       continue;
     }
-    const Handle row = select_row(context, dataset, extent, p);
+    const Handle row = block_of(context, extent, {p, 0, 0}, one_ping);
     const auto rows = static_cast<Eigen::Index>(extent[1]), columns = static_cast<Eigen::Index>(extent[2]);
     read_values(context, dataset, {type, memory, row}, to.take_grid(rows, columns, H5Tget_size(type)), name);
   }
@@ -145,18 +145,20 @@ void send_layers(const FileContext& context, hid_t file, const Extent& extent, b
   }
 }
 
-// Sends true if there is an optional map, and then that of each ping; else false.
-void send_map(const FileContext& context, hid_t file, const DatasetName& name, hid_t type, const Extent& extent,
-              PingRange pings, ArraySender& to) {
+// Sends true if there is an optional map of numbers, and then that of each ping; else false.
+template <typename Number>
+void send_map(const FileContext& context, hid_t file, const DatasetName& name, const Extent& extent, PingRange pings,
+              ArraySender& to) {
   const bool there = H5Lexists(file, name.path, H5P_DEFAULT) > 0;
   to(there);
   if (!there) return;
   const Handle dataset = open_dataset(context, file, name);
   require_extent(context, dataset, name.path, extent);
+  const hid_t type = type_of<Number>(false);
   const Handle stored(context.checked(H5Dget_type(dataset), name.path), H5Tclose);
-  if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
+  if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != sizeof(Number))
     fail(context.kind, context.path, ": ", name.path, " must be of ",
-         H5Tget_class(type) == H5T_FLOAT ? "float" : "uint", 8 * H5Tget_size(type));
+         std::is_floating_point_v<Number> ? "float" : "uint", 8 * sizeof(Number));
   send_images(context, dataset, name.path, type, pings, to);
 }
 
@@ -169,25 +171,14 @@ void receive_map(ArrayReceiver& sent, const std::string& path, std::vector<Ping>
 }
 
 void send_labels(const FileContext& context, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
-  const bool there = H5Lexists(file, label_material_name.path, H5P_DEFAULT) > 0;
-  to(there);
+  const bool there = H5Lexists(file, label_material_name.path, H5P_DEFAULT) > 0, parts = there && has_parts(file);
+  to(there, parts);
   if (!there) return;
-  for (const auto& [name, type] :
-       {std::pair(label_material_name, H5T_NATIVE_UINT16), std::pair(label_id_name, H5T_NATIVE_UINT32),
-        std::pair(label_share_name, H5T_NATIVE_FLOAT)}) {
-    open_dataset(context, file, name);  // throws unless all three are present
-    send_map(context, file, name, type, extent, pings, to);
-  }
-  std::istringstream lines(read_text(context, file, label_names_attribute));
-  std::vector<std::string> names;
-  for (std::string name; std::getline(lines, name);) names.push_back(name);
-  to(names);
-  send_map(context, file, label_part_name, H5T_NATIVE_UINT16, extent, pings, to);
-  send_map(context, file, label_elevation_name, H5T_NATIVE_FLOAT, extent, pings, to);
-  send_map(context, file, label_second_name, H5T_NATIVE_UINT16, extent, pings, to);
-  send_map(context, file, label_second_share_name, H5T_NATIVE_FLOAT, extent, pings, to);
-  const bool parts = has_parts(file);
-  to(parts);
+  for (const DatasetName& name : {label_id_name, label_share_name}) open_dataset(context, file, name);  // must be there
+  for_each_label_map([&]<typename Number>(const DatasetName& name, Grid<Number> PixelLabels::*) {
+    send_map<Number>(context, file, name, extent, pings, to);
+  });
+  to(texts_in(read_text(context, file, label_names_attribute)));
   if (parts) send_parts(context, file, extent, pings, to);
 }
 
@@ -202,28 +193,16 @@ void require_names(const std::string& path, const char* map, const Grid<std::uin
 }
 
 void receive_labels(ArrayReceiver& sent, const std::string& path, std::vector<Ping>& pings) {
-  bool there = false;
-  sent(there);
+  bool there = false, parts = false;
+  sent(there, parts);
   if (!there) return;
-  receive_map(
-      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.material; });
-  receive_map(
-      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.id; });
-  receive_map(
-      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.share; });
+  for_each_label_map([&](const DatasetName&, auto map) {
+    receive_map(
+        sent, path, pings, [map](Ping & ping) -> auto& { return ping.labels.*map; });
+  });
   std::vector<std::string> names;
   sent(names);
   for (Ping& ping : pings) ping.labels.names = names;
-  receive_map(
-      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.part; });
-  receive_map(
-      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.elevation; });
-  receive_map(
-      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.second; });
-  receive_map(
-      sent, path, pings, [](Ping & ping) -> auto& { return ping.labels.second_share; });
-  bool parts = false;
-  sent(parts);
   if (parts) receive_parts(sent, pings);
   for (const PixelLabels& labels : pings | std::views::transform(&Ping::labels)) {
     require_names(path, label_material_name.path, labels.material, PixelLabels::shadow, label_names_attribute,
@@ -260,9 +239,9 @@ void send_all_images(const FileContext& context, hid_t file, const Extent& exten
   const bool levels = has_levels(file);
   send_signal(context, open_dataset(context, file, image), image.path, levels, pings, to);
   send_layers(context, file, extent, levels, pings, to);
-  send_map(context, file, intensity_name, H5T_NATIVE_FLOAT, extent, pings, to);
-  send_map(context, file, unknown_name, H5T_NATIVE_UINT8, extent, pings, to);
-  send_map(context, file, split_phase_name, H5T_NATIVE_FLOAT, extent, pings, to);
+  send_map<float>(context, file, intensity_name, extent, pings, to);
+  send_map<std::uint8_t>(context, file, unknown_name, extent, pings, to);
+  send_map<float>(context, file, split_phase_name, extent, pings, to);
   send_labels(context, file, extent, pings, to);
 }
 

@@ -31,8 +31,8 @@ void put_view(const PartView& view, std::vector<double>& numbers) {
 
 PartView view_of(const double* numbers) {
   PartView view;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column) view.world_from_part.matrix()(row, column) = *numbers++;
+  view.world_from_part.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers);
+  numbers += 12;
   view.visible_share = *numbers++;
   for (PartView::Extent* extent :
        {&view.azimuth, &view.elevation, &view.range, &view.beam_azimuth, &view.ahead, &view.port})
@@ -47,8 +47,7 @@ std::vector<double> read_views(const FileContext& context, hid_t file, std::size
   const Extent there = extent_of(context, open_dataset(context, file, part_views_name), part_views_name.path, 3);
   const bool before = there[2] == numbers_before;
   const std::size_t stored = before ? numbers_before : numbers_per_view;
-  std::vector<double> numbers =
-      read_all<double>(context, file, part_views_name, {pings, parts, stored}, H5T_NATIVE_DOUBLE);
+  std::vector<double> numbers = read_all<double>(context, file, part_views_name, {pings, parts, stored});
   if (!before) return numbers;
   std::vector<double> all(pings * parts * numbers_per_view, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t view = 0; view < pings * parts; ++view)
@@ -57,20 +56,20 @@ std::vector<double> read_views(const FileContext& context, hid_t file, std::size
 }
 
 /// Returns the texts as lines. Each has an end of line, because the last text may be empty.
-std::string as_lines(const std::vector<std::string>& texts) {
+std::string lines_of(const std::vector<std::string>& texts) {
   std::string lines;
   for (const std::string& text : texts) lines += text + "\n";
   return lines;
 }
 
-std::vector<std::string> from_lines(const std::string& lines) {
+}  // namespace
+
+std::vector<std::string> texts_in(const std::string& lines) {
   std::istringstream in(lines);
   std::vector<std::string> texts;
   for (std::string text; std::getline(in, text);) texts.push_back(text);
   return texts;
 }
-
-}  // namespace
 
 void require_same_parts(const Ping& ping, const Ping& first, const std::string& path) {
   if (ping.labels.part_names != first.labels.part_names || ping.labels.part_labels != first.labels.part_labels)
@@ -90,15 +89,15 @@ void write_parts(const FileContext& context, hid_t file, const std::vector<Ping>
   }
   write_numbers(context, file, part_views_name, {pings.size(), first.part_names.size(), numbers_per_view},
                 numbers.data());
-  write_attribute(context, file, part_names_attribute, as_lines(first.part_names));
-  write_attribute(context, file, part_labels_attribute, as_lines(first.part_labels));
+  write_attribute(context, file, part_names_attribute, lines_of(first.part_names));
+  write_attribute(context, file, part_labels_attribute, lines_of(first.part_labels));
 }
 
 bool has_parts(hid_t file) { return H5Lexists(file, part_views_name.path, H5P_DEFAULT) > 0; }
 
 void send_parts(const FileContext& context, hid_t file, const Extent& extent, PingRange pings, ArraySender& to) {
-  const std::vector<std::string> names = from_lines(read_text(context, file, part_names_attribute));
-  const std::vector<std::string> labels = from_lines(read_text(context, file, part_labels_attribute));
+  const std::vector<std::string> names = texts_in(read_text(context, file, part_names_attribute));
+  const std::vector<std::string> labels = texts_in(read_text(context, file, part_labels_attribute));
   if (labels.size() != names.size())
     fail(context.kind, context.path, ": ", part_labels_attribute, " has ", labels.size(), " lines, but ",
          part_names_attribute, " has ", names.size());

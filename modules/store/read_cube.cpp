@@ -17,7 +17,7 @@ namespace {
 void require_schema(const FileContext& context, hid_t file) {
   if (H5Aexists(file, "schema") <= 0)
     fail(context.kind, context.path, ": is not a cube of insonify: attribute 'schema' is missing");
-  const std::int64_t schema = read_integer(context, file, "schema");
+  const std::int64_t schema = read_attribute<std::int64_t>(context, file, "schema");
   if (schema != cube_schema)
     fail(context.kind, context.path, ": has cube schema ", schema, ", this version reads schema ", cube_schema);
 }
@@ -25,13 +25,13 @@ void require_schema(const FileContext& context, hid_t file) {
 // Reads fan and gate, common to all pings; invalid values are errors of the file.
 void read_axes(const FileContext& context, hid_t file, CubeTable& table) {
   const Extent& extent = table.extent;
-  table.fan.azimuth = read_all<double>(context, file, azimuth_name, {extent[1]}, H5T_NATIVE_DOUBLE);
-  table.fan.elevation = read_all<double>(context, file, elevation_name, {extent[1]}, H5T_NATIVE_DOUBLE);
-  table.fan.beam_width = read_number(context, file, "beam_width");
-  table.fan.elevation_width = read_number(context, file, "elevation_width");
-  if (H5Aexists(file, "row_width") > 0) table.fan.row_width = read_number(context, file, "row_width");
-  table.gate = {read_number(context, file, "min_range"), read_number(context, file, "max_range"),
-                read_number(context, file, "bin_size")};
+  table.fan.azimuth = read_all<double>(context, file, azimuth_name, {extent[1]});
+  table.fan.elevation = read_all<double>(context, file, elevation_name, {extent[1]});
+  table.fan.beam_width = read_attribute(context, file, "beam_width");
+  table.fan.elevation_width = read_attribute(context, file, "elevation_width");
+  if (H5Aexists(file, "row_width") > 0) table.fan.row_width = read_attribute(context, file, "row_width");
+  table.gate = {read_attribute(context, file, "min_range"), read_attribute(context, file, "max_range"),
+                read_attribute(context, file, "bin_size")};
   try {
     require_valid(table.fan, "cube");
     require_valid(table.gate, "cube");
@@ -41,14 +41,14 @@ void read_axes(const FileContext& context, hid_t file, CubeTable& table) {
   if (table.gate.bins() != extent[2])
     fail(context.kind, context.path, ": /pressure has ", extent[2],
          " bins, but min_range, max_range and bin_size give ", table.gate.bins());
-  read_all<double>(context, file, range_name, {extent[2]}, H5T_NATIVE_DOUBLE);
+  read_all<double>(context, file, range_name, {extent[2]});
 }
 
 // Returns a property of the water for each ping: the ping's own, or else the cube's.
 std::vector<double> water_of(const FileContext& context, hid_t file, const DatasetName& name, hsize_t pings) {
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0)
-    return std::vector<double>(pings, read_number(context, file, name.path + 1));
-  const auto values = read_all<double>(context, file, name, {pings}, H5T_NATIVE_DOUBLE);
+    return std::vector<double>(pings, read_attribute(context, file, name.path + 1));
+  const auto values = read_all<double>(context, file, name, {pings});
   for (const double value : values)
     if (!(value >= 0 && std::isfinite(value)))
       fail(context.kind, context.path, ": ", name.path, " = ", value, " ", name.unit, ", must be finite and >= 0");
@@ -60,7 +60,7 @@ std::vector<Eigen::Vector3d> vectors_of(const FileContext& context, hid_t file, 
                                         hsize_t pings) {
   std::vector<Eigen::Vector3d> vectors(pings, Eigen::Vector3d::Zero());
   if (H5Lexists(file, name.path, H5P_DEFAULT) <= 0) return vectors;
-  const auto values = read_all<double>(context, file, name, {pings, 3}, H5T_NATIVE_DOUBLE);
+  const auto values = read_all<double>(context, file, name, {pings, 3});
   for (std::size_t p = 0; p < pings; ++p) {
     vectors[p] = Eigen::Map<const Eigen::Vector3d>(values.data() + 3 * p);
     if (!vectors[p].allFinite())
@@ -71,9 +71,9 @@ std::vector<Eigen::Vector3d> vectors_of(const FileContext& context, hid_t file, 
 }
 
 std::vector<TrackPoint> track_of(const FileContext& context, hid_t file, hsize_t pings) {
-  const auto pose = read_all<double>(context, file, pose_name, {pings, 4, 4}, H5T_NATIVE_DOUBLE);
-  const auto time = read_all<double>(context, file, time_name, {pings}, H5T_NATIVE_DOUBLE);
-  const auto number = read_all<std::int64_t>(context, file, ping_name, {pings}, H5T_NATIVE_INT64);
+  const auto pose = read_all<double>(context, file, pose_name, {pings, 4, 4});
+  const auto time = read_all<double>(context, file, time_name, {pings});
+  const auto number = read_all<std::int64_t>(context, file, ping_name, {pings});
   const auto speed = water_of(context, file, sound_speed_name, pings);
   const auto absorption = water_of(context, file, absorption_name, pings);
   const auto velocity = vectors_of(context, file, velocity_name, pings);
@@ -82,8 +82,8 @@ std::vector<TrackPoint> track_of(const FileContext& context, hid_t file, hsize_t
   std::vector<double> angle;
   std::vector<std::int64_t> sweep;
   if (scans) {
-    angle = read_all<double>(context, file, scan_angle_name, {pings}, H5T_NATIVE_DOUBLE);
-    sweep = read_all<std::int64_t>(context, file, sweep_name, {pings}, H5T_NATIVE_INT64);
+    angle = read_all<double>(context, file, scan_angle_name, {pings});
+    sweep = read_all<std::int64_t>(context, file, sweep_name, {pings});
   }
   std::vector<TrackPoint> track(pings);
   for (std::size_t p = 0; p < track.size(); ++p) {
@@ -93,9 +93,7 @@ std::vector<TrackPoint> track_of(const FileContext& context, hid_t file, hsize_t
     track[p].absorption_db_per_m = absorption[p];
     track[p].motion = {velocity[p], turn_rate[p]};
     if (scans) track[p].scan = ScanDirection{sweep[p], angle[p]};
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column)
-        track[p].world_from_head.matrix()(row, column) = pose[16 * p + static_cast<std::size_t>(4 * row + column)];
+    track[p].world_from_head.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(&pose[16 * p]);
   }
   return track;
 }
@@ -128,22 +126,22 @@ Cube read_attributes(const FileContext& context, hid_t file) {
   Cube cube;
   cube.insonify_version = read_text(context, file, "insonify_version");
   cube.sonar = read_text(context, file, "sonar");
-  cube.sound_speed = read_number(context, file, "sound_speed");
-  cube.absorption_db_per_m = read_number(context, file, "absorption_db_per_m");
-  cube.centre_frequency = read_number(context, file, "centre_frequency");
-  cube.bandwidth = read_number(context, file, "bandwidth");
-  cube.source_level_db = read_number(context, file, "source_level_db");
-  cube.seed = read_unsigned(context, file, "seed");
-  cube.tolerance = read_number(context, file, "tolerance");
+  cube.sound_speed = read_attribute(context, file, "sound_speed");
+  cube.absorption_db_per_m = read_attribute(context, file, "absorption_db_per_m");
+  cube.centre_frequency = read_attribute(context, file, "centre_frequency");
+  cube.bandwidth = read_attribute(context, file, "bandwidth");
+  cube.source_level_db = read_attribute(context, file, "source_level_db");
+  cube.seed = read_attribute<std::uint64_t>(context, file, "seed");
+  cube.tolerance = read_attribute(context, file, "tolerance");
   if (H5Aexists(file, keep_bits_attribute) > 0)
-    cube.keep_bits = static_cast<int>(read_integer(context, file, keep_bits_attribute));
+    cube.keep_bits = static_cast<int>(read_attribute<std::int64_t>(context, file, keep_bits_attribute));
   if (H5Aexists(file, head_attribute) > 0) cube.head = read_text(context, file, head_attribute);
   if (H5Aexists(file, notes_attribute) > 0) cube.notes = notes_in(read_text(context, file, notes_attribute));
   if (H5Aexists(file, start_utc_attribute) > 0) cube.start_utc = read_text(context, file, start_utc_attribute);
   if (H5Aexists(file, anchor_latitude_attribute) > 0)
-    cube.anchor = {read_number(context, file, anchor_latitude_attribute),
-                   read_number(context, file, anchor_longitude_attribute),
-                   read_number(context, file, anchor_heading_attribute)};
+    cube.anchor = {read_attribute(context, file, anchor_latitude_attribute),
+                   read_attribute(context, file, anchor_longitude_attribute),
+                   read_attribute(context, file, anchor_heading_attribute)};
   return cube;
 }
 
@@ -204,11 +202,8 @@ ComplexGridF read_beam(const std::string& path, std::size_t first, std::size_t c
     char* const rows =
         to.take_grid(static_cast<Eigen::Index>(pings), static_cast<Eigen::Index>(extent[2]), H5Tget_size(type));
     if (pings == 0) return;
-    const Extent start{from, one, 0}, size{pings, 1, extent[2]};
-    const Handle space(context.checked(H5Dget_space(dataset), pressure_name.path), H5Sclose);
-    context.checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr),
-                    "selection");
-    const Handle memory(context.checked(H5Screate_simple(3, size.data(), nullptr), pressure_name.path), H5Sclose);
+    const Extent size{pings, 1, extent[2]};
+    const Handle memory = space_of(context, size), space = block_of(context, extent, {from, one, 0}, size);
     read_values(context, dataset, {type, memory, space}, rows, "/pressure");
   };
   ComplexGridF rows;

@@ -49,15 +49,14 @@ void require_same_maps(const Ping& ping, const Ping& first, const std::string& p
   require(ping.labels.second, first.labels.second, "second labels");
   require(ping.labels.second_share, first.labels.second, "shares of second labels");
   require_same_parts(ping, first, path);
-  if (ping.scan.has_value() != first.scan.has_value())
-    fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
-         " is of a scanning head; write it to a cube of its own");
-  if (ping.display_cells != first.display_cells)
-    fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
-         " has display cells; write it to a cube of its own");
-  if (ping.expected_level != first.expected_level)
-    fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number,
-         " is an expected level; write it to a cube of its own");
+  const auto require_both = [&](bool alike, const char* what) {
+    if (!alike)
+      fail(ErrorKind::argument, "write_cube: ", path, ": only one of pings ", first.number, " and ", ping.number, what,
+           "; write it to a cube of its own");
+  };
+  require_both(ping.scan.has_value() == first.scan.has_value(), " is of a scanning head");
+  require_both(ping.display_cells == first.display_cells, " has display cells");
+  require_both(ping.expected_level == first.expected_level, " is an expected level");
 }
 
 // Throws Error(argument) for pings that cannot share one set of axes.

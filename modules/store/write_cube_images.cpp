@@ -45,9 +45,9 @@ void write_images(const FileContext& context, hid_t file, const DatasetName& nam
   if constexpr (std::is_same_v<Number, std::complex<float>>)
     write_attribute(context, dataset, convention_attribute, std::string(pressure_convention));
   const Extent one_ping = {1, beams, bins};
-  const Handle memory(context.checked(H5Screate_simple(3, one_ping.data(), nullptr), name.path), H5Sclose);
+  const Handle memory = space_of(context, one_ping);
   for (std::size_t p = 0; p < pings.size(); ++p) {
-    const Handle row = select_row(context, dataset, extent, p);
+    const Handle row = block_of(context, extent, {p, 0, 0}, one_ping);
     context.checked(H5Dwrite(dataset, here, memory, row, H5P_DEFAULT, part(pings[p]).data()), name.path);
   }
 }
@@ -117,20 +117,12 @@ void write_maps(const FileContext& context, hid_t file, const std::vector<Ping>&
   write(split_phase_name, &Ping::split_phase, Packing::none);
   const PixelLabels& first = pings.front().labels;
   if (first.empty()) return;
-  const auto write_label = [&](const DatasetName& name, auto label) {
-    write_images(
-        context, file, name, pings, [label](const Ping& ping) -> const auto& { return ping.labels.*label; },
-        Packing::deflate);
-  };
-  write_label(label_material_name, &PixelLabels::material);
-  write_label(label_id_name, &PixelLabels::id);
-  write_label(label_share_name, &PixelLabels::share);
-  if (first.part.size() > 0) write_label(label_part_name, &PixelLabels::part);
-  if (first.second.size() > 0) {
-    write_label(label_elevation_name, &PixelLabels::elevation);
-    write_label(label_second_name, &PixelLabels::second);
-    write_label(label_second_share_name, &PixelLabels::second_share);
-  }
+  for_each_label_map([&](const DatasetName& name, auto label) {
+    if ((first.*label).size() > 0)
+      write_images(
+          context, file, name, pings, [label](const Ping& ping) -> const auto& { return ping.labels.*label; },
+          Packing::deflate);
+  });
   write_parts(context, file, pings);
   // If the last name is empty, it is a line of its own.
   const bool ends_empty = !first.names.empty() && first.names.back().empty();

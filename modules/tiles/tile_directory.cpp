@@ -125,7 +125,7 @@ void pass(Stream& stream, Facts& f) {
 
 std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-/// The result of the child process that reads the file.
+/// Facts that the reader of the file sends.
 struct Found {
   Facts facts;
   /// A dataset in one piece.
@@ -145,18 +145,17 @@ Found find_all(const FileContext& context, hid_t file) {
   if (H5Aexists(file, "format") <= 0 || read_text(context, file, "format") != format_text)
     fail(context.kind, context.path,
          ": is an HDF5 file, but not a .tiles file; make one by: insonify prepare SCENE -o ", context.path);
-  if (const std::int64_t version = read_integer(context, file, "version"); version > newest_version)
+  if (const std::int64_t version = read_attribute<std::int64_t>(context, file, "version"); version > newest_version)
     fail(context.kind, context.path, ": is of version ", version, " of the format, this version reads up to ",
          newest_version, "; update insonify, or prepare the scene with this one");
   Found found;
   Facts& facts = found.facts;
-  read_numbers(context, file, "origin", facts.origin);
-  read_numbers(context, file, "low", facts.low);
-  read_numbers(context, file, "high", facts.high);
-  facts.total_area = read_number(context, file, "total_area");
+  for (const auto& [name, to] : {std::pair("origin", &facts.origin), {"low", &facts.low}, {"high", &facts.high}})
+    read_numbers(context, file, name, H5T_NATIVE_DOUBLE, to->size(), to->data());
+  facts.total_area = read_attribute(context, file, "total_area");
   facts.scene = read_text(context, file, "scene");
-  facts.wide = read_unsigned(context, file, "wide");
-  facts.checksum = read_unsigned(context, file, "checksum");
+  facts.wide = read_attribute<std::uint64_t>(context, file, "wide");
+  facts.checksum = read_attribute<std::uint64_t>(context, file, "checksum");
   found.surfels = extent_of(context, open_dataset(context, file, column_names[0]), "/point", 2)[0];
   const bool noisy = H5Lexists(file, column_names[noise_column].path, H5P_DEFAULT) > 0;
   for (std::size_t c = 0; c < (noisy ? tile_columns : noise_column); ++c) {

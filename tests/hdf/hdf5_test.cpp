@@ -39,7 +39,7 @@ TEST(Hdf5File, values_written_at_their_offset_are_those_that_hdf5_reads) {
   const std::string path = plain_file();
   const FileContext context{path, ErrorKind::content};
   const Handle file = open_file(context);
-  EXPECT_EQ(read_all<float>(context, file, numbers_name, {4}, H5T_NATIVE_FLOAT), (std::vector<float>{1, 2, 3, 4}));
+  EXPECT_EQ(read_all<float>(context, file, numbers_name, {4}), (std::vector<float>{1, 2, 3, 4}));
   const Handle dataset = open_dataset(context, file, numbers_name);
   EXPECT_EQ(find_plain(context, file, numbers_name, H5T_IEEE_F32LE, {4}), H5Dget_offset(dataset));
   EXPECT_EQ(read_text(context, dataset, "units"), "m");
