@@ -196,6 +196,7 @@ std::optional<RowFile> find_las_rows(const std::string& path) {
   const std::size_t at = layout.classification;
   file.marks = old ? RowMarks{at, at, 0x80, 0x1f} : RowMarks{at - 1, at, 0x04, 0xff};
   file.meaning.classes.value.reset(7).reset(18);
+  if (format == 4 || format == 5 || format >= 9) file.notes.push_back("the waveforms of its points are not read");
 
   const SystemRecords system = read_records(layout, file);
   take_system(path, system, project_remedy(start), file.meaning);

@@ -61,7 +61,7 @@ struct LasFile {
   }
 
   std::string bytes(const std::vector<Eigen::Vector3d>& positions) const {
-    const std::size_t header_size = minor == 4 ? 375 : 227;
+    const std::size_t header_size = minor == 4 ? 375 : minor == 3 ? 235 : 227;
     std::string described = extra_record();
     const auto count_of_records = static_cast<std::uint32_t>(records.size() + (described.empty() ? 0 : 1));
     for (const std::string& record : records) described += record;

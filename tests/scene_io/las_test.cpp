@@ -28,6 +28,8 @@ TEST(Las, has_the_places_and_classes_of_all_point_formats) {
     const std::string minor = std::to_string(format >= 6 ? 4 : format > 3 ? 3 : 2);
     EXPECT_THAT(scene.report.format,
                 testing::StartsWith("LAS 1." + minor + ", point format " + std::to_string(format)));
+    const bool waves = format == 4 || format == 5 || format >= 9;
+    EXPECT_EQ(has_note(scene.report, "the waveforms of its points are not read"), waves) << format;
   }
 }
 
