@@ -51,6 +51,12 @@ std::vector<Material> materials_of(const RawCloud& raw, const LoadOptions& optio
     else
       missing.push_back(material.name);
   }
+  if (!known && !raw.material_names.empty()) {
+    const std::string none = "the table of materials has none of the names in the file: " + shortened_list(missing);
+    if (options.materials.size() < own.size())
+      fail(ErrorKind::content, raw.path, ": ", none, "; give laws to these names, or one material for all");
+    report.notes.push_back(none + "; they take its rows in this order");
+  }
   if (!known) return options.materials;
   if (!missing.empty())
     report.notes.push_back("the table of materials has no " + shortened_list(missing) + ": as in the file");

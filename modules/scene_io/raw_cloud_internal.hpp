@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -96,6 +98,23 @@ struct RawCloud {
   }
   std::size_t unused() const { return withheld + other_classes + not_finite + holes; }  ///< number of points
 };
+
+/// Labels for the names of the materials of a mesh: one for each name, from 0 in the order in which they are asked for.
+class MaterialNumbers {
+ public:
+  explicit MaterialNumbers(RawCloud& raw) : raw_(raw) {}
+
+  std::size_t of(const std::string& name) {
+    const auto [entry, is_new] = known_.try_emplace(name, raw_.material_names.size());
+    if (is_new) raw_.material_names.push_back(name);
+    return entry->second;
+  }
+
+ private:
+  RawCloud& raw_;
+  std::unordered_map<std::string, std::size_t> known_;
+};
+
 constexpr std::uint16_t no_label = 65535;
 constexpr std::size_t most_stations = 65535;
 constexpr double farthest_coordinate = 1e9;  ///< [m]; larger coordinates mean "no data"
@@ -161,8 +180,8 @@ struct ReadOptions {
 /// Returns ReadOptions for `options`; labels are not read if all surfels get one material.
 ReadOptions read_options(const LoadOptions& options);
 
-/// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, and
-/// moves its viewpoint from the axes of the file to the world. The meaning of the numbers is raw.meaning, completed by
+/// Fills point, normal, area, label, id, box and origin of `raw` from the table's columns, identified by name, makes
+/// the names of its materials a table, and moves its viewpoint from the axes of the file to the world. The meaning of the numbers is raw.meaning, completed by
 /// the options and resolve_meaning. Throws Error(content) if x, y, z or the requested material field is missing, or no
 /// point is finite.
 void fill_cloud(RawCloud& raw, const RowTable& table, const ReadOptions& options);
@@ -200,7 +219,12 @@ RawCloud read_obj(const std::string& path, const ReadOptions& options);
 RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
 RawCloud read_ptx(const std::string& path, const ReadOptions& options);
 RawCloud read_gltf(const std::string& path, const ReadOptions& options);
-RawCloud read_assimp(const std::string& path, const ReadOptions& options);  ///< .dae, .fbx, .off, .x3d, .3mf
+RawCloud read_assimp(const std::string& path, const ReadOptions& options);  ///< .dae, .fbx, .off, .x3d, .wrl, .3mf
+/// Returns the X3D of a VRML file, in which nodes and fields have the same names. Each shape stands in a group whose name
+/// is `vrml_material` and the name of its material. Throws Error(content) with the line for text that is no VRML 2.0, or
+/// that defines nodes of its own or refers to other files.
+std::string vrml_as_x3d(const std::string& path);
+inline constexpr std::string_view vrml_material = "material of shape: ";
 RawCloud read_las(const std::string& path, const ReadOptions& options);
 RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< heights, by GDAL
 /// Throws Error(content) for a classic netCDF file that ends before its variables do; other files pass.

@@ -45,10 +45,13 @@ AssimpScene import(const std::string& path) {
   const auto options = INSONIFY_ASSIMP_FUNCTION(aiCreatePropertyStore)();
   const auto set = INSONIFY_ASSIMP_FUNCTION(aiSetImportPropertyInteger);
   set(options, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* const scene = INSONIFY_ASSIMP_FUNCTION(aiImportFileExWithProperties)(
-      path.c_str(),
-      aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GlobalScale | aiProcess_ValidateDataStructure, nullptr,
-      options);
+  constexpr unsigned steps =
+      aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GlobalScale | aiProcess_ValidateDataStructure;
+  const std::string x3d = extension_of(path) == ".wrl" ? vrml_as_x3d(path) : "";
+  const aiScene* const scene =
+      x3d.empty() ? INSONIFY_ASSIMP_FUNCTION(aiImportFileExWithProperties)(path.c_str(), steps, nullptr, options)
+                  : INSONIFY_ASSIMP_FUNCTION(aiImportFileFromMemoryWithProperties)(
+                        x3d.data(), static_cast<unsigned>(x3d.size()), steps, "x3d", options);
   INSONIFY_ASSIMP_FUNCTION(aiReleasePropertyStore)(options);
   if (!scene)
     fail(ErrorKind::content, path, ": cannot be read (", INSONIFY_ASSIMP_FUNCTION(aiGetErrorString)(),
@@ -70,23 +73,41 @@ Affine3d transform_of(const aiNode& node) {
   return transform;
 }
 
+/// Returns the name of the material of a mesh of a node. The importer of 3MF puts "id", a number and "_" before it; that
+/// of X3D keeps none, so that those of VRML are in the names of the nodes.
+std::string material_of(const aiScene& scene, const aiNode& node, const aiMesh& mesh, const std::string& extension) {
+  const std::string of_node = node.mName.C_Str();
+  if (extension == ".wrl" && of_node.starts_with(vrml_material)) return of_node.substr(vrml_material.size());
+  aiString found;
+  INSONIFY_ASSIMP_FUNCTION(aiGetMaterialString)(scene.mMaterials[mesh.mMaterialIndex], AI_MATKEY_NAME, &found);
+  const std::string name = found.C_Str();
+  if (name.empty()) return "material " + std::to_string(mesh.mMaterialIndex);
+  const std::size_t end = name.find_first_not_of("0123456789", 2);
+  const bool numbered = extension == ".3mf" && name.starts_with("id") && end != name.npos && name[end] == '_';
+  return numbered ? name.substr(end + 1) : name;
+}
+
 /// The corners and triangles of all nodes, in the axes of the world.
 struct PlacedMeshes {
   const aiScene& scene;
   RawCloud& raw;
+  MaterialNumbers materials{raw};
   std::vector<double> rows{};  ///< x y z label
 
   void add(const aiNode& node, const Affine3d& world) {
-    for (unsigned k = 0; k < node.mNumMeshes; ++k) add(*scene.mMeshes[node.mMeshes[k]], world);
+    for (unsigned k = 0; k < node.mNumMeshes; ++k) {
+      const aiMesh& mesh = *scene.mMeshes[node.mMeshes[k]];
+      add(mesh, materials.of(material_of(scene, node, mesh, extension_of(raw.path))), world);
+    }
     for (unsigned k = 0; k < node.mNumChildren; ++k) add(*node.mChildren[k], world * transform_of(*node.mChildren[k]));
   }
 
-  void add(const aiMesh& mesh, const Affine3d& world) {
+  void add(const aiMesh& mesh, std::size_t label, const Affine3d& world) {
     const auto first = static_cast<std::uint32_t>(rows.size() / 4);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const Eigen::Vector3d local(mesh.mVertices[i].x, mesh.mVertices[i].y, mesh.mVertices[i].z), p = world * local;
       raw.float_coordinates = raw.float_coordinates || local.cwiseAbs().maxCoeff() > 1000;
-      rows.insert(rows.end(), {p.x(), p.y(), p.z(), static_cast<double>(mesh.mMaterialIndex)});
+      rows.insert(rows.end(), {p.x(), p.y(), p.z(), static_cast<double>(label)});
     }
     // A mirror turns triangles over; exchange corners so that their outside stays outside.
     const bool mirrored = world.linear().determinant() < 0;
@@ -120,15 +141,21 @@ void set_unit_of_3mf(RawCloud& raw) {
   raw.meaning.unit = {*unit, MeaningOrigin::file, "unit of the file: " + name};
 }
 
-/// Returns the name of a material in its file. The importer of 3MF puts "id", a number and "_" before it.
-std::string name_in_file(const std::string& name, bool is_3mf) {
-  const std::size_t end = name.find_first_not_of("0123456789", 2);
-  return is_3mf && name.starts_with("id") && end != name.npos && name[end] == '_' ? name.substr(end + 1) : name;
+/// Notes what Assimp leaves out of X3D.
+void note_left_out(RawCloud& raw) {
+  const std::string text = read_whole_file(raw.path);
+  if (text.find("ccw=\"false\"") != text.npos || text.find("ccw='false'") != text.npos)
+    raw.notes.push_back("'ccw' is left out: faces with ccw false have their outside inside");
+  for (const std::string node : {"Anchor", "Billboard", "Collision", "LOD"})
+    if (text.find("<" + node) != text.npos)
+      raw.notes.push_back("nodes of type " + node +
+                          ", and what is in them, are left out: export it without them, or as .glb");
 }
 
-/// Sets which axis points up: the importers of Collada and X3D make it y; FBX states it, and others leave it open.
+/// Sets which axis points up: the importers of Collada and X3D (of VRML, too) make it y; FBX states it, and others leave
+/// it open.
 void set_up_axis(const aiScene& scene, const std::string& extension, RawCloud& raw) {
-  raw.meaning.y_up.value = extension == ".dae" || extension == ".x3d";
+  raw.meaning.y_up.value = extension == ".dae" || extension == ".x3d" || extension == ".wrl";
   if (extension != ".fbx") return;
   const int up = setting(scene, "UpAxis", 1);
   if ((up != 1 && up != 2) || setting(scene, "UpAxisSign", 1) < 0)
@@ -138,9 +165,9 @@ void set_up_axis(const aiScene& scene, const std::string& extension, RawCloud& r
 
 SentRows send_assimp(ArraySender& to, RawCloud& raw) {
   const AssimpScene scene = import(raw.path);
-  const bool is_3mf = extension_of(raw.path) == ".3mf";
   set_up_axis(*scene, extension_of(raw.path), raw);
-  if (is_3mf) set_unit_of_3mf(raw);
+  if (extension_of(raw.path) == ".x3d") note_left_out(raw);
+  if (extension_of(raw.path) == ".3mf") set_unit_of_3mf(raw);
   PlacedMeshes meshes{*scene, raw};
   // The root of an FBX has no transform of its own. Assimp turns it by the axes of the file, each version otherwise; the
   // up axis is applied here instead.
@@ -148,12 +175,6 @@ SentRows send_assimp(ArraySender& to, RawCloud& raw) {
   meshes.add(*scene->mRootNode, is_fbx ? Affine3d::Identity() : transform_of(*scene->mRootNode));
   if (meshes.rows.empty())
     fail(ErrorKind::content, raw.path, ": holds no triangle; export the mesh again, with its geometry");
-  for (unsigned k = 0; k < scene->mNumMaterials; ++k) {
-    aiString name;
-    INSONIFY_ASSIMP_FUNCTION(aiGetMaterialString)(scene->mMaterials[k], AI_MATKEY_NAME, &name);
-    raw.material_names.push_back(name.length > 0 ? name_in_file(name.C_Str(), is_3mf)
-                                                 : "material " + std::to_string(k));
-  }
   raw.width = meshes.rows.size() / 4;
   const SentRows sent = rows_of_doubles({"x", "y", "z", "label"}, raw.width);
   std::copy(meshes.rows.begin(), meshes.rows.end(),
@@ -166,13 +187,16 @@ SentRows send_assimp(ArraySender& to, RawCloud& raw) {
 RawCloud read_assimp(const std::string& path, const ReadOptions& options) {
   RawCloud raw;
   raw.path = path;
-  for (const auto& [extension, name] :
-       {std::pair{".dae", "Collada"}, {".fbx", "FBX"}, {".off", "OFF"}, {".x3d", "X3D"}, {".3mf", "3MF"}})
+  for (const auto& [extension, name] : {std::pair{".dae", "Collada"},
+                                        {".fbx", "FBX"},
+                                        {".off", "OFF"},
+                                        {".x3d", "X3D"},
+                                        {".wrl", "VRML"},
+                                        {".3mf", "3MF"}})
     if (extension_of(path) == extension) raw.format = std::string(name) + " mesh";
   raw.fields = {{"x", "float"}, {"y", "float"}, {"z", "float"}};
   read_rows_apart(raw, file_size_of(path), options,
                   [](ArraySender& to, RawCloud& read) { return send_assimp(to, read); });
-  for (const std::string& name : raw.material_names) raw.tags.materials.push_back({.name = name});
   return raw;
 }
 

@@ -19,7 +19,7 @@ using nlohmann::json;
 
 /// A mesh in its own axes. It is read once, and placed by one node or more.
 struct GltfMesh {
-  std::vector<double> points;  ///< x y z
+  std::vector<double> points;  ///< x y z label
   RawCloud faces;              ///< its triangles alone
 };
 
@@ -45,21 +45,33 @@ void add_primitive(const GltfDocument& document, const json& primitive, std::siz
     add_polygon(faces, {corners[0], corners[i - 1], corners[i]}, first + count);
 }
 
-GltfMesh read_mesh(const GltfDocument& document, std::uint64_t index) {
+/// Returns the name of the material of a primitive in a document that has materials.
+std::string material_of(const GltfDocument& document, const json& primitive) {
+  if (!primitive.contains("material")) return "default";
+  const std::uint64_t index = document.number(primitive, "material");
+  const std::string name = document.entry("materials", index).value("name", "");
+  return name.empty() ? "material " + std::to_string(index) : name;
+}
+
+GltfMesh read_mesh(const GltfDocument& document, std::uint64_t index, MaterialNumbers& materials) {
   GltfMesh mesh;
-  std::map<std::uint64_t, std::array<std::size_t, 2>> known_points;  // accessors of points: begin and number
+  // Accessors of points, and labels: begin and number of points.
+  std::map<std::pair<std::uint64_t, std::size_t>, std::array<std::size_t, 2>> known_points;
+  const bool named = !document.list(document.root, "materials").empty();
   const json& primitives = document.list(document.entry("meshes", index), "primitives");
   if (primitives.empty()) document.refuse("a mesh has no primitives");
   for (const json& primitive : primitives) {
     const json attributes = primitive.value("attributes", json::object());
     if (!attributes.contains("POSITION")) document.refuse("a primitive has no positions");
     const std::uint64_t accessor = document.number(attributes, "POSITION");
-    const auto [entry, is_new] = known_points.try_emplace(accessor);
+    const std::size_t label = named ? materials.of(material_of(document, primitive)) : 0;
+    const auto [entry, is_new] = known_points.try_emplace({accessor, label});
     auto& [first, count] = entry->second;
     if (is_new) {
       const std::vector<double> points = document.numbers(accessor, "VEC3");
-      first = mesh.points.size() / 3, count = points.size() / 3;
-      mesh.points.insert(mesh.points.end(), points.begin(), points.end());
+      first = mesh.points.size() / 4, count = points.size() / 3;
+      for (std::size_t i = 0; i < points.size(); i += 3)
+        mesh.points.insert(mesh.points.end(), {points[i], points[i + 1], points[i + 2], static_cast<double>(label)});
     }
     add_primitive(document, primitive, first, count, mesh.faces);
   }
@@ -155,29 +167,31 @@ std::vector<Placement> placements_of(const GltfDocument& document, RawCloud& raw
 SentRows send_meshes(const GltfDocument& document, ArraySender& to, RawCloud& raw) {
   const std::vector<Placement> placements = placements_of(document, raw);
   std::map<std::uint64_t, GltfMesh> meshes;
+  MaterialNumbers materials(raw);
   double points = 0, triangles = 0;
   for (const Placement& placed : placements) {
-    if (!meshes.contains(placed.mesh)) meshes[placed.mesh] = read_mesh(document, placed.mesh);
-    points += static_cast<double>(meshes[placed.mesh].points.size() / 3);
+    if (!meshes.contains(placed.mesh)) meshes[placed.mesh] = read_mesh(document, placed.mesh, materials);
+    points += static_cast<double>(meshes[placed.mesh].points.size() / 4);
     triangles += static_cast<double>(meshes[placed.mesh].faces.triangle.size());
   }
-  expect_from_file(raw.path, document.bytes, {points + triangles, "points and triangles", 24});
+  expect_from_file(raw.path, document.bytes, {points + triangles, "points and triangles", 32});
   if (points == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the glTF again");
-  const SentRows rows = rows_of_doubles({"x", "y", "z"}, static_cast<std::size_t>(points));
+  SentRows rows = rows_of_doubles({"x", "y", "z", "label"}, static_cast<std::size_t>(points));
+  if (raw.material_names.empty()) rows.columns.pop_back();
   auto* position = reinterpret_cast<double*>(to.take_array<char>(rows.rows * rows.stride));
   for (const auto& [index, world] : placements) {
     const GltfMesh& mesh = meshes[index];
     const auto first = static_cast<std::uint32_t>(raw.width);
-    for (std::size_t i = 0; i < mesh.points.size(); i += 3) {
+    for (std::size_t i = 0; i < mesh.points.size(); i += 4) {
       const Eigen::Vector3d local(mesh.points[i], mesh.points[i + 1], mesh.points[i + 2]), p = world * local;
       raw.float_coordinates = raw.float_coordinates || local.cwiseAbs().maxCoeff() > 1000;
-      *position++ = p.x(), *position++ = p.y(), *position++ = p.z();
+      *position++ = p.x(), *position++ = p.y(), *position++ = p.z(), *position++ = mesh.points[i + 3];
     }
     // A mirror turns triangles over; exchange corners so that their outside stays outside.
     const bool mirrored = world.linear().determinant() < 0;
     for (const auto& [a, b, c] : mesh.faces.triangle)
       raw.triangle.push_back({first + a, first + (mirrored ? c : b), first + (mirrored ? b : c)});
-    raw.width += mesh.points.size() / 3;
+    raw.width += mesh.points.size() / 4;
     raw.triangles_in_file += mesh.faces.triangles_in_file, raw.bad_triangles += mesh.faces.bad_triangles;
   }
   return rows;

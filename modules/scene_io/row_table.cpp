@@ -193,6 +193,7 @@ void fill_cloud(RawCloud& raw, const RowTable& in_file, const ReadOptions& optio
   RowTable table = in_file;
   for (RowTable::Column& column : table.columns) column.name = utf8_text(column.name);
   for (FileDescription::Field& field : raw.fields) field.name = utf8_text(field.name);
+  for (const std::string& name : raw.material_names) raw.tags.materials.push_back({.name = utf8_text(name)});
   if (table.rows == 0) fail(ErrorKind::content, raw.path, ": holds no point; export the cloud again");
   if (table.rows > std::numeric_limits<std::uint32_t>::max() - 1)
     fail(ErrorKind::content, raw.path, ": holds ", table.rows, " points, must be at most 4294967294; split it");

@@ -20,8 +20,6 @@ constexpr const char* without_assimp = "";
 constexpr RawCloud (*read_by_assimp)(const std::string&, const ReadOptions&) = nullptr;
 constexpr const char* without_assimp = "export it as .glb, or build insonify with libassimp-dev";
 #endif
-constexpr const char* vrml_remedy =
-    "make it .ply first: docs/scene-files.md has the command (VRML), or export it as .glb, .obj or .stl";
 
 }  // namespace
 
@@ -51,7 +49,7 @@ const std::vector<SceneReader>& scene_readers() {
       {{".off"}, {"OFF"}, "an OFF file", "Assimp", without_assimp, read_by_assimp},
       {{".x3d"}, {}, "an X3D document", "Assimp", without_assimp, read_by_assimp},
       {{".3mf"}, {}, "a 3MF file", "Assimp", without_assimp, read_by_assimp},
-      {{".wrl"}, {"#VRML"}, "a VRML file", "", vrml_remedy},
+      {{".wrl"}, {"#VRML"}, "a VRML file", "Assimp", without_assimp, read_by_assimp},
       {{".stp", ".step"}, {"ISO-10303-21"}, "a solid", "", "export its surface as .glb, .obj or .stl"},
       {{".xyz", ".txt", ".csv"}, {}, "text", "insonify", "", read_asc},
       {{".pts"}, {}, "points of a scanner as text", "insonify", "", read_text_cloud},

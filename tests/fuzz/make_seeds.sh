@@ -8,7 +8,7 @@ set -euo pipefail
 [[ $# == 2 ]] || { sed -n '6s/^# *//p' "$0" >&2; exit 2; }
 tool=$(realpath "$1") root=$(cd "$(dirname "$0")/../.." && pwd)
 rm -rf "$2" && mkdir -p "$2" && cd "$2"
-mkdir pcd ply obj stl vtk vtp gltf glb xyz pts ptx dae fbx off x3d 3mf csv asc las laz tiff tiles sonar environment mission materials mirrors scene \
+mkdir pcd ply obj stl vtk vtp gltf glb xyz pts ptx dae fbx off x3d wrl 3mf csv asc las laz tiff tiles sonar environment mission materials mirrors scene \
   scene.beside profile trajectory tum scatterers labels cube contributors aris xtf oculus record gsf kmall r2sonic swath npy png run levels survey work
 
 # Formats that the tool writes.
@@ -54,6 +54,7 @@ printf "4\n$square" >xyz/count.xyz
 printf '<?xml version="1.0"?>\n<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset><unit meter="0.0254"/><up_axis>Z_UP</up_axis></asset>\n<library_geometries><geometry id="g" name="t"><mesh><source id="p"><float_array id="a" count="9">0 0 0 1 0 0 1 1 0</float_array><technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source><vertices id="v"><input semantic="POSITION" source="#p"/></vertices><triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>\n<library_visual_scenes><visual_scene id="s"><node id="n"><scale>-1 1 1</scale><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>\n' >dae/mesh.dae
 printf 'OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n' >off/mesh.off
 printf '<?xml version="1.0"?>\n<X3D version="3.3"><Scene><Transform translation="0 1 0"><Shape><IndexedFaceSet coordIndex="0 1 2 -1"><Coordinate point="0 0 0 1 0 0 1 1 0"/></IndexedFaceSet></Shape></Transform></Scene></X3D>\n' >x3d/mesh.x3d
+printf '#VRML V2.0 utf8\nDEF A Transform { translation 0 1 0 scale -1 1 1 children [ DEF S Shape { appearance Appearance { material DEF M Material { } } geometry IndexedFaceSet { solid FALSE coord Coordinate { point [ 0 0 0, 1 0 0, 1 1 0 ] } coordIndex [ 0 1 2 -1 ] } } ] } # one\nScript { url "a" }\nCollision { proxy NULL children [ USE A USE S ] }\nROUTE A.b TO S.c\n' >wrl/mesh.wrl
 printf '; FBX 7.3.0 project file\nFBXHeaderExtension: {\n FBXHeaderVersion: 1003\n FBXVersion: 7300\n}\nGlobalSettings: {\n Properties70: {\n  P: "UpAxis", "int", "Integer", "",2\n  P: "UnitScaleFactor", "double", "Number", "",2.54\n }\n}\nObjects: {\n Geometry: 100, "Geometry::t", "Mesh" {\n  Vertices: *9 {\n   a: 0,0,0,1,0,0,1,1,0\n  }\n  PolygonVertexIndex: *3 {\n   a: 0,1,-3\n  }\n }\n Model: 200, "Model::o", "Mesh" {\n }\n}\nConnections: {\n C: "OO",200,0\n C: "OO",100,200\n}\n' >fbx/mesh.fbx
 printf "2\n0 0 0 -3 1 2 3\n1 0 0 -3 1 2 3\n2\n0 1 0 4 1 2 3\n1 1 0 4 1 2 3\n" >pts/scans.pts
 scan='2\n2\n1 0 5\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 0 5 1\n0 0 -5 .5\n1 0 -5 .5\n0 0 0 .5\n1 1 -5 .5\n'

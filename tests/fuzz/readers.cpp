@@ -145,6 +145,7 @@ const std::vector<FuzzedReader>& fuzzed_readers() {
       {"fbx", ".fbx", read_scene, {}, true},
       {"off", ".off", read_scene, {}, true},
       {"x3d", ".x3d", read_scene, {}, true},
+      {"wrl", ".wrl", read_scene, {}, true},
       {"3mf", ".3mf", read_scene, {}, true},
       {"pts", ".pts", read_scene},
       {"ptx", ".ptx", read_scene},

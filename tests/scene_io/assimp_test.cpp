@@ -135,6 +135,86 @@ TEST_F(AssimpFile, off_and_x3d_equal_their_twins_in_obj) {
   }
 }
 
+// A plate of steel, moved and mirrored, and one of a material without a name, used twice; with what makes no mesh.
+constexpr const char* vrml_scene = R"(#VRML V2.0 utf8
+DEF Clock TimeSensor { loop TRUE }  # a comment
+Transform { translation 1, 2, 3 scale -1 1 1 children [
+  DEF Plate Shape { appearance DEF Look Appearance { material DEF Steel'<2> Material { diffuseColor 1 0 0 } }
+    geometry IndexedFaceSet { coord DEF P Coordinate { point [ 2 0 0, 2 3 0, 2 0 4 ] } coordIndex [ 0 1 2 -1 ] } }
+  Script { field SFBool on TRUE url "javascript: function f(x) { return '}' }" }
+  ROUTE Clock.time TO Plate.x ] }
+Shape { geometry IndexedFaceSet { coord USE P coordIndex [ 0 2 1 -1 ] ccw FALSE normal Normal { vector [ 1 0 0 ] } } }
+Collision { proxy Shape { geometry Box { size 100 100 100 } } children [ NULL, USE Plate ] }
+LOD { range 10 level [ Anchor { children Billboard { children USE Plate } } Shape { geometry Sphere { } } ] }
+)";
+
+TEST_F(AssimpFile, vrml_equals_its_twin_in_obj_and_keeps_names_of_materials) {
+  LoadOptions options;
+  options.materials = {{.name = "Steel'<2>", .lambert_mu = 0.2}};
+  own_file("scene.wrl", vrml_scene);
+  const LoadedScene loaded = load_scene(own_path("scene.wrl"), options);
+  const SceneMesh& mesh = loaded.mesh.value();
+  EXPECT_EQ(loaded.report.format, "VRML mesh");
+  ASSERT_EQ(mesh.triangle.size(), 4u);
+  // With y up, (x, y, z) becomes (x, -z, y). The mirror exchanges the last two corners. 'ccw FALSE' turns corners over, from
+  // the last to the first.
+  const Vector3d plate[] = {{2, 0, 0}, {2, 0, 3}, {2, -4, 0}}, moved[] = {{-1, -3, 2}, {-1, -7, 2}, {-1, -3, 5}};
+  for (int k = 0; k < 3; ++k) {
+    const auto corner = [&](int t) { return Vector3d(mesh.origin + mesh.point[mesh.triangle[t][k]].cast<double>()); };
+    EXPECT_EQ(corner(0), moved[k]);
+    EXPECT_EQ(corner(1), plate[(k + 1) % 3]);
+    EXPECT_EQ(corner(2), plate[k]);
+    EXPECT_EQ(corner(3), plate[k]);
+    const auto material = [&](int t) { return mesh.materials.at(mesh.material[mesh.triangle[t][k]]); };
+    EXPECT_EQ(material(0).lambert_mu, 0.2);
+    EXPECT_EQ(material(1), Material{});
+    EXPECT_EQ(material(2), material(0));
+  }
+}
+
+TEST_F(AssimpFile, x3d_with_nodes_that_are_left_out_is_noted) {
+  own_file("level.x3d", R"(<?xml version="1.0"?>
+<X3D version="3.3"><Scene><Shape><Box/></Shape><LOD><Shape><Box size="9 9 9"/></Shape></LOD>
+<Shape><IndexedFaceSet ccw="false" coordIndex="0 1 2 -1"><Coordinate point="0 0 0 0 0 0 0 0 0"/></IndexedFaceSet></Shape></Scene></X3D>
+)");
+  const LoadedScene loaded = load_scene(own_path("level.x3d"));
+  EXPECT_NEAR(area_of_mesh(loaded), 24, 1e-6);
+  EXPECT_TRUE(has_note(loaded.report, "nodes of type LOD, and what is in them, are left out"));
+  EXPECT_TRUE(has_note(loaded.report, "'ccw' is left out"));
+}
+
+TEST_F(AssimpFile, vrml_that_is_damaged_or_not_plain_is_refused) {
+  const auto expect_no = [](const std::string& text, const std::string& reason) {
+    own_file("bad.wrl", "#VRML V2.0 utf8\n" + text);
+    expect_error(ErrorKind::content, {"bad.wrl", reason, "export it"}, [] { load_scene(own_path("bad.wrl")); });
+  };
+  const auto expect_line = [](const std::string& text, const std::string& reason) {
+    own_file("bad.wrl", "#VRML V2.0 utf8\n" + text);
+    expect_error(ErrorKind::content, {"bad.wrl:2: expected " + reason, "cut off"},
+                 [] { load_scene(own_path("bad.wrl")); });
+  };
+  expect_no("PROTO Own [ ] { Group { } } Own { }", "nodes of type PROTO are not read");
+  expect_no("Inline { url \"other.wrl\" }", "nodes of type Inline are not read");
+  expect_no("Shape { geometry ElevationGrid { ccw FALSE height [ 0 ] } }",
+            "nodes of type ElevationGrid with 'ccw FALSE'");
+  expect_line("USE Nothing", "the name of a node before USE");
+  expect_line("DEF A Group { children USE A }", "the name of a node before USE");
+  expect_line("Script { { }", "'}', found ''");
+  expect_line("Group [ ]", "'{', found '['");
+  std::string deep;
+  for (int k = 0; k < 100'000; ++k) deep += "Group { children ";
+  expect_line(deep, "at most 200 nodes within each other");
+  const std::string whole = vrml_scene;
+  for (std::size_t length = 16; length < whole.size() - 40; length += 23) {
+    own_file("cut.wrl", whole.substr(0, length));
+    try {
+      load_scene(own_path("cut.wrl"));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::content) << length << error.what();
+    }
+  }
+}
+
 TEST_F(AssimpFile, damage_is_named_with_a_remedy) {
   own_file("cut.dae", collada("<asset/>").substr(0, 900));
   expect_error(ErrorKind::content, {"cut.dae", "cannot be read", "export it again"},

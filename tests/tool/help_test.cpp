@@ -104,7 +104,7 @@ TEST_F(Help, bash_completes_verbs_options_and_words) {
 }
 
 TEST_F(Help, shells_complete_a_scene_with_files_of_the_formats_that_are_read) {
-  for (const char* name : {"s.ply", "s.tiles", "s.toml", "s.wrl", "s.png"}) write(name, "");
+  for (const char* name : {"s.ply", "s.tiles", "s.toml", "s.step", "s.png"}) write(name, "");
   std::filesystem::create_directory(path("s.folder"));
   const std::string here = path("s");
   EXPECT_EQ(proposed("insonify prepare " + here, 2),
