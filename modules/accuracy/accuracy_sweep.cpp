@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "accuracy/engine_tasks.hpp"
 #include "beamforming/gridded/gridded_engine.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 
 namespace insonify {
 namespace {
@@ -16,12 +16,7 @@ using Runs = std::vector<AccuracyRun>;
 
 constexpr double least_tolerance_of_power = 1e-12;
 
-AccuracyRun direct_run() {
-  return {"direct", [](const AccuracyBench& b) { return b.direct(); }};
-}
-AccuracyRun spectrum_run() {
-  return {"spectrum", [](const AccuracyBench& b) { return b.spectrum(); }};
-}
+const AccuracyRun direct_run{"direct", &AccuracyBench::direct}, spectrum_run{"spectrum", &AccuracyBench::spectrum};
 
 Runs gridded_runs(const std::vector<double>& tolerances, int threads = 0) {
   Runs runs;
@@ -38,13 +33,13 @@ Runs windowed_runs(const std::vector<double>& tolerances) {
 }
 
 Runs short_cuts(const std::vector<double>& nulls) {
-  Runs runs{{"nearest-bin", [](const AccuracyBench& b) { return b.nearest_bin(); }}};
+  Runs runs{{"nearest-bin", &AccuracyBench::nearest_bin}};
   for (const double k : nulls)
     runs.push_back({"pattern-cut", [k](const AccuracyBench& b) { return b.pattern_cut(k); }});
   return runs;
 }
 
-Runs joined(std::vector<Runs> blocks) {
+Runs all_of(std::vector<Runs> blocks) {
   Runs all;
   for (Runs& block : blocks) all.insert(all.end(), block.begin(), block.end());
   return all;
@@ -65,8 +60,7 @@ Runs work_precision(const SweepOptions& o) {
       size == SweepSize::quick ? std::vector<double>{1e-4} : std::vector<double>{1e-2, 1e-4, 1e-6, 1e-8};
   const std::vector<double> nulls =
       size == SweepSize::quick ? std::vector<double>{4} : std::vector<double>{1, 4, 16, 64};
-  return joined(
-      {gridded_runs(tolerances(o)), {direct_run(), spectrum_run()}, windowed_runs(windows), short_cuts(nulls)});
+  return all_of({gridded_runs(tolerances(o)), {direct_run, spectrum_run}, windowed_runs(windows), short_cuts(nulls)});
 }
 
 /// All engines, each at the tolerances that it takes. Engines without a tolerance are measured once.
@@ -92,7 +86,7 @@ std::vector<double> usual_tolerances(const SweepOptions& o) {
 }
 
 Runs crossover(const SweepOptions& o) {
-  return joined({gridded_runs(usual_tolerances(o)), {direct_run()}, windowed_runs({1e-4, 1e-6})});
+  return all_of({gridded_runs(usual_tolerances(o)), {direct_run}, windowed_runs({1e-4, 1e-6})});
 }
 
 Runs thread_runs(const SweepOptions& o) {
@@ -105,11 +99,8 @@ Runs thread_runs(const SweepOptions& o) {
 void require_sweep(const SweepOptions& o) {
   const std::vector<std::string> known = accuracy_methods();
   for (const std::string& method : o.methods)
-    if (std::find(known.begin(), known.end(), method) == known.end()) {
-      std::string names;
-      for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-      fail(ErrorKind::argument, "accuracy_sweep: method '", method, "' is unknown; known are ", names);
-    }
+    if (std::find(known.begin(), known.end(), method) == known.end())
+      fail(ErrorKind::argument, "accuracy_sweep: method '", method, "' is unknown; known are ", joined(known));
   for (const double tolerance : o.tolerances)
     if (!(tolerance >= min_gridding_tolerance && tolerance < 1))
       fail(ErrorKind::argument, "accuracy_sweep: tolerance = ", tolerance, ", must be within [", min_gridding_tolerance,
@@ -164,13 +155,13 @@ class Sweep {
   /// Checks that the direct sum's time is proportional to the number of echoes: 5000 timed whole, and scaled up.
   void add_scaling(TaskSpec spec) {
     spec.scatterers = 5000;
-    add("scaling", spec, {direct_run(), {"direct", [](const AccuracyBench& b) { return b.direct_whole(); }}});
+    add("scaling", spec, {direct_run, {"direct", &AccuracyBench::direct_whole}});
   }
 
   /// Small images of all kinds, to check the tolerance; with the spectrum where its accuracy is in doubt.
   void add_small() {
-    const Runs all = joined({gridded_runs(tolerances(options_)), {direct_run()}});
-    const Runs with_spectrum = joined({all, {spectrum_run()}});
+    const Runs all = all_of({gridded_runs(tolerances(options_)), {direct_run}});
+    const Runs with_spectrum = all_of({all, {spectrum_run}});
     const bool quick = size_ == SweepSize::quick;
     const std::size_t n = quick ? 100 : 5000;
     std::vector<std::size_t> beams{1, 17};
@@ -183,7 +174,7 @@ class Sweep {
     for (const double db : {0.0, 50.0, 100.0, 150.0})
       add("dynamic-range", {.scatterers = n, .dynamic_range_db = db}, with_spectrum);
     for (const int order : {1, 2}) {
-      Runs runs = joined({all, {{"absorption-order", [](const AccuracyBench& b) { return b.absorption_order(0); }}}});
+      Runs runs = all_of({all, {{"absorption-order", [](const AccuracyBench& b) { return b.absorption_order(0); }}}});
       if (order == 2)
         runs.push_back({"absorption-order", [](const AccuracyBench& b) { return b.absorption_order(1); }});
       add("absorption", {.scatterers = n, .bandwidth = 100e3, .dynamic_range_db = 60, .absorption_order = order}, runs);
@@ -195,21 +186,13 @@ class Sweep {
     const bool quick = size_ == SweepSize::quick;
     const std::vector<double>&requested = options_.tolerances,
           one = requested.empty() ? std::vector<double>{1e-4} : requested, most = quick ? one : tolerances(options_);
-    const auto add_task = [&](const char* sweep, const EngineTask& task, const std::vector<double>& at) {
-      const auto named = [task] {
-        AccuracyTask made = task.make();
-        made.name = task.name;
-        return made;
-      };
-      steps_.push_back({sweep, std::string(sweep) + ": " + task.name, named, engine_runs(at)});
+    const auto add_tasks = [&](const std::string& sweep, const std::vector<AccuracyTask>& tasks,
+                               const std::vector<double>& at) {
+      for (std::size_t k = 0; k < tasks.size(); k += quick ? 3 : 1)  // every third, of a quick sweep
+        steps_.push_back({sweep, sweep + ": " + tasks[k].name, [task = tasks[k]] { return task; }, engine_runs(at)});
     };
-    const auto some = [quick](std::vector<EngineTask> tasks) {  // every third, of a quick sweep
-      std::vector<EngineTask> kept;
-      for (std::size_t k = 0; k < tasks.size(); k += quick ? 3 : 1) kept.push_back(std::move(tasks[k]));
-      return kept;
-    };
-    for (const EngineTask& task : some(engine_tasks(quick ? 40 : 1000, options_.seed))) add_task("engines", task, most);
-    for (const EngineTask& task : some(stability_tasks(options_.seed))) add_task("stability", task, one);
+    add_tasks("engines", engine_tasks(quick ? 40 : 1000, options_.seed), most);
+    add_tasks("stability", stability_tasks(options_.seed), one);
   }
 
   std::vector<AccuracyStep> steps() && { return std::move(steps_); }

@@ -14,19 +14,30 @@
 namespace insonify {
 namespace {
 
-SonarHead head_of(const TaskSpec& task, double field_of_view) {
+double field_of(const TaskSpec& t) {
+  const double all_beams = 2 * t.beam_width * static_cast<double>(t.beams);
+  return t.field_of_view > 0 ? t.field_of_view : std::min(radians(120), all_beams);
+}
+
+SonarHead head_of(const TaskSpec& t) {
   SonarSpec s;
   s.name = "accuracy";
   s.centre_frequency = 600e3;
-  s.bandwidth = task.bandwidth;
-  s.beams = task.beams;
-  s.field_of_view = field_of_view;
-  s.beam_width = task.beam_width;
+  s.bandwidth = t.bandwidth;
+  s.beams = t.beams;
+  s.field_of_view = field_of(t);
+  s.beam_width = t.beam_width;
   s.elevation_width = radians(20);
-  s.min_range = 1;
-  s.bin_size = 0.44 * nominal_sound_speed / (2 * task.bandwidth);
-  s.max_range = 1 + (static_cast<double>(task.bins) - 0.5) * *s.bin_size;
-  return make_head(s, nominal_sound_speed);
+  s.min_range = t.min_range;
+  s.bin_size = 0.44 * nominal_sound_speed / (2 * t.bandwidth);
+  s.max_range = t.min_range + (static_cast<double>(t.bins) - 0.5) * *s.bin_size;
+  if (t.rows > 1) {
+    s.column_beam_width = radians(4);
+    for (std::size_t k = 0; k < t.rows; ++k) s.elevations.push_back(radians(3.0 * static_cast<double>(k)));
+  }
+  SonarHead head = make_head(s, nominal_sound_speed);
+  if (t.sweep > 0) head.pulse.shape = PulseShape::linear_fm, head.pulse.duration = t.sweep;
+  return head;
 }
 
 Medium medium_of(const TaskSpec& task, const SonarHead& head) {
@@ -41,17 +52,23 @@ Medium medium_of(const TaskSpec& task, const SonarHead& head) {
 
 }  // namespace
 
-AccuracyTask make_task(const TaskSpec& spec) {
-  const double field = std::min(radians(120), 2 * spec.beam_width * static_cast<double>(spec.beams));
+AccuracyTask make_task(const TaskSpec& t) {
   AccuracyTask task;
-  task.head = head_of(spec, field);
-  task.medium = medium_of(spec, task.head);
-  const double length = task.head.gate.max_range - task.head.gate.min_range;
-  for (std::size_t i = 0; i < spec.scatterers; ++i) {
-    const auto at = random_uniform(spec.seed, RandomStage::scene_points, {i, 0, 0});
-    task.echoes.delay.push_back(2 * (task.head.gate.min_range + length * (1.02 * at[0] - 0.01)) / nominal_sound_speed);
-    task.echoes.u.push_back(std::sin((at[1] - 0.5) * (field + spec.beam_width)));
-    task.echoes.amplitude.push_back(random_complex_normal(spec.seed, RandomStage::surface_amplitude, {i, 0, 0}));
+  task.head = head_of(t);
+  task.medium = medium_of(t, task.head);
+  task.name = t.name;
+  const double length = task.head.gate.max_range - t.min_range, rows = static_cast<double>(t.rows - 1);
+  for (std::size_t i = 0; i < t.scatterers; ++i) {
+    const auto at = random_uniform(t.seed, RandomStage::scene_points, {i, 0, 0});
+    const auto by = random_uniform(t.seed, RandomStage::scene_points, {i, 1, 0});
+    Echoes& e = task.echoes;
+    const double range = t.min_range + length * ((1 + 2 * t.beyond) * at[0] - t.beyond);
+    e.delay.push_back(2 * range / nominal_sound_speed);
+    e.u.push_back(std::max(std::sin((at[1] - 0.5) * (field_of(t) + t.beam_width)), t.from_u));
+    e.amplitude.push_back(random_complex_normal(t.seed, RandomStage::surface_amplitude, {i, 0, 0}));
+    if (t.rows > 1) e.v.push_back(std::sin(by[0] * radians(3.0 * rows)));
+    const double speed = (2 * by[1] - 1) * t.speed;
+    if (t.speed > 0) e.doppler.push_back(2 * speed * task.head.pulse.centre_frequency / nominal_sound_speed);
   }
   return task;
 }

@@ -17,18 +17,35 @@ struct AccuracyTask {
   std::string name{};  ///< among the tasks of a sweep
 };
 
-/// A synthetic task: 600 kHz, half-wavelength line array with Taylor shading, bins of 0.44 c / 2B from 1 m on.
+/// A synthetic task: 600 kHz, half-wavelength line array with Taylor shading, bins of 0.44 c / 2B.
 struct TaskSpec {
   std::size_t scatterers = 5000, beams = 64, bins = 500;
   double bandwidth = 30e3;           ///< [Hz]
+  double min_range = 1;              ///< range of the first bin [m]
   double dynamic_range_db = 40;      ///< absorption between the first bin and the last
   int absorption_order = 0;          ///< 1: slope a0 / fc; 2: curvature a0 / fc^2 too
-  double beam_width = radians(1.0);  ///< [rad]; the fan spans two widths per beam, at most 120 degrees
+  double beam_width = radians(1.0);  ///< [rad]
+  double field_of_view = 0;          ///< [rad]; 0: two widths per beam, at most 120 degrees
+  double sweep = 0;                  ///< duration of a linear FM pulse [s]; 0: a Gaussian pulse
+  double speed = 0;                  ///< largest speed of echoes along the line of sight [m/s]
+  std::size_t rows = 1;              ///< number of rows of beams of a planar array; 1: a line array
+  double beyond = 0.01;              ///< part of the gate's length by which echoes lie beyond either end
+  double from_u = -1;                ///< least direction cosine of echoes: those below it come from there
   std::uint64_t seed = 1;
+  std::string name{};
 };
 
 /// Returns echoes of complex-normal amplitude, distributed evenly over fan and gate and a little beyond.
 AccuracyTask make_task(const TaskSpec& spec);
+
+/// Returns tasks on which engines differ, with a beam width of 1.5 degrees: narrow and wide band, near field at 0.3, 1
+/// and 3 lengths of the array, moving echoes (5 m/s), fans of 1, 45 and 130 degrees, a planar array, sweeps of a usual
+/// and a wide band, and moving echoes whose Doppler shifts exceed the band (5 m/s, 3 kHz). `echoes`: number in each.
+std::vector<AccuracyTask> engine_tasks(std::size_t echoes, std::uint64_t seed);
+
+/// Returns cases that strain the arithmetic: two echoes 300 dB apart, a pulse of one cycle, ranges of 1e-3 and 1e4 m, a
+/// fan that grazes its array, one scatterer on a null of the middle beam.
+std::vector<AccuracyTask> stability_tasks(std::uint64_t seed);
 
 /// Returns the echoes that a head receives from a scene: the direct echoes of simulate_ping along straight rays, before
 /// beams are formed. Throws Error as simulate_ping does, for a head of several rows or a column, and if no surfel is in

@@ -40,19 +40,20 @@ Absorption of_order(Absorption a, int order) {
 
 }  // namespace
 
+double relative_error(const ComplexGrid& pressure, const ComplexGrid& referee) {
+  const double power = referee.abs2().sum();
+  return power > 0 ? std::sqrt((pressure - referee).abs2().sum() / power) : 0;
+}
+
 ImageError image_error(const ComplexGrid& pressure, const ComplexGrid& referee,
                        const std::vector<bool>& eighth_counts) {
   ImageError error;
-  const auto relative = [&](Eigen::Index first, Eigen::Index last) {
-    const auto block = referee.middleCols(first, last - first);
-    const double power = block.abs2().sum();
-    return power > 0 ? std::sqrt((pressure.middleCols(first, last - first) - block).abs2().sum() / power) : 0.0;
-  };
-  error.whole = relative(0, referee.cols());
+  error.whole = relative_error(pressure, referee);
   for (Eigen::Index k = 0; k < 8; ++k) {
     const Eigen::Index first = k * referee.cols() / 8, last = (k + 1) * referee.cols() / 8;
     if (eighth_counts[static_cast<std::size_t>(k)] && last > first)
-      error.worst_eighth = std::max(error.worst_eighth, relative(first, last));
+      error.worst_eighth = std::max(error.worst_eighth, relative_error(pressure.middleCols(first, last - first),
+                                                                       referee.middleCols(first, last - first)));
   }
   return error;
 }
@@ -163,18 +164,22 @@ AccuracyRow AccuracyBench::direct_whole() const {
   return r;
 }
 
-AccuracyRow AccuracyBench::gridded(double tolerance, int threads) const {
-  AccuracyRow r = row("gridded");
-  if (threads > 0) r.threads = threads;
+AccuracyRow AccuracyBench::gridded_row(AccuracyRow r, const Medium& medium) const {
   StopWatch watch;
-  const GriddedEngine plan(task_.head, task_.medium, {tolerance, r.threads});
+  const GriddedEngine plan(task_.head, medium, {r.tolerance, r.threads});
   r.plan_seconds = watch.lap();
-  r.tolerance = tolerance;
   if (plan.choice().single_precision) r.precision = "single";
   r.kernel_width = plan.choice().kernel_width;
   compare(checked(plan.pressure(task_.echoes)), referee_, r);
   time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
   return r;
+}
+
+AccuracyRow AccuracyBench::gridded(double tolerance, int threads) const {
+  AccuracyRow r = row("gridded");
+  if (threads > 0) r.threads = threads;
+  r.tolerance = tolerance;
+  return gridded_row(r, task_.medium);
 }
 
 AccuracyRow AccuracyBench::spectrum() const {
@@ -195,7 +200,7 @@ AccuracyRow AccuracyBench::spectrum() const {
 
 AccuracyRow AccuracyBench::windowed_row(AccuracyRow r, const WindowedOptions& options) const {
   r.timed_scatterers = timed(options_.windowed_work / work(1, r.beams, 1));
-  compare(synthesize_windowed(task_.echoes, checked_head_, task_.medium, options), referee_, r);
+  compare(windowed_synthesizer(checked_head_, task_.medium, options)(task_.echoes), referee_, r);
   StopWatch watch;
   const auto run = windowed_synthesizer(task_.head, task_.medium, options);
   r.plan_seconds = watch.lap();
@@ -223,12 +228,7 @@ AccuracyRow AccuracyBench::absorption_order(int order) const {
   AccuracyRow r = row("absorption-order");
   r.parameter = order;
   r.tolerance = 1e-8;
-  const Medium medium{task_.medium.sound_speed, of_order(task_.medium.absorption, order)};
-  const GriddedEngine plan(task_.head, medium, {r.tolerance, options_.threads});
-  r.kernel_width = plan.choice().kernel_width;
-  compare(checked(plan.pressure(task_.echoes)), referee_, r);
-  time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
-  return r;
+  return gridded_row(r, {task_.medium.sound_speed, of_order(task_.medium.absorption, order)});
 }
 
 }  // namespace insonify

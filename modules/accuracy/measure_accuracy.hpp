@@ -95,6 +95,7 @@ class AccuracyBench {
   const ComplexGrid& referee_of(ImageModel model) const;
   void measure_engine(const Engine& engine, AccuracyRow& row) const;
   void time_all(const Synthesis& run, AccuracyRow& row) const;
+  AccuracyRow gridded_row(AccuracyRow row, const Medium& medium) const;
   AccuracyRow windowed_row(AccuracyRow row, const WindowedOptions& options) const;
 
   std::string sweep_;
@@ -106,6 +107,9 @@ class AccuracyBench {
   mutable std::map<ImageModel, ComplexGrid>
       model_referees_;  ///< images of the referees of other models, made when they are asked for
 };
+
+/// Returns ||pressure - referee|| / ||referee||; 0 if the referee is silent.
+double relative_error(const ComplexGrid& pressure, const ComplexGrid& referee);
 
 /// Relative L2 error of an image, and the largest such error in eighths of the bins, without eighths in which the
 /// referee is 0 or no echo arrives.

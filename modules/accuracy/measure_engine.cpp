@@ -60,11 +60,6 @@ SynthesisMethod planned_method(const AccuracyTask& task, double tolerance, int t
       .synthesis.method;
 }
 
-double relative_error(const ComplexGrid& image, const ComplexGrid& referee) {
-  const double power = referee.abs2().sum();
-  return power > 0 ? std::sqrt((image - referee).abs2().sum() / power) : 0;
-}
-
 }  // namespace
 
 const ComplexGrid& AccuracyBench::referee_of(ImageModel model) const {

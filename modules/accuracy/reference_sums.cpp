@@ -42,15 +42,15 @@ class PatternTable {
 };
 
 void require_windowed(const SonarHead& head, const Medium& medium, const WindowedOptions& o) {
-  require_valid(head, "synthesize_windowed");
-  require_valid(medium, "synthesize_windowed");
+  require_valid(head, "windowed_synthesizer");
+  require_valid(medium, "windowed_synthesizer");
   if (head.column || fan_rows(head.fan).size() != 1)
-    fail(ErrorKind::argument, "synthesize_windowed: the head has several rows of beams, must have one");
-  if (!has_line(head)) fail(ErrorKind::argument, "synthesize_windowed: the head has a curved array, must have a line");
+    fail(ErrorKind::argument, "windowed_synthesizer: the head has several rows of beams, must have one");
+  if (!has_line(head)) fail(ErrorKind::argument, "windowed_synthesizer: the head has a curved array, must have a line");
   if (!is_gaussian(head.pulse))
-    fail(ErrorKind::argument, "synthesize_windowed: the head has another pulse, must be a Gaussian");
+    fail(ErrorKind::argument, "windowed_synthesizer: the head has another pulse, must be a Gaussian");
   if (!(o.tolerance >= 1e-12 && o.tolerance < 1))
-    fail(ErrorKind::argument, "synthesize_windowed: tolerance = ", o.tolerance, ", must be within [1e-12, 1)");
+    fail(ErrorKind::argument, "windowed_synthesizer: tolerance = ", o.tolerance, ", must be within [1e-12, 1)");
 }
 
 /// Samples of the pulses of some echoes: where each begins, and `length` of them.
@@ -170,17 +170,12 @@ std::function<ComplexGrid(const Echoes&)> windowed_synthesizer(const SonarHead& 
   require_windowed(head, medium, options);
   return [&head, windowed = Windowed(head, medium, options)](const Echoes& echoes) {
     if (!echoes.doppler.empty())
-      fail(ErrorKind::argument, "synthesize_windowed: the echoes have Doppler shifts, must have none");
+      fail(ErrorKind::argument, "windowed_synthesizer: the echoes have Doppler shifts, must have none");
     ComplexGrid pressure = ComplexGrid::Zero(head.fan.beams(), head.gate.bins());
     for (std::size_t first = 0; first < echoes.size(); first += echoes_at_once)
       windowed.add(echoes, first, std::min(first + echoes_at_once, echoes.size()), pressure);
     return pressure;
   };
-}
-
-ComplexGrid synthesize_windowed(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                                const WindowedOptions& options) {
-  return windowed_synthesizer(head, medium, options)(echoes);
 }
 
 ComplexGrid synthesize_extended(const Echoes& echoes, const SonarHead& head, const Medium& medium,

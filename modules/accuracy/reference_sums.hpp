@@ -19,15 +19,12 @@ struct WindowedOptions {
   int threads = 0;
 };
 
-/// Returns the direct sum as other simulators compute it, for comparison: each echo is added to every beam over the
-/// length of its pulse, its weight read from a table of the pattern (cubic interpolation). pattern_nulls and
-/// nearest_bin are short cuts of other simulators; their errors do not fall with the tolerance. Cost: echoes x beams x
-/// pulse samples. Gaussian pulses without Doppler shift. The result does not depend on `threads`. Throws Error for an
-/// invalid head or medium, a head of several rows, a sweep, Doppler shifts, or a tolerance outside [1e-12, 1).
-ComplexGrid synthesize_windowed(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                                const WindowedOptions& options = {});
-/// Returns a function that computes the same for many sets of echoes, with one table. The function refers to head and
-/// medium.
+/// Returns a function that computes the direct sum of echoes as other simulators do, for comparison: each echo is added
+/// to every beam over the length of its pulse, its weight read from a table of the pattern (cubic interpolation).
+/// pattern_nulls and nearest_bin are short cuts of other simulators; their errors do not fall with the tolerance. Cost:
+/// echoes x beams x pulse samples. Gaussian pulses without Doppler shift. The function refers to head and medium; its
+/// result does not depend on `threads`. Throws Error for an invalid head or medium, a head of several rows, a sweep, or
+/// a tolerance outside [1e-12, 1), and the function for Doppler shifts.
 std::function<ComplexGrid(const Echoes&)> windowed_synthesizer(const SonarHead& head, const Medium& medium,
                                                                const WindowedOptions& options = {});
 

@@ -12,19 +12,6 @@
 namespace insonify {
 namespace {
 
-/// An engine that keeps plans and tables between images.
-template <typename Synthesizer>
-class KeepingEngine final : public ImageEngine {
- public:
-  KeepingEngine(const SonarHead& head, const Medium& medium, const SynthesisOptions& options)
-      : synthesizer_(head, medium, options) {}
-  ComplexGrid pressure(const Echoes& echoes) const override { return synthesizer_.pressure(echoes); }
-  ComplexGrid pressure(const EchoStream& stream) const override { return synthesizer_.pressure(stream); }
-
- private:
-  Synthesizer synthesizer_;
-};
-
 /// An engine that is a function of echoes, head, medium and options.
 template <auto form>
 class FunctionEngine final : public ImageEngine {
@@ -64,10 +51,10 @@ using Model = ImageModel;
 
 constexpr Engine engine_table[] = {
     {Method::gridded, "gridded", "narrow band, far field", Model::narrow_band, Method::direct, min_gridding_tolerance,
-     1, true, false, has_line, GriddedEngine::suits, GriddedEngine::suits, made<KeepingEngine<GriddedEngine>>},
+     1, true, false, has_line, GriddedEngine::suits, GriddedEngine::suits, made<GriddedEngine>},
     {Method::true_delays, "true-delays", "wide band and near field, slow within three array lengths",
      Model::true_delays, Method::element_exact, min_true_delay_tolerance, max_element_tolerance, false, false, has_line,
-     one_line, one_line, made<KeepingEngine<TrueDelayEngine>>},
+     one_line, one_line, made<TrueDelayEngine>},
     {Method::direct, "direct", "slow reference of gridded", Model::narrow_band, Method::direct, 0, 1, false, true,
      any_head, one_line, no_head, made<FunctionEngine<synthesize_direct>>},
     {Method::spectrum, "spectrum", "slow check of direct, frequency by frequency", Model::narrow_band, Method::direct,

@@ -79,8 +79,8 @@ ComplexGrid synthesize_gridded(const Echoes& echoes, const SonarHead& head, cons
 /// The method shares no code with the closed form of the pulse and serves as a cross-check. The window extends beyond
 /// the last echo by the length of the pulse. Sweeps are sampled at 64 times their bandwidth and transformed by FFT,
 /// accurate to 3e-3 / (B T) of the peak. Absorption filters the spectrum of a sweep and is constant beyond its band
-/// (E54 states the difference). Sweeps and echoes with Doppler shifts need memory for beams x frequencies. Throws Error
-/// as synthesize_direct does.
+/// (E54 states the difference). The method needs memory for beams x frequencies. Throws Error as synthesize_direct
+/// does.
 ComplexGrid synthesize_spectrum(const Echoes& echoes, const SonarHead& head, const Medium& medium,
                                 const SynthesisOptions& options = {});
 

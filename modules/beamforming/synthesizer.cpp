@@ -1,35 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "beamforming/synthesizer.hpp"
 
-#include <mutex>
 #include <utility>
 
 #include "acoustics/echo_stream.hpp"
 #include "beamforming/engine.hpp"
+#include "beamforming/numerics/lazy_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 
 namespace insonify {
-
-/// The engine of a head, or of its only row of beams, that the first image makes.
-struct Synthesizer::Kept {
-  std::once_flag flag;
-  std::unique_ptr<const ImageEngine> made;
-};
 
 Synthesizer::Synthesizer(SonarHead head, const Medium& medium, SynthesisMethod method, const SynthesisOptions& options)
     : head_(std::move(head)),
       medium_(medium),
       engine_(&engine_of(method)),
       options_(options),
-      kept_(std::make_shared<Kept>()) {
+      kept_(std::make_shared<Lazy<const ImageEngine>>()) {
   require_synthesis({}, head_, medium_, options_, "synthesize");
   if (!engine_->suits(head_)) require_one_row(head_, "synthesize");
 }
 
 const ImageEngine& Synthesizer::kept(const SonarHead& head) const {
-  std::call_once(kept_->flag, [&] { kept_->made = engine_->make(head, medium_, options_); });
-  return *kept_->made;
+  return kept_->get([&] { return engine_->make(head, medium_, options_); });
 }
 
 ComplexGrid Synthesizer::pressure(const Echoes& echoes) const {

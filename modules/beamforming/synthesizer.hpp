@@ -8,6 +8,8 @@ namespace insonify {
 
 class ImageEngine;
 struct Engine;
+template <typename Thing>
+class Lazy;
 
 /// Forms the beams of one head in one medium by one method for many images. The first image makes plans, tables,
 /// transforms and buffers; later images reuse them. Methods, errors and bytes of an image are those of `synthesize`.
@@ -26,14 +28,13 @@ class Synthesizer {
   ComplexGrid pressure(const EchoStream& stream) const;
 
  private:
-  struct Kept;
   const ImageEngine& kept(const SonarHead& head) const;
 
   SonarHead head_;
   Medium medium_;
   const Engine* engine_;
   SynthesisOptions options_;
-  std::shared_ptr<Kept> kept_;
+  std::shared_ptr<const Lazy<const ImageEngine>> kept_;  ///< made for the first image of a head, or of its only row
 };
 
 }  // namespace insonify

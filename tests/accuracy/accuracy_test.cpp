@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pieces of the sweep of error against run time.
 #include "accuracy/accuracy_sweep.hpp"
-#include "accuracy/engine_tasks.hpp"
 #include "accuracy/reference_sums.hpp"
 #include "accuracy/sampling_error.hpp"
 #include "beamforming/synthesize.hpp"
@@ -33,11 +32,11 @@ TEST(Accuracy, windowed_sum_is_as_exact_as_asked) {
   const AccuracyTask task = make_task(small);
   const ComplexGrid exact = direct(task);
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
-    const ComplexGrid image = synthesize_windowed(task.echoes, task.head, task.medium, {tolerance});
+    const ComplexGrid image = windowed_synthesizer(task.head, task.medium, {tolerance})(task.echoes);
     EXPECT_LE(relative_l2(image, exact), tolerance);
     for (const int threads : {1, 2, 7})
       EXPECT_TRUE(
-          (image == synthesize_windowed(task.echoes, task.head, task.medium, {tolerance, 0, false, threads})).all());
+          (image == windowed_synthesizer(task.head, task.medium, {tolerance, 0, false, threads})(task.echoes)).all());
   }
 }
 
@@ -46,7 +45,7 @@ TEST(Accuracy, short_cuts_have_errors_of_their_own) {
   const AccuracyTask task = make_task(small);
   const ComplexGrid exact = direct(task);
   const auto error = [&](double nulls, bool nearest) {
-    return relative_l2(synthesize_windowed(task.echoes, task.head, task.medium, {1e-8, nulls, nearest}), exact);
+    return relative_l2(windowed_synthesizer(task.head, task.medium, {1e-8, nulls, nearest})(task.echoes), exact);
   };
   EXPECT_GT(error(0, true), 0.1);
   EXPECT_GT(error(1, false), 0.01);
@@ -56,10 +55,9 @@ TEST(Accuracy, short_cuts_have_errors_of_their_own) {
 
 TEST(Accuracy, windowed_sum_refuses_what_it_has_no_window_for) {
   AccuracyTask task = make_task(small);
-  EXPECT_THAT(error_of([&] { synthesize_windowed(task.echoes, task.head, task.medium, {0}); }),
-              HasSubstr("tolerance = 0"));
+  EXPECT_THAT(error_of([&] { windowed_synthesizer(task.head, task.medium, {0}); }), HasSubstr("tolerance = 0"));
   task.echoes.doppler.assign(task.echoes.size(), 10);
-  EXPECT_THAT(error_of([&] { synthesize_windowed(task.echoes, task.head, task.medium); }), HasSubstr("Doppler"));
+  EXPECT_THAT(error_of([&] { windowed_synthesizer(task.head, task.medium)(task.echoes); }), HasSubstr("Doppler"));
 }
 
 TEST(Accuracy, picked_entries_are_spread_evenly_with_both_ends) {
@@ -140,8 +138,8 @@ TEST(SamplingError, falls_as_the_root_of_random_rays_and_faster_for_jittered_one
 // Each engine that the table lists keeps its tolerance on every task that it takes, and says what its model leaves out.
 TEST(Accuracy, engines_keep_their_tolerance_against_the_referee_of_their_model) {
   std::size_t measured = 0;
-  for (const EngineTask& task : engine_tasks(30, 5)) {
-    const AccuracyBench bench("engines", task.make(), {.threads = 2, .repeats = 1, .most_seconds = 0});
+  for (const AccuracyTask& task : engine_tasks(30, 5)) {
+    const AccuracyBench bench("engines", task, {.threads = 2, .repeats = 1, .most_seconds = 0});
     for (const Engine& engine : engines()) {
       if (engine.method == SynthesisMethod::spectrum) continue;  // a minute
       // Sweeps have no sharp band: with true delays they keep a hundredth.
@@ -161,8 +159,8 @@ TEST(Accuracy, engines_keep_their_tolerance_against_the_referee_of_their_model) 
 
 // The direct sum of each of two echoes is what an image of 300 dB less would drown.
 TEST(Accuracy, engines_hold_where_arithmetic_is_strained) {
-  for (const EngineTask& task : stability_tasks(3)) {
-    const AccuracyBench bench("stability", task.make(), {.threads = 2, .repeats = 1, .most_seconds = 0});
+  for (const AccuracyTask& task : stability_tasks(3)) {
+    const AccuracyBench bench("stability", task, {.threads = 2, .repeats = 1, .most_seconds = 0});
     for (const SynthesisMethod method : {SynthesisMethod::gridded, SynthesisMethod::true_delays,
                                          SynthesisMethod::element_exact, SynthesisMethod::incoherent}) {
       const AccuracyRow row = bench.engine(engine_of(method), 1e-4);

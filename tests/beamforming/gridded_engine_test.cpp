@@ -3,6 +3,7 @@
 
 #include "core/random.hpp"
 #include "sonar/sonar_spec.hpp"
+#include "support/echo_chunks.hpp"
 #include "support/heads.hpp"
 #include "support/test.hpp"
 
@@ -240,4 +241,18 @@ TEST(GriddedEngine, refuses_a_tolerance_it_cannot_keep_and_a_nan) {
   Echoes e = echoes_of(c, head);
   e.amplitude[5] = {NAN, 0};
   EXPECT_THAT(error_of([&] { GriddedEngine(head, medium_of(c, head), {1e-4, 0}).pressure(e); }), HasSubstr("5"));
+}
+
+// Tiles that an error has left half filled must not come back in the next image.
+TEST(GriddedEngine, an_image_after_an_error_holds_nothing_of_the_echoes_before_it) {
+  const Case c;
+  const SonarHead head = head_of(c);
+  const Medium medium = medium_of(c, head);
+  const Echoes echoes = echoes_of(c, head);
+  const GriddedEngine engine(head, medium, {1e-4, 1});
+  Echoes loud = echoes;
+  for (auto& amplitude : loud.amplitude) amplitude *= 10;
+  loud.amplitude.back() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(error_of([&] { (void)engine.pressure(EchoChunks(loud, speed_of_sound)); }), HasSubstr("amplitude"));
+  EXPECT_TRUE((engine.pressure(echoes) == GriddedEngine(head, medium, {1e-4, 1}).pressure(echoes)).all());
 }

@@ -47,6 +47,11 @@ Echoes near_echoes(const SonarHead& head, std::size_t n) {
   return e;
 }
 
+ComplexGrid synthesize_true_delays(const Echoes& echoes, const SonarHead& head, const Medium& medium,
+                                   const SynthesisOptions& options = {}) {
+  return TrueDelayEngine(head, medium, options).pressure(echoes);
+}
+
 ComplexGrid exact(const Echoes& e, const SonarHead& head, const Medium& medium = near_water()) {
   return synthesize(e, head, medium, SynthesisMethod::element_exact, {1e-7});
 }

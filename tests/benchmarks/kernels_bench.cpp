@@ -40,12 +40,11 @@ void grid_tile(benchmark::State& state) {
   const std::size_t rows = 10 + 2 * static_cast<std::size_t>(state.range(0));
   const PolynomialPieces<Real> across = kernel.pieces<Real>(tolerance);
   Pulses<Real> pulses(rows);
-  AlignedArray<Real, Real> re(tile_rows * stride), im(tile_rows * stride);
+  Aligned<Real> re(tile_rows * stride), im(tile_rows * stride);
   for (auto _ : state) {
     kernels::grid_samples(
         kernels::GaussianPositions<Real>{pulses.row.data(), pulses.column.data(), pulses.column_offset.data()}, echoes,
-        pulses.re.data(), pulses.im.data(), rows, {across.coefficient.data(), across.degree, across.lanes}, re.data(),
-        im.data(), stride);
+        pulses.re.data(), pulses.im.data(), rows, across, re.data(), im.data(), stride);
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * echoes));
@@ -79,7 +78,7 @@ template <typename Real>
 void fft_along_rows(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
   const Fft<Real> fft({n, 64, 64, 1}, FFTW_FORWARD);
-  AlignedArray<std::complex<Real>, Real> data(n * 64);
+  Aligned<std::complex<Real>> data(n * 64);
   for (auto _ : state) {
     fft.run(data.data());
     benchmark::ClobberMemory();

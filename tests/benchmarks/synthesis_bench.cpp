@@ -70,7 +70,7 @@ void windowed_direct(benchmark::State& state) {
   const AccuracyTask task = task_for(state);
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        synthesize_windowed(task.echoes, task.head, task.medium, {tolerance_for(state), 0, false, 1}));
+        windowed_synthesizer(task.head, task.medium, {tolerance_for(state), 0, false, 1})(task.echoes));
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 BENCHMARK(windowed_direct)->Args({1000, 6, 1})->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -15,7 +15,6 @@ namespace {
 using Rows = std::vector<AccuracyRow>;
 
 /// Errors of zero are drawn at this level, since the axis is logarithmic.
-double at_least(double value, double floor) { return std::max(value, floor); }
 constexpr double smallest_error = 1e-17;
 
 Rows of_sweep(const Rows& rows, const std::string& sweep) {
@@ -116,7 +115,7 @@ bool draw_work_precision(const Rows& all, const std::string& path) {
   if (rows.empty()) return false;
   Plot plot(log_log("Error against run time: " + size_text(rows[0]), error_title, time_title));
   for (const AccuracyRow& r : rows)
-    plot.add(line_name(r), at_least(r.error, smallest_error), r.seconds, setting_text(r));
+    plot.add(line_name(r), std::max(r.error, smallest_error), r.seconds, setting_text(r));
   return plot.draw(path);
 }
 
@@ -159,7 +158,7 @@ bool draw_engines(const Rows& all, const std::string& path) {
                     "Relative L2 error against the image with true delays, or of the expected level", time_title));
   for (const AccuracyRow& r : of_sweep(all, "engines"))
     if (r.task == "wide band" && r.refused.empty())
-      plot.add(r.method, at_least(std::hypot(r.error, r.model_error), smallest_error), r.seconds, setting_text(r));
+      plot.add(r.method, std::max(std::hypot(r.error, r.model_error), smallest_error), r.seconds, setting_text(r));
   return plot.draw(path);
 }
 
@@ -172,7 +171,7 @@ bool draw_local_error(const Rows& all, const std::string& path) {
     if (r.method == "spectrum" || r.method == "direct" || r.tolerance == 1e-2 || r.tolerance == 1e-4 ||
         r.tolerance == 1e-8 || r.tolerance == 1e-12)
       plot.add(r.tolerance > 0 ? "gridded, " + tolerance_text(r.tolerance) : r.method, r.dynamic_range_db,
-               at_least(r.local_error, smallest_error));
+               std::max(r.local_error, smallest_error));
   return plot.draw(path);
 }
 

@@ -81,24 +81,19 @@ ordered_json promise_json(const std::vector<AccuracyRow>& rows) {
 
 /// Returns for each engine the number of its rows, of refusals, and its largest error over the tolerance.
 ordered_json engines_json(const std::vector<AccuracyRow>& rows) {
-  std::map<std::string, ordered_json> engines;
-  for (const AccuracyRow& r : rows) {
-    if (r.sweep != "engines" && r.sweep != "stability") continue;
-    ordered_json& of =
-        engines
-            .try_emplace(
-                r.method,
-                ordered_json{{"engine", r.method}, {"rows", 0}, {"refused", 0}, {"worst_error_over_tolerance", 0.0}})
-            .first->second;
-    of["rows"] = of["rows"].get<int>() + 1;
-    if (!r.refused.empty())
-      of["refused"] = of["refused"].get<int>() + 1;
-    else if (r.tolerance > 0)
-      of["worst_error_over_tolerance"] =
-          std::max(of["worst_error_over_tolerance"].get<double>(), r.error / r.tolerance);
-  }
   ordered_json all = ordered_json::array();
-  for (auto& [word, of] : engines) all.push_back(std::move(of));
+  for (const Engine& engine : engines()) {
+    int measured = 0, refused = 0;
+    double worst = 0;
+    for (const AccuracyRow& r : rows) {
+      if ((r.sweep != "engines" && r.sweep != "stability") || r.method != engine.word) continue;
+      ++measured, refused += r.refused.empty() ? 0 : 1;
+      if (r.refused.empty() && r.tolerance > 0) worst = std::max(worst, r.error / r.tolerance);
+    }
+    if (measured > 0)
+      all.push_back(
+          {{"engine", engine.word}, {"rows", measured}, {"refused", refused}, {"worst_error_over_tolerance", worst}});
+  }
   return all;
 }
 
@@ -188,14 +183,11 @@ ordered_json accuracy_summary(const std::vector<AccuracyRow>& rows) {
     if (r.sweep == "threads" && alone && r.threads == 2)
       summary["second_core"].push_back({{"tolerance", r.tolerance}, {"gain", alone->seconds / r.seconds}});
   }
-  for (const double tolerance : {1e-4, 1e-6}) {
-    summary["crossover"].push_back({{"tolerance", tolerance},
-                                    {"against", "direct"},
-                                    {"faster_from", crossover_json(rows, "direct", tolerance, 0)}});
-    summary["crossover"].push_back({{"tolerance", tolerance},
-                                    {"against", "windowed-direct"},
-                                    {"faster_from", crossover_json(rows, "windowed-direct", tolerance, tolerance)}});
-  }
+  for (const double tolerance : {1e-4, 1e-6})
+    for (const auto& [against, its] : {std::pair("direct", 0.0), std::pair("windowed-direct", tolerance)})
+      summary["crossover"].push_back({{"tolerance", tolerance},
+                                      {"against", against},
+                                      {"faster_from", crossover_json(rows, against, tolerance, its)}});
   return summary;
 }
 

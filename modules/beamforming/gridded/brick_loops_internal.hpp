@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "beamforming/gridded/gridding_loops_internal.hpp"
+#include "beamforming/numerics/gridding_kernel_internal.hpp"
 
 // Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
 // on each. They do not include Eigen, so wide registers are safe.
@@ -25,10 +25,10 @@ struct BrickEchoes {
 
 /// Adds pulse(row) x kernel(column) x kernel(line) of echoes [first, last) of `count` to their bricks, `rows` samples
 /// each.
-void grid_bricks(BrickEchoes<float> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
-                 Pieces<float> columns_of, Pieces<float> lines_of, std::size_t lines, std::size_t plane);
-void grid_bricks(BrickEchoes<double> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
-                 Pieces<double> columns_of, Pieces<double> lines_of, std::size_t lines, std::size_t plane);
+template <typename Real>
+void grid_bricks(BrickEchoes<Real> echoes, std::size_t first, std::size_t last, std::size_t count, std::size_t rows,
+                 const PolynomialPieces<Real>& columns_of, const PolynomialPieces<Real>& lines_of, std::size_t lines,
+                 std::size_t plane);
 
 /// Bricks of one block of columns, line by line, and those of the block before it, whose overlap reaches into this one.
 template <typename Real>
@@ -42,7 +42,7 @@ struct BrickColumn {
 
 /// Sets rows_at_once rows, `row_stride` apart, of brick_columns numbers: sum of weight x brick, `offset` numbers after
 /// its beginning.
-void weigh_bricks(BrickColumn<float> bricks, std::size_t offset, float* rows, std::size_t row_stride);
-void weigh_bricks(BrickColumn<double> bricks, std::size_t offset, double* rows, std::size_t row_stride);
+template <typename Real>
+void weigh_bricks(BrickColumn<Real> bricks, std::size_t offset, Real* rows, std::size_t row_stride);
 
 }  // namespace insonify::kernels

@@ -22,7 +22,7 @@ ColumnPlan<Real>::ColumnPlan(const SonarHead& head, const Medium& medium, const 
   const LineArray& column = *head.column;
   const std::size_t n = column.elements();
   const auto steps = static_cast<double>(cycle);
-  AlignedArray<std::complex<double>, double> response(cycle * rows.size());  // cycle x rows
+  Aligned<std::complex<double>> response(cycle * rows.size());  // cycle x rows
   for (std::size_t m = 0; m < n; ++m) {
     const double position = element_position(m, n);
     const auto frequency = static_cast<std::ptrdiff_t>(std::floor(position)), wrap = static_cast<std::ptrdiff_t>(cycle);

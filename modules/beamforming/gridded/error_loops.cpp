@@ -17,53 +17,43 @@ INSONIFY_ALWAYS_INLINE double way_to(double y, double range, double u) {
 }  // namespace
 
 INSONIFY_CLONES
-void echo_phasors(const double* y, std::size_t count, const BeamEcho& echo, EchoPhasors phasors) {
+EchoSums sum_phasors(const double* y, const double* shading, std::size_t count, const BeamEcho& echo) {
+  enum Row { narrow, carrier, before, behind, near_off, far_off, rows };
+  constexpr std::size_t lanes = phasor_lanes, sums = sizeof(EchoSums) / sizeof(double);
   const BeamEcho e = echo;
-  const EchoPhasors p = phasors;
-#pragma GCC ivdep
-  for (std::size_t m = 0; m < count; ++m) {
-    const double there = way_to(y[m], e.range, e.u);
-    const double carrier = e.cycles_per_m * (there - way_to(y[m], e.range, e.u_beam));
-    vec::sine_cosine(-e.narrow_cycles * y[m] * (e.u - e.u_beam), p.sine[p.narrow][m], p.cosine[p.narrow][m]);
-    vec::sine_cosine(carrier, p.sine[p.carrier][m], p.cosine[p.carrier][m]);
-    vec::sine_cosine(e.cycles_per_m * (there - way_to(y[m], e.nearer, e.u_beam)), p.sine[p.before][m],
-                     p.cosine[p.before][m]);
-    vec::sine_cosine(e.cycles_per_m * (there - way_to(y[m], e.farther, e.u_beam)), p.sine[p.behind][m],
-                     p.cosine[p.behind][m]);
-    vec::sine_cosine(carrier * e.near_off, p.sine[p.near_off][m], p.cosine[p.near_off][m]);
-    vec::sine_cosine(carrier * e.far_off, p.sine[p.far_off][m], p.cosine[p.far_off][m]);
-  }
-}
-
-INSONIFY_CLONES
-PhasorSums sum_phasors(const double* shading, std::size_t count, const EchoPhasors& phasors) {
-  constexpr std::size_t lanes = phasor_lanes, sums = sizeof(PhasorSums) / sizeof(double);
-  const EchoPhasors p = phasors;
   double sum[sums][lanes] = {};
-  for (std::size_t m = 0; m < count; m += lanes)
+  for (std::size_t m = 0; m < count; m += lanes) {
+    double cosine[rows][lanes], sine[rows][lanes];
     for (std::size_t l = 0; l < lanes; ++l) {
-      const double w = shading[m + l];
-      for (std::size_t row = 0; row < 4; ++row) {
-        sum[2 * row][l] += w * p.cosine[row][m + l];
-        sum[2 * row + 1][l] += w * p.sine[row][m + l];
+      const double at = y[m + l], there = way_to(at, e.range, e.u);
+      const double cycles = e.cycles_per_m * (there - way_to(at, e.range, e.u_beam));
+      vec::sine_cosine(-e.narrow_cycles * at * (e.u - e.u_beam), sine[narrow][l], cosine[narrow][l]);
+      vec::sine_cosine(cycles, sine[carrier][l], cosine[carrier][l]);
+      vec::sine_cosine(e.cycles_per_m * (there - way_to(at, e.nearer, e.u_beam)), sine[before][l], cosine[before][l]);
+      vec::sine_cosine(e.cycles_per_m * (there - way_to(at, e.farther, e.u_beam)), sine[behind][l], cosine[behind][l]);
+      vec::sine_cosine(cycles * e.near_off, sine[near_off][l], cosine[near_off][l]);
+      vec::sine_cosine(cycles * e.far_off, sine[far_off][l], cosine[far_off][l]);
+    }
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const double w = shading[m + l], re = w * cosine[carrier][l], im = w * sine[carrier][l];
+      for (std::size_t row = 0; row < near_off; ++row) {
+        sum[2 * row][l] += w * cosine[row][l];
+        sum[2 * row + 1][l] += w * sine[row][l];
       }
-      const double re = w * p.cosine[p.carrier][m + l], im = w * p.sine[p.carrier][m + l];
       for (std::size_t k = 0; k < 2; ++k) {
-        const double cosine = p.cosine[p.near_off + k][m + l], sine = p.sine[p.near_off + k][m + l];
-        sum[8 + 2 * k][l] += re * cosine;
-        sum[9 + 2 * k][l] += im * cosine;
-        sum[12 + 2 * k][l] -= im * sine;
-        sum[13 + 2 * k][l] += re * sine;
+        sum[8 + 2 * k][l] += re * cosine[near_off + k][l];
+        sum[9 + 2 * k][l] += im * cosine[near_off + k][l];
+        sum[12 + 2 * k][l] -= im * sine[near_off + k][l];
+        sum[13 + 2 * k][l] += re * sine[near_off + k][l];
       }
     }
-  double all[sums];
-  for (std::size_t s = 0; s < sums; ++s) {
-    all[s] = 0;
-    for (std::size_t l = 0; l < lanes; ++l) all[s] += sum[s][l];
   }
-  return {{{all[0], all[1]}, {all[2], all[3]}, {all[4], all[5]}, {all[6], all[7]}},
-          {{all[8], all[9]}, {all[10], all[11]}},
-          {{all[12], all[13]}, {all[14], all[15]}}};
+  const auto number = [&](std::size_t s) {
+    std::complex<double> all = 0;
+    for (std::size_t l = 0; l < lanes; ++l) all += std::complex(sum[2 * s][l], sum[2 * s + 1][l]);
+    return all;
+  };
+  return {number(0), number(1), number(2), number(3), number(4), number(5), number(6), number(7)};
 }
 
 }  // namespace insonify::kernels

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <complex>
 #include <cstddef>
 
 // Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
@@ -14,30 +15,18 @@ struct BeamEcho {
   double near_off, far_off;  ///< frequencies off the received carrier, over it
 };
 
-/// Phasors of the difference between the paths from echo and focus to each element (E61, E62), one row per use.
-struct EchoPhasors {
-  enum Row { narrow, carrier, before, behind, near_off, far_off, rows };
-  double* cosine[rows];
-  double* sine[rows];
+/// Shaded sums over the elements of phasors of the difference between the paths from echo and focus (E61, E62): of the
+/// narrow-band, far-field pattern (E10); of the carrier, with the focus at the echo, before it and behind it; and of the
+/// carrier times the cosine and times i sine of the phase that a frequency off it adds. Sum and difference of the last
+/// two are the responses above and below the carrier.
+struct EchoSums {
+  std::complex<double> narrow, carrier, before, behind, near_cosine, far_cosine, near_sine, far_sine;
 };
-
-/// Computes the phasors of `count` elements at y [m, along the array]. The rows are: the narrow-band, far-field pattern
-/// (E10); the carrier with the focus at the echo, before it and behind it; and the phase that each frequency off the
-/// carrier adds to the phase of the carrier.
-void echo_phasors(const double* y, std::size_t count, const BeamEcho& echo, EchoPhasors phasors);
 
 /// Number of elements that are summed at a time.
 inline constexpr std::size_t phasor_lanes = 8;
 
-/// Sums over elements. `row` holds the real and imaginary parts of the first four rows. `by_cosine` and `by_sine` hold
-/// the sums of the carrier times the cosine and times i sine of a frequency off it; their sum and difference are the
-/// responses above and below the carrier.
-struct PhasorSums {
-  double row[4][2];
-  double by_cosine[2][2], by_sine[2][2];  ///< near_off, far_off
-};
-
-/// Sums the phasors of `count` elements, a multiple of phasor_lanes, each times its shading.
-PhasorSums sum_phasors(const double* shading, std::size_t count, const EchoPhasors& phasors);
+/// Returns the sums over `count` elements at y [m, along the array], a multiple of phasor_lanes.
+EchoSums sum_phasors(const double* y, const double* shading, std::size_t count, const BeamEcho& echo);
 
 }  // namespace insonify::kernels

@@ -10,11 +10,6 @@
 namespace insonify {
 namespace {
 
-template <typename Real>
-kernels::Pieces<Real> sweep_pieces(const PolynomialPieces<Real>& p) {
-  return {p.coefficient.data(), p.degree, p.lanes};
-}
-
 /// Columns of the grid that an echo reaches: the first, and t of the kernel's polynomials.
 template <typename Real>
 struct SweepColumns {
@@ -54,10 +49,9 @@ void GridTile<Real>::add_planned_sweeps(const Echoes& echoes, List list, std::si
       return brick.sum.data() + static_cast<std::size_t>(row_0 + piece - from) * stride_ + columns.first;
     };
     kernels::grid_pulse_rows(static_cast<Real>(a.real()), static_cast<Real>(a.imag()),
-                             static_cast<Real>(2 * (row_0 - low_row) - 1), columns.offset, sweep_pieces(plan.sweep_re),
-                             sweep_pieces(plan.sweep_im), static_cast<std::size_t>(piece_0),
-                             static_cast<std::size_t>(piece_1 - piece_0), sweep_pieces(plan.columns), scratch_.data(),
-                             at(piece_0), at(piece_0) + plane_, stride_);
+                             static_cast<Real>(2 * (row_0 - low_row) - 1), columns.offset, plan.sweep_re, plan.sweep_im,
+                             static_cast<std::size_t>(piece_0), static_cast<std::size_t>(piece_1 - piece_0),
+                             plan.columns, scratch_.data(), at(piece_0), at(piece_0) + plane_, stride_);
     energy_ += plan.pulse_energy * std::norm(a) * (piece_1 - piece_0) / all_pieces;
     if (!plan.sweep_ends) continue;
     for (const double end : {0.0, all_pieces - 1}) {
@@ -66,8 +60,7 @@ void GridTile<Real>::add_planned_sweeps(const Echoes& echoes, List list, std::si
       const double level = std::copysign(plan.half - plan.axis.step, t);
       const std::complex<double> g = a * (envelope.at(t) - envelope.at(level));  // (E13)
       const double g_re = g.real(), g_im = g.imag();
-      kernels::grid_sampled_pulse(&g_re, &g_im, 1, columns.offset, sweep_pieces(plan.columns), at(end),
-                                  at(end) + plane_, stride_);
+      kernels::grid_sampled_pulse(&g_re, &g_im, 1, columns.offset, plan.columns, at(end), at(end) + plane_, stride_);
     }
   }
 }
@@ -89,15 +82,15 @@ void GridTile<Real>::add_sampled_sweeps(const Echoes& echoes, const PulseReach& 
     pulse_re.clear();
     pulse_im.clear();
     for (std::size_t n = from; n < to; ++n) {
-      const std::complex<double> g =
-          columns.sign / unit_ * echoes.amplitude[i] * envelope.at(plan.axis.time_of(n) - delay);  // (E13)
+      const std::complex<double> g = columns.sign / unit_ * echoes.amplitude[i] *
+                                     envelope.at(plan.axis.time_of(static_cast<double>(n)) - delay);  // (E13)
       pulse_re.push_back(g.real());
       pulse_im.push_back(g.imag());
       energy_ += std::norm(g);
     }
     Real* at = brick.sum.data() + (from - first_bin) * stride_ + columns.first;
-    kernels::grid_sampled_pulse(pulse_re.data(), pulse_im.data(), pulse_re.size(), columns.offset,
-                                sweep_pieces(plan.columns), at, at + plane_, stride_);
+    kernels::grid_sampled_pulse(pulse_re.data(), pulse_im.data(), pulse_re.size(), columns.offset, plan.columns, at,
+                                at + plane_, stride_);
   }
 }
 

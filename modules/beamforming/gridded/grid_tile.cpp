@@ -18,13 +18,7 @@ constexpr double least_gain = 1e-130;         // of pulses that absorption leave
 static_assert(rows_at_a_time % kernels::rows_at_once == 0);
 
 template <typename Real>
-kernels::Pieces<Real> pieces_of(const PolynomialPieces<Real>& p) {
-  return {p.coefficient.data(), p.degree, p.lanes};
-}
-
-template <typename Real>
 kernels::GaussianGrid gaussian_grid(const GriddingPlan<Real>& plan, std::size_t first_bin) {
-  const Absorption& absorption = plan.medium.absorption;
   return {.start = plan.axis.start,
           .step = plan.axis.step,
           .half = plan.longest_half,
@@ -34,12 +28,7 @@ kernels::GaussianGrid gaussian_grid(const GriddingPlan<Real>& plan, std::size_t 
           .grid = static_cast<double>(plan.grid),
           .half_width = 0.5 * static_cast<double>(plan.kernel.width()),
           .pad = static_cast<double>(grid_pad),
-          .half_positions = plan.element_offset != 0,
-          .a_sent = plan.shapes.of(0).a,
-          .range_per_delay = 0.5 * plan.medium.sound_speed,
-          .a0 = absorption.a0,
-          .a1 = absorption.a1,
-          .a2 = absorption.a2};
+          .half_positions = plan.element_offset != 0};
 }
 
 }  // namespace
@@ -75,7 +64,7 @@ typename GridTile<Real>::Brick& GridTile<Real>::flushed(Brick& brick) {
   if (brick.since_flush < flush_interval) return brick;
   brick.flushed.resize(2 * plane_, 0);
   for (std::size_t k = 0; k < 2 * plane_; ++k) brick.flushed[k] += brick.sum[k];
-  brick.sum.clear();
+  std::ranges::fill(brick.sum, Real(0));
   brick.since_flush = 0;
   return brick;
 }
@@ -116,7 +105,8 @@ void GridTile<Real>::add_gaussians(const Echoes& echoes, List list, std::size_t 
     std::size_t count = std::min(GaussianBatch<Real>::most, list.size());
     if (!plan_.column) count = std::min(count, flush_interval - flushed(brick_at(0, 0)).since_flush);
     const List some = list.first(count);
-    energy_ += plan_.pulse_energy * pulses_.sample(grid, plan_.shapes, echoes, some, unit_, plan_.longest_rows);
+    energy_ +=
+        plan_.pulse_energy * pulses_.sample(grid, plan_.shapes, plan_.medium, echoes, some, unit_, plan_.longest_rows);
     if (plan_.column)
       add_to_lines(echoes, some);
     else
@@ -129,7 +119,7 @@ template <typename Real>
 void GridTile<Real>::add_to_line(std::size_t count) {
   Brick& brick = brick_at(0, 0);
   kernels::grid_samples(pulses_.positions(), count, pulses_.re.data(), pulses_.im.data(), plan_.longest_rows,
-                        pieces_of(plan_.columns), brick.sum.data(), brick.sum.data() + plane_, stride_);
+                        plan_.columns, brick.sum.data(), brick.sum.data() + plane_, stride_);
   brick.since_flush += count;
 }
 
@@ -143,8 +133,7 @@ void GridTile<Real>::add_to_lines(const Echoes& echoes, List list) {
   const auto add_until = [&](std::size_t end) {
     kernels::grid_bricks(kernels::BrickEchoes<Real>{to.data(), pulses_.column_offset.data(), line_offset.data(),
                                                     sign.data(), pulses_.re.data(), pulses_.im.data()},
-                         done, end, list.size(), plan_.longest_rows, pieces_of(plan_.columns), pieces_of(column.pieces),
-                         width, plane_);
+                         done, end, list.size(), plan_.longest_rows, plan_.columns, column.pieces, width, plane_);
     done = end;
   };
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -233,7 +222,7 @@ void GridTile<Real>::clear() {
   std::fill(brick_.begin(), brick_.end(), nullptr);
   for (auto& bricks : of_block_) bricks.clear();
   for (std::size_t b = 0; b < used_; ++b) {
-    room_[b]->sum.clear();
+    std::ranges::fill(room_[b]->sum, Real(0));
     room_[b]->flushed.clear();
     room_[b]->since_flush = 0;
   }

@@ -34,7 +34,7 @@ class GridTile {
   /// Real and imaginary plane, tile rows x stride numbers each.
   struct Brick {
     explicit Brick(std::size_t numbers) : sum(numbers) {}
-    AlignedArray<Real, Real> sum;
+    Aligned<Real> sum;
     std::vector<Real> flushed{};            // sums of earlier echoes, if there are many
     std::size_t since_flush = 0, line = 0;  // echoes added since sums were flushed
   };
@@ -66,8 +66,8 @@ class GridTile {
   double unit_ = 0, energy_ = 0;  // a power of two [Pa]; of all echoes [unit^2 bins]
   GaussianBatch<Real> pulses_;
   std::vector<Real> scratch_;
-  AlignedArray<Real, Real> re_, im_;  // of planar arrays: rows x bins x columns of all blocks
-  AlignedArray<std::complex<Real>, Real> grid_;
+  Aligned<Real> re_, im_;  // of planar arrays: rows x bins x columns of all blocks
+  Aligned<std::complex<Real>> grid_;
 };
 
 }  // namespace insonify

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "acoustics/echo_stream.hpp"
 #include "beamforming/gridded/gridded_synthesis_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
-#include "beamforming/numerics/synthesis_precision_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "core/error.hpp"
 #include "sonar/pulse_kind.hpp"
@@ -20,6 +20,23 @@ namespace {
 
 /// Parts of the tolerance that gridding over u, there and back, and over v of a planar array may use up.
 constexpr double part_of_u = 0.7, part_of_v = 0.5;
+
+/// Least kernel tolerance for which single precision suffices. Errors of kernel and rounding are distributed evenly
+/// over all beams, so the kernel tolerance is the image tolerance times the fraction of the gridded energy that the
+/// beams receive.
+constexpr double single_precision_from = 2e-6;
+constexpr double min_kernel_tolerance = 1e-15;
+
+/// Returns the expected GriddedImage::share of an echo among beams in the directions `cosines`: the root mean square of
+/// the pattern over the extent of the beams.
+double expected_share(const LineArray& array, double wavelength, std::span<const double> cosines) {
+  const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
+  double squares = 0;
+  for (const double w : array.shading) squares += w * w;
+  const auto n = static_cast<double>(array.elements());
+  const double lobe = wavelength / array.spacing * squares / (n * n);  // integral of the pattern squared over u
+  return std::sqrt(lobe / std::max(*high - *low, lobe));
+}
 
 /// Expected root of the ratio of a beam's energy to that of an echo: over u, and of a planar array over v.
 struct ExpectedShare {
@@ -36,15 +53,6 @@ struct ExpectedShare {
 };
 
 }  // namespace
-
-double expected_share(const LineArray& array, double wavelength, std::span<const double> cosines) {
-  const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
-  double squares = 0;
-  for (const double w : array.shading) squares += w * w;
-  const auto n = static_cast<double>(array.elements());
-  const double lobe = wavelength / array.spacing * squares / (n * n);  // integral of the pattern squared over u
-  return std::sqrt(lobe / std::max(*high - *low, lobe));
-}
 
 /// The synthesis in single or double precision, accurate for images whose share is at least half of that expected.
 struct GriddedEngine::Plan {
@@ -103,12 +111,8 @@ GriddedEngine::GriddedEngine(const SonarHead& head, const Medium& medium, const 
   if (!(options.tolerance >= min_gridding_tolerance))
     fail(ErrorKind::argument, "GriddedEngine: tolerance = ", options.tolerance, ", must be at least ",
          min_gridding_tolerance, "; below that use the direct method");
-  plan_ = std::make_unique<Plan>(head, medium, options);
+  plan_ = std::make_shared<const Plan>(head, medium, options);
 }
-
-GriddedEngine::~GriddedEngine() = default;
-GriddedEngine::GriddedEngine(GriddedEngine&&) noexcept = default;
-GriddedEngine& GriddedEngine::operator=(GriddedEngine&&) noexcept = default;
 
 SynthesisChoice GriddedEngine::choice() const {
   SynthesisChoice choice = plan_->in_single ? plan_->in_single->choice() : plan_->in_double->choice();

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
-#include <string>
 
-#include "acoustics/echo_stream.hpp"
+#include "beamforming/engine.hpp"
 #include "beamforming/gridded/synthesis_choice.hpp"
-#include "beamforming/synthesize.hpp"
 #include "sonar/sonar_head.hpp"
 
 namespace insonify {
@@ -30,7 +28,7 @@ constexpr double min_gridding_tolerance = 1e-13;
 /// needs a wider kernel.
 ///
 /// Construct one object per head, medium and tolerance. Several threads may call `pressure` at once.
-class GriddedEngine {
+class GriddedEngine final : public ImageEngine {
  public:
   /// Returns whether one grid serves all beams of a head. It does for one row of beams of a line array and for a planar
   /// array with Gaussian pulses.
@@ -38,25 +36,22 @@ class GriddedEngine {
 
   /// Throws Error for an invalid head or medium, a head that does not suit, or a tolerance outside [1e-13, 1).
   GriddedEngine(const SonarHead& head, const Medium& medium, const SynthesisOptions& options = {});
-  ~GriddedEngine();
-  GriddedEngine(GriddedEngine&&) noexcept;
-  GriddedEngine& operator=(GriddedEngine&&) noexcept;
 
   /// Returns the image, beams x bins [Pa]. Echoes that cancel, or that lie outside all beams, make the image weak
   /// compared with its echoes. If the tolerance may then be exceeded, the image is computed again with a lower
   /// tolerance. Throws Error for a NaN in an echo, with the index of the echo, and for echoes of a planar array without
   /// v.
-  ComplexGrid pressure(const Echoes& echoes) const;
+  ComplexGrid pressure(const Echoes& echoes) const override;
   /// Returns the same for echoes that `stream` makes chunk by chunk. Head and scene must be at rest: delay = 2 range /
   /// c. A chunk is made again for each slab of bins that it reaches into.
-  ComplexGrid pressure(const EchoStream& stream) const;
+  ComplexGrid pressure(const EchoStream& stream) const override;
 
   /// Returns what the constructor has chosen for head, medium and tolerance.
   SynthesisChoice choice() const;
 
  private:
   struct Plan;
-  std::unique_ptr<Plan> plan_;
+  std::shared_ptr<const Plan> plan_;
 };
 
 /// Returns the parameters that a GriddedEngine chooses for the first row of beams of any head.

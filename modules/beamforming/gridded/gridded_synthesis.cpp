@@ -7,7 +7,6 @@
 #include "beamforming/gridded/tile_lists_internal.hpp"
 #include "beamforming/numerics/flush_denormals_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
-#include "beamforming/pulses/pulse_loops_internal.hpp"
 #include "beamforming/row_echoes_internal.hpp"
 #include "core/parallel.hpp"
 
@@ -48,8 +47,8 @@ class Slab final : public EchoSink {
         last_(std::min(first_ + tiles * plan.tile_bins, plan.axis.bins)) {
     for (std::size_t bin = first_; bin < last_; bin += plan.tile_bins) positions_.push_back({bin});
     // Pulses lengthen with range: those from beyond the slab are as long as at its end, and half as much again.
-    const double end = plan.axis.time_of(last_), half = 1.5 * reach.at(end) + 2 * plan.axis.step;
-    min_range_ = 0.5 * plan.medium.sound_speed * (plan.axis.time_of(first_) - half);
+    const double end = plan.axis.time_of(static_cast<double>(last_)), half = 1.5 * reach.at(end) + 2 * plan.axis.step;
+    min_range_ = 0.5 * plan.medium.sound_speed * (plan.axis.time_of(static_cast<double>(first_)) - half);
     max_range_ = 0.5 * plan.medium.sound_speed * (end + half);
   }
 
@@ -59,15 +58,8 @@ class Slab final : public EchoSink {
   void take(const Scatterers&, const Echoes& echoes) override {
     require_finite(echoes, "GriddedEngine");
     for (Position& position : positions_) position.list.clear();
-    begin_.resize(echoes.size()), end_.resize(echoes.size());
-    kernels::reached_bins(echoes.delay.data(), echoes.size(),
-                          {plan_.axis.start, plan_.axis.step, reach_.half, reach_.growth, static_cast<double>(first_),
-                           static_cast<double>(last_)},
-                          begin_.data(), end_.data());
-    for (std::size_t i = 0; i < echoes.size(); ++i)
-      if (begin_[i] < end_[i])
-        for (std::size_t t = (begin_[i] - first_) / plan_.tile_bins; t <= (end_[i] - 1 - first_) / plan_.tile_bins; ++t)
-          positions_[t].list.push_back(static_cast<std::uint32_t>(i));
+    each_tile(echoes, 0, echoes.size(), plan_.axis, reach_, {plan_.tile_bins, first_, last_},
+              [&](std::size_t t, std::size_t i) { positions_[t].list.push_back(static_cast<std::uint32_t>(i)); });
     for (Position& position : positions_) {
       if (position.list.empty()) continue;
       if (!position.tile) position.tile = pool_.take();
@@ -78,18 +70,19 @@ class Slab final : public EchoSink {
   void form_beams(const BeamTransform<Real>& to_beams, ComplexGrid& pressure, double& gridded, double& received) {
     for (Position& position : positions_) {
       const std::size_t end = std::min(position.first_bin + plan_.tile_bins, last_);
-      if (position.tile)
+      if (position.tile) {
         position.tile->form_beams(to_beams, position.first_bin, end, pressure, gridded, received);
-      else
+        pool_.give(std::move(position.tile));
+      } else {
         pressure.middleCols(position.first_bin, end - position.first_bin).setZero();
-      position.tile.reset();
+      }
     }
   }
 
  private:
   struct Position {
     std::size_t first_bin;
-    typename TilePool<GridTile<Real>>::Handle tile{};
+    std::unique_ptr<GridTile<Real>> tile{};
     std::vector<std::uint32_t> list{};
   };
 
@@ -99,7 +92,6 @@ class Slab final : public EchoSink {
   std::size_t first_, last_;
   double min_range_ = 0, max_range_ = 0;
   std::vector<Position> positions_;
-  std::vector<std::uint32_t> begin_, end_;  // samples that the echoes of a chunk reach
 };
 
 }  // namespace
@@ -122,9 +114,10 @@ GriddedImage GriddedSynthesis<Real>::image(const Echoes& echoes) const {
   parallel_for(lists.tiles(), threads_, [&](std::size_t t) {
     const std::size_t first = t * plan_.tile_bins, last = std::min(first + plan_.tile_bins, plan_.axis.bins);
     const FlushDenormals flush;
-    const auto tile = tiles_.take();
+    auto tile = tiles_.take();
     tile->add(echoes, reach, lists.of(t), first);
     tile->form_beams(to_beams_, first, last, pressure, energies.gridded[t], energies.received[t]);
+    tiles_.give(std::move(tile));
   });
   return {std::move(pressure), energies.share(beams)};
 }

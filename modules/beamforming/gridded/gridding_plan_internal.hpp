@@ -50,8 +50,6 @@ struct GriddingPlan {
 
   GriddingPlan(const SonarHead& head, const Medium& medium, double tolerance, KernelTolerance kernels);
 
-  std::size_t tiles() const { return (axis.bins + tile_bins - 1) / tile_bins; }
-
   /// Position of a direction on the grid: step, and sign due to whole cycles.
   struct Position {
     double step, sign;

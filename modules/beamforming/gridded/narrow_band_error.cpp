@@ -69,38 +69,25 @@ NarrowBandError::Sums NarrowBandError::of_echo(const Echo& echo) const {
   for (const double u : u_beam_) beam.push_back({std::abs(std::remainder(u - echo.u, lobes_apart)), u});
   std::ranges::sort(beam, {}, &Beam::away);
   Sums sums;
-  std::vector<double> workspace(2 * kernels::EchoPhasors::rows * y_.size());
-  for (std::size_t b = 0; b < near; ++b) add_beam(echo, beam[b].u, echo.times, workspace, sums);
+  for (std::size_t b = 0; b < near; ++b) add_beam(echo, beam[b].u, echo.times, sums);
   const std::size_t rest = beams - near, step = std::max<std::size_t>(1, rest / far_beams);
   for (std::size_t b = near + step / 2; b < beams; b += step)
-    add_beam(echo, beam[b].u, echo.times * static_cast<double>(step), workspace, sums);
+    add_beam(echo, beam[b].u, echo.times * static_cast<double>(step), sums);
   return sums;
 }
 
 // Nodes of the spectrum with the focus at the echo, and nodes of the pulse's length at the carrier: both at once are
 // of higher order.
-void NarrowBandError::add_beam(const Echo& echo, double u_beam, double weight, std::vector<double>& workspace,
-                               Sums& sums) const {
-  kernels::EchoPhasors p{};
-  for (std::size_t row = 0; row < kernels::EchoPhasors::rows; ++row)
-    p.cosine[row] = workspace.data() + 2 * row * y_.size(), p.sine[row] = p.cosine[row] + y_.size();
+void NarrowBandError::add_beam(const Echo& echo, double u_beam, double weight, Sums& sums) const {
   const double nearer = std::max(echo.range - off_focus_, 0.3 * echo.range);
-  kernels::echo_phasors(y_.data(), y_.size(),
-                        {echo.range, echo.u, u_beam, nearer, echo.range + off_focus_,
-                         cycles_per_m_ * echo.carrier / head_.pulse.centre_frequency, cycles_per_m_,
-                         nodes_[3].frequency / echo.carrier, nodes_[4].frequency / echo.carrier},
-                        p);
-  const kernels::PhasorSums all = kernels::sum_phasors(shading_.data(), y_.size(), p);
-  const auto sum_of = [](const double(&shares)[2]) { return std::complex(shares[0], shares[1]); };
-  const std::complex<double> narrow = sum_of(all.row[p.narrow]), before = sum_of(all.row[p.before]),
-                             behind = sum_of(all.row[p.behind]);
-  std::complex<double> truth[5];  // nodes come in pairs about the carrier
-  truth[2] = sum_of(all.row[p.carrier]);
-  for (const int n : {1, 2}) {
-    const std::complex<double> by_cosine = sum_of(all.by_cosine[n - 1]), by_sine = sum_of(all.by_sine[n - 1]);
-    truth[2 + n] = by_cosine + by_sine, truth[2 - n] = by_cosine - by_sine;
-  }
-  const auto add_node = [&](const std::complex<double>& t, double share) {
+  const auto [narrow, carrier, before, behind, near_cosine, far_cosine, near_sine, far_sine] =
+      kernels::sum_phasors(y_.data(), shading_.data(), y_.size(),
+                           {echo.range, echo.u, u_beam, nearer, echo.range + off_focus_,
+                            cycles_per_m_ * echo.carrier / head_.pulse.centre_frequency, cycles_per_m_,
+                            nodes_[3].frequency / echo.carrier, nodes_[4].frequency / echo.carrier});
+  const std::complex<double> truth[5] = {far_cosine - far_sine, near_cosine - near_sine, carrier,
+                                         near_cosine + near_sine, far_cosine + far_sine};
+  const auto add_node = [&, narrow = narrow](const std::complex<double>& t, double share) {
     sums.error += weight * share * std::norm(t - narrow);
     sums.image += weight * share * std::norm(t);
   };

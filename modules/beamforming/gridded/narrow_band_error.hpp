@@ -37,7 +37,7 @@ class NarrowBandError {
     double carrier;  ///< received carrier [Hz]
   };
   Sums of_echo(const Echo& echo) const;
-  void add_beam(const Echo& echo, double u_beam, double weight, std::vector<double>& workspace, Sums& sums) const;
+  void add_beam(const Echo& echo, double u_beam, double weight, Sums& sums) const;
 
   const SonarHead& head_;
   std::array<SpectrumNode, 5> nodes_;

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "beamforming/gridded/tile_lists_internal.hpp"
-#include "beamforming/pulses/pulse_loops_internal.hpp"
 #include "core/parallel.hpp"
 
 namespace insonify {
@@ -10,23 +9,6 @@ namespace {
 
 constexpr std::size_t min_block = 4096;  // least number of echoes per block of work
 constexpr std::size_t max_blocks = 256;
-
-/// Calls visit(tile, i) for every tile that the pulse of echo i in [first, last) overlaps.
-template <typename Visit>
-void each_tile(const Echoes& echoes, const TimeAxis& axis, const PulseReach& reach, std::size_t tile_bins,
-               std::size_t first, std::size_t last, Visit&& visit) {
-  constexpr std::size_t at_once = 512;
-  std::uint32_t begin[at_once], end[at_once];
-  for (; first < last; first += at_once) {
-    const std::size_t count = std::min(at_once, last - first);
-    kernels::reached_bins(echoes.delay.data() + first, count,
-                          {axis.start, axis.step, reach.half, reach.growth, 0, static_cast<double>(axis.bins)}, begin,
-                          end);
-    for (std::size_t i = 0; i < count; ++i)
-      if (begin[i] < end[i])
-        for (std::size_t t = begin[i] / tile_bins; t <= (end[i] - 1) / tile_bins; ++t) visit(t, first + i);
-  }
-}
 
 }  // namespace
 
@@ -39,7 +21,8 @@ TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReac
   std::vector<std::size_t> next(blocks * tiles, 0);
   parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
     std::size_t* count = next.data() + first / block * tiles;
-    each_tile(echoes, axis, reach, tile_bins, first, last, [&](std::size_t t, std::size_t) { ++count[t]; });
+    each_tile(echoes, first, last, axis, reach, {tile_bins, 0, axis.bins},
+              [&](std::size_t t, std::size_t) { ++count[t]; });
   });
 
   // Assign positions tile by tile, within a tile block by block, so the lists do not depend on the division into
@@ -58,7 +41,7 @@ TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReac
   echo.resize(count_before);
   parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
     std::size_t* to = next.data() + first / block * tiles;
-    each_tile(echoes, axis, reach, tile_bins, first, last,
+    each_tile(echoes, first, last, axis, reach, {tile_bins, 0, axis.bins},
               [&](std::size_t t, std::size_t i) { echo[to[t]++] = static_cast<std::uint32_t>(i); });
   });
 }

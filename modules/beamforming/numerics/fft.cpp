@@ -25,10 +25,12 @@ std::size_t fft_length(std::size_t least) {
 template <typename Real>
 Fft<Real>::Fft(const FftLayout& layout, int sign) {
   const std::size_t numbers = layout.length * layout.stride + layout.series * layout.distance;
-  AlignedArray<std::complex<Real>, Real> from(numbers), to(layout.in_place ? 0 : numbers);
-  plan_ = Fftw<Real>::make(static_cast<int>(layout.length), static_cast<int>(layout.series),
-                           static_cast<int>(layout.stride), static_cast<int>(layout.distance), from.data(),
-                           layout.in_place ? from.data() : to.data(), sign);
+  Aligned<std::complex<Real>> from(numbers), to(layout.in_place ? 0 : numbers);
+  const auto stride = static_cast<int>(layout.stride), distance = static_cast<int>(layout.distance),
+             length = static_cast<int>(layout.length);
+  plan_ =
+      Fftw<Real>::make(1, &length, static_cast<int>(layout.series), raw(from.data()), nullptr, stride, distance,
+                       raw(layout.in_place ? from.data() : to.data()), nullptr, stride, distance, sign, FFTW_ESTIMATE);
 }
 
 template <typename Real>

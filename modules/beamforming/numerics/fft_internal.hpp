@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <algorithm>
 #include <complex>
 #include <cstddef>
 #include <new>
@@ -27,31 +26,19 @@ struct Fftw;
 template <>
 struct Fftw<double> {
   using Plan = fftw_plan;
-  static fftw_complex* raw(std::complex<double>* x) { return reinterpret_cast<fftw_complex*>(x); }
-  static void destroy(Plan plan) { fftw_destroy_plan(plan); }
-  static Plan make(int n, int series, int stride, int distance, std::complex<double>* from, std::complex<double>* to,
-                   int sign) {
-    return fftw_plan_many_dft(1, &n, series, raw(from), nullptr, stride, distance, raw(to), nullptr, stride, distance,
-                              sign, FFTW_ESTIMATE);
-  }
-  static void run(Plan plan, std::complex<double>* from, std::complex<double>* to) {
-    fftw_execute_dft(plan, raw(from), raw(to));
-  }
+  using Number = fftw_complex;
+  static constexpr auto make = fftw_plan_many_dft;
+  static constexpr auto destroy = fftw_destroy_plan;
+  static constexpr auto run = fftw_execute_dft;
 };
 
 template <>
 struct Fftw<float> {
   using Plan = fftwf_plan;
-  static fftwf_complex* raw(std::complex<float>* x) { return reinterpret_cast<fftwf_complex*>(x); }
-  static void destroy(Plan plan) { fftwf_destroy_plan(plan); }
-  static Plan make(int n, int series, int stride, int distance, std::complex<float>* from, std::complex<float>* to,
-                   int sign) {
-    return fftwf_plan_many_dft(1, &n, series, raw(from), nullptr, stride, distance, raw(to), nullptr, stride, distance,
-                               sign, FFTW_ESTIMATE);
-  }
-  static void run(Plan plan, std::complex<float>* from, std::complex<float>* to) {
-    fftwf_execute_dft(plan, raw(from), raw(to));
-  }
+  using Number = fftwf_complex;
+  static constexpr auto make = fftwf_plan_many_dft;
+  static constexpr auto destroy = fftwf_destroy_plan;
+  static constexpr auto run = fftwf_execute_dft;
 };
 
 /// Memory that begins with a cache line, as FFTW and vector registers like it.
@@ -68,23 +55,9 @@ struct LineAllocator {
  private:
   static constexpr std::align_val_t line{64};
 };
-using AlignedFloats = std::vector<float, LineAllocator<float>>;
-
 /// An array with the alignment that FFTW requires.
-template <typename T, typename Real>
-class AlignedArray {
- public:
-  explicit AlignedArray(std::size_t n) : data_(n) {}
-  AlignedArray(const AlignedArray&) = delete;
-  AlignedArray& operator=(const AlignedArray&) = delete;
-  T* data() { return data_.data(); }
-  const T* data() const { return data_.data(); }
-  T& operator[](std::size_t i) { return data_[i]; }
-  void clear() { std::fill(data_.begin(), data_.end(), T{}); }
-
- private:
-  std::vector<T, LineAllocator<T>> data_;
-};
+template <typename T>
+using Aligned = std::vector<T, LineAllocator<T>>;
 
 /// FFT of some series of one layout. Plans use FFTW_ESTIMATE, so bits do not depend on timing.
 template <typename Real>
@@ -97,10 +70,13 @@ class Fft {
   Fft& operator=(const Fft&) = delete;
   /// Transforms `data` in place, or one array to another, as the layout has it; both begin at a multiple of 16 bytes,
   /// as memory of operator new does. May be called concurrently.
-  void run(std::complex<Real>* data) const { Fftw<Real>::run(plan_, data, data); }
-  void run(std::complex<Real>* from, std::complex<Real>* to) const { Fftw<Real>::run(plan_, from, to); }
+  void run(std::complex<Real>* data) const { run(data, data); }
+  void run(std::complex<Real>* from, std::complex<Real>* to) const { Fftw<Real>::run(plan_, raw(from), raw(to)); }
 
  private:
+  using Number = typename Fftw<Real>::Number;
+  static Number* raw(std::complex<Real>* x) { return reinterpret_cast<Number*>(x); }
+
   typename Fftw<Real>::Plan plan_;
 };
 

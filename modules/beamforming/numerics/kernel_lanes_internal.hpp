@@ -2,7 +2,8 @@
 #pragma once
 #include <cstddef>
 
-#include "beamforming/gridded/gridding_loops_internal.hpp"
+#include "beamforming/numerics/gridding_kernel_internal.hpp"
+#include "core/vector_functions.hpp"
 
 namespace insonify::kernels {
 
@@ -22,8 +23,8 @@ struct KernelLanes {
   Part part[parts];
 
   /// The polynomials of all lanes at t, by Horner's rule.
-  [[gnu::always_inline]] KernelLanes(const Pieces<Real>& p, Real t) {
-    const Real* coefficient = p.coefficient;
+  [[gnu::always_inline]] KernelLanes(const PolynomialPieces<Real>& p, Real t) {
+    const Real* coefficient = p.coefficient.data();
     __builtin_memcpy(part, coefficient, sizeof part);
     for (std::size_t k = 1; k <= p.degree; ++k) {
       coefficient += lanes;
@@ -45,5 +46,17 @@ struct KernelLanes {
     }
   }
 };
+
+/// A lambda that is compiled for the instruction set of the variant that calls it.
+#define INSONIFY_INLINE_LAMBDA __attribute__((always_inline))
+
+/// Calls use(kernel) with the KernelLanes of polynomials with 8 or 16 lanes at t.
+template <typename Real, typename Use>
+INSONIFY_ALWAYS_INLINE void with_kernel(const PolynomialPieces<Real>& p, Real t, const Use& use) {
+  if (p.lanes == 8)
+    use(KernelLanes<8, Real>(p, t));
+  else
+    use(KernelLanes<16, Real>(p, t));
+}
 
 }  // namespace insonify::kernels

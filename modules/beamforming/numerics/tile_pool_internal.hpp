@@ -12,33 +12,27 @@ namespace insonify {
 template <typename Tile>
 class TilePool {
  public:
-  struct GiveBack {
-    TilePool* pool;
-    void operator()(Tile* tile) const { pool->give_back(std::unique_ptr<Tile>(tile)); }
-  };
-  using Handle = std::unique_ptr<Tile, GiveBack>;
-
   explicit TilePool(std::function<std::unique_ptr<Tile>()> make) : make_(std::move(make)) {}
 
-  /// Returns an idle tile with its last contents, or a new tile. The tile returns to the pool when the handle ends.
-  Handle take() {
+  /// Returns an idle tile with its last contents, or a new tile.
+  std::unique_ptr<Tile> take() {
     {
       const std::scoped_lock lock(guard_);
       if (!idle_.empty()) {
-        Handle tile(idle_.back().release(), {this});
+        auto tile = std::move(idle_.back());
         idle_.pop_back();
         return tile;
       }
     }
-    return Handle(make_().release(), {this});
+    return make_();
   }
-
- private:
-  void give_back(std::unique_ptr<Tile> tile) {
+  /// Keeps a tile for later. One that an error has left half filled is not given back.
+  void give(std::unique_ptr<Tile> tile) {
     const std::scoped_lock lock(guard_);
     idle_.push_back(std::move(tile));
   }
 
+ private:
   std::function<std::unique_ptr<Tile>()> make_;
   std::mutex guard_;
   std::vector<std::unique_ptr<Tile>> idle_;

@@ -23,7 +23,7 @@ struct GaussianBatch {
 
   /// Samples the listed echoes, at most `most`, with `rows` samples each in units of `unit` [Pa]. Returns the sum of
   /// the squared peaks after absorption at the carrier [unit^2]. Throws Error if absorption lets a pulse grow.
-  double sample(const kernels::GaussianGrid& grid, const EchoShapes& shapes, const Echoes& echoes,
+  double sample(const kernels::GaussianGrid& grid, const EchoShapes& shapes, const Medium& medium, const Echoes& echoes,
                 std::span<const std::uint32_t> list, double unit, std::size_t rows);
   kernels::GaussianPositions<Real> positions() { return {row.data(), column.data(), column_offset.data()}; }
 };

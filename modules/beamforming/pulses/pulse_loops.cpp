@@ -11,10 +11,14 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
+}  // namespace
+
 template <typename Real>
-INSONIFY_ALWAYS_INLINE void place_all(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid,
-                                      std::size_t sample, GaussianState s, GaussianPositions<Real> at) {
+INSONIFY_CLONES void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid,
+                                     const PulseLosses& losses, std::size_t sample, GaussianState s,
+                                     GaussianPositions<Real> at) {
   const GaussianGrid g = grid;
+  const PulseLosses l = losses;
   const double turn_step = 2 * pi * g.step, first = g.start + g.half, sign = g.half_positions ? 1 : 0;
   const auto later = static_cast<double>(sample);
 #pragma GCC ivdep
@@ -29,26 +33,26 @@ INSONIFY_ALWAYS_INLINE void place_all(const EchoArrays& echoes, std::size_t coun
     at.row[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(row - g.first_row));
 
     // The pulse at this sample, and from one sample to the next. (E8)
-    const double range = g.range_per_delay * echoes.delay[i];
-    const double a = g.a_sent + 2 * g.a2 * range, b = 2 * g.a1 * range, per_4a = 0.25 / a;
+    const double range = l.range_per_delay * echoes.delay[i];
+    const double a = l.a_sent + 2 * l.a2 * range, b = 2 * l.a1 * range, per_4a = 0.25 / a;
     const double t = g.start + (row + later) * g.step - echoes.delay[i], w = 2 * pi * t;
     const double gain =
-        (1 - 2 * sign * odd) * std::sqrt(g.a_sent / a) * vec::exp((b * b - w * w) * per_4a - 2 * g.a0 * range);
+        (1 - 2 * sign * odd) * std::sqrt(l.a_sent / a) * vec::exp((b * b - w * w) * per_4a - 2 * l.a0 * range);
     const double shift = 2 * b * per_4a - echoes.doppler[i];  // of the carrier [Hz]
     double sine, cosine;
     vec::sine_cosine(shift * t, sine, cosine);
     s.re[i] = gain * (echoes.re[i] * cosine - echoes.im[i] * sine);  // (E13)
     s.im[i] = gain * (echoes.re[i] * sine + echoes.im[i] * cosine);
     vec::sine_cosine(shift * g.step, s.turn_im[i], s.turn_re[i]);
-    s.power[i] = (echoes.re[i] * echoes.re[i] + echoes.im[i] * echoes.im[i]) * vec::exp(-4 * g.a0 * range);
+    s.power[i] = (echoes.re[i] * echoes.re[i] + echoes.im[i] * echoes.im[i]) * vec::exp(-4 * l.a0 * range);
     s.ratio[i] = vec::exp(-(2 * w + turn_step) * turn_step * per_4a);
     s.change[i] = vec::exp(-2 * turn_step * turn_step * per_4a);
   }
 }
 
 template <typename Real>
-INSONIFY_ALWAYS_INLINE void sample_all(GaussianState s, std::size_t count, std::size_t rows, Real* pulse_re,
-                                       Real* pulse_im) {
+INSONIFY_CLONES void sample_gaussians(GaussianState s, std::size_t count, std::size_t rows, Real* pulse_re,
+                                      Real* pulse_im) {
   for (std::size_t n = 0; n < rows; ++n) {
 #pragma GCC ivdep
     for (std::size_t i = 0; i < count; ++i) {
@@ -62,63 +66,29 @@ INSONIFY_ALWAYS_INLINE void sample_all(GaussianState s, std::size_t count, std::
   }
 }
 
-template <std::size_t lanes, typename Real>
-INSONIFY_ALWAYS_INLINE void grid_lanes(GaussianPositions<Real> at, std::size_t count, const Real* pulse_re,
-                                       const Real* pulse_im, std::size_t rows, Pieces<Real> p, Real* x_re, Real* x_im,
-                                       std::size_t stride) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const KernelLanes<lanes, Real> kernel(p, at.column_offset[i]);
-    Real* to_re = x_re + at.row[i] * stride + at.column[i];
-    Real* to_im = x_im + at.row[i] * stride + at.column[i];
-    for (std::size_t n = 0; n < rows; ++n, to_re += stride, to_im += stride) {
-      kernel.add(pulse_re[n * count + i], to_re);
-      kernel.add(pulse_im[n * count + i], to_im);
-    }
-  }
+template <typename Real>
+INSONIFY_CLONES void grid_samples(GaussianPositions<Real> at, std::size_t count, const Real* pulse_re,
+                                  const Real* pulse_im, std::size_t rows, const PolynomialPieces<Real>& columns_of,
+                                  Real* x_re, Real* x_im, std::size_t stride) {
+  for (std::size_t i = 0; i < count; ++i)
+    with_kernel(columns_of, at.column_offset[i], [&](const auto& kernel) INSONIFY_INLINE_LAMBDA {
+      Real* to_re = x_re + at.row[i] * stride + at.column[i];
+      Real* to_im = x_im + at.row[i] * stride + at.column[i];
+      for (std::size_t n = 0; n < rows; ++n, to_re += stride, to_im += stride) {
+        kernel.add(pulse_re[n * count + i], to_re);
+        kernel.add(pulse_im[n * count + i], to_im);
+      }
+    });
 }
 
-}  // namespace
-
-INSONIFY_CLONES
-void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
-                     GaussianState state, GaussianPositions<float> positions) {
-  place_all(echoes, count, grid, sample, state, positions);
-}
-
-INSONIFY_CLONES
-void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
-                     GaussianState state, GaussianPositions<double> positions) {
-  place_all(echoes, count, grid, sample, state, positions);
-}
-
-INSONIFY_CLONES
-void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, float* pulse_re, float* pulse_im) {
-  sample_all(state, count, rows, pulse_re, pulse_im);
-}
-
-INSONIFY_CLONES
-void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, double* pulse_re, double* pulse_im) {
-  sample_all(state, count, rows, pulse_re, pulse_im);
-}
-
-INSONIFY_CLONES
-void grid_samples(GaussianPositions<float> positions, std::size_t count, const float* pulse_re, const float* pulse_im,
-                  std::size_t rows, Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride) {
-  if (columns_of.lanes == 8)
-    grid_lanes<8>(positions, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
-  else
-    grid_lanes<16>(positions, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
-}
-
-INSONIFY_CLONES
-void grid_samples(GaussianPositions<double> positions, std::size_t count, const double* pulse_re,
-                  const double* pulse_im, std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im,
-                  std::size_t stride) {
-  if (columns_of.lanes == 8)
-    grid_lanes<8>(positions, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
-  else
-    grid_lanes<16>(positions, count, pulse_re, pulse_im, rows, columns_of, x_re, x_im, stride);
-}
+#define INSONIFY_LOOPS(Real)                                                                                          \
+  template void place_gaussians(const EchoArrays&, std::size_t, const GaussianGrid&, const PulseLosses&, std::size_t, \
+                                GaussianState, GaussianPositions<Real>);                                              \
+  template void sample_gaussians(GaussianState, std::size_t, std::size_t, Real*, Real*);                              \
+  template void grid_samples(GaussianPositions<Real>, std::size_t, const Real*, const Real*, std::size_t,             \
+                             const PolynomialPieces<Real>&, Real*, Real*, std::size_t)
+INSONIFY_LOOPS(float);
+INSONIFY_LOOPS(double);
 
 INSONIFY_CLONES
 void reached_bins(const double* delay, std::size_t count, const PulseAxis& axis, std::uint32_t* begin,

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "beamforming/gridded/gridding_loops_internal.hpp"
+#include "beamforming/numerics/gridding_kernel_internal.hpp"
 
 // Inner loops over raw pointers, compiled for several instruction sets and dispatched at run time, with the same bits
 // on each. They do not include Eigen, so wide registers are safe.
@@ -14,14 +14,17 @@ struct EchoArrays {
   const double *delay, *u, *re, *im, *doppler;
 };
 
-/// A grid of samples by direction, with the absorption of pulses on it. Directions are counted from first_u.
+/// A grid of samples by direction. Directions are counted from first_u.
 struct GaussianGrid {
   double start, step, half, first_row;  ///< time axis [s], half length of pulses [s], first row
   double first_u, cycles_per_u;         ///< cycles of the grid
   double grid, half_width, pad;         ///< steps of a cycle; of the kernel; before the first
   bool half_positions;                  ///< elements stand at half-integers: whole cycles have signs
-  double a_sent, range_per_delay;       ///< `a` of EchoEnvelope as sent (E8); range [m] per delay [s]
-  double a0, a1, a2;                    ///< absorption
+};
+
+/// `a` of EchoEnvelope as sent (E8), range [m] per delay [s], and absorption.
+struct PulseLosses {
+  double a_sent, range_per_delay, a0, a1, a2;
 };
 
 /// Working arrays with one number per echo. `power` is that of the peak after absorption at the carrier.
@@ -36,20 +39,18 @@ struct GaussianPositions {
   std::uint32_t *row, *column;
   Real* column_offset;
 };
-void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
-                     GaussianState state, GaussianPositions<float> positions);
-void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, std::size_t sample,
-                     GaussianState state, GaussianPositions<double> positions);
+template <typename Real>
+void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid, const PulseLosses& losses,
+                     std::size_t sample, GaussianState state, GaussianPositions<Real> positions);
 
 /// Samples of the pulses by recurrence, row by row: sample n of echo i at n count + i. Uses up the state.
-void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, float* pulse_re, float* pulse_im);
-void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, double* pulse_re, double* pulse_im);
+template <typename Real>
+void sample_gaussians(GaussianState state, std::size_t count, std::size_t rows, Real* pulse_re, Real* pulse_im);
 
 /// Adds the pulses that sample_gaussians sampled, times the kernel of their columns, to the planes (rows x stride).
-void grid_samples(GaussianPositions<float> positions, std::size_t count, const float* pulse_re, const float* pulse_im,
-                  std::size_t rows, Pieces<float> columns_of, float* x_re, float* x_im, std::size_t stride);
-void grid_samples(GaussianPositions<double> positions, std::size_t count, const double* pulse_re,
-                  const double* pulse_im, std::size_t rows, Pieces<double> columns_of, double* x_re, double* x_im,
+template <typename Real>
+void grid_samples(GaussianPositions<Real> positions, std::size_t count, const Real* pulse_re, const Real* pulse_im,
+                  std::size_t rows, const PolynomialPieces<Real>& columns_of, Real* x_re, Real* x_im,
                   std::size_t stride);
 
 /// A time axis, and the half length of pulses on it: half sqrt(max(1, 1 + growth delay)). reached_bins writes the

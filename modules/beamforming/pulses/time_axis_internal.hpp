@@ -19,7 +19,7 @@ struct TimeAxis {
       : start(2 * gate.centre(0) / sound_speed), step(2 * gate.bin_size / sound_speed), bins(gate.bins()) {}
 
   /// Returns the time of bin `bin` [s].
-  double time_of(std::size_t bin) const { return start + static_cast<double>(bin) * step; }
+  double time_of(double bin) const { return start + bin * step; }
 
   /// Returns the samples [first, last) within `half` seconds of `delay`, clipped to the axis; empty if outside.
   std::pair<std::size_t, std::size_t> around(double delay, double half) const {

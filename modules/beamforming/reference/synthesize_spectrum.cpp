@@ -4,6 +4,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "beamforming/numerics/fft_internal.hpp"
@@ -19,10 +20,32 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Frequencies f_k of a discrete Fourier transform, of both signs, and its sampling interval [s].
-struct FrequencyGrid {
-  std::size_t samples = 0;
-  double step_time = 0;
+/// Frequency grid of the sum: M equally spaced frequencies of both signs over `oversampling` times the sampling rate of
+/// the output, wide enough for the pulse, with a time window that contains every echo and its pulse, so nothing wraps
+/// around.
+struct SpectrumGrid {
+  std::size_t oversampling = 1, samples = 0;
+  std::size_t skipped = 0;  ///< output bins before the first of the gate
+  double step_time = 0, start_time = 0;
+
+  SpectrumGrid(const Echoes& echoes, const SonarHead& head, const Medium& medium) {
+    const double bin_time = 2 * head.gate.bin_size / medium.sound_speed;
+    // At +-5 B the spectrum of a Gaussian is down to e^-34, 1e-15 of its peak; others decay more slowly.
+    const double band = (is_gaussian(head.pulse) ? 10 : 64) * head.pulse.bandwidth;
+    oversampling = static_cast<std::size_t>(std::ceil(band * bin_time));
+    step_time = bin_time / static_cast<double>(oversampling);
+    const double guard = 2 * pulse_half_length(head.pulse, 1e-16);
+    const double first_time = 2 * head.gate.centre(0) / medium.sound_speed;
+    double earliest = first_time, latest = 2 * head.gate.max_range / medium.sound_speed;
+    for (const double delay : echoes.delay) earliest = std::min(earliest, delay), latest = std::max(latest, delay);
+    skipped = static_cast<std::size_t>(std::ceil((first_time - earliest + guard) / bin_time));
+    start_time = first_time - static_cast<double>(skipped) * bin_time;
+    const double wanted = std::ceil((latest + guard - start_time) / step_time) + 1;
+    if (!(wanted <= 0x1p26))
+      fail(ErrorKind::argument, "synthesize_spectrum: echoes between ", earliest, " and ", latest, " s and a pulse of ",
+           guard, " s need ", wanted, " samples, must be at most 2^26; use another method");
+    samples = static_cast<std::size_t>(wanted);
+  }
 
   double step() const { return 1 / (static_cast<double>(samples) * step_time); }
   double at(std::size_t k) const {
@@ -37,7 +60,7 @@ struct FrequencyGrid {
 /// hold there.
 class EchoSpectrum {
  public:
-  EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid);
+  EchoSpectrum(const Pulse& pulse, const Medium& medium, const SpectrumGrid& grid);
 
   /// Returns one value per frequency of the grid, for an echo at delay 0 from one-way range `range` [m] with Doppler
   /// shift `doppler` [Hz].
@@ -49,7 +72,7 @@ class EchoSpectrum {
   Pulse pulse_;
   const MatchedPulse* matched_;  ///< nullptr: Gaussian
   Absorption absorption_;
-  FrequencyGrid grid_;
+  SpectrumGrid grid_;
   Fft<double> fft_;
   std::vector<Complex> sent_, replica_;
   double replica_area_ = 0;  ///< integral of the replica's weights [s]
@@ -61,7 +84,7 @@ double gaussian_spectrum(double f, double bandwidth) {
   return std::exp(-2 * std::numbers::ln2 * x * x) * std::sqrt(2 * std::numbers::ln2 / pi) / bandwidth;
 }
 
-EchoSpectrum::EchoSpectrum(const Pulse& pulse, const Medium& medium, const FrequencyGrid& grid)
+EchoSpectrum::EchoSpectrum(const Pulse& pulse, const Medium& medium, const SpectrumGrid& grid)
     : pulse_(pulse),
       matched_(kind_of(pulse).matched()),
       absorption_(medium.absorption),
@@ -94,70 +117,17 @@ std::vector<Complex> EchoSpectrum::of(double range, double doppler) const {
   return x;
 }
 
-/// Frequency grid of the sum: M equally spaced frequencies over `oversampling` times the sampling rate of the output,
-/// wide enough for the pulse, with a time window that contains every echo and its pulse, so nothing wraps around.
-struct SpectrumGrid {
-  std::size_t oversampling = 1, samples = 0;
-  std::size_t skipped = 0;  ///< output bins before the first of the gate
-  double step_time = 0, start_time = 0;
-
-  SpectrumGrid(const Echoes& echoes, const SonarHead& head, const Medium& medium) {
-    const double bin_time = 2 * head.gate.bin_size / medium.sound_speed;
-    // At +-5 B the spectrum of a Gaussian is down to e^-34, 1e-15 of its peak; others decay more slowly.
-    const double band = (is_gaussian(head.pulse) ? 10 : 64) * head.pulse.bandwidth;
-    oversampling = static_cast<std::size_t>(std::ceil(band * bin_time));
-    step_time = bin_time / static_cast<double>(oversampling);
-    const double guard = 2 * pulse_half_length(head.pulse, 1e-16);
-    const double first_time = 2 * head.gate.centre(0) / medium.sound_speed;
-    double earliest = first_time, latest = 2 * head.gate.max_range / medium.sound_speed;
-    for (const double delay : echoes.delay) earliest = std::min(earliest, delay), latest = std::max(latest, delay);
-    skipped = static_cast<std::size_t>(std::ceil((first_time - earliest + guard) / bin_time));
-    start_time = first_time - static_cast<double>(skipped) * bin_time;
-    const double wanted = std::ceil((latest + guard - start_time) / step_time) + 1;
-    if (!(wanted <= 0x1p26))
-      fail(ErrorKind::argument, "synthesize_spectrum: echoes between ", earliest, " and ", latest, " s and a pulse of ",
-           guard, " s need ", wanted, " samples, must be at most 2^26; use another method");
-    samples = static_cast<std::size_t>(wanted);
-  }
-
-  FrequencyGrid frequencies() const { return {samples, step_time}; }
-};
-
-/// Spectrum of one beam [1/Hz] for echoes that are all the same Gaussian pulse:
-///   S(f) sum_i A_i B(u_i) exp(+2 pi i f (delay - start)) exp(-2 alpha(f) r).
-std::vector<Complex> gaussian_beam_spectrum(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                                            const SpectrumGrid& grid, double u_beam) {
-  const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  std::vector<Complex> weight(echoes.size()), spectrum(grid.samples);
-  for (std::size_t i = 0; i < echoes.size(); ++i)
-    weight[i] = echoes.amplitude[i] * array_response(head.array, wavelength, echoes.u[i], u_beam);
-  const FrequencyGrid frequencies = grid.frequencies();
-  const Absorption& a = medium.absorption;
-  for (std::size_t k = 0; k < grid.samples; ++k) {
-    const double f = frequencies.at(k), alpha = a.a0 + a.a1 * f + a.a2 * f * f;
-    Complex sum = 0;
-    for (std::size_t i = 0; i < echoes.size(); ++i) {
-      const double r = 0.5 * medium.sound_speed * echoes.delay[i];
-      const double phase = 2 * pi * reduced_cycles(f * (echoes.delay[i] - grid.start_time));
-      sum += weight[i] * std::polar(std::exp(-2 * alpha * r), phase);
-    }
-    spectrum[k] = gaussian_spectrum(f, head.pulse.bandwidth) * frequencies.step() * sum;
-  }
-  return spectrum;
-}
-
-/// Spectra of all beams, beams x frequencies, for echoes with individual spectra: sweeps, or Doppler shifts.
+/// Spectra of all beams, beams x frequencies [1/Hz]:
+///   S_b(f) = sum_i A_i B_b(u_i) exp(+2 pi i f (delay - start)) G_i(f).
 ComplexGrid beam_spectra(const Echoes& echoes, const SonarHead& head, const Medium& medium, const SpectrumGrid& grid,
                          const std::vector<double>& u_beam, int threads) {
   const double wavelength = medium.sound_speed / head.pulse.centre_frequency;
-  const FrequencyGrid frequencies = grid.frequencies();
-  const EchoSpectrum shapes(head.pulse, medium, frequencies);
+  const EchoSpectrum shapes(head.pulse, medium, grid);
   ComplexGrid spectra = ComplexGrid::Zero(u_beam.size(), grid.samples);
   for (std::size_t i = 0; i < echoes.size(); ++i) {
     std::vector<Complex> echo = shapes.of(0.5 * medium.sound_speed * echoes.delay[i], echoes.doppler_of(i));
     for (std::size_t k = 0; k < grid.samples; ++k)
-      echo[k] *= std::polar(frequencies.step(),
-                            2 * pi * reduced_cycles(frequencies.at(k) * (echoes.delay[i] - grid.start_time)));
+      echo[k] *= std::polar(grid.step(), 2 * pi * reduced_cycles(grid.at(k) * (echoes.delay[i] - grid.start_time)));
     parallel_for(u_beam.size(), threads, [&](std::size_t b) {
       const Complex weight = echoes.amplitude[i] * array_response(head.array, wavelength, echoes.u[i], u_beam[b]);
       for (std::size_t k = 0; k < grid.samples; ++k) spectra(b, k) += weight * echo[k];
@@ -174,18 +144,12 @@ ComplexGrid synthesize_spectrum(const Echoes& echoes, const SonarHead& head, con
   require_one_row(head, "synthesize_spectrum");
   const SpectrumGrid grid(echoes, head, medium);
   const std::vector<double> u_beam = beam_cosines(head.fan);
-  const bool alike = is_gaussian(head.pulse) && echoes.doppler.empty();
-  ComplexGrid spectra;
-  if (!alike) spectra = beam_spectra(echoes, head, medium, grid, u_beam, options.threads);
+  ComplexGrid spectra = beam_spectra(echoes, head, medium, grid, u_beam, options.threads);
   ComplexGrid pressure(u_beam.size(), head.gate.bins());
 
   const Fft<double> fft({grid.samples}, FFTW_FORWARD);
   parallel_for(u_beam.size(), options.threads, [&](std::size_t b) {
-    std::vector<Complex> spectrum;
-    if (alike)
-      spectrum = gaussian_beam_spectrum(echoes, head, medium, grid, u_beam[b]);
-    else
-      spectrum.assign(spectra.row(b).data(), spectra.row(b).data() + grid.samples);
+    const std::span<Complex> spectrum(&spectra(b, 0), grid.samples);
     fft.run(spectrum.data());  // p(t) = sum_k P(f_k) exp(-2 pi i f_k t)
     for (std::size_t n = 0; n < head.gate.bins(); ++n)
       pressure(b, n) = spectrum[(n + grid.skipped) * grid.oversampling];

@@ -135,7 +135,7 @@ class BeamTable {
     std::size_t first, last;  ///< multiples of four; one after the last
   };
   std::vector<Bins> bins_;
-  AlignedFloats values_;  ///< responses by range, direction, time within a bin, bin, and real or imaginary part
+  Aligned<float> values_;  ///< responses by range, direction, time within a bin, bin, and real or imaginary part
 };
 
 }  // namespace insonify

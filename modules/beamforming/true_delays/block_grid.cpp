@@ -8,16 +8,8 @@
 #include "sonar/pulse_kind.hpp"
 
 namespace insonify {
-namespace {
-
-kernels::Pieces<float> column_pieces(const PolynomialPieces<float>& p) {
-  return {p.coefficient.data(), p.degree, p.lanes};
-}
-
-}  // namespace
-
 void BlockWorkspace::begin(const TimeBlock& block) {
-  start_time_ = plan_.time_of(block.first - static_cast<double>(plan_.guard));
+  start_time_ = plan_.axis.time_of(block.first - static_cast<double>(plan_.guard));
   unit_ = 0;
   std::fill(touched_.begin(), touched_.end(), false);
 }
@@ -38,7 +30,6 @@ void BlockWorkspace::add(const Echoes& echoes, List list) {
 
 void BlockWorkspace::grid_gaussians(const Echoes& echoes, List list) {
   const TrueDelayPlan& plan = plan_;
-  const Absorption& absorption = plan.medium.absorption;
   const kernels::GaussianGrid grid{.start = start_time_,
                                    .step = plan.fine_step,
                                    .half = plan.reach,
@@ -48,17 +39,12 @@ void BlockWorkspace::grid_gaussians(const Echoes& echoes, List list) {
                                    .grid = static_cast<double>(plan.grid),
                                    .half_width = 0.5 * static_cast<double>(plan.kernel.width()),
                                    .pad = 0,
-                                   .half_positions = false,
-                                   .a_sent = plan.spectral_width2,
-                                   .range_per_delay = 0.5 * plan.medium.sound_speed,
-                                   .a0 = absorption.a0,
-                                   .a1 = absorption.a1,
-                                   .a2 = absorption.a2};
+                                   .half_positions = false};
   const auto rows = static_cast<std::size_t>(std::floor(2 * plan.reach / plan.fine_step)) + 1;
-  pulses_.sample(grid, plan.shapes, echoes, list, unit_, rows);
+  pulses_.sample(grid, plan.shapes, plan.medium, echoes, list, unit_, rows);
   for (std::size_t k = 0; k < list.size(); ++k) touch(pulses_.row[k], rows);
-  kernels::grid_samples(pulses_.positions(), list.size(), pulses_.re.data(), pulses_.im.data(), rows,
-                        column_pieces(plan.columns), re_.data(), im_.data(), plan.grid_stride);
+  kernels::grid_samples(pulses_.positions(), list.size(), pulses_.re.data(), pulses_.im.data(), rows, plan.columns,
+                        re_.data(), im_.data(), plan.grid_stride);
 }
 
 void BlockWorkspace::touch(std::size_t row, std::size_t rows) {
@@ -88,8 +74,8 @@ void BlockWorkspace::grid_sweeps(const Echoes& echoes, List list) {
     }
     const std::size_t at = static_cast<std::size_t>(first) * plan.grid_stride + static_cast<std::size_t>(column_0);
     kernels::grid_sampled_pulse(pulse_re_.data(), pulse_im_.data(), pulse_re_.size(),
-                                static_cast<float>(2 * (column_0 - low_column) - 1), column_pieces(plan.columns),
-                                re_.data() + at, im_.data() + at, plan.grid_stride);
+                                static_cast<float>(2 * (column_0 - low_column) - 1), plan.columns, re_.data() + at,
+                                im_.data() + at, plan.grid_stride);
   }
 }
 

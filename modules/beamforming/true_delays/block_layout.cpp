@@ -20,8 +20,7 @@ constexpr double left_of_doppler = 0.7;  // share of the tolerance for Doppler s
 
 /// Range at which the curvature moves the frequencies of the outermost elements by half of the band [m].
 double moving_range(const SonarHead& head) {
-  const double length = head.array.spacing * static_cast<double>(head.array.elements() - 1);
-  return length * std::sqrt(head.pulse.centre_frequency / (8 * head.pulse.bandwidth));
+  return length_of(head.array) * std::sqrt(head.pulse.centre_frequency / (8 * head.pulse.bandwidth));
 }
 
 /// Pulses that begin at three lengths of the array, or more of narrow bands.
@@ -44,7 +43,7 @@ double nearest_range(const SonarHead& head, const Medium& medium, const TrueDela
 }  // namespace
 
 CurvaturePhase::CurvaturePhase(const SonarHead& head, const Medium& medium, double near, double far) {
-  const double length = head.array.spacing * static_cast<double>(head.array.elements() - 1);
+  const double length = length_of(head.array);
   all = pi * (head.pulse.centre_frequency + 0.6 * head.pulse.bandwidth) / medium.sound_speed * 0.25 * length * length /
         near;
   over_range = 0.5 * all * (1 - near / far);
@@ -68,7 +67,7 @@ BlockLayout::BlockLayout(const SonarHead& head, const Medium& medium, double tol
     return phase.over_range <= most_phase &&
            (level < longest_level || phase.all * any.widest * any.widest <= most_curvature);
   };
-  nearest = std::max(nearest_range(head, medium, any), 1e-3 * head.gate.bin_size);
+  double nearest = std::max(nearest_range(head, medium, any), 1e-3 * head.gate.bin_size);
   while (!fits(nearest, 0)) nearest *= 1.02;
   steady =
       left_of_doppler * tolerance / std::max(doppler_error(head, 1, std::max(nearest, head.gate.min_range)), 1e-300);

@@ -170,35 +170,6 @@ void fill_along(const TrueDelayPlan& plan, const CurvatureSamples& samples, cons
   }
 }
 
-CurvatureSeries curvature_of(const TrueDelayPlan& plan, const RowFits& fits, bool echoes, double first, double last) {
-  const auto guard = static_cast<double>(plan.guard), bins = static_cast<double>(plan.axis.bins);
-  CurvatureSpan span;
-  span.echoes = echoes;
-  span.first_time = echoes ? plan.time_of(first) - plan.reach : plan.time_of(std::max(first - guard, 0.0));
-  span.last_time = echoes ? plan.time_of(last) + plan.reach : plan.time_of(std::min(last + guard, bins));
-  span.widest = 0;
-  for (const double u : plan.u_beam) span.widest = std::max(span.widest, std::abs(u));
-  if (echoes) span.widest = plan.widest;
-  span.widest += 5 * plan.period / static_cast<double>(plan.grid);
-  span.mean_range =
-      std::max(0.25 * plan.medium.sound_speed * (plan.time_of(first) + plan.time_of(last)), 0.45 * plan.aperture);
-  span.mean_u = std::min(plan.widest, 1.0) / std::sqrt(2.0);
-  const CurvatureSamples samples(plan, span);
-  const Factors factors(samples, term_share * plan.tolerance);
-  BandRows rows(plan, fits, samples, factors);
-
-  CurvatureSeries series;
-  series.terms = static_cast<std::size_t>(factors.terms());
-  series.powers = samples.r.size();
-  series.middle = samples.middle;
-  series.half = samples.half;
-  series.stride = (plan.grid + 7) / 8 * 8;
-  series.band = std::move(rows.band);
-  fill_rows(plan, rows, echoes, series);
-  fill_along(plan, samples, factors, span.widest, echoes, series);
-  return series;
-}
-
 }  // namespace
 
 RowFits::RowFits(const TrueDelayPlan& plan) {
@@ -231,12 +202,34 @@ RowFits::RowFits(const TrueDelayPlan& plan) {
   }
 }
 
-CurvatureSeries curvature_of_echoes(const TrueDelayPlan& plan, const RowFits& fits, double first, double last) {
-  return curvature_of(plan, fits, true, first, last);
-}
+CurvatureSeries curvature_series(const TrueDelayPlan& plan, const RowFits& fits, bool echoes, double first,
+                                 double last) {
+  const auto guard = static_cast<double>(plan.guard), bins = static_cast<double>(plan.axis.bins);
+  CurvatureSpan span;
+  span.echoes = echoes;
+  span.first_time = echoes ? plan.axis.time_of(first) - plan.reach : plan.axis.time_of(std::max(first - guard, 0.0));
+  span.last_time = echoes ? plan.axis.time_of(last) + plan.reach : plan.axis.time_of(std::min(last + guard, bins));
+  span.widest = 0;
+  for (const double u : plan.u_beam) span.widest = std::max(span.widest, std::abs(u));
+  if (echoes) span.widest = plan.widest;
+  span.widest += 5 * plan.period / static_cast<double>(plan.grid);
+  span.mean_range = std::max(0.25 * plan.medium.sound_speed * (plan.axis.time_of(first) + plan.axis.time_of(last)),
+                             0.45 * plan.aperture);
+  span.mean_u = std::min(plan.widest, 1.0) / std::sqrt(2.0);
+  const CurvatureSamples samples(plan, span);
+  const Factors factors(samples, term_share * plan.tolerance);
+  BandRows rows(plan, fits, samples, factors);
 
-CurvatureSeries curvature_of_beams(const TrueDelayPlan& plan, const RowFits& fits, double first, double last) {
-  return curvature_of(plan, fits, false, first, last);
+  CurvatureSeries series;
+  series.terms = static_cast<std::size_t>(factors.terms());
+  series.powers = samples.r.size();
+  series.middle = samples.middle;
+  series.half = samples.half;
+  series.stride = (plan.grid + 7) / 8 * 8;
+  series.band = std::move(rows.band);
+  fill_rows(plan, rows, echoes, series);
+  fill_along(plan, samples, factors, span.widest, echoes, series);
+  return series;
 }
 
 }  // namespace insonify

@@ -26,7 +26,7 @@ struct CurvatureSeries {
   std::size_t stride = 0;         ///< steps of the grid of directions, filled up to a multiple of 8
   std::vector<float> along;       ///< terms x powers x 2 (real, imaginary) x stride
   std::vector<std::size_t> band;  ///< number of powers of frequency of each term, in falling order
-  AlignedFloats rows;             ///< factors row_qs, ordered for kernels::RowMix
+  Aligned<float> rows;            ///< factors row_qs, ordered for kernels::RowMix
   std::vector<std::size_t> ins;   ///< number of rows in for each row out of the RowMix
   std::size_t most_ins = 0;       ///< rows in for which `rows` has room, per row out
 };
@@ -46,11 +46,10 @@ struct RowFits {
   explicit RowFits(const TrueDelayPlan& plan);
 };
 
-/// Returns the series for the echoes of a block from bin `first` to `last`: terms become powers of frequency. Gridding
-/// spreads an echo over the length of its pulse, during which the curvature changes; the series corrects for that.
-CurvatureSeries curvature_of_echoes(const TrueDelayPlan& plan, const RowFits& fits, double first, double last);
-
-/// Returns the conjugate series for the beams of a block: powers of frequency become terms.
-CurvatureSeries curvature_of_beams(const TrueDelayPlan& plan, const RowFits& fits, double first, double last);
+/// Returns the series for a block from bin `first` to `last`. Of echoes, terms become powers of frequency; gridding
+/// spreads an echo over the length of its pulse, during which the curvature changes, and the series corrects for that.
+/// Of beams, it is the conjugate, and powers of frequency become terms.
+CurvatureSeries curvature_series(const TrueDelayPlan& plan, const RowFits& fits, bool echoes, double first,
+                                 double last);
 
 }  // namespace insonify

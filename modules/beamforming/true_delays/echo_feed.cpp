@@ -19,8 +19,8 @@ class StretchSink final : public EchoSink {
         first_(stretches.edge[stretch]),
         last_(stretches.edge[stretch + 1]),
         // A bin more at either end: edges and ranges are rounded differently.
-        near_(0.5 * sound_speed * stretches.time_of(first_ - 1)),
-        far_(0.5 * sound_speed * stretches.time_of(last_ + 1)),
+        near_(0.5 * sound_speed * stretches.axis.time_of(first_ - 1)),
+        far_(0.5 * sound_speed * stretches.axis.time_of(last_ + 1)),
         add_(add) {}
 
   bool reaches(double min_range, double max_range) const { return max_range >= near_ && min_range <= far_; }

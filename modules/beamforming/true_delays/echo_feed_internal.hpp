@@ -18,7 +18,6 @@ struct TimeStretches {
   std::vector<double> edge;
 
   std::size_t size() const { return edge.size() - 1; }
-  double time_of(double bin) const { return axis.start + bin * axis.step; }
   /// Returns the number of the stretch that holds a delay, or size() if none does.
   std::size_t of(double delay) const;
 };

@@ -19,7 +19,7 @@ constexpr double longest = 256;     // bins of a stretch
 /// Range from which on tables keep the tolerance: nearer, focusing spreads the frequencies of the outermost elements
 /// [m].
 double nearest_range(const SonarHead& head, const Medium& medium, double tolerance) {
-  const double aperture = head.array.spacing * static_cast<double>(head.array.elements() - 1);
+  const double aperture = length_of(head.array);
   const double moved = aperture * std::sqrt(head.pulse.centre_frequency / (8 * head.pulse.bandwidth));
   const PulseReach reach(head.pulse, medium.absorption, medium.sound_speed, false, pulse_cut(tolerance));
   return std::max(1.5 * aperture, moved / std::sqrt(0.3)) + medium.sound_speed * reach.half;
@@ -39,7 +39,7 @@ double fade_for(double u, const SonarHead& head, const Medium& medium) {
 /// |u| from which on the ends of the array count alone; 1: they never do.
 double split_for(const SonarHead& head, const Medium& medium, double widest) {
   constexpr double least = 0.1, farthest = 0.5;
-  const double aperture = head.array.spacing * static_cast<double>(head.array.elements() - 1);
+  const double aperture = length_of(head.array);
   const double split = std::max(least, 2.2 * fade_for(1, head, medium) / std::max(aperture, 1e-9));
   return split < std::min(farthest, widest) && std::abs(head.fan.azimuth.front()) < 1e-12 ? split : 1;
 }

@@ -77,8 +77,8 @@ BlockWorkspace::BlockWorkspace(const TrueDelayPlan& plan, const BlockTransforms&
 TimeBlock::TimeBlock(const TrueDelayPlan& plan, const RowFits& fits, double first_in, double last_in)
     : first(first_in),
       last(last_in),
-      echo_curvature(curvature_of_echoes(plan, fits, first, last)),
-      beam_curvature(curvature_of_beams(plan, fits, first, last)) {}
+      echo_curvature(curvature_series(plan, fits, true, first, last)),
+      beam_curvature(curvature_series(plan, fits, false, first, last)) {}
 
 void BlockWorkspace::add_image(const TimeBlock& block, ComplexGrid& pressure) {
   if (unit_ == 0) return;
@@ -187,7 +187,7 @@ void BlockWorkspace::form_directions(const CurvatureSeries& curvature, std::size
   kernels::mix_from_rows(mix_of(curvature), rows_of(bins_, bins_row_, n0), planes_of(harmonics_), mixed_.data());
   for (std::size_t q = 0; q < curvature.terms; ++q)
     transforms_.to_directions.run(harmonics_.data() + q * tile, directions_.data() + q * tile);
-  const auto time = positions_in(curvature, plan.time_of(first), plan.axis.step);
+  const auto time = positions_in(curvature, plan.axis.time_of(first), plan.axis.step);
   kernels::weigh_back(factor_of(curvature, 0), time.data(), floats_of(directions_.data()), curvature.terms, 2 * tile,
                       plan.grid, plan.grid_stride, across_.data());
 }

@@ -50,7 +50,7 @@ class BlockWorkspace {
 
  private:
   using Complex = std::complex<float>;
-  using Numbers = std::vector<Complex, LineAllocator<Complex>>;
+  using Numbers = Aligned<Complex>;
 
   // At most GaussianBatch::most Gaussian pulses, and sweeps, sample by sample.
   void grid_gaussians(const Echoes& echoes, List list);
@@ -75,13 +75,13 @@ class BlockWorkspace {
 
   const TrueDelayPlan& plan_;
   const BlockTransforms& transforms_;
-  AlignedArray<float, float> re_, im_;   ///< fine samples x grid_stride; 0 between images
+  Aligned<float> re_, im_;               ///< fine samples x grid_stride; 0 between images
   Numbers tile_;                         ///< some samples by direction
   Numbers harmonics_, directions_;       ///< some samples by harmonic or direction, of each term
   Numbers spectrum_, row_;               ///< powers x harmonics x fine samples, and one harmonic by frequency
   Numbers bins_, bin_row_;               ///< powers x harmonics x bins, and one harmonic
-  AlignedFloats lines_, chunk_;          ///< numbers by chunk, harmonic and line; those of one chunk, or one harmonic
-  AlignedFloats across_, mixed_;         ///< numbers by grid step and bin; workspace of mixes
+  Aligned<float> lines_, chunk_;         ///< numbers by chunk, harmonic and line; those of one chunk, or one harmonic
+  Aligned<float> across_, mixed_;        ///< numbers by grid step and bin; workspace of mixes
   std::vector<std::uint32_t> position_;  ///< rows of harmonics of a transform
   std::vector<std::uint32_t> bin_;       ///< first of each chunk
   std::vector<float> beam_;

@@ -7,13 +7,13 @@
 #include <deque>
 #include <functional>
 #include <latch>
-#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "acoustics/echo_stream.hpp"
 #include "beamforming/numerics/flush_denormals_internal.hpp"
 #include "beamforming/numerics/lazy_internal.hpp"
+#include "beamforming/numerics/tile_pool_internal.hpp"
 #include "beamforming/reference/element_series.hpp"
 #include "beamforming/true_delays/echo_feed_internal.hpp"
 #include "beamforming/true_delays/one_beam_internal.hpp"
@@ -31,34 +31,18 @@ constexpr std::size_t beams_at_once = 8;
 constexpr double steady_band = 0.1;  // Doppler shift that the band of echoes at rest holds, over the bandwidth
 constexpr double first_rung = 0.05;  // least Doppler shift of plans for moving echoes, over the bandwidth
 
-class IdleWorkspaces {
- public:
-  std::unique_ptr<BlockWorkspace> take(const TrueDelayPlan& plan, const BlockTransforms& transforms) {
-    const std::scoped_lock lock(guard_);
-    if (free_.empty()) return std::make_unique<BlockWorkspace>(plan, transforms);
-    auto workspace = std::move(free_.back());
-    free_.pop_back();
-    return workspace;
-  }
-  void give(std::unique_ptr<BlockWorkspace> workspace) {
-    const std::scoped_lock lock(guard_);
-    free_.push_back(std::move(workspace));
-  }
-
- private:
-  std::mutex guard_;
-  std::vector<std::unique_ptr<BlockWorkspace>> free_;
-};
-
 /// A plan and its transforms, for blocks of one length.
 struct LevelTables {
   TrueDelayPlan plan;
   RowFits fits;
   BlockTransforms transforms;
-  mutable IdleWorkspaces workspaces;
+  mutable TilePool<BlockWorkspace> workspaces;
 
   LevelTables(const SonarHead& head, const Medium& medium, const TrueDelaySizes& sizes)
-      : plan(head, medium, sizes.tolerance, sizes.widest, sizes.doppler, sizes.block), fits(plan), transforms(plan) {}
+      : plan(head, medium, sizes.tolerance, sizes.widest, sizes.doppler, sizes.block),
+        fits(plan),
+        transforms(plan),
+        workspaces([this] { return std::make_unique<BlockWorkspace>(plan, transforms); }) {}
 };
 
 /// Opens a latch when it is left, by an exception too.
@@ -130,12 +114,9 @@ TrueDelayEngine::TrueDelayEngine(const SonarHead& head, const Medium& medium, co
   if (!(options.tolerance >= finest && options.tolerance <= coarsest))
     fail(ErrorKind::argument, "TrueDelayEngine: tolerance = ", options.tolerance, ", must be within ", finest, " and ",
          coarsest, "; below that use the element-exact method");
-  plan_ = std::make_unique<Plan>(head, medium, SynthesisOptions{true_delay_share * options.tolerance, options.threads},
-                                 usual_extent(head));
+  plan_ = std::make_shared<const Plan>(
+      head, medium, SynthesisOptions{true_delay_share * options.tolerance, options.threads}, usual_extent(head));
 }
-TrueDelayEngine::~TrueDelayEngine() = default;
-TrueDelayEngine::TrueDelayEngine(TrueDelayEngine&&) noexcept = default;
-TrueDelayEngine& TrueDelayEngine::operator=(TrueDelayEngine&&) noexcept = default;
 
 ComplexGrid TrueDelayEngine::pressure(const Echoes& echoes) const {
   require_synthesis(echoes, plan_->head, plan_->medium, plan_->options, "TrueDelayEngine");
@@ -242,7 +223,7 @@ void TrueDelayEngine::Plan::add_block(std::size_t number, const EchoFeed& feed, 
   feed.visit(number + 1, [&](const Echoes& echoes, BlockWorkspace::List list) {
     if (!workspace) {
       tables = &tables_of(layout.blocks[number].level);
-      workspace = tables->workspaces.take(tables->plan, tables->transforms);
+      workspace = tables->workspaces.take();
       workspace->begin(block(number));
     }
     workspace->add(echoes, list);
@@ -289,11 +270,6 @@ double TrueDelayEngine::usual_extent(const SonarHead& head) {
   double widest = 0;
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
   return std::min(1.0, 1.1 * widest + 0.05);
-}
-
-ComplexGrid synthesize_true_delays(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                                   const SynthesisOptions& options) {
-  return TrueDelayEngine(head, medium, options).pressure(echoes);
 }
 
 }  // namespace insonify

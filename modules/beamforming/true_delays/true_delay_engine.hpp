@@ -2,8 +2,7 @@
 #pragma once
 #include <memory>
 
-#include "acoustics/echo_stream.hpp"
-#include "beamforming/synthesize.hpp"
+#include "beamforming/engine.hpp"
 #include "sonar/sonar_head.hpp"
 
 namespace insonify {
@@ -36,22 +35,19 @@ constexpr double min_true_delay_tolerance = 1e-5;
 /// up to twice as much, and those nearby are summed element by element (E191).
 ///
 /// Construct one object per head, medium and tolerance. Several threads may call `pressure` at once.
-class TrueDelayEngine {
+class TrueDelayEngine final : public ImageEngine {
  public:
   /// Throws Error for an invalid head or medium, a head with several elevations or a column, or a tolerance outside
   /// [1e-5, 0.1].
   TrueDelayEngine(const SonarHead& head, const Medium& medium, const SynthesisOptions& options = {});
-  ~TrueDelayEngine();
-  TrueDelayEngine(TrueDelayEngine&&) noexcept;
-  TrueDelayEngine& operator=(TrueDelayEngine&&) noexcept;
 
   /// Returns the image, beams x bins [Pa]. The bits do not depend on the number of threads. Throws Error for a NaN in
   /// an echo, with the number of the echo, and for |u| > 1.
-  ComplexGrid pressure(const Echoes& echoes) const;
+  ComplexGrid pressure(const Echoes& echoes) const override;
   /// Returns the same bytes for echoes that `stream` makes chunk by chunk. Head and scene must be at rest: delay = 2
   /// range / c. A chunk is made again for each block that it reaches into; memory does not grow with the number of
   /// chunks.
-  ComplexGrid pressure(const EchoStream& stream) const;
+  ComplexGrid pressure(const EchoStream& stream) const override;
 
   /// Returns the largest |u| of echoes for which the usual plan is used. Echoes beyond it use a second plan, which
   /// covers all directions.
@@ -59,11 +55,7 @@ class TrueDelayEngine {
 
  private:
   struct Plan;
-  std::unique_ptr<Plan> plan_;
+  std::shared_ptr<const Plan> plan_;
 };
-
-/// Returns the image of a TrueDelayEngine that is constructed for this call. Throws Error as that class does.
-ComplexGrid synthesize_true_delays(const Echoes& echoes, const SonarHead& head, const Medium& medium,
-                                   const SynthesisOptions& options = {});
 
 }  // namespace insonify

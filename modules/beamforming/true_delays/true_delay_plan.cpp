@@ -25,14 +25,14 @@ double oversampling_for(double tolerance) {
   return 1 / (1 - root * root);
 }
 
-double length_of(const LineArray& array) { return array.spacing * static_cast<double>(array.elements() - 1); }
-
 double longest_reach(const SonarHead& head, const Medium& medium, double tolerance) {
   const PulseReach reach(head.pulse, medium.absorption, medium.sound_speed, true, pulse_cut(tolerance));
   return reach.at(2 * head.gate.max_range / medium.sound_speed);
 }
 
 }  // namespace
+
+double length_of(const LineArray& array) { return array.spacing * static_cast<double>(array.elements() - 1); }
 
 double half_band_of(const Pulse& pulse, double tolerance) {
   return pulse.bandwidth * ((is_gaussian(pulse) ? 0.03 : 0) + kind_of(pulse).relative_band(pulse, tolerance));

@@ -15,6 +15,8 @@
 
 namespace insonify {
 
+/// Returns the distance between the outermost elements [m].
+double length_of(const LineArray& array);
 /// Returns the largest frequency off the carrier that contributes [Hz]: there the spectrum falls to the tolerance.
 double half_band_of(const Pulse& pulse, double tolerance);
 
@@ -54,8 +56,6 @@ struct TrueDelaySizes {
                  std::size_t block_bins);
 
   std::size_t rows() const { return 2 * most + 1; }
-  /// Returns the time of bin `bin` of the gate [s].
-  double time_of(double bin) const { return axis.start + bin * axis.step; }
   /// Returns the position of a direction on the grid [steps].
   double column_of(double u) const { return (u / period + 0.5) * static_cast<double>(grid); }
   /// The frequency off the carrier of a line of the cycle, counted from 0 to fine [lines].
@@ -63,7 +63,6 @@ struct TrueDelaySizes {
     return static_cast<double>(line) - (2 * line > fine ? static_cast<double>(fine) : 0.0);
   }
   double seconds() const { return static_cast<double>(fine) * fine_step; }
-  std::size_t top_line() const { return static_cast<std::size_t>(half_band * seconds()); }
 };
 
 /// Constants of the synthesis with true delays for all blocks of time of one length.
@@ -87,14 +86,14 @@ struct TrueDelayPlan : TrueDelaySizes {
 
   std::vector<std::size_t> chunks;                ///< chunks of lines_at_once frequencies that contribute
   std::vector<std::uint32_t> tap_row;             ///< the first of the taps, by chunk and element
-  AlignedFloats tap_weight;                       ///< weights of taps by chunk, element, tap and line
-  AlignedFloats element_weight;                   ///< shading, with the kernel undone, by chunk, element and line
+  Aligned<float> tap_weight;                      ///< weights of taps by chunk, element, tap and line
+  Aligned<float> element_weight;                  ///< shading, with the kernel undone, by chunk, element and line
   double digits = 0;                              ///< decimal digits of the tolerance
   std::vector<double> node_frequency;             ///< off the carrier, against the sign of lines [Hz]
   std::vector<double> node_weight;                ///< weight of the spectrum there times that of the node
   std::vector<double> fit_frequency, fit_weight;  ///< frequencies [Hz] and weights where functions are fitted
   std::vector<double> fit_power;  ///< polynomials of frequency, orthonormal there by weight: node x power
-  AlignedFloats line_power;       ///< the same at lines: by chunk, power and line
+  Aligned<float> line_power;      ///< the same at lines: by chunk, power and line
 
   /// Takes the arguments of TrueDelaySizes.
   TrueDelayPlan(const SonarHead& head, const Medium& medium, double tolerance, double widest, DopplerSpan doppler,
@@ -128,8 +127,7 @@ struct BlockLayout {
     double first, last;  ///< first and one after the last bin
     std::size_t level;   ///< index into `levels` of the sizes for its length
   };
-  double guard;    ///< bins by which a block extends beyond its ends, for the array's delays and the pulse
-  double nearest;  ///< blocks keep the tolerance beyond this range [m]
+  double guard;  ///< bins by which a block extends beyond its ends, for the array's delays and the pulse
   double
       steady;  ///< largest Doppler shift for which blocks of echoes at rest keep it, but for the width of the band [Hz]
   std::vector<TrueDelaySizes> levels;

@@ -87,7 +87,7 @@ void print_errors(const Echoes& echoes, const SonarHead& head, const Medium& med
   const Referee referee(echoes, head, medium);
   std::printf(" %.2g |", referee.error(synthesize_gridded(echoes, head, medium, {1e-6, 1})));
   for (const double tolerance : {1e-3, 1e-4})
-    std::printf(" %.2g |", referee.error(synthesize_true_delays(echoes, head, medium, {tolerance, 1})));
+    std::printf(" %.2g |", referee.error(TrueDelayEngine(head, medium, {tolerance, 1}).pressure(echoes)));
   std::fflush(stdout);
 }
 
