@@ -37,11 +37,12 @@ struct PingSimulator::Shared {
   Environment environment;
   SimulationOptions options;
   std::shared_ptr<SynthesizerTable> synthesizers = std::make_shared<SynthesizerTable>();
-  LastMade<SurfaceKey, SurfaceTable> surfaces{kept_surfaces};
+  std::shared_ptr<LastMade<SurfaceKey, SurfaceTable>> surfaces =
+      std::make_shared<LastMade<SurfaceKey, SurfaceTable>>(kept_surfaces);
 
   SurfaceTable surfaces_of(const std::vector<Material>& materials, const Transmission& sent) {
     const SurfaceKey key{materials, sent.pulse.centre_frequency, sent.medium.sound_speed};
-    return *surfaces.of(key, [&] { return surface_table(materials, key.frequency, key.sound_speed); });
+    return *surfaces->of(key, [&] { return surface_table(materials, key.frequency, key.sound_speed); });
   }
 };
 
@@ -126,7 +127,13 @@ PingSimulator::PingSimulator(std::shared_ptr<Shared> shared) : shared_(std::move
 }
 
 PingSimulator PingSimulator::with(SimulationOptions options) const {
-  return PingSimulator(std::make_shared<Shared>(head(), environment(), std::move(options), shared_->synthesizers));
+  return PingSimulator(
+      std::make_shared<Shared>(head(), environment(), std::move(options), shared_->synthesizers, shared_->surfaces));
+}
+
+PingSimulator PingSimulator::in(Environment environment) const {
+  return PingSimulator(
+      std::make_shared<Shared>(head(), std::move(environment), options(), shared_->synthesizers, shared_->surfaces));
 }
 
 const SonarHead& PingSimulator::head() const { return shared_->head; }

@@ -42,6 +42,9 @@ class PingSimulator {
   /// Returns a simulator of the same head and environment with other options; both share tables and buffers. Throws as
   /// the constructor.
   PingSimulator with(SimulationOptions options) const;
+  /// Returns a simulator of the same head and options in another environment; both share tables and buffers, which
+  /// serve pings in the same water. Throws as the constructor.
+  PingSimulator in(Environment environment) const;
 
   /// Returns a simulator for so many pings of a scene that are like `event`. Where options leave it open whether
   /// surfels are merged, and pings give display cells, it is decided (E185): they are if that leaves at most half of

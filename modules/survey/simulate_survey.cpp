@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <mutex>
 #include <new>
 #include <utility>
 
@@ -18,8 +19,14 @@ double listening_time_of(const MissionHead& mounted, const SonarHead& head, cons
   return 2 * head.gate.max_range / std::min(slowest, mounted.assumed.sound_speed.value_or(slowest));
 }
 
+struct Survey::Steered {
+  std::mutex guard{};
+  std::vector<std::optional<std::pair<double, PingSimulator>>>
+      last{};  ///< one for each head, with the true sound speed
+};
+
 Survey::Survey(Mission mission, const std::vector<PingSimulator>& heads, SurveySettings settings)
-    : mission_(std::move(mission)), settings_(settings) {
+    : mission_(std::move(mission)), steered_(std::make_shared<Steered>()), settings_(settings) {
   if (heads.size() != mission_.heads.size())
     fail(ErrorKind::argument, "Survey: ", heads.size(), " simulators for ", mission_.heads.size(),
          " heads of the mission, must be one for each");
@@ -31,6 +38,7 @@ Survey::Survey(Mission mission, const std::vector<PingSimulator>& heads, SurveyS
     double& listening = mission_.heads[h].listening_time;
     if (listening == 0) listening = listening_time_of(mission_.heads[h], heads[h].head(), heads[h].environment());
   }
+  steered_->last.resize(heads_.size());
   pings_ = survey_pings(mission_);
 }
 
@@ -42,20 +50,29 @@ Environment Survey::environment_of(const SurveyPing& ping) const {
   return at_tide(heads_.at(ping.head).environment(), mission_.tide, ping.time);
 }
 
+double Survey::sound_speed_at(const SurveyPing& ping, const Environment& environment) const {
+  const double z = event_of(ping).world_from_head.translation().z();
+  const Environment there = environment_at(environment, z, "survey");
+  return medium_of(there, heads_.at(ping.head).head().pulse.centre_frequency).sound_speed;
+}
+
 PingSimulator Survey::simulator_of(const SurveyPing& ping) const {
   const PingSimulator& simulator = heads_.at(ping.head);
   const std::optional<double>& assumed = mission_.heads[ping.head].assumed.sound_speed;
   const bool tide = !mission_.tide.time.empty(), random = settings_.randomisation.any();
   if (!(assumed || tide || random)) return simulator;
-  SonarHead head = simulator.head();
   Environment environment = environment_of(ping);
+  if (!random && !assumed) return simulator.in(std::move(environment));
+  SonarHead head = simulator.head();
   if (random) apply(randomised(settings_.randomisation, settings_.seed, ping), head, environment);
-  if (assumed) {
-    const double z = event_of(ping).world_from_head.translation().z();
-    const Medium there = medium_of(environment_at(environment, z, "survey"), head.pulse.centre_frequency);
-    head = steered_head(head, there.sound_speed, *assumed);
-  }
-  return PingSimulator(std::move(head), std::move(environment), simulator.options());
+  const double speed = assumed ? sound_speed_at(ping, environment) : 0;
+  if (assumed) head = steered_head(head, speed, *assumed);
+  if (random) return PingSimulator(std::move(head), std::move(environment), simulator.options());
+  const std::scoped_lock lock(steered_->guard);
+  std::optional<std::pair<double, PingSimulator>>& last = steered_->last.at(ping.head);
+  if (!last || last->first != speed)
+    last.emplace(speed, PingSimulator(std::move(head), environment, simulator.options()));
+  return last->second.with(simulator.options()).in(std::move(environment));
 }
 
 PingEvent Survey::event_of(const SurveyPing& ping) const {

@@ -58,7 +58,12 @@ class Survey {
 
  private:
   Mission mission_;
+  struct Steered;
+  double sound_speed_at(const SurveyPing& ping, const Environment& environment) const;
+
   std::vector<PingSimulator> heads_;
+  std::shared_ptr<Steered>
+      steered_;  ///< simulators of heads set to another sound speed, which copies of the survey share
   SurveySettings settings_;
   std::vector<SurveyPing> pings_;
 };

@@ -155,3 +155,30 @@ TEST(Tide, is_the_water_level_of_every_ping) {
   EXPECT_EQ(head_depth(survey.environment_of(survey.pings().at(4)), -3), 4);
   EXPECT_EQ(survey.environment_of(survey.pings().at(6)).water_level, 0.75);
 }
+
+// Pings share the tables of their head, and the head that is set to another sound speed, as far as their water is the
+// same. They have the bytes of a survey that makes nothing but this ping.
+TEST(Tide, pings_of_other_waters_have_the_bytes_of_a_survey_of_their_own) {
+  const SceneCloud bed = make_built_in_scene("plane", {.points = 20000, .size = {30, 30}});
+  for (const std::optional<double> assumed : {std::optional<double>(), std::optional(1480.0)})
+    for (const bool layered : {false, true}) {
+      Mission mission = turning_vehicle();
+      for (Pose& pose : mission.trajectory.pose) pose.translation().z() = 5;
+      mission.heads[0].vehicle_from_head = pose_from_yaw_pitch_roll({0, 0, 0}, 0, radians(90), 0);
+      mission.heads[0].assumed.sound_speed = assumed;
+      mission.tide = {{0, 8}, {9, 6}};
+      Environment sea;
+      sea.surface.emplace();
+      if (layered) sea.profile = SoundSpeedProfile{{0, 20}, {1450, 1550}};
+      const SonarHead head = small_head({.beams = 7, .max_range = 12}, 1500);
+      const Survey together(mission, {{head, sea}});
+      for (const std::size_t number : {1U, 4U, 1U, 6U}) {
+        const Survey alone(mission, {{head, sea}});
+        const PingOutcome shared = together.simulate(together.pings().at(number), SceneInMemory(bed));
+        const PingOutcome own = alone.simulate(alone.pings().at(number), SceneInMemory(bed));
+        EXPECT_GT(own.ping.pressure.abs().maxCoeff(), 0);
+        EXPECT_TRUE((shared.ping.pressure == own.ping.pressure).all()) << number << layered << assumed.has_value();
+        EXPECT_EQ(shared.ping.sound_speed, own.ping.sound_speed);
+      }
+    }
+}
