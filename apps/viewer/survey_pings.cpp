@@ -5,7 +5,10 @@
 
 #include "core/error.hpp"
 #include "core/message.hpp"
+#include "core/pose.hpp"
+#include "core/units.hpp"
 #include "files/path_status.hpp"
+#include "returns/sounding_columns.hpp"
 #include "scene_io/load_scene.hpp"
 #include "store/cube.hpp"
 #include "store/survey_run.hpp"
@@ -49,6 +52,13 @@ struct CubeList {
   }
 };
 
+template <typename Values>
+void add_rows(Values& to, const Values& more) {
+  const Values before = to;
+  to.resize(before.rows() + more.rows(), before.cols());
+  to << before, more;
+}
+
 }  // namespace
 
 LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes) {
@@ -74,6 +84,46 @@ LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes) {
   if (std::any_of(cubes.begin(), cubes.end(), [](const CubeOfPings& cube) { return !cube.returns.empty(); }))
     source.returns = [list](std::size_t i) { return list->returns_of_ping(i); };
   return {std::move(positions), std::move(source)};
+}
+
+std::optional<LazyPings> lazy_pings_of_sides(const LazyPings& port, const LazyPings& starboard) {
+  constexpr double most_growth = 16;  // of the cells of a waterfall that begins at the head
+  const RangeGate& gate = port.gate();
+  if (port.fan().beams() != 1 || starboard.fan().beams() != 1 || !(gate == starboard.gate())) return {};
+  if (gate.max_range > most_growth * (gate.max_range - gate.min_range)) return {};
+  const Eigen::AngleAxisd ahead(-pi / 2, Eigen::Vector3d::UnitZ());  // from the axis of the port head
+  std::vector<TrackPoint> positions = port.positions();
+  positions.resize(std::min(port.size(), starboard.size()));
+  for (TrackPoint& position : positions) position.world_from_head = position.world_from_head * ahead;
+  PingSource source;
+  source.ping = [port, starboard, ahead](std::size_t i) {
+    Ping both = *port.ping(i);
+    const std::shared_ptr<const Ping> other = starboard.ping(i);
+    both.world_from_head = both.world_from_head * ahead;
+    both.fan.azimuth[0] += pi / 2;
+    const auto [azimuth, elevation] =
+        direction_of(Eigen::Vector3d(both.world_from_head.linear().transpose() * other->world_from_head.linear() *
+                                     unit_vector({other->fan.azimuth[0], other->fan.elevation[0]})));
+    both.fan.azimuth.push_back(azimuth), both.fan.elevation.push_back(elevation);
+    add_rows(both.pressure, other->pressure), add_rows(both.intensity, other->intensity);
+    both.layers.clear(), both.unknown.resize(0, 0), both.split_phase.resize(0, 0), both.labels = {};
+    return both;
+  };
+  source.beam = [port, starboard](std::size_t first, std::size_t count, std::size_t beam) {
+    return (beam == 0 ? port : starboard).beam(first, count, 0);
+  };
+  if (port.has_returns() && starboard.has_returns())
+    source.returns = [port, starboard](std::size_t i) {
+      Soundings both = port.returns(i);
+      const Soundings other = starboard.returns(i);
+      for (std::size_t k = 0; k < other.size(); ++k) {
+        append_row(both, other, k);
+        both.ping.back() = static_cast<decltype(both.ping)::value_type>(port.position(i).number);
+        both.beam.back() = 1;
+      }
+      return both;
+    };
+  return LazyPings(std::move(positions), std::move(source));
 }
 
 LazyPings lazy_pings_of(std::shared_ptr<const tool::SwathPings> swath) {

@@ -26,7 +26,7 @@
 #include "store/survey_run.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/run/record_file.hpp"
-#include "tool/run/swath_pings.hpp"
+#include "tool/run/run_pings.hpp"
 #include "viewer/viewer_state.hpp"
 
 namespace insonify::viewer {
@@ -49,7 +49,9 @@ void add_options(tool::OptionList list, ViewerCommand& c) {
            "run directory, survey, cube.h5, a recording (" + tool::record_extensions() +
                "), or a scene to inspect: " + scene_extensions() + " .toml",
            {.required = true});
-  list.add("--head", &c.head, "head of a survey, or channel of a side-scan's recording; default: the first");
+  list.add(
+      "--head", &c.head,
+      "head of a survey, or channel of a side-scan's recording; default: both sides of a side-scan, else the first");
   list.add("--ping", &c.start.ping, "number of the first ping to show, from 0");
   list.add("--beam", &c.beam, "number of a beam, from 0; its loudest sample is selected");
   list.add("--colormap", &c.start.colour_map, joined(colour_map_names()), {.words = colour_map_names()});
@@ -97,6 +99,34 @@ void open_cubes(const std::vector<CubeOfPings>& cubes, LoadedView& view) {
   for (const PingNote& note : notes) view.notes.push_back(sentence(note, view.data.pings.size() == 1));
 }
 
+// Opens both sides of a side-scan, if the survey has them and no head was asked for. Returns whether it did.
+bool open_sides(const ViewerCommand& command, LoadedView& view) {
+  const auto heads = command.head.empty() ? tool::side_scan_heads(command.target) : std::nullopt;
+  if (!heads) return false;
+  const auto port = find_survey_head(command.target, heads->port);
+  const auto starboard = find_survey_head(command.target, heads->starboard);
+  std::optional<LazyPings> sides = lazy_pings_of_sides(lazy_pings_of(port->cubes), lazy_pings_of(starboard->cubes));
+  if (!sides) return false;
+  view.data.pings = std::move(*sides), view.data.sides = true;
+  view.data.title = heads->port + " and " + heads->starboard + ", " + read_cube(port->cubes.front().cube, 0, 0).sonar;
+  return true;
+}
+
+// Opens the heads that are not shown, whose returns are gathered with those of the one that is. A head without a ping
+// yet is left out.
+void open_others(const ViewerCommand& command, const SurveyHeadRun& shown, LoadedView& view) {
+  const auto sides = view.data.sides ? tool::side_scan_heads(command.target) : std::nullopt;
+  for (const std::string& name : shown.others) {
+    if (sides && (name == sides->port || name == sides->starboard)) continue;
+    try {
+      LazyPings other = lazy_pings_of(find_survey_head(command.target, name)->cubes);
+      if (other.has_returns()) view.data.others.push_back(std::move(other));
+    } catch (const Error&) {
+      view.notes.push_back(name + ": this head has no pings yet");
+    }
+  }
+}
+
 // The contributors of all pings, where the run has them and they fit into memory.
 void load_contributors(const fs::path& run, LoadedView& view) {
   constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
@@ -119,76 +149,24 @@ void load_contributors(const fs::path& run, LoadedView& view) {
   }
 }
 
-// The strongest sample of a beam, range compensated (E20), which is the most prominent in the picture.
-PixelPosition loudest_of(const ViewerData& data, std::size_t ping_index, std::size_t beam) {
-  const auto ping = data.pings.ping(ping_index);
-  const Grid<float> level = range_compensated_level_db(*ping, ping->absorption_db_per_m);
-  Eigen::Index bin = 0;
-  level.row(static_cast<Eigen::Index>(beam)).maxCoeff(&bin);
-  return {beam, static_cast<std::size_t>(bin)};
-}
-
-void choose_start(const ViewerCommand& command, LoadedView& view) {
-  const ViewerExtent extent = extent_of(view.data);
-  ViewerState& start = view.start;
-  if (start.ping >= extent.pings)
-    fail(ErrorKind::argument, "--ping = ", start.ping, ", must be below ", extent.pings, ", the number of pings in ",
-         command.target);
-  if (!command.beam.empty()) {
-    const double beam = parse_number("--beam", command.beam);
-    if (!(beam >= 0 && beam < static_cast<double>(extent.beams) && beam == std::floor(beam)))
-      fail(ErrorKind::argument, "--beam = ", command.beam, ", must be a whole number below ", extent.beams,
-           ", the number of beams");
-    start.selected = loudest_of(view.data, start.ping, static_cast<std::size_t>(beam));
-  }
-  const std::shared_ptr<const SceneCloud> scene = scene_at(view.data, start.ping);
-  if (scene->materials.size() > 1) start.scene_colour = SceneColour::material;
-  if (scene->parts.size() > 1) start.scene_colour = SceneColour::part;
-}
-
-// The channel that --head names, of a side-scan, whose beams are its channels.
-std::size_t channel_of(const ViewerCommand& command, const tool::Record& record) {
-  if (command.head.empty()) return 0;
-  const auto named = std::find(record.channels.begin(), record.channels.end(), command.head);
-  if (named == record.channels.end())
-    fail(ErrorKind::argument, "--head = '", command.head, "' must name a channel of ", command.target, ": ",
-         shortened_list(record.channels));
-  return static_cast<std::size_t>(named - record.channels.begin());
-}
-
-// A swath is shown with the soundings of all pings.
-LoadedView load_swath(const ViewerCommand& command) {
-  if (!command.head.empty())
-    fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no side-scan; leave --head out");
+// Opens the head of a survey that is asked for; without one both sides of a side-scan, or the first head, and the
+// returns of the others.
+LoadedView load_survey_head(const ViewerCommand& command, const SurveyHeadRun& head) {
   LoadedView view{{}, command.start, {}};
-  const auto swath = std::make_shared<const tool::SwathPings>(read_swath(command.target));
-  view.data.title = swath->record().format, view.data.recorded_unit = swath->unit();
-  view.data.returns = swath->soundings();
-  view.data.pings = lazy_pings_of(swath);
-  view.start.tvg = false;
-  choose_start(command, view);
-  return view;
-}
-
-// Levels of a recording are shown as they are recorded.
-LoadedView load_record(const ViewerCommand& command) {
-  if (is_swath(command.target)) return load_swath(command);
-  LoadedView view{{}, command.start, {}};
-  tool::Record record = tool::read_record(command.target);
-  view.data.title = record.kind;
-  view.data.recorded_unit = record.unit;
-  if (record.side_scan) {
-    const std::size_t channel = channel_of(command, record);
-    view.data.title = record.channels[channel] + ", " + view.data.title;
-    if (record.channels.size() > 1 && command.head.empty())
-      view.notes.push_back("the recording has the channels " + shortened_list(record.channels) +
-                           ": choose with --head");
-    for (Ping& ping : record.cube.pings) ping = tool::channel_alone(ping, channel);
-  } else if (!command.head.empty()) {
-    fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no side-scan; leave --head out");
+  open_cubes(head.cubes, view);
+  view.data.title = head.name + ", " + view.data.title;
+  const bool whole = command.head.empty() && is_survey_run(command.target);
+  if (whole) {
+    const bool sides = open_sides(command, view);
+    open_others(command, head, view);
+    if (!head.others.empty() && !sides)
+      view.notes.push_back("the survey has other heads too: --head " + shortened_list(head.others, ", --head "));
   }
-  view.data.pings = lazy_pings_of(std::move(record.cube.pings));
-  view.start.tvg = false;
+  if (head.done < head.blocks)
+    view.notes.push_back(fmt::format("{} of {} blocks of {} are not done yet: their pings are missing here",
+                                     head.blocks - head.done, head.blocks, head.name));
+  view.data.depth_datum = tool::depth_datum_of_run(head.folder);
+  show_scene_of_run(command, head.folder, view);
   choose_start(command, view);
   return view;
 }
@@ -216,27 +194,17 @@ LoadedView load_run(const ViewerCommand& command) {
     fail(ErrorKind::argument, command.target,
          " is a run, whose sonar and poses are known; leave --sonar and --pose out");
   if (tool::is_record(command.target)) return load_record(command);
-  LoadedView view{{}, command.start, {}};
-  if (const auto head = find_survey_head(command.target, command.head)) {
-    open_cubes(head->cubes, view);
-    view.data.title = head->name + ", " + view.data.title;
-    if (head->done < head->blocks)
-      view.notes.push_back(fmt::format("{} of {} blocks of {} are not done yet: their pings are missing here",
-                                       head->blocks - head->done, head->blocks, head->name));
-    if (!head->others.empty() && command.head.empty() && is_survey_run(command.target))
-      view.notes.push_back("the survey has other heads too: --head " + shortened_list(head->others, ", --head "));
-    show_scene_of_run(command, head->folder, view);
-    choose_start(command, view);
-    return view;
-  }
+  if (const auto head = find_survey_head(command.target, command.head)) return load_survey_head(command, *head);
   if (!command.head.empty())
     fail(ErrorKind::argument, "--head = '", command.head, "': ", command.target, " is no survey; leave --head out");
+  LoadedView view{{}, command.start, {}};
   open_cubes({{finished_cube(command.target), ""}}, view);
   for (const char* file : {"cube.h5", "returns.ply", "contributors.h5"})
     if (const std::string doubt = integrity_problem(command.target, file); !doubt.empty()) view.notes.push_back(doubt);
   load_contributors(command.target, view);
   if (const std::string returns = StoredRun(command.target).find("returns.ply"); !returns.empty())
     view.data.returns = load_soundings(returns);
+  view.data.depth_datum = tool::depth_datum_of_run(command.target);
   show_scene_of_run(command, command.target, view);
   choose_start(command, view);
   return view;

@@ -47,6 +47,14 @@ bool is_run(const std::string& target);
 /// Error(content) if it is unfinished or damaged, Error(argument) for options that do not fit it.
 LoadedView load_run(const ViewerCommand& command);
 
+/// Opens a recording, whose levels are shown as they are recorded: a swath, both sides of a side-scan or the channel that
+/// --head names, or the images of an imaging sonar. Throws as load_run.
+LoadedView load_record(const ViewerCommand& command);
+
+/// Sets ping, selection and colours that a view with its pings and scene begins with. Throws Error(argument) for a ping or
+/// a beam that it lacks.
+void choose_start(const ViewerCommand& command, LoadedView& view);
+
 /// Reads a scene to inspect. Throws as load_scene and find_sonar; Error(argument) without --sonar or --pose.
 LoadedView load_inspection(const ViewerCommand& command);
 
@@ -57,6 +65,11 @@ struct CubeOfPings {
 
 /// The pings of cubes in turn, read one at a time; of the returns those of one cube are kept. Errors as read_cube.
 LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes);
+
+/// The pings of the two sides of a side-scan, as pings of two beams in the axes of the port head, turned ahead. Pings that only one
+/// side has yet are left out. Absent if a side has several beams, if their ranges differ, or if they begin so far away
+/// that a waterfall from the head on would be nearly empty.
+std::optional<LazyPings> lazy_pings_of_sides(const LazyPings& port, const LazyPings& starboard);
 
 /// Pings that are in memory.
 LazyPings lazy_pings_of(std::vector<Ping> pings);

@@ -48,8 +48,8 @@ struct ExtraBytes {
 };
 constexpr ExtraBytes extra_bytes[] = {{9, "level_db", "dB re 1 uPa"},
                                       {9, "deviation", "predicted, of range [m]"},
-                                      {5, "ping", "number of the ping"},
-                                      {3, "beam", "number of the beam, from port"}};
+                                      {5, "ping", "number of the ping, from 0"},
+                                      {3, "beam", "number of the beam, from 0"}};
 
 void put_variable_record(std::string& bytes, std::string_view user, std::uint16_t id, std::string_view description,
                          const std::string& data) {
@@ -74,10 +74,10 @@ std::string extra_bytes_record() {
   return data;
 }
 
-/// Returns the GeoTIFF keys of a projected zone; cells are left undefined.
-std::string geo_keys(const UtmZone& zone) {
+/// Returns the GeoTIFF keys of a projected system; cells are left undefined.
+std::string geo_keys(const LasSystem& system) {
   std::string data;
-  const auto code = static_cast<std::uint16_t>(epsg_code(zone));
+  const auto code = static_cast<std::uint16_t>(system.epsg);
   for (const std::uint16_t number :
        std::initializer_list<std::uint16_t>{1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, code})
     put_little(data, number);
@@ -110,12 +110,12 @@ std::string utm_wkt(const UtmZone& zone) {
          std::to_string(epsg_code(zone)) + R"("]])";
 }
 
-LasFile::LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset, const LasOptions& options)
+LasFile::LasFile(const std::string& path, LasSystem system, const Eigen::Vector3d& offset, const LasOptions& options)
     : pending_(std::make_shared<PendingFile>(path)),
       out_(pending_->temporary(), std::ios::binary),
-      zone_(zone),
+      system_(std::move(system)),
       options_(options),
-      offset_(offset.array().round()) {
+      offset_((offset / system_.unit).array().round()) {
   out_ << header();
 }
 
@@ -124,9 +124,9 @@ std::string LasFile::header() const {
   const LasVersion& version = las_version(options_.minor);
   std::string records;
   if (version.minor == 4)
-    put_variable_record(records, "LASF_Projection", 2112, "OGC WKT", utm_wkt(zone_) + '\0');
+    put_variable_record(records, "LASF_Projection", 2112, "OGC WKT", system_.wkt + '\0');
   else
-    put_variable_record(records, "LASF_Projection", 34735, "GeoTIFF keys", geo_keys(zone_));
+    put_variable_record(records, "LASF_Projection", 34735, "GeoTIFF keys", geo_keys(system_));
   put_variable_record(records, "LASF_Spec", 4, "Extra Bytes", extra_bytes_record());
   if (!options_.remark.empty()) put_variable_record(records, "LASF_Spec", 3, "Text Area", options_.remark + '\0');
 
@@ -167,7 +167,7 @@ void LasFile::add(const LasPoint& point) {
   const LasVersion& version = las_version(options_.minor);
   std::string bytes;
   for (int axis = 0; axis < 3; ++axis) {
-    const double steps = std::nearbyint((point.position[axis] - offset_[axis]) / las_step);
+    const double steps = std::nearbyint((point.position[axis] / system_.unit - offset_[axis]) / las_step);
     if (!(std::abs(steps) <= 2147483647))
       fail(ErrorKind::content, "LAS: coordinate ", point.position[axis], " m of ping ", point.ping,
            " must be finite and within 214 km of ", offset_[axis], " m");

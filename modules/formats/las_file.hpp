@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -17,6 +18,17 @@ class PendingFile;
 
 /// Returns the well-known text (OGC 01-009) of a UTM zone on WGS 84, with its EPSG codes.
 std::string utm_wkt(const UtmZone& zone);
+
+/// The projected system of the coordinates of a LAS file.
+struct LasSystem {
+  int epsg = 0;     ///< code of EPSG, within 1024 and 32766
+  std::string wkt;  ///< well-known text (OGC 01-009)
+  double unit = 1;  ///< length of the unit of all coordinates [m]
+  /// Takes code, text and unit [m].
+  LasSystem(int code, std::string text, double metres = 1) : epsg(code), wkt(std::move(text)), unit(metres) {}
+  /// Takes a zone on WGS 84.
+  LasSystem(const UtmZone& zone) : LasSystem(epsg_code(zone), utm_wkt(zone)) {}
+};
 
 /// A point of a LAS file.
 struct LasPoint {
@@ -43,14 +55,14 @@ struct LasOptions {
 ///
 ///   1.4 (ASPRS 2019)   point format 6: coordinates in steps of 0.1 mm, intensity in steps of 0.01 dB from 0, class 40
 ///                      (bathymetric point), adjusted GPS time (gps_time_of_utc less 1e9 s), and level_db, deviation,
-///                      ping and beam as extra bytes; the zone as well-known text
+///                      ping and beam as extra bytes; the system as well-known text
 ///   1.2                for readers that know no other: point format 1, class 2 (ground, because there is no 40), at
-///                      most five returns, scan angles in whole degrees, the zone as GeoTIFF keys
+///                      most five returns, scan angles in whole degrees, the system as GeoTIFF keys
 class LasFile {
  public:
   /// Begins a file. `offset` [m] is subtracted from coordinates, which may be up to 214 km from it. Throws Error(file)
   /// if the file cannot be made, Error(argument) for another version.
-  LasFile(const std::string& path, const UtmZone& zone, const Eigen::Vector3d& offset, const LasOptions& options = {});
+  LasFile(const std::string& path, LasSystem system, const Eigen::Vector3d& offset, const LasOptions& options = {});
   /// Writes a point. Throws Error(content) for a point that is not finite or too far from the offset.
   void add(const LasPoint& point);
   /// Completes the file. Throws Error(file) if not all could be written.
@@ -61,7 +73,7 @@ class LasFile {
 
   std::shared_ptr<PendingFile> pending_;
   std::ofstream out_;
-  UtmZone zone_;
+  LasSystem system_;
   LasOptions options_;
   Eigen::Vector3d offset_;
   std::uint64_t points_ = 0;

@@ -24,6 +24,7 @@ ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
 }
 int ProjectedSystem::epsg() const { return 0; }
 double ProjectedSystem::unit() const { return 1; }
+std::string ProjectedSystem::wkt() const { return ""; }
 Eigen::Vector2d ProjectedSystem::position_of(const GeoPosition&) const { return {0, 0}; }
 GeoPosition ProjectedSystem::geo_position_of(const Eigen::Vector3d&) const { return {}; }
 
@@ -118,6 +119,15 @@ ProjectedSystem::ProjectedSystem(int epsg, const char* option) {
 
 int ProjectedSystem::epsg() const { return parts_->epsg; }
 double ProjectedSystem::unit() const { return parts_->unit; }
+
+std::string ProjectedSystem::wkt() const {
+  const QuietGdalErrors quiet;
+  char* text = nullptr;
+  OSRExportToWkt(parts_->reference.get(), &text);
+  const std::string wkt = text ? text : "";
+  VSIFree(text);
+  return wkt;
+}
 
 Eigen::Vector2d ProjectedSystem::position_of(const GeoPosition& position) const {
   double x = degrees(position.longitude), y = degrees(position.latitude);

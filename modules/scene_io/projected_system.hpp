@@ -21,6 +21,8 @@ class ProjectedSystem {
   int epsg() const;
   /// Returns the length of the system's unit [m]: 1, or that of a foot.
   double unit() const;
+  /// Returns the well-known text (OGC 01-009).
+  std::string wkt() const;
   /// Returns easting and northing of a position on WGS 84, in metres for any unit of the system. The transformation is the
   /// most accurate for which this machine has the data. Throws Error(argument) more than half a degree outside the
   /// system's area of use, and Error(content) where PROJ finds no transformation.

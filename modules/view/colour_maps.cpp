@@ -216,6 +216,15 @@ ColourBar upright_colour_bar(const ColourScale& scale, const std::string& unit, 
   return placed;
 }
 
+void label_by_depths(ColourBar& bar) {
+  for (PlacedText& text : bar.texts) {
+    if (text.text.find_first_not_of("0123456789.-\u2212") != std::string::npos) continue;  // the title
+    const bool zero = text.text.find_first_not_of("0.") == std::string::npos, negative = text.text[0] == '-';
+    text = PlacedText(negative ? text.text.substr(1) : (zero ? "" : "-") + text.text, text.centre, text.font_size,
+                      text.turned);
+  }
+}
+
 ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double left, double right,
                            double bottom) {
   const double tick = 0.4 * font_size, line = text_size("0", font_size).height;

@@ -54,6 +54,9 @@ struct ColourBar {
 ColourBar upright_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double right,
                              double bottom, double top);
 
+/// Labels a bar whose scale counts heights by depths: its numbers change their signs.
+void label_by_depths(ColourBar& bar);
+
 /// Returns a horizontal bar from `left` to `right` whose outer box begins at `bottom`.
 ColourBar lying_colour_bar(const ColourScale& scale, const std::string& unit, int font_size, double left, double right,
                            double bottom);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/units.hpp"
 #include "returns/looks.hpp"
@@ -43,6 +44,31 @@ PingHistory history_of(const BeamRecord& record) {
     history.time.push_back(ping.time);
   }
   return history;
+}
+
+PingHistory silent_history(const PingHistory& other, double min_range, double max_range) {
+  PingHistory history = other;
+  history.gate.min_range = min_range;
+  history.gate.max_range = max_range;
+  history.level_db.setConstant(other.level_db.rows(), static_cast<Eigen::Index>(history.gate.bins()),
+                               static_cast<float>(silence_db));
+  return history;
+}
+
+PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard) {
+  const RangeGate &a = port.gate, &b = starboard.gate;
+  if (a.min_range != b.min_range || a.bin_size != b.bin_size || port.level_db.rows() != starboard.level_db.rows() ||
+      port.level_db.cols() != starboard.level_db.cols())
+    fail(ErrorKind::content, "port has ", port.level_db.rows(), " pings of ", a.min_range, " to ", a.max_range,
+         " m, starboard ", starboard.level_db.rows(), " of ", b.min_range, " to ", b.max_range,
+         " m, must be the same, with bins of one size");
+  const Eigen::Index bins = port.level_db.cols();
+  const double end = a.min_range + static_cast<double>(bins) * a.bin_size;
+  PingHistory both = silent_history(port, -end, end);
+  both.level_db.leftCols(bins) = port.level_db.rowwise().reverse();
+  both.level_db.rightCols(bins) = starboard.level_db;
+  both.range_title = "Port          " + port.range_title + "          Starboard";
+  return both;
 }
 
 SweepImage sweep_image(const BeamRecord& record, const BeamFan& fan, std::size_t first, std::size_t shown) {

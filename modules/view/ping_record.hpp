@@ -32,6 +32,14 @@ struct BeamRecord {
 /// Returns the record as a waterfall by slant range.
 PingHistory history_of(const BeamRecord& record);
 
+/// Returns a waterfall like another, of other ranges [m] and silent.
+PingHistory silent_history(const PingHistory& other, double min_range, double max_range);
+
+/// Returns port and starboard of one line as one history: ranges to port to the left, to starboard to the right, and
+/// silence between them where neither has samples. Throws Error(content) unless both have the same gate and number of
+/// pings.
+PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard);
+
 /// The display of a scanning head of one beam at a ping: the latest samples of every bearing of the sweep. Bearings
 /// without samples are silent.
 struct SweepImage {

@@ -112,12 +112,7 @@ CellFrame depth_frame(const DepthMap& map, const Eigen::Vector4d& box, const Col
   };
   CellFrame frame = lay_out_cell_frame(axis(box[0], box[1], map.x_title), axis(box[2], box[3], map.y_title), scale,
                                        "Depth " + map.datum + " [m]", options);
-  // The scale counts heights; its labels are depths.
-  for (PlacedText& text : frame.bar.texts)
-    if (text.text.find_first_not_of("0123456789.-\u2212") == std::string::npos)
-      text = PlacedText(
-          text.text[0] == '-' ? text.text.substr(1) : (std::stod(text.text) == 0 ? text.text : "-" + text.text),
-          text.centre, text.font_size, text.turned);
+  label_by_depths(frame.bar);
   return frame;
 }
 

@@ -57,7 +57,7 @@ void ViewerWindow::click(Point2 position) {
 }
 
 void ViewerWindow::click_fan(Point2 position) {
-  if (picture_ == ViewerPicture::waterfall) return select_on_waterfall(picture_axes_, picture_page_, on_fan(position));
+  if (is_waterfall()) return select_on_waterfall(picture_axes_, picture_page_, on_fan(position));
   const FanPosition at = fan_position(fan_layout_, on_fan(position));
   const LevelImage& shown = picture_ == ViewerPicture::sweep ? sweep_.image : *image_;
   const auto pixel = pixel_at(shown, at);
@@ -73,11 +73,15 @@ void ViewerWindow::click_history(Point2 position) {
 }
 
 void ViewerWindow::select_on_waterfall(const Axes& axes, const BeamPage& page, Point2 position) {
+  std::size_t beam = page.beam;
+  const bool both = picture_ == ViewerPicture::sides && &page == &picture_page_;
+  if (both) beam = position.x < (axes.frame.left + axes.frame.right) / 2 ? 0 : 1;
+  if (both && beam == 0) position.x = axes.frame.left + axes.frame.right - position.x;  // where starboard is as far
   const auto row = row_at(axes, position);
   const auto bin = bin_at(*image_, axes, position);
   if (!row || !bin) return;
   notice_.clear();
-  change(select_ping(state_, page.first + *row, {page.beam, *bin}, extent_));
+  change(select_ping(state_, page.first + *row, {beam, *bin}, extent_));
   say(explanation_);
 }
 

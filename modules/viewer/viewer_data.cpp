@@ -20,6 +20,8 @@ void require_pings(const ViewerData& data) {
   if (data.pings.empty()) fail(ErrorKind::content, viewer_caller, ": no pings to show");
   const BeamFan& fan = data.pings.fan();
   const RangeGate& gate = data.pings.gate();
+  if (data.sides && fan.beams() != 2)
+    fail(ErrorKind::content, viewer_caller, ": ", fan.beams(), " beams of sides, must be port and starboard");
   for (const Contributors& list : data.contributors)
     if (!list.empty() && (list.beams != fan.beams() || list.bins != gate.bins()))
       fail(ErrorKind::content, viewer_caller, ": contributors of ", list.beams, " x ", list.bins,
@@ -59,7 +61,9 @@ View view_at(const ViewerData& data, const Pose& pose, const BeamFan& fan, const
 }
 
 ViewerPicture picture_of(const ViewerData& data) {
-  if (data.pings.size() < 2 || data.pings.fan().beams() > 1) return ViewerPicture::fan;
+  if (data.pings.size() < 2) return ViewerPicture::fan;
+  if (data.sides) return ViewerPicture::sides;
+  if (data.pings.fan().beams() > 1) return ViewerPicture::fan;
   return data.pings.position(0).scan ? ViewerPicture::sweep : ViewerPicture::waterfall;
 }
 

@@ -80,6 +80,9 @@ struct ViewerData {
   std::string title;
   std::string recorded_unit{};              ///< unit of levels of a recording, "dB re full scale"; empty: that of sound
   LazyPings pings;                          ///< pings with one fan and gate
+  bool sides = false;                       ///< true: the two beams are the sides of a side-scan, port first
+  std::vector<LazyPings> others{};          ///< pings of other heads, whose returns are gathered with those of `pings`
+  std::string depth_datum{};                ///< datum of depths, "below z = 0"; empty: heights are shown, not depths
   std::vector<Contributors> contributors;   ///< contributors of each ping, empty if unknown; or no elements
   std::vector<std::string> material_names;  ///< names by index, for contributors if the scene is missing
   Soundings returns;                        ///< returns of all pings; unused if `pings` has returns of its own
@@ -96,9 +99,10 @@ struct ViewerData {
 
 /// Content of the first panel for a run.
 enum class ViewerPicture {
-  fan,       ///< the ping in true geometry
-  sweep,     ///< for a scanning head of one beam: its display, with the latest samples of every bearing
-  waterfall  ///< for another head of one beam: ping after ping
+  fan,        ///< the ping in true geometry
+  sweep,      ///< for a scanning head of one beam: its display, with the latest samples of every bearing
+  waterfall,  ///< for another head of one beam: ping after ping
+  sides       ///< for both sides of a side-scan: ping after ping, port to the left
 };
 /// Returns the picture that suits the head of a run.
 ViewerPicture picture_of(const ViewerData& data);

@@ -97,13 +97,13 @@ bool ViewerWindow::levels_stay() const {
 void ViewerWindow::draw_picture(ViewerPanel& panel, const PictureOptions& requested) {
   PictureOptions options = requested;
   options.title = data_.title;
-  if (picture_ == ViewerPicture::waterfall) {
+  if (is_waterfall()) {
     const PageOfPings page = page_of(data_.pings, state_.ping);
     const bool stays = drawn_ && same_colours(*drawn_, state_) && page.first == picture_page_.first;
     turn_page(picture_page_, data_.pings, page.first, page.count, 0);
     if (!stays) {
       Canvas canvas = fresh_canvas(panel.content, options, drawn_.has_value());
-      picture_axes_ = draw_waterfall(canvas, history_of(record_of(data_, picture_page_, state_.tvg)), options);
+      picture_axes_ = draw_waterfall(canvas, shown_history(), options);
     }
   } else if (!levels_stay()) {
     if (extent_.pings > 1) options.title += ", ping " + std::to_string(data_.pings.position(state_.ping).number);
@@ -114,10 +114,20 @@ void ViewerWindow::draw_picture(ViewerPanel& panel, const PictureOptions& reques
   mark_picture(panel, requested);
 }
 
+// Returns the page of the waterfall; of a side-scan with port to the left of starboard.
+PingHistory ViewerWindow::shown_history() {
+  const PingHistory history = history_of(record_of(data_, picture_page_, state_.tvg));
+  if (picture_ != ViewerPicture::sides) return history;
+  BeamPage starboard;
+  turn_page(starboard, data_.pings, picture_page_.first, picture_page_.count, 1);
+  return side_by_side(history, history_of(record_of(data_, starboard, state_.tvg)));
+}
+
 void ViewerWindow::mark_picture(ViewerPanel& panel, const PictureOptions& options) {
   std::optional<double> range;
   if (state_.selected) range = image_->gate.centre(state_.selected->bin);
-  if (picture_ == ViewerPicture::waterfall)
+  if (picture_ == ViewerPicture::sides && state_.selected && state_.selected->beam == 0) range = -*range;
+  if (is_waterfall())
     return mark_waterfall(panel, picture_axes_, static_cast<double>(state_.ping - picture_page_.first), range, options,
                           true);
   FanMarks marks{{}, range, state_.measure};
@@ -151,7 +161,9 @@ void ViewerWindow::draw_history(ViewerPanel& panel, const PictureOptions& reques
   const bool stays = drawn_ && same_colours(*drawn_, state_) && page.first == history_page_.first &&
                      position.beam == history_page_.beam;
   turn_page(history_page_, data_.pings, page.first, page.count, position.beam);
-  options.title = "Beam " + std::to_string(position.beam) + ", ping after ping";
+  options.title =
+      (data_.sides ? (position.beam == 0 ? "Port" : "Starboard") : "Beam " + std::to_string(position.beam)) +
+      ", ping after ping";
   if (!stays) {
     Canvas canvas = fresh_canvas(panel.content, options, false);
     history_axes_ = draw_waterfall(canvas, history_of(record_of(data_, history_page_, state_.tvg)), options);

@@ -32,7 +32,13 @@ Soundings returns_of(const ViewerData& data, std::size_t ping) {
                            Tvg{40, position.absorption_db_per_m});
 }
 
-// Returns the returns of a ping, or, if the state accumulates them, of all pings up to it, at most so many back.
+// Returns the returns of a ping, range compensated (E20).
+Soundings with_tvg(const Soundings& returns, const TrackPoint& ping) {
+  return soundings_of_ping(returns, ping.number, Tvg{40, ping.absorption_db_per_m});
+}
+
+// Returns the returns of a ping, or, if the state accumulates them, of all pings up to it, of other heads, too: of each
+// head at most so many back.
 Soundings returns_shown(const ViewerData& data, const ViewerState& state) {
   constexpr std::size_t most_pings = 2000;
   if (!state.accumulate) return returns_of(data, state.ping);
@@ -40,6 +46,15 @@ Soundings returns_shown(const ViewerData& data, const ViewerState& state) {
   for (std::size_t ping = state.ping - std::min(state.ping, most_pings - 1); ping <= state.ping; ++ping) {
     const Soundings more = returns_of(data, ping);
     for (std::size_t i = 0; i < more.size(); ++i) append_row(all, more, i);
+  }
+  for (const LazyPings& other : data.others) {
+    const std::vector<TrackPoint>& sent = other.positions();
+    const auto end = std::upper_bound(sent.begin(), sent.end(), data.pings.position(state.ping).time,
+                                      [](double time, const TrackPoint& ping) { return time < ping.time; });
+    for (auto ping = end - std::min<std::ptrdiff_t>(end - sent.begin(), most_pings); ping < end; ++ping) {
+      const Soundings more = with_tvg(other.returns(static_cast<std::size_t>(ping - sent.begin())), *ping);
+      for (std::size_t i = 0; i < more.size(); ++i) append_row(all, more, i);
+    }
   }
   return all;
 }
@@ -158,9 +173,10 @@ void ViewerScene::draw_key(const PictureOptions& options, double scene_width, co
   Canvas canvas = fresh_canvas(panel_.marks, options, false);
   const int font = options.font_size;
   const bool has_returns = data_.returns.size() > 0 || data_.pings.has_returns();
+  const bool by_depth = actors_->look().colour == SceneColour::height && !data_.depth_datum.empty();
   PictureOptions titled = options;
   titled.title = std::string(own_ ? "Returns (scene missing)" : "Scene") + " by " +
-                 colour_texts[static_cast<std::size_t>(actors_->look().colour)] +
+                 (by_depth ? "depth" : colour_texts[static_cast<std::size_t>(actors_->look().colour)]) +
                  (has_returns && !own_ ? ", returns by level" : "");
   auto title = put_title(titled);
   if (title) title->on_plate = true;
@@ -179,12 +195,13 @@ void ViewerScene::draw_key(const PictureOptions& options, double scene_width, co
   std::vector<SceneKey> bars;
   if (const auto soundings = actors_->soundings_key(); soundings && soundings->scale) bars.push_back(*soundings);
   if (key.scale) bars.push_back(key);
+  if (by_depth) bars.back().unit = "Depth " + data_.depth_datum + " [m]";
   const double bottom = 0.03 * options.height, right = options.width - 0.4 * font;
   for (std::size_t k = 0; k < bars.size(); ++k) {  // one above the other
     const double high = (below - bottom) / static_cast<double>(bars.size());
     const double top_of_bar = below - static_cast<double>(k) * high;
-    const ColourBar bar =
-        upright_colour_bar(*bars[k].scale, bars[k].unit, font, right, top_of_bar - high + font, top_of_bar);
+    ColourBar bar = upright_colour_bar(*bars[k].scale, bars[k].unit, font, right, top_of_bar - high + font, top_of_bar);
+    if (by_depth && k + 1 == bars.size()) label_by_depths(bar);
     canvas.add_colour_bar(bar, *bars[k].scale, thin);
   }
 }

@@ -141,8 +141,7 @@ void ViewerWindow::say(const std::string& text) const {
 }
 
 ViewerPanels ViewerWindow::parts() const {
-  return {ViewerScene::has_content(data_), picture_ != ViewerPicture::waterfall, extent_.pings > 1,
-          state_.show_colour_bars};
+  return {ViewerScene::has_content(data_), !is_waterfall(), extent_.pings > 1, state_.show_colour_bars};
 }
 
 void ViewerWindow::lay_out() {

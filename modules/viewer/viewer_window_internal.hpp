@@ -91,6 +91,8 @@ class ViewerWindow {
   PixelPosition shown_position() const;
   void update_data();
   bool levels_stay() const;
+  bool is_waterfall() const { return picture_ == ViewerPicture::waterfall || picture_ == ViewerPicture::sides; }
+  PingHistory shown_history();
   void draw_picture(ViewerPanel& panel, const PictureOptions& options);
   void mark_picture(ViewerPanel& panel, const PictureOptions& options);
   void draw_scene(ViewerPanel& panel, const PictureOptions& options);

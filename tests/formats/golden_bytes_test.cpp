@@ -74,7 +74,7 @@ TEST(GoldenBytes, of_gsf) {
 
 TEST(GoldenBytes, of_las) {
   const std::string path = own_path("soundings.las");
-  LasFile file(path, {32, true}, {565400, 5995100, 0});
+  LasFile file(path, UtmZone{32, true}, {565400, 5995100, 0});
   file.add({{565432.125, 5995123.5, -15.0625}, 1777624200.25, 121.5F, 0.0125F, 12, 44});
   file.add({{565401, 5995099.75, 2.5}, 1777624200.75, 99.25F, 0.05F, 13, 0});
   file.finish();

@@ -162,19 +162,52 @@ TEST_F(ExportGsf, beams_are_those_of_the_cube_from_the_other_side) {
   std::istringstream lines(read("beams.csv"));
   std::string line;
   std::getline(lines, line);
-  ASSERT_THAT(line, testing::StartsWith("ping,time_s,beam,x_m,y_m,z_m,range_m,"));
+  ASSERT_THAT(line,
+              AllOf(testing::StartsWith("ping,time_s,beam,x_m,y_m,z_m,range_m,"), HasSubstr(",reject,gsf_beam,")));
+  const auto gsf_beam =
+      std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find("gsf_beam")), ',');
   std::size_t soundings = 0;
   while (std::getline(lines, line)) {
     std::vector<double> row;
     std::istringstream fields(line);
-    for (std::string field; row.size() < 7 && std::getline(fields, field, ',');) row.push_back(std::stod(field));
+    for (std::string field; std::getline(fields, field, ',');)
+      row.push_back(field == "phase" || field == "amplitude" ? 0 : std::stod(field));
     const decode::GsfSwath& s = gsf.swaths.at(static_cast<std::size_t>(row[0]));
     const std::size_t entry = s.flags.size() - 1 - static_cast<std::size_t>(row[2]);
+    EXPECT_EQ(row[static_cast<std::size_t>(gsf_beam)], static_cast<double>(entry)) << line;
     EXPECT_EQ(s.flags.at(entry), 0) << line;
     EXPECT_NEAR(s.arrays.at(1)[entry], -row[5], 0.006) << line;
     ++soundings;
   }
   EXPECT_GT(soundings, 100U);
+}
+
+// A head that looks astern has its port beams first all the same, also with several soundings of a beam.
+TEST_F(ExportGsf, entries_of_the_table_are_those_of_any_mounting) {
+  write("turned.toml", replaced(read("ship.toml"), "[[head]]", "[[head]]\nheading_deg = 180"));
+  succeed("survey turned.toml -q -o turned");
+  for (const std::string more : {"", " --per-beam 3"}) {
+    succeed("export turned --to gsf -q --force -o turned.gsf" + more);
+    succeed("export turned --to csv -q --force -o turned.csv" + more);
+    const decode::GsfContent gsf = content("turned.gsf");
+    std::istringstream lines(read("turned.csv"));
+    std::string line;
+    std::getline(lines, line);
+    const auto column =
+        std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find("gsf_beam")), ',');
+    std::size_t soundings = 0;
+    while (std::getline(lines, line)) {
+      std::vector<std::string> row;
+      std::istringstream fields(line);
+      for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+      const decode::GsfSwath& s = gsf.swaths.at(std::stoul(row[0]));
+      const std::size_t entry = std::stoul(row[static_cast<std::size_t>(column)]);
+      EXPECT_NEAR(s.arrays.at(1).at(entry), -std::stod(row[5]), 0.006) << line;
+      EXPECT_NEAR(s.arrays.at(9).at(entry), std::min(5.1, std::stod(row[9])), 0.011) << line;
+      ++soundings;
+    }
+    EXPECT_GT(soundings, 100U);
+  }
 }
 
 // A single ping has the course and speed of its trajectory or of its velocity, though it has one position only.

@@ -93,3 +93,27 @@ TEST_F(ExportSurvey, has_all_pings_in_every_product) {
   EXPECT_TRUE(std::filesystem::exists(path("vtk/fan_000003.vts")));
   EXPECT_TRUE(std::filesystem::exists(path("vtk/returns.vtp")));
 }
+
+// Without --head each head has a file of its own; nothing is written if one of them would replace another file.
+TEST_F(ExportSurvey, gives_a_file_for_each_head) {
+  write("two.toml", replaced(read("line.toml"), "[[leg]]\nname = \"first\"",
+                             "[[head]]\nname = \"other\"\nsonar = \"em2040\"\nrange = \"2:8\"\nroll_deg = 20\nset = "
+                             "[\"sonar.beams=17\", \"sonar.field_of_view_deg=60\"]\nevery_m = 1\n[[leg]]\nname = "
+                             "\"first\""));
+  succeed("survey two.toml -q -o two");
+  write("s-other.csv", "mine");
+  expect_refused("export two --to csv -o s.csv", 4, {"s-other.csv: exists already"});
+  EXPECT_FALSE(std::filesystem::exists(path("s-r2sonic-2024.csv")));
+  for (const std::string to : {"csv", "gsf", "las", "geotiff"}) {
+    succeed("export two -q --force --to " + to + " -o s." + to);
+    EXPECT_FALSE(std::filesystem::exists(path("s." + to)));
+    for (const std::string head : {"r2sonic-2024", "other"}) {
+      succeed("export two -q --force --head " + head + " --to " + to + " -o one");
+      EXPECT_TRUE(read("s-" + head + "." + to) == read("one")) << head << " " << to;
+    }
+  }
+  EXPECT_EQ(decode::read_gsf(read("s-other.gsf")).swaths.at(0).sensor, 149);
+  EXPECT_EQ(decode::read_gsf(read("s-r2sonic-2024.gsf")).swaths.at(0).sensor, 152);
+  succeed("export two -q -o vtk/");
+  EXPECT_TRUE(std::filesystem::exists(path("vtk-other/fan.pvd")));
+}

@@ -93,6 +93,13 @@ TEST_F(SwathRecordRun, compares_two_swaths_by_angle_and_in_cells) {
   EXPECT_NEAR(cells["normalised_deviation"].get<double>(), 1, 0.3);
   EXPECT_EQ(nlohmann::json::parse(read("compared/compare.json")), r);
   EXPECT_THAT(succeed("compare one.gsf two.gsf --cell 1"), HasSubstr("hold two soundings of both"));
-  expect_refused("compare one two.gsf", 2, {"one: is no swath, and two.gsf is one", "insonify export RUN --to gsf"});
+  // A run is compared by the soundings of its GSF, so the result is that of the file.
+  nlohmann::json of_run = json_of("compare one two.gsf --cell 1 --angles 15");
+  EXPECT_EQ(of_run["a"]["file"], "one");
+  of_run["a"]["file"] = "one.gsf";
+  EXPECT_EQ(of_run, r);
+  EXPECT_EQ(json_of("compare one.gsf two --cell 1 --angles 15")["cells"], r["cells"]);
+  write("plain.csv", "x,y,z\n");
+  expect_refused("compare plain.csv two.gsf", 2, {"plain.csv: is neither a swath nor a run, and two.gsf is a swath"});
   expect_refused("compare one.gsf two.gsf --angles 0", 2, {"--angles"});
 }

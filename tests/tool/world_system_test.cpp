@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/geodesy.hpp"
+#include "formats/las_decoder.hpp"
 #include "formats/tiff_decoder.hpp"
 #include "support/test.hpp"
 #include "tool/mission_text.hpp"
@@ -89,6 +90,34 @@ TEST_F(ProjectedWorld, rasters_lie_in_any_system_of_the_world) {
   EXPECT_NEAR(insonify::decode::read_geotiff(read("utm.tif")).west, own.west, 1.5);
 }
 
+// The plane of LAS is that of the world, so x and y are the columns of the table.
+TEST_F(ProjectedWorld, las_and_tables_have_its_coordinates) {
+  if (!with_gdal) GTEST_SKIP() << "built without GDAL";
+  ping("etrs.asc", "out");
+  for (const std::string version : {"1.4", "1.2"}) {
+    succeed("export out --to las --force -q -o own.las --las-version " + version);
+    succeed("export out --to csv --force -q -o own.csv");
+    EXPECT_THAT(succeed("info own.las"), HasSubstr("EPSG:25832"));
+    const std::vector<insonify::decode::LasRow> points = insonify::decode::read_las(read("own.las"));
+    std::istringstream lines(read("own.csv"));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_THAT(line, testing::EndsWith(",latitude_deg,longitude_deg,easting_m,northing_m"));
+    ASSERT_GT(points.size(), 20U);
+    for (const insonify::decode::LasRow& point : points) {
+      ASSERT_TRUE(std::getline(lines, line));
+      std::vector<std::string> row;
+      std::istringstream fields(line);
+      for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+      EXPECT_EQ(point.beam, std::stoul(row[2]));
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        EXPECT_NEAR(point.position[axis], std::stod(row[3 + axis]), 1.1e-4);
+        EXPECT_EQ(row[row.size() - 2 + axis], row[3 + axis]);
+      }
+    }
+  }
+}
+
 TEST_F(ProjectedWorld, surveys_keep_it_and_refuse_what_contradicts_it) {
   if (!with_gdal) GTEST_SKIP() << "built without GDAL";
   write("m.toml", mission("bed.asc"));
@@ -97,6 +126,10 @@ TEST_F(ProjectedWorld, surveys_keep_it_and_refuse_what_contradicts_it) {
   succeed("merge run --mosaic 0.5 -q");
   EXPECT_EQ(insonify::decode::read_geotiff(read("run/mosaic.tif")).epsg, 32632);
   EXPECT_THAT(read("run/manifest.json"), HasSubstr("EPSG:32632"));
+  const double own_west = insonify::decode::read_geotiff(read("run/mosaic.tif")).west;
+  succeed("merge run --mosaic 0.5 --crs EPSG:25832 -q");
+  EXPECT_EQ(insonify::decode::read_geotiff(read("run/mosaic.tif")).epsg, 25832);
+  EXPECT_NEAR(insonify::decode::read_geotiff(read("run/mosaic.tif")).west, own_west, 1.5);
   succeed("export run --to las -q -o a.las");
   succeed("export run/em2040 --to las -q -o b.las");
   EXPECT_EQ(read("a.las"), read("b.las"));

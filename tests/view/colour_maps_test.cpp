@@ -150,3 +150,19 @@ TEST(ColourScale, a_window_or_limits_that_are_no_range_are_errors) {
   options.min_db = 20, options.max_db = 10;
   EXPECT_THAT(message_of(options), HasSubstr("options.max_db = 10 dB, must be finite and exceed min_db = 20 dB"));
 }
+
+TEST(ColourMaps, a_bar_of_heights_is_labelled_by_depths) {
+  const ColourScale scale{colour_table("viridis", "test"), -12, 2};
+  const ColourBar heights = upright_colour_bar(scale, "Depth below z = 0 [m]", 12, 200, 0, 300);
+  ColourBar depths = heights;
+  label_by_depths(depths);
+  ASSERT_EQ(depths.texts.size(), heights.texts.size());
+  std::size_t numbers = 0;
+  for (std::size_t t = 0; t + 1 < heights.texts.size(); ++t, ++numbers) {
+    EXPECT_EQ(std::stod(depths.texts[t].text), -std::stod(heights.texts[t].text));
+    EXPECT_EQ(depths.texts[t].text == "-0", false);
+    EXPECT_EQ(depths.texts[t].centre.y, heights.texts[t].centre.y);
+  }
+  EXPECT_GE(numbers, 3U);
+  EXPECT_EQ(depths.texts.back().text, "Depth below z = 0 [m]");
+}

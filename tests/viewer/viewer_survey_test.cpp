@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A survey in the viewer: pings read one at a time, sweeps, waterfalls, seeking; and the program on a survey's folder.
+#include <set>
+
 #include "core/units.hpp"
 #include "returns/sounding_columns.hpp"
 #include "scene/built_in_scenes.hpp"
@@ -55,6 +57,16 @@ struct CountedReel {
     return {std::move(positions), std::move(source)};
   }
 };
+
+// Returns a return at a place of its own, of ping i.
+Soundings one_return(std::size_t i) {
+  Soundings one;
+  one.position = {{0.5 * static_cast<double>(i), 0, 0.1}};
+  one.level_db = {120}, one.range = {3}, one.azimuth = {0}, one.elevation = {0};
+  one.ping = {static_cast<std::uint32_t>(i)}, one.beam = {0}, one.bin = {0};
+  one.true_elevation = {0}, one.true_surfel = {Soundings::none}, one.true_material = {Soundings::none};
+  return one;
+}
 
 class SurveyWindow : public testing::Test {
  protected:
@@ -189,14 +201,7 @@ TEST_F(SurveyWindow, the_timeline_seeks_and_stops_playing) {
 // The status line and the keys stay, so that pictures differ by the returns alone.
 TEST_F(SurveyWindow, a_gathers_returns_of_earlier_pings) {
   data_.scene = make_built_in_scene("plane", {.points = 400, .size = {20, 20}});
-  for (std::size_t i = 0; i < 20; ++i) {
-    Soundings one;
-    one.position = {{0.5 * static_cast<double>(i), 0, 0.1}};
-    one.level_db = {120}, one.range = {3}, one.azimuth = {0}, one.elevation = {0};
-    one.ping = {static_cast<std::uint32_t>(i)}, one.beam = {0}, one.bin = {0};
-    one.true_elevation = {0}, one.true_surfel = {Soundings::none}, one.true_material = {Soundings::none};
-    append_row(data_.returns, one, 0);
-  }
+  for (std::size_t i = 0; i < 20; ++i) append_row(data_.returns, one_return(i), 0);
   open(20, false);
   window_->press_key("End");
   const std::string alone = own_path("alone.png"), gathered = own_path("gathered.png"), again = own_path("again.png");
@@ -207,6 +212,76 @@ TEST_F(SurveyWindow, a_gathers_returns_of_earlier_pings) {
   window_->press_key("a");
   window_->save_png(again);
   EXPECT_EQ(read_png(alone).bytes, read_png(again).bytes);
+}
+
+// The returns of another head are gathered up to the time of the ping, though this head has none.
+TEST_F(SurveyWindow, a_gathers_returns_of_other_heads) {
+  data_.scene = make_built_in_scene("plane", {.points = 400, .size = {20, 20}});
+  std::vector<TrackPoint> positions;
+  for (std::size_t i = 0; i < 40; ++i) positions.push_back(one_beam_ping(i, false));
+  std::size_t last = 0;
+  PingSource source;
+  source.returns = [&last](std::size_t i) {
+    last = std::max(last, i);
+    return one_return(i);
+  };
+  data_.others.emplace_back(positions, source);
+  open(20, false);
+  window_->press_key("End");
+  const std::string alone = own_path("head.png"), gathered = own_path("heads.png");
+  window_->save_png(alone);
+  window_->press_key("a");
+  window_->save_png(gathered);
+  EXPECT_NE(read_png(alone).bytes, read_png(gathered).bytes);
+  EXPECT_EQ(last, 19U) << "pings at the time of ping 19 and before";
+}
+
+// Port is to the left of starboard; a place as far on the other side is the same range.
+TEST_F(SurveyWindow, sides_of_a_side_scan_are_one_waterfall) {
+  std::vector<Ping> pings;
+  for (std::size_t i = 0; i < 100; ++i) {
+    Ping ping = one_beam_ping(i, false);
+    const ComplexGridF port = ping.pressure;
+    ping.fan.azimuth = {pi / 2, -pi / 2}, ping.fan.elevation = {0, 0};
+    ping.pressure.resize(2, port.cols());
+    ping.pressure << port, 10 * port;
+    pings.push_back(ping);
+  }
+  data_.sides = true, data_.title = "sides", data_.pings = reel_in_memory(pings);
+  ViewerOptions options;
+  options.width = 800, options.height = 600;
+  window_ = std::make_unique<ViewerWindow>(data_, options, ViewerScreen::off_screen);
+  window_->run({});
+  EXPECT_EQ(picture_of(data_), ViewerPicture::sides);
+  EXPECT_EQ(window_->layout().history.width(), 0);
+  const Box& box = window_->layout().fan;
+  std::set<std::size_t> beams;
+  std::vector<double> middles;
+  for (double at = 0.1; at < 0.9; at += 0.01) {
+    click({box.left + at * box.width(), box.bottom + 0.6 * box.height()});
+    if (!window_->state().selected) continue;
+    const auto [beam, bin] = *window_->state().selected;
+    beams.insert(beam);
+    EXPECT_TRUE(beam == 0 || !middles.empty());
+    if (beam == 0) middles.push_back(static_cast<double>(bin));
+  }
+  EXPECT_EQ(beams, (std::set<std::size_t>{0, 1}));
+  ASSERT_GT(middles.size(), 5U);
+  EXPECT_TRUE(std::is_sorted(middles.rbegin(), middles.rend())) << "ranges to port grow to the left";
+  data_.pings = CountedReel().reel(3, false);
+  EXPECT_THAT(error_of([&] { require_viewable(data_, ViewerMode::run); }, ErrorKind::content),
+              HasSubstr("1 beams of sides, must be port and starboard"));
+}
+
+TEST_F(SurveyWindow, runs_with_a_water_level_have_a_scale_of_depths) {
+  data_.scene = make_built_in_scene("plane", {.points = 400, .size = {20, 20}});
+  open(20, false);
+  const std::string heights = own_path("heights.png"), depths = own_path("depths.png");
+  window_->save_png(heights);
+  data_.depth_datum = "below MSL";
+  open(20, false);
+  window_->save_png(depths);
+  EXPECT_NE(read_png(heights).bytes, read_png(depths).bytes);
 }
 
 TEST_F(SurveyWindow, buttons_press_their_keys) {
@@ -294,4 +369,36 @@ TEST_F(ViewSurvey, has_moving_parts_where_they_are_at_each_ping) {
                                    : testing::Not(HasSubstr("Part ball")))
           << ping << " at " << at;
     }
+}
+
+// Both heads of a side-scan are shown, unless one is named. Depths are those below the datum of the mission.
+TEST_F(ViewSurvey, shows_both_sides_of_a_side_scan) {
+  write("m.toml", R"(schema = 1
+[survey]
+scene = "harbour.ply"
+[water]
+level_m = 0
+datum = "MSL"
+[trajectory]
+waypoints_m = [[0, 0, -3], [3, 0, -3]]
+speed_m_s = 1
+[[head]]
+name = "left"
+sonar = "starfish-450"
+range = "1:8"
+rate_hz = 1
+[[head]]
+name = "right"
+sonar = "starfish-450"
+side = "starboard"
+range = "1:8"
+rate_hz = 1
+)");
+  survey("run");
+  EXPECT_THAT(shown("run --ping 1 --events 'select 1 200'"), HasSubstr("Ping 1, beam 1, bin 200"));
+  const std::string both = read("a.png");
+  EXPECT_THAT(shown("run --head right --ping 1 --events 'select 0 200'"), HasSubstr("Ping 1, beam 0, bin 200"));
+  EXPECT_NE(read("a.png"), both);
+  expect_refused("view run --head left --beam 1 --screenshot b.png", 2, {"--beam = 1", "below 1"});
+  expect_refused("view run --beam 2 --screenshot b.png", 2, {"--beam = 2", "below 2"});
 }

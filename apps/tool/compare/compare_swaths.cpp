@@ -2,12 +2,21 @@
 #include "tool/compare/compare_swaths.hpp"
 
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "compare/swath_comparison.hpp"
+#include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/units.hpp"
+#include "files/path_status.hpp"
+#include "files/pending_file.hpp"
+#include "formats/gsf_record.hpp"
+#include "tool/export/export_product.hpp"
+#include "tool/run/record_file.hpp"
+#include "tool/run/run_pings.hpp"
 #include "tool/run/swath_pings.hpp"
 
 namespace insonify::tool {
@@ -15,10 +24,32 @@ namespace {
 
 using nlohmann::ordered_json;
 
-void require_swath(const std::string& path, const std::string& other) {
-  if (is_swath(path)) return;
-  fail(ErrorKind::argument, path, ": is no swath, and ", other,
-       " is one; of a run write the soundings first: insonify export RUN --to gsf -o run.gsf");
+/// Returns the soundings of a run as its GSF states them.
+SwathRecord swath_of_run(const std::string& run) {
+  const PendingFile gsf((std::filesystem::temp_directory_path() / "insonify.gsf").string());
+  ProductOptions soundings;
+  soundings.to = "gsf", soundings.run = run, soundings.output = gsf.temporary(), soundings.force = true;
+  CommonOptions silent;
+  silent.quiet = true;
+  export_product(soundings, silent);
+  return swath_of(read_gsf(gsf.temporary()));
+}
+
+/// Returns the soundings of a swath, or of a run that is compared with one.
+SwathRecord compared_swath(const std::string& path, const std::string& other) {
+  if (is_swath(path)) return read_swath(path);
+  if (!path_exists(path)) fail(ErrorKind::file, path, ": no such run or record");
+  if (is_record(path) || !(is_folder(path) || std::filesystem::path(path).extension() == ".h5"))
+    fail(ErrorKind::argument, path, ": is neither a swath nor a run, and ", other, " is a swath");
+  if (const std::vector<std::string> heads = head_names(path); heads.size() > 1)
+    fail(ErrorKind::argument, path, ": is a survey of the heads ", shortened_list(heads), "; compare one of them, as ",
+         path, "/", heads.front());
+  try {
+    return swath_of_run(path);
+  } catch (const Error& error) {
+    fail(error.kind(), "the soundings of ", path, " are compared with ", other, " as `insonify export ", path,
+         " --to gsf` writes them: ", error.what());
+  }
 }
 
 SwathPoints points_of_swath(const SwathPings& swath) {
@@ -68,8 +99,7 @@ std::string cell_text(const ordered_json& value, const char* format) {
 }  // namespace
 
 ordered_json compare_swaths(const CompareOptions& o) {
-  require_swath(o.a, o.b), require_swath(o.b, o.a);
-  const SwathPings b(read_swath(o.b)), a(read_swath(o.a), b.anchor());
+  const SwathPings b(compared_swath(o.b, o.a)), a(compared_swath(o.a, o.b), b.anchor());
   const SwathPoints points_a = points_of_swath(a), points_b = points_of_swath(b);
   ordered_json angles = ordered_json::array();
   for (const SwathAngleBand& band : compare_by_angle(points_a, points_b, radians(o.angles)))

@@ -9,9 +9,9 @@
 
 namespace insonify::tool {
 
-/// Compares two recorded swaths: level, deviation and coverage by angle (E212), and mean heights in cells with their
-/// predicted deviations (E213). Rejected soundings do not count. Throws Error(argument) if one of the files is no
-/// swath.
+/// Compares two swaths: level, deviation and coverage by angle (E212), and mean heights in cells with their predicted
+/// deviations (E213). One may be a run, which counts with its soundings as its GSF states them. Rejected soundings do
+/// not count. Throws Error(argument) if one is neither swath nor run, and as export_product.
 nlohmann::ordered_json compare_swaths(const CompareOptions& options);
 
 /// Returns the result in words.

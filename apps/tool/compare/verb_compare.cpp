@@ -293,7 +293,7 @@ Verb compare_verb() {
       "compare", "likeness of runs and recordings, of soundings and their scene, or of two swaths",
       {"insonify compare run other-seed -o compared", "insonify compare run picture.png --scale 40:100",
        "insonify compare run scan.pcd --strength intensity --strength-unit linear",
-       "insonify compare soundings.csv reef.pcd --cell 0.1", "insonify compare run.gsf survey.gsf --cell 1"},
+       "insonify compare soundings.csv reef.pcd --cell 0.1", "insonify compare run survey.gsf --cell 1"},
       add_options, compare);
 }
 

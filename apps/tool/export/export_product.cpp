@@ -66,15 +66,6 @@ void export_folder(const PlacedRun& run, const CommonOptions& common, Progress& 
 
 }  // namespace
 
-UtmWorld::UtmWorld(const Georeference& from)
-    : reference(from), zone(from.zone.value_or(utm_zone_of(geo_from_world(from, Eigen::Vector3d::Zero())))) {}
-
-Eigen::Vector3d UtmWorld::from_world(const Eigen::Vector3d& world) const {
-  if (reference.zone) return world;
-  const UtmPosition utm = utm_position_of(geo_from_world(reference, world), zone);
-  return {utm.easting, utm.northing, world.z()};
-}
-
 GreyScale::GreyScale(const Ping& first) {
   const double most =
       std::ceil(static_cast<double>(range_compensated_level_db(first, first.absorption_db_per_m).maxCoeff())) + 10;

@@ -65,20 +65,11 @@ GsfBeam placed_beam(const PlacedRun& run, const Ping& ping, const ShipAxes& ship
 /// The beams of a ping from port to starboard, those of several soundings one after the other.
 std::vector<GsfBeam> beams_of(const PlacedRun& run, const Ping& ping, const BottomSoundings& found,
                               const ShipAxes& ship, const Anchor& here, const RunUncertainty& uncertainty) {
-  std::vector<std::pair<double, GsfBeam>> beams;
-  std::size_t next = 0;  // soundings are by beams
-  for (std::size_t b = 0; b < ping.fan.beams(); ++b) {
-    const Eigen::Vector3d axis =
-        ping.world_from_head.linear() * unit_vector({ping.fan.azimuth[b], ping.fan.elevation[b]});
-    const double across = axis.dot(ship.starboard);
-    if (next == found.size() || found.beam[next] != b) beams.emplace_back(across, pointing_beam(ship, axis));
-    for (; next < found.size() && found.beam[next] == b; ++next)  // each a beam of its own
-      beams.emplace_back(across, placed_beam(run, ping, ship, here, uncertainty, found, next));
-  }
-  std::stable_sort(beams.begin(), beams.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<GsfBeam> sorted;
-  for (const auto& [across, beam] : beams) sorted.push_back(beam);
-  return sorted;
+  std::vector<GsfBeam> beams;
+  for (const SwathEntry& entry : entries_from_port(ping, ship, found))
+    beams.push_back(entry.sounding ? placed_beam(run, ping, ship, here, uncertainty, found, *entry.sounding)
+                                   : pointing_beam(ship, axis_of_beam(ping, entry.beam)));
+  return beams;
 }
 
 /// Fills in the fields of a GSF ping that describe the sonar itself.

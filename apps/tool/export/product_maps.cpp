@@ -49,17 +49,17 @@ double angle_from_nadir(const Pose& world_from_head, const Eigen::Vector3d& posi
 }  // namespace
 
 SoundingCount las_product(const PlacedRun& run) {
-  const UtmWorld world(run.reference());
+  const RasterPlane plane("", run.georeference);
   std::unique_ptr<LasFile> file;
   const LasOptions options{run.options.las_version == "1.2" ? 2 : 4, run.start, profile_remark(run.options)};
   const auto count = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
     if (!file)
-      file = std::make_unique<LasFile>(run.options.output, world.zone,
-                                       world.from_world(ping.world_from_head.translation()), options);
+      file = std::make_unique<LasFile>(run.options.output, plane.las_system(),
+                                       plane.from_world(ping.world_from_head.translation()), options);
     const auto returns = returns_of_beams(found);
     const auto line = static_cast<std::uint16_t>(leg_at(run.pings.legs, ping.time));
     for (std::size_t i = 0; i < found.size(); ++i)
-      file->add({world.from_world(found.position[i]), run.start + ping.time, found.level_db[i], found.deviation[i],
+      file->add({plane.from_world(found.position[i]), run.start + ping.time, found.level_db[i], found.deviation[i],
                  static_cast<std::uint32_t>(ping.number), static_cast<std::uint16_t>(found.beam[i]), line,
                  returns[i].first, returns[i].second, angle_from_nadir(ping.world_from_head, found.position[i]),
                  found.reject[i] != 0});
@@ -94,20 +94,30 @@ SoundingCount csv_product(const PlacedRun& run) {
   if (const std::string remark = profile_remark(run.options); !remark.empty()) out << "# " << remark << '\n';
   const std::span columns(csv_columns);
   const RunUncertainty uncertainty(run);
-  out << joined(run.georeference ? columns : columns.first(columns.size() - 2), ",", &BandMeaning::name);
+  const std::optional<RasterPlane> plane =
+      run.georeference ? std::optional<RasterPlane>({"", run.georeference}) : std::nullopt;
+  out << joined(plane ? columns : columns.first(columns.size() - placed_columns), ",", &BandMeaning::name);
   if (uncertainty.known()) out << ',' << joined(uncertainty_columns(), ",");
   out << '\n';
   const auto count = each_swath(run, [&](const Cube&, const Ping& ping, const BottomSoundings& found) {
+    std::vector<std::size_t> entry(found.size());
+    std::size_t entries = 0;
+    for (const SwathEntry& each : entries_from_port(ping, ship_axes(run.pings, ping), found)) {
+      if (each.sounding) entry[*each.sounding] = entries;
+      ++entries;
+    }
     std::string rows;
     for (std::size_t i = 0; i < found.size(); ++i) {
       const Eigen::Vector3d& at = found.position[i];
-      rows += fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.2f},{:.3f},{},{}", ping.number,
+      rows += fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.2f},{:.3f},{},{},{}", ping.number,
                           run.start + ping.time, found.beam[i], at.x(), at.y(), at.z(), found.range[i],
                           found.deviation[i], found.level_db[i], found.quality[i],
-                          found.method[i] == BottomMethod::phase ? "phase" : "amplitude", found.reject[i]);
-      if (run.georeference) {
+                          found.method[i] == BottomMethod::phase ? "phase" : "amplitude", found.reject[i], entry[i]);
+      if (plane) {
         const GeoPosition position = geo_from_world(run.reference(), at);
-        rows += fmt::format(",{:.9f},{:.9f}", degrees(position.latitude), degrees(position.longitude));
+        const Eigen::Vector3d east_north = plane->from_world(at);
+        rows += fmt::format(",{:.9f},{:.9f},{:.4f},{:.4f}", degrees(position.latitude), degrees(position.longitude),
+                            east_north.x(), east_north.y());
       }
       if (uncertainty.known())
         for (const double number : uncertainty_numbers(uncertainty.at(ping, found, i)))

@@ -26,15 +26,6 @@ struct PlacedRun {
   const Georeference& reference() const { return *georeference; }
 };
 
-/// The UTM zone of a product, and places in it.
-struct UtmWorld {
-  const Georeference& reference;
-  UtmZone zone;
-  explicit UtmWorld(const Georeference& from);
-  /// Easting, northing [m] and height of a position in the world.
-  Eigen::Vector3d from_world(const Eigen::Vector3d& world) const;
-};
-
 /// How many soundings a product has, and how many were rejected, whether it has them or not; of an xtf its pings.
 struct SoundingCount {
   std::size_t soundings = 0, rejected = 0, pings = 0;
@@ -91,6 +82,19 @@ ShipAxes axes_of_ship(const Eigen::Matrix3d& axes);
 
 /// Axes of the ship at a ping; of an unknown one by the port axis of the head, without pitch.
 ShipAxes ship_axes(const RunPings& run, const Ping& ping);
+
+/// Returns the axis of a beam in the world.
+Eigen::Vector3d axis_of_beam(const Ping& ping, std::size_t beam);
+
+/// An entry of the arrays of a swath: a beam, and its sounding, if it has one.
+struct SwathEntry {
+  std::size_t beam = 0;
+  std::optional<std::size_t> sounding{};
+};
+
+/// Returns the entries of a ping from port to starboard, as GSF counts them: one for each sounding, which are ordered by
+/// beams, and one for each beam without.
+std::vector<SwathEntry> entries_from_port(const Ping& ping, const ShipAxes& ship, const BottomSoundings& found);
 
 /// Velocity over ground at a time; 0 without a way.
 Eigen::Vector3d level_velocity(const std::optional<Trajectory>& way, double time);

@@ -47,13 +47,13 @@ Eigen::Vector3d RasterPlane::from_world(const Eigen::Vector3d& world) const {
   return {utm.easting, utm.northing, world.z()};
 }
 
-Eigen::Vector2d RasterPlane::world_of(const Eigen::Vector2d& wanted) const {
+Eigen::Vector2d RasterPlane::world_of(const Eigen::Vector2d& wanted, const Eigen::Vector2d& not_far) const {
   if (std::holds_alternative<std::monostate>(system_)) return wanted;
   const auto level = [&](const Eigen::Vector2d& world) {
     return Eigen::Vector2d(from_world({world.x(), world.y(), 0}).head<2>());
   };
   constexpr double step = 100, good_enough = 1e-6;  // [m]
-  Eigen::Vector2d world(0, 0);
+  Eigen::Vector2d world = not_far;
   for (int pass = 0; pass < 20; ++pass) {
     const Eigen::Vector2d here = level(world), off = wanted - here;
     if (off.norm() < good_enough) break;
@@ -62,6 +62,12 @@ Eigen::Vector2d RasterPlane::world_of(const Eigen::Vector2d& wanted) const {
     world += step * slopes.inverse() * off;
   }
   return world;
+}
+
+LasSystem RasterPlane::las_system() const {
+  if (const auto* system = std::get_if<ProjectedSystem>(&system_))
+    return {system->epsg(), system->wkt(), system->unit()};
+  return std::get<UtmZone>(system_);
 }
 
 GeoGrid RasterPlane::in_system(GeoGrid grid) const {

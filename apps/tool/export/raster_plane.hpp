@@ -8,6 +8,7 @@
 
 #include "core/geodesy.hpp"
 #include "formats/geotiff_file.hpp"
+#include "formats/las_file.hpp"
 #include "scene_io/projected_system.hpp"
 
 namespace insonify::tool {
@@ -17,7 +18,7 @@ inline constexpr const char* crs_help =
     "projected system of a geotiff, as EPSG:25832 (by GDAL and PROJ), or local: the plane of the world; default: the "
     "system of the world, or the UTM zone of its place";
 
-/// The plane that the cells of a raster lie in: a UTM zone, any projected system, or that of the world.
+/// The plane of the coordinates of a product: a UTM zone, any projected system, or that of the world.
 class RasterPlane {
  public:
   /// crs    as --crs: EPSG:N, local, or "" for the projected system of the world, else UTM
@@ -30,8 +31,10 @@ class RasterPlane {
 
   /// Easting, northing [m] and height of a position in the world.
   Eigen::Vector3d from_world(const Eigen::Vector3d& world) const;
-  /// The inverse of place() at z = 0 of the world, to a micrometre.
-  Eigen::Vector2d world_of(const Eigen::Vector2d& georeference) const;
+  /// The inverse of from_world at z = 0 of the world, to a micrometre, found from a place of the world that is not far.
+  Eigen::Vector2d world_of(const Eigen::Vector2d& position, const Eigen::Vector2d& not_far) const;
+  /// Returns the system of a LAS file in this plane, which must not be that of the world.
+  LasSystem las_system() const;
   /// Returns the grid with code and unit of the system.
   GeoGrid in_system(GeoGrid grid) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tool/export/product_run.hpp"
 
@@ -26,6 +27,24 @@ ShipAxes ship_axes(const RunPings& run, const Ping& ping) {
   ShipAxes ship(port.cross(Eigen::Vector3d::UnitZ()), port);
   ship.roll = std::asin(std::clamp(port.z(), -1.0, 1.0));
   return ship;
+}
+
+Eigen::Vector3d axis_of_beam(const Ping& ping, std::size_t beam) {
+  return ping.world_from_head.linear() * unit_vector({ping.fan.azimuth[beam], ping.fan.elevation[beam]});
+}
+
+std::vector<SwathEntry> entries_from_port(const Ping& ping, const ShipAxes& ship, const BottomSoundings& found) {
+  std::vector<std::pair<double, SwathEntry>> placed;
+  std::size_t next = 0;
+  for (std::size_t b = 0; b < ping.fan.beams(); ++b) {
+    const double across = axis_of_beam(ping, b).dot(ship.starboard);
+    if (next == found.size() || found.beam[next] != b) placed.push_back({across, {b, {}}});
+    for (; next < found.size() && found.beam[next] == b; ++next) placed.push_back({across, {b, next}});
+  }
+  std::stable_sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<SwathEntry> entries;
+  for (const auto& [across, entry] : placed) entries.push_back(entry);
+  return entries;
 }
 
 Eigen::Vector3d level_velocity(const std::optional<Trajectory>& way, double time) {

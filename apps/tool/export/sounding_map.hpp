@@ -33,7 +33,7 @@ inline constexpr BandMeaning sounding_bands[] = {
     {"rejected_height", "m", "with --keep-rejected: their mean height; NaN if there are none"}};
 inline constexpr std::size_t rejected_bands = 2;  ///< how many of them are of rejected soundings
 
-/// The columns of soundings as CSV, in the order of the file; the last two only with a position on the globe.
+/// The columns of soundings as CSV, in the order of the file; the last four only with a position on the globe.
 inline constexpr BandMeaning csv_columns[] = {
     {"ping", "", "number of the ping, from 0"},
     {"time_s", "s", "time since 1970 (UTC), or since the begin of the run"},
@@ -47,8 +47,12 @@ inline constexpr BandMeaning csv_columns[] = {
     {"quality", "", "log10(range / deviation)"},
     {"method", "", "amplitude or phase"},
     {"reject", "", "0, or with --keep-rejected the bits of the reasons"},
+    {"gsf_beam", "", "entry of the sounding in the arrays of GSF, from port, from 0"},
     {"latitude_deg", "deg", "latitude on WGS 84, positive north; only with a place on the globe"},
-    {"longitude_deg", "deg", "longitude on WGS 84, positive east; only with a place on the globe"}};
+    {"longitude_deg", "deg", "longitude on WGS 84, positive east; only with a place on the globe"},
+    {"easting_m", "m", "x of LAS: in the projected system of the world, else in UTM; only with a place on the globe"},
+    {"northing_m", "m", "y of LAS; only with a place on the globe"}};
+inline constexpr std::size_t placed_columns = 4;  ///< how many of them need a place on the globe
 
 /// Soundings in cells of a grid.
 class SoundingMap {

@@ -45,7 +45,9 @@ void add_options(OptionList list, ExportOptions& o) {
   add_world_options(list, p.world);
   list.add("--start-utc", &p.start_utc,
            "time of day at time 0, as 2026-05-01T08:30:00Z; default: that of the mission, else 1970");
-  list.add("--head", &p.head, "name of the head, in a survey of several heads; an xtf takes both heads of two");
+  list.add(
+      "--head", &p.head,
+      "name of the head of a survey; default: a file for each head, soundings-NAME.gsf; an xtf has both heads of two");
   list.add("--crs", &p.crs, crs_help);
   list.add("--cell", &p.cell, "[m] size of the cells of a geotiff", {.positive = true});
   list.add("--per-beam", &p.per_beam, "most soundings of a beam, the strongest first",
@@ -112,16 +114,8 @@ void require_soundings(const ProductOptions& o) {
          "--tide need gsf, las, geotiff, csv or mcap");
 }
 
-void export_run(const ExportOptions& options) {
-  require_soundings(options.product);
-  if (const std::string& run = options.product.run; is_record(run))
-    fail(ErrorKind::content, run,
-         ": is a recording of a sonar, and export takes runs, surveys and cubes of insonify; "
-         "`insonify image` draws a recording (a side-scan with --view waterfall), `insonify view` shows it, `insonify "
-         "compare` compares it with a run");
-  if (options.product.to != "vtk") return export_product(options.product, options.common);
-  const ProductOptions& o = options.product;
-  Progress progress(options.common, 2);
+void export_for_paraview(const ProductOptions& o, const CommonOptions& common) {
+  Progress progress(common, 2);
   progress.step("reading " + o.run);
   const RunPings run = find_run_pings(o.run, o.head);
   RunDirectory directory(o.output, o.force, {o.run});
@@ -144,7 +138,7 @@ void export_run(const ExportOptions& options) {
   const std::optional<std::size_t> returns = save_returns(run, directory.file("returns.vtp"));
   write_manifest(directory, {{"schema", 1}, {"insonify_version", INSONIFY_VERSION}, {"exported", o.run}});
   directory.commit();
-  print_summary(options.common,
+  print_summary(common,
                 {{"output", o.output},
                  {"to", o.to},
                  {"pings", images.size()},
@@ -152,6 +146,30 @@ void export_run(const ExportOptions& options) {
                  {"returns", returns.value_or(0)}},
                 fmt::format("{}: {} grids and {} images of {} pings{}; open fan.pvd in ParaView", o.output, fans.size(),
                             images.size(), images.size(), returns ? fmt::format(", {} returns", *returns) : ""));
+}
+
+/// Returns an export for each head of a survey, unless one is named or the format holds all of them.
+std::vector<ProductOptions> exports_of_heads(const ProductOptions& o) {
+  const std::vector<std::string> heads = o.head.empty() ? head_names(o.run) : std::vector<std::string>{};
+  if (heads.size() < 2 || o.to == "xtf") return {o};
+  std::vector<ProductOptions> each(heads.size(), o);
+  for (std::size_t h = 0; h < heads.size(); ++h)
+    each[h].head = heads[h], each[h].output = output_of_head(o.output, heads[h]);
+  return each;
+}
+
+void export_run(const ExportOptions& options) {
+  require_soundings(options.product);
+  if (const std::string& run = options.product.run; is_record(run))
+    fail(ErrorKind::content, run,
+         ": is a recording of a sonar, and export takes runs, surveys and cubes of insonify; "
+         "`insonify image` draws a recording (a side-scan with --view waterfall), `insonify view` shows it, `insonify "
+         "compare` compares it with a run");
+  const std::vector<ProductOptions> exports = exports_of_heads(options.product);
+  for (const ProductOptions& each : exports)
+    if (exports.size() > 1) require_free_file(each.output, each.force, {each.run});
+  for (const ProductOptions& each : exports)
+    each.to == "vtk" ? export_for_paraview(each, options.common) : export_product(each, options.common);
 }
 
 }  // namespace

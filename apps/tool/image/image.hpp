@@ -168,8 +168,4 @@ std::vector<double> altitudes_of(const ImageRun& run, const ImageOptions& option
 /// unless each altitude is below the range.
 PingHistory on_flat_bottom(const PingHistory& slant, const std::vector<double>& altitude);
 
-/// Port and starboard of one line as one history: ranges to port to the left, to starboard to the right, and silence
-/// between them where neither has samples. Throws Error(content) unless both have the same gate and number of pings.
-PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard);
-
 }  // namespace insonify::tool

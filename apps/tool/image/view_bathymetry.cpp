@@ -103,10 +103,7 @@ void draw_bathymetry(const ImageOptions& o) {
     fail(ErrorKind::content, o.run, ": has no sounding of the bottom that is not rejected; heads that look down give ",
          "them, with split = true in [ping]");
   DepthMap map = map_of(bed, cell_of_bed(o, bed));
-  if (!last.water.datum.empty() && last.water.datum != "UNKNOWN")
-    map.datum = "below " + last.water.datum;
-  else
-    map.datum = "below z = 0";
+  map.datum = depth_datum(last.water);
   if (!last.system.empty()) map.x_title = last.system + " east [m]", map.y_title = "north [m]";
   PictureOptions picture = o.picture;
   if (picture.colour_map == default_colour_map) picture.colour_map = "viridis";

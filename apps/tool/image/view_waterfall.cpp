@@ -7,18 +7,10 @@
 
 #include "core/error.hpp"
 #include "tool/image/image.hpp"
+#include "view/ping_record.hpp"
 
 namespace insonify::tool {
 namespace {
-
-PingHistory silent_history(const PingHistory& other, double min_range, double max_range) {
-  PingHistory history = other;
-  history.gate.min_range = min_range;
-  history.gate.max_range = max_range;
-  history.level_db.setConstant(other.level_db.rows(), static_cast<Eigen::Index>(history.gate.bins()),
-                               static_cast<float>(silence_db));
-  return history;
-}
 
 /// Throws Error(content) for a history of far too many cells if it shows all ranges from the head on.
 void require_room_from_head(const std::string& path, const PingHistory& history) {
@@ -99,22 +91,6 @@ PingHistory on_flat_bottom(const PingHistory& slant, const std::vector<double>& 
         ground.level_db(p, g) = slant.level_db(p, static_cast<Eigen::Index>(bin));
     }
   return ground;
-}
-
-PingHistory side_by_side(const PingHistory& port, const PingHistory& starboard) {
-  const RangeGate &a = port.gate, &b = starboard.gate;
-  if (a.min_range != b.min_range || a.bin_size != b.bin_size || port.level_db.rows() != starboard.level_db.rows() ||
-      port.level_db.cols() != starboard.level_db.cols())
-    fail(ErrorKind::content, "port has ", port.level_db.rows(), " pings of ", a.min_range, " to ", a.max_range,
-         " m, starboard ", starboard.level_db.rows(), " of ", b.min_range, " to ", b.max_range,
-         " m, must be the same, with bins of one size");
-  const Eigen::Index bins = port.level_db.cols();
-  const double end = a.min_range + static_cast<double>(bins) * a.bin_size;
-  PingHistory both = silent_history(port, -end, end);
-  both.level_db.leftCols(bins) = port.level_db.rowwise().reverse();
-  both.level_db.rightCols(bins) = starboard.level_db;
-  both.range_title = "Port          " + port.range_title + "          Starboard";
-  return both;
 }
 
 namespace {

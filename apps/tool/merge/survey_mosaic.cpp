@@ -94,7 +94,8 @@ void save_mosaic_raster(const std::string& path, const MosaicMap& map, const Ras
   const RasterFrame frame = raster_frame(map, plane);
   const auto centre = [&](Eigen::Index row, Eigen::Index column) {
     return plane.world_of(map.cell * Vector2d(static_cast<double>(frame.west + column) + 0.5,
-                                              static_cast<double>(frame.south + row) + 0.5));
+                                              static_cast<double>(frame.south + row) + 0.5),
+                          Vector2d(map.x, map.y));
   };
   GeoBand strength{"strength", "dB re 1 m^2 per m^2",
                    Grid<float>::Constant(frame.rows, frame.columns, std::numeric_limits<float>::quiet_NaN())};

@@ -169,6 +169,12 @@ std::vector<std::string> head_names(const std::string& run) {
   return names;
 }
 
+std::string output_of_head(const std::string& output, const std::string& head) {
+  fs::path path = output;
+  if (!path.has_filename()) path = path.parent_path();  // a folder with a slash at its end
+  return (path.parent_path() / (path.stem().string() + "-" + head + path.extension().string())).string();
+}
+
 namespace {
 
 /// Height of the water level as it is.

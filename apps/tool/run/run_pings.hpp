@@ -53,6 +53,23 @@ RunPings find_run_pings(const std::string& run, const std::string& head);
 /// Names of the heads of a survey; none of another run.
 std::vector<std::string> head_names(const std::string& run);
 
+/// Returns how depths are counted: "below MSL", or "below z = 0" if a mission names no datum.
+std::string depth_datum(const MissionWater& water);
+
+/// Returns the same of a run, or of a head of a survey; empty if it has neither a sea surface nor a water level.
+std::string depth_datum_of_run(const std::string& run);
+
+/// The heads of a survey that are the two sides of one side-scan.
+struct SideScanHeads {
+  std::string port, starboard;
+};
+
+/// Returns them if exactly one head looks to port, and one to starboard.
+std::optional<SideScanHeads> side_scan_heads(const std::string& run);
+
+/// Returns the name of what is written of one head of a survey: fan.png of head port is fan-port.png.
+std::string output_of_head(const std::string& output, const std::string& head);
+
 /// Calls `use` with each ping and the cube it is of, without pings: memory is that of one ping.
 void each_ping(const RunPings& run, const std::function<void(const Cube&, const Ping&)>& use);
 

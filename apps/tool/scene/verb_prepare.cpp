@@ -67,7 +67,9 @@ void prepare_as_tiles(const PrepareOptions& o) {
   progress.step("preparing " + o.output);
   PrepareTilesOptions options;
   options.load = load_options(o.scene, o.common.seed, o.common.threads);
-  options.progress = [&](double part) { progress.show(part, "preparing " + o.output); };
+  options.progress = [&](double part) {
+    progress.show(part, fmt::format("preparing {}: {:.1f} %", o.output, 100 * part));
+  };
   const PreparedTiles prepared = prepare_tiles(o.scene.path, o.output, options);
   auto notes = loading_notes(prepared.report);
   if (!prepared.report.other_columns.empty())
