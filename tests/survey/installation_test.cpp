@@ -159,7 +159,7 @@ TEST(Tide, is_the_water_level_of_every_ping) {
 // Pings share the tables of their head, and the head that is set to another sound speed, as far as their water is the
 // same. They have the bytes of a survey that makes nothing but this ping.
 TEST(Tide, pings_of_other_waters_have_the_bytes_of_a_survey_of_their_own) {
-  const SceneCloud bed = make_built_in_scene("plane", {.points = 20000, .size = {30, 30}});
+  const SceneCloud bed = make_built_in_scene("plane", {.points = 2000, .size = {30, 30}});
   for (const std::optional<double> assumed : {std::optional<double>(), std::optional(1480.0)})
     for (const bool layered : {false, true}) {
       Mission mission = turning_vehicle();
@@ -172,7 +172,7 @@ TEST(Tide, pings_of_other_waters_have_the_bytes_of_a_survey_of_their_own) {
       if (layered) sea.profile = SoundSpeedProfile{{0, 20}, {1450, 1550}};
       const SonarHead head = small_head({.beams = 7, .max_range = 12}, 1500);
       const Survey together(mission, {{head, sea}});
-      for (const std::size_t number : {1U, 4U, 1U, 6U}) {
+      for (const std::size_t number : {1U, 4U, 1U}) {
         const Survey alone(mission, {{head, sea}});
         const PingOutcome shared = together.simulate(together.pings().at(number), SceneInMemory(bed));
         const PingOutcome own = alone.simulate(alone.pings().at(number), SceneInMemory(bed));
