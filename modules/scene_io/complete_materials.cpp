@@ -51,7 +51,7 @@ std::vector<Material> materials_of(const RawCloud& raw, const LoadOptions& optio
     else
       missing.push_back(material.name);
   }
-  if (!known && !raw.material_names.empty()) {
+  if (!known && !raw.material_names.empty() && missing != std::vector<std::string>{Material{}.name}) {
     const std::string none = "the table of materials has none of the names in the file: " + shortened_list(missing);
     if (options.materials.size() < own.size())
       fail(ErrorKind::content, raw.path, ": ", none, "; give laws to these names, or one material for all");

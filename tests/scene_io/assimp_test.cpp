@@ -122,6 +122,15 @@ TEST_F(AssimpFile, materials_are_found_by_their_names) {
   EXPECT_EQ(scene.materials.at(scene.material[0]).lambert_mu, 0.2);
 }
 
+TEST_F(AssimpFile, without_names_gets_the_first_law_of_a_table) {
+  LoadOptions options;
+  options.materials = {{.name = "steel", .lambert_mu = 0.2}};
+  const LoadedScene loaded = load_scene(own_file("a.off", "OFF\n3 1 0\n2 0 0\n2 3 0\n2 0 4\n3 0 1 2\n"), options);
+  EXPECT_THAT(loaded.report.notes, testing::IsEmpty());
+  EXPECT_EQ(loaded.scene.materials.at(loaded.scene.material.at(0)), options.materials[0]);
+  EXPECT_EQ(load_scene(own_path("a.off")).scene.materials.at(0), Material{});
+}
+
 // Compares with a twin in OBJ, whose numbers are exact in float.
 TEST_F(AssimpFile, off_and_x3d_equal_their_twins_in_obj) {
   const auto obj = corners(mesh_in("twin.obj", "v 2 0 0\nv 2 3 0\nv 2 0 4\nf 1 2 3\n"));
