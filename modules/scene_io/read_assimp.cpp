@@ -81,7 +81,7 @@ std::string material_of(const aiScene& scene, const aiNode& node, const aiMesh& 
   aiString found;
   INSONIFY_ASSIMP_FUNCTION(aiGetMaterialString)(scene.mMaterials[mesh.mMaterialIndex], AI_MATKEY_NAME, &found);
   const std::string name = found.C_Str();
-  if (name == AI_DEFAULT_MATERIAL_NAME) return "default";
+  if (name == AI_DEFAULT_MATERIAL_NAME || extension == ".off") return "default";
   if (name.empty()) return "material " + std::to_string(mesh.mMaterialIndex);
   const std::size_t end = name.find_first_not_of("0123456789", 2);
   const bool numbered = extension == ".3mf" && name.starts_with("id") && end != name.npos && name[end] == '_';
