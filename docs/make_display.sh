@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Compares drawn display cells with means of samples on this machine, and writes the tables of docs/results/display.md. It
-# takes some fifteen minutes; times are only meaningful on an otherwise idle machine.
+# Compares drawn display cells with means of samples on this machine, and writes the tables of docs/results/display.md and
+# its picture, docs/images/display.png. It takes some forty minutes; times are only meaningful on an otherwise idle machine.
 #   docs/make_display.sh [build/release/bin]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -10,9 +10,12 @@ page=docs/results/display.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-for table in scenes cells motion paths; do
+for table in scenes motion paths; do
   { echo; "$programs/display_accuracy" "$table"; echo; } >"$work/$table"
 done
+{ echo; "$programs/display_accuracy" cells 12 "$work/display.png"; echo; } >"$work/cells"
+[[ $(stat -c %s "$work/display.png") -lt 150000 ]] || { echo "make_display.sh: the picture is larger than 150 kB" >&2; exit 1; }
+cp "$work/display.png" docs/images/display.png
 # Each table between its two marks of the page.
 awk -v work="$work" '
   /^<!-- end -->$/ { inside = 0 }
