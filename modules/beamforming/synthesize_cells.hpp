@@ -24,6 +24,9 @@ struct SurfaceEchoes {
   std::vector<double> power;      ///< mean power of all echoes of the surface [Pa^2]; 0: another echo has it
   std::vector<float> depth;       ///< half extent of the whole surface along the line of sight [m]
   std::vector<float> width;       ///< half extent of the whole surface in u
+  /// How u changes along a tilted surface with range [1/m], and its half extent in u at one range, of the first echoes
+  /// (E189); the others are as wide at each of their ranges.
+  std::vector<float> slope{}, across{};
 };
 
 /// Options of synthesize_cells.

@@ -17,7 +17,22 @@ namespace {
 
 constexpr std::size_t patches_at_once = 4096;
 constexpr double least_cosine = 1e-3;
+constexpr double least_tilt = 1e-6;  // square of the sine from which on a plane has ranges
 constexpr double no_noise_db = -std::numeric_limits<double>::infinity();
+
+/// How u changes along a plane with range, and how it changes at one range, both times the range (E189). The direction is
+/// that from the head, the normal is in its axes.
+struct TiltInU {
+  double slope = 0, across = 0;
+  TiltInU(const Direction& to, const Eigen::Vector3d& normal) {
+    const double level = std::cos(to.elevation), u = level * std::sin(to.azimuth);
+    const Eigen::Vector3d d(level * std::cos(to.azimuth), u, std::sin(to.elevation));
+    const double facing = normal.dot(d), aside = normal.y() - u * facing;
+    const double range_square = 1 - facing * facing, u_square = std::max(0.0, 1 - u * u - aside * aside);
+    if (range_square > least_tilt) slope = -facing * aside / range_square;
+    across = std::sqrt(std::max(0.0, u_square - slope * slope * std::max(0.0, range_square)));
+  }
+};
 
 /// The intensities of cells as a ping stores them.
 ComplexGridF stored_cells(const Grid<double>& cells) {
@@ -26,12 +41,15 @@ ComplexGridF stored_cells(const Grid<double>& cells) {
 
 }  // namespace
 
-void CellSum::add_direct(const Scatterers& patches, const Echoes& echoes) {
+void CellSum::add_direct(const SceneCloud& scene, const Scatterers& patches, const Echoes& echoes) {
   const std::size_t before = all_.id.size();
+  const Eigen::Matrix3d to_head = ping_.view.world_from_head.linear().transpose();
   append(all_.echoes, echoes);
   if (ping_.options.outputs.labels) surfel_ = patches.surfel;
   all_.id.insert(all_.id.end(), patches.id.begin(), patches.id.end());
   all_.power.resize(all_.id.size(), 0), all_.depth.resize(all_.id.size(), 0), all_.width.resize(all_.id.size(), 0);
+  all_.slope.resize(all_.id.size(), 0);
+  all_.across = all_.width;
   parallel_blocks(patches.size(), patches_at_once, ping_.options.threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       // The first patch of a surfel, which is its middle, has the energy of all.
@@ -45,6 +63,9 @@ void CellSum::add_direct(const Scatterers& patches, const Echoes& echoes) {
       all_.power[before + i] = power;
       all_.depth[before + i] = static_cast<float>(spread_of_disc * radius * sine);
       all_.width[before + i] = static_cast<float>(spread_of_disc * radius / patches.range[i]);
+      const TiltInU tilt({patches.azimuth[i], patches.elevation[i]}, to_head * scene.normal[surfel].cast<double>());
+      all_.slope[before + i] = static_cast<float>(tilt.slope / patches.range[i]);
+      all_.across[before + i] = static_cast<float>(spread_of_disc * radius / patches.range[i] * tilt.across);
     }
   });
   note("direct", before, 0);
@@ -112,8 +133,11 @@ ComplexGridF CellSum::drawn(const Span& layer) const {
                   part(all.v, first, end)};
   };
   const auto& [name, first, end, first_fixed, end_fixed] = layer;
+  const auto tilted = [&, first = first, end = end](const std::vector<float>& all) {
+    return part(all, std::min(first, all.size()), std::min(end, all.size()));
+  };
   return drawn({echoes(all_.echoes, first, end), part(all_.id, first, end), part(all_.power, first, end),
-                part(all_.depth, first, end), part(all_.width, first, end)},
+                part(all_.depth, first, end), part(all_.width, first, end), tilted(all_.slope), tilted(all_.across)},
                echoes(fixed_, first_fixed, end_fixed), no_noise_db);
 }
 

@@ -18,8 +18,8 @@ class CellSum {
   /// Keeps references to both arguments, which must outlive it.
   CellSum(const ResolvedPing& ping, SynthesizerTable& synthesizers) : ping_(ping), synthesizers_(synthesizers) {}
 
-  /// Adds direct echoes, of roots of mean power, with the patches that they are of.
-  void add_direct(const Scatterers& patches, const Echoes& echoes);
+  /// Adds direct echoes, of roots of mean power, with the patches of a scene that they are of.
+  void add_direct(const SceneCloud& scene, const Scatterers& patches, const Echoes& echoes);
   /// Adds echoes of reverberation, which are new in each ping: the `number`-th kind of them.
   void add_reverberation(const std::string& name, Echoes echoes, std::size_t number);
   /// Adds echoes of surfaces by way of others, and those of no random amplitude.

@@ -143,7 +143,7 @@ void add_paths(const ResolvedPing& ping, const PingParts& parts, LayerSum& layer
 void draw_cells(const SceneCloud& scene, const ResolvedPing& ping, const PingParts& parts,
                 SynthesizerTable& synthesizers, SimulatedPing& result) {
   CellSum cells(ping, synthesizers);
-  cells.add_direct(parts.sampling.scatterers, parts.direct);
+  cells.add_direct(scene, parts.sampling.scatterers, parts.direct);
   const EffectSettings& effects = ping.options.effects;
   const CellPaths paths(scene, ping);
   if (effects.multipath == Choice::always) cells.add("multipath", paths.of(parts.multipath, 1));

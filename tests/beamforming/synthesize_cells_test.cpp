@@ -124,6 +124,40 @@ TEST(DisplayCells, grating_lobes_are_those_of_the_band) {
   EXPECT_GT(exact.rightCols(3).bottomRows(8).maxCoeff(), 0.1 * peak) << "there is a lobe";
 }
 
+/// Returns how much of the energy of echoes in a cell far beside a beam the beam hears in the cells around, and in all;
+/// drawn: in display cells, else in means of samples, echo by echo.
+std::array<double, 6> heard_around(const SurfaceEchoes& s, SonarHead samples, bool drawn) {
+  const SonarHead head = cells_head(samples, 20);
+  Grid<double> cells = Grid<double>::Zero(1, 20);
+  if (drawn) cells = synthesize_cells(s, {}, head, lossless, {.speckle = false});
+  samples.gate.bin_size /= 4;
+  for (std::size_t i = 0; i < s.id.size() && !drawn; ++i) {
+    Echoes one;
+    one.delay = {s.echoes.delay[i]}, one.u = {s.echoes.u[i]}, one.amplitude = {s.echoes.amplitude[i]};
+    const ComplexGrid p = synthesize(one, samples, lossless, SynthesisMethod::element_exact);
+    cells += mean_over_cells(p.abs2(), samples.gate, head.gate);
+  }
+  return {cells(0, 8), cells(0, 9), cells(0, 10), cells(0, 11), cells(0, 12), cells.sum()};
+}
+
+TEST(DisplayCells, grating_lobes_stand_at_the_ranges_of_the_elements) {
+  // One beam at u = 0.68, on an array of 0.18 m whose elements are 0.7 wavelengths apart: it hears what is at u = -0.75
+  // up to 6 cm before and behind its range, in cells of 5 cm.
+  SonarHead samples = samples_head(1, 128);
+  samples.array.spacing = 0.7 * lossy.sound_speed / centre;
+  samples.fan.azimuth[0] = std::asin(0.68);
+  SurfaceEchoes s = even_ground(60);
+  for (std::size_t i = 0; i < s.id.size(); ++i) {
+    const auto at = random_uniform(9, RandomStage::scene_points, {i, 0, 0});
+    s.echoes.delay[i] = 2 * (2.5 + 0.05 * (static_cast<double>(i) + at[0]) / 60) / lossy.sound_speed;
+    s.echoes.u[i] = -0.75 + 0.02 * at[1];
+  }
+  const std::array<double, 6> cells = heard_around(s, samples, true), exact = heard_around(s, samples, false);
+  EXPECT_NEAR(db_from_power(cells[5] / exact[5]), 0, 0.15);
+  EXPECT_LT(exact[2], 0.7 * exact[5]) << "energy stands in other cells";
+  for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(cells[k] / cells[5], exact[k] / exact[5], 0.05) << k;
+}
+
 TEST(DisplayCells, surfaces_are_spread_over_their_extent) {
   const SonarHead head = cells_head(samples_head(), 20);
   SurfaceEchoes one = even_ground(1), many = even_ground(40000);
@@ -139,6 +173,31 @@ TEST(DisplayCells, surfaces_are_spread_over_their_extent) {
   const Grid<double> b = synthesize_cells(many, {}, head, lossy, {.speckle = false});
   EXPECT_NEAR(db_from_power(a.sum() / b.sum()), 0, 0.1);
   EXPECT_LT(worst_db(a.block(4, 8, 2, 5), b.block(4, 8, 2, 5)), 0.5);
+}
+
+TEST(DisplayCells, of_a_tilted_surface_each_range_has_its_own_directions) {
+  const SonarHead head = cells_head(samples_head(), 20);
+  SurfaceEchoes one = even_ground(1), many = even_ground(40000);
+  one.echoes.u[0] = 0.1, one.echoes.delay[0] = 2 * 2.512 / lossy.sound_speed;
+  one.depth[0] = 0.2f, one.width[0] = 0.305f, one.slope = {1.5f}, one.across = {0.05f};
+  for (std::size_t i = 0; i < many.id.size(); ++i) {
+    const auto at = random_uniform(3, RandomStage::scene_points, {i, 0, 0});
+    const double away = 0.2 * (2 * at[0] - 1);
+    many.echoes.delay[i] = 2 * (2.512 + away) / lossy.sound_speed;
+    many.echoes.u[i] = 0.1 + 1.5 * away + 0.05 * (2 * at[1] - 1);
+    many.power[i] = 1 / 40000.0;
+  }
+  const Grid<double> a = synthesize_cells(one, {}, head, lossy, {.speckle = false});
+  const Grid<double> b = synthesize_cells(many, {}, head, lossy, {.speckle = false});
+  EXPECT_NEAR(db_from_power(a.sum() / b.sum()), 0, 0.1);
+  // Cells with a tenth of the strongest or more.
+  for (Eigen::Index i = 0; i < b.size(); ++i)
+    if (b.data()[i] > 0.1 * b.maxCoeff()) {
+      EXPECT_NEAR(db_from_power(a.data()[i] / b.data()[i]), 0, 0.5) << i;
+    }
+  one.slope.clear(), one.across.clear();
+  const Grid<double> box = synthesize_cells(one, {}, head, lossy, {.speckle = false});
+  EXPECT_GT(worst_db(box.block(4, 8, 2, 5), b.block(4, 8, 2, 5)), 3) << "directions matter";
 }
 
 /// Compares cells of even ground with means of samples, over many draws; within_db: of the total.

@@ -106,7 +106,8 @@ class EchoMaker {
     echo.energy = static_cast<float>(in_cell * surface_.power[i]);
     if (echo.energy > 0) {
       echo.half_depth = surface_.depth[i];
-      echo.half_width = surface_.width[i];
+      echo.half_width = echo.across = surface_.width[i];
+      if (i < surface_.slope.size()) echo.slope = surface_.slope[i], echo.across = surface_.across[i];
       echo.together = together(i);
     }
     set_extent(surface_.echoes.u[i], echo);
@@ -138,9 +139,7 @@ class EchoMaker {
     }
   }
   void set_extent(double u, CellEcho& echo) const {
-    const auto depth = static_cast<double>(echo.half_depth), width = static_cast<double>(echo.half_width);
-    const double pulse = plan_.pulse.half_length();
-    echo.reach = static_cast<float>(depth > 0 ? std::sqrt(depth * depth + pulse * pulse) : pulse);
+    const auto width = static_cast<double>(echo.half_width);
     echo.node = node_of(u);
     echo.port = width > 0 ? node_of(u + width) / 2 : echo.node / 2;
     echo.starboard = width > 0 ? node_of(u - width) / 2 : echo.node / 2;

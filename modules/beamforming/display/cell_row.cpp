@@ -32,6 +32,7 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       options_(options),
       all_(plan.all_length),
       spectrum_(plan.all_length),
+      beside_(plan.all_length),
       all_samples_(plan.all_length + guards_before + guards_behind),
       power_at_(plan.period),
       lags_(plan.period),
@@ -106,13 +107,13 @@ void CellRow::list_pieces(std::size_t cell, Side& side) {
 }
 
 void CellRow::form_means(std::size_t cell, std::size_t sides) {
-  if (!labels_) return sum_means(cell, sides);
+  if (!labels_) return sum_means(cell);
   // Shares are of the echoes of surfaces alone.
   const EchoLabels& echoes = row_.labelled->echoes;
   const bool has_water = echoes.water_begin < echoes.water_end;
-  sum_means(cell, sides, false);
+  sum_means(cell, false);
   for (std::size_t s = 0; s < sides; ++s) label(cell + s, side_[s]);
-  if (has_water) sum_means(cell, sides);
+  if (has_water) sum_means(cell);
 }
 
 void CellRow::label(std::size_t cell, Side& side) {
@@ -121,32 +122,71 @@ void CellRow::label(std::size_t cell, Side& side) {
   labels_->finish(side.mean, row_.element_noise * plan_.lag[0]);
 }
 
-void CellRow::sum_means(std::size_t cell, std::size_t sides, bool with_water) {
-  // Energies of both cells over u, as real and imaginary parts. Nodes are counted from 1.
-  std::fill(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(plan_.nodes + 3), Complex(0));
-  const double per_node = 1 / plan_.node_width;
-  for (std::size_t s = 0; s < sides; ++s)
-    for (const Piece& piece : side_[s].even) {
-      const CellEcho& echo = *piece.echo;
-      if (piece.energy == 0 || (!with_water && labels_->of_water(echo))) continue;
-      const double half = std::max(echo.half_width * per_node, 0.5);
-      const double position = std::clamp((echo.u + 1) * per_node, 0.0, static_cast<double>(plan_.nodes));
-      const double low = std::max(position - half, -0.5) + 1,
-                   high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
-      const double density = piece.energy / (high - low);
-      // Each node gets how much more it has than the one before; the first and the last node are met in part.
-      const auto first = static_cast<std::size_t>(low), last = static_cast<std::size_t>(high);
-      const double before = density * (low - static_cast<double>(first)),
-                   within = density * (high - static_cast<double>(last));
-      double* const at = reinterpret_cast<double*>(all_.data()) + s;
-      at[2 * first] += density - before, at[2 * first + 2] += before;
-      at[2 * last] -= density - within, at[2 * last + 2] -= within;
+void CellRow::add_density(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const {
+  double u = echo.u, width = echo.half_width;
+  if (echo.slope != 0) {
+    // The part of the surface in the cell, or what is nearest to it (E189).
+    const double begin = plan_.first_range + static_cast<double>(cell) * plan_.cell_length - echo.range;
+    const double depth = echo.half_depth, near = std::clamp(begin, -depth, depth),
+                 far = std::clamp(begin + plan_.cell_length, -depth, depth);
+    u += echo.slope * 0.5 * (near + far);
+    const double along = echo.slope * 0.5 * (far - near);
+    width = std::sqrt(echo.across * echo.across + along * along);
+  }
+  const double per_node = 1 / plan_.node_width, half = std::max(width * per_node, 0.5);
+  const double position = std::clamp((u + 1) * per_node, 0.0, static_cast<double>(plan_.nodes));
+  const double low = std::max(position - half, -0.5) + 1,
+               high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
+  const double density = energy / (high - low);
+  // Each node gets how much more it has than the one before; the first and the last node are met in part.
+  const auto first = static_cast<std::size_t>(low), last = static_cast<std::size_t>(high);
+  const double before = density * (low - static_cast<double>(first)),
+               within = density * (high - static_cast<double>(last));
+  double* const at = reinterpret_cast<double*>(to.data()) + cell % 2;
+  at[2 * first] += density - before, at[2 * first + 2] += before;
+  at[2 * last] -= density - within, at[2 * last + 2] -= within;
+}
+
+std::vector<CellRow::Complex>& CellRow::densities(std::size_t cell, bool with_water) {
+  Densities& kept = densities_[cell / 2 % densities_.size()];
+  if (kept.cell == cell && kept.with_water == with_water) return kept.at;
+  kept.cell = cell, kept.with_water = with_water;
+  kept.at.assign(plan_.all_length, Complex(0));
+  for (std::size_t part = 0; part < 2 && cell + part < plan_.cells; ++part)
+    for (std::size_t k = lists_.first[cell + part]; k < lists_.first[cell + part + 1]; ++k) {
+      const EchoInCell& in = lists_.piece[k];
+      const CellEcho& echo = lists_.echoes[in.echo];
+      const double response = row_.response.empty() ? 1 : row_.response[in.echo];
+      const float energy = static_cast<float>(response * response) * in.energy;
+      if (energy > 0 && (with_water || !labels_->of_water(echo))) add_density(echo, energy, cell + part, kept.at);
     }
-  for (std::size_t i = 1; i < plan_.nodes + 3; ++i) all_[i] += all_[i - 1];
-  // Times the pattern.
-  plan_.to_all.run(all_.data(), spectrum_.data());
+  for (std::size_t i = 1; i < plan_.nodes + 3; ++i) kept.at[i] += kept.at[i - 1];
+  return kept.at;
+}
+
+void CellRow::add_cells_beside(std::size_t cell, bool with_water) {
+  static const std::vector<Complex> nothing;
+  const bool is_first = cell == 0, is_last = cell + 2 >= plan_.cells;
+  const std::vector<Complex>& own = densities(cell, with_water);
+  const std::vector<Complex>& before = is_first ? nothing : densities(cell - 2, with_water);
+  const std::vector<Complex>& behind = is_last ? nothing : densities(cell + 2, with_water);
+  for (const std::size_t away : {1, 2}) {
+    for (std::size_t i = 0; i < plan_.nodes + 3; ++i) {
+      const Complex b = is_first ? 0 : before[i], a = is_last ? 0 : behind[i];
+      all_[i] = away == 1 ? Complex(b.imag() + own[i].imag(), own[i].real() + a.real()) : b + a;
+    }
+    plan_.to_all.run(all_.data(), beside_.data());
+    const std::vector<double>& kernel = plan_.kernel_beside[away - 1][plan_.kernel_of(cell)];
+    for (std::size_t q = 0; q < kernel.size(); ++q) spectrum_[q] += beside_[q] * kernel[q];  // (E188)
+  }
+}
+
+void CellRow::sum_means(std::size_t cell, bool with_water) {
+  // The energies times the pattern.
+  plan_.to_all.run(densities(cell, with_water).data(), spectrum_.data());
   const std::vector<double>& kernel = plan_.kernel[plan_.kernel_of(cell)];
   for (std::size_t q = 0; q < kernel.size(); ++q) spectrum_[q] *= kernel[q];
+  if (!plan_.kernel_beside[0].empty()) add_cells_beside(cell, with_water);
   plan_.from_all.run(spectrum_.data(), all_samples_.data() + guards_before);
   repeat_ends(all_samples_);
   const double noise = row_.element_noise * plan_.lag[0];
@@ -165,12 +205,13 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
   ranged_.clear();
   const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
   const double per_length = static_cast<double>(subranges) / plan_.cell_length, unit = side.energy + side.noise;
+  const double pulse = plan_.pulse.half_length();
   const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(subranges);
   for (const Piece& piece : side.even) {
     const CellEcho& echo = *piece.echo;
     if (piece.energy == 0) continue;
     const auto position = static_cast<float>((echo.range - first) * per_length),
-               reach = static_cast<float>(echo.reach * per_length);
+               reach = static_cast<float>(echo.reach(pulse) * per_length);
     const float low = std::max(0.f, position - reach), high = std::min(length, position + reach);
     if (!(high > low)) continue;
     const std::uint32_t port = echo.port, starboard = echo.starboard;

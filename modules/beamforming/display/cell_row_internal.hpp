@@ -2,8 +2,10 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <complex>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -18,9 +20,9 @@ namespace insonify {
 /// is one line of the cache.
 struct CellEcho {
   float range = 0, half_depth = 0;                ///< [m]
-  float reach = 0;                                ///< half length of surface and pulse together [m]
   float u = 0;                                    ///< direction cosine of its middle
   float half_width = 0;                           ///< in u
+  float slope = 0, across = 0;                    ///< change of u with range [1/m], half width at one range (E189)
   float energy = 0;                               ///< energy of its surface in a cell that holds all of it [Pa^2]
   float strength = 0;                             ///< its own energy in such a cell [Pa^2]
   float together = 1;                             ///< energy of all echoes of its amplitude, which add as pressures,
@@ -29,7 +31,12 @@ struct CellEcho {
                                                   ///< whose amplitude is not random the second is 0
   std::uint32_t node = 0;                         ///< node of its middle
   std::uint32_t port = 0, starboard = 0;          ///< broad nodes of its ends
-  std::uint32_t unused = 0;
+
+  /// Returns the half length [m] of surface and pulse together, for a pulse of this half length.
+  float reach(double pulse) const {
+    const auto depth = static_cast<double>(half_depth);
+    return static_cast<float>(std::sqrt(depth * depth + pulse * pulse));
+  }
 };
 static_assert(sizeof(CellEcho) == 64);
 
@@ -103,8 +110,21 @@ class CellRow {
     std::size_t groups = 0;
   };
 
+  /// Energies of two cells by nodes of u, as real and imaginary parts. Nodes are counted from 1.
+  struct Densities {
+    std::size_t cell = std::numeric_limits<std::size_t>::max();  ///< the first
+    bool with_water = false;
+    std::vector<Complex> at;
+  };
+
   void list_pieces(std::size_t cell, Side& side);
-  void sum_means(std::size_t cell, std::size_t sides, bool with_water = true);
+  /// Returns the energies of cells `cell`, which is even, and `cell` + 1. Those of three neighbouring pairs are kept.
+  std::vector<Complex>& densities(std::size_t cell, bool with_water);
+  /// Adds the energy of an echo in a cell.
+  void add_density(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const;
+  /// Adds what beams hear of the cells before and behind to spectrum_ (E188).
+  void add_cells_beside(std::size_t cell, bool with_water);
+  void sum_means(std::size_t cell, bool with_water = true);
   void form_means(std::size_t cell, std::size_t sides);
   void label(std::size_t cell, Side& side);
   void partition_strong(Side& side);
@@ -126,9 +146,11 @@ class CellRow {
   const BeamPositions& beams_;
   const CellOptions& options_;
   std::array<Side, 2> side_;
-  std::vector<Complex> all_, spectrum_, all_samples_;  ///< energies of both cells over u, and those that beams receive
-  std::vector<Complex> power_at_, lags_, power_;       ///< powers of both fields over a period of u, likewise
-  std::vector<Complex> elements_, weighted_;           ///< pressures at elements; the same weighted, 0 elsewhere
+  std::array<Densities, 3> densities_;
+  std::vector<Complex> all_, spectrum_, beside_,
+      all_samples_;                               ///< energies of cells over u, and those that beams receive
+  std::vector<Complex> power_at_, lags_, power_;  ///< powers of both fields over a period of u, likewise
+  std::vector<Complex> elements_, weighted_;      ///< pressures at elements; the same weighted, 0 elsewhere
   std::array<std::vector<Complex>, 2> nodes_;
   std::vector<float> energy_, alike_;
   std::vector<kernels::RangedEnergy> ranged_;

@@ -15,6 +15,8 @@ constexpr std::size_t nodes_per_element = 4;
 constexpr std::size_t least_parts_of_a_cell = 4;
 constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
 constexpr double least_beside = 1e-12;
+constexpr double least_spread =
+    1e-3;  // of an echo in a main lobe: what is heard in other cells from which on it counts
 
 /// A period of fields has four samples per element, one of powers two for each lag, to either side.
 const SampleKernel<4>& of_fields() {
@@ -37,6 +39,34 @@ std::size_t period_of(const SonarHead& head) { return fft_length(nodes_per_eleme
 
 double node_width_of(const SonarHead& head, double wavelength) {
   return wavelength / (head.array.spacing * static_cast<double>(period_of(head)));
+}
+
+/// Parts of an echo's energy that a beam hears in the cell of the echo, in the next and beyond it, on each side, by nodes
+/// apart (E188): each element hears it at its own range. Shorter ways than the pulse is long are part of the pulse.
+using RangeSpread = std::array<std::vector<double>, 3>;
+RangeSpread spread_of(const LineArray& array, const DisplayPlan& plan) {
+  RangeSpread spread;
+  for (auto& part : spread) part.assign(plan.nodes, 0);
+  const std::size_t count = array.elements();
+  const double squares = std::inner_product(array.shading.begin(), array.shading.end(), array.shading.begin(), 0.0);
+  for (std::size_t k = 0; k < plan.nodes; ++k)
+    for (std::size_t m = 0; m < count; ++m) {
+      const double part = array.shading[m] * array.shading[m] / squares;
+      const double way = 0.5 * array.spacing * element_position(m, count) * static_cast<double>(k) * plan.node_width;
+      const double cells = (std::hypot(way, plan.pulse.deviation()) - plan.pulse.deviation()) / plan.cell_length;
+      const double beyond = std::min(std::max(0.0, cells - 1), 1.0);
+      spread[0][k] += part * std::max(0.0, 1 - cells);
+      spread[1][k] += part * 0.5 * (std::min(cells, 1.0) - beyond);
+      spread[2][k] += part * 0.5 * beyond;
+    }
+  return spread;
+}
+
+/// Returns how far in u an echo may be from a beam.
+double farthest_of(const BeamFan& fan) {
+  double most = 0;
+  for (const double u : beam_cosines(fan)) most = std::max(most, std::abs(u));
+  return 1 + most;
 }
 
 double wavelength_of(const SonarHead& head, const Medium& medium) {
@@ -126,30 +156,45 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
   const std::size_t count = std::clamp<std::size_t>(steps, 9, 401);
   const Absorption& a = medium.absorption;
   const std::size_t blocks = a.a1 != 0 || a.a2 != 0 ? std::min(blocks_of_range, cells) : 1;
+  const RangeSpread spread = spread_of(head.array, *this);
+  const std::size_t farthest = std::min(nodes - 1, static_cast<std::size_t>(farthest_of(head.fan) / node_width));
+  bool spreads = false;
   double outside = 0, positions = 0;
   for (std::size_t block = 0; block < blocks; ++block) {
     const double middle = (static_cast<double>(block) + 0.5) * static_cast<double>(cells) / static_cast<double>(blocks);
     const auto spectrum = pulse.spectrum(first_range + middle * cell_length, count);
-    std::vector<std::complex<double>> of_band(all_length, 0), transformed(all_length);
+    std::vector<double> of_band(nodes, 0);
     for (std::size_t k = 0; k < nodes; ++k) {
-      double mean = 0;
       for (const SpectrumNode& node : spectrum)
-        mean += node.weight * response_at(static_cast<double>(k) * node_width * (1 + node.frequency / fc));
-      of_band[k] = mean;  // (E181)
-      if (k > 0) of_band[all_length - k] = mean;
+        of_band[k] += node.weight * response_at(static_cast<double>(k) * node_width * (1 + node.frequency / fc));
       if (block == 0 && static_cast<double>(k) * node_width > main_lobe_reach * head.fan.beam_width)
-        outside += mean, positions += 1;
+        outside += of_band[k], positions += 1;
     }
-    to_all.run(of_band.data(), transformed.data());
-    std::vector<double>& filled = kernel.emplace_back(all_length);
-    for (std::size_t q = 0; q < all_length; ++q) {
-      const double cycles = static_cast<double>(std::min(q, all_length - q)) / static_cast<double>(all_length);
-      if (cycles > of_means().highest()) continue;  // no lag of the array is so long
-      filled[q] = transformed[q].real() / static_cast<double>(all_length) / std::pow(sinc(cycles), 2) /
-                  of_means().transform(cycles);
-    }
+    for (std::size_t k = 0; block == 0 && k <= farthest; ++k)
+      spreads = spreads || of_band[k] * (1 - spread[0][k]) > least_spread;
+    kernel.push_back(kernel_from(of_band, spreads ? spread[0] : std::vector<double>(nodes, 1)));  // (E181)
+    if (!spreads) continue;
+    for (std::size_t k = 0; k < 2; ++k) kernel_beside[k].push_back(kernel_from(of_band, spread[k + 1]));  // (E188)
   }
   beside_lobe = positions > 0 ? std::max(outside / positions, least_beside) : least_beside;
+}
+
+std::vector<double> DisplayPlan::kernel_from(const std::vector<double>& pattern,
+                                             const std::vector<double>& share) const {
+  std::vector<std::complex<double>> of_band(all_length, 0), transformed(all_length);
+  for (std::size_t k = 0; k < nodes; ++k) {
+    of_band[k] = pattern[k] * share[k];
+    if (k > 0) of_band[all_length - k] = of_band[k];
+  }
+  to_all.run(of_band.data(), transformed.data());
+  std::vector<double> made(all_length);
+  for (std::size_t q = 0; q < all_length; ++q) {
+    const double cycles = static_cast<double>(std::min(q, all_length - q)) / static_cast<double>(all_length);
+    if (cycles > of_means().highest()) continue;  // no lag of the array is so long
+    made[q] = transformed[q].real() / static_cast<double>(all_length) / std::pow(sinc(cycles), 2) /
+              of_means().transform(cycles);
+  }
+  return made;
 }
 
 void DisplayPlan::fill_looks(const SonarHead& head) {

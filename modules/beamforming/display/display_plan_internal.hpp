@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
@@ -54,6 +55,9 @@ struct DisplayPlan {
   std::vector<std::complex<double>> turn;  ///< factor of the pressure of an echo at each node, if half_positions
 
   std::vector<std::vector<double>> kernel;  ///< spectra of the band's mean pattern, by blocks of range
+  /// Spectra of what of these patterns is heard one cell and two cells before an echo, and behind it (E188); empty if
+  /// the array is short beside a cell.
+  std::array<std::vector<std::vector<double>>, 2> kernel_beside;
   std::size_t kernel_of(std::size_t cell) const { return cell * kernel.size() / cells; }
 
   std::vector<float> lobe;   ///< weights of broad nodes at distances 0, 1, .. within the main lobe
@@ -75,6 +79,8 @@ struct DisplayPlan {
   double response_at(double offset) const;  // of any size
   void fill_elements(const SonarHead& head);
   void fill_kernels(const SonarHead& head, const Medium& medium);
+  /// Returns the spectrum of a pattern (by nodes apart) times `share` of it, as samples that are interpolated.
+  std::vector<double> kernel_from(const std::vector<double>& pattern, const std::vector<double>& share) const;
   void fill_looks(const SonarHead& head);
 };
 
