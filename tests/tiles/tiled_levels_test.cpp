@@ -97,6 +97,8 @@ TEST(TiledLevels, give_the_cut_of_the_whole_scene_and_read_what_it_needs) {
   FanReach one_spacing;
   one_spacing.options = {0, 0.6, 0.1};
   expect_same_cut(scene, one_spacing);
+  small.tile_surfels = 20;  // nodes are of several tiles
+  expect_same_cut(harbour(50000), one_spacing, small);
 }
 
 TEST(TiledLevels, of_a_noisy_scan_keep_the_noise_of_nodes_and_surfels) {
