@@ -56,7 +56,7 @@ class SonarImages:
         corners = view.boxes.copy()
         corners[:, 2:] += corners[:, :2]
         labels = np.array([view.class_names.index(seen["class"]) for seen in boxed], np.int64)
-        return view.image.astype(np.float32) / 255, {"masks": view.mask, "boxes": corners, "labels": labels}
+        return view.image.astype(np.float32) / np.float32(255), {"masks": view.mask, "boxes": corners, "labels": labels}
 
 
 def main(sheet: str | None) -> None:

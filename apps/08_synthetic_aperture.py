@@ -64,7 +64,8 @@ def focused(line: Line, pressure: Pressures, along: Numbers, ranges: Numbers) ->
     # A ping counts where its beam looks: elsewhere pings this far apart hear ghosts, of what they do hear, in phase.
     first_null = 2 * line.sound_speed / FREQUENCY / line.length
     image = np.zeros((len(along), len(ranges)), complex)
-    for y, heard in zip(line.y, fine):
+    for k, y in enumerate(line.y):
+        heard: Pressures = fine[k]
         away = np.hypot(ranges, (along - y)[:, None])
         place = (away - line.range[0]) / step
         below = np.clip(place.astype(int), 0, len(heard) - 2)
@@ -106,7 +107,7 @@ def main(picture: str | None) -> None:
               f"{1000 * width(beyond, across):.1f} mm across; real beam {1000 * away * np.radians(BEAM_DEG):.0f} mm")
     if picture is None:
         return
-    ranges, along_line = np.arange(2.5, 7.5, 0.01), np.arange(-1.2, 1.2, 0.01)
+    ranges, along_line = np.arange(2.5, 7.5, 0.01, dtype=np.float64), np.arange(-1.2, 1.2, 0.01, dtype=np.float64)
     nearest = np.abs(along_line[:, None] - line.y).argmin(1)
     bins = np.abs(ranges[:, None] - line.range).argmin(1)
     shown = []
