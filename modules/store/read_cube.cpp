@@ -155,7 +155,7 @@ void send_some_pings(const FileContext& context, hid_t file, ArraySender& to, Ex
     to(table);
     extent = table.extent;
   }
-  constexpr std::size_t bytes_at_once = 16 << 20;
+  constexpr std::size_t bytes_at_once = 4 << 20;
   std::size_t p = first;
   const auto sends_more = [&] { return p < extent[0] && (p == first || (!one && to.used() < bytes_at_once)); };
   for (; sends_more(); ++p) {

@@ -192,16 +192,17 @@ TEST_F(UncertainRun, gsf_and_csv_state_the_same_and_info_the_order) {
   std::string line;
   std::getline(csv, line);
   EXPECT_THAT(line,
-              HasSubstr(",longitude_deg,tvu_m,thu_m,detection_vertical_m,detection_horizontal_m,attitude_vertical_m"));
+              HasSubstr(",northing_m,tvu_m,thu_m,detection_vertical_m,detection_horizontal_m,attitude_vertical_m"));
+  const auto tvu_column = static_cast<std::size_t>(std::count(line.begin(), line.begin() + line.find(",tvu_m"), ',')) + 1;
   std::vector<double> tvu_of_csv, tvu_of_gsf;
   while (std::getline(csv, line)) {
     std::istringstream words(line);
     std::vector<std::string> cells;
     for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
-    ASSERT_EQ(cells.size(), 14U + 2 + 16);
-    tvu_of_csv.push_back(std::stod(cells[14]));
+    ASSERT_EQ(cells.size(), tvu_column + 2 + 16);
+    tvu_of_csv.push_back(std::stod(cells[tvu_column]));
     EXPECT_GT(tvu_of_csv.back(), 1.96 * 0.05 - 1e-4);
-    EXPECT_EQ(cells[14 + 2 + 2 * 4], "0.05000");  // of the height
+    EXPECT_EQ(cells[tvu_column + 2 + 2 * 4], "0.05000");  // of the height
   }
   for (const GsfRecordedPing& ping : read_gsf(path("run.gsf")).pings)
     for (const double tvu : *ping.array(GsfArrayId::vertical_error))
