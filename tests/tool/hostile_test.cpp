@@ -215,9 +215,12 @@ TEST_F(Hostile, messages_list_ten_of_5000_names) {
     text += "[[head]]\nname = \"h" + std::to_string(i) + "\"\npings = 1\npings_per_block = 1\n";
   fs::create_directory(path("many"));
   write("many/survey.toml", text);
-  const ToolResult exported = run("export many --to csv -o a.csv"), merged = run("merge many");
-  EXPECT_EQ(exported.exit_code, 2);
-  EXPECT_THAT(exported.err, HasSubstr("h1, h2, h3, h4, h5, h6, h7, h8, h9, h10 and 4990 more\n"));
+  for (const char* command : {"export many --head none --to csv -o a.csv", "image many --head none -o a.png"}) {
+    const ToolResult refused = run(command);
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    EXPECT_THAT(refused.err, HasSubstr("h1, h2, h3, h4, h5, h6, h7, h8, h9, h10 and 4990 more\n")) << command;
+  }
+  const ToolResult merged = run("merge many");
   EXPECT_EQ(merged.exit_code, 3);
   EXPECT_THAT(merged.err, HasSubstr("h10/blocks/000000 (pings 0 to 0) and 4990 more; run the survey"));
 }

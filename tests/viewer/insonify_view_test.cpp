@@ -21,7 +21,7 @@ class InsonifyView : public ToolTest {
     write_cube(path("out/cube.h5"), cube());
     write("out/manifest.json", "{}\n");
     save_scene(path("targets.ply"), made_.data.scene);
-    write("out/run.toml", "schema = 1\n[scene]\npath = \"targets.ply\"\nunit = \"m\"\n");
+    write("out/run.toml", "schema = 1\ninsonify_version = \"0\"\n[scene]\npath = \"targets.ply\"\nunit = \"m\"\n");
   }
   Cube cube() const {
     Cube cube;

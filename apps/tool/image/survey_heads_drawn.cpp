@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "core/message.hpp"
 #include "core/text.hpp"
 #include "tool/run/run_pings.hpp"
 
@@ -36,7 +37,7 @@ std::vector<ImageOptions> drawn_heads(const ImageOptions& o) {
     std::erase_if(heads, [&](const std::string& head) { return head != o.head; });
     if (heads.empty())
       fail(ErrorKind::argument, "--head = '", o.head, "' must name a head of ", o.run, ", ",
-           all.empty() ? "which is no survey of heads" : "one of " + joined(all));
+           all.empty() ? "which is no survey of heads" : "one of " + shortened_list(all));
   }
   if (heads.empty() || view_of(o).of_survey) return {o};
   const std::size_t all_heads = heads.size();
