@@ -193,7 +193,8 @@ TEST_F(UncertainRun, gsf_and_csv_state_the_same_and_info_the_order) {
   std::getline(csv, line);
   EXPECT_THAT(line,
               HasSubstr(",northing_m,tvu_m,thu_m,detection_vertical_m,detection_horizontal_m,attitude_vertical_m"));
-  const auto tvu_column = static_cast<std::size_t>(std::count(line.begin(), line.begin() + line.find(",tvu_m"), ',')) + 1;
+  const auto tvu_column =
+      static_cast<std::size_t>(std::count(line.begin(), line.begin() + line.find(",tvu_m"), ',')) + 1;
   std::vector<double> tvu_of_csv, tvu_of_gsf;
   while (std::getline(csv, line)) {
     std::istringstream words(line);

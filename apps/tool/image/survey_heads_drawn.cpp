@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "core/message.hpp"
-#include "core/text.hpp"
 #include "tool/run/run_pings.hpp"
 
 namespace insonify::tool {
