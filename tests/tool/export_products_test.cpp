@@ -100,8 +100,8 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
   std::string line;
   std::getline(lines, line);
   EXPECT_EQ(line,
-            "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,reject,latitude_deg,"
-            "longitude_deg");
+            "ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,method,reject,gsf_beam,"
+            "latitude_deg,longitude_deg,easting_m,northing_m");
   // The page has a row for each extra column of LAS.
   const std::string page = file_bytes(INSONIFY_EXPORTS_PAGE);
   const auto expect_in_table = [&](const char* table, const std::string& column) {
@@ -118,7 +118,7 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
   ASSERT_EQ(table.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto number = [&](const char* name) { return std::stod(table[i].at(name)); };
-    ASSERT_EQ(table[i].size(), 14U);
+    ASSERT_EQ(table[i].size(), 17U);
     const Eigen::Vector3d at(number("x_m"), number("y_m"), number("z_m"));
     const decode::LasRow& las = rows[i];
     EXPECT_LT((at - in_world({las.position[0], las.position[1], las.position[2]})).norm(), 1e-3);
@@ -132,6 +132,8 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
     EXPECT_EQ(table[i].at("reject"), "0");
     EXPECT_NEAR(number("latitude_deg"), degrees(position.latitude), 2e-9);
     EXPECT_NEAR(number("longitude_deg"), degrees(position.longitude), 2e-9);
+    EXPECT_NEAR(number("easting_m"), las.position[0], 2e-4);
+    EXPECT_NEAR(number("northing_m"), las.position[1], 2e-4);
   }
   // Without a position on the globe the columns of the world remain.
   succeed("export out --to csv -o world.csv -q");
