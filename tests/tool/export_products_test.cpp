@@ -139,7 +139,7 @@ TEST_F(ExportProducts, csv_has_a_row_for_each_sounding) {
   succeed("export out --to csv -o world.csv -q");
   EXPECT_THAT(read("world.csv"),
               testing::StartsWith("ping,time_s,beam,x_m,y_m,z_m,range_m,deviation_m,level_db,quality,"
-                                  "method,reject\n"));
+                                  "method,reject,gsf_beam\n"));
 }
 
 // The head stands below the middle of the last row, port on the left.
