@@ -87,7 +87,7 @@ LazyPings lazy_pings_of(const std::vector<CubeOfPings>& cubes) {
 }
 
 std::optional<LazyPings> lazy_pings_of_sides(const LazyPings& port, const LazyPings& starboard) {
-  constexpr double most_growth = 16;  // of the cells of a waterfall that begins at the head
+  constexpr double most_growth = 16;  // ratio of cells of a waterfall that begins at the head to cells of one side
   const RangeGate& gate = port.gate();
   if (port.fan().beams() != 1 || starboard.fan().beams() != 1 || !(gate == starboard.gate())) return {};
   if (gate.max_range > most_growth * (gate.max_range - gate.min_range)) return {};

@@ -67,8 +67,8 @@ nlohmann::ordered_json numbers_json(const Eigen::Vector3d& v);
 nlohmann::ordered_json pose_json(const Pose& pose);
 
 /// The box about all that the head would see of a part alone: in a polar picture by its ranges and the beams that hear
-/// it, in a fan by the positions where it is drawn. Empty if the head would see nothing; for a fan also if the cube is
-/// of an earlier version, which lacks these positions.
+/// it, in a fan by the positions where it is drawn. Empty if the head would see nothing; for a fan also if the cube lacks
+/// these positions, as those of earlier versions do.
 std::optional<PixelBox> whole_box(const PartView& view, const PictureOf& picture);
 
 /// The part of each object of a picture, by the numbers of the objects; objects that are not of a labelled part are not

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a mission says of the heads and the water of a run, also while its survey is not complete.
+// Reads from a mission the sides and the water level of a run, also while its survey is not complete.
 #include <cmath>
 #include <filesystem>
 

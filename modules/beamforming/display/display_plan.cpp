@@ -15,8 +15,7 @@ constexpr std::size_t nodes_per_element = 4;
 constexpr std::size_t least_parts_of_a_cell = 4;
 constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
 constexpr double least_beside = 1e-12;
-constexpr double least_spread =
-    1e-3;  // of an echo in a main lobe: what is heard in other cells from which on it counts
+constexpr double least_spread = 1e-3;  // energy heard in other cells from which on it counts; an echo in a main lobe: 1
 
 /// A period of fields has four samples per element, one of powers two for each lag, to either side.
 const SampleKernel<4>& of_fields() {

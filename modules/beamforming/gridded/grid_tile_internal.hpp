@@ -66,7 +66,7 @@ class GridTile {
   double unit_ = 0, energy_ = 0;  // a power of two [Pa]; of all echoes [unit^2 bins]
   GaussianBatch<Real> pulses_;
   std::vector<Real> scratch_;
-  Aligned<Real> re_, im_;  // of planar arrays: rows x bins x columns of all blocks
+  Aligned<Real> re_, im_;  // parts of the values of planar arrays: rows x bins x columns of all blocks
   Aligned<std::complex<Real>> grid_;
 };
 

@@ -46,9 +46,9 @@ struct RowFits {
   explicit RowFits(const TrueDelayPlan& plan);
 };
 
-/// Returns the series for a block from bin `first` to `last`. Of echoes, terms become powers of frequency; gridding
+/// Returns the series for a block from bin `first` to `last`. For echoes, terms become powers of frequency; gridding
 /// spreads an echo over the length of its pulse, during which the curvature changes, and the series corrects for that.
-/// Of beams, it is the conjugate, and powers of frequency become terms.
+/// The series of beams is the conjugate, and powers of frequency become terms.
 CurvatureSeries curvature_series(const TrueDelayPlan& plan, const RowFits& fits, bool echoes, double first,
                                  double last);
 
