@@ -23,7 +23,7 @@ if [[ "${1:-}" == --tests ]]; then
   why+=([libgtest-dev]="tests" [libgmock-dev]="tests" [clang-format]="test of the code format"
     [libbenchmark-dev]="benchmarks" [xvfb]="a display for the tests of the viewer"
     [parallel]="shards of a survey" [slurm-wlm]="shards of a survey as a job array" [munge]="Slurm's keys"
-    [python3-pytest]="tests of Python's module" [mypy]="types of Python's module" [python3-h5py]="cubes as Python reads them" [gdal-bin]="grids as GDAL reads them" [pcl-tools]="clouds as PCL reads them")
+    [python3-pytest]="tests of Python's module" [mypy]="types of Python's module" [python3-h5py]="cubes as Python reads them" [python3-laspy]="LAS and LAZ as Python reads them" [python3-laszip]="LAZ as Python reads it" [gdal-bin]="grids as GDAL reads them" [pcl-tools]="clouds as PCL reads them")
 fi
 if [[ "${1:-}" == --tidy ]]; then why+=([clang-tidy]="tests/tidy.sh"); fi
 if [[ "${1:-}" == --packages ]]; then
@@ -35,8 +35,10 @@ if ! command -v apt-get >/dev/null; then
   for package in "${!why[@]}"; do printf '  %-24s %s\n' "$package" "${why[$package]}"; done | sort
   exit 0
 fi
-# Not in every suite: Debian 12 has no LASzip; the format that tests check is that of clang-format 14, of Debian 12.
-if [[ -r /etc/os-release ]] && grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then unset 'why[liblaszip-dev]'; else unset 'why[clang-format]'; fi
+# Not in every suite: Debian 12 has no LASzip and no laspy; the format that tests check is that of clang-format 14, of Debian 12.
+not_everywhere=(liblaszip-dev python3-laspy python3-laszip) absent=(clang-format)
+if [[ -r /etc/os-release ]] && grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then absent=("${not_everywhere[@]}"); fi
+for package in "${absent[@]}"; do unset "why[$package]"; done
 missing=()
 installed=$'\n'$(dpkg-query -W -f='${Package} ${Status}\n' "${!why[@]}" 2>/dev/null || true)
 for package in "${!why[@]}"; do
@@ -49,9 +51,15 @@ if [[ $(id -u) -ne 0 ]]; then
   command -v sudo >/dev/null || { echo "insonify: need root or sudo to install: ${missing[*]}" >&2; exit 1; }
   as_root=(sudo)
 fi
-mapfile -t missing < <(printf '%s\n' "${missing[@]}" | sort)
-echo "insonify: installing ${#missing[@]} missing Debian packages:"
-for package in "${missing[@]}"; do printf '  %-24s %s\n' "$package" "${why[$package]}"; done
 export DEBIAN_FRONTEND=noninteractive
 "${as_root[@]}" apt-get update -qq
+for package in "${not_everywhere[@]}"; do
+  if [[ " ${missing[*]} " != *" $package "* ]] || apt-cache show "$package" >/dev/null 2>&1; then continue; fi
+  echo "insonify: this system has no $package (${why[$package]}); going on without it"
+  unset "why[$package]"
+done
+mapfile -t missing < <(for package in "${missing[@]}"; do if [[ -n ${why[$package]:-} ]]; then echo "$package"; fi; done | sort)
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+echo "insonify: installing ${#missing[@]} missing Debian packages:"
+for package in "${missing[@]}"; do printf '  %-24s %s\n' "$package" "${why[$package]}"; done
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
