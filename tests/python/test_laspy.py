@@ -44,7 +44,7 @@ def write_las(path, version, point_format) -> None:
     las.x, las.y = 500123.25 + 0.1 * (i % 20), 5403061.5 + 0.1 * (i // 20)
     las.z = -7.125 + 0.05 * draw.random(points)
     las.range_m, las.quality = 650 * draw.random(points), draw.normal(size=points)
-    las.withheld = i % 7 == 0
+    las.synthetic, las.key_point, las.withheld = i % 2, i % 3 == 0, i % 7 == 0
     las.classification = draw.choice([0, 1, 2, 3, 31] + ([40, 255] if point_format >= 6 else []), points)
     for name in {"intensity", "user_data", "point_source_id", "red", "green", "blue", "nir"} & set(las.point_format.dimension_names):
         las[name] = draw.integers(0, np.iinfo(las[name].dtype).max, points, endpoint=True)
