@@ -59,23 +59,6 @@ double pulse_half_length(const Pulse& pulse, double tolerance) {
 
 double doppler_delay(const Pulse& pulse, double doppler) { return kind_of(pulse).doppler_delay(pulse, doppler); }
 
-double doppler_tolerance(const Pulse& pulse, double loss_db) {
-  const EchoShapes shapes(pulse, {2, {}});
-  const double least = amplitude_from_db(-loss_db);
-  const auto keeps = [&](double doppler) {
-    return std::abs(shapes.of(0, doppler).at(doppler_delay(pulse, doppler))) > least;
-  };
-  // Step out much finer than the reciprocal of any length, then bisect.
-  double inside = 0, outside = 0.02 * std::min(pulse.bandwidth, 1 / pulse_half_length(pulse, pulse_floor));
-  for (; keeps(outside); inside = outside, outside *= 1.3)
-    if (outside > 0.5 * pulse.centre_frequency) return std::numeric_limits<double>::infinity();
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle = 0.5 * (inside + outside);
-    (keeps(middle) ? inside : outside) = middle;
-  }
-  return inside;
-}
-
 double replica_weight(const Pulse& pulse, double t) {
   const MatchedPulse* const matched = kind_of(pulse).matched();
   if (!matched) return 1;

@@ -82,10 +82,6 @@ double noise_bandwidth(const Pulse& pulse);
 /// of a linear sweep (E54), that of E203 of a hyperbolic one; 0 of a pulse of one frequency.
 double doppler_delay(const Pulse& pulse, double doppler);
 
-/// Returns the least Doppler shift by which the peak of an echo, where doppler_delay has it, loses `loss_db` > 0 dB
-/// [Hz]; infinity if no shift below half of the carrier does.
-double doppler_tolerance(const Pulse& pulse, double loss_db);
-
 /// Returns the weight of the replica of a matched filter at t [s] from its middle; 1 of a pulse without one.
 double replica_weight(const Pulse& pulse, double t);
 
