@@ -220,11 +220,14 @@ RawCloud read_text_cloud(const std::string& path, const ReadOptions& options);
 RawCloud read_ptx(const std::string& path, const ReadOptions& options);
 RawCloud read_gltf(const std::string& path, const ReadOptions& options);
 RawCloud read_assimp(const std::string& path, const ReadOptions& options);  ///< .dae, .fbx, .off, .x3d, .wrl, .3mf
-/// Returns the X3D of a VRML file, in which nodes and fields have the same names. Each shape stands in a group whose name
-/// is `vrml_material` and the name of its material. Throws Error(content) with the line for text that is no VRML 2.0, or
-/// that defines nodes of its own or refers to other files.
+/// Returns the X3D of a VRML file, in which nodes and fields have the same names. Throws Error(content) with the line for
+/// text that is no VRML 2.0, or that defines nodes of its own or refers to other files.
 std::string vrml_as_x3d(const std::string& path);
-inline constexpr std::string_view vrml_material = "material of shape: ";
+/// Returns X3D in which no group is empty or the USE of another, which Assimp misplaces. Each shape stands in a group whose
+/// name is `x3d_material` and the name of its material. Throws Error(content) if the text refers to other files, or if
+/// copies of groups make it larger by more than 64 MiB.
+std::string x3d_for_assimp(const std::string& path, std::string_view text);
+inline constexpr std::string_view x3d_material = "material of shape: ";
 RawCloud read_las(const std::string& path, const ReadOptions& options);
 RawCloud read_raster(const std::string& path, const ReadOptions& options);  ///< heights, by GDAL
 /// Throws Error(content) for a classic netCDF file that ends before its variables do; other files pass.

@@ -47,7 +47,10 @@ AssimpScene import(const std::string& path) {
   set(options, AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   constexpr unsigned steps =
       aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GlobalScale | aiProcess_ValidateDataStructure;
-  const std::string x3d = extension_of(path) == ".wrl" ? vrml_as_x3d(path) : "";
+  const std::string extension = extension_of(path);
+  const std::string x3d = extension == ".wrl"   ? x3d_for_assimp(path, vrml_as_x3d(path))
+                          : extension == ".x3d" ? x3d_for_assimp(path, read_whole_file(path))
+                                                : "";
   const aiScene* const scene =
       x3d.empty() ? INSONIFY_ASSIMP_FUNCTION(aiImportFileExWithProperties)(path.c_str(), steps, nullptr, options)
                   : INSONIFY_ASSIMP_FUNCTION(aiImportFileFromMemoryWithProperties)(
@@ -74,10 +77,10 @@ Affine3d transform_of(const aiNode& node) {
 }
 
 /// Returns the name of the material of a mesh of a node. The importer of 3MF puts "id", a number and "_" before it; that
-/// of X3D keeps none, so that those of VRML are in the names of the nodes.
+/// of X3D keeps none, so that they are in the names of the nodes.
 std::string material_of(const aiScene& scene, const aiNode& node, const aiMesh& mesh, const std::string& extension) {
   const std::string of_node = node.mName.C_Str();
-  if (extension == ".wrl" && of_node.starts_with(vrml_material)) return of_node.substr(vrml_material.size());
+  if (of_node.starts_with(x3d_material)) return of_node.substr(x3d_material.size());
   aiString found;
   INSONIFY_ASSIMP_FUNCTION(aiGetMaterialString)(scene.mMaterials[mesh.mMaterialIndex], AI_MATKEY_NAME, &found);
   const std::string name = found.C_Str();
@@ -147,8 +150,12 @@ void note_left_out(RawCloud& raw) {
   const std::string text = read_whole_file(raw.path);
   if (text.find("ccw=\"false\"") != text.npos || text.find("ccw='false'") != text.npos)
     raw.notes.push_back("'ccw' is left out: faces with ccw false have their outside inside");
-  for (const std::string node : {"Anchor", "Billboard", "Collision", "LOD"})
-    if (text.find("<" + node) != text.npos)
+  for (const std::string node :
+       {"Anchor",    "Billboard",        "CADAssembly",   "CADFace",           "CADLayer",      "CADPart",
+        "Collision", "GeoElevationGrid", "GeoLOD",        "GeoTransform",      "HAnimHumanoid", "IndexedQuadSet",
+        "Layer",     "LayoutLayer",      "LOD",           "NurbsPatchSurface", "PickableGroup", "ProtoInstance",
+        "QuadSet",   "ScreenGroup",      "ViewpointGroup"})
+    if (text.find("<" + node + ">") != text.npos || text.find("<" + node + " ") != text.npos)
       raw.notes.push_back("nodes of type " + node +
                           ", and what is in them, are left out: export it without them, or as .glb");
 }

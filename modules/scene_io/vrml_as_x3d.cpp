@@ -112,9 +112,7 @@ class VrmlText {
     if (take_if("USE")) {
       const auto known = known_.find(take());
       if (known == known_.end()) refuse("the name of a node before USE");
-      const auto& [used, material] = known->second;
-      if (used == "Shape" || used == "Appearance" || used == "Material") material_ = material;
-      return in_group(used, "<" + used + attribute("USE", known->first) + "/>");
+      return "<" + known->second + attribute("USE", known->first) + "/>";
     }
     const std::string name = take_if("DEF") ? take() : "", own_type = take_name(), type = x3d_type(own_type);
     for (const char* other : {"PROTO", "EXTERNPROTO", "Inline"})
@@ -124,7 +122,6 @@ class VrmlText {
     if (word_ != "{") refuse("'{'");
     if (type == "Script") return skip_body(), "";
     advance();
-    if (type == "Shape") material_.clear();
     std::map<std::string, std::string> fields;
     if (!name.empty()) fields["DEF"] = name;
     if (own_type == "LOD") fields["whichChoice"] = "0";  // the finest level
@@ -134,16 +131,8 @@ class VrmlText {
     if (fields["ccw"] == "false") turn_over(type, fields["coordIndex"]);
     for (const auto& [field, values] : fields)
       if (!values.empty()) attributes += attribute(field, values);
-    if (type == "Material") material_ = name;
-    if (!name.empty()) known_[name] = {type, material_};
-    return in_group(type, "<" + type + attributes + ">" + children + "</" + type + ">");
-  }
-
-  /// Puts a shape into a group whose name holds that of its material, since Assimp keeps no names of materials of X3D.
-  std::string in_group(const std::string& type, const std::string& node) const {
-    if (type != "Shape") return node;
-    const std::string name = std::string(vrml_material) + (material_.empty() ? "default" : material_);
-    return "<Group" + attribute("DEF", name) + ">" + node + "</Group>";
+    if (!name.empty()) known_[name] = type;
+    return "<" + type + attributes + ">" + children + "</" + type + ">";
   }
 
   /// Reads the values of a field, or its nodes into the children. Numbers of faces that no mesh needs are left out.
@@ -177,11 +166,7 @@ class VrmlText {
   std::string path_, text_;
   std::size_t begin_ = 0, end_ = 0;  ///< the place of word_
   std::string_view word_;
-  std::string material_;  ///< name of the last material
-  struct KnownNode {
-    std::string type, material;
-  };
-  std::map<std::string, KnownNode> known_;  ///< nodes by their names
+  std::map<std::string, std::string> known_;  ///< types of nodes by their names
 };
 
 }  // namespace

@@ -113,7 +113,8 @@ TEST(Laz, becomes_the_same_tiles_in_batches) {
 // The files and their makers: tests/data/laz/README.md.
 TEST(Laz, of_other_writers_has_their_points) {
   const std::string octree = "octree.copc.laz";  // without areas
-  for (const std::string& name : {std::string("laspy_12.laz"), std::string("laspy_14.laz"), octree}) {
+  for (const std::string& name :
+       {std::string("laspy_12.laz"), std::string("laspy_13.laz"), std::string("laspy_14.laz"), octree}) {
     const LoadedScene loaded = load_scene(INSONIFY_TEST_LAZ "/" + name);
     ASSERT_EQ(loaded.scene.size(), 48u) << name;
     EXPECT_EQ(loaded.report.dropped_withheld, 16u) << name;

@@ -8,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
