@@ -11,6 +11,7 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t most_growth = 64 << 20;  // most bytes that groups which are used again may add
+constexpr std::size_t deepest_element = 500;
 
 class X3dRewriter {
  public:
@@ -91,6 +92,9 @@ class X3dRewriter {
     const std::string type(tag.substr(1, tag.find_first_of(" \t\r\n/>") - 1)), use = attribute(tag, "USE");
     if (type == "Inline")
       fail(ErrorKind::content, path_, ": nodes of type Inline are not read; export it as one file, or as .glb");
+    if (open_.size() == deepest_element)
+      fail(ErrorKind::content, path_, ": more than ", deepest_element,
+           " elements are within each other; export it with fewer levels, or as .glb");
     if (!open_.empty()) open_.back().filled = true;
     open_.push_back({type, attribute(tag, "DEF"), out_.size(), false});
     if (type == "Shape") material_.clear();

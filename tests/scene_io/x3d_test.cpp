@@ -109,6 +109,10 @@ TEST_F(X3dFile, x3d_that_grows_without_bound_or_names_other_files_is_refused) {
   expect_error(ErrorKind::content, {"laughs.x3d", reason, "as .glb"}, [&] { places_in("laughs.x3d", x3d); });
   expect_error(ErrorKind::content, {"parts.x3d", "nodes of type Inline are not read", "as .glb"},
                [&] { places_in("parts.x3d", x3d_plate + "<Inline url='\"part.x3d\"'/>"); });
+  std::string deep;
+  for (int k = 0; k < 100'000; ++k) deep += "<Group>";
+  expect_error(ErrorKind::content, {"deep.x3d", "more than 500 elements are within each other", "as .glb"},
+               [&] { places_in("deep.x3d", deep); });
   expect_error(ErrorKind::content, {"absent.x3d", "export it again"},
                [&] { places_in("absent.x3d", x3d_plate + "<Group USE='Nothing'/>"); });
 }
