@@ -2,6 +2,8 @@
 #include "scene/scene_index.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include <flann/flann.hpp>
@@ -37,11 +39,12 @@ class Nearest final : public flann::ResultSet<float> {
   void addPoint(float squared_distance, std::size_t index) override {
     if (squared_distance >= worst_) return;
     const Neighbour hit{static_cast<std::uint32_t>(index), squared_distance};
-    const auto before = [](const Neighbour& a, const Neighbour& b) {
-      return a.squared_distance < b.squared_distance || (a.squared_distance == b.squared_distance && a.index < b.index);
+    // The bits of positive floats ascend as they do.
+    const auto rank = [](const Neighbour& n) {
+      return std::uint64_t{std::bit_cast<std::uint32_t>(n.squared_distance)} << 32 | n.index;
     };
     std::size_t at = full() ? found_ - 1 : found_++;  // the farthest leaves
-    for (; at > 0 && before(hit, hits_[at - 1]); --at) hits_[at] = hits_[at - 1];
+    for (const std::uint64_t own = rank(hit); at > 0 && own < rank(hits_[at - 1]); --at) hits_[at] = hits_[at - 1];
     hits_[at] = hit;
     if (full()) worst_ = hits_.back().squared_distance;
   }

@@ -166,11 +166,14 @@ void complete_group(const GroupCompletion& how, SceneCloud& group) {
   if (raw.viewpoint) face_viewpoints(raw);
   if (how.areas) {
     SurfelShapes shapes = estimate_surfel_shapes(
-        raw.point, raw.normal, {.threads = how.options.threads, .keep_strays = how.options.keep_strays});
+        raw.point, raw.normal,
+        {.threads = how.options.threads, .keep_strays = how.options.keep_strays, .noise = how.noise});
     take_normals(shapes, raw);
     group.area = std::move(shapes.area);
+    if (how.noise) group.noise = std::move(shapes.noise);
+  } else if (how.noise) {
+    group.noise = estimate_surfel_noise(raw.point, {.threads = how.options.threads});
   }
-  if (how.noise) group.noise = estimate_surfel_noise(raw.point, {.threads = how.options.threads});
   group.point = std::move(raw.point);
   group.normal = std::move(raw.normal);
 }

@@ -31,6 +31,32 @@ TEST(SurfelNoise, of_a_smooth_surface_is_none) {
   EXPECT_LT(median_noise(0, 0.1), 1e-3);  // bent by 2 mm from middle to rim of a neighbourhood
 }
 
+// The noise that shapes estimate with their own search is that of the noise alone, with copies of points, too.
+TEST(SurfelShapes, give_the_noise_of_surfels_on_request) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> place(0, 4);
+  std::normal_distribution<float> normal;
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 3000; ++i) points.emplace_back(place(random), place(random), 0.01f * normal(random));
+  const auto compare = [&] {
+    const std::vector<Eigen::Vector3f> up(points.size(), Eigen::Vector3f::UnitZ());
+    const std::vector<float> alone = estimate_surfel_noise(points);
+    const std::vector<float> shared = estimate_surfel_shapes(points, up, {.noise = true}).noise;
+    ASSERT_EQ(shared.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_FLOAT_EQ(shared[i], alone[i]) << i;
+    EXPECT_TRUE(estimate_surfel_shapes(points, up).noise.empty());
+    EXPECT_EQ(estimate_surfel_shapes(points, up, {.viewpoint = Eigen::Vector3d(2, 2, 9), .noise = true}).noise.size(),
+              points.size());
+  };
+  compare();
+  for (int i = 0; i < 100; ++i) points.push_back(points[static_cast<std::size_t>(7 * i)]);
+  compare();
+  points.resize(3);
+  EXPECT_EQ(
+      estimate_surfel_shapes(points, std::vector<Eigen::Vector3f>(3, Eigen::Vector3f::UnitZ()), {.noise = true}).noise,
+      std::vector<float>(3, 0));
+}
+
 // Boxes and pits on a third of a raster, and a slope of 45 degrees, are no noise of its heights (E160).
 TEST(SurfelShapes, know_noise_of_heights) {
   const auto noise_of = [&](float noise) {

@@ -36,31 +36,48 @@ Terms<Degree> terms_at(double x, double y) {
   return power;
 }
 
-// Fits a polynomial through the point and its neighbours, all of one weight; `up` is the normal of the plane.
+// Normal equations of a polynomial through the point and its neighbours, all of one weight. Those of lower degrees are
+// their first terms.
 template <int Degree>
-ReliefFit fit_relief(std::span<const FlatNeighbour> neighbours, const Vector3d& up) {
-  constexpr int terms = terms_of<Degree>;
-  using Terms = cells::Terms<Degree>;
-  if (neighbours.size() < terms) return {};
-  double reach = 0;
-  for (const FlatNeighbour& p : neighbours) reach = std::max(reach, p.flat.norm());
+struct ReliefSums {
+  Eigen::Matrix<double, terms_of<Degree>, terms_of<Degree>> normal;
+  Terms<Degree> right;
+  double square = 0;  // of the rises [m^2]
+  double reach = 0;   // of the neighbours on the plane [m]
+  std::size_t neighbours = 0;
+};
+
+// Sums over neighbours; `up` is the normal of the plane.
+template <int Degree>
+ReliefSums<Degree> relief_sums(std::span<const FlatNeighbour> neighbours, const Vector3d& up) {
+  ReliefSums<Degree> sums;
+  sums.neighbours = neighbours.size();
+  for (const FlatNeighbour& p : neighbours) sums.reach = std::max(sums.reach, p.flat.norm());
   // The point itself stands at the origin with no rise: only its constant term counts.
-  Eigen::Matrix<double, terms, terms> normal = Eigen::Matrix<double, terms, terms>::Zero();
-  normal(0, 0) = 1;
-  Terms right = Terms::Zero();
-  double square = 0;
+  sums.normal.setZero(), sums.right.setZero();
+  sums.normal(0, 0) = 1;
   for (const FlatNeighbour& p : neighbours) {
     const double rise = p.offset.dot(up);
-    const Terms power = terms_at<Degree>(p.flat.x() / reach, p.flat.y() / reach);
-    normal.template selfadjointView<Eigen::Lower>().rankUpdate(power);
-    right += rise * power;
-    square += rise * rise;
+    const Terms<Degree> power = terms_at<Degree>(p.flat.x() / sums.reach, p.flat.y() / sums.reach);
+    sums.normal.noalias() += power * power.transpose();
+    sums.right += rise * power;
+    sums.square += rise * rise;
   }
-  const Eigen::LDLT<Eigen::Matrix<double, terms, terms>, Eigen::Lower> solver(normal);
+  return sums;
+}
+
+// Fits a polynomial of a degree to sums of this or a higher one.
+template <int Degree, int Summed>
+ReliefFit fit_relief(const ReliefSums<Summed>& sums) {
+  constexpr int terms = terms_of<Degree>;
+  using Square = Eigen::Matrix<double, terms, terms>;
+  if (sums.neighbours < terms) return {};
+  const Terms<Degree> right = sums.right.template head<terms>();
+  const Eigen::LDLT<Square, Eigen::Lower> solver(Square(sums.normal.template topLeftCorner<terms, terms>()));
   if (!(solver.vectorD().minCoeff() > least_pivot * solver.vectorD().maxCoeff())) return {};
-  const Terms found = solver.solve(right);
-  const double left = std::max(0.0, square - found.dot(right));
-  return {found.template segment<2>(1) / reach, left / static_cast<double>(neighbours.size() + 1 - terms), true};
+  const Terms<Degree> found = solver.solve(right);
+  const double left = std::max(0.0, sums.square - found.dot(right));
+  return {found.template segment<2>(1) / sums.reach, left / static_cast<double>(sums.neighbours + 1 - terms), true};
 }
 
 }  // namespace insonify::cells

@@ -2,6 +2,7 @@
 #include "scene/estimate/surfel_area.hpp"
 
 #include "core/parallel.hpp"
+#include "scene/estimate/distinct_points_internal.hpp"
 #include "scene/estimate/surfel_cell_internal.hpp"
 
 // Estimates the surface area of each point of a cloud as the area of its Voronoi cell in the tangent plane (E15):

@@ -32,6 +32,7 @@ struct ShapeOptions {
   std::optional<Eigen::Vector3d> viewpoint{};
   double evenness_of_view = 1;
   bool keep_strays = false;  ///< true: points far from all others keep the areas of their cells
+  bool noise = false;        ///< true: SurfelShapes::noise is estimated with the shapes, which shares their search
 };
 
 /// Normals and areas of points, with counts of strays and of points in height fields.
@@ -45,6 +46,7 @@ struct SurfelShapes {
   /// Standard deviation of the height of each point [m] (E160): the same for all points of height fields that show
   /// noise instead of relief, 0 for others. Empty: with a viewpoint.
   std::vector<float> height_noise{};
+  std::vector<float> noise{};  ///< result of estimate_surfel_noise; empty unless asked for
 };
 
 /// Returns normals and areas for points without either, consistent with each other. `base_normals` are the unit normals

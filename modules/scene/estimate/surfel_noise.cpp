@@ -8,15 +8,14 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "scene/estimate/surfel_noise_internal.hpp"
 #include "scene/scene_index.hpp"
 
 namespace insonify {
-namespace {
 
 using Eigen::Matrix3d, Eigen::Vector3d, Eigen::Vector3f;
 
-// Returns the distance from their plane within which two thirds of the points lie.
-double spread_about_plane(std::span<const Vector3f> points, const std::vector<Neighbour>& nearest,
+double spread_about_plane(std::span<const Vector3f> points, std::span<const Neighbour> nearest,
                           std::vector<double>& distance) {
   Vector3d mean = Vector3d::Zero();
   for (const Neighbour& n : nearest) mean += points[n.index].cast<double>();
@@ -35,8 +34,6 @@ double spread_about_plane(std::span<const Vector3f> points, const std::vector<Ne
   const auto count = static_cast<double>(distance.size());
   return *middle * std::sqrt(count / (count - 3));  // (E67): the plane takes three degrees of freedom
 }
-
-}  // namespace
 
 std::vector<float> estimate_surfel_noise(std::span<const Vector3f> points, const SurfelNoiseOptions& options) {
   if (options.neighbours < 6)

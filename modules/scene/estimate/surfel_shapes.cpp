@@ -2,11 +2,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/parallel.hpp"
+#include "scene/estimate/distinct_points_internal.hpp"
 #include "scene/estimate/relief_fit_internal.hpp"
 #include "scene/estimate/surfel_area.hpp"
 #include "scene/estimate/surfel_cell_internal.hpp"
+#include "scene/estimate/surfel_noise.hpp"
+#include "scene/estimate/surfel_noise_internal.hpp"
 #include "scene/scene_index.hpp"
 
 namespace insonify {
@@ -28,8 +33,6 @@ double median_of(std::vector<double>& values) {
   return *middle;
 }
 
-Vector3f on_plan(const Vector3f& point) { return {point.x(), point.y(), 0}; }
-
 // Points as seen from above.
 struct Plan {
   std::vector<std::uint32_t> points;  // all points but those that hang alone over the others
@@ -37,13 +40,11 @@ struct Plan {
 };
 
 // Finds height fields, which have one height at each position: none of the four links of a point to its neighbours is
-// steeper than five to one, or at most a third of those around are. Surfaces one above the other have more.
-Plan find_height_fields(const Estimate& e, int threads) {
+// steeper than five to one, or at most a third of those around are. Surfaces one above the other have more. `index` is
+// that of the points on the plan, `flat`.
+Plan find_height_fields(const Estimate& e, const std::vector<Vector3f>& flat, const SceneIndex& index, int threads) {
   const std::vector<Vector3f>& points = e.position;
   constexpr std::size_t links = 4;
-  std::vector<Vector3f> flat;
-  for (const Vector3f& p : points) flat.push_back(on_plan(p));
-  const SceneIndex index(flat);
   Plan plan;
   plan.single.resize(points.size());
   std::vector<std::uint8_t> steep(points.size()), hangs(points.size());
@@ -100,14 +101,18 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
   if (facet.dot(up) >= least_cosine) look.relief = facet.cast<float>();
   if (work.neighbours.size() < neighbours_fitted) return look;
   const std::span<const FlatNeighbour> all(work.neighbours), near = all.first(neighbours_fitted);
-  ReliefFit cubic = fit_relief<3>(near, up), flat = fit_relief<1>(near, up);
-  if (!cubic.found) cubic = fit_relief<2>(all, up), flat = fit_relief<1>(all, up);  // for three lines of a scan
+  const auto of_near = relief_sums<3>(near, up);
+  ReliefFit cubic = fit_relief<3>(of_near), flat = fit_relief<1>(of_near);
+  if (!cubic.found) {  // for three lines of a scan
+    const auto of_all = relief_sums<2>(all, up);
+    cubic = fit_relief<2>(of_all), flat = fit_relief<1>(of_all);
+  }
   if (!cubic.found) return look;
   look.left_by_relief = cubic.misfit;
   look.left_by_plane = flat.misfit;
   if (!charted) return look;
   if (work.gaps.empty()) look.relief = tilted(cubic.slope);
-  look.plane = tilted(fit_relief<1>(all, up).slope);
+  look.plane = tilted(fit_relief<1>(relief_sums<1>(all, up)).slope);
   return look;
 }
 
@@ -115,20 +120,22 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
 std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& base, const AreaEstimator& estimator,
                               const ShapeOptions& options) {
   std::vector<Look> looks(e.position.size());
-  const Plan plan = find_height_fields(e, options.threads);
-  std::vector<Vector3f> flat, raised;
+  std::vector<Vector3f> flat = plan_of(e.position), raised = e.position;
+  std::optional<AreaEstimator> chart(std::in_place, flat, raised, 2 * options.neighbours, flat_chart);
+  const Plan plan = find_height_fields(e, flat, chart->index(), options.threads);
   std::vector<std::uint32_t> in_plan(e.position.size());
-  for (const std::uint32_t p : plan.points) {
-    in_plan[p] = static_cast<std::uint32_t>(flat.size());
-    raised.push_back(e.position[p]);
-    flat.push_back(on_plan(e.position[p]));
+  for (std::size_t k = 0; k < plan.points.size(); ++k) in_plan[plan.points[k]] = static_cast<std::uint32_t>(k);
+  if (plan.points.size() < flat.size()) {  // what hangs over them is no neighbour of the others
+    for (std::size_t k = 0; k < plan.points.size(); ++k)
+      flat[k] = flat[plan.points[k]], raised[k] = raised[plan.points[k]];
+    flat.resize(plan.points.size()), raised.resize(plan.points.size());
+    chart.emplace(flat, raised, 2 * options.neighbours, flat_chart);
   }
-  const AreaEstimator chart(flat, raised, 2 * options.neighbours, flat_chart);
   parallel_blocks(e.visit.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
     Workspace work;
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = e.visit[k];
-      looks[i] = plan.single[i] ? look_at(chart, in_plan[i], Vector3f::UnitZ(), true, work)
+      looks[i] = plan.single[i] ? look_at(*chart, in_plan[i], Vector3f::UnitZ(), true, work)
                                 : look_at(estimator, i, base[i], false, work);
     }
   });
@@ -167,9 +174,10 @@ void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, cons
   std::atomic<std::size_t> strays{0}, height_field{0}, heights{0};
   const float noise = height_noise_of(looks, e.position);
   counts.height_noise.assign(looks.size(), 0);
+  if (options.noise) counts.noise.assign(looks.size(), 0);
   parallel_blocks(looks.size(), 1024, options.threads, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> nearest;
-    std::vector<double> by_relief, by_plane, cells;
+    std::vector<double> by_relief, by_plane, cells, distance;
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = e.visit[k];
       const Look& look = looks[i];
@@ -188,10 +196,15 @@ void choose_shapes(const std::vector<Look>& looks, const SceneIndex& index, cons
       const Vector3f found = relief ? look.relief : mean.normalized();
       normals[i] = found.dot(normals[i]) < 0 ? Vector3f(-found) : found;
       e.area[i] = look.cell / std::max<double>(least_cosine, std::abs(found.dot(look.frame)));
-      const double typical = median_of(cells);
-      if (!(look.cell > far_larger * typical)) continue;
+      if (options.noise && std::ssize(nearest) > noise_neighbours)
+        counts.noise[i] =
+            static_cast<float>(spread_about_plane(e.position, std::span(nearest).first(noise_neighbours), distance));
+      // The median is typical of them: it is far smaller if more than half are.
+      const auto smaller = static_cast<std::size_t>(
+          std::count_if(cells.begin(), cells.end(), [&](double cell) { return look.cell > far_larger * cell; }));
+      if (smaller <= cells.size() / 2) continue;
       ++strays;
-      if (!options.keep_strays) e.area[i] = typical;
+      if (!options.keep_strays) e.area[i] = median_of(cells);
     }
   });
   counts.strays = strays;
@@ -229,10 +242,10 @@ double spread_of(std::vector<double> cells) {
 // or was not seen at once.
 bool estimate_seen(const Vector3d& viewpoint, double evenness, const std::vector<Vector3f>& normals,
                    const AreaOptions& options, Estimate& e) {
-  std::vector<Vector3f> direction, flat;
+  const std::vector<Vector3f> flat = plan_of(e.position);
+  std::vector<Vector3f> direction;
   for (const Vector3f& p : e.position) {
     direction.push_back((p.cast<double>() - viewpoint).normalized().cast<float>());
-    flat.push_back(on_plan(p));
   }
   const std::vector<Vector3f> up(flat.size(), Vector3f::UnitZ());
   const AreaEstimator seen(direction, direction, options.neighbours, flat_chart);
@@ -249,6 +262,13 @@ bool estimate_seen(const Vector3d& viewpoint, double evenness, const std::vector
   return true;
 }
 
+// Returns the values of distinct positions for all points.
+std::vector<float> at_points(const std::vector<float>& values, const Estimate& e) {
+  std::vector<float> all;
+  for (const std::uint32_t distinct : e.distinct.position) all.push_back(values[distinct]);
+  return all;
+}
+
 }  // namespace
 
 SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<const Vector3f> base_normals,
@@ -256,7 +276,10 @@ SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<
   const AreaOptions area_options{options.neighbours, options.threads};
   require_valid(points, base_normals, area_options, "estimate_surfel_shapes");
   SurfelShapes shapes{{base_normals.begin(), base_normals.end()}, std::vector<float>(points.size(), 0.0f)};
-  if (points.size() < 4) return shapes;
+  if (points.size() < 4) {
+    if (options.noise) shapes.noise.assign(points.size(), 0);
+    return shapes;
+  }
   Estimate e = distinct_points(points);
   std::vector<Vector3f> normals;
   for (const std::uint32_t first : e.distinct.first) normals.push_back(base_normals[first]);
@@ -264,11 +287,12 @@ SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<
     estimate_around(options, e, normals, shapes);
   limit_cells(e.area);
   shapes.area = shared_areas(e, points.size());
+  if (options.noise && (shapes.noise.empty() || e.position.size() < points.size()))  // copies count as neighbours
+    shapes.noise = estimate_surfel_noise(points, {.threads = options.threads});
+  else if (options.noise)
+    shapes.noise = at_points(shapes.noise, e);
   for (std::size_t i = 0; i < points.size(); ++i) shapes.normal[i] = normals[e.distinct.position[i]];
-  if (shapes.height_noise.empty()) return shapes;
-  std::vector<float> noise;
-  for (const std::uint32_t distinct : e.distinct.position) noise.push_back(shapes.height_noise[distinct]);
-  shapes.height_noise = std::move(noise);
+  if (!shapes.height_noise.empty()) shapes.height_noise = at_points(shapes.height_noise, e);
   return shapes;
 }
 
