@@ -34,7 +34,7 @@ void require_valid(const FlatBottom& b, const char* who) {
   require(mu >= 0 && mu <= 1 / pi, who, "bottom.lambert_mu", mu, "1/sr", "within 0 and 1/pi");
 }
 
-constexpr double depth_step = 1e-6;       // [m]
+constexpr double depth_steps = 1000;      // [1/m]
 constexpr double depths_agree_to = 0.01;  // [m]
 
 bool varies(const SoundSpeedProfile& profile) {
@@ -84,7 +84,7 @@ std::optional<double> surface_height(const Environment& e) {
 
 double head_depth(const Environment& e, double head_height) {
   const auto surface = surface_height(e);
-  return surface ? depth_step * std::round((*surface - head_height) / depth_step) : e.water.depth;
+  return surface ? std::round((*surface - head_height) * depth_steps) / depth_steps : e.water.depth;
 }
 
 void require_depths_known(const Environment& e, const char* who) {

@@ -57,7 +57,7 @@ void require_valid(const Environment& environment, const char* who);
 std::optional<double> surface_height(const Environment& environment);
 
 /// Returns the depth [m] of a head at world z `head_height` [m]: below the surface if that is known, else water.depth.
-/// It is rounded to a micrometre, so that rounding errors on a level track do not change the water from ping to ping.
+/// It is rounded to a millimetre: neither rounding errors nor a slow tide give each ping water and tables of its own.
 double head_depth(const Environment& environment, double head_height);
 
 /// Throws Error(argument), naming `who`, for a profile whose sound speed changes with depth if the surface is unknown.

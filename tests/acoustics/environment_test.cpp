@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "acoustics/environment.hpp"
 
+#include <set>
+
 #include "acoustics/noise.hpp"
 #include "support/test.hpp"
 
@@ -76,6 +78,26 @@ TEST(Environment, medium_has_the_profiles_sound_speed_at_the_heads_depth) {
   e.profile = SoundSpeedProfile{{0, 10}, {1500, 1480}};
   EXPECT_DOUBLE_EQ(medium_of(e, 900e3).sound_speed, 1490);
   EXPECT_EQ(medium_of(e, 900e3).absorption.a0, absorption);
+}
+
+// On a rising tide the water changes a millimetre at a time; the sound speed is off by half of what a millimetre makes.
+TEST(Environment, depths_of_heads_count_in_millimetres) {
+  Environment e;
+  e.water_level = 0;
+  std::set<double> depths, speeds;
+  for (int i = 0; i <= 100; ++i) {
+    const double z = -12.34 + 1e-4 * i;
+    const Environment there = environment_at(e, z, "test");
+    depths.insert(there.water.depth);
+    speeds.insert(medium_of(there, 300e3).sound_speed);
+    EXPECT_NEAR(there.water.depth, -z, 0.5001e-3);
+    Water exact = e.water;
+    exact.depth = -z;
+    EXPECT_NEAR(medium_of(there, 300e3).sound_speed, sound_speed(exact), 1e-5);
+  }
+  EXPECT_EQ(depths.size(), 11U);
+  EXPECT_EQ(speeds.size(), 11U);
+  EXPECT_EQ(head_depth(e, -2.7), 2.7);
 }
 
 TEST(Environment, slowest_sound_is_that_of_any_depth_a_head_may_have) {
