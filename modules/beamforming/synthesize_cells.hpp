@@ -59,9 +59,10 @@ struct CellLabels {
 /// ranges, without forming P (E180). head.gate holds the cells.
 ///
 /// The expected intensity is the sum of the energies of the echoes, times the pattern of the beam, averaged over the
-/// band (E181). The number of looks of a cell follows from the ranges of its energy and from the pulse (E182). Speckle
-/// is a gamma variate of so many looks that is made from two complex sums over the echoes, with their phases and with
-/// random amplitudes by id, so that it stays with the surface and changes with the pose as that of samples does (E183).
+/// band (E181). The number of looks of a cell follows from the ranges of its energy, from the pulse and from the noise
+/// (E182, E223). Speckle is a gamma variate of so many looks that is made from two complex sums over the echoes, with
+/// their phases and with random amplitudes by id, so that it stays with the surface and changes with the pose as that of
+/// samples does (E183).
 /// Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose
 /// amplitudes are not random.
 ///
@@ -76,8 +77,9 @@ Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed,
 /// call.
 class CellSynthesizer {
  public:
-  /// Throws Error for an invalid head or medium.
-  CellSynthesizer(const SonarHead& head, const Medium& medium);
+  /// Keeps what all pings share. sample_length: distance in range [m] of the samples whose means cells stand for, which
+  /// noise is correlated by (E223); 0: default_bin_size. Throws Error for an invalid head or medium, or a length < 0.
+  CellSynthesizer(const SonarHead& head, const Medium& medium, double sample_length = 0);
   ~CellSynthesizer();
   CellSynthesizer(CellSynthesizer&&) noexcept;
 

@@ -110,14 +110,14 @@ CellOptions CellSum::options_with(double noise_db) const {
 }
 
 ComplexGridF CellSum::drawn(const SurfaceEchoes& surface, const Echoes& fixed, double noise_db) const {
-  return stored_cells(
-      synthesizers_.cells_of(ping_.head, ping_.sent.medium)->cells(surface, fixed, options_with(noise_db)));
+  return stored_cells(synthesizers_.cells_of(ping_.head, ping_.sent.medium, ping_.samples.bin_size)
+                          ->cells(surface, fixed, options_with(noise_db)));
 }
 
 ComplexGridF CellSum::labelled(const SceneCloud& scene, double noise_db, PixelLabels& labels) const {
   const EchoLabels of_echoes{label_numbers(scene, surfel_), water_begin_, water_begin_ > 0 ? all_.id.size() : 0};
   CellLabels shown;
-  const auto synthesizer = synthesizers_.cells_of(ping_.head, ping_.sent.medium);
+  const auto synthesizer = synthesizers_.cells_of(ping_.head, ping_.sent.medium, ping_.samples.bin_size);
   ComplexGridF cells = stored_cells(synthesizer->cells(all_, fixed_, options_with(noise_db), of_echoes, shown));
   labels = labels_of_cells(scene, shown, surfel_, all_.echoes.v);
   return cells;

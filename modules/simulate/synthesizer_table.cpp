@@ -24,8 +24,9 @@ std::shared_ptr<const Synthesizer> SynthesizerTable::of(Part part, const SonarHe
   return rows.front().synthesizer;
 }
 
-std::shared_ptr<const CellSynthesizer> SynthesizerTable::cells_of(const SonarHead& head, const Medium& medium) {
-  return cells_.of({medium, head.gate}, [&] { return CellSynthesizer(head, medium); });
+std::shared_ptr<const CellSynthesizer> SynthesizerTable::cells_of(const SonarHead& head, const Medium& medium,
+                                                                  double sample_length) {
+  return cells_.of({medium, head.gate, sample_length}, [&] { return CellSynthesizer(head, medium, sample_length); });
 }
 
 }  // namespace insonify

@@ -22,9 +22,9 @@ class SynthesizerTable {
   /// Throws Error as the constructor of Synthesizer.
   std::shared_ptr<const Synthesizer> of(Part part, const SonarHead& head, const Medium& medium, SynthesisMethod method,
                                         const SynthesisOptions& options);
-  /// Returns what draws the display cells of a head, the same in all calls but for its gate. Throws Error as the
-  /// constructor of CellSynthesizer.
-  std::shared_ptr<const CellSynthesizer> cells_of(const SonarHead& head, const Medium& medium);
+  /// Returns what draws the display cells of a head, the same in all calls but for its gate, for means of samples so far
+  /// apart [m]. Throws Error as the constructor of CellSynthesizer.
+  std::shared_ptr<const CellSynthesizer> cells_of(const SonarHead& head, const Medium& medium, double sample_length);
 
  private:
   static constexpr std::size_t most_media = 2;
@@ -37,6 +37,7 @@ class SynthesizerTable {
   struct CellsKey {
     Medium medium;
     RangeGate gate;
+    double sample_length;
     bool operator==(const CellsKey&) const = default;
   };
   std::mutex guard_;

@@ -16,23 +16,29 @@
 namespace insonify {
 namespace {
 
-/// Looks of a beam at node `at` by the formula (E182).
+/// Returns the looks of a beam at node `at` by the formula (E182, E223).
 double looks_by_formula(const std::vector<std::vector<double>>& energy, const kernels::CellEnergies& cell,
                         std::size_t at) {
-  std::vector<double> beam_azimuth(cell.subranges, cell.noise);
+  std::vector<double> beam_azimuth(cell.subranges, 0);
   for (std::size_t j = 0; j < energy.size(); ++j) {
     const std::size_t away = j > at ? j - at : at - j;
     for (std::size_t n = 0; n < cell.subranges; ++n)
       beam_azimuth[n] += energy[j][n] * ((away < cell.lobe_reach ? cell.lobe[away] : 0) + cell.beside);
   }
-  double products = 0;
-  for (std::size_t k = 0; k < cell.subranges; ++k)
+  // The correlations of noise with ground and with noise are weaker than that of ground.
+  const double noise = cell.noise;
+  double products = 0, sum = 0;
+  for (std::size_t k = 0; k < cell.subranges; ++k) {
+    sum += beam_azimuth[k] + noise;
     for (std::size_t n = 0; n < cell.subranges; ++n) {
       const std::size_t away = k > n ? k - n : n - k;
-      if (away < cell.reach)
-        products += beam_azimuth[k] * beam_azimuth[n] * static_cast<double>(cell.correlation[away]);
+      const double ground = away < cell.reach ? cell.correlation[away] : 0;
+      products += beam_azimuth[k] * beam_azimuth[n] * ground +
+                  2 * beam_azimuth[k] * noise * (ground - static_cast<double>(cell.with_ground)) +
+                  noise * noise * (ground - static_cast<double>(cell.alone));
     }
-  return std::pow(std::accumulate(beam_azimuth.begin(), beam_azimuth.end(), 0.0), 2) / products;
+  }
+  return sum * sum / products;
 }
 
 std::vector<std::complex<double>> display_normals(std::uint64_t seed, std::size_t count) {
@@ -115,8 +121,9 @@ TEST(DisplayLoops, looks_are_those_of_the_formula) {
         for (double& of_range : energy[j]) of_range += 0.1 * static_cast<double>(more);
       alike[first] += 0.1f * more, alike[last + 1] -= 0.1f * more;
     }
-    const kernels::CellEnergies cell{differences.data(), alike.data(), nodes, subranges,          lobe.data(),
-                                     lobe.size(),        1e-3f,        1e-2f, correlation.data(), correlation.size()};
+    const kernels::CellEnergies cell{
+        differences.data(), alike.data(),      nodes, subranges, lobe.data(), lobe.size(), 1e-3f, 0.3f, 0.01f, 0.02f,
+        correlation.data(), correlation.size()};
     const std::vector<std::size_t> at = {0, 1, 7, 20, 38, 39};
     std::vector<double> looks(at.size());
     kernels::count_looks(cell, at.data(), at.size(), looks.data());

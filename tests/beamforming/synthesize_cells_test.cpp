@@ -1,53 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests display cells without samples (E180 to E184): expected intensities against sums from the definition, statistics
-// against closed forms and against averaged samples of element_exact.
+// Tests expected display cells (E180, E181, E188, E189): against sums from the definition, and what synthesize_cells
+// promises of its arguments.
 #include "beamforming/synthesize_cells.hpp"
 
-#include "acoustics/direct_echoes.hpp"
+#include "beamforming/cell_echoes.hpp"
 #include "beamforming/synthesize.hpp"
-#include "core/random.hpp"
-#include "returns/looks.hpp"
 #include "support/errors.hpp"
-#include "support/heads.hpp"
 #include "support/test.hpp"
 
 namespace insonify::cell_tests {
-
-constexpr double bandwidth = 60e3, centre = 750e3;
-const Medium lossy{1490, {0.02, 2e-8, 1e-14}}, lossless{1490, {}};
-
-SonarHead samples_head(std::size_t beams = 9, std::size_t elements = 32) {
-  return line_head({.beams = beams, .elements = elements, .field_of_view_deg = 100, .min_range = 2, .max_range = 3});
-}
-
-SonarHead cells_head(SonarHead head, int cells) {
-  head.gate = display_gate(head.gate, cells);
-  return head;
-}
-
-/// Returns echoes evenly over range 1.9 to 3.1 m and all u, of unit mean power [Pa^2].
-SurfaceEchoes even_ground(std::size_t count, std::uint64_t seed = 1) {
-  SurfaceEchoes s;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto at = random_uniform(seed, RandomStage::scene_points, {i, 0, 0});
-    const double range = 1.9 + 1.2 * at[0];
-    s.echoes.delay.push_back(2 * range / lossy.sound_speed);
-    s.echoes.u.push_back(2 * at[1] - 1);
-    s.echoes.amplitude.push_back(std::polar(1.0, 4 * pi * range * centre / lossy.sound_speed));
-    s.id.push_back(i);
-  }
-  s.power.assign(count, 1), s.depth.assign(count, 0), s.width.assign(count, 0);
-  return s;
-}
-
-/// Returns the echoes with the random amplitudes of a seed.
-Echoes drawn(const SurfaceEchoes& s, std::uint64_t seed) {
-  Echoes echoes = s.echoes;
-  std::vector<double> re(s.id.size()), im(s.id.size());
-  random_amplitudes(seed, s.id, re.data(), im.data());
-  for (std::size_t i = 0; i < re.size(); ++i) echoes.amplitude[i] *= std::complex(re[i], im[i]);
-  return echoes;
-}
 
 /// Returns the cells by their definition: sums over echoes, frequencies of the pulse and ranges in fine steps.
 Grid<double> cells_by_definition(const SurfaceEchoes& s, const SonarHead& head, const Medium& water) {
@@ -84,16 +45,6 @@ Grid<double> cells_by_definition(const SurfaceEchoes& s, const SonarHead& head, 
   }
   return sum;
 }
-
-/// Returns M = T^2 / integral of the squared correlation over the cell, 2^(-2 (x / L)^2) for a Gaussian pulse.
-double looks_of_even_ground(const SonarHead& head) {
-  const double length = head.gate.bin_size, l = 0.4413 * c0_cold / (2 * bandwidth);
-  double overlap = 0;
-  for (double x = 0.5e-5; x < length; x += 1e-5) overlap += 2e-5 * (length - x) * std::exp2(-2 * x * x / (l * l));
-  return length * length / overlap;
-}
-
-double worst_db(const Grid<double>& a, const Grid<double>& b) { return (10 * (a / b).log10()).abs().maxCoeff(); }
 
 TEST(DisplayCells, expected_are_the_energies_of_the_definition) {
   const SonarHead head = cells_head(samples_head(), 20);
@@ -200,133 +151,6 @@ TEST(DisplayCells, of_a_tilted_surface_each_range_has_its_own_directions) {
   EXPECT_GT(worst_db(box.block(4, 8, 2, 5), b.block(4, 8, 2, 5)), 3) << "directions matter";
 }
 
-/// Compares cells of even ground with means of samples, over many draws; within_db: of the total.
-void expect_statistics_of_samples(const SonarHead& samples, SynthesisMethod method, double within_db) {
-  const SonarHead head = cells_head(samples, 12);
-  const SurfaceEchoes ground = even_ground(4000);
-  Grid<double> mean[2], square[2];
-  constexpr int seeds = 48;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const auto key = static_cast<std::uint64_t>(seed);
-    const ComplexGrid p = synthesize(drawn(ground, key), samples, lossless, method);
-    const Grid<double> images[] = {mean_over_cells(p.abs2(), samples.gate, head.gate),
-                                   synthesize_cells(ground, {}, head, lossless, {.seed = key})};
-    for (const int k : {0, 1}) {
-      if (seed == 1) mean[k] = square[k] = Grid<double>::Zero(head.fan.beams(), head.gate.bins());
-      mean[k] += images[k] / seeds, square[k] += images[k].square() / seeds;
-    }
-  }
-  const auto contrast = [&](int k) { return std::sqrt((square[k] / mean[k].square() - 1).mean()); };
-  EXPECT_NEAR(db_from_power(mean[1].sum() / mean[0].sum()), 0, within_db);
-  EXPECT_NEAR(contrast(1) / contrast(0), 1, 0.06);
-  const double rms = std::sqrt((10 * (mean[1] / mean[0]).log10()).square().mean());
-  EXPECT_LT(rms, 4.34 * std::sqrt(2.0) * contrast(0) / std::sqrt(seeds) * 1.3 + 0.1);
-}
-
-TEST(DisplayCells, have_mean_and_contrast_of_averaged_samples) {
-  expect_statistics_of_samples(samples_head(), SynthesisMethod::element_exact, 0.05);
-}
-
-TEST(DisplayCells, of_sweeps_have_mean_and_contrast_of_averaged_samples) {
-  SonarHead sweep = samples_head();
-  sweep.pulse.shape = PulseShape::linear_fm;
-  sweep.pulse.duration = 60 / sweep.pulse.bandwidth;
-  // Echoes from beyond the gate leave side lobes in it.
-  expect_statistics_of_samples(sweep, SynthesisMethod::gridded, 0.1);
-}
-
-TEST(DisplayCells, looks_of_even_ground_are_those_of_the_pulse) {
-  const SonarHead head = cells_head(samples_head(), 10);
-  const double looks = looks_of_even_ground(head);
-  double mean = 0, square = 0, n = 0;
-  // The mean of 90 cells a seed, of contrast 0.29, deviates by 0.0024 over so many seeds.
-  for (std::uint64_t seed = 1; seed <= 160; ++seed) {
-    const SurfaceEchoes ground = even_ground(20000, seed);
-    const Grid<double> expected = synthesize_cells(ground, {}, head, {c0_cold, {}}, {.speckle = false});
-    const Grid<double> relative = synthesize_cells(ground, {}, head, {c0_cold, {}}, {.seed = seed}) / expected;
-    mean += relative.sum(), square += relative.square().sum(), n += static_cast<double>(relative.size());
-  }
-  EXPECT_NEAR(mean / n, 1, 0.01);
-  EXPECT_NEAR(std::sqrt(square * n / (mean * mean) - 1), 1 / std::sqrt(looks), 0.06 / std::sqrt(looks));
-}
-
-TEST(DisplayCells, an_echo_alone_is_exponential) {
-  const SonarHead head = cells_head(samples_head(), 5);
-  SurfaceEchoes one = even_ground(1);
-  one.echoes.u[0] = 0, one.echoes.delay[0] = 2 * 2.5 / lossy.sound_speed;
-  const double expected = synthesize_cells(one, {}, head, lossy, {.speckle = false})(4, 2);
-  double sum = 0, square = 0;
-  constexpr int seeds = 1500;
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const double i =
-        synthesize_cells(one, {}, head, lossy, {.seed = static_cast<std::uint64_t>(seed)})(4, 2) / expected;
-    sum += i, square += i * i;
-  }
-  EXPECT_NEAR(sum / seeds, 1, 0.1);
-  EXPECT_NEAR(square / seeds, 2, 0.5);
-}
-
-/// Returns even ground with two facets in each of five cells, with 45 and 25 % of the middle beam's energy there.
-SurfaceEchoes ground_with_facets(const SonarHead& head) {
-  SurfaceEchoes s = even_ground(4000);
-  const Grid<double> ground = synthesize_cells(s, {}, head, lossless, {.speckle = false});
-  for (std::size_t cell = 0; cell < 5; ++cell)
-    for (const auto& [aside, part] : {std::pair(-0.05, 0.45), std::pair(0.05, 0.25)}) {
-      SurfaceEchoes one = even_ground(1);
-      const double range = head.gate.centre(cell) + aside;
-      one.echoes.u[0] = 0, one.echoes.delay[0] = 2 * range / lossy.sound_speed;
-      const double alone =
-          synthesize_cells(one, {}, head, lossless, {.speckle = false})(4, static_cast<Eigen::Index>(cell));
-      const double power = part / 0.3 * ground(4, static_cast<Eigen::Index>(cell)) / alone;
-      s.echoes.delay.push_back(one.echoes.delay[0]), s.echoes.u.push_back(0);
-      s.echoes.amplitude.push_back(std::polar(std::sqrt(power), 4 * pi * range * centre / lossy.sound_speed));
-      s.id.push_back(s.id.size()), s.power.push_back(power), s.depth.push_back(0), s.width.push_back(0);
-    }
-  return s;
-}
-
-// Drawn as even ground alone they would be dark a third as often.
-TEST(DisplayCells, of_two_bright_facets_are_dark_as_often_as_those_of_samples) {
-  const SonarHead samples = samples_head(), head = cells_head(samples, 5);
-  const SurfaceEchoes ground = ground_with_facets(head);
-  const Grid<double> expected = synthesize_cells(ground, {}, head, lossless, {.speckle = false});
-  constexpr int seeds = 300;
-  double dark[] = {0, 0};
-  for (int seed = 1; seed <= seeds; ++seed) {
-    const auto key = static_cast<std::uint64_t>(seed);
-    const ComplexGrid p = synthesize(drawn(ground, key), samples, lossless, SynthesisMethod::gridded);
-    const Grid<double> images[] = {mean_over_cells(p.abs2(), samples.gate, head.gate),
-                                   synthesize_cells(ground, {}, head, lossless, {.seed = key})};
-    for (const int k : {0, 1})
-      for (Eigen::Index cell = 0; cell < 5; ++cell) dark[k] += images[k](4, cell) < 0.4 * expected(4, cell);
-  }
-  const double of_samples = dark[0] / (5 * seeds), of_drawn = dark[1] / (5 * seeds);
-  EXPECT_GT(of_samples, 0.05);
-  EXPECT_NEAR(of_drawn, of_samples, 0.02);
-}
-
-TEST(DisplayCells, fixed_echoes_add_up_as_pressures) {
-  const SonarHead head = cells_head(samples_head(), 5);
-  const auto fixed = [&](std::complex<double> more) {
-    Echoes e;
-    for (const auto& amplitude : {std::complex<double>(1), more}) {
-      e.delay.push_back(2 * 2.5 / lossy.sound_speed), e.u.push_back(0), e.amplitude.push_back(amplitude);
-    }
-    return synthesize_cells({}, e, head, lossy)(4, 2);
-  };
-  EXPECT_NEAR(fixed({1, 0}) / fixed({0, 0}), 4, 1e-6);
-  EXPECT_NEAR(fixed({0, 1}) / fixed({0, 0}), 2, 1e-6);
-  EXPECT_NEAR(fixed({-1, 0}) / fixed({0, 0}), 0, 1e-6);
-  // Its level is that of samples: of one echo |P|^2 has no speckle.
-  Echoes one;
-  one.delay = {2 * 2.5 / lossy.sound_speed}, one.u = {0}, one.amplitude = {1};
-  SonarHead samples = samples_head();
-  samples.gate.bin_size /= 5;
-  const ComplexGrid p = synthesize(one, samples, lossy, SynthesisMethod::element_exact);
-  const Grid<double> exact = mean_over_cells(p.abs2(), samples.gate, head.gate);
-  EXPECT_NEAR(db_from_power(synthesize_cells({}, one, head, lossy)(4, 2) / exact(4, 2)), 0, 0.05);
-}
-
 // Two cells share their transforms. In one of them stands a patch whose energy another patch has, so that it expects
 // nothing: what the loud one rounds off there is no level to divide by.
 TEST(DisplayCells, a_cell_without_energy_is_silent_beside_a_loud_one) {
@@ -345,20 +169,6 @@ TEST(DisplayCells, a_cell_without_energy_is_silent_beside_a_loud_one) {
     const Grid<double> cells = synthesize_cells(s, {}, head, lossy, {.seed = seed});
     EXPECT_LT(cells.col(9).maxCoeff(), 1e-9 * cells.col(8).maxCoeff()) << seed;
   }
-}
-
-TEST(DisplayCells, noise_has_level_and_looks_of_the_samples) {
-  const SonarHead samples = samples_head(), head = cells_head(samples, 10);
-  double sum = 0, square = 0, n = 0;
-  for (std::int64_t ping = 0; ping < 60; ++ping) {
-    const Grid<double> cells = synthesize_cells({}, {}, head, lossy, {.ping = ping, .element_noise_db = 100});
-    sum += cells.sum(), square += cells.square().sum(), n += static_cast<double>(cells.size());
-  }
-  double weights = 0;
-  for (const double w : head.array.shading) weights += w * w;
-  const double beam = 2 * 1e10 * 1e-12 * weights / std::pow(static_cast<double>(head.array.elements()), 2);  // (E19)
-  EXPECT_NEAR(db_from_power(sum / n / beam), 0, 0.1);
-  EXPECT_NEAR(std::sqrt(square / n / std::pow(sum / n, 2) - 1), 1 / std::sqrt(looks_of_even_ground(head)), 0.02);
 }
 
 TEST(DisplayCells, are_linear_and_the_same_for_any_threads) {

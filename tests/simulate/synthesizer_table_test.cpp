@@ -70,13 +70,13 @@ TEST(SynthesizerTable, refuses_what_cannot_be_made_every_time) {
 
 TEST(SynthesizerTable, keeps_what_draws_display_cells_by_medium_and_gate) {
   SynthesizerTable table;
-  const auto first = table.cells_of(table_head, medium_of_speed(1490));
-  EXPECT_EQ(table.cells_of(table_head, medium_of_speed(1490)), first);
+  const auto first = table.cells_of(table_head, medium_of_speed(1490), 0.01);
+  EXPECT_EQ(table.cells_of(table_head, medium_of_speed(1490), 0.01), first);
   SonarHead coarser = table_head;
   coarser.gate.bin_size *= 2;
-  const auto other = table.cells_of(coarser, medium_of_speed(1490));
+  const auto other = table.cells_of(coarser, medium_of_speed(1490), 0.01);
   EXPECT_NE(other, first);
-  EXPECT_EQ(table.cells_of(table_head, medium_of_speed(1490)), first);
-  EXPECT_NE(table.cells_of(table_head, medium_of_speed(1491)), first);
-  EXPECT_NE(table.cells_of(coarser, medium_of_speed(1490)), other) << "of three, the one used first is made anew";
+  EXPECT_EQ(table.cells_of(table_head, medium_of_speed(1490), 0.01), first);
+  EXPECT_NE(table.cells_of(table_head, medium_of_speed(1491), 0.01), first);
+  EXPECT_NE(table.cells_of(coarser, medium_of_speed(1490), 0.01), other) << "of three, the one used first is made anew";
 }

@@ -42,14 +42,19 @@ void CellRow::sum_fields(std::size_t cell, std::size_t s) {
 }
 
 void CellRow::add_noise(std::size_t cell, std::size_t q, double noise) {
-  const double root = std::sqrt(noise / plan_.lag[0]);
+  const double root = std::sqrt(noise / plan_.lag[0]), next = plan_.noise_of_next;
   if (root == 0) return;
+  add_noise_of(cell, q, root * std::sqrt(1 - next * next));
+  if (next > 0) add_noise_of(cell + 1, q, root * next);  // (E224)
+}
+
+void CellRow::add_noise_of(std::size_t cell, std::size_t q, double amplitude) {
   for (std::size_t m = 0; m < noise_id_.size(); ++m)
-    noise_id_[m] = ((row_.first_element + m) * plan_.cells + cell) * 2 + q;
+    noise_id_[m] = ((row_.first_element + m) * (plan_.cells + 1) + cell) * 2 + q;
   kernels::draw_normals(noise_seed(options_), noise_id_.data(), noise_id_.size(), noise_re_.data(), noise_im_.data());
   std::size_t at = plan_.first_element;
   for (std::size_t m = 0; m < noise_id_.size(); ++m) {
-    elements_[at] += root * Complex(noise_re_[m], noise_im_[m]);
+    elements_[at] += amplitude * Complex(noise_re_[m], noise_im_[m]);
     if (++at == plan_.period) at = 0;
   }
 }

@@ -223,9 +223,18 @@ void CellRow::count_looks(std::size_t cell, Side& side) {
     ranged_.push_back({low, high, density, starboard, port + 1});
   }
   kernels::add_energies(ranged_.data(), ranged_.size(), subranges, energy_.data());
-  kernels::CellEnergies of{energy_.data(),     alike_.data(),     plan_.broad, subranges,
-                           plan_.lobe.data(),  plan_.lobe.size(), 0,           0,
-                           plan_.looks.data(), plan_.looks.size()};
+  kernels::CellEnergies of{energy_.data(),
+                           alike_.data(),
+                           plan_.broad,
+                           subranges,
+                           plan_.lobe.data(),
+                           plan_.lobe.size(),
+                           0,
+                           0,
+                           plan_.noise_with_ground,
+                           plan_.noise_alone,
+                           plan_.looks.data(),
+                           plan_.looks.size()};
   of.beside = static_cast<float>(plan_.beside_lobe);
   of.noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(subranges)) : 0;
   kernels::count_looks(of, beams_.broad_used.data(), beams_.broad_used.size(), side.looks.data());

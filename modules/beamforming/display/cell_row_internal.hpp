@@ -45,9 +45,6 @@ inline double overlap(double low, double high, double first, double last) {
   return std::max(0.0, std::min(high, last) - std::max(low, first));
 }
 
-/// Deviations of a pulse's energy in range beyond which it is left out.
-inline constexpr double reach_of_pulse = 4;
-
 /// An echo in a cell.
 struct EchoInCell {
   std::uint32_t echo;
@@ -135,6 +132,7 @@ class CellRow {
   void count_looks(std::size_t cell, Side& side);
   /// Adds noise of a power [Pa^2] in the beams to the pressures of field q at the elements.
   void add_noise(std::size_t cell, std::size_t q, double noise);
+  void add_noise_of(std::size_t cell, std::size_t q, double amplitude);
   /// Turns pressures at the elements, from first_element on, into samples of their field.
   void form_period(const std::vector<Complex>& elements, std::vector<Complex>& samples);
   void draw(const Side& side);

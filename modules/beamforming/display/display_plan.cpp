@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "beamforming/display/display_plan_internal.hpp"
-#include "beamforming/display/looks_loops_internal.hpp"
+#include "beamforming/numerics/receive_filter_internal.hpp"
 #include "beamforming/numerics/require_synthesis_internal.hpp"
 #include "core/units.hpp"
 
@@ -12,7 +12,6 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t nodes_per_element = 4;
-constexpr std::size_t least_parts_of_a_cell = 4;
 constexpr std::size_t blocks_of_range = 4;  // with kernels of their own, where absorption changes the spectrum
 constexpr double least_beside = 1e-12;
 constexpr double least_spread = 1e-3;  // energy heard in other cells from which on it counts; an echo in a main lobe: 1
@@ -74,7 +73,7 @@ double wavelength_of(const SonarHead& head, const Medium& medium) {
 
 }  // namespace
 
-DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
+DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sample_length)
     : nodes(static_cast<std::size_t>(std::ceil(2 / node_width_of(head, wavelength_of(head, medium))))),
       period(period_of(head)),
       broad(nodes / 2 + 1),
@@ -97,7 +96,10 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium)
     for (std::size_t i = 0; i < nodes; ++i)
       turn.push_back(std::polar(1.0, -pi * (static_cast<double>(i) + 0.5) / static_cast<double>(period)));
   fill_kernels(head, medium);
-  fill_looks(head);
+  fill_lobe(head);
+  fill_looks();
+  fill_noise_looks(ReceiveFilter(head.pulse, 2 * sample_length / medium.sound_speed), sample_length);
+  fill_neighbours();
 }
 
 void DisplayPlan::fill_elements(const SonarHead& head) {
@@ -196,25 +198,10 @@ std::vector<double> DisplayPlan::kernel_from(const std::vector<double>& pattern,
   return made;
 }
 
-void DisplayPlan::fill_looks(const SonarHead& head) {
+void DisplayPlan::fill_lobe(const SonarHead& head) {
   const double reach = main_lobe_reach * head.fan.beam_width;
   for (std::size_t k = 0; k == 0 || 2 * static_cast<double>(k) * node_width < reach; ++k)
     lobe.push_back(static_cast<float>(response_at(2 * static_cast<double>(k) * node_width)));
-
-  const double resolved = std::max(2 * pulse.half_length(), 1e-9);
-  subranges = std::clamp(static_cast<std::size_t>(std::ceil(cell_length / resolved)), least_parts_of_a_cell,
-                         kernels::most_subranges);
-  const double length = cell_length / static_cast<double>(subranges);
-  constexpr int steps = 32;
-  for (std::size_t d = 0; d < subranges; ++d) {
-    double mean = 0;
-    for (int k = -steps; k < steps; ++k) {
-      const double s = (k + 0.5) / steps;
-      mean += (1 - std::abs(s)) * pulse.correlation((static_cast<double>(d) + s) * length) / steps;
-    }
-    if (d > 0 && mean < 1e-4) break;
-    looks.push_back(static_cast<float>(mean));
-  }
 }
 
 }  // namespace insonify

@@ -14,6 +14,11 @@
 
 namespace insonify {
 
+struct ReceiveFilter;
+
+/// Deviations of a pulse's energy in range beyond which it is left out.
+inline constexpr double reach_of_pulse = 4;
+
 /// Positions among samples of fields, and of powers. A period has four times as many samples as fields vary with, and
 /// twice as many as powers, whose weak parts count: errors are below 1e-3 and 1e-6 of the root of the mean square.
 using BetweenFields = Between<4>;
@@ -35,8 +40,9 @@ struct BeamPositions {
 /// Nodes of u are `node_width` wide, evenly over [-1, 1]: `nodes` in all, `period` of them in one period of the array's
 /// response. Broad nodes of two hold the energies from which looks are counted.
 struct DisplayPlan {
-  /// The pulse is that of `head`; gate: cells. Throws Error for an invalid head or medium.
-  DisplayPlan(const SonarHead& head, const Medium& medium);
+  /// The pulse is that of `head`; gate: cells. Samples, of which cells are the means, are `sample_length` [m] apart. Throws
+  /// Error for an invalid head or medium.
+  DisplayPlan(const SonarHead& head, const Medium& medium, double sample_length);
 
   std::size_t nodes, period, broad;
   double node_width, beam_width;
@@ -64,6 +70,11 @@ struct DisplayPlan {
   double beside_lobe;        ///< mean response outside of it
   std::size_t subranges;     ///< ranges of a cell whose energies are kept apart
   std::vector<float> looks;  ///< R_d of parts d apart (E182)
+  /// Means over pairs of ranges of a cell by which the correlation of ground exceeds that of noise with ground, and that
+  /// of noise (E223).
+  float noise_with_ground = 0, noise_alone = 0;
+  double field_reach = 0;  ///< half length of the box in range over which an echo's field is shared by cells [m] (E224)
+  double noise_of_next = 0;  ///< part of the noise that a cell has of the next, as an amplitude (E224)
 
   ResponseTable response;
   PulseEnergy pulse;
@@ -81,7 +92,10 @@ struct DisplayPlan {
   void fill_kernels(const SonarHead& head, const Medium& medium);
   /// Returns the spectrum of a pattern (by nodes apart) times `share` of it, as samples that are interpolated.
   std::vector<double> kernel_from(const std::vector<double>& pattern, const std::vector<double>& share) const;
-  void fill_looks(const SonarHead& head);
+  void fill_lobe(const SonarHead& head);
+  void fill_looks();
+  void fill_noise_looks(const ReceiveFilter& filter, double sample_length);
+  void fill_neighbours();
 };
 
 }  // namespace insonify

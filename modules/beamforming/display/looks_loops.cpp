@@ -64,6 +64,7 @@ INSONIFY_ALWAYS_INLINE void count_looks_of(const CellEnergies& cell, const std::
     everywhere[n / subrange_lanes][n % subrange_lanes] = n < cell.subranges ? cell.noise + cell.beside * received : 0;
   }
   float padded[2 * whole] = {};  // what lies beyond is 0
+  const float noise = cell.noise * static_cast<float>(cell.subranges);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t j = at[k], reach = cell.lobe_reach - 1;
     Lanes received[rows], other, sum = {}, product = {};
@@ -81,6 +82,7 @@ INSONIFY_ALWAYS_INLINE void count_looks_of(const CellEnergies& cell, const std::
     }
     float sums = 0, products = 0;
     for (std::size_t l = 0; l < subrange_lanes; ++l) sums += sum[l], products += product[l];
+    products -= noise * (2 * (sums - noise) * cell.with_ground + noise * cell.alone);          // (E223)
     looks[k] = products > 0 ? std::max(1.0, static_cast<double>(sums / products * sums)) : 1;  // (E182)
   }
 }

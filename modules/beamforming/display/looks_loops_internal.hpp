@@ -23,7 +23,8 @@ struct CellEnergies {
   std::size_t nodes, subranges;
   const float* lobe;  ///< weight of nodes at distances 0, 1, .. below `lobe_reach`
   std::size_t lobe_reach;
-  float beside, noise;       ///< weight of all nodes; energy that each range has besides
+  float beside, noise;       ///< weight of all nodes; noise that each range has besides
+  float with_ground, alone;  ///< means of R of ground less that of noise with ground, and less that of noise (E223)
   const float* correlation;  ///< R_d of ranges d apart, d below `reach` (E182)
   std::size_t reach;
 };
@@ -36,7 +37,7 @@ struct RangedEnergy {
 /// before.
 void add_energies(const RangedEnergy* added, std::size_t count, std::size_t subranges, float* energy);
 
-/// Sets looks[k] to (sum P)^2 / sum_kl P_k P_l R_|k-l| (E182) of a beam at node at[k], k < count; at least 1. Adds up
+/// Sets looks[k] to (sum P)^2 / sum_kl P_k P_l R_|k-l| (E182, E223) of a beam at node at[k], k < count; at least 1. Adds up
 /// cell.energy over the nodes.
 void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks);
 

@@ -53,8 +53,8 @@ struct CellSynthesizer::Plan {
   DisplayPlan display;
   std::vector<BeamPositions> beams{};  ///< places of the beams of each row
 
-  Plan(const SonarHead& of, const Medium& water)
-      : head(of), medium(water), rows(fan_rows(of.fan)), display(line_head(of, rows.front()), water) {
+  Plan(const SonarHead& of, const Medium& water, double sample_length)
+      : head(of), medium(water), rows(fan_rows(of.fan)), display(line_head(of, rows.front()), water, sample_length) {
     for (const FanRow& row : rows) beams.push_back(display.positions_of(line_head(head, row).fan));
   }
   bool one_line() const { return rows.size() == 1 && !head.column; }
@@ -71,10 +71,13 @@ struct CellSynthesizer::Plan {
   }
 };
 
-CellSynthesizer::CellSynthesizer(const SonarHead& head, const Medium& medium) {
+CellSynthesizer::CellSynthesizer(const SonarHead& head, const Medium& medium, double sample_length) {
   require_synthesis({}, head, medium, {}, me);
+  if (!(sample_length >= 0 && std::isfinite(sample_length)))
+    fail(ErrorKind::argument, me, ": sample_length = ", sample_length, " m, must be >= 0");
   if (!has_line(head)) require_one_row(head, me);
-  plan_ = std::make_unique<const Plan>(head, medium);
+  const double step = sample_length > 0 ? sample_length : default_bin_size(head.pulse, medium.sound_speed);
+  plan_ = std::make_unique<const Plan>(head, medium, step);
 }
 CellSynthesizer::~CellSynthesizer() = default;
 CellSynthesizer::CellSynthesizer(CellSynthesizer&&) noexcept = default;

@@ -151,12 +151,16 @@ inline Difference difference(const Moments& a, const Moments& b, int seeds) {
   return d;
 }
 
+/// Beams of an image.
+enum class Beams { all, middle_half };
+
 /// Returns the correlation of two images, each relative to its mean, `beams` and `cells` apart.
 inline double correlation(const Grid<double>& a, const Grid<double>& b, const Grid<double>& mean,
-                          Eigen::Index beams = 0, Eigen::Index cells = 0) {
+                          Eigen::Index beams = 0, Eigen::Index cells = 0, Beams among = Beams::all) {
   double ab = 0, aa = 0, bb = 0;
   const double least = 1e-4 * mean.maxCoeff();
-  for (Eigen::Index i = 0; i + beams < a.rows(); ++i)
+  const Eigen::Index beside = among == Beams::all ? 0 : a.rows() / 4;
+  for (Eigen::Index i = beside; i + beams < a.rows() - beside; ++i)
     for (Eigen::Index j = 0; j + cells < a.cols(); ++j) {
       if (mean(i, j) < least || mean(i + beams, j + cells) < least) continue;
       const double x = a(i, j) / mean(i, j) - 1, y = b(i + beams, j + cells) / mean(i + beams, j + cells) - 1;

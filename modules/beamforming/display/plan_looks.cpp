@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers of a DisplayPlan from which looks are counted (E182, E223), and the likeness of cells side by side (E224).
+#include <algorithm>
+#include <cmath>
+
+#include "beamforming/display/display_plan_internal.hpp"
+#include "beamforming/display/looks_loops_internal.hpp"
+#include "beamforming/numerics/receive_filter_internal.hpp"
+#include "core/units.hpp"
+
+namespace insonify {
+namespace {
+
+constexpr std::size_t least_parts_of_a_cell = 4;
+constexpr double least_likeness = 0.02;  // correlation of cells side by side from which on it is drawn
+constexpr double steps_per_pulse = 8;    // of sums over pairs of ranges
+constexpr double most_steps = 8192;      // of such a sum
+
+/// Returns the mean of f(r' - r) over all r of a cell and all r' of one that begins `ahead` [m] farther.
+template <typename Function>
+double mean_of_pairs(const DisplayPlan& plan, double ahead, const Function& f) {
+  const double length = plan.cell_length, resolved = std::max(plan.pulse.half_length(), 1e-9);
+  const auto steps = static_cast<int>(std::clamp(steps_per_pulse * length / resolved, 64.0, most_steps));
+  double mean = 0;
+  for (int k = -steps; k < steps; ++k) {
+    const double s = (k + 0.5) / steps;
+    mean += (1 - std::abs(s)) * f(std::abs(ahead + s * length)) / steps;
+  }
+  return mean;
+}
+
+}  // namespace
+
+void DisplayPlan::fill_looks() {
+  const double resolved = std::max(2 * pulse.half_length(), 1e-9);
+  subranges = std::clamp(static_cast<std::size_t>(std::ceil(cell_length / resolved)), least_parts_of_a_cell,
+                         kernels::most_subranges);
+  const double length = cell_length / static_cast<double>(subranges);
+  constexpr int steps = 32;
+  for (std::size_t d = 0; d < subranges; ++d) {
+    double mean = 0;
+    for (int k = -steps; k < steps; ++k) {
+      const double s = (k + 0.5) / steps;
+      mean += (1 - std::abs(s)) * pulse.correlation((static_cast<double>(d) + s) * length) / steps;
+    }
+    if (d > 0 && mean < 1e-4) break;
+    looks.push_back(static_cast<float>(mean));
+  }
+}
+
+void DisplayPlan::fill_noise_looks(const ReceiveFilter& filter, double sample_length) {
+  // Means of samples are means of steps as wide as samples are apart: between lags their correlation is a straight line.
+  const auto count = static_cast<std::size_t>(std::min(cell_length / sample_length, 1e6)) + 2;
+  std::vector<double> noise = filter.noise_correlation(count);
+  noise.resize(count + 1);
+  const auto of_noise = [&](double distance) {
+    const double position = distance / sample_length;
+    const auto left = std::min(static_cast<std::size_t>(position), count - 1);
+    return std::lerp(noise[left], noise[left + 1], position - static_cast<double>(left));
+  };
+  const auto of_ground = [&](double distance) { return pulse.correlation(distance); };
+  const auto of_both = [&](double distance) { return std::sqrt(of_noise(distance) * of_ground(distance)); };
+  const double ground = mean_of_pairs(*this, 0, of_ground);
+  noise_with_ground = static_cast<float>(ground - mean_of_pairs(*this, 0, of_both));
+  noise_alone = static_cast<float>(ground - mean_of_pairs(*this, 0, of_noise));  // (E223)
+}
+
+void DisplayPlan::fill_neighbours() {
+  const auto of_ground = [&](double distance) { return pulse.correlation(distance); };
+  const double likeness = mean_of_pairs(*this, cell_length, of_ground) / mean_of_pairs(*this, 0, of_ground);
+  field_reach = pulse.half_length();
+  if (!(likeness > least_likeness)) return;
+  // Even ground has fields alike by pi / 4 of that reach, in cells.
+  const double alike = std::sqrt(likeness);
+  field_reach = std::clamp(4 / pi * alike * cell_length, field_reach, reach_of_pulse * pulse.deviation());
+  noise_of_next = std::sin(0.5 * std::asin(std::min(1.0, 2 * alike)));  // (E224)
+}
+
+}  // namespace insonify
