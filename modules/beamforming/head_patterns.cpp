@@ -8,27 +8,14 @@
 #include "sonar/element_kernels_internal.hpp"
 
 namespace insonify {
-namespace {
-
-struct Extent {
-  double low, high;
-  double middle() const { return low == high ? low : (low + high) / 2; }
-};
-
-Extent elevations_of(const BeamFan& fan) {
-  const auto [low, high] = std::minmax_element(fan.elevation.begin(), fan.elevation.end());
-  return {*low, *high};
-}
-
-}  // namespace
 
 EchoOptions with_patterns(EchoOptions options, const SonarHead& head) {
   require_valid(head.fan, "with_patterns");
-  const Extent rows = elevations_of(head.fan);
-  const bool own_pattern = !head.column && rows.low != rows.high;  // synthesize applies that of each row
+  const auto [low, high] = std::ranges::minmax(head.fan.elevation);
+  const bool own_pattern = !head.column && low != high;  // synthesize applies that of each row
   options.elevation_shape = head.elevation_shape;
   options.elevation_width = own_pattern ? 0 : head.fan.elevation_width;
-  options.elevation_centre = rows.middle();
+  options.elevation_centre = (low + high) / 2;
   options.transmit_width = head.transmit_width;
   return options;
 }
@@ -39,8 +26,8 @@ double sampled_half_extent(const SonarHead& head, double floor_db) {
   if (!head.column) return half;
   // The transmitter's pattern is centred on the middle of the rows; beams outside it still receive from one beam width
   // around them.
-  const Extent rows = elevations_of(head.fan);
-  return std::max(half - (rows.high - rows.low) / 2, std::min(head.fan.row_width, pi / 2));
+  const auto [low, high] = std::ranges::minmax(head.fan.elevation);
+  return std::max(half - (high - low) / 2, std::min(head.fan.row_width, pi / 2));
 }
 
 RowResponse::RowResponse(const SonarHead& head, double wavelength, double row_elevation)

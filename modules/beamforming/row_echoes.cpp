@@ -25,18 +25,13 @@ RowEchoes::RowEchoes(const Echoes& echoes, const SonarHead& head, double wavelen
   });
 }
 
-std::vector<double> RowEchoes::responses(const FanRow& row) const {
+Echoes RowEchoes::of(const FanRow& row) const {
   std::vector<double> response(echoes_.size());
   parallel_blocks(echoes_.size(), block, threads_, [&](std::size_t begin, std::size_t end) {
     RowResponse row_response(head_, wavelength_, row.elevation);
     for (std::size_t i = begin; i < end; ++i) response[i] = row_response.at(echoes_.v[i]);
   });
-  return response;
-}
-
-Echoes RowEchoes::of(const FanRow& row) const {
   Echoes of_row;
-  const std::vector<double> response = responses(row);
   for (std::size_t i = 0; i < response.size(); ++i) {
     if (std::abs(response[i]) <= least_[i]) continue;
     of_row.delay.push_back(echoes_.delay[i]);

@@ -19,8 +19,6 @@ class RowEchoes {
   Echoes of(const FanRow& row) const;
 
  private:
-  std::vector<double> responses(const FanRow& row) const;
-
   static constexpr std::size_t block = 4096;
   const Echoes& echoes_;
   const SonarHead& head_;
@@ -49,11 +47,7 @@ Image image_by_rows(const Echoes& echoes, const SonarHead& head, const Medium& m
   require_elevations(echoes);
   const RowEchoes row_echoes(echoes, head, medium.sound_speed / head.pulse.centre_frequency, rows, cutoff, threads);
   Image image(head.fan.beams(), head.gate.bins());
-  for (const FanRow& row : rows) {
-    const Image beams = line(row_echoes.of(row), line_head(head, row));
-    for (std::size_t k = 0; k < row.beams.size(); ++k)
-      image.row(static_cast<Eigen::Index>(row.beams[k])) = beams.row(static_cast<Eigen::Index>(k));
-  }
+  for (const FanRow& row : rows) image(row.beams, Eigen::all) = line(row_echoes.of(row), line_head(head, row));
   return image;
 }
 

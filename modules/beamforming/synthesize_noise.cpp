@@ -36,43 +36,38 @@ struct ElementTile {
 /// Shading and steering phasors of all beams and elements, to form beams from tiles of element series.
 class BeamSums {
  public:
-  BeamSums(const SonarHead& head, double wavelength);
+  BeamSums(const SonarHead& head, double wavelength) {
+    const std::vector<Eigen::Vector3d> axes = beam_axes(head.fan);
+    const auto array = receive_array(head);
+    const std::size_t n = head.array.elements();
+    re_.resize(axes.size(), n);
+    im_.resize(axes.size(), n);
+    for (std::size_t b = 0; b < axes.size(); ++b)
+      for (std::size_t m = 0; m < n; ++m) {
+        const double phase = -array->steering_phase(m, axes[b], wavelength);
+        const double w = head.array.shading[m] / static_cast<double>(n);
+        re_(b, m) = w * std::cos(phase);
+        im_(b, m) = w * std::sin(phase);
+      }
+  }
 
   /// Computes pressure(b, n) for some beams, those of one row, and the bins [first, last) of one tile: the sum over
   /// elements (E10).
   void form_beams(const ElementTile& series, std::size_t first, std::size_t last, std::span<const std::size_t> beams,
-                  ComplexGrid& pressure) const;
+                  ComplexGrid& pressure) const {
+    // Transpose to one row per element, so the sums run along time.
+    const Grid<double> re = series.re.transpose(), im = series.im.transpose();
+    double beam_re[tile_bins], beam_im[tile_bins];
+    for (const std::size_t b : beams) {
+      kernels::sum_elements(re_.row(b).data(), im_.row(b).data(), re_.cols(), re.data(), im.data(), tile_bins,
+                            last - first, beam_re, beam_im);
+      for (std::size_t n = first; n < last; ++n) pressure(b, n) = {beam_re[n - first], beam_im[n - first]};
+    }
+  }
 
  private:
   Grid<double> re_, im_;  // beams x elements
 };
-
-BeamSums::BeamSums(const SonarHead& head, double wavelength) {
-  const std::vector<Eigen::Vector3d> axes = beam_axes(head.fan);
-  const auto array = receive_array(head);
-  const std::size_t n = head.array.elements();
-  re_.resize(axes.size(), n);
-  im_.resize(axes.size(), n);
-  for (std::size_t b = 0; b < axes.size(); ++b)
-    for (std::size_t m = 0; m < n; ++m) {
-      const double phase = -array->steering_phase(m, axes[b], wavelength);
-      const double w = head.array.shading[m] / static_cast<double>(n);
-      re_(b, m) = w * std::cos(phase);
-      im_(b, m) = w * std::sin(phase);
-    }
-}
-
-void BeamSums::form_beams(const ElementTile& series, std::size_t first, std::size_t last,
-                          std::span<const std::size_t> beams, ComplexGrid& pressure) const {
-  // Transpose to one row per element, so the sums run along time.
-  const Grid<double> re = series.re.transpose(), im = series.im.transpose();
-  double beam_re[tile_bins], beam_im[tile_bins];
-  for (const std::size_t b : beams) {
-    kernels::sum_elements(re_.row(b).data(), im_.row(b).data(), re_.cols(), re.data(), im.data(), tile_bins,
-                          last - first, beam_re, beam_im);
-    for (std::size_t n = first; n < last; ++n) pressure(b, n) = {beam_re[n - first], beam_im[n - first]};
-  }
-}
 
 /// White noise of unit power per element, as received by the line array of each row of beams.
 ///
@@ -85,45 +80,39 @@ void BeamSums::form_beams(const ElementTile& series, std::size_t first, std::siz
 /// m, bin), which for one row without column is the counting of a line array.
 class RowNoise {
  public:
-  RowNoise(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows, const NoiseOptions& options);
+  RowNoise(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows, const NoiseOptions& options)
+      : columns_(head.array.elements()), options_(options) {
+    if (!head.column) return;
+    const std::size_t elements = head.column->elements();
+    column_.resize(rows.size(), elements);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      for (std::size_t k = 0; k < elements; ++k) {
+        const double step = -2 * pi * head.column->spacing / wavelength * std::sin(rows[r].elevation);
+        column_(r, k) = std::polar(1.0, step * element_position(k, elements)) * head.column->shading[k] /
+                        static_cast<double>(elements);
+      }
+  }
 
   /// Returns the noise of element m for rows [first, last), rows x bins, on bins [begin, begin + bins).
-  ComplexGrid white(std::size_t m, std::size_t first, std::size_t last, std::uint64_t begin, std::size_t bins) const;
+  ComplexGrid white(std::size_t m, std::size_t first, std::size_t last, std::uint64_t begin, std::size_t bins) const {
+    // Independent elements: those of the rows themselves, or those of the column.
+    const std::size_t first_layer = column_.size() ? 0 : first;
+    const std::size_t layers = column_.size() ? static_cast<std::size_t>(column_.cols()) : last - first;
+    ComplexGrid xi(layers, bins);
+    for (std::size_t k = 0; k < layers; ++k)
+      for (std::size_t n = 0; n < bins; ++n)
+        xi(k, n) = random_complex_normal(
+            options_.seed, RandomStage::noise,
+            {static_cast<std::uint64_t>(options_.ping), (first_layer + k) * columns_ + m, begin + n});
+    if (!column_.size()) return xi;
+    return column_.middleRows(first, last - first).matrix() * xi.matrix();  // (E56)
+  }
 
  private:
   ComplexGrid column_;  // rows x elements of the column; empty without a column
   std::size_t columns_;
   NoiseOptions options_;
 };
-
-RowNoise::RowNoise(const SonarHead& head, double wavelength, const std::vector<FanRow>& rows,
-                   const NoiseOptions& options)
-    : columns_(head.array.elements()), options_(options) {
-  if (!head.column) return;
-  const std::size_t elements = head.column->elements();
-  column_.resize(rows.size(), elements);
-  for (std::size_t r = 0; r < rows.size(); ++r)
-    for (std::size_t k = 0; k < elements; ++k) {
-      const double step = -2 * pi * head.column->spacing / wavelength * std::sin(rows[r].elevation);
-      column_(r, k) = std::polar(1.0, step * element_position(k, elements)) * head.column->shading[k] /
-                      static_cast<double>(elements);
-    }
-}
-
-ComplexGrid RowNoise::white(std::size_t m, std::size_t first, std::size_t last, std::uint64_t begin,
-                            std::size_t bins) const {
-  // Independent elements: those of the rows themselves, or those of the column.
-  const std::size_t first_layer = column_.size() ? 0 : first;
-  const std::size_t layers = column_.size() ? static_cast<std::size_t>(column_.cols()) : last - first;
-  ComplexGrid xi(layers, bins);
-  for (std::size_t k = 0; k < layers; ++k)
-    for (std::size_t n = 0; n < bins; ++n)
-      xi(k, n) = random_complex_normal(
-          options_.seed, RandomStage::noise,
-          {static_cast<std::uint64_t>(options_.ping), (first_layer + k) * columns_ + m, begin + n});
-  if (!column_.size()) return xi;
-  return column_.middleRows(first, last - first).matrix() * xi.matrix();  // (E56)
-}
 
 }  // namespace
 

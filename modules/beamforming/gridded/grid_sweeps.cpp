@@ -34,6 +34,7 @@ void GridTile<Real>::add_planned_sweeps(const Echoes& echoes, List list, std::si
   const auto all_pieces = static_cast<double>(plan.sweep_re.pieces), from = static_cast<double>(first_bin),
              to = static_cast<double>(std::min(first_bin + plan.tile_bins, plan.axis.bins));
   const EchoEnvelope envelope = echo_envelope(plan.head.pulse, {}, 0);
+  Real *pulse_re = scratch_.data(), *pulse_im = scratch_.data() + scratch_.size() / 2;
   for (const std::uint32_t i : list) {
     Brick& brick = flushed(brick_at(0, 0));
     ++brick.since_flush;
@@ -45,13 +46,21 @@ void GridTile<Real>::add_planned_sweeps(const Echoes& echoes, List list, std::si
     const std::complex<double> a = columns.sign / unit_ *
                                    std::exp(-plan.medium.absorption.a0 * plan.medium.sound_speed * delay) *
                                    echoes.amplitude[i];
-    const auto at = [&](double piece) {
-      return brick.sum.data() + static_cast<std::size_t>(row_0 + piece - from) * stride_ + columns.first;
+    const auto add = [&](double piece, std::size_t rows) {
+      Real* at = brick.sum.data() + static_cast<std::size_t>(row_0 + piece - from) * stride_ + columns.first;
+      kernels::grid_sampled_pulse(pulse_re, pulse_im, rows, columns.offset, plan.columns, at, at + plane_, stride_);
     };
-    kernels::grid_pulse_rows(static_cast<Real>(a.real()), static_cast<Real>(a.imag()),
-                             static_cast<Real>(2 * (row_0 - low_row) - 1), columns.offset, plan.sweep_re, plan.sweep_im,
-                             static_cast<std::size_t>(piece_0), static_cast<std::size_t>(piece_1 - piece_0),
-                             plan.columns, scratch_.data(), at(piece_0), at(piece_0) + plane_, stride_);
+    const auto first = static_cast<std::size_t>(piece_0), rows = static_cast<std::size_t>(piece_1 - piece_0);
+    const auto a_re = static_cast<Real>(a.real()), a_im = static_cast<Real>(a.imag()),
+               row_offset = static_cast<Real>(2 * (row_0 - low_row) - 1);
+    kernels::evaluate_pieces(plan.sweep_re, first, rows, row_offset, pulse_re);
+    kernels::evaluate_pieces(plan.sweep_im, first, rows, row_offset, pulse_im);
+    for (std::size_t n = 0; n < rows; ++n) {
+      const Real re = pulse_re[n], im = pulse_im[n];
+      pulse_re[n] = a_re * re - a_im * im;
+      pulse_im[n] = a_re * im + a_im * re;
+    }
+    add(piece_0, rows);
     energy_ += plan.pulse_energy * std::norm(a) * (piece_1 - piece_0) / all_pieces;
     if (!plan.sweep_ends) continue;
     for (const double end : {0.0, all_pieces - 1}) {
@@ -59,8 +68,9 @@ void GridTile<Real>::add_planned_sweeps(const Echoes& echoes, List list, std::si
       const double t = plan.axis.start + (row_0 + end) * plan.axis.step - delay;
       const double level = std::copysign(plan.half - plan.axis.step, t);
       const std::complex<double> g = a * (envelope.at(t) - envelope.at(level));  // (E13)
-      const double g_re = g.real(), g_im = g.imag();
-      kernels::grid_sampled_pulse(&g_re, &g_im, 1, columns.offset, plan.columns, at(end), at(end) + plane_, stride_);
+      pulse_re[0] = static_cast<Real>(g.real());
+      pulse_im[0] = static_cast<Real>(g.imag());
+      add(end, 1);
     }
   }
 }
@@ -70,7 +80,7 @@ void GridTile<Real>::add_sampled_sweeps(const Echoes& echoes, const PulseReach& 
                                         std::size_t first_bin) {
   const GriddingPlan<Real>& plan = plan_;
   const std::size_t last_bin = std::min(first_bin + plan.tile_bins, plan.axis.bins);
-  std::vector<double> pulse_re, pulse_im;
+  std::vector<Real> pulse_re, pulse_im;
   for (const std::uint32_t i : list) {
     Brick& brick = flushed(brick_at(0, 0));
     ++brick.since_flush;
@@ -84,8 +94,8 @@ void GridTile<Real>::add_sampled_sweeps(const Echoes& echoes, const PulseReach& 
     for (std::size_t n = from; n < to; ++n) {
       const std::complex<double> g = columns.sign / unit_ * echoes.amplitude[i] *
                                      envelope.at(plan.axis.time_of(static_cast<double>(n)) - delay);  // (E13)
-      pulse_re.push_back(g.real());
-      pulse_im.push_back(g.imag());
+      pulse_re.push_back(static_cast<Real>(g.real()));
+      pulse_im.push_back(static_cast<Real>(g.imag()));
       energy_ += std::norm(g);
     }
     Real* at = brick.sum.data() + (from - first_bin) * stride_ + columns.first;

@@ -107,20 +107,16 @@ void GridTile<Real>::add_gaussians(const Echoes& echoes, List list, std::size_t 
     const List some = list.first(count);
     energy_ +=
         plan_.pulse_energy * pulses_.sample(grid, plan_.shapes, plan_.medium, echoes, some, unit_, plan_.longest_rows);
-    if (plan_.column)
+    if (plan_.column) {
       add_to_lines(echoes, some);
-    else
-      add_to_line(count);
+    } else {
+      Brick& brick = brick_at(0, 0);
+      kernels::grid_samples(pulses_.positions(), count, pulses_.re.data(), pulses_.im.data(), plan_.longest_rows,
+                            plan_.columns, brick.sum.data(), brick.sum.data() + plane_, stride_);
+      brick.since_flush += count;
+    }
     list = list.subspan(count);
   }
-}
-
-template <typename Real>
-void GridTile<Real>::add_to_line(std::size_t count) {
-  Brick& brick = brick_at(0, 0);
-  kernels::grid_samples(pulses_.positions(), count, pulses_.re.data(), pulses_.im.data(), plan_.longest_rows,
-                        plan_.columns, brick.sum.data(), brick.sum.data() + plane_, stride_);
-  brick.since_flush += count;
 }
 
 template <typename Real>

@@ -46,8 +46,7 @@ class GridTile {
   /// Flushes the sums of a brick if single precision could not take another echo; returns the brick.
   Brick& flushed(Brick& brick);
   void add_gaussians(const Echoes& echoes, List list, std::size_t first_bin);
-  /// Adds the sampled pulses to the one brick of a line array, or to those of a planar array.
-  void add_to_line(std::size_t count);
+  /// Adds the sampled pulses to the bricks of a planar array.
   void add_to_lines(const Echoes& echoes, List list);
   // Sweeps, only their samples on this tile. Planned sweeps keep their shape under absorption; others are sampled.
   void add_planned_sweeps(const Echoes& echoes, List list, std::size_t first_bin);

@@ -115,9 +115,7 @@ GriddedEngine::GriddedEngine(const SonarHead& head, const Medium& medium, const 
 }
 
 SynthesisChoice GriddedEngine::choice() const {
-  SynthesisChoice choice = plan_->in_single ? plan_->in_single->choice() : plan_->in_double->choice();
-  choice.share = plan_->share.u * plan_->share.v;
-  return choice;
+  return plan_->in_single ? plan_->in_single->choice() : plan_->in_double->choice();
 }
 
 ComplexGrid GriddedEngine::pressure(const Echoes& echoes) const {

@@ -69,13 +69,10 @@ class Slab final : public EchoSink {
 
   void form_beams(const BeamTransform<Real>& to_beams, ComplexGrid& pressure, double& gridded, double& received) {
     for (Position& position : positions_) {
-      const std::size_t end = std::min(position.first_bin + plan_.tile_bins, last_);
-      if (position.tile) {
-        position.tile->form_beams(to_beams, position.first_bin, end, pressure, gridded, received);
-        pool_.give(std::move(position.tile));
-      } else {
-        pressure.middleCols(position.first_bin, end - position.first_bin).setZero();
-      }
+      if (!position.tile) position.tile = pool_.take();
+      position.tile->form_beams(to_beams, position.first_bin, std::min(position.first_bin + plan_.tile_bins, last_),
+                                pressure, gridded, received);
+      pool_.give(std::move(position.tile));
     }
   }
 

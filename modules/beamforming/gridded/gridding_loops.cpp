@@ -4,12 +4,10 @@
 #include "core/target_clones.hpp"
 
 namespace insonify::kernels {
-namespace {
 
-/// Evaluates the polynomials of `count` lanes from `first` on, by Horner's rule.
 template <typename Real>
-INSONIFY_ALWAYS_INLINE void evaluate_some(const PolynomialPieces<Real>& p, std::size_t first, std::size_t count, Real t,
-                                          Real* value) {
+INSONIFY_CLONES void evaluate_pieces(const PolynomialPieces<Real>& p, std::size_t first, std::size_t count, Real t,
+                                     Real* value) {
   using Part = typename Register<Real>::Type;
   constexpr std::size_t at_once = sizeof(Part) / sizeof(Real);
   for (std::size_t l = 0; l < count; l += at_once) {
@@ -24,32 +22,14 @@ INSONIFY_ALWAYS_INLINE void evaluate_some(const PolynomialPieces<Real>& p, std::
   }
 }
 
-}  // namespace
-
 template <typename Real>
-INSONIFY_CLONES void grid_pulse_rows(Real re, Real im, Real row_offset, Real column_offset,
-                                     const PolynomialPieces<Real>& pulse_re, const PolynomialPieces<Real>& pulse_im,
-                                     std::size_t first, std::size_t rows, const PolynomialPieces<Real>& columns_of,
-                                     Real* __restrict scratch, Real* x_re, Real* x_im, std::size_t stride) {
-  Real *g_re = scratch, *g_im = scratch + rows + 16;
-  evaluate_some(pulse_re, first, rows, row_offset, g_re);
-  evaluate_some(pulse_im, first, rows, row_offset, g_im);
-  with_kernel(columns_of, column_offset, [&](const auto& kernel) INSONIFY_INLINE_LAMBDA {
-    for (std::size_t n = 0; n < rows; ++n) {
-      kernel.add(re * g_re[n] - im * g_im[n], x_re + n * stride);
-      kernel.add(re * g_im[n] + im * g_re[n], x_im + n * stride);
-    }
-  });
-}
-
-template <typename Real>
-INSONIFY_CLONES void grid_sampled_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows,
+INSONIFY_CLONES void grid_sampled_pulse(const Real* pulse_re, const Real* pulse_im, std::size_t rows,
                                         Real column_offset, const PolynomialPieces<Real>& columns_of, Real* x_re,
                                         Real* x_im, std::size_t stride) {
   with_kernel(columns_of, column_offset, [&](const auto& kernel) INSONIFY_INLINE_LAMBDA {
     for (std::size_t n = 0; n < rows; ++n) {
-      kernel.add(static_cast<Real>(pulse_re[n]), x_re + n * stride);
-      kernel.add(static_cast<Real>(pulse_im[n]), x_im + n * stride);
+      kernel.add(pulse_re[n], x_re + n * stride);
+      kernel.add(pulse_im[n], x_im + n * stride);
     }
   });
 }
@@ -76,11 +56,9 @@ INSONIFY_CLONES void interpolate(const Real* weight, const std::uint32_t* row, s
 }
 
 #define INSONIFY_LOOPS(Real)                                                                                          \
-  template void grid_pulse_rows(Real, Real, Real, Real, const PolynomialPieces<Real>&, const PolynomialPieces<Real>&, \
-                                std::size_t, std::size_t, const PolynomialPieces<Real>&, Real*, Real*, Real*,         \
-                                std::size_t);                                                                         \
-  template void grid_sampled_pulse(const double*, const double*, std::size_t, Real, const PolynomialPieces<Real>&,    \
-                                   Real*, Real*, std::size_t);                                                        \
+  template void evaluate_pieces(const PolynomialPieces<Real>&, std::size_t, std::size_t, Real, Real*);                \
+  template void grid_sampled_pulse(const Real*, const Real*, std::size_t, Real, const PolynomialPieces<Real>&, Real*, \
+                                   Real*, std::size_t);                                                               \
   template void interpolate(const Real*, const std::uint32_t*, std::size_t, const Real*, std::size_t, std::size_t,    \
                             double*)
 INSONIFY_LOOPS(float);

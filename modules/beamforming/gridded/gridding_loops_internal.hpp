@@ -9,17 +9,13 @@
 // Eigen, so wide registers are safe; without fused multiply-add all variants give the same bits.
 namespace insonify::kernels {
 
-/// Adds one echo with a complex pulse, of which only rows [first, first + rows) are gridded; x_re and x_im point to the
-/// first of them. `scratch` holds 2 (rows + 16) numbers.
+/// Evaluates `count` pieces from `first` on at t in [-1, 1], by Horner's rule; `value` has room for seven more.
 template <typename Real>
-void grid_pulse_rows(Real re, Real im, Real row_offset, Real column_offset, const PolynomialPieces<Real>& pulse_re,
-                     const PolynomialPieces<Real>& pulse_im, std::size_t first, std::size_t rows,
-                     const PolynomialPieces<Real>& columns_of, Real* scratch, Real* x_re, Real* x_im,
-                     std::size_t stride);
+void evaluate_pieces(const PolynomialPieces<Real>& pieces, std::size_t first, std::size_t count, Real t, Real* value);
 
 /// Adds one echo whose complex pulse is given sample by sample.
 template <typename Real>
-void grid_sampled_pulse(const double* pulse_re, const double* pulse_im, std::size_t rows, Real column_offset,
+void grid_sampled_pulse(const Real* pulse_re, const Real* pulse_im, std::size_t rows, Real column_offset,
                         const PolynomialPieces<Real>& columns_of, Real* x_re, Real* x_im, std::size_t stride);
 
 /// Computes sum(n) = sum_k weight[k] grid[row[k] * stride + n] for n < count: one beam from the rows of a grid.

@@ -42,7 +42,6 @@ void GriddingPlan<Real>::plan_time(double tolerance) {
   const bool sweep = !is_gaussian(head.pulse);
   // The centre of a sweep is a boundary between two pieces.
   half = sweep ? std::ceil(sent.half / axis.step) * axis.step : sent.half;
-  choice.pulse_half_length = sent.half;
   choice.pulse_samples = static_cast<std::size_t>(std::floor(2 * half / axis.step + 1e-9)) + (sweep ? 0 : 1);
   if (!sweep) {
     // Echoes from beyond the axis, by less than four pulses, are the longest.

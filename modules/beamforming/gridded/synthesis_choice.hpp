@@ -10,8 +10,6 @@ struct SynthesisChoice {
   std::size_t kernel_width = 0;   ///< width of the gridding kernel [grid steps]
   std::size_t grid = 0;           ///< length of the grid over direction
   std::size_t pulse_samples = 0;  ///< bins per gridded pulse
-  double pulse_half_length = 0;   ///< distance from the pulse's centre at which it is cut [s]
-  double share = 0;               ///< expected value of sqrt(energy of a beam / gridded energy)
   double bytes_per_thread = 0;    ///< working memory beside the image
 };
 

@@ -19,11 +19,14 @@ TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReac
   const std::size_t blocks = (echoes.size() + block - 1) / block;
 
   std::vector<std::size_t> next(blocks * tiles, 0);
-  parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
-    std::size_t* count = next.data() + first / block * tiles;
-    each_tile(echoes, first, last, axis, reach, {tile_bins, 0, axis.bins},
-              [&](std::size_t t, std::size_t) { ++count[t]; });
-  });
+  const auto each = [&](const auto& visit) {
+    parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
+      std::size_t* of_tile = next.data() + first / block * tiles;
+      each_tile(echoes, first, last, axis, reach, {tile_bins, 0, axis.bins},
+                [&](std::size_t t, std::size_t i) { visit(of_tile[t], i); });
+    });
+  };
+  each([](std::size_t& count, std::size_t) { ++count; });
 
   // Assign positions tile by tile, within a tile block by block, so the lists do not depend on the division into
   // blocks.
@@ -39,11 +42,7 @@ TileLists::TileLists(const Echoes& echoes, const TimeAxis& axis, const PulseReac
   }
 
   echo.resize(count_before);
-  parallel_blocks(echoes.size(), block, threads, [&](std::size_t first, std::size_t last) {
-    std::size_t* to = next.data() + first / block * tiles;
-    each_tile(echoes, first, last, axis, reach, {tile_bins, 0, axis.bins},
-              [&](std::size_t t, std::size_t i) { echo[to[t]++] = static_cast<std::uint32_t>(i); });
-  });
+  each([&](std::size_t& to, std::size_t i) { echo[to++] = static_cast<std::uint32_t>(i); });
 }
 
 }  // namespace insonify

@@ -9,6 +9,7 @@
 
 #include "beamforming/numerics/fft_internal.hpp"
 #include "core/error.hpp"
+#include "core/require.hpp"
 #include "core/units.hpp"
 
 namespace insonify {
@@ -29,10 +30,9 @@ void require_series(const ComplexGridF& pressure, std::span<const std::size_t> b
   for (const std::size_t beam : beams)
     if (beam >= static_cast<std::size_t>(pressure.rows()))
       fail(ErrorKind::argument, who, ": beam = ", beam, ", must be below the number of beams, ", pressure.rows());
-  if (!(step_time > 0) || !std::isfinite(step_time))
-    fail(ErrorKind::argument, who, ": step_time = ", step_time, " s, must be finite and > 0");
-  if (segment < 2 || segment % 2 != 0)
-    fail(ErrorKind::argument, who, ": options.segment = ", segment, " samples, must be even and at least 2");
+  require(step_time > 0 && std::isfinite(step_time), who, "step_time", step_time, "s", "finite and > 0");
+  require(segment >= 2 && segment % 2 == 0, who, "options.segment", static_cast<double>(segment), "samples",
+          "even and at least 2");
 }
 
 }  // namespace
@@ -84,8 +84,7 @@ std::vector<double> pulse_density(const Pulse& pulse, double step_time, const st
     if (!(std::abs(frequency[k] - frequency[k - 1] - step) <= 1e-6 * step))
       fail(ErrorKind::argument, who, ": frequency[", k, "] = ", frequency[k], " Hz, must be evenly spaced");
 
-  if (!(step_time > 0) || !std::isfinite(step_time))
-    fail(ErrorKind::argument, who, ": step_time = ", step_time, " s, must be finite and > 0");
+  require(step_time > 0 && std::isfinite(step_time), who, "step_time", step_time, "s", "finite and > 0");
 
   constexpr int positions = 8;  // positions between two samples: aliases of up to seven bands average out exactly
   const EchoEnvelope envelope = echo_envelope(pulse, {}, 0);

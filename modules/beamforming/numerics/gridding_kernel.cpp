@@ -24,20 +24,14 @@ std::vector<double> fit_polynomial(const std::function<double(double)>& f, std::
   for (std::size_t j = 0; j < n; ++j) values[j] = f(chebyshev_node(j, n));
   // Chebyshev coefficients, summed as polynomials by the recurrence T_(k+1) = 2 t T_k - T_(k-1).
   std::vector<double> now(n, 0.0), before(n, 0.0);
-  now[0] = 1;
+  now[0] = before[1] = 1;  // T_0 and T_-1 = T_1
   for (std::size_t k = 0; k < n; ++k) {
     double c = 0;
     for (std::size_t j = 0; j < n; ++j) c += values[j] * std::cos(static_cast<double>(k) * chebyshev_angle(j, n));
     c *= (k == 0 ? 1.0 : 2.0) / static_cast<double>(n);
     for (std::size_t p = 0; p < n; ++p) result[p] += c * now[p];
-    std::vector<double> next(n, 0.0);
-    for (std::size_t p = 0; p + 1 < n; ++p) next[p + 1] = (k == 0 ? 1.0 : 2.0) * now[p];
-    for (std::size_t p = 0; p < n; ++p) next[p] -= before[p];
-    if (k == 0)
-      before.assign(n, 0.0), before[0] = 1;
-    else
-      before = now;
-    now = next;
+    before.swap(now);
+    for (std::size_t p = 0; p < n; ++p) now[p] = (p > 0 ? 2 * before[p - 1] : 0) - now[p];
   }
   return result;
 }
@@ -57,10 +51,10 @@ PolynomialPieces<Real> PolynomialPieces<Real>::fit(const std::function<double(do
     return [&f, low = start + static_cast<double>(l)](double t) { return f(low + 0.5 * (t + 1)); };
   };
   std::vector<std::vector<double>> best(pieces);
-  std::size_t degree = 3;
-  for (bool good = false; !good && degree <= max_degree; ++degree) {
-    good = true;
-    for (std::size_t l = 0; l < pieces && good; ++l) {
+  std::size_t degree = 2;
+  for (bool good = false; !good && degree < max_degree;) {
+    ++degree, good = true;
+    for (std::size_t l = 0; l < pieces && (good || degree == max_degree); ++l) {
       const auto exact = piece(l);
       best[l] = fit_polynomial(exact, degree);
       for (int s = 0; s <= 40 && good; ++s) {
@@ -68,10 +62,7 @@ PolynomialPieces<Real> PolynomialPieces<Real>::fit(const std::function<double(do
         good = std::abs(value_at(best[l], t) - exact(t)) <= error;
       }
     }
-    if (good) break;
   }
-  degree = std::min(degree, max_degree);
-  for (std::size_t l = 0; l < pieces; ++l) best[l] = fit_polynomial(piece(l), degree);
 
   PolynomialPieces result;
   result.pieces = pieces;

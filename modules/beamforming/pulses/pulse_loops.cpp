@@ -4,14 +4,10 @@
 #include "beamforming/numerics/kernel_lanes_internal.hpp"
 #include "beamforming/pulses/pulse_loops_internal.hpp"
 #include "core/target_clones.hpp"
+#include "core/units.hpp"
 #include "core/vector_functions.hpp"
 
 namespace insonify::kernels {
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-}  // namespace
 
 template <typename Real>
 INSONIFY_CLONES void place_gaussians(const EchoArrays& echoes, std::size_t count, const GaussianGrid& grid,

@@ -30,11 +30,6 @@ double path_difference(Wavefront wavefront, double range, const Eigen::Vector3d&
   return insonify::path_difference(range, from, p);
 }
 
-/// Highest baseband frequency [Hz] that matters.
-double half_band(const Pulse& pulse, double tolerance) {
-  return pulse.bandwidth * kind_of(pulse).relative_band(pulse, tolerance);
-}
-
 /// Kaiser-windowed sinc interpolation for signals that fill at most half of the band.
 class Interpolator {
  public:
@@ -85,7 +80,7 @@ ElementSeries element_series(const Echoes& echoes, const SonarHead& head, const 
 
   // Time axis: sampled finely enough for the band, and longer than the gate by array length and interpolation width.
   ElementSeries series;
-  series.step = 1 / (4 * half_band(head.pulse, 0.1 * options.tolerance));
+  series.step = 1 / (4 * head.pulse.bandwidth * kind_of(head.pulse).relative_band(head.pulse, 0.1 * options.tolerance));
   const double beyond = farthest / c + static_cast<double>(Interpolator(options.tolerance).width()) * series.step;
   series.start = 2 * head.gate.centre(0) / c - beyond;
   const double end = 2 * head.gate.centre(head.gate.bins() - 1) / c + beyond;

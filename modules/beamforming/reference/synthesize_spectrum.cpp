@@ -54,20 +54,53 @@ struct SpectrumGrid {
   }
 };
 
+/// Returns the baseband spectrum of a Gaussian pulse [1/Hz] with integral 1, i.e. envelope peak 1 (E8).
+double gaussian_spectrum(double f, double bandwidth) {
+  const double x = f / bandwidth;
+  return std::exp(-2 * std::numbers::ln2 * x * x) * std::sqrt(2 * std::numbers::ln2 / pi) / bandwidth;
+}
+
 /// Computes spectra of single echoes after the receive filter [1/Hz]: by FFT of the samples of signal and replica, or in
 /// closed form for a Gaussian. A Doppler shift moves the transmitted spectrum, after its absorption. Beyond the edge of
 /// its band a signal is absorbed as there, since the expansion of the absorption about the centre frequency does not
 /// hold there.
 class EchoSpectrum {
  public:
-  EchoSpectrum(const Pulse& pulse, const Medium& medium, const SpectrumGrid& grid);
+  EchoSpectrum(const Pulse& pulse, const Medium& medium, const SpectrumGrid& grid)
+      : pulse_(pulse),
+        matched_(kind_of(pulse).matched()),
+        absorption_(medium.absorption),
+        grid_(grid),
+        fft_({grid.samples}, FFTW_FORWARD) {
+    if (!matched_) return;
+    sent_ = transform(false, 0);
+    replica_ = transform(true, 0);
+    const double length = matched_->length(pulse);
+    replica_area_ = length * replica_weight(pulse, 0.25 * length);  // the weight at T/4 equals its mean
+  }
 
   /// Returns one value per frequency of the grid, for an echo at delay 0 from one-way range `range` [m] with Doppler
   /// shift `doppler` [Hz].
-  std::vector<Complex> of(double range, double doppler) const;
+  std::vector<Complex> of(double range, double doppler) const {
+    std::vector<Complex> x(grid_.samples);
+    if (matched_) x = doppler == 0 ? sent_ : transform(false, doppler);
+    const double edge = matched_ ? matched_->edge(pulse_) : std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double sent = grid_.at(k) - doppler, f = std::clamp(sent, -edge, edge);
+      const double alpha = absorption_.a0 + f * (absorption_.a1 + f * absorption_.a2);
+      const double loss = std::exp(-2 * alpha * range);
+      x[k] = matched_ ? loss / replica_area_ * x[k] * std::conj(replica_[k])
+                      : loss * gaussian_spectrum(sent, pulse_.bandwidth);
+    }
+    return x;
+  }
 
  private:
-  std::vector<Complex> transform(bool weighted, double doppler) const;
+  std::vector<Complex> transform(bool weighted, double doppler) const {
+    std::vector<Complex> x = matched_->samples(pulse_, grid_.samples, grid_.step_time, weighted, doppler);
+    fft_.run(x.data());
+    return x;
+  }
 
   Pulse pulse_;
   const MatchedPulse* matched_;  ///< nullptr: Gaussian
@@ -77,45 +110,6 @@ class EchoSpectrum {
   std::vector<Complex> sent_, replica_;
   double replica_area_ = 0;  ///< integral of the replica's weights [s]
 };
-
-/// Returns the baseband spectrum of a Gaussian pulse [1/Hz] with integral 1, i.e. envelope peak 1 (E8).
-double gaussian_spectrum(double f, double bandwidth) {
-  const double x = f / bandwidth;
-  return std::exp(-2 * std::numbers::ln2 * x * x) * std::sqrt(2 * std::numbers::ln2 / pi) / bandwidth;
-}
-
-EchoSpectrum::EchoSpectrum(const Pulse& pulse, const Medium& medium, const SpectrumGrid& grid)
-    : pulse_(pulse),
-      matched_(kind_of(pulse).matched()),
-      absorption_(medium.absorption),
-      grid_(grid),
-      fft_({grid.samples}, FFTW_FORWARD) {
-  if (!matched_) return;
-  sent_ = transform(false, 0);
-  replica_ = transform(true, 0);
-  const double length = matched_->length(pulse);
-  replica_area_ = length * replica_weight(pulse, 0.25 * length);  // the weight at T/4 equals its mean
-}
-
-std::vector<Complex> EchoSpectrum::transform(bool weighted, double doppler) const {
-  std::vector<Complex> x = matched_->samples(pulse_, grid_.samples, grid_.step_time, weighted, doppler);
-  fft_.run(x.data());
-  return x;
-}
-
-std::vector<Complex> EchoSpectrum::of(double range, double doppler) const {
-  std::vector<Complex> x(grid_.samples);
-  if (matched_) x = doppler == 0 ? sent_ : transform(false, doppler);
-  const double edge = matched_ ? matched_->edge(pulse_) : std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double sent = grid_.at(k) - doppler, f = std::clamp(sent, -edge, edge);
-    const double alpha = absorption_.a0 + f * (absorption_.a1 + f * absorption_.a2);
-    const double loss = std::exp(-2 * alpha * range);
-    x[k] = matched_ ? loss / replica_area_ * x[k] * std::conj(replica_[k])
-                    : loss * gaussian_spectrum(sent, pulse_.bandwidth);
-  }
-  return x;
-}
 
 /// Spectra of all beams, beams x frequencies [1/Hz]:
 ///   S_b(f) = sum_i A_i B_b(u_i) exp(+2 pi i f (delay - start)) G_i(f).

@@ -111,26 +111,18 @@ void BeamTable::write(std::size_t node, std::size_t direction, const double* re,
 }
 
 void BeamTable::find_bins() {
-  constexpr std::size_t at_once = kernels::numbers_at_once / 2;
-  std::vector<Bins> of_direction(directions_.count, {width_, 0});
+  constexpr std::size_t at_once = kernels::numbers_at_once / 2, taps = kernels::direction_taps;
+  bins_.assign(directions_.count - taps + 1, {width_, 0});
+  const float* row = values_.data();
   for (std::size_t c = 0; c < node_.size(); ++c)
     for (std::size_t g = 0; g < directions_.count; ++g)
-      for (std::size_t q = 0; q < times_; ++q) {
-        const float* row = values_.data() + ((c * directions_.count + g) * times_ + q) * 2 * width_;
-        for (std::size_t n = 0; n < width_; ++n)
-          if (row[2 * n] != 0 || row[2 * n + 1] != 0) {
-            of_direction[g].first = std::min(of_direction[g].first, n / at_once * at_once);
-            of_direction[g].last = std::max(of_direction[g].last, (n / at_once + 1) * at_once);
-          }
+      for (std::size_t n = 0; n < times_ * width_; ++n, row += 2) {
+        if (row[0] == 0 && row[1] == 0) continue;
+        const std::size_t first = n % width_ / at_once * at_once;
+        for (std::size_t k = g < taps ? 0 : g - taps + 1; k <= std::min(g, bins_.size() - 1); ++k)
+          bins_[k] = {std::min(bins_[k].first, first), std::max(bins_[k].last, first + at_once)};
       }
-  for (std::size_t g = 0; g + kernels::direction_taps <= directions_.count; ++g) {
-    Bins all{width_, 0};
-    for (std::size_t k = g; k < g + kernels::direction_taps; ++k) {
-      all.first = std::min(all.first, of_direction[k].first);
-      all.last = std::max(all.last, of_direction[k].last);
-    }
-    bins_.push_back({std::min(all.first, all.last), all.last});
-  }
+  for (Bins& bins : bins_) bins.first = std::min(bins.first, bins.last);
 }
 
 void BeamTable::add(double delay, double u, std::complex<double> amplitude, double doppler, const BeamTable* shifted,

@@ -3,6 +3,7 @@
 
 #include "beamforming/true_delays/beam_table_loops_internal.hpp"
 #include "core/target_clones.hpp"
+#include "core/units.hpp"
 #include "core/vector_functions.hpp"
 
 namespace insonify::kernels {
@@ -46,7 +47,6 @@ void focus_at(const ElementFocus& focus, std::size_t count, double* path) {
 INSONIFY_CLONES
 void add_element(const ElementPulse& pulse, const double* focus, double path, double weight, std::size_t begin,
                  std::size_t end, double* re, double* im) {
-  constexpr double pi = 3.14159265358979323846;
   const double per_speed = 1 / pulse.speed, decay = -pi * pi / pulse.a, turn = 0.5 * pulse.b / pulse.a;
   const double start = pulse.start + pulse.late, step = pulse.step, carrier = pulse.carrier,
                after = carrier * pulse.late;
@@ -64,19 +64,9 @@ void add_element(const ElementPulse& pulse, const double* focus, double path, do
 INSONIFY_CLONES
 void sum_response(const float* first, const ResponseTaps& taps, float* response) {
   std::size_t left = taps.eights;
-  for (; left > 4; left -= 4, first += 32, response += 32) sum_eights<4>(first, taps, response);
-  switch (left) {
-    case 0:
-      return;
-    case 1:
-      return sum_eights<1>(first, taps, response);
-    case 2:
-      return sum_eights<2>(first, taps, response);
-    case 3:
-      return sum_eights<3>(first, taps, response);
-    default:
-      return sum_eights<4>(first, taps, response);
-  }
+  for (; left >= 4; left -= 4, first += 32, response += 32) sum_eights<4>(first, taps, response);
+  for (; left >= 2; left -= 2, first += 16, response += 16) sum_eights<2>(first, taps, response);
+  if (left == 1) sum_eights<1>(first, taps, response);
 }
 
 }  // namespace insonify::kernels

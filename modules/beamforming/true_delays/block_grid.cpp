@@ -42,13 +42,11 @@ void BlockWorkspace::grid_gaussians(const Echoes& echoes, List list) {
                                    .half_positions = false};
   const auto rows = static_cast<std::size_t>(std::floor(2 * plan.reach / plan.fine_step)) + 1;
   pulses_.sample(grid, plan.shapes, plan.medium, echoes, list, unit_, rows);
-  for (std::size_t k = 0; k < list.size(); ++k) touch(pulses_.row[k], rows);
+  for (std::size_t k = 0; k < list.size(); ++k)
+    for (std::size_t tile = pulses_.row[k] / time_tile; tile <= (pulses_.row[k] + rows) / time_tile; ++tile)
+      touched_[tile] = true;
   kernels::grid_samples(pulses_.positions(), list.size(), pulses_.re.data(), pulses_.im.data(), rows, plan.columns,
                         re_.data(), im_.data(), plan.grid_stride);
-}
-
-void BlockWorkspace::touch(std::size_t row, std::size_t rows) {
-  for (std::size_t tile = row / time_tile; tile <= (row + rows) / time_tile; ++tile) touched_[tile] = true;
 }
 
 void BlockWorkspace::grid_sweeps(const Echoes& echoes, List list) {
@@ -68,8 +66,8 @@ void BlockWorkspace::grid_sweeps(const Echoes& echoes, List list) {
     for (double n = first; n <= last; ++n) {
       const std::complex<double> g =
           1 / unit_ * echoes.amplitude[i] * envelope.at(start_time_ + n * plan.fine_step - delay);
-      pulse_re_.push_back(g.real());
-      pulse_im_.push_back(g.imag());
+      pulse_re_.push_back(static_cast<float>(g.real()));
+      pulse_im_.push_back(static_cast<float>(g.imag()));
       touched_[static_cast<std::size_t>(n) / time_tile] = true;
     }
     const std::size_t at = static_cast<std::size_t>(first) * plan.grid_stride + static_cast<std::size_t>(column_0);

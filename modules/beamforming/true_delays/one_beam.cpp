@@ -58,6 +58,8 @@ BeamTables::BeamTables(BeamTableSizes sizes, double nearest) : sizes_(std::move(
     guard_ = std::max(guard_, BeamTable::guard(sizes_, span) + std::ceil(late / sizes_.axis.step));
     edge_.push_back(span.last);
     span_.push_back(span);
+    work_ += BeamTable::work(sizes_, span);
+    bytes_ += BeamTable::bytes(sizes_, span);
     table_.emplace_back(), shifted_.emplace_back();
   }
 }
@@ -67,18 +69,6 @@ const BeamTable& BeamTables::at(double bin, bool shifted) const {
   const auto number = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, after - edge_.begin()) - 1);
   return (shifted ? shifted_ : table_)[number].get(
       [&] { return std::make_unique<BeamTable>(sizes_, span_[number], shifted ? BeamTableSizes::shifted : 0); });
-}
-
-double BeamTables::work() const {
-  double sum = 0;
-  for (const BeamTableSizes::Span& span : span_) sum += BeamTable::work(sizes_, span);
-  return sum;
-}
-
-double BeamTables::bytes() const {
-  double sum = 0;
-  for (const BeamTableSizes::Span& span : span_) sum += BeamTable::bytes(sizes_, span);
-  return sum;
 }
 
 OneBeam::OneBeam(const SonarHead& head, const Medium& medium, double tolerance, double widest, double split)

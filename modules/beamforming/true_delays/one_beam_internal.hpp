@@ -25,15 +25,15 @@ class BeamTables {
   /// Returns the number of bins by which responses extend beyond their echoes on either side.
   double guard() const { return guard_; }
   /// Samples of pulses that all tables sum, and their size [bytes].
-  double work() const;
-  double bytes() const;
+  double work() const { return work_; }
+  double bytes() const { return bytes_; }
 
  private:
   BeamTableSizes sizes_;
   std::vector<double> edge_;
   std::vector<BeamTableSizes::Span> span_;
   std::deque<Lazy<BeamTable>> table_, shifted_;
-  double guard_ = 0;
+  double guard_ = 0, work_ = 0, bytes_ = 0;
 };
 
 /// Image of one beam with true delays, focused at every range (E61, E62): a sum of responses read from tables (E134).

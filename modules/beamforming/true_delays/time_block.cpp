@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "beamforming/gridded/gridding_loops_internal.hpp"
 #include "beamforming/true_delays/time_block_internal.hpp"
 
 namespace insonify {
@@ -205,14 +206,14 @@ void BlockWorkspace::add_beams(const TimeBlock& block, ComplexGrid& pressure) {
     if (from >= to) continue;
     form_directions(block.beam_curvature, n0, static_cast<double>(first));
     for (std::size_t b = 0; b < plan.u_beam.size(); ++b) {
-      kernels::take_beam(plan.beam_weight.data() + b * width, plan.beam_row.data() + b * width, width, across_.data(),
-                         2 * time_tile, 2 * time_tile, beam_.data());
+      kernels::interpolate(plan.beam_weight.data() + b * width, plan.beam_row.data() + b * width, width, across_.data(),
+                           2 * time_tile, 2 * time_tile, beam_.data());
       double* sum = reinterpret_cast<double*>(&pressure(static_cast<Eigen::Index>(b), from));
       // Rows of the image are far apart in memory.
       const auto later = static_cast<Eigen::Index>(std::min(b + beams_ahead, plan.u_beam.size() - 1));
       for (std::ptrdiff_t n = from; n < to; n += 4) __builtin_prefetch(&pressure(later, n), 1);
-      const float* share = beam_.data() + 2 * (from - first);
-      for (std::ptrdiff_t n = 0; n < 2 * (to - from); ++n) sum[n] += unit_ * static_cast<double>(share[n]);
+      const double* share = beam_.data() + 2 * (from - first);
+      for (std::ptrdiff_t n = 0; n < 2 * (to - from); ++n) sum[n] += unit_ * share[n];
     }
   }
 }

@@ -55,8 +55,6 @@ class BlockWorkspace {
   // At most GaussianBatch::most Gaussian pulses, and sweeps, sample by sample.
   void grid_gaussians(const Echoes& echoes, List list);
   void grid_sweeps(const Echoes& echoes, List list);
-  /// Marks the tiles of fine samples that hold a pulse from `row` on.
-  void touch(std::size_t row, std::size_t rows);
   /// Turns the gridded echoes into harmonics, by power of frequency and fine sample.
   void receive(const CurvatureSeries& curvature);
   /// Transforms the harmonics over time into chunks of frequencies.
@@ -84,9 +82,9 @@ class BlockWorkspace {
   Aligned<float> across_, mixed_;        ///< numbers by grid step and bin; workspace of mixes
   std::vector<std::uint32_t> position_;  ///< rows of harmonics of a transform
   std::vector<std::uint32_t> bin_;       ///< first of each chunk
-  std::vector<float> beam_;
+  std::vector<double> beam_;
   GaussianBatch<float> pulses_;
-  std::vector<double> pulse_re_, pulse_im_;
+  std::vector<float> pulse_re_, pulse_im_;
   std::vector<char> touched_;  ///< tiles of fine samples that hold anything
   std::size_t bins_row_;
   double start_time_ = 0, unit_ = 0;  // unit: a power of two, of the first echoes; 0: none yet

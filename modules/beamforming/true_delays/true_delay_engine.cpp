@@ -24,7 +24,6 @@
 namespace insonify {
 namespace {
 
-constexpr double finest = 1e-5, coarsest = 0.1;
 constexpr double farthest_out = 1 + 1e-9;    // |u| of echoes, rounded
 constexpr std::size_t exact_at_once = 4096;  // echoes that are summed element by element together
 constexpr std::size_t beams_at_once = 8;
@@ -50,6 +49,14 @@ struct CountDown {
   std::latch& latch;
   ~CountDown() { latch.count_down(); }
 };
+
+/// Returns the largest |u| of echoes for which the usual plan is used. Echoes beyond it use a second plan, which covers
+/// all directions.
+double usual_extent(const SonarHead& head) {
+  double widest = 0;
+  for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
+  return std::min(1.0, 1.1 * widest + 0.05);
+}
 
 void append(const Echoes& from, std::uint32_t i, Echoes& to) {
   to.delay.push_back(from.delay[i]);
@@ -111,9 +118,9 @@ struct TrueDelayEngine::Plan {
 TrueDelayEngine::TrueDelayEngine(const SonarHead& head, const Medium& medium, const SynthesisOptions& options) {
   require_synthesis({}, head, medium, options, "TrueDelayEngine");
   require_one_row(head, "TrueDelayEngine");
-  if (!(options.tolerance >= finest && options.tolerance <= coarsest))
-    fail(ErrorKind::argument, "TrueDelayEngine: tolerance = ", options.tolerance, ", must be within ", finest, " and ",
-         coarsest, "; below that use the element-exact method");
+  if (!(options.tolerance >= min_true_delay_tolerance && options.tolerance <= max_element_tolerance))
+    fail(ErrorKind::argument, "TrueDelayEngine: tolerance = ", options.tolerance, ", must be within ",
+         min_true_delay_tolerance, " and ", max_element_tolerance, "; below that use the element-exact method");
   plan_ = std::make_shared<const Plan>(
       head, medium, SynthesisOptions{true_delay_share * options.tolerance, options.threads}, usual_extent(head));
 }
@@ -264,12 +271,6 @@ void TrueDelayEngine::Plan::add_nearest(const EchoFeed& feed, ComplexGrid& press
   if (some.size() > 0) sum();
   const ComplexGrid image = beam_from_elements(all, near, medium, exact);
   pressure.leftCols(image.cols()) += image;
-}
-
-double TrueDelayEngine::usual_extent(const SonarHead& head) {
-  double widest = 0;
-  for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
-  return std::min(1.0, 1.1 * widest + 0.05);
 }
 
 }  // namespace insonify

@@ -49,10 +49,6 @@ class TrueDelayEngine final : public ImageEngine {
   /// chunks.
   ComplexGrid pressure(const EchoStream& stream) const override;
 
-  /// Returns the largest |u| of echoes for which the usual plan is used. Echoes beyond it use a second plan, which
-  /// covers all directions.
-  static double usual_extent(const SonarHead& head);
-
  private:
   struct Plan;
   std::shared_ptr<const Plan> plan_;

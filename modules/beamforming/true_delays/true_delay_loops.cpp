@@ -246,17 +246,4 @@ void add_power(const float* line, std::size_t count, const float* power, std::si
   }
 }
 
-INSONIFY_CLONES
-void take_beam(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid, std::size_t stride,
-               std::size_t count, float* beam) {
-  for (std::size_t n = 0; n < count; n += 8) {
-    Eight sum = {}, x;
-    for (std::size_t k = 0; k < terms; ++k) {
-      load(grid + row[k] * stride + n, x);
-      sum += weight[k] * x;
-    }
-    store(sum, beam + n);
-  }
-}
-
 }  // namespace insonify::kernels

@@ -81,8 +81,4 @@ void through_elements(ElementTaps taps, const float* factor, const float* rows, 
 void add_power(const float* line, std::size_t count, const float* power, std::size_t stride,
                const std::uint32_t* position, float* to);
 
-/// Writes `count` numbers of a beam, a multiple of 8: the weighted sum of rows of a grid, `stride` numbers apart.
-void take_beam(const float* weight, const std::uint32_t* row, std::size_t terms, const float* grid, std::size_t stride,
-               std::size_t count, float* beam);
-
 }  // namespace insonify::kernels

@@ -25,11 +25,6 @@ double oversampling_for(double tolerance) {
   return 1 / (1 - root * root);
 }
 
-double longest_reach(const SonarHead& head, const Medium& medium, double tolerance) {
-  const PulseReach reach(head.pulse, medium.absorption, medium.sound_speed, true, pulse_cut(tolerance));
-  return reach.at(2 * head.gate.max_range / medium.sound_speed);
-}
-
 }  // namespace
 
 double length_of(const LineArray& array) { return array.spacing * static_cast<double>(array.elements() - 1); }
@@ -46,7 +41,8 @@ TrueDelaySizes::TrueDelaySizes(const SonarHead& head, const Medium& medium, doub
       axis(head.gate, medium.sound_speed),
       cut(pulse_cut(tolerance_in)),
       aperture(length_of(head.array)),
-      reach(longest_reach(head, medium, tolerance_in)) {
+      reach(PulseReach(head.pulse, medium.absorption, medium.sound_speed, true, cut)
+                .at(2 * head.gate.max_range / medium.sound_speed)) {
   for (const double u : beam_cosines(head.fan)) widest = std::max(widest, std::abs(u));
   const double across = 0.5 * aperture / medium.sound_speed * 2.1 * widest;
   guard = static_cast<std::size_t>(std::ceil((across + reach) / axis.step)) + 2;
