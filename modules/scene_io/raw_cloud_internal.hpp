@@ -224,8 +224,8 @@ RawCloud read_assimp(const std::string& path, const ReadOptions& options);  ///<
 /// text that is no VRML 2.0, or that defines nodes of its own or refers to other files.
 std::string vrml_as_x3d(const std::string& path);
 /// Returns X3D in which no group is empty or the USE of another, which Assimp misplaces. Each shape stands in a group whose
-/// name is `x3d_material` and the name of its material. Throws Error(content) if the text refers to other files, has more
-/// than 500 elements within each other, or grows by more than 64 MiB for copies of groups.
+/// name is `x3d_material` and the name of its material. Throws Error(content) if the text refers to other files, holds zero
+/// bytes or more than 500 elements within each other, or grows by more than 64 MiB for copies of groups.
 std::string x3d_for_assimp(const std::string& path, std::string_view text);
 inline constexpr std::string_view x3d_material = "material of shape: ";
 RawCloud read_las(const std::string& path, const ReadOptions& options);

@@ -154,6 +154,8 @@ class X3dRewriter {
 }  // namespace
 
 std::string x3d_for_assimp(const std::string& path, std::string_view text) {
+  if (text.find('\0') != text.npos)
+    fail(ErrorKind::content, path, ": holds zero bytes, as text in UTF-16 does; save it as UTF-8, or as .glb");
   return X3dRewriter(path, text).rewritten();
 }
 

@@ -113,6 +113,10 @@ TEST_F(X3dFile, x3d_that_grows_without_bound_or_names_other_files_is_refused) {
   for (int k = 0; k < 100'000; ++k) deep += "<Group>";
   expect_error(ErrorKind::content, {"deep.x3d", "more than 500 elements are within each other", "as .glb"},
                [&] { places_in("deep.x3d", deep); });
+  std::string wide;  // UTF-16
+  for (const char c : x3d_plate) wide += {c, '\0'};
+  expect_error(ErrorKind::content, {"wide.x3d", "holds zero bytes", "save it as UTF-8"},
+               [&] { places_in("wide.x3d", wide); });
   expect_error(ErrorKind::content, {"absent.x3d", "export it again"},
                [&] { places_in("absent.x3d", x3d_plate + "<Group USE='Nothing'/>"); });
 }
