@@ -157,17 +157,24 @@ void complete_group(const GroupCompletion& how, SceneCloud& group) {
   raw.origin = group.origin;
   raw.viewpoint = how.viewpoint;
   raw.point = std::move(group.point);
-  std::vector<std::uint32_t> all(raw.point.size());
-  std::iota(all.begin(), all.end(), 0u);
   const Eigen::Vector3f middle = (how.origin - group.origin).cast<float>();
-  raw.normal = estimate_normals(raw.point, all, how.options.normal_neighbours, how.options.threads, middle);
-  for (Eigen::Vector3f& normal : raw.normal)
-    if (!usable_normal(normal)) normal = Eigen::Vector3f::UnitZ();
-  if (raw.viewpoint) face_viewpoints(raw);
+  ShapeOptions shaping{.threads = how.options.threads, .keep_strays = how.options.keep_strays, .noise = how.noise};
+  shaping.base = [&](const std::vector<std::uint32_t>& wanted) {
+    std::vector<Eigen::Vector3f> found =
+        estimate_normals(raw.point, wanted, how.options.normal_neighbours, how.options.threads, middle);
+    for (Eigen::Vector3f& normal : found)
+      if (!usable_normal(normal)) normal = Eigen::Vector3f::UnitZ();
+    return found;
+  };
+  if (!how.areas || raw.viewpoint) {
+    std::vector<std::uint32_t> all(raw.point.size());
+    std::iota(all.begin(), all.end(), 0u);
+    raw.normal = std::exchange(shaping.base, nullptr)(all);
+    if (raw.viewpoint) face_viewpoints(raw);
+  }
   if (how.areas) {
-    SurfelShapes shapes = estimate_surfel_shapes(
-        raw.point, raw.normal,
-        {.threads = how.options.threads, .keep_strays = how.options.keep_strays, .noise = how.noise});
+    SurfelShapes shapes = estimate_surfel_shapes(raw.point, raw.normal, shaping);
+    raw.normal.resize(raw.point.size());
     take_normals(shapes, raw);
     group.area = std::move(shapes.area);
     if (how.noise) group.noise = std::move(shapes.noise);

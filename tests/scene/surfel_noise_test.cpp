@@ -57,6 +57,41 @@ TEST(SurfelShapes, give_the_noise_of_surfels_on_request) {
       std::vector<float>(3, 0));
 }
 
+// A bed of dunes needs no base normals; the wall that stands on it does.
+TEST(SurfelShapes, ask_for_base_normals_outside_of_height_fields) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> place(0, 6), high(0.2f, 3);
+  std::vector<Eigen::Vector3f> points, base;
+  for (int i = 0; i < 3600; ++i) {
+    const float x = place(random), y = place(random);
+    points.emplace_back(x, y, 0.1f * std::sin(3 * x));
+    base.push_back(Eigen::Vector3f::UnitZ());
+  }
+  const std::size_t bed = points.size();
+  for (int i = 0; i < 1800; ++i) {
+    points.emplace_back(6.5f, place(random), high(random));
+    base.push_back(Eigen::Vector3f::UnitX());
+  }
+  std::size_t of_bed = 0, of_wall = 0;
+  const SurfelShapes given = estimate_surfel_shapes(points, base);
+  const SurfelShapes asked = estimate_surfel_shapes(points, {}, {.base = [&](const std::vector<std::uint32_t>& wanted) {
+                                                      std::vector<Eigen::Vector3f> found;
+                                                      for (const std::uint32_t i : wanted)
+                                                        found.push_back(base[i]), ++(i < bed ? of_bed : of_wall);
+                                                      return found;
+                                                    }});
+  EXPECT_LT(of_bed, bed / 10);
+  EXPECT_GT(of_wall, (points.size() - bed) * 9 / 10);
+  EXPECT_EQ(asked.normal, given.normal);
+  EXPECT_EQ(asked.area, given.area);
+  const auto up = [](const std::vector<std::uint32_t>& wanted) {
+    return std::vector<Eigen::Vector3f>(wanted.size(), Eigen::Vector3f::UnitY());
+  };
+  EXPECT_EQ(estimate_surfel_shapes(std::span(points).first(3), {}, {.base = up}).normal,
+            std::vector<Eigen::Vector3f>(3, Eigen::Vector3f::UnitY()));
+  EXPECT_TRUE(estimate_surfel_shapes({}, {}, {.base = up}).normal.empty());
+}
+
 // Boxes and pits on a third of a raster, and a slope of 45 degrees, are no noise of its heights (E160).
 TEST(SurfelShapes, know_noise_of_heights) {
   const auto noise_of = [&](float noise) {

@@ -69,4 +69,11 @@ inline std::vector<float> shared_areas(const Estimate& e, std::size_t points) {
   return areas;
 }
 
+// Returns the values of distinct positions for all points.
+inline std::vector<float> at_points(const std::vector<float>& values, const Estimate& e) {
+  std::vector<float> all;
+  for (const std::uint32_t distinct : e.distinct.position) all.push_back(values[distinct]);
+  return all;
+}
+
 }  // namespace insonify::cells

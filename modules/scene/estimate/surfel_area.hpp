@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -33,6 +35,9 @@ struct ShapeOptions {
   double evenness_of_view = 1;
   bool keep_strays = false;  ///< true: points far from all others keep the areas of their cells
   bool noise = false;        ///< true: SurfelShapes::noise is estimated with the shapes, which shares their search
+  /// Base normals of the points with these indices, in place of `base_normals`: those of height fields, which need none
+  /// and look up, are not asked for. Not with a viewpoint.
+  std::function<std::vector<Eigen::Vector3f>(const std::vector<std::uint32_t>&)> base{};
 };
 
 /// Normals and areas of points, with counts of strays and of points in height fields.
@@ -50,7 +55,7 @@ struct SurfelShapes {
 };
 
 /// Returns normals and areas for points without either, consistent with each other. `base_normals` are the unit normals
-/// of planes through wide neighbourhoods.
+/// of planes through wide neighbourhoods; empty with `options.base`.
 ///
 /// Height fields, rough or smooth: the cells are the Voronoi cells of the plan. The normal is that of a cubic through
 /// 16 neighbours; the area is that of the cell over the cosine between normal and vertical (E69). Where noise moves the

@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "scene/estimate/distinct_points_internal.hpp"
+#include "scene/estimate/height_fields_internal.hpp"
 #include "scene/estimate/relief_fit_internal.hpp"
 #include "scene/estimate/surfel_area.hpp"
 #include "scene/estimate/surfel_cell_internal.hpp"
@@ -23,7 +24,6 @@ namespace {
 constexpr double least_cosine = 0.1;           // between a surface and the plane on which its cells lie
 constexpr double least_seen_cosine = 0.1;      // between a surface and the direction in which it was seen
 constexpr std::size_t neighbours_fitted = 16;  // neighbours of a cubic, which has ten terms
-constexpr std::size_t around = 17;             // points that decide together
 constexpr std::size_t compared_cells = 20000;  // largest number of cells that decide whether a cloud was seen at once
 constexpr double flat_chart = 100;             // rise of a neighbour on a chart, which has none but for rounding
 
@@ -31,53 +31,6 @@ double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-// Points as seen from above.
-struct Plan {
-  std::vector<std::uint32_t> points;  // all points but those that hang alone over the others
-  std::vector<std::uint8_t> single;   // 1 for each point of the cloud that belongs to a height field
-};
-
-// Finds height fields, which have one height at each position: none of the four links of a point to its neighbours is
-// steeper than five to one, or at most a third of those around are. Surfaces one above the other have more. `index` is
-// that of the points on the plan, `flat`.
-Plan find_height_fields(const Estimate& e, const std::vector<Vector3f>& flat, const SceneIndex& index, int threads) {
-  const std::vector<Vector3f>& points = e.position;
-  constexpr std::size_t links = 4;
-  Plan plan;
-  plan.single.resize(points.size());
-  std::vector<std::uint8_t> steep(points.size()), hangs(points.size());
-  parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbour> nearest;
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t i = e.visit[k];
-      index.find_nearest(flat[i], links + 1, nearest);
-      const auto steeper_than = [&](float slope) {
-        return static_cast<std::size_t>(std::count_if(nearest.begin(), nearest.end(), [&](const Neighbour& n) {
-          const float rise = points[n.index].z() - points[i].z();
-          return rise * rise > slope * slope * n.squared_distance;
-        }));
-      };
-      steep[i] = static_cast<std::uint8_t>(steeper_than(5));
-      hangs[i] = steeper_than(16) >= links;
-    }
-  });
-  parallel_blocks(points.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<Neighbour> nearest;
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::uint32_t i = e.visit[k];
-      plan.single[i] = steep[i] == 0;
-      if (plan.single[i] || hangs[i]) continue;
-      index.find_nearest(flat[i], around, nearest);
-      std::size_t sum = 0;
-      for (const Neighbour& n : nearest) sum += steep[n.index];
-      plan.single[i] = 3 * sum <= links * nearest.size();
-    }
-  });
-  for (std::uint32_t i = 0; i < points.size(); ++i)
-    if (!hangs[i]) plan.points.push_back(i);
-  return plan;
 }
 
 // Shape of the surface around a point, as its neighbours show it.
@@ -116,13 +69,24 @@ Look look_at(const AreaEstimator& estimator, std::size_t i, const Vector3f& fram
   return look;
 }
 
+// Sets the base normals of points outside of height fields.
+void find_base(const Estimate& e, const Plan& plan, const ShapeOptions& options, std::vector<Vector3f>& base) {
+  std::vector<std::uint32_t> places, wanted;
+  for (std::uint32_t i = 0; i < base.size(); ++i)
+    if (!plan.single[i]) places.push_back(i), wanted.push_back(e.distinct.first[i]);
+  if (wanted.empty()) return;
+  const std::vector<Vector3f> found = options.base(wanted);
+  for (std::size_t k = 0; k < found.size(); ++k) base[places[k]] = found[k];
+}
+
 // Returns the shapes around all points: height fields on their plan, others on the base planes.
-std::vector<Look> look_at_all(const Estimate& e, const std::vector<Vector3f>& base, const AreaEstimator& estimator,
+std::vector<Look> look_at_all(const Estimate& e, std::vector<Vector3f>& base, const AreaEstimator& estimator,
                               const ShapeOptions& options) {
   std::vector<Look> looks(e.position.size());
   std::vector<Vector3f> flat = plan_of(e.position), raised = e.position;
   std::optional<AreaEstimator> chart(std::in_place, flat, raised, 2 * options.neighbours, flat_chart);
   const Plan plan = find_height_fields(e, flat, chart->index(), options.threads);
+  if (options.base) find_base(e, plan, options, base);
   std::vector<std::uint32_t> in_plan(e.position.size());
   for (std::size_t k = 0; k < plan.points.size(); ++k) in_plan[plan.points[k]] = static_cast<std::uint32_t>(k);
   if (plan.points.size() < flat.size()) {  // what hangs over them is no neighbour of the others
@@ -262,27 +226,22 @@ bool estimate_seen(const Vector3d& viewpoint, double evenness, const std::vector
   return true;
 }
 
-// Returns the values of distinct positions for all points.
-std::vector<float> at_points(const std::vector<float>& values, const Estimate& e) {
-  std::vector<float> all;
-  for (const std::uint32_t distinct : e.distinct.position) all.push_back(values[distinct]);
-  return all;
-}
-
 }  // namespace
 
 SurfelShapes estimate_surfel_shapes(std::span<const Vector3f> points, std::span<const Vector3f> base_normals,
                                     const ShapeOptions& options) {
   const AreaOptions area_options{options.neighbours, options.threads};
-  require_valid(points, base_normals, area_options, "estimate_surfel_shapes");
   SurfelShapes shapes{{base_normals.begin(), base_normals.end()}, std::vector<float>(points.size(), 0.0f)};
+  if (options.base) shapes.normal.resize(points.size(), Vector3f::UnitZ());
+  require_valid(points, shapes.normal, area_options, "estimate_surfel_shapes");
   if (points.size() < 4) {
+    if (options.base && !points.empty()) shapes.normal = options.base(all_of(points.size()));
     if (options.noise) shapes.noise.assign(points.size(), 0);
     return shapes;
   }
   Estimate e = distinct_points(points);
   std::vector<Vector3f> normals;
-  for (const std::uint32_t first : e.distinct.first) normals.push_back(base_normals[first]);
+  for (const std::uint32_t first : e.distinct.first) normals.push_back(shapes.normal[first]);
   if (!options.viewpoint || !estimate_seen(*options.viewpoint, options.evenness_of_view, normals, area_options, e))
     estimate_around(options, e, normals, shapes);
   limit_cells(e.area);
