@@ -164,11 +164,24 @@ FanSector fan_sector(const BeamFan& fan) {
   return sector;
 }
 
-HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin, double size) {
-  const FanSector sector = fan_sector(head.fan);
-  const Placer at(head, scene_origin);
-  HeadLines lines;
-  for (const double range : {head.gate.min_range, head.gate.max_range}) {
+std::vector<FanSector> fan_sectors(const BeamFan& fan) {
+  constexpr double apart = 8;  // beam widths between two beams that are the sides of a side-scan
+  const bool sides =
+      fan.beams() == 2 && std::abs(std::remainder(fan.azimuth[1] - fan.azimuth[0], 2 * pi)) > apart * fan.beam_width;
+  if (!sides) return {fan_sector(fan)};
+  std::vector<FanSector> sectors;
+  for (std::size_t b = 0; b < 2; ++b) {
+    BeamFan side = fan;
+    side.azimuth = {fan.azimuth[b]}, side.elevation = {fan.elevation[b]};
+    sectors.push_back(fan_sector(side));
+  }
+  return sectors;
+}
+
+namespace {
+
+void add_sector(const FanSector& sector, const RangeGate& gate, const Placer& at, HeadLines& lines) {
+  for (const double range : {gate.min_range, gate.max_range}) {
     for (const double elevation : {sector.low_elevation, sector.high_elevation})
       lines.outline.push_back(at.across(sector, elevation, range));
     if (!sector.full_circle)
@@ -178,19 +191,39 @@ HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin,
   if (!sector.full_circle)
     for (const double azimuth : {sector.low_azimuth, sector.high_azimuth})
       for (const double elevation : {sector.low_elevation, sector.high_elevation})
-        lines.outline.push_back(at.ray(azimuth, elevation, head.gate));
+        lines.outline.push_back(at.ray(azimuth, elevation, gate));
 
   // Draw arcs in the plane of the fan; with several rows only the last arc of each.
-  const double step = round_step(head.gate.max_range / 4);
+  const double step = round_step(gate.max_range / 4);
   for (const double elevation : sector.rows) {
-    lines.arcs.push_back(at.across(sector, elevation, head.gate.max_range));
+    lines.arcs.push_back(at.across(sector, elevation, gate.max_range));
     if (sector.full_circle) continue;  // its first and last beams are adjacent
-    lines.beams.push_back(at.ray(sector.first_azimuth, elevation, head.gate));
-    lines.beams.push_back(at.ray(sector.last_azimuth, elevation, head.gate));
+    lines.beams.push_back(at.ray(sector.first_azimuth, elevation, gate));
+    lines.beams.push_back(at.ray(sector.last_azimuth, elevation, gate));
   }
-  for (const double range : multiples(step, head.gate.min_range, 0.99 * head.gate.max_range))
+  for (const double range : multiples(step, gate.min_range, 0.99 * gate.max_range))
     lines.arcs.push_back(at.across(sector, sector.rows[sector.rows.size() / 2], range));
+}
 
+// Returns how far a place in head axes [m] is inside of the walls of a sector; negative outside.
+double inside_of(const FanSector& sector, const RangeGate& gate, const Eigen::Vector3d& place) {
+  const double range = place.norm(), middle = (sector.low_azimuth + sector.high_azimuth) / 2;
+  const double half_azimuth = (sector.high_azimuth - sector.low_azimuth) / 2;
+  const Direction towards = direction_of(place);
+  const double turned = std::abs(unwrapped(towards.azimuth, middle) - middle);
+  const double level_range = range * std::cos(towards.elevation);
+  const double inside_sides = sector.full_circle ? 1e300 : level_range * (half_azimuth - turned);
+  const double inside_rows = range * std::min(towards.elevation - sector.low_elevation,  //
+                                              sector.high_elevation - towards.elevation);
+  return std::min({inside_sides, inside_rows, range - gate.min_range, gate.max_range - range});
+}
+
+}  // namespace
+
+HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin, double size) {
+  const Placer at(head, scene_origin);
+  HeadLines lines;
+  for (const FanSector& sector : fan_sectors(head.fan)) add_sector(sector, head.gate, at, lines);
   for (int i = 0; i < 3; ++i)
     lines.axes[static_cast<std::size_t>(i)] = {at.position(Eigen::Vector3d::Zero()),
                                                at.position(2 * size * Eigen::Vector3d::Unit(i))};
@@ -203,9 +236,7 @@ HeadLines head_lines(const SceneHead& head, const Eigen::Vector3d& scene_origin,
 }
 
 std::vector<std::uint32_t> footprint_outline(const SceneCloud& scene, const SceneHead& head) {
-  const FanSector sector = fan_sector(head.fan);
-  const double middle = (sector.low_azimuth + sector.high_azimuth) / 2;
-  const double half_azimuth = (sector.high_azimuth - sector.low_azimuth) / 2;
+  const std::vector<FanSector> sectors = fan_sectors(head.fan);
   const Eigen::Isometry3d head_from_world = head.world_from_head.inverse();
 
   // Measure the distance of a surfel inside each pair of walls [m]. On the outline it is small for one pair.
@@ -215,14 +246,9 @@ std::vector<std::uint32_t> footprint_outline(const SceneCloud& scene, const Scen
     const double range = position.norm(), reach = 0.7 * std::sqrt(static_cast<double>(scene.area[i]));
     if (!(range > 0) || range > head.gate.max_range + reach) return false;
     if (scene.normals_oriented && (head_from_world.linear() * normal).dot(position) > 0) return false;
-    const Direction towards = direction_of(position);
-    const double turned = std::abs(unwrapped(towards.azimuth, middle) - middle);
-    const double level_range = range * std::cos(towards.elevation);
-    const double inside_sides = sector.full_circle ? 1e300 : level_range * (half_azimuth - turned);
-    const double inside_rows = range * std::min(towards.elevation - sector.low_elevation,  //
-                                                sector.high_elevation - towards.elevation);
-    const double inside_gate = std::min(range - head.gate.min_range, head.gate.max_range - range);
-    return std::abs(std::min({inside_sides, inside_rows, inside_gate})) <= reach;
+    return std::any_of(sectors.begin(), sectors.end(), [&](const FanSector& sector) {
+      return std::abs(inside_of(sector, head.gate, position)) <= reach;
+    });
   };
 
   std::vector<std::uint8_t> marked(scene.size());

@@ -30,6 +30,8 @@ struct FanSector {
   bool full_circle = false;
 };
 FanSector fan_sector(const BeamFan& fan);
+/// Returns the sectors of a fan: that of each beam for the two sides of a side-scan, else one.
+std::vector<FanSector> fan_sectors(const BeamFan& fan);
 
 /// The lines that represent a head.
 struct HeadLines {

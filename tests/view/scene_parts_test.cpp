@@ -279,3 +279,21 @@ TEST(SceneAxes, leave_out_the_one_that_the_camera_looks_along) {
   const CameraView from_above{{0, 0, 10}, {0, 0, 0}, Eigen::Vector3d::UnitY(), 0.5};
   for (const AxisLabel& label : lay_out_axes(box, {0, 0, 0}, from_above).labels) EXPECT_NE(label.text, "z [m]");
 }
+
+// A side-scan looks to port and to starboard, not all round.
+TEST(FootprintOutline, of_the_sides_of_a_side_scan_lies_athwart) {
+  const SceneCloud scene = floor_of(400, 0.1);
+  SceneHead head = head_at(Pose::Identity());
+  head.fan.azimuth = {pi / 2, -pi / 2}, head.fan.elevation = {radians(-30), radians(-30)};
+  head.fan.beam_width = radians(2), head.fan.elevation_width = radians(50);
+  std::size_t to_port = 0, to_starboard = 0;
+  for (const std::uint32_t i : footprint_outline(scene, head)) {
+    const Eigen::Vector3f& at = scene.point[i];
+    EXPECT_LT(std::abs(at.x()), std::abs(at.y()) * std::tan(radians(1)) + 0.15F) << at.transpose();
+    ++(at.y() > 0 ? to_port : to_starboard);
+  }
+  EXPECT_GT(to_port, 50U);
+  EXPECT_GT(to_starboard, 50U);
+  for (const Polyline& line : head_lines(head, {0, 0, 0}, 0.1).outline)
+    for (const Eigen::Vector3d& at : line) EXPECT_LT(std::abs(at.x()), 15 * std::sin(radians(1)) + 1e-6);
+}
