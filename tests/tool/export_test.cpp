@@ -181,6 +181,7 @@ TEST_F(Export, paths_start_and_end_at_the_head_and_bounce_where_asked) {
 
 TEST_F(Export, bad_input_gets_one_line_and_leaves_nothing) {
   expect_refused("export nothing -o vtk", 4, {"nothing"});
+  expect_refused("export out -o out.gsf", 2, {"--to = vtk makes a folder", "--to gsf"});
   expect_refused("export harbour.ply -o vtk", 3, {"harbour.ply"});
   succeed(ping + "-o out");
   expect_refused("export out -o out", 4, {"out", "is the input"});

@@ -144,6 +144,32 @@ TEST_F(ProjectedWorld, surveys_keep_it_and_refuse_what_contradicts_it) {
   EXPECT_FALSE(std::filesystem::exists(path("no")));
 }
 
+// A ball on the bed, 4 m to port of a side-scan, is the brightest place of the mosaic: to its radius and
+// a cell where it lies in the system.
+TEST_F(ProjectedWorld, a_bright_target_lies_in_the_mosaic_where_it_is) {
+  if (!with_gdal) GTEST_SKIP() << "built without GDAL";
+  constexpr double east = west + 6, north = south + 10, cell = 0.25;
+  succeed("make-object sphere --set diameter_m=0.3 -q -o ball.ply");
+  write("parts.toml", fmt::format("schema = 1\n[[part]]\nfile = \"bed.asc\"\n[[part]]\nfile = \"ball.ply\"\n"
+                                  "position_m = [{}, {}, -4.9]\n",
+                                  east, north));
+  write("m.toml", text_of({.scene = "parts.toml",
+                           .way = fmt::format("[{}, {}, -2], [{}, {}, -2]", west + 5, south + 6, west + 7, south + 6),
+                           .sonar = "starfish-450",
+                           .range = "1:8",
+                           .head = "rate_hz = 5"}));
+  succeed("survey m.toml -q -o run");
+  succeed("merge run --mosaic 0.25 -q");
+  const insonify::decode::GeotiffContent map = insonify::decode::read_geotiff(read("run/mosaic.tif"));
+  EXPECT_EQ(map.epsg, 32632);
+  const std::vector<float>& strength = map.bands.at(0);
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < strength.size(); ++i)
+    if (std::isnan(strength[best]) || strength[i] > strength[best]) best = i;
+  EXPECT_NEAR(map.west + (static_cast<double>(best % map.columns) + 0.5) * map.cell, east, 0.15 + cell);
+  EXPECT_NEAR(map.north - (static_cast<double>(best / map.columns) + 0.5) * map.cell, north, 0.15 + cell);
+}
+
 TEST_F(ProjectedWorld, missions_state_it_for_a_scene_that_does_not) {
   write("m.toml", mission("none.asc", "system = \"EPSG:32632\""));
   succeed("survey m.toml -q -o run");

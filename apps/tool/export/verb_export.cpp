@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -114,6 +115,17 @@ void require_soundings(const ProductOptions& o) {
          "--tide need gsf, las, geotiff, csv or mcap");
 }
 
+/// Throws for a folder that is named like a file of another format.
+void require_name_of_folder(const ProductOptions& o) {
+  constexpr std::pair<const char*, const char*> files[] = {{".gsf", "gsf"}, {".las", "las"},   {".tif", "geotiff"},
+                                                           {".csv", "csv"}, {".mcap", "mcap"}, {".xtf", "xtf"}};
+  const std::string ending = std::filesystem::path(o.output).extension().string();
+  for (const auto& [of_file, format] : files)
+    if (ending == of_file)
+      fail(ErrorKind::argument, "--output = ", o.output, ", but --to = ", o.to, " makes a folder; give --to ", format,
+           " for a file, or the folder another name");
+}
+
 void export_for_paraview(const ProductOptions& o, const CommonOptions& common) {
   Progress progress(common, 2);
   progress.step("reading " + o.run);
@@ -160,6 +172,7 @@ std::vector<ProductOptions> exports_of_heads(const ProductOptions& o) {
 
 void export_run(const ExportOptions& options) {
   require_soundings(options.product);
+  if (options.product.to == "vtk") require_name_of_folder(options.product);
   if (const std::string& run = options.product.run; is_record(run))
     fail(ErrorKind::content, run,
          ": is a recording of a sonar, and export takes runs, surveys and cubes of insonify; "
