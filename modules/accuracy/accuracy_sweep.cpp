@@ -28,14 +28,14 @@ Runs gridded_runs(const std::vector<double>& tolerances, int threads = 0) {
 Runs windowed_runs(const std::vector<double>& tolerances) {
   Runs runs;
   for (const double t : tolerances)
-    runs.push_back({"windowed-direct", [t](const AccuracyBench& b) { return b.windowed(t); }});
+    runs.push_back({"windowed-direct", [t](const AccuracyBench& b) { return b.windowed("windowed-direct", {t}); }});
   return runs;
 }
 
 Runs short_cuts(const std::vector<double>& nulls) {
-  Runs runs{{"nearest-bin", &AccuracyBench::nearest_bin}};
+  Runs runs{{"nearest-bin", [](const AccuracyBench& b) { return b.windowed("nearest-bin", {1e-6, 0, true}); }}};
   for (const double k : nulls)
-    runs.push_back({"pattern-cut", [k](const AccuracyBench& b) { return b.pattern_cut(k); }});
+    runs.push_back({"pattern-cut", [k](const AccuracyBench& b) { return b.windowed("pattern-cut", {1e-6, k}); }});
   return runs;
 }
 
@@ -96,24 +96,12 @@ Runs thread_runs(const SweepOptions& o) {
   return runs;
 }
 
-void require_sweep(const SweepOptions& o) {
-  const std::vector<std::string> known = accuracy_methods();
-  for (const std::string& method : o.methods)
-    if (std::find(known.begin(), known.end(), method) == known.end())
-      fail(ErrorKind::argument, "accuracy_sweep: method '", method, "' is unknown; known are ", joined(known));
-  for (const double tolerance : o.tolerances)
-    if (!(tolerance >= min_gridding_tolerance && tolerance < 1))
-      fail(ErrorKind::argument, "accuracy_sweep: tolerance = ", tolerance, ", must be within [", min_gridding_tolerance,
-           ", 1)");
-}
-
 /// Keeps only the methods asked for, and the steps that have one of them.
 std::vector<AccuracyStep> chosen(std::vector<AccuracyStep> steps, const std::vector<std::string>& methods) {
   if (methods.empty()) return steps;
   for (AccuracyStep& step : steps)
-    std::erase_if(step.runs, [&](const AccuracyRun& run) {
-      return std::find(methods.begin(), methods.end(), run.method) == methods.end();
-    });
+    std::erase_if(step.runs,
+                  [&](const AccuracyRun& run) { return std::ranges::find(methods, run.method) == methods.end(); });
   std::erase_if(steps, [](const AccuracyStep& step) { return step.runs.empty(); });
   return steps;
 }
@@ -205,8 +193,19 @@ class Sweep {
 
 }  // namespace
 
+void require_valid(const SweepOptions& options) {
+  const std::vector<std::string> known = accuracy_methods();
+  for (const std::string& method : options.methods)
+    if (std::ranges::find(known, method) == known.end())
+      fail(ErrorKind::argument, "accuracy_sweep: method '", method, "' is unknown; known are ", joined(known));
+  for (const double tolerance : options.tolerances)
+    if (!(tolerance >= min_gridding_tolerance && tolerance < 1))
+      fail(ErrorKind::argument, "accuracy_sweep: tolerance = ", tolerance, ", must be within [", min_gridding_tolerance,
+           ", 1)");
+}
+
 std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options) {
-  require_sweep(options);
+  require_valid(options);
   Sweep sweep(options);
   sweep.add_large();
   sweep.add_small();
@@ -215,7 +214,7 @@ std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options) {
 }
 
 std::vector<AccuracyStep> accuracy_sweep_of(const AccuracyTask& task, const SweepOptions& options) {
-  require_sweep(options);
+  require_valid(options);
   const std::size_t all = task.echoes.size();
   std::vector<AccuracyStep> steps{
       {"work-precision", "work-precision", [task] { return task; }, work_precision(options)}};

@@ -21,6 +21,9 @@ struct SweepOptions {
   std::vector<std::string> methods{};  ///< names from accuracy_methods; empty: all
 };
 
+/// Throws Error for an unknown method, naming the known ones, or a tolerance out of reach.
+void require_valid(const SweepOptions& options);
+
 /// A method and the function that measures it.
 struct AccuracyRun {
   std::string method;
@@ -43,8 +46,7 @@ struct AccuracyStep {
 ///   threads          gridded on one, two ... all cores
 ///   engines          all engines of synthesis on engine_tasks: own error, error of their model, time
 ///   stability        the same on stability_tasks
-/// Gridded runs at tolerances from 1e-2 to 1e-12 in all of them.
-/// Throws Error for an unknown method, naming the known ones, or a tolerance out of reach.
+/// Gridded runs at tolerances from 1e-2 to 1e-12 in all of them. Throws Error unless the options are valid.
 std::vector<AccuracyStep> accuracy_sweep(const SweepOptions& options = {});
 
 /// Returns the sweeps work-precision, scatterers (evenly picked) and threads over a user's own echoes. The seed is not

@@ -50,6 +50,15 @@ Medium medium_of(const TaskSpec& task, const SonarHead& head) {
   return m;
 }
 
+/// Returns entries of a list, or none of an empty one.
+template <typename T>
+std::vector<T> entries(const std::vector<T>& all, const std::vector<std::size_t>& which) {
+  std::vector<T> some;
+  for (const std::size_t i : which)
+    if (!all.empty()) some.push_back(all[i]);
+  return some;
+}
+
 }  // namespace
 
 AccuracyTask make_task(const TaskSpec& t) {
@@ -75,9 +84,9 @@ AccuracyTask make_task(const TaskSpec& t) {
 
 AccuracyTask task_of(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                      const Environment& environment, const SimulationOptions& options) {
-  if (head.column || fan_rows(head.fan).size() != 1)
-    fail(ErrorKind::argument, "task_of: ", head.name, " has several rows of beams; the sweep takes sonars with one");
-  if (!has_line(head)) fail(ErrorKind::argument, "task_of: ", head.name, " has a curved array; the sweep takes lines");
+  if (head.column || fan_rows(head.fan).size() != 1 || !has_line(head))
+    fail(ErrorKind::argument, "task_of: ", head.name, " has several rows of beams or a curved array; the sweep takes ",
+         "sonars with one row of a line");
   const ResolvedPing ping = resolve_ping(whole_of(scene), head, {world_from_head}, environment, options, "task_of");
   const Sampling sampling = find_scatterers(scene, world_from_head, head.fan, ping.view.gate, ping.view.sampling);
   AccuracyTask task{head, ping.sent.medium, direct_echoes(sampling.scatterers, scene.materials, ping.sent)};
@@ -93,27 +102,17 @@ std::vector<std::size_t> picked(std::size_t of, std::size_t count) {
   return which;
 }
 
-Echoes some_echoes(const Echoes& echoes, std::size_t count) {
-  if (count >= echoes.size()) return echoes;
-  Echoes some;
-  for (const std::size_t i : picked(echoes.size(), count)) {
-    some.delay.push_back(echoes.delay[i]);
-    some.u.push_back(echoes.u[i]);
-    some.amplitude.push_back(echoes.amplitude[i]);
-    if (!echoes.v.empty()) some.v.push_back(echoes.v[i]);
-    if (!echoes.doppler.empty()) some.doppler.push_back(echoes.doppler[i]);
-  }
-  return some;
+Echoes echoes_at(const Echoes& e, const std::vector<std::size_t>& i) {
+  return {entries(e.delay, i), entries(e.u, i), entries(e.amplitude, i), entries(e.v, i), entries(e.doppler, i)};
 }
+
+Echoes some_echoes(const Echoes& echoes, std::size_t count) { return echoes_at(echoes, picked(echoes.size(), count)); }
 
 SonarHead some_beams(const SonarHead& head, std::size_t count) {
   SonarHead some = head;
-  some.fan.azimuth.clear();
-  some.fan.elevation.clear();
-  for (const std::size_t b : picked(head.fan.beams(), count)) {
-    some.fan.azimuth.push_back(head.fan.azimuth[b]);
-    some.fan.elevation.push_back(head.fan.elevation[b]);
-  }
+  const std::vector<std::size_t> which = picked(head.fan.beams(), count);
+  some.fan.azimuth = entries(head.fan.azimuth, which);
+  some.fan.elevation = entries(head.fan.elevation, which);
   return some;
 }
 

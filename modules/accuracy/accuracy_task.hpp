@@ -53,6 +53,8 @@ std::vector<AccuracyTask> stability_tasks(std::uint64_t seed);
 AccuracyTask task_of(const SceneCloud& scene, const SonarHead& head, const Pose& world_from_head,
                      const Environment& environment, const SimulationOptions& options = {});
 
+/// Returns the echoes of these indices.
+Echoes echoes_at(const Echoes& echoes, const std::vector<std::size_t>& which);
 /// Returns `count` echoes, evenly picked in their order; all of them if there are fewer.
 Echoes some_echoes(const Echoes& echoes, std::size_t count);
 

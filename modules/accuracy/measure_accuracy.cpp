@@ -88,20 +88,14 @@ AccuracyRow AccuracyBench::row(const std::string& method) const {
   return r;
 }
 
-ComplexGrid AccuracyBench::checked(const ComplexGrid& pressure) const {
-  ComplexGrid some(beams_.size(), pressure.cols());
-  for (std::size_t k = 0; k < beams_.size(); ++k)
-    some.row(static_cast<Eigen::Index>(k)) = pressure.row(static_cast<Eigen::Index>(beams_[k]));
-  return some;
-}
-
 std::size_t AccuracyBench::timed(double affordable) const {
   const auto most = static_cast<std::size_t>(std::min(affordable, 1e12));
   return std::min(task_.echoes.size(), std::max(least_timed, most));
 }
 
-void AccuracyBench::compare(const ComplexGrid& pressure, const ComplexGrid& referee, AccuracyRow& row) const {
-  const ImageError error = image_error(pressure, referee, eighths_with_echo(task_.echoes, task_));
+void AccuracyBench::compare(const ComplexGrid& pressure, const ComplexGrid& referee, const Echoes& echoes,
+                            AccuracyRow& row) const {
+  const ImageError error = image_error(pressure, referee, eighths_with_echo(echoes, task_));
   row.error = error.whole;
   row.local_error = error.worst_eighth;
   if (referee.abs2().sum() > 0) row.max_level_db = compare_images(pressure, referee, 60).max_level_db;
@@ -141,13 +135,8 @@ AccuracyRow AccuracyBench::direct() const {
   const SonarHead head = some_beams(task_.head, std::min<std::size_t>(4, r.beams));
   const std::vector<std::size_t> bins = picked(r.bins, 64);
   const ComplexGrid in_double = synthesize_direct(some, head, task_.medium, options);
-  ComplexGrid block(in_double.rows(), bins.size());
-  for (std::size_t k = 0; k < bins.size(); ++k)
-    block.col(static_cast<Eigen::Index>(k)) = in_double.col(static_cast<Eigen::Index>(bins[k]));
   const ComplexGrid exact = synthesize_extended(some, head, task_.medium, bins, options_.threads);
-  const ImageError error = image_error(block, exact, eighths_with_echo(some, task_));
-  r.error = error.whole;
-  r.local_error = error.worst_eighth;
+  compare(in_double(Eigen::all, bins), exact, some, r);
   r.checked_beams = head.fan.beams();
   return r;
 }
@@ -160,7 +149,7 @@ AccuracyRow AccuracyBench::direct_whole() const {
   r.seconds = r.seconds_min = r.seconds_max = watch.lap();
   r.peak_mib = peak_memory_mib();
   r.repeats = 1;
-  compare(checked(pressure), referee_, r);
+  compare(pressure(beams_, Eigen::all), referee_, task_.echoes, r);
   return r;
 }
 
@@ -170,7 +159,7 @@ AccuracyRow AccuracyBench::gridded_row(AccuracyRow r, const Medium& medium) cons
   r.plan_seconds = watch.lap();
   if (plan.choice().single_precision) r.precision = "single";
   r.kernel_width = plan.choice().kernel_width;
-  compare(checked(plan.pressure(task_.echoes)), referee_, r);
+  compare(plan.pressure(task_.echoes)(beams_, Eigen::all), referee_, task_.echoes, r);
   time_all([&](const Echoes& e) { return plan.pressure(e); }, r);
   return r;
 }
@@ -189,39 +178,24 @@ AccuracyRow AccuracyBench::spectrum() const {
   r.timed_scatterers = timed(options_.spectrum_work / work(1, r.timed_beams, r.bins));
   const SynthesisOptions options{1e-12, options_.threads};
   const Echoes some = some_echoes(task_.echoes, r.timed_scatterers);
-  const ImageError error =
-      image_error(synthesize_spectrum(some, head, task_.medium, options),
-                  synthesize_direct(some, head, task_.medium, options), eighths_with_echo(some, task_));
-  r.error = error.whole;
-  r.local_error = error.worst_eighth;
+  compare(synthesize_spectrum(some, head, task_.medium, options), synthesize_direct(some, head, task_.medium, options),
+          some, r);
   time_all([&](const Echoes& e) { return synthesize_spectrum(e, head, task_.medium, options); }, r);
   return r;
 }
 
-AccuracyRow AccuracyBench::windowed_row(AccuracyRow r, const WindowedOptions& options) const {
+AccuracyRow AccuracyBench::windowed(const std::string& method, WindowedOptions options) const {
+  AccuracyRow r = row(method);
+  options.threads = options_.threads;
+  r.parameter = options.pattern_nulls;
+  if (!options.nearest_bin && options.pattern_nulls == 0) r.tolerance = options.tolerance;
   r.timed_scatterers = timed(options_.windowed_work / work(1, r.beams, 1));
-  compare(windowed_synthesizer(checked_head_, task_.medium, options)(task_.echoes), referee_, r);
+  compare(windowed_synthesizer(checked_head_, task_.medium, options)(task_.echoes), referee_, task_.echoes, r);
   StopWatch watch;
   const auto run = windowed_synthesizer(task_.head, task_.medium, options);
   r.plan_seconds = watch.lap();
   time_all(run, r);
   return r;
-}
-
-AccuracyRow AccuracyBench::windowed(double tolerance) const {
-  AccuracyRow r = row("windowed-direct");
-  r.tolerance = tolerance;
-  return windowed_row(r, {tolerance, 0, false, options_.threads});
-}
-
-AccuracyRow AccuracyBench::nearest_bin() const {
-  return windowed_row(row("nearest-bin"), {1e-6, 0, true, options_.threads});
-}
-
-AccuracyRow AccuracyBench::pattern_cut(double nulls) const {
-  AccuracyRow r = row("pattern-cut");
-  r.parameter = nulls;
-  return windowed_row(r, {1e-6, nulls, false, options_.threads});
 }
 
 AccuracyRow AccuracyBench::absorption_order(int order) const {

@@ -72,31 +72,22 @@ class AccuracyBench {
   AccuracyRow gridded(double tolerance, int threads = 0) const;
   /// Measures the spectrum on a part of echoes and beams, against the direct sum on the same part.
   AccuracyRow spectrum() const;
-  /// Measures the direct sum with each pulse cut at the tolerance, and the exact pattern.
-  AccuracyRow windowed(double tolerance) const;
-  /// Measures the sum with each echo in its nearest bin alone.
-  AccuracyRow nearest_bin() const;
-  /// Measures the sum with the pattern cut after this number of nulls on either side.
-  AccuracyRow pattern_cut(double nulls) const;
+  /// Measures the direct sum with each pulse cut (windowed_synthesizer), in a row of this method. The row of a short cut
+  /// has no tolerance.
+  AccuracyRow windowed(const std::string& method, WindowedOptions options) const;
   /// Measures the error without slope (order 0) or curvature (1) of the absorption, gridded at a tolerance of 1e-8.
   AccuracyRow absorption_order(int order) const;
-
-  /// Returns the task.
-  const AccuracyTask& task() const { return task_; }
-  /// Returns the name of the sweep.
-  const std::string& sweep() const { return sweep_; }
 
  private:
   using Synthesis = std::function<ComplexGrid(const Echoes&)>;
   AccuracyRow row(const std::string& method) const;
-  ComplexGrid checked(const ComplexGrid& pressure) const;
   std::size_t timed(double affordable) const;
-  void compare(const ComplexGrid& pressure, const ComplexGrid& referee, AccuracyRow& row) const;
+  /// Sets the errors of an image of echoes in the checked beams or those of the referee.
+  void compare(const ComplexGrid& pressure, const ComplexGrid& referee, const Echoes& echoes, AccuracyRow& row) const;
   const ComplexGrid& referee_of(ImageModel model) const;
   void measure_engine(const Engine& engine, AccuracyRow& row) const;
   void time_all(const Synthesis& run, AccuracyRow& row) const;
   AccuracyRow gridded_row(AccuracyRow row, const Medium& medium) const;
-  AccuracyRow windowed_row(AccuracyRow row, const WindowedOptions& options) const;
 
   std::string sweep_;
   AccuracyTask task_;

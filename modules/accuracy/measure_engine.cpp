@@ -17,11 +17,7 @@ namespace {
 ComplexGrid expected_by_echoes(const AccuracyTask& task, const SonarHead& head, int threads) {
   const Synthesizer direct(head, task.medium, SynthesisMethod::direct, {1e-4, threads});
   Grid<double> intensity = Grid<double>::Zero(head.fan.beams(), head.gate.bins());
-  for (std::size_t i = 0; i < task.echoes.size(); ++i) {
-    Echoes one{{task.echoes.delay[i]}, {task.echoes.u[i]}, {task.echoes.amplitude[i]}};
-    if (!task.echoes.v.empty()) one.v = {task.echoes.v[i]};
-    intensity += direct.pressure(one).abs2();
-  }
+  for (std::size_t i = 0; i < task.echoes.size(); ++i) intensity += direct.pressure(echoes_at(task.echoes, {i})).abs2();
   return intensity.sqrt().cast<std::complex<double>>();
 }
 
@@ -80,7 +76,7 @@ void AccuracyBench::measure_engine(const Engine& engine, AccuracyRow& r) const {
   const Synthesizer synthesizer(task_.head, task_.medium, engine.method, options);
   const ComplexGrid image = synthesizer.pressure(task_.echoes);
   r.plan_seconds = watch.lap();
-  compare(checked(image), referee_of(engine.model), r);
+  compare(image(beams_, Eigen::all), referee_of(engine.model), task_.echoes, r);
   if (engine.model == ImageModel::narrow_band) {
     r.model_error = relative_error(referee_, referee_of(ImageModel::true_delays));
     r.model_bound = bound_of_narrow_band(task_, options_.threads);

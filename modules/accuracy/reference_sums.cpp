@@ -44,9 +44,8 @@ class PatternTable {
 void require_windowed(const SonarHead& head, const Medium& medium, const WindowedOptions& o) {
   require_valid(head, "windowed_synthesizer");
   require_valid(medium, "windowed_synthesizer");
-  if (head.column || fan_rows(head.fan).size() != 1)
-    fail(ErrorKind::argument, "windowed_synthesizer: the head has several rows of beams, must have one");
-  if (!has_line(head)) fail(ErrorKind::argument, "windowed_synthesizer: the head has a curved array, must have a line");
+  if (head.column || fan_rows(head.fan).size() != 1 || !has_line(head))
+    fail(ErrorKind::argument, "windowed_synthesizer: the head must have one row of beams of a line array");
   if (!is_gaussian(head.pulse))
     fail(ErrorKind::argument, "windowed_synthesizer: the head has another pulse, must be a Gaussian");
   if (!(o.tolerance >= 1e-12 && o.tolerance < 1))
@@ -56,76 +55,65 @@ void require_windowed(const SonarHead& head, const Medium& medium, const Windowe
 /// Samples of the pulses of some echoes: where each begins, and `length` of them.
 struct CutPulses {
   std::vector<std::size_t> first, count;
-  std::vector<std::complex<double>> sample;
+  ComplexGrid sample;  ///< echoes x samples
 };
 
 class Windowed {
  public:
   Windowed(const SonarHead& head, const Medium& medium, const WindowedOptions& options)
-      : head_(head),
-        options_(options),
+      : options_(options),
         shapes_(head.pulse, medium),
         start_(2 * head.gate.centre(0) / medium.sound_speed),
         step_(2 * head.gate.bin_size / medium.sound_speed),
+        last_(static_cast<double>(head.gate.bins()) - 1),
         half_(pulse_half_length(head.pulse, 0.2 * options.tolerance)),
         length_(static_cast<std::size_t>(2 * half_ / step_) + 2),
         table_(head.array, medium.sound_speed / head.pulse.centre_frequency, options.tolerance),
         reach_(options.pattern_nulls * medium.sound_speed /
-               (head.pulse.centre_frequency * head.array.spacing * static_cast<double>(head.array.elements()))) {
-    for (std::size_t b = 0; b < head.fan.beams(); ++b)
-      u_beam_.push_back(std::cos(head.fan.elevation[b]) * std::sin(head.fan.azimuth[b]));
-  }
+               (head.pulse.centre_frequency * head.array.spacing * static_cast<double>(head.array.elements()))),
+        axes_(beam_axes(head.fan)) {}
 
   void add(const Echoes& echoes, std::size_t first, std::size_t last, ComplexGrid& pressure) const {
     const CutPulses pulses = cut(echoes, first, last);
-    parallel_for(u_beam_.size(), options_.threads, [&](std::size_t b) {
+    parallel_for(axes_.size(), options_.threads, [&](std::size_t b) {
       for (std::size_t i = first; i < last; ++i) {
-        const double du = echoes.u[i] - u_beam_[b];
+        const double du = echoes.u[i] - axes_[b].y();
         const std::size_t k = i - first, n0 = pulses.first[k];
         if (pulses.count[k] == 0 || (options_.pattern_nulls > 0 && std::abs(du) > reach_)) continue;
         const std::complex<double> weight = echoes.amplitude[i] * table_.at(du);
-        std::complex<double>* p = &pressure(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(n0));
-        const std::complex<double>* g = pulses.sample.data() + k * length_;
-        for (std::size_t n = 0; n < pulses.count[k]; ++n) p[n] += times(weight, g[n]);
+        pressure.row(b).segment(n0, pulses.count[k]) += weight * pulses.sample.row(k).head(pulses.count[k]);
       }
     });
   }
 
  private:
-  /// Complex product without the test for infinities of operator*.
-  static std::complex<double> times(std::complex<double> a, std::complex<double> b) {
-    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-  }
-
   CutPulses cut(const Echoes& echoes, std::size_t first, std::size_t last) const {
     CutPulses pulses;
     pulses.first.resize(last - first);
     pulses.count.resize(last - first);
-    pulses.sample.resize((last - first) * length_);
-    const auto bins = static_cast<double>(head_.gate.bins());
+    pulses.sample.resize(last - first, length_);
     parallel_for(last - first, options_.threads, [&](std::size_t k) {
       const double delay = echoes.delay[first + k];
       const EchoEnvelope envelope = shapes_.of(delay);
       const double position = options_.nearest_bin ? start_ + step_ * std::nearbyint((delay - start_) / step_) : delay;
       const double low = std::max(0.0, std::ceil((position - half_ - start_) / step_));
-      const double high = std::min(bins - 1, std::floor((position + half_ - start_) / step_));
+      const double high = std::min(last_, std::floor((position + half_ - start_) / step_));
       if (high < low) return;
       pulses.first[k] = static_cast<std::size_t>(low);
       pulses.count[k] = std::min(length_, static_cast<std::size_t>(high - low) + 1);
       for (std::size_t n = 0; n < pulses.count[k]; ++n)
-        pulses.sample[k * length_ + n] = envelope.at(start_ + (low + static_cast<double>(n)) * step_ - position);
+        pulses.sample(k, n) = envelope.at(start_ + (low + static_cast<double>(n)) * step_ - position);
     });
     return pulses;
   }
 
-  const SonarHead& head_;
   WindowedOptions options_;
   EchoShapes shapes_;
-  double start_, step_, half_;
+  double start_, step_, last_, half_;
   std::size_t length_;
   PatternTable table_;
   double reach_;
-  std::vector<double> u_beam_;
+  std::vector<Eigen::Vector3d> axes_;  ///< directions of the beams
 };
 
 using Extended = long double;

@@ -95,20 +95,14 @@ class SamplingBench {
     });
   }
   SamplingErrorRow jittered_rays(int rays) const {
-    SamplingOptions o;
-    o.kind = SamplingKind::rays;
-    o.rays_per_beam = rays;
-    return found("jittered-rays", rays, o, scene_);
+    return found("jittered-rays", rays, {.kind = SamplingKind::rays, .rays_per_beam = rays}, scene_);
   }
   SamplingErrorRow split_surfels(double per_cell) const {
-    SamplingOptions o;
-    o.scatterers_per_cell = per_cell;
-    return found("split-surfels", per_cell, o, scene_);
+    return found("split-surfels", per_cell, {.scatterers_per_cell = per_cell}, scene_);
   }
   SamplingErrorRow surfels(std::size_t points) const {
-    SamplingOptions o;
-    o.scatterers_per_cell = 0;
-    return found("surfels", static_cast<double>(points) / (size_x * size_y), o, cloud(points));
+    const double density = static_cast<double>(points) / (size_x * size_y);
+    return found("surfels", density, {.scatterers_per_cell = 0}, cloud(points));
   }
 
  private:

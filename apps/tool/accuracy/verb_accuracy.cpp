@@ -62,16 +62,9 @@ SweepOptions sweep_options(const AccuracyOptions& o) {
   sweep.seed = o.common.seed;
   sweep.threads = o.common.threads;
   sweep.methods = o.methods;
-  const std::vector<std::string> known = accuracy_methods();
-  for (const std::string& method : o.methods)
-    if (std::find(known.begin(), known.end(), method) == known.end())
-      fail(ErrorKind::argument, "--methods '", method, "' is unknown; known are ", joined(known));
-  for (const std::string& text : o.tolerances) {
-    const double tolerance = parse_number("--tolerances", text);
-    if (!(tolerance >= 1e-13 && tolerance < 1))
-      fail(ErrorKind::argument, "--tolerances: ", tolerance, ", must be within [1e-13, 1)");
-    sweep.tolerances.push_back(tolerance);
-  }
+  in_words_of("--methods", [&] { require_valid(sweep); });
+  for (const std::string& text : o.tolerances) sweep.tolerances.push_back(parse_number("--tolerances", text));
+  in_words_of("--tolerances", [&] { require_valid(sweep); });
   return sweep;
 }
 

@@ -14,27 +14,34 @@ namespace {
 class StretchSink final : public EchoSink {
  public:
   StretchSink(const TimeStretches& stretches, std::size_t stretch, double sound_speed, const EchoFeed::Add& add)
-      : stretches_(stretches),
-        stretch_(stretch),
+      : start_(stretches.axis.start),
+        step_(stretches.axis.step),
+        first_(stretches.edge[stretch]),
+        last_(stretches.edge[stretch + 1]),
         // A bin more at either end: edges and ranges are rounded differently.
-        near_(0.5 * sound_speed * stretches.axis.time_of(stretches.edge[stretch] - 1)),
-        far_(0.5 * sound_speed * stretches.axis.time_of(stretches.edge[stretch + 1] + 1)),
+        near_(0.5 * sound_speed * stretches.axis.time_of(first_ - 1)),
+        far_(0.5 * sound_speed * stretches.axis.time_of(last_ + 1)),
         add_(add) {}
 
   bool reaches(double min_range, double max_range) const { return max_range >= near_ && min_range <= far_; }
   bool wants(const SurfelBounds& s) const override { return reaches(s.range - s.reach, s.range + s.reach); }
   void take(const Scatterers&, const Echoes& echoes) override {
     require_finite(echoes, "TrueDelayEngine");
-    which_.clear();
-    for (std::size_t i = 0; i < echoes.size(); ++i)
-      if (stretches_.of(echoes.delay[i]) == stretch_) which_.push_back(static_cast<std::uint32_t>(i));
-    if (!which_.empty()) add_(echoes, which_);
+    // Find the stretch as TimeStretches::of does, without a branch: most echoes of a chunk lie in one stretch.
+    const double start = start_, step = step_, first = first_, last = last_;
+    std::size_t count = 0;
+    which_.resize(echoes.size());
+    for (std::size_t i = 0; i < echoes.size(); ++i) {
+      const double bin = (echoes.delay[i] - start) / step;
+      which_[count] = static_cast<std::uint32_t>(i);
+      count += static_cast<std::size_t>(bin >= first) & static_cast<std::size_t>(bin < last);
+    }
+    if (count > 0) add_(echoes, {which_.data(), count});
   }
 
  private:
-  const TimeStretches& stretches_;
-  std::size_t stretch_;
-  double near_, far_;  // [m]
+  double start_, step_, first_, last_;  // of the axis; bins of the stretch
+  double near_, far_;                   // [m]
   const EchoFeed::Add& add_;
   std::vector<std::uint32_t> which_;
 };
