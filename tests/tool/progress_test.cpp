@@ -37,6 +37,14 @@ TEST_F(ProgressBar, names_the_stage_its_share_and_the_time_left) {
   EXPECT_THAT(screen, HasSubstr("\033[Kslow: "));
 }
 
+TEST_F(ProgressBar, of_info_says_what_is_read) {
+  have("plane.ply", "make-scene plane --points 8000 --size 10,10");
+  const std::string screen = shown("info plane.ply");
+  EXPECT_THAT(screen, HasSubstr("] reading plane.ply"));
+  EXPECT_LT(screen.rfind("reading plane.ply"), screen.find("points     8000")) << "the bar ends before the facts";
+  EXPECT_EQ(run("info plane.ply").err, "");
+}
+
 TEST_F(ProgressBar, is_absent_where_nobody_looks_or_asks) {
   have("plane.ply", "make-scene plane --points 8000 --size 10,10");
   EXPECT_EQ(shown("prepare plane.ply -o quiet.ply -q").find('['), std::string::npos);

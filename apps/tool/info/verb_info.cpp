@@ -8,6 +8,7 @@
 #include "files/path_status.hpp"
 #include "formats/swath_record.hpp"
 #include "run/run_checks.hpp"
+#include "tool/command/progress.hpp"
 #include "tool/command/shared_options.hpp"
 #include "tool/command/verb.hpp"
 #include "tool/info/info.hpp"
@@ -70,6 +71,13 @@ void verify(const InfoOptions& o) {
   if (!problems.empty()) fail(ErrorKind::content, shortened_list(problems), "; copy the run again, or make it again");
 }
 
+/// Shows on a terminal how far the reading of a scene is.
+ordered_json read_scene(const std::string& path, const InfoOptions& o) {
+  Progress progress(o.common, 1);
+  progress.step("reading " + path);
+  return info_of_scene(path, o.meaning);
+}
+
 void info(const InfoOptions& o) {
   if (o.verify) return verify(o);
   ordered_json all = ordered_json::array();
@@ -80,7 +88,7 @@ void info(const InfoOptions& o) {
     if (recorded)
       all.push_back(is_swath(path) ? info_of_swath(path) : info_of_record(path));
     else if (is_scene)
-      all.push_back(info_of_scene(path, o.meaning));
+      all.push_back(read_scene(path, o));
     else if (file.extension() == ".toml")
       all.push_back(info_of_toml(path));
     else
