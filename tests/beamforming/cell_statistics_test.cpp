@@ -144,6 +144,24 @@ TEST(DisplayCells, fixed_echoes_add_up_as_pressures) {
   EXPECT_NEAR(db_from_power(synthesize_cells({}, one, head, lossy)(4, 2) / exact(4, 2)), 0, 0.05);
 }
 
+// A glint of a wall beside the fan is so loud that a hundred thousandth of it would hide what else a beam receives.
+TEST(DisplayCells, glints_are_heard_in_far_side_lobes_as_the_array_receives_them) {
+  const SonarHead head = cells_head(samples_head(33), 5);
+  const double wavelength = lossy.sound_speed / centre, glint = -0.953;
+  Echoes e;
+  e.delay = {2 * 2.5 / lossy.sound_speed}, e.u = {glint}, e.amplitude = {1};
+  const Grid<double> ahead = synthesize_cells({}, {e.delay, {0.0}, e.amplitude, {}}, head, lossy);
+  const std::vector<double>& azimuth = head.fan.azimuth;
+  for (const bool speckle : {false, true}) {
+    const Grid<double> cells = synthesize_cells({}, e, head, lossy, {.speckle = speckle});
+    for (std::size_t b = 0; b < azimuth.size(); ++b) {
+      const double response = std::norm(array_response(head.array, wavelength, glint, std::sin(azimuth[b])));
+      const auto beam = static_cast<Eigen::Index>(b);
+      EXPECT_NEAR(cells(beam, 2) / ahead(16, 2), response, 0.02 * response + 1e-7) << azimuth[b];
+    }
+  }
+}
+
 /// Mean and contrast of cells, and how alike cells side by side are, over images whose cells all expect the same.
 class CellStatistics {
  public:

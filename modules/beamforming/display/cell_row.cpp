@@ -156,6 +156,7 @@ std::vector<CellRow::Complex>& CellRow::densities(std::size_t cell, bool with_wa
     for (std::size_t k = lists_.first[cell + part]; k < lists_.first[cell + part + 1]; ++k) {
       const EchoInCell& in = lists_.piece[k];
       const CellEcho& echo = lists_.echoes[in.echo];
+      if (echo.together == 0) continue;
       const double response = row_.response.empty() ? 1 : row_.response[in.echo];
       const float energy = static_cast<float>(response * response) * in.energy;
       if (energy > 0 && (with_water || !labels_->of_water(echo))) add_density(echo, energy, cell + part, kept.at);
@@ -195,6 +196,15 @@ void CellRow::sum_means(std::size_t cell, bool with_water) {
     side_[0].mean[b] = std::max(0.0, mean.real()) + noise;  // (E181)
     side_[1].mean[b] = std::max(0.0, mean.imag()) + noise;
   }
+  // Glints are so loud that what nodes of u leave of them in far side lobes would exceed all else there.
+  for (Side& side : side_)
+    for (const Piece& piece : side.even)
+      if (piece.echo->together == 0)
+        for (std::size_t b = 0; b < beams_.u_beam.size(); ++b) side.mean[b] += heard_of(piece, b);
+}
+
+double CellRow::heard_of(const Piece& piece, std::size_t beam) const {
+  return piece.energy * plan_.response.intensity(static_cast<double>(piece.echo->u) - beams_.u_beam[beam]);
 }
 
 void CellRow::count_looks(std::size_t cell, Side& side) {

@@ -70,8 +70,7 @@ void CellRow::add_strong(const Piece& piece, std::vector<Complex>& elements, std
                std::polar(1.0, -step * away * element_position(0, count));
   for (std::size_t m = 0; m < count; ++m, at *= turn) elements[(plan_.first_element + m) % plan_.period] += at;
   // The mean of even ground excludes it.
-  for (std::size_t b = 0; b < mean.size(); ++b)
-    mean[b] -= piece.energy * plan_.response.intensity(u - beams_.u_beam[b]);
+  for (std::size_t b = 0; b < mean.size(); ++b) mean[b] -= heard_of(piece, b);
 }
 
 }  // namespace insonify

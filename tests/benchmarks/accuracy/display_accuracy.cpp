@@ -92,7 +92,7 @@ void draw_curve(const CellCurve& curve, const std::string& path) {
   LineChart chart;
   chart.title = "Display cells: CPU time and error of the expected level of a cell, by number of cells";
   chart.x_title = "Cells along range", chart.y_title = "CPU time of an image [s]";
-  chart.lines = {{curve.cells, curve.drawn, "drawn, with their error, rms", LineStyle::marked, curve.errors},
+  chart.lines = {{curve.cells, curve.drawn, "drawn, with the rms error of cells", LineStyle::marked, curve.errors},
                  {curve.cells, curve.samples, "means of samples", LineStyle::marked}};
   chart.low_x = 0.8 * curve.cells.front(), chart.high_x = 1.25 * curve.cells.back();
   chart.low_y = 0.8 * *std::min_element(curve.drawn.begin(), curve.drawn.end());
