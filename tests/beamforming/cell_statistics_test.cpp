@@ -146,7 +146,8 @@ TEST(DisplayCells, fixed_echoes_add_up_as_pressures) {
 
 // A glint of a wall beside the fan is so loud that a hundred thousandth of it would hide what else a beam receives.
 TEST(DisplayCells, glints_are_heard_in_far_side_lobes_as_the_array_receives_them) {
-  const SonarHead head = cells_head(samples_head(33), 5);
+  SonarHead head = cells_head(samples_head(33), 5);
+  head.pulse.bandwidth = 2e3;  // its pattern is that of the centre frequency
   const double wavelength = lossy.sound_speed / centre, glint = -0.953;
   Echoes e;
   e.delay = {2 * 2.5 / lossy.sound_speed}, e.u = {glint}, e.amplitude = {1};
@@ -157,7 +158,7 @@ TEST(DisplayCells, glints_are_heard_in_far_side_lobes_as_the_array_receives_them
     for (std::size_t b = 0; b < azimuth.size(); ++b) {
       const double response = std::norm(array_response(head.array, wavelength, glint, std::sin(azimuth[b])));
       const auto beam = static_cast<Eigen::Index>(b);
-      EXPECT_NEAR(cells(beam, 2) / ahead(16, 2), response, 0.02 * response + 1e-7) << azimuth[b];
+      EXPECT_NEAR(cells(beam, 2) / ahead(16, 2), response, 0.02 * response + 1e-5) << azimuth[b];
     }
   }
 }

@@ -200,7 +200,8 @@ void CellRow::sum_means(std::size_t cell, bool with_water) {
   for (Side& side : side_)
     for (const Piece& piece : side.even)
       if (piece.echo->together == 0)
-        for (std::size_t b = 0; b < beams_.u_beam.size(); ++b) side.mean[b] += heard_of(piece, b);
+        for (std::size_t b = 0; b < beams_.u_beam.size(); ++b)
+          side.mean[b] += piece.energy * plan_.mean_intensity(static_cast<double>(piece.echo->u) - beams_.u_beam[b]);
 }
 
 double CellRow::heard_of(const Piece& piece, std::size_t beam) const {

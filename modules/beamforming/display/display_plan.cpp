@@ -164,6 +164,8 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
   for (std::size_t block = 0; block < blocks; ++block) {
     const double middle = (static_cast<double>(block) + 0.5) * static_cast<double>(cells) / static_cast<double>(blocks);
     const auto spectrum = pulse.spectrum(first_range + middle * cell_length, count);
+    if (block == blocks / 2)
+      for (const SpectrumNode& node : spectrum) band_.push_back({node.frequency / fc, node.weight});
     std::vector<double> of_band(nodes, 0);
     for (std::size_t k = 0; k < nodes; ++k) {
       for (const SpectrumNode& node : spectrum)

@@ -66,6 +66,13 @@ struct DisplayPlan {
   std::array<std::vector<std::vector<double>>, 2> kernel_beside;
   std::size_t kernel_of(std::size_t cell) const { return cell * kernel.size() / cells; }
 
+  /// Returns the pattern averaged over the band, W of E181, at a distance in u.
+  double mean_intensity(double offset) const {
+    double mean = 0;
+    for (const SpectrumNode& node : band_) mean += node.weight * response_at(offset * (1 + node.frequency));
+    return mean;
+  }
+
   std::vector<float> lobe;   ///< weights of broad nodes at distances 0, 1, .. within the main lobe
   double beside_lobe;        ///< mean response outside of it
   std::size_t subranges;     ///< ranges of a cell whose energies are kept apart
@@ -87,6 +94,7 @@ struct DisplayPlan {
   BeamPositions positions_of(const BeamFan& fan) const;
 
  private:
+  std::vector<SpectrumNode> band_;          // in the middle of the gate, frequencies in that of the carrier
   double response_at(double offset) const;  // of any size
   void fill_elements(const SonarHead& head);
   void fill_kernels(const SonarHead& head, const Medium& medium);
