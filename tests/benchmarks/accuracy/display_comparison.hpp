@@ -131,10 +131,10 @@ inline Difference difference(const Moments& a, const Moments& b, int seeds) {
   Difference d;
   d.total = db_from_power(a.mean.sum() / b.mean.sum());
   double cells = 0, noise = 0, middle = 0;
-  const double unbiased = seeds / (seeds - 1.0);
+  const double unbiased = seeds / (seeds - 1.0), least = 1e-4 * b.mean.maxCoeff();
   for (Eigen::Index i = 0; i < b.mean.size(); ++i) {
     const double ma = a.mean.data()[i], mb = b.mean.data()[i];
-    if (!(ma > 0) || mb < 1e-4 * b.mean.maxCoeff()) continue;
+    if (!(ma > 0) || mb < least) continue;
     const double va = unbiased * (a.square.data()[i] / (ma * ma) - 1),
                  vb = unbiased * (b.square.data()[i] / (mb * mb) - 1);
     const double off = db_from_power(ma / mb), sampled = 18.86 * (va + vb) / seeds;
@@ -187,11 +187,12 @@ inline std::vector<double> relative_levels(const Rig& rig, bool phases, const Po
                                            std::uint64_t first_seed) {
   std::vector<double> relative;
   const Eigen::Index beams = mean.rows();
+  const double least = 1e-4 * mean.maxCoeff();
   for (std::uint64_t seed = first_seed; seed < first_seed + 64 && relative.size() < 20000; ++seed) {
     const Grid<double> image = rig.ping(phases, seed, pose).intensity;
     for (Eigen::Index i = beams / 4; i < 3 * beams / 4; ++i)
       for (Eigen::Index j = 0; j < mean.cols(); ++j)
-        if (mean(i, j) > 1e-4 * mean.maxCoeff()) relative.push_back(image(i, j) / mean(i, j));
+        if (mean(i, j) > least) relative.push_back(image(i, j) / mean(i, j));
   }
   return relative;
 }
