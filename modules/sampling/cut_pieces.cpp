@@ -11,6 +11,10 @@
 namespace insonify {
 namespace {
 
+// Part of the energy of a tenth of the ranges, of which half is 0.1 dB: about half of the surfels of a relief that turns
+// away face away from the head.
+constexpr double much_turned = 0.0455;
+
 /// The ranks of marked surfels: their indices in a cut.
 class Ranks {
  public:
@@ -75,6 +79,24 @@ SceneCloud joined(const std::vector<CutPiece>& pieces, const std::vector<std::ui
 }
 
 }  // namespace
+
+void CutEnergy::add(const CutEnergy& other) {
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] += other.all[t], turned[t] += other.turned[t];
+}
+
+RangeTenths<bool> CutEnergy::hidden_by_relief() const {
+  RangeTenths<bool> hidden{};
+  for (std::size_t t = 0; t < all.size(); ++t)
+    if (turned[t] > much_turned * all[t])
+      for (std::size_t beside = t - (t > 0); beside <= std::min(t + 1, all.size() - 1); ++beside) hidden[beside] = true;
+  return hidden;
+}
+
+CutEnergy energy_of(const std::vector<CutPiece>& pieces) {
+  CutEnergy sum;
+  for (const CutPiece& piece : pieces) sum.add(piece.energy);
+  return sum;
+}
 
 OrderedCut::OrderedCut(const std::vector<CutPiece>& pieces, const SceneCloud& scene, int threads) {
   const Ranks ranks(pieces, scene.size(), threads);

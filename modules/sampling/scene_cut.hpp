@@ -46,6 +46,9 @@ struct CutOptions {
 /// scanned, and in all of fewer than 2^19 surfels. The surface of a node lies sqrt(area of a surfel) + 16 thickness
 /// below its plane at most, as far as its disc hides others.
 ///
+/// In tenths of the ranges in which relief hides itself nodes at grazing incidence are at most 0.04 of the largest width
+/// wide (E225; not with most_spacing).
+///
 /// The surfels within the region alone give the same cut. Errors as detail_levels.
 SceneCut cut_scene(const PreparedScene& prepared, const InsonifiedRegion& region, const BeamFan& fan,
                    const RangeGate& gate, const CutOptions& options);

@@ -138,6 +138,22 @@ TEST(TiledLevels, of_rough_ground_whose_surfels_stay_single_are_the_same) {
   expect_same_cut(scene, FanReach());
 }
 
+// There nodes are narrow in some tenths of the ranges (E225).
+TEST(TiledLevels, of_waves_that_hide_one_another_are_the_same) {
+  SceneCloud waves = make_built_in_scene("plane", {.points = 100000, .size = {20, 10}});
+  for (std::size_t i = 0; i < waves.size(); ++i) {
+    Eigen::Vector3f& p = waves.point[i];
+    waves.normal[i] = Eigen::Vector3f(-0.1F * std::cos(5 * p.x()), 0, 1).normalized();
+    p.z() += 0.02F * std::sin(5 * p.x());
+  }
+  const auto size = [&](double above) {
+    const FanReach reach(Pose(Eigen::Translation3d(-2, 0, above)));
+    expect_same_cut(waves, reach);
+    return cut_scene(PreparedScene(waves), reach.region, reach.fan, reach.gate, reach.options).scene.scene().size();
+  };
+  EXPECT_GT(size(0.8), 3 * size(6));
+}
+
 TEST(TiledLevels, of_what_is_far_are_read_from_coarse_to_fine) {
   const SceneCloud plane = make_built_in_scene("plane", {.points = 400000, .size = {30, 30}});
   save_tiles(own_path("plane.tiles"), plane);
