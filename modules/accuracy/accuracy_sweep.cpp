@@ -55,11 +55,9 @@ std::vector<double> tolerances(const SweepOptions& o) {
 
 /// Every method over its setting.
 Runs work_precision(const SweepOptions& o) {
-  const SweepSize size = o.size;
-  const std::vector<double> windows =
-      size == SweepSize::quick ? std::vector<double>{1e-4} : std::vector<double>{1e-2, 1e-4, 1e-6, 1e-8};
-  const std::vector<double> nulls =
-      size == SweepSize::quick ? std::vector<double>{4} : std::vector<double>{1, 4, 16, 64};
+  const bool quick = o.size == SweepSize::quick;
+  const std::vector<double> windows = quick ? std::vector<double>{1e-4} : std::vector<double>{1e-2, 1e-4, 1e-6, 1e-8};
+  const std::vector<double> nulls = quick ? std::vector<double>{4} : std::vector<double>{1, 4, 16, 64};
   return all_of({gridded_runs(tolerances(o)), {direct_run, spectrum_run}, windowed_runs(windows), short_cuts(nulls)});
 }
 
@@ -128,7 +126,11 @@ class Sweep {
     const TaskSpec large{
         .scatterers = quick ? 300u : 50000u, .beams = quick ? 32u : 512u, .bins = quick ? 200u : 2000u};
     add("work-precision", large, work_precision(options_));
-    if (full) add_scaling(large);
+    if (full) {  // whether the direct sum's time is proportional to the number of echoes: all timed, and scaled up
+      TaskSpec fewer = large;
+      fewer.scatterers = 5000;
+      add("scaling", fewer, {direct_run, {"direct", &AccuracyBench::direct_whole}});
+    }
     std::vector<std::size_t> counts{1, 10, 100};
     if (!quick) counts.insert(counts.end(), {1000, 10000, 50000});
     if (full) counts.push_back(500000);
@@ -138,12 +140,6 @@ class Sweep {
       add("scatterers", spec, crossover(options_));
     }
     add("threads", large, thread_runs(options_));
-  }
-
-  /// Checks that the direct sum's time is proportional to the number of echoes: 5000 timed whole, and scaled up.
-  void add_scaling(TaskSpec spec) {
-    spec.scatterers = 5000;
-    add("scaling", spec, {direct_run, {"direct", &AccuracyBench::direct_whole}});
   }
 
   /// Small images of all kinds, to check the tolerance; with the spectrum where its accuracy is in doubt.

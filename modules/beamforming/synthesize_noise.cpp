@@ -20,9 +20,6 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t rows_at_once = 128;  // rows of beams per pass, which bounds the memory for element series
-
-using Complex = std::complex<double>;
-
 constexpr std::size_t tile_bins = 64;
 
 /// The time series of all elements over one tile of bins: tile_bins x elements, real and imaginary parts [Pa].
@@ -141,7 +138,7 @@ ComplexGrid synthesize_noise(const SonarHead& head, const Medium& medium, double
         const ComplexGrid white = noise.white(m, row, end_row, first, last - first + filter.size() - 1);
         for (std::size_t r = 0; r < series.size(); ++r) {
           for (std::size_t n = 0; n < last - first; ++n) {
-            const Complex x = filter.of(&white(r, n));  // (E41)
+            const std::complex<double> x = filter.of(&white(r, n));  // (E41)
             series[r].re(n, m) = scale * x.real();
             series[r].im(n, m) = scale * x.imag();
           }

@@ -93,13 +93,10 @@ std::vector<AccuracyStep> steps_of(const AccuracyOptions& o, const SweepOptions&
 
 std::vector<AccuracyRow> run_steps(const std::vector<AccuracyStep>& steps, const AccuracyOptions& o,
                                    Progress& progress) {
-  MeasureOptions measure;
-  measure.threads = o.common.threads;
-  measure.repeats = o.repeats;
   std::vector<AccuracyRow> rows;
   for (const AccuracyStep& step : steps) {
     progress.step(step.what);
-    const AccuracyBench bench(step.sweep, step.make(), measure);
+    const AccuracyBench bench(step.sweep, step.make(), {.threads = o.common.threads, .repeats = o.repeats});
     for (const AccuracyRun& run : step.runs) rows.push_back(run.measure(bench));
   }
   return rows;
@@ -159,15 +156,14 @@ void print_table(const std::string& output, const std::vector<AccuracyRow>& rows
 }
 
 void accuracy(const AccuracyOptions& o) {
-  const CommonOptions& common = o.common;
   if (o.repeats < 1 || o.repeats > 1000)
     fail(ErrorKind::argument, "--repeats = ", o.repeats, ", must be within 1 and 1000");
   const SweepOptions sweep = sweep_options(o);
-  Progress preparing(common, 1);
+  Progress preparing(o.common, 1);
   const OutputOptions& output = o.run.output;
   RunDirectory directory(output.folder, output.force, {o.run.scene.path, o.run.head.sonar});
   const std::vector<AccuracyStep> steps = steps_of(o, sweep, preparing);
-  Progress progress(common, static_cast<int>(steps.size()) + 2);
+  Progress progress(o.common, static_cast<int>(steps.size()) + 2);
   ordered_json manifest = manifest_of(o);
   const std::vector<AccuracyRow> rows = run_steps(steps, o, progress);
 
@@ -178,8 +174,8 @@ void accuracy(const AccuracyOptions& o) {
                                                     : o.full ? 16384
                                                              : 4096,
                                        .trials = o.quick ? 1 : 4,
-                                       .seed = common.seed,
-                                       .threads = common.threads});
+                                       .seed = o.common.seed,
+                                       .threads = o.common.threads});
   }
 
   progress.step("writing " + output.folder);
@@ -191,8 +187,8 @@ void accuracy(const AccuracyOptions& o) {
   manifest["peak_memory_mib"] = peak_memory_mib();
   write_manifest(directory, manifest);
   directory.commit();
-  print_result(common, manifest, [&] {
-    if (!common.quiet) print_table(output.folder, rows, manifest["summary"]);
+  print_result(o.common, manifest, [&] {
+    if (!o.common.quiet) print_table(output.folder, rows, manifest["summary"]);
   });
 }
 

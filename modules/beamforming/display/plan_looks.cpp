@@ -2,6 +2,8 @@
 // Numbers of a DisplayPlan from which looks are counted (E182, E223), and the likeness of cells side by side (E224).
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <vector>
 
 #include "beamforming/display/display_plan_internal.hpp"
 #include "beamforming/display/looks_loops_internal.hpp"
@@ -29,6 +31,20 @@ double mean_of_pairs(const DisplayPlan& plan, double ahead, const Function& f) {
   return mean;
 }
 
+/// Returns the squared magnitudes of the correlation of samples of noise 0, 1, .. apart, fewer than `count`; those beyond
+/// are 0.
+std::vector<double> noise_correlation(const ReceiveFilter& filter, std::size_t count) {
+  std::vector<std::complex<double>> taps(filter.real.begin(), filter.real.end());
+  taps.insert(taps.end(), filter.complex.begin(), filter.complex.end());
+  std::vector<double> square;
+  for (std::size_t lag = 0; lag < std::min(count, taps.size()); ++lag) {
+    std::complex<double> sum = 0;
+    for (std::size_t k = 0; k + lag < taps.size(); ++k) sum += taps[k] * std::conj(taps[k + lag]);
+    square.push_back(std::norm(sum));
+  }
+  return square;
+}
+
 }  // namespace
 
 void DisplayPlan::fill_looks() {
@@ -51,7 +67,7 @@ void DisplayPlan::fill_looks() {
 void DisplayPlan::fill_noise_looks(const ReceiveFilter& filter, double sample_length) {
   // Means of samples are means of steps as wide as samples are apart: between lags their correlation is a straight line.
   const auto count = static_cast<std::size_t>(std::min(cell_length / sample_length, 1e6)) + 2;
-  std::vector<double> noise = filter.noise_correlation(count);
+  std::vector<double> noise = noise_correlation(filter, count);
   noise.resize(count + 1);
   const auto of_noise = [&](double distance) {
     const double position = distance / sample_length;

@@ -2,9 +2,9 @@
 #pragma once
 #include <complex>
 #include <cstddef>
-#include <new>
 #include <vector>
 
+#include <boost/align/aligned_allocator.hpp>
 #include <fftw3.h>
 
 namespace insonify {
@@ -41,23 +41,9 @@ struct Fftw<float> {
   static constexpr auto run = fftwf_execute_dft;
 };
 
-/// Memory that begins with a cache line, as FFTW and vector registers like it.
+/// An array that begins with a cache line, as FFTW and vector registers like it.
 template <typename T>
-struct LineAllocator {
-  using value_type = T;
-  LineAllocator() = default;
-  template <typename Other>
-  LineAllocator(const LineAllocator<Other>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
-  bool operator==(const LineAllocator&) const { return true; }
-
- private:
-  static constexpr std::align_val_t line{64};
-};
-/// An array with the alignment that FFTW requires.
-template <typename T>
-using Aligned = std::vector<T, LineAllocator<T>>;
+using Aligned = std::vector<T, boost::alignment::aligned_allocator<T, 64>>;
 
 /// FFT of some series of one layout. Plans use FFTW_ESTIMATE, so bits do not depend on timing.
 template <typename Real>

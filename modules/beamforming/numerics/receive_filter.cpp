@@ -84,16 +84,4 @@ ReceiveFilter::ReceiveFilter(const Pulse& pulse, double step) {
     real = gaussian_filter(pulse, step);
 }
 
-std::vector<double> ReceiveFilter::noise_correlation(std::size_t count) const {
-  std::vector<Complex> taps(real.begin(), real.end());
-  taps.insert(taps.end(), complex.begin(), complex.end());
-  std::vector<double> square;
-  for (std::size_t lag = 0; lag < std::min(count, taps.size()); ++lag) {
-    Complex sum = 0;
-    for (std::size_t k = 0; k + lag < taps.size(); ++k) sum += taps[k] * std::conj(taps[k + lag]);
-    square.push_back(std::norm(sum));
-  }
-  return square;
-}
-
 }  // namespace insonify

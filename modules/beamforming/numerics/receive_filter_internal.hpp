@@ -24,9 +24,6 @@ struct ReceiveFilter {
     for (std::size_t k = 0; k < complex.size(); ++k) x += complex[k] * white[k];
     return x;
   }
-  /// Returns the squared magnitudes of the correlation of samples of the noise 0, 1, .. apart, fewer than `count`; those
-  /// beyond are 0.
-  std::vector<double> noise_correlation(std::size_t count) const;
 };
 
 }  // namespace insonify
