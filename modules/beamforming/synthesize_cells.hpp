@@ -77,8 +77,9 @@ Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed,
 /// call.
 class CellSynthesizer {
  public:
-  /// Keeps what all pings share. sample_length: distance in range [m] of the samples whose means cells stand for, which
-  /// noise is correlated by (E223); 0: default_bin_size. Throws Error for an invalid head or medium, or a length < 0.
+  /// Keeps what all pings share. `sample_length` is the distance in range [m] of the samples whose means the cells stand
+  /// for; the correlation of noise depends on it (E223); 0: default_bin_size. Throws Error for an invalid head or medium,
+  /// or a length < 0.
   CellSynthesizer(const SonarHead& head, const Medium& medium, double sample_length = 0);
   ~CellSynthesizer();
   CellSynthesizer(CellSynthesizer&&) noexcept;

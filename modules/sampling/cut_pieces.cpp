@@ -11,8 +11,8 @@
 namespace insonify {
 namespace {
 
-// Part of the energy of a tenth of the ranges, of which half is 0.1 dB: about half of the surfels of a relief that turns
-// away face away from the head.
+// About half of the surfels of a relief that turns away face away from the head, and half of this part of the energy of a
+// tenth of the ranges is 0.1 dB (E225).
 constexpr double much_turned = 0.0455;
 
 /// The ranks of marked surfels: their indices in a cut.

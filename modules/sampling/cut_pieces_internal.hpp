@@ -25,8 +25,8 @@ struct CutEnergy {
   RangeTenths<double> all{}, turned{};
 
   void add(const CutEnergy& other);
-  /// Returns true for the tenths in which relief that turns away returns a hundredth of the energy or more, and for
-  /// those beside them, onto which its shadows fall.
+  /// Returns true for the tenths in which relief that turns away returns more than 4.55 % of the energy, of which half is
+  /// 0.1 dB, and for those beside them, onto which its shadows fall.
   RangeTenths<bool> hidden_by_relief() const;
 };
 

@@ -18,10 +18,10 @@ constexpr float per_thickness = 16;      // how far below a node's plane its sur
 constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
 
 // Nodes in relief that hides itself (E225).
-constexpr double largest_square = 2;  // of the slopes of a wave, in their mean squares
-constexpr double turned_square = largest_square * most_narrow * flat_spread;  // of the cosine, of what turns away
-constexpr double lit_square = 4 * turned_square;  // of the other side of such a wave, which has twice the cosine
-constexpr double narrow_width = 0.04;             // in the largest widths of nodes
+constexpr double largest_square = 2;  // largest square of a wave's slope over the mean square
+constexpr double turned_square = largest_square * most_narrow * flat_spread;  // squared cosine where relief turns away
+constexpr double lit_square = 4 * turned_square;  // the lit side of such a wave has twice the cosine
+constexpr double narrow_width = 0.04;             // width of nodes there over the largest width
 
 /// Mean square sine of the angles between a node's normal and those of its surfels.
 double spread_of(const DetailNode& node) { return 1 - quadratic_form(node.normals, node.normal.cast<double>()); }

@@ -35,8 +35,8 @@ struct ShapeOptions {
   double evenness_of_view = 1;
   bool keep_strays = false;  ///< true: points far from all others keep the areas of their cells
   bool noise = false;        ///< true: SurfelShapes::noise is estimated with the shapes, which shares their search
-  /// Base normals of the points with these indices, in place of `base_normals`: those of height fields, which need none
-  /// and look up, are not asked for. Not with a viewpoint.
+  /// Returns base normals of the points with these indices; used in place of `base_normals`. Points of height fields need
+  /// none and look up. Not with a viewpoint.
   std::function<std::vector<Eigen::Vector3f>(const std::vector<std::uint32_t>&)> base{};
 };
 
