@@ -21,17 +21,18 @@ constexpr double height = 3, pitch = radians(30), middle = 6, half_strip = 0.25;
 constexpr double size_x = 14, size_y = 8;  // of the clouds [m]
 
 SonarHead bottom_head() {
-  return make_head({.name = "bottom",
-                    .centre_frequency = 900e3,
-                    .bandwidth = 29.5e3,
-                    .beams = 21,
-                    .field_of_view = radians(20),
-                    .beam_width = radians(1),
-                    .elevation_width = radians(20),
-                    .side_lobe_db = 0,
-                    .min_range = 4,
-                    .max_range = 10},
-                   nominal_sound_speed);
+  SonarSpec s;
+  s.name = "bottom";
+  s.centre_frequency = 900e3;
+  s.bandwidth = 29.5e3;
+  s.beams = 21;
+  s.field_of_view = radians(20);
+  s.beam_width = radians(1);
+  s.elevation_width = radians(20);
+  s.side_lobe_db = 0;
+  s.min_range = 4;
+  s.max_range = 10;
+  return make_head(s, nominal_sound_speed);
 }
 
 class Strip {
