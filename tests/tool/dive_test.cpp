@@ -47,7 +47,8 @@ class Dive : public ToolTest {
            "without = [\"multipath\"]\n";
   }
   json info(const std::string& run) const { return json_of("info " + run); }
-  static double depth_of(const Ping& ping) { return -ping.world_from_head.translation().z(); }
+  /// Returns the depth for which the water of a ping is computed: to a millimetre (E42).
+  static double depth_of(const Ping& ping) { return std::round(-1000 * ping.world_from_head.translation().z()) / 1000; }
 };
 
 }  // namespace
