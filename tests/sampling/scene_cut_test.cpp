@@ -183,6 +183,9 @@ TEST(SceneCut, rough_ground_is_merged_in_narrow_nodes_and_where_the_head_looks_d
   EXPECT_GT(from_above.first, 0.5);
   EXPECT_LT(from_above.second, 0.01);
   EXPECT_LT(at_grazing.first + at_grazing.second, 0.05);
+  // Squared cosines of 0.28 to 0.37, at which no relief turns away (E225).
+  const auto slanting = shares(pose_from_yaw_pitch_roll({-13.6, 0, 10.5}, 0, radians(33), 0));
+  EXPECT_LT(slanting.first + slanting.second, 0.05);
 }
 
 TEST(SceneCut, a_plane_in_which_the_head_lies_has_areas_above_zero) {
