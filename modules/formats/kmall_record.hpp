@@ -7,7 +7,7 @@
 namespace insonify {
 
 /// Reads a .kmall file (Kongsberg 410224, EM datagrams on *.kmall format, revisions E to I): swaths of MRZ, profiles
-/// of SVP and attitudes of SKM; datagrams of other kinds are counted. Lengths that a datagram states for its parts
+/// (SVP) and attitudes (SKM); datagrams of other kinds are counted. Lengths that a datagram states for its parts
 /// are kept to, so that parts which later revisions made longer are read too. Depths are z_reRefPoint_m less
 /// z_waterLevelReRefPoint_m, across and along y and x from the vessel's reference point, levels reflectivity1_dB, and
 /// the deviations those that the detection estimates. Pitch and roll are those of the last attitude before a ping.

@@ -10,12 +10,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double flat_spread = 0.003;    // of normals of a node as wide as may be
-constexpr double steep_spread = 0.008;   // of such a node, in squares of the cosine of incidence
+constexpr double flat_spread = 0.003;    // largest spread of the normals of the widest nodes
+constexpr double steep_spread = 0.008;   // the same, over the squared cosine of incidence
 constexpr double most_narrow = 8;        // times: narrower nodes than this may not be still rougher
 constexpr double most_thickness = 0.25;  // in cells of range
 constexpr float per_thickness = 16;      // how far below a node's plane its surface may lie, as far as its disc reaches
-constexpr double half_diagonal = 0.86603;  // of a cube, in its edges, rounded up
+constexpr double half_diagonal = 0.86603;  // half the diagonal of a cube over its edge, rounded up
 
 // Nodes in relief that hides itself (E225).
 constexpr double largest_square = 2;  // largest square of a wave's slope over the mean square

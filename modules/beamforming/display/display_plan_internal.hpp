@@ -77,8 +77,8 @@ struct DisplayPlan {
   double beside_lobe;        ///< mean response outside of it
   std::size_t subranges;     ///< ranges of a cell whose energies are kept apart
   std::vector<float> looks;  ///< R_d of parts d apart (E182)
-  /// Means over pairs of ranges of a cell by which the correlation of ground exceeds that of noise with ground, and that
-  /// of noise (E223).
+  /// Correlation of ground less that of noise with ground, and less that of noise: means over pairs of ranges of a cell
+  /// (E223).
   float noise_with_ground = 0, noise_alone = 0;
   double field_reach = 0;  ///< half length of the box in range over which an echo's field is shared by cells [m] (E224)
   double noise_of_next = 0;  ///< part of the noise that a cell has of the next, as an amplitude (E224)
@@ -94,7 +94,7 @@ struct DisplayPlan {
   BeamPositions positions_of(const BeamFan& fan) const;
 
  private:
-  std::vector<SpectrumNode> band_;          // in the middle of the gate, frequencies in that of the carrier
+  std::vector<SpectrumNode> band_;          // spectrum in the middle of the gate; frequencies over the carrier's
   double response_at(double offset) const;  // of any size
   void fill_elements(const SonarHead& head);
   void fill_kernels(const SonarHead& head, const Medium& medium);

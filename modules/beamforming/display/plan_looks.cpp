@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t least_parts_of_a_cell = 4;
 constexpr double least_likeness = 0.02;  // correlation of cells side by side from which on it is drawn
-constexpr double steps_per_pulse = 8;    // of sums over pairs of ranges
-constexpr double most_steps = 8192;      // of such a sum
+constexpr double steps_per_pulse = 8;    // steps of a sum over pairs of ranges, for each length of a pulse
+constexpr double most_steps = 8192;      // largest number of steps of such a sum
 
 /// Returns the mean of f(r' - r) over all r of a cell and all r' of one that begins `ahead` [m] farther.
 template <typename Function>

@@ -42,8 +42,8 @@ template <int Degree>
 struct ReliefSums {
   Eigen::Matrix<double, terms_of<Degree>, terms_of<Degree>> normal;
   Terms<Degree> right;
-  double square = 0;  // of the rises [m^2]
-  double reach = 0;   // of the neighbours on the plane [m]
+  double square = 0;  // sum of squared rises [m^2]
+  double reach = 0;   // distance of the farthest neighbour on the plane [m]
   std::size_t neighbours = 0;
 };
 
