@@ -78,8 +78,8 @@ Grid<double> synthesize_cells(const SurfaceEchoes& surface, const Echoes& fixed,
 class CellSynthesizer {
  public:
   /// Keeps what all pings share. `sample_length` is the distance in range [m] of the samples whose means the cells stand
-  /// for; the correlation of noise depends on it (E223); 0: default_bin_size. Throws Error for an invalid head or medium,
-  /// or a length < 0.
+  /// for (E227); the correlation of noise depends on it (E223). 0: cells are integrals over range, with the noise of samples
+  /// at default_bin_size. Throws Error for an invalid head or medium, or a length < 0.
   CellSynthesizer(const SonarHead& head, const Medium& medium, double sample_length = 0);
   ~CellSynthesizer();
   CellSynthesizer(CellSynthesizer&&) noexcept;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "acoustics/direct_echoes.hpp"
 #include "beamforming/display/cell_echoes_internal.hpp"
@@ -14,36 +13,6 @@ namespace insonify {
 namespace {
 
 constexpr std::size_t echoes_at_once = 4096, cells_at_once = 16;
-
-/// Part of a normal law below so many deviations, within 3e-6; 0 or 1 beyond reach_of_pulse.
-double below_deviations(double away) {
-  constexpr std::size_t entries = 1025;
-  constexpr double step = 2 * reach_of_pulse / (entries - 1);
-  static const std::vector<double> table = [] {
-    std::vector<double> below;
-    for (std::size_t k = 0; k < entries; ++k)
-      below.push_back(0.5 * std::erfc((reach_of_pulse - static_cast<double>(k) * step) / std::numbers::sqrt2));
-    below.front() = 0, below.back() = 1;
-    return below;
-  }();
-  if (!(away > -reach_of_pulse)) return 0;
-  if (!(away < reach_of_pulse)) return 1;
-  const double position = (away + reach_of_pulse) / step;
-  const auto left = std::min(static_cast<std::size_t>(position), entries - 2);
-  return table[left] + (position - static_cast<double>(left)) * (table[left + 1] - table[left]);
-}
-
-/// Part of an echo's energy between two ranges: its surface is a box, and so is the pulse with it where the surface is
-/// deeper than the pulse; else both are a normal law.
-double share_between(const CellEcho& echo, double sigma, double low, double high) {
-  const double range = echo.range, depth = echo.half_depth;
-  if (depth > sigma) {
-    const double half = std::sqrt(depth * depth + 3 * sigma * sigma);
-    return overlap(range - half, range + half, low, high) / (2 * half);
-  }
-  const double per_deviation = 1 / std::sqrt(sigma * sigma + depth * depth / 3);
-  return below_deviations((high - range) * per_deviation) - below_deviations((low - range) * per_deviation);
-}
 
 /// First and last cell of an echo; the first is beyond the last if it has none.
 struct CellSpan {
@@ -160,7 +129,7 @@ class EchoMaker {
 
   CellSpan cells_of(double range, double half_depth) const {
     const auto last_cell = static_cast<double>(plan_.cells - 1);
-    const double reach = half_depth + reach_of_pulse * plan_.pulse.deviation();
+    const double reach = half_depth + plan_.edges.reach();
     const double low = std::floor((range - reach - plan_.first_range) * per_cell_length_),
                  high = std::floor((range + reach - plan_.first_range) * per_cell_length_);
     if (!(high >= 0 && low <= last_cell)) return {};
@@ -193,16 +162,18 @@ std::vector<std::uint32_t> slots_by_cell(const std::vector<CellSpan>& cells, std
 
 /// Sets the parts of the energies in cells begin .. end - 1.
 void set_parts(const DisplayPlan& plan, std::size_t begin, std::size_t end, EchoesByCell& lists) {
-  const double half = plan.field_reach, per_pulse = 1 / (2 * half), deviation = plan.pulse.deviation();
+  const double half = plan.field_reach, per_pulse = 1 / (2 * half);
   for (std::size_t cell = begin; cell < end; ++cell) {
     const double first = plan.first_range + static_cast<double>(cell) * plan.cell_length,
                  last = first + plan.cell_length, per_middle = 2 / (first + last);
+    const CellEdges::Edge near = plan.edges.at(first), far = plan.edges.at(last);
     for (std::size_t k = lists.first[cell]; k < lists.first[cell + 1]; ++k) {
       EchoInCell& in = lists.piece[k];
       const CellEcho& echo = lists.echoes[in.echo];
       // The mean is over area, which grows with range.
-      const double range = echo.range, weight = std::clamp(range, first, last) * per_middle;
-      const double piece = echo.energy > 0 ? share_between(echo, deviation, first, last) : 0;
+      const double range = echo.range, depth = echo.half_depth, weight = std::clamp(range, first, last) * per_middle;
+      const double piece =
+          echo.energy > 0 ? plan.edges.before(far, range, depth) - plan.edges.before(near, range, depth) : 0;  // (E227)
       in.energy = static_cast<float>(static_cast<double>(echo.energy) * (weight * piece));
       in.field = static_cast<float>(static_cast<double>(echo.strength) *
                                     (weight * overlap(range - half, range + half, first, last) * per_pulse));

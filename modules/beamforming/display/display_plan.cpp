@@ -83,6 +83,7 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sam
       half_positions(head.array.elements() % 2 == 0),
       response(head.array, wavelength_of(head, medium)),
       pulse(head.pulse, medium, head.gate),
+      edges(pulse.deviation(), head.gate.min_range, sample_length),
       cell_length(head.gate.bin_size),
       first_range(head.gate.min_range),
       cells(head.gate.bins()),
@@ -98,7 +99,8 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sam
   fill_kernels(head, medium);
   fill_lobe(head);
   fill_looks();
-  fill_noise_looks(ReceiveFilter(head.pulse, 2 * sample_length / medium.sound_speed), sample_length);
+  const double step = sample_length > 0 ? sample_length : default_bin_size(head.pulse, medium.sound_speed);
+  fill_noise_looks(ReceiveFilter(head.pulse, 2 * step / medium.sound_speed), step);
   fill_neighbours();
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "beamforming/display/between_samples_internal.hpp"
+#include "beamforming/display/cell_edges_internal.hpp"
 #include "beamforming/display/pulse_energy_internal.hpp"
 #include "beamforming/numerics/fft_internal.hpp"
 #include "sonar/response_table.hpp"
@@ -40,8 +41,8 @@ struct BeamPositions {
 /// Nodes of u are `node_width` wide, evenly over [-1, 1]: `nodes` in all, `period` of them in one period of the array's
 /// response. Broad nodes of two hold the energies from which looks are counted.
 struct DisplayPlan {
-  /// The pulse is that of `head`; gate: cells. Samples, of which cells are the means, are `sample_length` [m] apart. Throws
-  /// Error for an invalid head or medium.
+  /// The pulse is that of `head`; gate: cells. Samples, of which cells are the means, are `sample_length` [m] apart; 0:
+  /// cells are integrals over range, with the noise of samples as usual. Throws Error for an invalid head or medium.
   DisplayPlan(const SonarHead& head, const Medium& medium, double sample_length);
 
   std::size_t nodes, period, broad;
@@ -85,6 +86,7 @@ struct DisplayPlan {
 
   ResponseTable response;
   PulseEnergy pulse;
+  CellEdges edges;
   double cell_length, first_range;
   std::size_t cells;
 

@@ -76,8 +76,7 @@ CellSynthesizer::CellSynthesizer(const SonarHead& head, const Medium& medium, do
   if (!(sample_length >= 0 && std::isfinite(sample_length)))
     fail(ErrorKind::argument, me, ": sample_length = ", sample_length, " m, must be >= 0");
   if (!has_line(head)) require_one_row(head, me);
-  const double step = sample_length > 0 ? sample_length : default_bin_size(head.pulse, medium.sound_speed);
-  plan_ = std::make_unique<const Plan>(head, medium, step);
+  plan_ = std::make_unique<const Plan>(head, medium, sample_length);
 }
 CellSynthesizer::~CellSynthesizer() = default;
 CellSynthesizer::CellSynthesizer(CellSynthesizer&&) noexcept = default;
