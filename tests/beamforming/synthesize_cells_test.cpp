@@ -151,6 +151,32 @@ TEST(DisplayCells, of_a_tilted_surface_each_range_has_its_own_directions) {
   EXPECT_GT(worst_db(box.block(4, 8, 2, 5), b.block(4, 8, 2, 5)), 3) << "directions matter";
 }
 
+TEST(DisplayCells, before_a_tilted_surface_hear_its_nearest_part) {
+  // The surface begins two millimetres before the end of cell 10 and goes on for another 22, as the pulse does.
+  const SonarHead fan =
+      line_head({.beams = 33, .elements = 64, .field_of_view_deg = 24, .min_range = 2, .max_range = 3});
+  const SonarHead head = cells_head(fan, 20);
+  SurfaceEchoes one = even_ground(1), many = even_ground(20000);
+  const double middle = 2.56, depth = 0.012, slope = 8;
+  one.echoes.u[0] = 0.1, one.echoes.delay[0] = 2 * middle / lossy.sound_speed;
+  one.depth[0] = static_cast<float>(depth), one.width[0] = static_cast<float>(slope * depth);
+  one.slope = {static_cast<float>(slope)}, one.across = {0.002f};
+  for (std::size_t i = 0; i < many.id.size(); ++i) {
+    const double away = depth * (2 * (static_cast<double>(i) + 0.5) / 20000 - 1);
+    many.echoes.delay[i] = 2 * (middle + away) / lossy.sound_speed, many.echoes.u[i] = 0.1 + slope * away;
+    many.power[i] = 1 / 20000.0;
+  }
+  const Grid<double> a = synthesize_cells(one, {}, head, lossy, {.speckle = false});
+  const Grid<double> b = synthesize_cells(many, {}, head, lossy, {.speckle = false});
+  std::size_t heard = 0;
+  for (Eigen::Index beam = 0; beam < b.rows(); ++beam) {
+    if (b(beam, 10) < 1e-2 * b.maxCoeff()) continue;
+    EXPECT_NEAR(db_from_power(a(beam, 10) / b(beam, 10)), 0, 0.2) << beam;
+    ++heard;
+  }
+  EXPECT_GE(heard, 8U);
+}
+
 // Two cells share their transforms. In one of them stands a patch whose energy another patch has, so that it expects
 // nothing: what the loud one rounds off there is no level to divide by.
 TEST(DisplayCells, a_cell_without_energy_is_silent_beside_a_loud_one) {

@@ -61,4 +61,27 @@ double CellEdges::sum_at(double x, double part) const {
   return between(sum_, x - beyond, part) + beyond;
 }
 
+std::size_t CellEdges::parts_between(const Edge& near, const Edge& far, double range, double half_depth,
+                                     std::array<Part, most_parts>& parts) const {
+  const double begin = near.range - range, end = far.range - range;
+  parts[0] = {0, half_depth, 1};
+  if (begin + reach_ < -half_depth && half_depth < end - reach_) return 1;
+  const double low = std::clamp(begin - reach_, -half_depth, half_depth),
+               high = std::clamp(end + reach_, -half_depth, half_depth), half = 0.5 * (high - low) / most_parts;
+  double sum = 0;
+  for (std::size_t k = 0; k < most_parts; ++k) {
+    const double middle = low + static_cast<double>(2 * k + 1) * half;
+    parts[k] = {
+        middle, half,
+        share_at((end - middle) * per_deviation_, far.part) - share_at((begin - middle) * per_deviation_, near.part)};
+    sum += parts[k].share;
+  }
+  if (!(sum > 0)) {
+    parts[0] = {0.5 * (low + high), 0.5 * (high - low), 1};
+    return 1;
+  }
+  for (Part& part : parts) part.share /= sum;
+  return most_parts;
+}
+
 }  // namespace insonify

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -37,6 +38,16 @@ class CellEdges {
     const double aside = depth * gauss_node;  // two nodes are enough for a shallow surface
     return 0.5 * (share_at(x + aside, edge.part) + share_at(x - aside, edge.part));
   }
+
+  /// A part of a surface, a box about the surface's middle [m], with its share of what a cell hears of the surface.
+  struct Part {
+    double middle, half, share;
+  };
+  static constexpr std::size_t most_parts = 8;
+  /// Sets the parts that the cell between two edges hears of the same surface (E189), evenly over it; returns their number,
+  /// 1 of a surface within the cell.
+  std::size_t parts_between(const Edge& near, const Edge& far, double range, double half_depth,
+                            std::array<Part, most_parts>& parts) const;
 
   /// Returns how far from an edge an echo without depth may be to have energy on either side of it [m].
   double reach() const { return reach_; }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double least_noise = 1e-9;  // of the energy of a cell: where no echo stands, speckle is drawn from this noise
 constexpr double rounding = 1e-13;    // part of the louder of two cells that transforms leave in the other
+constexpr double least_tilt = 0.25;   // change of u along a surface from which on its parts differ [nodes]
 constexpr double least_interference = 0.1;  // of the energy of a look, from which on a strong echo interferes with it
 
 /// Looks at a position between two nodes.
@@ -122,18 +123,24 @@ void CellRow::label(std::size_t cell, Side& side) {
   labels_->finish(side.mean, row_.element_noise * plan_.lag[0]);
 }
 
-void CellRow::add_density(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const {
-  double u = echo.u, width = echo.half_width;
-  if (echo.slope != 0) {
-    // The part of the surface in the cell, or what is nearest to it (E189).
-    const double begin = plan_.first_range + static_cast<double>(cell) * plan_.cell_length - echo.range;
-    const double depth = echo.half_depth, near = std::clamp(begin, -depth, depth),
-                 far = std::clamp(begin + plan_.cell_length, -depth, depth);
-    u += echo.slope * 0.5 * (near + far);
-    const double along = echo.slope * 0.5 * (far - near);
-    width = std::sqrt(echo.across * echo.across + along * along);
+void CellRow::add_surface(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const {
+  double* const at = reinterpret_cast<double*>(to.data()) + cell % 2;
+  if (static_cast<double>(std::abs(echo.slope) * echo.half_depth) < least_tilt * plan_.node_width)
+    return add_box(echo.u, echo.half_width, energy, at);
+  // Parts of a tilted surface have directions of their own (E189).
+  const double begin = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
+  std::array<CellEdges::Part, CellEdges::most_parts> parts;
+  const std::size_t count = plan_.edges.parts_between(plan_.edges.at(begin), plan_.edges.at(begin + plan_.cell_length),
+                                                      echo.range, echo.half_depth, parts);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double along = echo.slope * parts[k].half, across = echo.across;
+    add_box(echo.u + echo.slope * parts[k].middle, std::sqrt(across * across + along * along), energy * parts[k].share,
+            at);
   }
-  const double per_node = 1 / plan_.node_width, half = std::max(width * per_node, 0.5);
+}
+
+void CellRow::add_box(double u, double half_width, double energy, double* at) const {
+  const double per_node = 1 / plan_.node_width, half = std::max(half_width * per_node, 0.5);
   const double position = std::clamp((u + 1) * per_node, 0.0, static_cast<double>(plan_.nodes));
   const double low = std::max(position - half, -0.5) + 1,
                high = std::min(position + half, static_cast<double>(plan_.nodes) + 0.5) + 1;
@@ -142,7 +149,6 @@ void CellRow::add_density(const CellEcho& echo, double energy, std::size_t cell,
   const auto first = static_cast<std::size_t>(low), last = static_cast<std::size_t>(high);
   const double before = density * (low - static_cast<double>(first)),
                within = density * (high - static_cast<double>(last));
-  double* const at = reinterpret_cast<double*>(to.data()) + cell % 2;
   at[2 * first] += density - before, at[2 * first + 2] += before;
   at[2 * last] -= density - within, at[2 * last + 2] -= within;
 }
@@ -159,7 +165,7 @@ std::vector<CellRow::Complex>& CellRow::densities(std::size_t cell, bool with_wa
       if (echo.together == 0) continue;
       const double response = row_.response.empty() ? 1 : row_.response[in.echo];
       const float energy = static_cast<float>(response * response) * in.energy;
-      if (energy > 0 && (with_water || !labels_->of_water(echo))) add_density(echo, energy, cell + part, kept.at);
+      if (energy > 0 && (with_water || !labels_->of_water(echo))) add_surface(echo, energy, cell + part, kept.at);
     }
   for (std::size_t i = 1; i < plan_.nodes + 3; ++i) kept.at[i] += kept.at[i - 1];
   return kept.at;

@@ -117,8 +117,10 @@ class CellRow {
   void list_pieces(std::size_t cell, Side& side);
   /// Returns the energies of cells `cell`, which is even, and `cell` + 1. Those of three neighbouring pairs are kept.
   std::vector<Complex>& densities(std::size_t cell, bool with_water);
-  /// Adds the energy of an echo in a cell.
-  void add_density(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const;
+  /// Adds the energy of an echo in a cell to the differences of nodes.
+  void add_surface(const CellEcho& echo, double energy, std::size_t cell, std::vector<Complex>& to) const;
+  /// Adds energy evenly over u - half_width to u + half_width; `at`: every other number is of a node.
+  void add_box(double u, double half_width, double energy, double* at) const;
   /// Adds what beams hear of the cells before and behind to spectrum_ (E188).
   void add_cells_beside(std::size_t cell, bool with_water);
   void sum_means(std::size_t cell, bool with_water = true);
