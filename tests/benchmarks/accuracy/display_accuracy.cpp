@@ -6,7 +6,6 @@
 //   display_accuracy motion           how alike images are after a move
 //   display_accuracy paths [SEEDS]    levels of echoes by way of other surfaces (8 seeds)
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -20,23 +19,17 @@ namespace {
 
 using namespace insonify;
 
-/// Correlations of beams 1, 2, 3 and 4 apart, and of cells side by side, in images of some seeds.
+/// Correlations of beams 1, 2, 3 and 4 apart, and of cells side by side, in the images of all seeds.
 struct Likeness {
   double beams[4] = {}, next_cell = 0;
 };
-
-/// Returns the likeness among all beams, and among the middle half of them.
-std::array<Likeness, 2> likeness_of(const Rig& rig, bool phases, const Pose& pose, const Grid<double>& mean) {
-  constexpr int images = 3;
-  std::array<Likeness, 2> of;
-  for (std::uint64_t seed = 1000; seed < 1000 + images; ++seed) {
-    const Grid<double> image = rig.ping(phases, seed, pose).intensity;
-    for (const Beams among : {Beams::all, Beams::middle_half}) {
-      Likeness& here = of[among == Beams::all ? 0 : 1];
-      for (Eigen::Index apart = 1; apart <= 4; ++apart)
-        here.beams[apart - 1] += correlation(image, image, mean, apart, 0, among) / images;
-      here.next_cell += correlation(image, image, mean, 0, 1, among) / images;
-    }
+Likeness likeness_of(const Moments& m, Beams among) {
+  Likeness of;
+  for (const Grid<float>& image : m.images) {
+    const double part = 1 / static_cast<double>(m.images.size());
+    for (Eigen::Index apart = 1; apart <= 4; ++apart)
+      of.beams[apart - 1] += part * correlation(image, image, m.mean, apart, 0, among);
+    of.next_cell += part * correlation(image, image, m.mean, 0, 1, among);
   }
   return of;
 }
@@ -51,21 +44,18 @@ void print_likeness(const Likeness& drawn, const Likeness& samples) {
 void print_scene(const View& view, const char* sonar, int seeds) {
   Rig rig{PreparedScene(scene_of(view, view.points)), head_of(sonar, 3, 8), 100, true};
   if (view.scene == "reef in a tank") rig.environment = tank(), rig.effects.mirrors = Choice::always;
-  const Moments a = moments_of(rig, false, view.pose(), seeds), b = moments_of(rig, true, view.pose(), seeds);
+  const Moments a = moments_of(rig, false, view.pose(), seeds, Images::kept),
+                b = moments_of(rig, true, view.pose(), seeds, Images::kept);
   const Difference d = difference(a, b, seeds);
   const BandDifference band = band_difference(a, b);
   std::printf("| %s | %s%s | %+.3f (%.3f) | %+.3f (%.3f) | %.3f | %.2f | %.1f | %.3f / %.3f | %.3f / %.3f |",
               view.scene.c_str(), sonar, a.drawn ? "" : " (samples)", d.total, sampling_error_db(a.sums, b.sums),
               band.worst, band.worst_error, band.rms, d.rms, d.off, d.contrast[0], d.contrast[1], d.middle[0],
               d.middle[1]);
-  const auto drawn = likeness_of(rig, false, view.pose(), a.mean),
-             samples = likeness_of(rig, true, view.pose(), b.mean);
-  for (const std::size_t k : {0, 1}) print_likeness(drawn[k], samples[k]);
-  const std::vector<double> levels = relative_levels(rig, true, view.pose(), b.mean, 2000);
-  std::printf(" %.3f (%.3f) | %.3f / %.3f |\n",
-              largest_distance(relative_levels(rig, false, view.pose(), a.mean, 2000), levels),
-              largest_distance(relative_levels(rig, true, view.pose(), b.mean, 3000), levels), a.median_cpu(),
-              b.median_cpu());
+  for (const Beams among : {Beams::all, Beams::middle_half})
+    print_likeness(likeness_of(a, among), likeness_of(b, among));
+  std::printf(" %.3f (%.3f) | %.3f / %.3f |\n", largest_distance(relative_levels(a), relative_levels(b)),
+              largest_distance(relative_levels(b, 0, 2), relative_levels(b, 1, 2)), a.median_cpu(), b.median_cpu());
   std::fflush(stdout);
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <ctime>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -61,17 +62,10 @@ inline Band band_of(Eigen::Index cells, std::size_t k) {
   return {end(k), end(k + 1) - end(k)};
 }
 
-/// Returns the squared standard error of the mean of some numbers, relative to it.
-inline double relative_variance(const std::vector<double>& values) {
-  const double count = static_cast<double>(values.size());
-  double mean = 0, square = 0;
-  for (const double value : values) mean += value / count, square += value * value / count;
-  return mean > 0 ? std::max(0.0, square / (mean * mean) - 1) / (count - 1) : 0;
-}
-
-/// Means over the images of some seeds.
+/// Means over the images of some seeds, and the images if they are kept.
 struct Moments {
   Grid<double> mean, square;
+  std::vector<Grid<float>> images{};
   std::vector<double> cpu{}, sums{};                 ///< CPU time and total intensity of each image
   std::array<std::vector<double>, bands> of_band{};  ///< intensity of each band in each image
   bool drawn = false;
@@ -81,7 +75,8 @@ struct Moments {
     return sorted[sorted.size() / 2];
   }
 };
-inline Moments moments_of(const Rig& rig, bool phases, const Pose& pose, int seeds) {
+enum class Images { dropped, kept };
+inline Moments moments_of(const Rig& rig, bool phases, const Pose& pose, int seeds, Images images = Images::dropped) {
   Moments m;
   for (int seed = 1; seed <= seeds; ++seed) {
     const Rig::Image image = rig.ping(phases, static_cast<std::uint64_t>(seed), pose);
@@ -91,14 +86,21 @@ inline Moments moments_of(const Rig& rig, bool phases, const Pose& pose, int see
       const auto [first, count] = band_of(image.intensity.cols(), k);
       m.of_band[k].push_back(image.intensity.middleCols(first, count).sum());
     }
+    if (images == Images::kept) m.images.push_back(image.intensity.cast<float>());
     m.cpu.push_back(image.cpu), m.sums.push_back(image.intensity.sum()), m.drawn = image.drawn;
   }
   return m;
 }
 
-/// Returns the standard deviation of the level of one mean relative to another [dB], from the spread over seeds.
+/// Returns the standard error of the level of one mean relative to another [dB]. Both are over images of the same seeds, whose
+/// amplitudes they share: the error is that of the differences, seed by seed.
 inline double sampling_error_db(const std::vector<double>& a, const std::vector<double>& b) {
-  return 10 / std::numbers::ln10 * std::sqrt(relative_variance(a) + relative_variance(b));
+  const double count = static_cast<double>(a.size()), sum_a = std::accumulate(a.begin(), a.end(), 0.0),
+               sum_b = std::accumulate(b.begin(), b.end(), 0.0);
+  if (!(sum_a > 0 && sum_b > 0)) return 0;
+  double square = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) square += std::pow(count * (a[k] / sum_a - b[k] / sum_b), 2);
+  return 10 / std::numbers::ln10 * std::sqrt(square / (count * (count - 1)));
 }
 
 /// The level of one image relative to another [dB]: in the band that is most in error, of those with a thousandth of the
@@ -155,15 +157,17 @@ inline Difference difference(const Moments& a, const Moments& b, int seeds) {
 enum class Beams { all, middle_half };
 
 /// Returns the correlation of two images, each relative to its mean, `beams` and `cells` apart.
-inline double correlation(const Grid<double>& a, const Grid<double>& b, const Grid<double>& mean,
-                          Eigen::Index beams = 0, Eigen::Index cells = 0, Beams among = Beams::all) {
+template <typename Number>
+double correlation(const Grid<Number>& a, const Grid<Number>& b, const Grid<double>& mean, Eigen::Index beams = 0,
+                   Eigen::Index cells = 0, Beams among = Beams::all) {
   double ab = 0, aa = 0, bb = 0;
   const double least = 1e-4 * mean.maxCoeff();
   const Eigen::Index beside = among == Beams::all ? 0 : a.rows() / 4;
   for (Eigen::Index i = beside; i + beams < a.rows() - beside; ++i)
     for (Eigen::Index j = 0; j + cells < a.cols(); ++j) {
       if (mean(i, j) < least || mean(i + beams, j + cells) < least) continue;
-      const double x = a(i, j) / mean(i, j) - 1, y = b(i + beams, j + cells) / mean(i + beams, j + cells) - 1;
+      const double x = static_cast<double>(a(i, j)) / mean(i, j) - 1,
+                   y = static_cast<double>(b(i + beams, j + cells)) / mean(i + beams, j + cells) - 1;
       ab += x * y, aa += x * x, bb += y * y;
     }
   return ab / std::sqrt(aa * bb);
@@ -181,19 +185,16 @@ inline double largest_distance(std::vector<double> a, std::vector<double> b) {
   return most;
 }
 
-/// Levels of cells relative to their means: those of beams in the middle half within 40 dB of the strongest cell, of as
-/// many seeds from `first_seed` on as some 20 000 take.
-inline std::vector<double> relative_levels(const Rig& rig, bool phases, const Pose& pose, const Grid<double>& mean,
-                                           std::uint64_t first_seed) {
+/// Levels of cells relative to their means, in images `first`, `first` + `step` and so on: those of beams in the middle half
+/// within 40 dB of the strongest cell. Beams are so far apart that they are not alike.
+inline std::vector<double> relative_levels(const Moments& m, std::size_t first = 0, std::size_t step = 1) {
+  constexpr Eigen::Index apart = 8;
   std::vector<double> relative;
-  const Eigen::Index beams = mean.rows();
-  const double least = 1e-4 * mean.maxCoeff();
-  for (std::uint64_t seed = first_seed; seed < first_seed + 64 && relative.size() < 20000; ++seed) {
-    const Grid<double> image = rig.ping(phases, seed, pose).intensity;
-    for (Eigen::Index i = beams / 4; i < 3 * beams / 4; ++i)
-      for (Eigen::Index j = 0; j < mean.cols(); ++j)
-        if (mean(i, j) > least) relative.push_back(image(i, j) / mean(i, j));
-  }
+  const double least = 1e-4 * m.mean.maxCoeff();
+  for (std::size_t k = first; k < m.images.size(); k += step)
+    for (Eigen::Index i = m.mean.rows() / 4; i < 3 * m.mean.rows() / 4; i += apart)
+      for (Eigen::Index j = 0; j < m.mean.cols(); ++j)
+        if (m.mean(i, j) > least) relative.push_back(static_cast<double>(m.images[k](i, j)) / m.mean(i, j));
   return relative;
 }
 
