@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tests the speckle of display cells (E182 to E184, E223, E224) against closed forms and averaged samples.
+// Tests the speckle of display cells (E182 to E184, E223, E224, E226) against closed forms and averaged samples.
 #include <array>
 
 #include "beamforming/cell_echoes.hpp"
 #include "beamforming/synthesize.hpp"
 #include "beamforming/synthesize_noise.hpp"
+#include "beamforming/synthesizer.hpp"
 #include "support/test.hpp"
 
 namespace insonify::cell_tests {
@@ -228,6 +229,37 @@ TEST(DisplayCells, noise_with_ground_has_the_looks_of_both) {
     of_drawn.add(synthesizer.cells(ground, {}, options));
   }
   EXPECT_NEAR(of_drawn.contrast() / of_averaged.contrast(), 1, 0.04);
+}
+
+/// Returns the contrast of cells of 5 cm, drawn and as means of samples, in which a beam at u = 0.68 hears `count` echoes
+/// from u = -0.75 to `last` by a lobe at the distance 1 / 0.7 = 1.43: elements are 0.7 wavelengths apart.
+std::array<double, 2> contrast_of_lobes(double last, std::size_t count, std::uint64_t seeds) {
+  SonarHead samples = samples_head(1, 128);
+  samples.array.spacing = 0.7 * c0_cold / centre;
+  samples.fan.azimuth[0] = std::asin(0.68);
+  const SonarHead head = cells_head(samples, 20);
+  const Synthesizer synthesizer(samples, lossless, SynthesisMethod::true_delays);
+  const CellSynthesizer cells(head, lossless);
+  CellStatistics of_drawn, of_averaged;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    SurfaceEchoes ground = even_ground(count, seed);
+    for (double& u : ground.echoes.u) u = -0.75 + 0.5 * (u + 1) * (last + 0.75);
+    const ComplexGrid p = synthesizer.pressure(drawn(ground, seed));
+    of_averaged.add(mean_over_cells(p.abs2(), samples.gate, head.gate));
+    of_drawn.add(cells.cells(ground, {}, {.seed = seed}));
+  }
+  return {of_drawn.contrast(), of_averaged.contrast()};
+}
+
+// A lobe is a tenth as wide as the band: an echo makes one look of the six of even ground. Half the band makes three. Two
+// standard deviations of these contrasts are 0.08 and 0.1 of them.
+TEST(DisplayCells, heard_through_grating_lobes_have_the_contrast_of_samples) {
+  const auto [drawn, averaged] = contrast_of_lobes(-0.745, 1500, 100);
+  EXPECT_GT(averaged, 0.8);
+  EXPECT_NEAR(drawn / averaged, 1, 0.08);
+  const auto [drawn_of_many, averaged_of_many] = contrast_of_lobes(-0.65, 6000, 30);
+  EXPECT_LT(averaged_of_many, 0.6);
+  EXPECT_NEAR(drawn_of_many / averaged_of_many, 1, 0.1);
 }
 
 TEST(DisplayCells, side_by_side_are_as_alike_as_those_of_samples) {

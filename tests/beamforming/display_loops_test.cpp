@@ -134,6 +134,64 @@ TEST(DisplayLoops, looks_are_those_of_the_formula) {
   }
 }
 
+TEST(DisplayLoops, looks_through_grating_lobes_are_those_of_the_formula) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  const auto numbers = [&](std::size_t count) {
+    std::vector<float> made(count);
+    for (float& number : made) number = uniform(engine);
+    return made;
+  };
+  constexpr std::size_t nodes = 60, subranges = 4, first = 12, count = 16, bands = 32;
+  const std::vector<float> one = {1}, correlation = {0.7f, 0.3f}, heard = numbers(count * bands),
+                           with_band = numbers(bands), part_alike = {0.9f, 0.5f, 0.1f};
+  std::vector<float> all(count, 0), differences((nodes + 1) * kernels::row_length(subranges), 0), alike(nodes + 1, 0),
+      whole(nodes + 2 * count, 0);
+  for (std::size_t i = 0; i < count * bands; ++i) all[i / bands] += heard[i];
+  const std::vector<float> reversed(all.rbegin(), all.rend());
+  // Each node has the same energy in all ranges.
+  for (std::size_t j = 0; j < nodes; ++j) {
+    const float density = uniform(engine);
+    whole[count + j] = density * subranges, alike[j] += density, alike[j + 1] -= density;
+  }
+  const kernels::GratingLobes gratings{first,
+                                       count,
+                                       bands,
+                                       heard.data(),
+                                       all.data(),
+                                       reversed.data(),
+                                       with_band.data(),
+                                       part_alike.data(),
+                                       part_alike.size(),
+                                       whole.data() + count};
+  const kernels::CellEnergies cell{
+      differences.data(), alike.data(),       nodes,    subranges, one.data(), one.size(), 0, 0.1f, 0, 0,
+      correlation.data(), correlation.size(), &gratings};
+  const std::vector<std::size_t> at = {0, 5, 30, 59};
+  std::vector<double> looks(at.size());
+  kernels::count_looks(cell, at.data(), at.size(), looks.data());
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    std::vector<double> part(bands, 0);
+    for (std::size_t j = 0; j < nodes; ++j) {
+      const std::size_t away = j > at[k] ? j - at[k] : at[k] - j;
+      if (away < first || away >= first + count) continue;
+      for (std::size_t q = 0; q < bands; ++q)
+        part[q] += static_cast<double>(whole[count + j]) * static_cast<double>(heard[(away - first) * bands + q]);
+    }
+    const double range = static_cast<double>(whole[count + at[k]]) / subranges + 0.1, main = range * subranges;
+    double energy = main, products = range * range * (4 * 0.7 + 6 * 0.3);
+    for (std::size_t q = 0; q < bands; ++q) {
+      energy += part[q], products += 2 * main * part[q] * static_cast<double>(with_band[q]);
+      for (std::size_t p = 0; p < bands; ++p) {
+        const std::size_t away = p > q ? p - q : q - p;
+        if (away < part_alike.size()) products += part[q] * part[p] * static_cast<double>(part_alike[away]);
+      }
+    }
+    const double exact = std::max(1.0, energy * energy / products);
+    EXPECT_NEAR(looks[k], exact, 1e-4 * exact) << "node " << at[k];
+  }
+}
+
 TEST(DisplayLoops, normal_numbers_have_moments_of_their_law_and_are_independent) {
   constexpr std::size_t count = 1 << 19;
   const auto one = display_normals(1, count), other = display_normals(2, count);

@@ -42,6 +42,7 @@ CellRow::CellRow(const DisplayPlan& plan, const EchoesByCell& lists, const RowRe
       weighted_(plan.period),
       energy_((plan.broad + 1) * kernels::row_length(plan.subranges)),
       alike_(plan.broad + 1),
+      whole_(plan.gratings.count > 0 ? plan.broad + 1 + 2 * plan.gratings.count : 0),
       noise_id_(plan.lag.size()),
       noise_re_(plan.lag.size()),
       noise_im_(plan.lag.size()) {
@@ -212,49 +213,6 @@ void CellRow::sum_means(std::size_t cell, bool with_water) {
 
 double CellRow::heard_of(const Piece& piece, std::size_t beam) const {
   return piece.energy * plan_.response.intensity(static_cast<double>(piece.echo->u) - beams_.u_beam[beam]);
-}
-
-void CellRow::count_looks(std::size_t cell, Side& side) {
-  // Energies by range, for broad nodes of u, each beyond those of the node before.
-  const std::size_t subranges = plan_.subranges;
-  std::fill(energy_.begin(), energy_.end(), 0.f);
-  std::fill(alike_.begin(), alike_.end(), 0.f);
-  ranged_.clear();
-  const double first = plan_.first_range + static_cast<double>(cell) * plan_.cell_length;
-  const double per_length = static_cast<double>(subranges) / plan_.cell_length, unit = side.energy + side.noise;
-  const double pulse = plan_.pulse.half_length();
-  const auto per_unit = static_cast<float>(1 / unit), length = static_cast<float>(subranges);
-  for (const Piece& piece : side.even) {
-    const CellEcho& echo = *piece.echo;
-    if (piece.energy == 0) continue;
-    const auto position = static_cast<float>((echo.range - first) * per_length),
-               reach = static_cast<float>(echo.reach(pulse) * per_length);
-    const float low = std::max(0.f, position - reach), high = std::min(length, position + reach);
-    if (!(high > low)) continue;
-    const std::uint32_t port = echo.port, starboard = echo.starboard;
-    const float density = piece.energy * per_unit / ((high - low) * static_cast<float>(port - starboard + 1));
-    if (low == 0 && high == length) {
-      alike_[starboard] += density, alike_[port + 1] -= density;
-      continue;
-    }
-    ranged_.push_back({low, high, density, starboard, port + 1});
-  }
-  kernels::add_energies(ranged_.data(), ranged_.size(), subranges, energy_.data());
-  kernels::CellEnergies of{energy_.data(),
-                           alike_.data(),
-                           plan_.broad,
-                           subranges,
-                           plan_.lobe.data(),
-                           plan_.lobe.size(),
-                           0,
-                           0,
-                           plan_.noise_with_ground,
-                           plan_.noise_alone,
-                           plan_.looks.data(),
-                           plan_.looks.size()};
-  of.beside = static_cast<float>(plan_.beside_lobe);
-  of.noise = unit > 0 ? static_cast<float>(side.noise / unit / static_cast<double>(subranges)) : 0;
-  kernels::count_looks(of, beams_.broad_used.data(), beams_.broad_used.size(), side.looks.data());
 }
 
 void CellRow::draw(const Side& side) {

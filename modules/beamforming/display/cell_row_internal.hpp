@@ -133,6 +133,8 @@ class CellRow {
   void add_strong(const Piece& piece, std::vector<Complex>& elements, std::vector<double>& mean) const;
   void sum_fields(std::size_t cell, std::size_t s);
   void sum_powers(std::size_t sides);
+  /// Lists the energies of even ground in a cell by broad nodes, over `unit` [Pa^2].
+  void list_energies(std::size_t cell, const Side& side, double unit);
   void count_looks(std::size_t cell, Side& side);
   /// Adds noise of a power [Pa^2] in the beams to the pressures of field q at the elements.
   void add_noise(std::size_t cell, std::size_t q, double noise);
@@ -154,7 +156,8 @@ class CellRow {
   std::vector<Complex> power_at_, lags_, power_;  ///< powers of both fields over a period of u, likewise
   std::vector<Complex> elements_, weighted_;      ///< pressures at elements; the same weighted, 0 elsewhere
   std::array<std::vector<Complex>, 2> nodes_;
-  std::vector<float> energy_, alike_;
+  std::vector<float> energy_, alike_;  ///< energies of broad nodes (kernels::CellEnergies)
+  std::vector<float> whole_;           ///< the same over all ranges; empty where no grating lobe is heard
   std::vector<kernels::RangedEnergy> ranged_;
   std::vector<std::uint64_t> noise_id_;
   std::vector<double> noise_re_, noise_im_;

@@ -60,13 +60,6 @@ RangeSpread spread_of(const LineArray& array, const DisplayPlan& plan) {
   return spread;
 }
 
-/// Returns how far in u an echo may be from a beam.
-double farthest_of(const BeamFan& fan) {
-  double most = 0;
-  for (const double u : beam_cosines(fan)) most = std::max(most, std::abs(u));
-  return 1 + most;
-}
-
 double wavelength_of(const SonarHead& head, const Medium& medium) {
   return medium.sound_speed / head.pulse.centre_frequency;
 }
@@ -99,6 +92,7 @@ DisplayPlan::DisplayPlan(const SonarHead& head, const Medium& medium, double sam
   fill_kernels(head, medium);
   fill_lobe(head);
   fill_looks();
+  fill_gratings(head);
   const double step = sample_length > 0 ? sample_length : default_bin_size(head.pulse, medium.sound_speed);
   fill_noise_looks(ReceiveFilter(head.pulse, 2 * step / medium.sound_speed), step);
   fill_neighbours();
@@ -162,6 +156,7 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
   const RangeSpread spread = spread_of(head.array, *this);
   const std::size_t farthest = std::min(nodes - 1, static_cast<std::size_t>(farthest_of(head.fan) / node_width));
   bool spreads = false;
+  const double reach = main_lobe_reach * head.fan.beam_width, grating = nearest_grating(head);
   double outside = 0, positions = 0;
   for (std::size_t block = 0; block < blocks; ++block) {
     const double middle = (static_cast<double>(block) + 0.5) * static_cast<double>(cells) / static_cast<double>(blocks);
@@ -172,7 +167,8 @@ void DisplayPlan::fill_kernels(const SonarHead& head, const Medium& medium) {
     for (std::size_t k = 0; k < nodes; ++k) {
       for (const SpectrumNode& node : spectrum)
         of_band[k] += node.weight * response_at(static_cast<double>(k) * node_width * (1 + node.frequency / fc));
-      if (block == 0 && static_cast<double>(k) * node_width > main_lobe_reach * head.fan.beam_width)
+      const double distance = static_cast<double>(k) * node_width;
+      if (block == 0 && distance > reach && (distance < grating || grating < reach))
         outside += of_band[k], positions += 1;
     }
     for (std::size_t k = 0; block == 0 && k <= farthest; ++k)

@@ -36,6 +36,18 @@ struct BeamPositions {
   std::vector<BetweenPowers> in_all;    ///< place of each beam among the samples of all directions
 };
 
+/// Energy that a beam hears through grating lobes, by parts of the band and distances of broad nodes (E226). Empty where no
+/// beam hears any.
+struct GratingBands {
+  std::size_t first = 0,
+              count = 0;     ///< the least distance at which there is a lobe, and the number of them, in whole lanes
+  std::size_t bands = 0;     ///< parts of the band, in whole lanes
+  std::vector<float> heard;  ///< W of E181 of part q alone, at distance first + i: of index i bands + q
+  std::vector<float> all, reversed;  ///< sums over the parts, for rising and for falling distances
+  std::vector<float> alike;          ///< squared correlation of parts d apart, averaged over pairs of ranges of a cell
+  std::vector<float> with_band;      ///< the same of each part with the whole band
+};
+
 /// Directions, patterns and transforms of the display cells of a line array, made once for many pings (E180).
 ///
 /// Nodes of u are `node_width` wide, evenly over [-1, 1]: `nodes` in all, `period` of them in one period of the array's
@@ -78,6 +90,7 @@ struct DisplayPlan {
   double beside_lobe;        ///< mean response outside of it
   std::size_t subranges;     ///< ranges of a cell whose energies are kept apart
   std::vector<float> looks;  ///< R_d of parts d apart (E182)
+  GratingBands gratings;
   /// Correlation of ground less that of noise with ground, and less that of noise: means over pairs of ranges of a cell
   /// (E223).
   float noise_with_ground = 0, noise_alone = 0;
@@ -98,12 +111,20 @@ struct DisplayPlan {
  private:
   std::vector<SpectrumNode> band_;          // spectrum in the middle of the gate; frequencies over the carrier's
   double response_at(double offset) const;  // of any size
+  /// Returns how far in u an echo may be from a beam.
+  double farthest_of(const BeamFan& fan) const;
+  /// Returns the least distance in u at which some part of the band has a grating lobe.
+  double nearest_grating(const SonarHead& head) const;
   void fill_elements(const SonarHead& head);
   void fill_kernels(const SonarHead& head, const Medium& medium);
   /// Returns the spectrum of a pattern (by nodes apart) times `share` of it, as samples that are interpolated.
   std::vector<double> kernel_from(const std::vector<double>& pattern, const std::vector<double>& share) const;
   void fill_lobe(const SonarHead& head);
   void fill_looks();
+  void fill_gratings(const SonarHead& head);
+  /// Sets the correlations of parts of the band of a width from `low` on, both over the carrier frequency; turns: its cycles
+  /// between echoes of the ends of a cell.
+  void correlate_parts(double low, double part, double turns);
   void fill_noise_looks(const ReceiveFilter& filter, double sample_length);
   void fill_neighbours();
 };

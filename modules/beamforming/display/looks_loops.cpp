@@ -51,6 +51,50 @@ INSONIFY_ALWAYS_INLINE void sum_differences(const CellEnergies& cell, Lanes (&ev
   }
 }
 
+constexpr float least_grating = 0.05f;  // energy heard through grating lobes, in all other, from which on it counts
+constexpr float least_node = 1e-6f;     // energy of a node, in the cell's, from which on it is heard through them
+
+/// Energy of nodes before or behind that of a beam, as grating lobes hear it.
+INSONIFY_ALWAYS_INLINE float heard_of(const float* energy, const float* weight, std::size_t count) {
+  Lanes sum = {}, at, weights;
+  for (std::size_t i = 0; i < count; i += subrange_lanes)
+    load(energy + i, at), load(weight + i, weights), sum += at * weights;
+  float all = 0;
+  for (std::size_t l = 0; l < subrange_lanes; ++l) all += sum[l];
+  return all;
+}
+
+/// Adds what the beam at node j hears through grating lobes to its energy and to the sum of its products.
+INSONIFY_ALWAYS_INLINE void add_gratings(const CellEnergies& cell, std::size_t j, float& energy, float& products) {
+  const GratingLobes& of = *cell.gratings;
+  const bool port = j + of.first < cell.nodes, starboard = j >= of.first;
+  const float* const rising = port ? of.whole + (j + of.first) : nullptr;
+  const float* const falling = starboard ? of.whole + (j - of.first) : nullptr;
+  const float all = (port ? heard_of(rising, of.all, of.count) : 0) +
+                    (starboard ? heard_of(falling - (of.count - 1), of.reversed, of.count) : 0);
+  if (!(all > least_grating * energy)) return;
+  constexpr std::size_t most_rows = most_bands / subrange_lanes;
+  float parts[2 * most_bands] = {};
+  Lanes sum[most_rows] = {}, other, product = {};
+  const std::size_t rows = of.bands / subrange_lanes;
+  for (std::size_t i = 0; i < of.count; ++i) {
+    const float node = (port ? rising[i] : 0) + (starboard ? *(falling - static_cast<std::ptrdiff_t>(i)) : 0);
+    if (node < least_node) continue;
+    for (std::size_t r = 0; r < rows; ++r)
+      load(of.heard + i * of.bands + r * subrange_lanes, other), sum[r] += node * other;
+  }
+  for (std::size_t r = 0; r < rows; ++r) {
+    load(of.with_band + r * subrange_lanes, other);
+    product += 2 * energy * sum[r] * other;
+    store(sum[r], parts + r * subrange_lanes);
+  }
+  for (std::size_t d = 0; d < of.alike_reach; ++d)
+    for (std::size_t r = 0; r < rows; ++r)
+      load(parts + r * subrange_lanes + d, other), product += (d > 0 ? 2 : 1) * of.alike[d] * sum[r] * other;
+  for (std::size_t l = 0; l < subrange_lanes; ++l) products += product[l];
+  energy += all;  // (E226)
+}
+
 /// Counts looks of cells of so many whole lanes of ranges.
 template <std::size_t rows>
 INSONIFY_ALWAYS_INLINE void count_looks_of(const CellEnergies& cell, const std::size_t* at, std::size_t count,
@@ -82,7 +126,8 @@ INSONIFY_ALWAYS_INLINE void count_looks_of(const CellEnergies& cell, const std::
     }
     float sums = 0, products = 0;
     for (std::size_t l = 0; l < subrange_lanes; ++l) sums += sum[l], products += product[l];
-    products -= noise * (2 * (sums - noise) * cell.with_ground + noise * cell.alone);          // (E223)
+    products -= noise * (2 * (sums - noise) * cell.with_ground + noise * cell.alone);  // (E223)
+    if (cell.gratings) add_gratings(cell, j, sums, products);
     looks[k] = products > 0 ? std::max(1.0, static_cast<double>(sums / products * sums)) : 1;  // (E182)
   }
 }

@@ -15,6 +15,18 @@ constexpr std::size_t row_length(std::size_t subranges) {
   return (subranges + subrange_lanes - 1) / subrange_lanes * subrange_lanes;
 }
 
+/// Largest number of parts of the band whose energies are kept apart (E226).
+constexpr std::size_t most_bands = 4 * subrange_lanes;
+
+/// Grating lobes, as in GratingBands, and the energies of nodes over all ranges of a cell, with row_length(count) zeros
+/// before the first node and behind the last.
+struct GratingLobes {
+  std::size_t first, count, bands;
+  const float *heard, *all, *reversed, *with_band, *alike;
+  std::size_t alike_reach;
+  const float* whole;
+};
+
 /// Energies in a cell: of range n by how much more node j of u has than the one before, at j row_length(parts) + n, 0
 /// for n >= parts; of all ranges alike, by how much more each of them has; and the pattern of a beam.
 struct CellEnergies {
@@ -27,6 +39,7 @@ struct CellEnergies {
   float with_ground, alone;  ///< means of R of ground less that of noise with ground, and less that of noise (E223)
   const float* correlation;  ///< R_d of ranges d apart, d below `reach` (E182)
   std::size_t reach;
+  const GratingLobes* gratings = nullptr;  ///< nullptr: none are heard
 };
 /// Energy of each node first .. end - 1 per range, from range `low` to `high` of a cell, whole or in part.
 struct RangedEnergy {
@@ -37,7 +50,7 @@ struct RangedEnergy {
 /// before.
 void add_energies(const RangedEnergy* added, std::size_t count, std::size_t subranges, float* energy);
 
-/// Sets looks[k] to (sum P)^2 / sum_kl P_k P_l R_|k-l| (E182, E223) of a beam at node at[k], k < count; at least 1. Adds up
+/// Sets looks[k] to (sum P)^2 / sum_kl P_k P_l R_|k-l| (E182, E223, E226) of a beam at node at[k], k < count; at least 1. Adds up
 /// cell.energy over the nodes.
 void count_looks(const CellEnergies& cell, const std::size_t* at, std::size_t count, double* looks);
 

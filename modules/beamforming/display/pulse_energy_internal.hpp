@@ -28,6 +28,8 @@ class PulseEnergy {
   double half_length() const { return half_length_; }
   /// Returns the standard deviation of |G|^2 in range [m], there.
   double deviation() const { return half_length_ / std::numbers::sqrt3; }
+  /// Returns the range that an echo is farther for each second of delay [m/s].
+  double metres_per_s() const { return 0.5 * medium_.sound_speed; }
   /// Returns the squared magnitude of the correlation of white echoes `distance` [m] apart in range, 1 at 0.
   double correlation(double distance) const;
   /// Returns the spectrum |G(f)|^2 of an echo from `range` at `count` frequencies evenly over three half-widths of the
