@@ -60,7 +60,7 @@ struct CellLabels {
 ///
 /// The expected intensity is the sum of the energies of the echoes, times the pattern of the beam, averaged over the
 /// band (E181). The number of looks of a cell follows from the ranges of its energy, from the pulse and from the noise
-/// (E182, E223). Speckle is a gamma variate of so many looks that is made from two complex sums over the echoes, with
+/// (E182, E223, E226). Speckle is a gamma variate of so many looks that is made from two complex sums over the echoes, with
 /// their phases and with random amplitudes by id, so that it stays with the surface and changes with the pose as that of
 /// samples does (E183).
 /// Echoes that hold more than a tenth of a cell are added to it as pressures (E184), and so are `fixed` ones, whose

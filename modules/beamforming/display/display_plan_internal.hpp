@@ -87,7 +87,7 @@ struct DisplayPlan {
   }
 
   std::vector<float> lobe;   ///< weights of broad nodes at distances 0, 1, .. within the main lobe
-  double beside_lobe;        ///< mean response outside of it
+  double beside_lobe;        ///< mean response outside of it, up to the nearest grating lobe of the band
   std::size_t subranges;     ///< ranges of a cell whose energies are kept apart
   std::vector<float> looks;  ///< R_d of parts d apart (E182)
   GratingBands gratings;
