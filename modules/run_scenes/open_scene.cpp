@@ -16,6 +16,7 @@
 #include "run_scenes/parts_of_pings.hpp"
 #include "run_scenes/run_folder.hpp"
 #include "run_scenes/scene_source_of.hpp"
+#include "run_scenes/stored_levels.hpp"
 #include "run_scenes/stored_run.hpp"
 #include "sampling/scene_cut.hpp"
 #include "scene_io/cloud_field.hpp"
@@ -38,9 +39,11 @@ LoadOptions loading_of_file(const SceneOptions& how, const OpenSceneOptions& o) 
 /// A cloud or mesh that is in memory whole.
 class SceneOfFile : public OpenScene {
  public:
-  SceneOfFile(const SceneOptions& how, const OpenSceneOptions& options)
+  SceneOfFile(const SceneOptions& how, const OpenSceneOptions& options, const std::string& note)
       : OpenScene(how, options),
-        loaded_(std::make_shared<LoadedScene>(load_scene(how.path, loading_of_file(how, options)))) {}
+        loaded_(std::make_shared<LoadedScene>(load_scene(how.path, loading_of_file(how, options)))) {
+    if (!note.empty()) loaded_->report.notes.push_back(note);
+  }
 
   const LoadReport& report() const override { return loaded_->report; }
   Bounds box_at(const SceneMoment&) const override { return bounds(loaded_->scene); }
@@ -78,10 +81,11 @@ class SceneOfFile : public OpenScene {
   mutable std::shared_ptr<const PreparedScene> overview_;
 };
 
-/// Tiles on disk, of which each ping reads what it reaches.
+/// Tiles on disk, or a cloud and its levels, of which each ping reads what it reaches.
 class SceneOfTiles : public OpenScene {
  public:
-  SceneOfTiles(const SceneOptions& how, const OpenSceneOptions& options) : OpenScene(how, options), tiled_(how.path) {
+  SceneOfTiles(const SceneOptions& how, const OpenSceneOptions& options, TiledScene tiles)
+      : OpenScene(how, options), tiled_(std::move(tiles)) {
     report_.path = how.path;
     report_.format = "insonify tiles";
     report_.meaning.system = {tiled_.info().system, MeaningOrigin::file};
@@ -102,6 +106,7 @@ class SceneOfTiles : public OpenScene {
     require_no_loading_options(how_, "is prepared already; give it to insonify prepare instead");
     const TiledSceneInfo& info = tiled_.info();
     nlohmann::ordered_json read = {{"surfels", info.surfels}, {"tiles", info.tiles}, {"bytes", info.bytes}};
+    if (info.path != how_.path) read["path"] = info.path;
     const double memory = memory_for_tiles(options_.memory_limit);
     const int threads = simulator.options().threads;
     const ResolvedPing ping =
@@ -169,8 +174,10 @@ std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenScene
     parts->prepare();
     return parts;
   }
-  if (kind == SceneKind::tiles) return std::make_shared<SceneOfTiles>(scene, options);
-  return std::make_shared<SceneOfFile>(scene, options);
+  if (kind == SceneKind::tiles) return std::make_shared<SceneOfTiles>(scene, options, TiledScene(scene.path));
+  StoredLevels levels = find_levels(scene);
+  if (levels.tiles) return std::make_shared<SceneOfTiles>(scene, options, std::move(*levels.tiles));
+  return std::make_shared<SceneOfFile>(scene, options, levels.note);
 }
 
 std::shared_ptr<OpenScene> StoredRun::open_scene(const SceneOptions& scene, int threads, std::uint64_t seed) const {
@@ -233,13 +240,18 @@ SceneInstances instances_of_scene(const std::string& path) {
   return number_instances(given);
 }
 
-void require_no_loading_options(const SceneOptions& o, const std::string& why) {
+std::string loading_option(const SceneOptions& o) {
   SceneOptions given = o, none;
   none.path = o.path;
   const auto settings = scene_settings(given), defaults = scene_settings(none);
   for (std::size_t i = 0; i < settings.size(); ++i)
-    if (settings_as_toml({settings[i]}) != settings_as_toml({defaults[i]}))
-      fail(ErrorKind::argument, settings[i].option, ": ", o.path, " ", why);
+    if (settings_as_toml({settings[i]}) != settings_as_toml({defaults[i]})) return settings[i].option;
+  return {};
+}
+
+void require_no_loading_options(const SceneOptions& o, const std::string& why) {
+  if (const std::string option = loading_option(o); !option.empty())
+    fail(ErrorKind::argument, option, ": ", o.path, " ", why);
 }
 
 }  // namespace insonify

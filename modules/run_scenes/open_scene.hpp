@@ -65,7 +65,7 @@ class OpenScene : public SceneSource {
   virtual const LoadedScene* loaded() const { return nullptr; }
   /// Returns the scene of parts; null for another one.
   virtual const PartsOfPings* parts() const { return nullptr; }
-  /// Returns the scene of tiles; null for another one.
+  /// Returns the tiles on disk, also those that are the levels of a cloud; null for another scene.
   virtual const TiledScene* tiles() const { return nullptr; }
   /// Returns true for tiles, which store levels of detail.
   bool has_levels() const override { return tiles() != nullptr; }
@@ -90,8 +90,9 @@ class OpenScene : public SceneSource {
   const OpenSceneOptions options_;
 };
 
-/// Opens the scene at scene.path: the one place that asks what kind of scene a path is. Throws as load_scene,
-/// TiledScene and PartsOfPings; Error(argument) for options of loading beside a scene of parts.
+/// Opens the scene at scene.path: the one place that asks what kind of scene a path is. Pings of a cloud with levels
+/// beside it (find_levels) read these. Throws as load_scene, find_levels, TiledScene and PartsOfPings; Error(argument)
+/// for options of loading beside a scene of parts.
 std::shared_ptr<OpenScene> open_scene(const SceneOptions& scene, const OpenSceneOptions& options = {});
 
 /// Loads a scene of any kind whole, one of parts as it is at time 0. Throws as open_scene and take_whole.
@@ -110,6 +111,9 @@ std::string digest_of_scene(const std::string& path);
 /// Returns the instances of a scene's surfels, where its file is a cloud with a field `instance`: whole numbers from 1;
 /// all else is no object.
 SceneInstances instances_of_scene(const std::string& path);
+
+/// Returns the first option that says how a scene is read and has another value than its default; empty if none has.
+std::string loading_option(const SceneOptions& options);
 
 /// Throws Error(argument) naming the option unless all options that say how a scene is read have their defaults.
 void require_no_loading_options(const SceneOptions& options, const std::string& why);

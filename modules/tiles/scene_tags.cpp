@@ -92,6 +92,8 @@ void read_tag(const std::string& path, std::string_view line, SceneTags& tags) {
     tags.material_field = std::string(rest);
   } else if (key == "system") {
     if (!is_json_text(rest, tags.system)) bad();
+  } else if (key == "levels_of") {
+    tags.levels_of = take_word(rest);
   } else if (key == "column") {
     const std::string_view name = take_word(rest);
     std::string meant;

@@ -23,6 +23,7 @@ struct SceneTags {
   std::string system;          ///< coordinate system of the world; empty: not stated
   bool heights = false;        ///< true: points of a height field, with the surface between them
   bool own_normals = false;    ///< true: the surface has the normals of the points
+  std::string levels_of;       ///< TiledSceneInfo::levels_of
   std::vector<std::pair<std::string, std::string>> columns;  ///< name in the file, and the name that it stands for
 
   /// Returns the name that a column of the file stands for: its own unless the file names another.

@@ -209,6 +209,7 @@ void add_directory(const std::string& path, const std::string& name, const TileD
   Facts facts{
       array_of(info.origin), array_of(info.box.min), array_of(info.box.max), info.total_area, {}, directory.wide, 0};
   for (const std::string& line : tag_lines(facts_of_scene, info.system)) facts.scene += line + "\n";
+  if (!info.levels_of.empty()) facts.scene += "insonify levels_of " + info.levels_of + "\n";
   write_checked(context, [&] {
     const Handle file(context.checked(H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "cannot be written"), H5Fclose);
     write_table(context, file, tile_name, tile_type(context), directory.tiles);
@@ -260,6 +261,7 @@ TileDirectory read_directory(const std::string& path) {
   info.normals_oriented = tags.oriented;
   info.materials = tags.materials;
   info.system = tags.system;
+  info.levels_of = tags.levels_of;
   info.noisy = found.begin[noise_column] > 0;
   info.checksum = facts.checksum;
   info.whole.surfels = found.surfels;

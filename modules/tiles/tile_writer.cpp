@@ -229,6 +229,7 @@ TileReport TileWriter::finish() {
   info.normals_oriented = s.options.normals_oriented;
   info.materials = s.options.materials;
   info.system = s.options.system;
+  info.levels_of = s.options.levels_of;
   info.noisy = s.noisy;
   s.write_columns(pending.temporary(), levels);
   info.box = s.box;

@@ -20,6 +20,7 @@ struct TileWriterOptions {
   std::vector<Material> materials = {Material{}};
   bool normals_oriented = true;
   std::string system{};          ///< coordinate system of the world, as FileMeaning::system; empty: unknown
+  std::string levels_of{};       ///< SHA-256 of the prepared cloud whose levels these are; empty: of none
   bool drop_duplicates = false;  ///< keep only the first of several surfels at one position
   /// Sets normals, areas and, if there was noise, noise of neighbouring surfels, in place of those that were added. At
   /// least 12 spacings around them stand at the end of the cloud, whose results are not used. Empty: nothing changes.

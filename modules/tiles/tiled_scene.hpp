@@ -30,6 +30,7 @@ struct TiledSceneInfo {
   std::string system;          ///< coordinate system of the world, as FileMeaning::system; empty: unknown
   bool noisy = false;          ///< true: the surfels have noise
   std::uint64_t checksum = 0;  ///< checksum of everything in the file
+  std::string levels_of;       ///< SHA-256 of the prepared cloud whose levels these are; empty: of none
 };
 
 /// Tiles to be loaded, and their size.

@@ -13,6 +13,7 @@
 #include "run/run_settings.hpp"
 #include "run/scene_reach.hpp"
 #include "run_scenes/open_scene.hpp"
+#include "run_scenes/stored_levels.hpp"
 #include "scene/material_shares.hpp"
 #include "scene_io/describe_file.hpp"
 #include "tiles/tiled_scene.hpp"
@@ -126,6 +127,9 @@ ordered_json cloud_info(const std::string& path, const MeaningOverride& requeste
                        {"material_shares", shares_json(d.materials)},
                        {"problems", d.problems}};
   if (d.viewpoint) json["viewpoint"] = point(*d.viewpoint);
+  const StoredLevels levels = find_levels({path});
+  if (levels.tiles) json["levels"] = {{"path", levels.tiles->info().path}, {"bytes", levels.tiles->info().bytes}};
+  if (!levels.note.empty()) json["problems"].push_back(levels.note);
   for (const Eigen::Vector3d& position : d.stations) json["stations"].push_back(point(position));
   json["next"] = next_of_cloud(d, requested);
   return json;
@@ -200,6 +204,8 @@ void print_scene(const ordered_json& d) {
   if (d.contains("viewpoint"))
     fmt::print("  viewpoint  {:g}, {:g}, {:g}\n", d["viewpoint"][0].get<double>(), d["viewpoint"][1].get<double>(),
                d["viewpoint"][2].get<double>());
+  if (d.contains("levels"))
+    fmt::print("  levels     {}, {} bytes\n", text(d["levels"]["path"]), d["levels"]["bytes"].get<std::uint64_t>());
   for (const auto& problem : d["problems"]) fmt::print("  note       {}\n", text(problem));
   for (const auto& command : d["next"]) fmt::print("  next       {}\n", text(command));
 }

@@ -10,6 +10,7 @@
 #include "run/scene_reach.hpp"
 #include "run_scenes/parts_of_pings.hpp"
 #include "run_scenes/scene_source_of.hpp"
+#include "run_scenes/stored_levels.hpp"
 #include "store/environment_file.hpp"
 #include "store/material_library.hpp"
 #include "tool/run/world_reference.hpp"
@@ -122,6 +123,8 @@ std::string digest_of(const SurveySetup& s) {
   Sha256 sha;
   const auto add = [&](const std::string& part) { sha.add(std::to_string(part.size()) + ":" + part); };
   for (const std::string& part : {std::string(INSONIFY_VERSION), s.file.text, digest_of_scene(s.file.scene)}) add(part);
+  if (const StoredLevels levels = find_levels(s.heads.front().run.scene); levels.tiles)
+    add(std::to_string(levels.tiles->info().checksum));
   for (const std::string& path : {s.file.trajectory, s.heads.front().run.scene.materials_file})
     if (!path.empty()) add(sha256_of_file(path_of_materials(path)));
   if (!s.file.water.tide.empty()) add(sha256_of_file(s.file.water.tide));
